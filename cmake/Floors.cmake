@@ -1,0 +1,51 @@
+# One static library per folder of src/, one set of flags for all of them.
+
+set(KAPITZA_WARNINGS -Wall -Wextra -Werror)
+set(KAPITZA_FLAGS_C ${KAPITZA_WARNINGS} -Wshadow -Wstrict-prototypes -Wvla -ffp-contract=off)
+set(KAPITZA_FLAGS_FORTRAN ${KAPITZA_WARNINGS} -Wimplicit-interface -fimplicit-none -ffree-line-length-none
+    -ffp-contract=fast -fno-trapping-math -fno-math-errno)
+set(CMAKE_C_FLAGS_RELEASE "-O2 -g")
+set(CMAKE_Fortran_FLAGS_RELEASE "-O3 -g")
+set(CMAKE_C_FLAGS_DEBUG "-O1 -g")
+set(CMAKE_Fortran_FLAGS_DEBUG "-O1 -g -fcheck=all -fbacktrace")
+
+set(KAPITZA_SANITIZERS "")
+if(KAPITZA_SANITIZE)
+  set(KAPITZA_SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  link_libraries(${KAPITZA_SANITIZERS})
+endif()
+
+# kapitza_floor(name FLOORS lower... LIBRARIES targets...): src/name becomes the library kapitza_name.
+function(kapitza_floor name)
+  cmake_parse_arguments(arg "" "" "FLOORS;LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90 src/${name}/*.F90)
+  list(FILTER sources EXCLUDE REGEX "/main\\.c$")
+  add_library(kapitza_${name} STATIC ${sources})
+  target_include_directories(kapitza_${name} PUBLIC include ${PROJECT_BINARY_DIR}/include PRIVATE src/${name})
+  set_target_properties(kapitza_${name} PROPERTIES Fortran_MODULE_DIRECTORY ${PROJECT_BINARY_DIR}/modules
+                                                   LINKER_LANGUAGE C)
+  target_include_directories(kapitza_${name} PRIVATE ${PROJECT_BINARY_DIR}/modules)
+  target_compile_options(kapitza_${name} PRIVATE
+    -march=${KAPITZA_ARCH} ${KAPITZA_SANITIZERS}
+    $<$<COMPILE_LANGUAGE:C>:${KAPITZA_FLAGS_C}>
+    $<$<COMPILE_LANGUAGE:Fortran>:${KAPITZA_FLAGS_FORTRAN}>)
+  foreach(floor ${arg_FLOORS})
+    target_link_libraries(kapitza_${name} PUBLIC kapitza_${floor})
+  endforeach()
+  target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} gfortran m)
+endfunction()
+
+# The program: only its entry (the instruction-set check) is compiled for plain x86-64.
+function(kapitza_program)
+  add_executable(kapitza src/app/main.c)
+  target_compile_options(kapitza PRIVATE -march=x86-64 ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
+  target_link_libraries(kapitza PRIVATE kapitza_app)
+  set_target_properties(kapitza PROPERTIES LINKER_LANGUAGE C)
+endfunction()
+
+execute_process(COMMAND git describe --always --dirty WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                OUTPUT_VARIABLE KAPITZA_GIT_REVISION OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+if(NOT KAPITZA_GIT_REVISION)
+  set(KAPITZA_GIT_REVISION unknown)
+endif()
+configure_file(cmake/version.h.in ${PROJECT_BINARY_DIR}/include/kapitza/version.h)

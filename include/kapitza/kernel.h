@@ -1,0 +1,60 @@
+/* kernel: tiles of trajectories of the shaken pendulum through whole drive periods (Fortran; floor 0).
+ *
+ * theta'' + beta theta' + (k - m cos t) sin theta = 0   (BSG Eq. 2, BUT Eq. 9 in drive time)
+ * theta in rad from the DOWN position, t in drive radians, velocity in rad per drive radian. A period is 2 pi; every period
+ * starts at t = 0 (pivot at its top). */
+#ifndef KAPITZA_KERNEL_H
+#define KAPITZA_KERNEL_H
+
+#include <stdint.h>
+
+#include "kapitza/status.h"
+
+typedef struct {
+  double k;    /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */
+  double beta; /* damping, >= 0 */
+  double m;    /* drive, any sign */
+} kz_pendulum;
+
+/* Kinds: one text for all three. */
+enum { KZ_SINGLE = 0, KZ_DOUBLE = 1, KZ_QUAD = 2 };
+
+typedef struct {
+  int32_t scheme;           /* row of the table of schemes */
+  int32_t steps_per_period; /* whole compositions a period, >= 1 */
+  int32_t precision;        /* KZ_SINGLE, KZ_DOUBLE, KZ_QUAD */
+} kz_numerics;
+
+/* The table of schemes. Rows 0 .. kz_scheme_count() - 1. */
+typedef struct {
+  char name[16];         /* rk4, split4, split6, split6-11 */
+  int32_t order;         /* order of convergence */
+  int32_t kicks;         /* sines per step */
+  int32_t default_steps; /* steps per period where the scene gives none */
+  char source[120];      /* publication of the coefficients */
+} kz_scheme;
+int32_t kz_scheme_count(void);
+void kz_scheme_row(int32_t row, kz_scheme *scheme);
+
+/* A plan: pendulum and numerics turned into tables. Opaque; free with kz_plan_free. NULL where memory ran out. */
+typedef struct kz_plan kz_plan;
+kz_plan *kz_plan_create(const kz_pendulum *pendulum, const kz_numerics *numerics);
+void kz_plan_free(kz_plan *plan);
+
+/* Advances n states through `periods` whole periods. theta [n] comes back wrapped to [-pi, pi], turns [n] gains the net
+ * number of turns (counterclockwise +). Any n; all kinds behind one border of doubles. */
+void kz_advance(const kz_plan *plan, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns);
+
+/* The same with the tangent map: matrix [n][4] = row-major d(theta, velocity)/d(theta0, velocity0) over the periods. */
+void kz_advance_tangent(const kz_plan *plan, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns,
+                        double *matrix);
+
+/* One motion sampled in continuous time: sample s = 0 .. periods * samples_per_period at t = 2 pi s / samples_per_period.
+ * theta_out is unwrapped. The plan's steps_per_period must be a multiple of samples_per_period. */
+void kz_sample(const kz_plan *plan, int64_t periods, int64_t samples_per_period, double theta, double velocity,
+               double *theta_out, double *velocity_out);
+
+/* The kernel's own sine of an angle in rad, in the plan's kind (for tests). */
+void kz_sine(int32_t precision, int64_t n, const double *theta, double *sine);
+
+#endif

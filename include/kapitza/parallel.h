@@ -1,0 +1,66 @@
+/* parallel: who works on which tile; progress, stop requests, checkpoints (MPI; floor 2).
+ *
+ * One mechanism: a stage is n_tiles independent pieces of work, each giving one record of fixed size. Ranks draw tiles from
+ * a shared counter. The result depends on the tiles alone, never on who did them. */
+#ifndef KAPITZA_PARALLEL_H
+#define KAPITZA_PARALLEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "kapitza/status.h"
+
+typedef struct kz_team kz_team;
+
+typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;
+
+/* Starts MPI (signal handlers first) and makes the team of all ranks. Collective. */
+kz_status kz_team_start(int *argc, char ***argv, kz_team **team);
+/* Frees the team and leaves through MPI_Finalize. Collective. */
+void kz_team_end(kz_team *team);
+
+int kz_team_rank(const kz_team *team);
+int kz_team_size(const kz_team *team);
+
+/* The worst status of all ranks, with that rank's message brought to rank 0. Collective. */
+kz_status kz_team_agree(kz_team *team, kz_status mine);
+
+/* Bytes of rank 0 to every rank. Collective. */
+kz_status kz_team_broadcast(kz_team *team, void *data, size_t bytes);
+
+void kz_team_set_progress(kz_team *team, kz_progress progress);
+/* Stop (KZ_STOPPED) once `seconds` have passed since kz_team_start; 0 = no limit. */
+void kz_team_set_time_limit(kz_team *team, double seconds);
+
+/* Checkpoint of a run: one regular locked file. `fingerprint` is text (scene, version, numerics: one "name: value" a line)
+ * that a resumed run must match; a difference is refused naming the first line that differs. Collective. */
+typedef struct {
+  const char *path;
+  const char *fingerprint;
+  bool resume; /* go on from an existing file */
+  bool force;  /* discard an existing file */
+} kz_checkpoint_plan;
+kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan);
+/* Closes it; removes the file when `complete`. Collective. */
+kz_status kz_checkpoint_close(kz_team *team, bool complete);
+
+/* Fills record (record_bytes, zeroed before the call) with the result of one tile. */
+typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
+
+typedef struct {
+  const char *name;    /* short, for the progress line and the checkpoint: "table", "cells" */
+  int64_t n_tiles;
+  size_t record_bytes;
+  kz_tile_fn work;
+  void *context;
+  bool keep;           /* records go to the checkpoint as they finish, and are not done again on resume */
+  bool everywhere;     /* all ranks receive all records; else only rank 0 */
+} kz_stage;
+
+/* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless
+ * everywhere). The first failing rank stops the others. Collective. KZ_STOPPED: kept records are safe on disk. */
+kz_status kz_stage_run(kz_team *team, const kz_stage *stage, void *records);
+
+#endif

@@ -1,0 +1,36 @@
+/* Status codes of every function that can fail, and the one message that a user will see.
+ *
+ * A failing function sets the message once, where it knows most (kz_fail), and returns the code; callers carry the code up
+ * with KZ_TRY. Only app/main.c prints the message and ends the program. */
+#ifndef KAPITZA_STATUS_H
+#define KAPITZA_STATUS_H
+
+/* code, exit status of the program, meaning */
+#define KZ_STATUS_LIST(X)                                                       \
+  X(KZ_OK, 0, "done")                                                           \
+  X(KZ_FAILED, 1, "failed while running")                                       \
+  X(KZ_REFUSED, 2, "the command line, the scene or a path is wrong")            \
+  X(KZ_STOPPED, 75, "stopped early on request, all finished work is saved")
+
+#define KZ_STATUS_ENUM(code, exit_status, meaning) code = exit_status,
+typedef enum { KZ_STATUS_LIST(KZ_STATUS_ENUM) } kz_status;
+#undef KZ_STATUS_ENUM
+
+/* Sets the message (printf format, without "kapitza: error:") and returns `status`. The first message stays: later ones
+ * are consequences. */
+kz_status kz_fail(kz_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The message set by the first kz_fail since the last kz_message_clear; "" if none. */
+const char *kz_message(void);
+void kz_message_clear(void);
+
+/* The text of the list above. */
+const char *kz_status_meaning(kz_status status);
+
+#define KZ_TRY(call)                             \
+  do {                                           \
+    kz_status kz_try_status = (call);            \
+    if (kz_try_status != KZ_OK) return kz_try_status; \
+  } while (0)
+
+#endif

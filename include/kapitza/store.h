@@ -1,0 +1,38 @@
+/* store: the result file (HDF5, netCDF-4 readable; floor 2). Names, types, units and long names of every dataset of the
+ * file's contract are stated once, in a table of this floor. Written by one rank with the serial library.
+ *
+ * The file is written as PATH.part and renamed to PATH when complete. */
+#ifndef KAPITZA_STORE_H
+#define KAPITZA_STORE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "kapitza/status.h"
+
+typedef struct kz_store kz_store;
+
+/* Creates PATH.part. */
+kz_status kz_store_create(const char *path, kz_store **store);
+/* Flushes, closes and renames to PATH (fsync before the rename). Frees the store in every case. */
+kz_status kz_store_complete(kz_store *store);
+/* Closes and removes PATH.part. */
+void kz_store_discard(kz_store *store);
+
+/* Attributes of a group ("/" = root). Text of any length (over 64 KiB too). */
+kz_status kz_store_text(kz_store *store, const char *group, const char *name, const char *value);
+kz_status kz_store_real(kz_store *store, const char *group, const char *name, double value);
+kz_status kz_store_integer(kz_store *store, const char *group, const char *name, int64_t value);
+
+/* A dimension of a group: its scale variable. `values` of the type that the table gives to a variable of that name; NULL
+ * for a dimension without coordinates (0, 1, 2, ... is written). */
+kz_status kz_store_dimension(kz_store *store, const char *group, const char *name, int64_t length, const void *values);
+
+/* A variable of the table, whole; its dimensions (declared before) are those of the table, its type is the table's:
+ * data is an array of double, int8_t, uint8_t, int16_t, int32_t, uint32_t or const char * accordingly. */
+kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data);
+
+/* True where PATH is a complete file of this program whose root attribute `fingerprint` equals the given one. */
+bool kz_store_is_complete(const char *path, const char *fingerprint);
+
+#endif

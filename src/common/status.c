@@ -1,0 +1,33 @@
+#include "kapitza/status.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static char message[2048];
+
+kz_status kz_fail(kz_status status, const char *format, ...)
+{
+  if (message[0] == '\0') {
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+  }
+  return status;
+}
+
+const char *kz_message(void) { return message; }
+
+void kz_message_clear(void) { message[0] = '\0'; }
+
+const char *kz_status_meaning(kz_status status)
+{
+  switch (status) {
+#define KZ_STATUS_CASE(code, exit_status, meaning) \
+  case code:                                       \
+    return meaning;
+    KZ_STATUS_LIST(KZ_STATUS_CASE)
+#undef KZ_STATUS_CASE
+  }
+  return "unknown status";
+}
