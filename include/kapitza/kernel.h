@@ -2,7 +2,7 @@
  *
  * theta'' + beta theta' + (k - m cos t) sin theta = 0   (BSG Eq. 2, BUT Eq. 9 in drive time)
  * theta in rad from the DOWN position, t in drive radians, velocity in rad per drive radian. A period is 2 pi; every period
- * starts at t = 0 (pivot at its top). */
+ * starts at t = 0 (pivot at its top). Inside, angles are half-turns (theta/pi): wrapping is exact. */
 #ifndef KAPITZA_KERNEL_H
 #define KAPITZA_KERNEL_H
 
@@ -54,7 +54,7 @@ void kz_advance_tangent(const kz_plan *plan, int64_t n, int64_t periods, double 
 void kz_sample(const kz_plan *plan, int64_t periods, int64_t samples_per_period, double theta, double velocity,
                double *theta_out, double *velocity_out);
 
-/* The kernel's own sine of an angle in rad, in the plan's kind (for tests). */
-void kz_sine(int32_t precision, int64_t n, const double *theta, double *sine);
+/* The kernel's own sine: sin(pi u) of half-turns u [n], in the given kind (for tests). */
+void kz_sine(int32_t precision, int64_t n, const double *half_turns, double *sine);
 
 #endif

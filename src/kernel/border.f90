@@ -1,0 +1,209 @@
+!> The kernel's border to C: include/kapitza/kernel.h. Thin entries of doubles and integers.
+module kz_kernel_border
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
+                                         c_f_pointer
+  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_kernel_plan, only: make_flow, SINGLE, DOUBLE
+  use kz_kernel_schemes, only: SCHEMES
+  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_kernel_r32, only: sine_r32 => sine
+  use kz_kernel_r64, only: sine_r64 => sine
+  use kz_kernel_r128, only: sine_r128 => sine
+  use, intrinsic :: iso_fortran_env, only: real32, real64, real128
+  implicit none
+  private
+
+  type :: plan_t
+    class(flow_t), allocatable :: joined
+    class(flow_t), allocatable :: apart
+  end type plan_t
+
+  type, bind(C) :: scheme_row_t
+    character(kind=c_char) :: name(16)
+    integer(c_int32_t) :: order
+    integer(c_int32_t) :: kicks
+    integer(c_int32_t) :: default_steps
+    character(kind=c_char) :: source(120)
+  end type scheme_row_t
+
+contains
+
+  function scheme_count() bind(C, name='kz_scheme_count') result(n)
+    integer(c_int32_t) :: n
+
+    n = size(SCHEMES)
+  end function scheme_count
+
+  subroutine scheme_row(row, scheme) bind(C, name='kz_scheme_row')
+    integer(c_int32_t), value :: row
+    type(scheme_row_t), intent(out) :: scheme
+
+    scheme%name = c_text(SCHEMES(row + 1)%name, 16)
+    scheme%order = SCHEMES(row + 1)%order
+    scheme%kicks = SCHEMES(row + 1)%kicks
+    scheme%default_steps = SCHEMES(row + 1)%default_steps
+    scheme%source = c_text(SCHEMES(row + 1)%source, 120)
+  end subroutine scheme_row
+
+  pure function c_text(text, n) result(chars)
+    character(*), intent(in) :: text
+    integer, intent(in) :: n
+    character(kind=c_char) :: chars(n)
+    integer :: i
+
+    chars = c_null_char
+    do i = 1, min(len_trim(text), n - 1)
+      chars(i) = text(i:i)
+    end do
+  end function c_text
+
+  function plan_create(pendulum, numerics) bind(C, name='kz_plan_create') result(handle)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    type(c_ptr) :: handle
+    type(plan_t), pointer :: plan
+    integer :: status
+
+    handle = c_null_ptr
+    allocate (plan, stat=status)
+    if (status /= 0) return
+    plan%joined = make_flow(pendulum, numerics, joined=.true.)
+    plan%apart = make_flow(pendulum, numerics, joined=.false.)
+    handle = c_loc(plan)
+  end function plan_create
+
+  subroutine plan_free(handle) bind(C, name='kz_plan_free')
+    type(c_ptr), value :: handle
+    type(plan_t), pointer :: plan
+
+    call c_f_pointer(handle, plan)
+    if (associated(plan)) deallocate (plan)
+  end subroutine plan_free
+
+  subroutine advance(handle, n, periods, theta, velocity, turns) bind(C, name='kz_advance')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: periods
+    real(c_double), intent(inout) :: theta(n)
+    real(c_double), intent(inout) :: velocity(n)
+    integer(c_int64_t), intent(inout) :: turns(n)
+    type(plan_t), pointer :: plan
+    class(flow_t), allocatable :: flow
+    integer(c_int64_t) :: first, period
+    integer :: lanes
+
+    call c_f_pointer(handle, plan)
+    allocate (flow, source=plan%joined)
+    do first = 1, n, WIDTH
+      lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
+      call load(flow, lanes, theta(first:), velocity(first:))
+      do period = 1, periods
+        call flow%advance(lanes)
+      end do
+      call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
+    end do
+  end subroutine advance
+
+  subroutine advance_tangent(handle, n, periods, theta, velocity, turns, matrix) bind(C, name='kz_advance_tangent')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: periods
+    real(c_double), intent(inout) :: theta(n)
+    real(c_double), intent(inout) :: velocity(n)
+    integer(c_int64_t), intent(inout) :: turns(n)
+    real(c_double), intent(out) :: matrix(2, 2, n)
+    type(plan_t), pointer :: plan
+    class(flow_t), allocatable :: flow
+    real(c_double) :: tangent(2, 2, WIDTH)
+    integer(c_int64_t) :: first, period
+    integer :: lanes, i
+
+    call c_f_pointer(handle, plan)
+    allocate (flow, source=plan%joined)
+    do first = 1, n, WIDTH
+      lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
+      call load(flow, lanes, theta(first:), velocity(first:))
+      tangent = 0
+      tangent(1, 1, :) = 1
+      tangent(2, 2, :) = 1
+      do period = 1, periods
+        call flow%advance_tangent(lanes, tangent)
+      end do
+      call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
+      do i = 1, lanes
+        matrix(:, :, first + i - 1) = transpose(tangent(:, :, i))
+      end do
+    end do
+  end subroutine advance_tangent
+
+  subroutine load(flow, lanes, theta, velocity)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: lanes
+    real(c_double), intent(in) :: theta(*)
+    real(c_double), intent(in) :: velocity(*)
+    integer :: i
+
+    do i = 1, lanes
+      call flow%put(i, theta(i)/PI, velocity(i))
+    end do
+    do i = lanes + 1, WIDTH
+      call flow%put(i, 0.0_c_double, 0.0_c_double)
+    end do
+  end subroutine load
+
+  subroutine unload(flow, lanes, theta, velocity, turns)
+    class(flow_t), intent(in) :: flow
+    integer, intent(in) :: lanes
+    real(c_double), intent(inout) :: theta(*)
+    real(c_double), intent(inout) :: velocity(*)
+    integer(c_int64_t), intent(inout) :: turns(*)
+
+    theta(:lanes) = flow%u(:lanes)*PI
+    velocity(:lanes) = flow%v(:lanes)
+    turns(:lanes) = turns(:lanes) + flow%turns(:lanes)
+  end subroutine unload
+
+  subroutine sample(handle, periods, samples, theta, velocity, theta_out, velocity_out) bind(C, name='kz_sample')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: periods
+    integer(c_int64_t), value :: samples
+    real(c_double), value :: theta
+    real(c_double), value :: velocity
+    real(c_double), intent(out) :: theta_out(0:periods*samples)
+    real(c_double), intent(out) :: velocity_out(0:periods*samples)
+    type(plan_t), pointer :: plan
+    class(flow_t), allocatable :: flow
+    integer(c_int64_t) :: period, first, last, turns
+
+    call c_f_pointer(handle, plan)
+    allocate (flow, source=plan%apart)
+    call flow%put(1, theta/PI, velocity)
+    theta_out(0) = theta
+    velocity_out(0) = velocity
+    do period = 1, periods
+      first = (period - 1)*samples + 1
+      last = period*samples
+      turns = flow%turns(1)
+      call flow%sample(int(samples), theta_out(first:last), velocity_out(first:last))
+      theta_out(first:last) = (theta_out(first:last) + 2*turns)*PI
+    end do
+  end subroutine sample
+
+  !> sin(pi u) of half-turns in the given kind.
+  subroutine sine_of_half_turns(precision, n, half_turns, sine) bind(C, name='kz_sine')
+    integer(c_int32_t), value :: precision
+    integer(c_int64_t), value :: n
+    real(c_double), intent(in) :: half_turns(n)
+    real(c_double), intent(out) :: sine(n)
+
+    select case (precision)
+    case (SINGLE)
+      sine = real(sine_r32(real(half_turns, real32)), c_double)
+    case (DOUBLE)
+      sine = sine_r64(real(half_turns, real64))
+    case default
+      sine = real(sine_r128(real(half_turns, real128)), c_double)
+    end select
+  end subroutine sine_of_half_turns
+
+end module kz_kernel_border

@@ -1,0 +1,70 @@
+!> A stroboscopic map: one drive period of a tile of trajectories. The kernel extends it for each kind of real; the map
+!> table of the dynamics extends it by interpolation.
+!>
+!> Inside, angles are in half-turns, u = theta/pi: the wrap to [-1, 1] is exact, and the mirror image (-u, -v) of a state goes
+!> to the mirror image of its image, to the bit.
+module kz_kernel_map
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  implicit none
+  private
+  public :: map_t, flow_t, WIDTH, PI
+
+  !> Trajectories per tile; a multiple of every vector width.
+  integer, parameter :: WIDTH = 64
+  real(c_double), parameter :: PI = 3.14159265358979323846_c_double
+
+  type, abstract :: map_t
+    !> angle in half-turns, wrapped to [-1, 1]
+    real(c_double) :: u(WIDTH) = 0
+    !> velocity in rad per drive radian
+    real(c_double) :: v(WIDTH) = 0
+    !> net turns, counterclockwise +
+    integer(c_int64_t) :: turns(WIDTH) = 0
+  contains
+    !> Puts a state into a lane and sets its turns to 0.
+    procedure(put_i), deferred :: put
+    !> Advances the lanes 1 .. n (or all) by one period.
+    procedure(advance_i), deferred :: advance
+  end type map_t
+
+  !> A map that is integrated: it also knows its derivative and what happens within the period.
+  type, abstract, extends(map_t) :: flow_t
+  contains
+    !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.
+    procedure(advance_tangent_i), deferred :: advance_tangent
+    !> Advances lane 1 by one period, shown at n equal times; u(n) is not yet wrapped.
+    procedure(sample_i), deferred :: sample
+  end type flow_t
+
+  abstract interface
+    subroutine put_i(self, lane, u, v)
+      import :: map_t, c_double
+      class(map_t), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(c_double), intent(in) :: u
+      real(c_double), intent(in) :: v
+    end subroutine put_i
+
+    subroutine advance_i(self, n)
+      import :: map_t
+      class(map_t), intent(inout) :: self
+      integer, intent(in) :: n
+    end subroutine advance_i
+
+    subroutine advance_tangent_i(self, n, matrix)
+      import :: flow_t, c_double, WIDTH
+      class(flow_t), intent(inout) :: self
+      integer, intent(in) :: n
+      real(c_double), intent(inout) :: matrix(2, 2, WIDTH)
+    end subroutine advance_tangent_i
+
+    subroutine sample_i(self, n, u, v)
+      import :: flow_t, c_double
+      class(flow_t), intent(inout) :: self
+      integer, intent(in) :: n
+      real(c_double), intent(out) :: u(n)
+      real(c_double), intent(out) :: v(n)
+    end subroutine sample_i
+  end interface
+
+end module kz_kernel_map

@@ -1,0 +1,37 @@
+!> From a pendulum and its numerics to a map of the right kind. The only place that knows all kinds.
+module kz_kernel_plan
+  use kz_kernel_map, only: flow_t
+  use kz_kernel_tables, only: pendulum_t, numerics_t, make_period
+  use kz_kernel_r32, only: make_tile_r32 => make_tile
+  use kz_kernel_r64, only: make_tile_r64 => make_tile
+  use kz_kernel_r128, only: make_tile_r128 => make_tile
+  implicit none
+  private
+  public :: make_flow, FINE
+
+  !> The codes of numerics_t%precision.
+  integer, parameter, public :: SINGLE = 0, DOUBLE = 1, QUAD = 2
+
+  !> What published values are computed with, whatever the scene says: split6, 96 steps.
+  type(numerics_t), parameter :: FINE = numerics_t(2, 96, DOUBLE)
+
+contains
+
+  !> The map of one drive period. Steps that are joined are faster; sampling within the period needs them apart.
+  function make_flow(pendulum, numerics, joined) result(flow)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    logical, intent(in) :: joined
+    class(flow_t), allocatable :: flow
+
+    select case (numerics%precision)
+    case (SINGLE)
+      allocate (flow, source=make_tile_r32(make_period(pendulum, numerics, joined)))
+    case (DOUBLE)
+      allocate (flow, source=make_tile_r64(make_period(pendulum, numerics, joined)))
+    case default
+      allocate (flow, source=make_tile_r128(make_period(pendulum, numerics, joined)))
+    end select
+  end function make_flow
+
+end module kz_kernel_plan

@@ -1,0 +1,28 @@
+!> The tile in double precision.
+module kz_kernel_r64
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64, real128
+  use kz_kernel_map, only: flow_t, WIDTH
+  use kz_kernel_tables, only: period_t, INVERSE_PI_QUAD
+  implicit none
+  private
+  public :: tile_t, make_tile, sine
+
+  !> Vector loops run over the whole tile.
+  logical, parameter :: WHOLE_TILE = .true.
+
+  !> sin(pi r)/r as a polynomial in r**2 on |r| <= 1/2, minimax, relative error 3.0e-19 (Remez exchange in 60 digits).
+  real(rk), parameter :: SINE_COEFFICIENTS(9) = [ &
+    3.14159265358979323765_rk, &
+    -5.16771278004996952865_rk, &
+    2.55016403987729393818_rk, &
+    -0.599264529318738216301_rk, &
+    0.0821458865698926095193_rk, &
+    -0.00737043047876246099464_rk, &
+    0.000466299688773173555302_rk, &
+    -0.0000219031854208053767726_rk, &
+    7.69472732830679049614e-7_rk]
+
+  include 'tile.inc'
+
+end module kz_kernel_r64

@@ -1,0 +1,152 @@
+!> One drive period of a pendulum as a list of drifts and kicks, in quad precision; each kind rounds it to its own.
+module kz_kernel_tables
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
+  use, intrinsic :: iso_fortran_env, only: real128
+  use kz_kernel_schemes, only: scheme_t, stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
+  implicit none
+  private
+  public :: pendulum_t, numerics_t, period_t, make_period, INVERSE_PI_QUAD
+
+  integer, parameter :: qp = real128
+  real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
+  real(qp), parameter :: INVERSE_PI_QUAD = 1/PI
+
+  type, bind(C) :: pendulum_t
+    real(c_double) :: k
+    real(c_double) :: beta
+    real(c_double) :: m
+  end type pendulum_t
+
+  type, bind(C) :: numerics_t
+    integer(c_int32_t) :: scheme
+    integer(c_int32_t) :: steps_per_period
+    integer(c_int32_t) :: precision
+  end type numerics_t
+
+  !> Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi u); after the last one a drift more.
+  !> rk4: kick(2 i + 1 .. 2 i + 3) = k - m cos t at the beginning, middle and end of step i + 1.
+  type :: period_t
+    logical :: split
+    integer :: n_steps
+    !> the last stage of every step (n_steps); of use where the steps are not joined
+    integer, allocatable :: step_end(:)
+    real(qp), allocatable :: drift(:)
+    real(qp), allocatable :: decay(:)
+    real(qp), allocatable :: kick(:)
+    real(qp) :: beta
+    real(qp) :: step
+  end type period_t
+
+contains
+
+  !> The tables of one period. `joined` merges neighbouring entries of neighbouring steps; without it every step stands alone.
+  function make_period(pendulum, numerics, joined) result(period)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    logical, intent(in) :: joined
+    type(period_t) :: period
+
+    period%n_steps = numerics%steps_per_period
+    period%beta = real(pendulum%beta, qp)
+    period%step = 2*PI/period%n_steps
+    period%split = SCHEMES(numerics%scheme + 1)%form /= RUNGE_KUTTA
+    if (period%split) then
+      call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), joined)
+    else
+      call rk4_tables(period, pendulum)
+    end if
+  end function make_period
+
+  subroutine rk4_tables(period, pendulum)
+    type(period_t), intent(inout) :: period
+    type(pendulum_t), intent(in) :: pendulum
+    integer :: i
+
+    allocate (period%kick(2*period%n_steps + 1))
+    do i = 0, 2*period%n_steps
+      period%kick(i + 1) = force(pendulum, real(i, qp)/(2*period%n_steps))
+    end do
+  end subroutine rk4_tables
+
+  !> Walks through all entries of all steps. Joined, a kick that follows a kick adds to it; else every step ends for itself.
+  subroutine split_tables(period, pendulum, stages, joined)
+    type(period_t), intent(inout) :: period
+    type(pendulum_t), intent(in) :: pendulum
+    type(stage_t), intent(in) :: stages(:)
+    logical, intent(in) :: joined
+    real(qp) :: shift, clock, kick
+    integer :: n, i, s
+
+    allocate (period%drift(period%n_steps*size(stages) + 1), period%kick(period%n_steps*size(stages) + 1))
+    allocate (period%step_end(period%n_steps))
+    n = 0
+    shift = 0
+    do i = 0, period%n_steps - 1
+      clock = 0
+      do s = 1, size(stages)
+        if (.not. stages(s)%is_kick) then
+          shift = shift + stages(s)%share
+          clock = clock + stages(s)%share
+          cycle
+        end if
+        kick = stages(s)%share*period%step*force(pendulum, (i + clock)/period%n_steps)
+        if (joined .and. n > 0 .and. s == 1) then
+          period%kick(n) = period%kick(n) + kick
+        else
+          call append(kick)
+        end if
+      end do
+      if (.not. joined .and. shift > 0) call append(0.0_qp)
+      period%step_end(i + 1) = n
+    end do
+    period%kick = period%kick(:n)
+    period%drift = [period%drift(:n), shift]*period%step
+    call damp(period)
+  contains
+    subroutine append(kick)
+      real(qp), intent(in) :: kick
+
+      n = n + 1
+      period%drift(n) = shift
+      period%kick(n) = kick
+      shift = 0
+    end subroutine append
+  end subroutine split_tables
+
+  !> Turns the drift times into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
+  subroutine damp(period)
+    type(period_t), intent(inout) :: period
+    integer :: i
+
+    period%decay = exp(-period%beta*period%drift)
+    do i = 1, size(period%drift)
+      period%drift(i) = period%drift(i)*mean_decay(period%beta*period%drift(i))
+    end do
+  end subroutine damp
+
+  !> (1 - exp(-x))/x without cancellation.
+  pure function mean_decay(x) result(mean)
+    real(qp), intent(in) :: x
+    real(qp) :: mean
+    integer :: i
+
+    if (abs(x) > 1) then
+      mean = (1 - exp(-x))/x
+      return
+    end if
+    mean = 1
+    do i = 32, 2, -1
+      mean = 1 - mean*x/i
+    end do
+  end function mean_decay
+
+  !> k - m cos t at t = 2 pi * turn.
+  pure function force(pendulum, turn) result(f)
+    type(pendulum_t), intent(in) :: pendulum
+    real(qp), intent(in) :: turn
+    real(qp) :: f
+
+    f = real(pendulum%k, qp) - pendulum%m*cos(2*PI*turn)
+  end function force
+
+end module kz_kernel_tables
