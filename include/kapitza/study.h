@@ -32,11 +32,33 @@ typedef struct {
   int64_t seed;
 } kz_basin_plan;
 
-/* The three ways to give the parameters all end here; NaN where a value is not defined (Q without damping, Omega at k <= 0). */
+/* A list of a scene. */
+enum { KZ_LIST_MAX = 256 };
 typedef struct {
+  int64_t count;
+  double values[KZ_LIST_MAX];
+} kz_reals;
+typedef struct {
+  int64_t count;
+  int64_t values[KZ_LIST_MAX];
+} kz_integers;
+
+/* The pendulum mapping as written, in one of three forms; NaN = key not given. */
+typedef struct {
+  double quality_factor, drive_frequency, drive_amplitude;                               /* a: Q, Omega, epsilon */
+  double k, damping, m;                                                                  /* b: k, beta, m */
+  double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency;    /* c: SI, BSG Eq. (1) */
+} kz_pendulum_keys;
+
+/* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */
+typedef struct {
+  kz_pendulum_keys written;
   kz_pendulum pendulum;
   double quality_factor, drive_frequency, drive_amplitude;
 } kz_parameters;
+
+/* Fills everything but `written` from `written`. KZ_REFUSED where k, beta or m is not finite; then nothing is usable. */
+kz_status kz_parameters_resolve(kz_parameters *parameters);
 
 typedef struct {
   char *title; /* may be "" */

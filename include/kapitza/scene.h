@@ -1,0 +1,132 @@
+/* scene: from the YAML text of a user to kz_scene and back (C; floor 4).
+ *
+ * ONE table, kz_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/scene.md
+ * all come from its rows: a new key is a new row. */
+#ifndef KAPITZA_SCENE_H
+#define KAPITZA_SCENE_H
+
+#include <float.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+#include "kapitza/study.h"
+
+/* What a key holds, and the C type of its field. */
+typedef enum {
+  KZ_KEY_MAPPING,  /* bool: the mapping is given (a study), or no field at all (KZ_NO_FIELD) */
+  KZ_KEY_TEXT,     /* char *, owned by the scene; "" where absent */
+  KZ_KEY_WORD,     /* int32_t: index in `words`; KZ_UNSET_WORD */
+  KZ_KEY_BOOLEAN,  /* bool */
+  KZ_KEY_INTEGER,  /* int64_t; KZ_UNSET_INTEGER */
+  KZ_KEY_COUNT,    /* int32_t; KZ_UNSET_WORD */
+  KZ_KEY_REAL,     /* double; NaN where absent */
+  KZ_KEY_WORDS,    /* kz_integers: indices */
+  KZ_KEY_INTEGERS, /* kz_integers */
+  KZ_KEY_REALS     /* kz_reals */
+} kz_key_type;
+
+#define KZ_NO_FIELD ((size_t)-1)
+#define KZ_UNSET_WORD (-1)
+#define KZ_UNSET_INTEGER INT64_MIN
+#define KZ_ABOVE_ZERO DBL_TRUE_MIN /* lowest value of a range that excludes zero */
+
+typedef struct {
+  const char *path;                /* "basin.theta.count"; a mapping's row stands before the rows of its keys */
+  kz_key_type type;
+  const char *unit;                /* "" = none */
+  double low, high;                /* accepted values, ends included */
+  const char *fallback;            /* default as YAML text; "" = may be left out without one; NULL = required */
+  const char *words;               /* "icm|direct" */
+  const char *(*words_from)(void); /* the same where another floor knows them */
+  char form;                       /* keys of one mapping with different forms exclude each other; 0 = none */
+  size_t offset;                   /* of the field in kz_scene */
+  const char *help;                /* one sentence of the scene reference */
+} kz_key;
+
+/* The table; a row without path ends it. */
+extern const kz_key kz_keys[];
+
+/* The words of a key, joined by '|'; "" for other types. */
+const char *kz_key_words(const kz_key *key);
+/* The row of `path`, or NULL. */
+const kz_key *kz_key_find(const kz_key *keys, const char *path);
+/* True where `path` is a key of the mapping `parent` ("" = the scene itself), not deeper. */
+bool kz_key_is_child(const char *path, const char *parent);
+/* The names of the keys of mapping `parent`, joined by '|', written to `text` [bytes]. */
+void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes);
+/* "an integer from 1 to 512": what the key takes, written to `text` [bytes]. */
+void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes);
+/* The word nearest to `word` among `words` ("a|b|c"), copied to `nearest` [bytes]; false where none is near. */
+bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes);
+
+/* The YAML text as a tree that knows where everything stood. */
+typedef enum { KZ_SCALAR, KZ_SEQUENCE, KZ_MAPPING } kz_node_kind;
+typedef struct kz_node {
+  kz_node_kind kind;
+  char *name;                 /* its key in the mapping above; "" at the root and in a list */
+  char *text;                 /* of a scalar, else NULL */
+  bool plain;                 /* a scalar without quotes */
+  const char *source;         /* file name, or the option "--set KEY=VALUE"; not owned */
+  int name_line, name_column; /* from 1; 0 in an option */
+  int line, column;
+  int order;                  /* rank in document order */
+  struct kz_node *first, *next;
+} kz_node;
+
+/* Reads YAML `text` [length]; `option` = the value of a --set: flow text on one line, errors without line and column.
+ * KZ_REFUSED names the place. The caller frees *root. */
+kz_status kz_tree_read(const char *text, size_t length, const char *source, bool option, kz_node **root);
+void kz_tree_free(kz_node *root);
+/* A child of a mapping by name (the first one), or NULL. */
+kz_node *kz_tree_child(const kz_node *mapping, const char *name);
+/* The node at a path such as "basin.theta", or NULL. */
+kz_node *kz_tree_find(const kz_node *root, const char *path);
+/* Puts `value` (taken over in every case) at `path`, replacing what stood there; mappings on the way are created. */
+kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
+
+/* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), NULL where it is right. */
+const char *kz_scalar_integer(const kz_node *node, int64_t *value);
+const char *kz_scalar_real(const kz_node *node, double *value);
+const char *kz_scalar_boolean(const kz_node *node, bool *value);
+const char *kz_scalar_text(const kz_node *node);
+/* The shortest decimal text that reads back as `value`, in text [32]. */
+void kz_scalar_print(double value, char *text);
+
+/* The field of a key in `scene`: made unset; read from a node (what is wrong, or NULL; *culprit = the node or the value of its
+ * list that is wrong); whether it is set; printed as YAML flow text. Of a mapping, clear alone makes sense. */
+void kz_value_clear(const kz_key *key, void *scene);
+const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit);
+bool kz_value_is_set(const kz_key *key, const void *scene);
+void kz_value_print(const kz_key *key, const void *scene, FILE *out);
+
+/* A reading in progress: only the first complaint in document order is kept; complaints without a node come last. */
+typedef struct {
+  const kz_key *keys;
+  kz_node *root;
+  void *scene;
+  const char *file;
+  int first;          /* order of the complaint kept; INT_MAX = none */
+  char message[1024];
+} kz_reading;
+
+/* Records a complaint about `path` at the value of `node`; NULL = a missing key, reported at the mapping it misses from. */
+void kz_complain(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* Sets every field of `scene` to its default, then reads the tree into it by the table. KZ_FAILED where memory ran out. */
+kz_status kz_reading_keys(kz_reading *reading);
+/* Rules between keys (an axis, the pendulum's parameters), and the values that follow from others. */
+void kz_reading_rules(kz_reading *reading);
+
+/* Text of a scene, and of --set options ("KEY=VALUE"), into a scene that the caller frees. KZ_REFUSED names the first error. */
+kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene);
+void kz_scene_free(kz_scene *scene);
+/* YAML with every default; reading it gives the same scene. `flat` = one "path: value" a line instead. */
+void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out);
+/* The scene reference (docs/scene.md). */
+void kz_scene_reference(const kz_key *keys, FILE *out);
+
+/* The bytes of a scene file: regular, at most 1 MB. The caller frees *text. */
+kz_status kz_scene_load(const char *path, char **text, size_t *length);
+
+#endif

@@ -1,0 +1,125 @@
+/* What can be asked of a row of the table. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "kapitza/scene.h"
+
+enum { LONGEST_WORD = 63 };
+
+const char *kz_key_words(const kz_key *key)
+{
+  if (key->words_from) return key->words_from();
+  return key->words ? key->words : "";
+}
+
+const kz_key *kz_key_find(const kz_key *keys, const char *path)
+{
+  for (; keys->path; keys++)
+    if (strcmp(keys->path, path) == 0) return keys;
+  return NULL;
+}
+
+bool kz_key_is_child(const char *path, const char *parent)
+{
+  const size_t length = strlen(parent);
+  if (length == 0) return strchr(path, '.') == NULL;
+  return strncmp(path, parent, length) == 0 && path[length] == '.' && strchr(path + length + 1, '.') == NULL;
+}
+
+/* "from 1 to 512", "above 0", "of at least 0", or nothing where any value does. */
+static void print_range(const kz_key *key, char *text, size_t bytes)
+{
+  char low[32], high[32];
+  kz_scalar_print(key->low, low);
+  kz_scalar_print(key->high, high);
+  const bool bounded = key->high < DBL_MAX;
+  if (key->low <= -DBL_MAX)
+    snprintf(text, bytes, "%s", "");
+  else if (key->low == KZ_ABOVE_ZERO)
+    snprintf(text, bytes, bounded ? " above 0 and up to %s" : " above 0", high);
+  else if (bounded)
+    snprintf(text, bytes, " from %s to %s", low, high);
+  else
+    snprintf(text, bytes, " of at least %s", low);
+}
+
+/* Writes the words of "a|b|c" as "a, b, c". */
+static void print_words(const char *words, char *text, size_t bytes)
+{
+  size_t at = 0;
+  for (; *words && at + 3 < bytes; words++) {
+    text[at++] = *words == '|' ? ',' : *words;
+    if (*words == '|') text[at++] = ' ';
+  }
+  text[at] = '\0';
+}
+
+void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes)
+{
+  const size_t skip = parent[0] ? strlen(parent) + 1 : 0;
+  text[0] = '\0';
+  for (; keys->path; keys++)
+    if (kz_key_is_child(keys->path, parent))
+      snprintf(text + strlen(text), bytes - strlen(text), "%s%s", text[0] ? "|" : "", keys->path + skip);
+}
+
+void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes)
+{
+  static const char *const nouns[] = {
+      [KZ_KEY_MAPPING] = "a mapping of ",       [KZ_KEY_TEXT] = "one line of text",
+      [KZ_KEY_WORD] = "one of ",                [KZ_KEY_BOOLEAN] = "true or false",
+      [KZ_KEY_INTEGER] = "an integer",          [KZ_KEY_COUNT] = "an integer",
+      [KZ_KEY_REAL] = "a number",               [KZ_KEY_WORDS] = "a list out of ",
+      [KZ_KEY_INTEGERS] = "a list of integers", [KZ_KEY_REALS] = "a list of numbers",
+  };
+  char names[512] = "", detail[512] = "";
+  if (key->type == KZ_KEY_MAPPING)
+    kz_key_children(keys, key->path, names, sizeof names);
+  else
+    snprintf(names, sizeof names, "%s", kz_key_words(key));
+  print_words(names, detail, sizeof detail);
+  if (key->high > key->low) print_range(key, detail, sizeof detail);
+  snprintf(text, bytes, "%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit);
+}
+
+static size_t least(size_t a, size_t b) { return a < b ? a : b; }
+
+/* Edit distance with swapped neighbours counted once (Damerau 1964, optimal string alignment). */
+static size_t distance(const char *a, const char *b)
+{
+  static size_t d[LONGEST_WORD + 1][LONGEST_WORD + 1];
+  const size_t n = strlen(a), m = strlen(b);
+  if (n > LONGEST_WORD || m > LONGEST_WORD) return SIZE_MAX;
+  for (size_t i = 0; i <= n; i++)
+    for (size_t j = 0; j <= m; j++) {
+      if (i == 0 || j == 0) {
+        d[i][j] = i + j;
+        continue;
+      }
+      const size_t change = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+      d[i][j] = least(change, least(d[i - 1][j], d[i][j - 1]) + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[n][m];
+}
+
+bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes)
+{
+  size_t best = strlen(word) / 3 + 1; /* worse is no likeness */
+  if (best > 3) best = 3;
+  bool found = false;
+  for (const char *start = words; *start;) {
+    char candidate[LONGEST_WORD + 1];
+    const size_t length = strcspn(start, "|");
+    snprintf(candidate, sizeof candidate, "%.*s", (int)length, start);
+    const size_t d = distance(word, candidate);
+    if (d < best || (d == best && !found)) {
+      best = d;
+      found = true;
+      snprintf(nearest, bytes, "%s", candidate);
+    }
+    start += length + (start[length] == '|');
+  }
+  return found;
+}

@@ -1,0 +1,85 @@
+/* The table of every key of a scene. A study's keys stand under its own row; the row's field says whether it is wanted. */
+#include <string.h>
+
+#include "kapitza/scene.h"
+
+#define AT(field) offsetof(kz_scene, field)
+
+#define MAPPING(path_, fallback_, offset_, help_) \
+  {.path = path_, .type = KZ_KEY_MAPPING, .unit = "", .fallback = fallback_, .offset = offset_, .help = help_}
+#define REAL(path_, unit_, low_, high_, fallback_, field_, help_)                                                       \
+  {.path = path_, .type = KZ_KEY_REAL, .unit = unit_, .low = low_, .high = high_, .fallback = fallback_, .offset = AT(field_), \
+   .help = help_}
+#define PENDULUM(form_, name_, unit_, low_, fallback_, help_)                                                            \
+  {.path = "pendulum." #name_, .type = KZ_KEY_REAL, .unit = unit_, .low = low_, .high = DBL_MAX, .fallback = fallback_,  \
+   .form = form_, .offset = AT(parameters.written.name_), .help = help_}
+#define INTEGER(path_, low_, high_, fallback_, field_, help_)                                                            \
+  {.path = path_, .type = KZ_KEY_INTEGER, .unit = "", .low = low_, .high = high_, .fallback = fallback_, .offset = AT(field_), \
+   .help = help_}
+#define WORD(path_, words_, fallback_, field_, help_) \
+  {.path = path_, .type = KZ_KEY_WORD, .unit = "", .words = words_, .fallback = fallback_, .offset = AT(field_), .help = help_}
+
+/* The names of the kernel's table of schemes. */
+static const char *scheme_words(void)
+{
+  static char words[512];
+  words[0] = '\0';
+  for (int32_t row = 0; row < kz_scheme_count(); row++) {
+    kz_scheme scheme;
+    kz_scheme_row(row, &scheme);
+    if (row > 0) strncat(words, "|", sizeof words - strlen(words) - 1);
+    strncat(words, scheme.name, sizeof words - strlen(words) - 1);
+  }
+  return words;
+}
+
+const kz_key kz_keys[] = {
+    {.path = "title", .type = KZ_KEY_TEXT, .unit = "", .fallback = "", .offset = AT(title),
+     .help = "One line that names the scene in files and pictures."},
+
+    MAPPING("pendulum", NULL, KZ_NO_FIELD, "The parameters, in ONE of three ways."),
+    PENDULUM('a', quality_factor, "", KZ_ABOVE_ZERO, "", "Q = omega0 I/b, so that beta = 1/(Omega Q); left out: no damping."),
+    PENDULUM('a', drive_frequency, "", KZ_ABOVE_ZERO, NULL, "Omega = omega/omega0, so that k = 1/Omega^2."),
+    PENDULUM('a', drive_amplitude, "", -DBL_MAX, NULL, "epsilon = (A/r)(M r^2/I), so that m = epsilon."),
+    PENDULUM('b', k, "", -DBL_MAX, NULL, "Gravity: 1/Omega^2; 0 = none, < 0 = upward."),
+    PENDULUM('b', damping, "", 0.0, NULL, "beta of theta'' + beta theta' + (k - m cos t) sin theta = 0."),
+    PENDULUM('b', m, "", -DBL_MAX, NULL, "Drive, of any sign."),
+    PENDULUM('c', mass, "kg", KZ_ABOVE_ZERO, NULL, "M."),
+    PENDULUM('c', radius, "m", KZ_ABOVE_ZERO, NULL, "r, from the pivot to the centre of mass."),
+    PENDULUM('c', inertia, "kg m2", KZ_ABOVE_ZERO, NULL, "I, about the pivot."),
+    PENDULUM('c', friction, "kg m2 s-1", 0.0, NULL, "b; beta = b/(I omega)."),
+    PENDULUM('c', gravity, "m s-2", -DBL_MAX, NULL, "g; k = M g r/(I omega^2)."),
+    PENDULUM('c', pivot_amplitude, "m", -DBL_MAX, NULL, "A; m = M r A/I."),
+    PENDULUM('c', pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, NULL, "omega of the pivot."),
+
+    MAPPING("numerics", "", KZ_NO_FIELD, "How one drive period is integrated."),
+    {.path = "numerics.scheme", .type = KZ_KEY_WORD, .unit = "", .words_from = scheme_words, .fallback = "split6",
+     .offset = AT(numerics.scheme), .help = "Integrator; rk4 is the classical one, the split ones are exact in the damping."},
+    {.path = "numerics.steps_per_period", .type = KZ_KEY_COUNT, .unit = "", .low = 1, .high = 100000, .fallback = "",
+     .offset = AT(numerics.steps_per_period), .help = "Whole steps of the scheme in a drive period; left out: the scheme's own number."},
+    WORD("numerics.precision", "single|double|quad", "double", numerics.precision, "Kind of the arithmetic."),
+
+    MAPPING("basin", "", AT(has_basin), "Study: the attractors, then a label for every cell of a window."),
+    MAPPING("basin.theta", "", KZ_NO_FIELD,
+            "Angles of the cells; min and max both or neither, width at most 2 pi; neither: the whole circle [-pi, pi)."),
+    REAL("basin.theta.min", "rad", -1e6, 1e6, "", basin.theta.min, "Lower edge of the window."),
+    REAL("basin.theta.max", "rad", -1e6, 1e6, "", basin.theta.max, "Upper edge of the window."),
+    INTEGER("basin.theta.count", 1, 1e6, "1000", basin.theta.count, "Cells along theta."),
+    MAPPING("basin.velocity", NULL, KZ_NO_FIELD, "Velocities of the cells."),
+    REAL("basin.velocity.min", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.min, "Lower edge of the window."),
+    REAL("basin.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.max, "Upper edge of the window."),
+    INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
+    WORD("basin.method", "icm|direct", "icm", basin.method,
+         "icm: interpolated cell mapping; direct: every cell is integrated."),
+    MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
+    INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta."),
+    INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity."),
+    WORD("basin.icm.interpolation", "linear|cubic|quintic", "quintic", basin.interpolation, "Interpolation between the nodes."),
+    INTEGER("basin.max_periods", 1, 4e9, "2000", basin.max_periods, "Drive periods after which a cell counts as not settled."),
+    MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),
+    INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
+    INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
+    INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
+
+    {.path = NULL},
+};

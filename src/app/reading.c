@@ -1,0 +1,211 @@
+/* The walk through the tree by the table of keys. */
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/scene.h"
+
+/* "FILE:LINE:COLUMN" or the option. */
+static void print_place(const kz_node *node, bool at_name, char *text, size_t bytes)
+{
+  const int line = at_name ? node->name_line : node->line;
+  const int column = at_name ? node->name_column : node->column;
+  if (line > 0)
+    snprintf(text, bytes, "%s:%d:%d", node->source, line, column);
+  else
+    snprintf(text, bytes, "%s", node->source);
+}
+
+/* The deepest mapping that is there on the way to `path`. */
+static const kz_node *nearest_mapping(const kz_node *root, const char *path)
+{
+  const kz_node *node = root;
+  char name[64];
+  for (size_t length; path[length = strcspn(path, ".")] == '.'; path += length + 1) {
+    snprintf(name, sizeof name, "%.*s", (int)length, path);
+    const kz_node *child = kz_tree_child(node, name);
+    if (!child) break;
+    node = child;
+  }
+  return node;
+}
+
+static void keep(kz_reading *reading, int order, const char *place, const char *path, const char *format, va_list arguments)
+{
+  if (order >= reading->first) return;
+  reading->first = order;
+  const int length = snprintf(reading->message, sizeof reading->message, "%s: %s: ", place, path);
+  if (length >= 0 && (size_t)length < sizeof reading->message)
+    vsnprintf(reading->message + length, sizeof reading->message - (size_t)length, format, arguments);
+}
+
+void kz_complain(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...)
+{
+  char place[512];
+  print_place(node ? node : nearest_mapping(reading->root, path), false, place, sizeof place);
+  va_list arguments;
+  va_start(arguments, format);
+  keep(reading, node ? node->order : INT_MAX - 1, place, path, format, arguments);
+  va_end(arguments);
+}
+
+/* The same at the key of `node` rather than at its value. */
+__attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *reading, const kz_node *node, const char *path,
+                                                               const char *format, ...)
+{
+  char place[512];
+  print_place(node, true, place, sizeof place);
+  va_list arguments;
+  va_start(arguments, format);
+  keep(reading, node->order, place, path, format, arguments);
+  va_end(arguments);
+}
+
+/* Complains about a value: what is wrong with it, what would be accepted. */
+static void complain_value(kz_reading *reading, const kz_key *key, const kz_node *node, const char *wrong)
+{
+  char accepted[700], nearest[64], hint[96] = "";
+  kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
+  if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
+    snprintf(hint, sizeof hint, " (did you mean %s?)", nearest);
+  if (node->kind == KZ_SCALAR && node->text[0])
+    kz_complain(reading, node, key->path, "\"%.60s\" %s; %s%s", node->text, wrong, accepted, hint);
+  else
+    kz_complain(reading, node, key->path, "the value %s; %s", wrong, accepted);
+}
+
+static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path)
+{
+  char names[1024], nearest[64];
+  kz_key_children(reading->keys, parent, names, sizeof names);
+  if (kz_key_suggest(node->name, names, nearest, sizeof nearest)) {
+    complain_key(reading, node, path, "unknown key; did you mean %s?", nearest);
+    return;
+  }
+  for (char *c = names; *c; c++)
+    if (*c == '|') *c = ' ';
+  complain_key(reading, node, path, "unknown key; one of: %s", names);
+}
+
+static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent);
+
+static void read_key(kz_reading *reading, const kz_key *key, const kz_node *node)
+{
+  const kz_node *culprit = node;
+  const char *wrong = NULL;
+  if (key->type != KZ_KEY_MAPPING) {
+    wrong = kz_value_read(key, node, reading->scene, &culprit);
+  } else if (node->kind == KZ_MAPPING) {
+    if (key->offset != KZ_NO_FIELD) *(bool *)((char *)reading->scene + key->offset) = true;
+    read_mapping(reading, node, key->path);
+  } else {
+    wrong = node->kind == KZ_SCALAR && !node->text[0] ? "is empty" : "is not a mapping";
+  }
+  if (wrong) complain_value(reading, key, culprit, wrong);
+}
+
+/* The first key of a mapping that belongs to a form: it chooses the form. NULL where none does. */
+static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, const char *parent)
+{
+  for (const kz_node *child = mapping->first; child; child = child->next) {
+    char path[256];
+    snprintf(path, sizeof path, "%s.%.100s", parent, child->name);
+    const kz_key *key = kz_key_find(keys, path);
+    if (key && key->form) return key;
+  }
+  return NULL;
+}
+
+static void read_child(kz_reading *reading, const kz_node *mapping, const kz_node *child, const char *parent)
+{
+  char path[256];
+  snprintf(path, sizeof path, "%s%s%.100s", parent, parent[0] ? "." : "", child->name);
+  const kz_key *key = kz_key_find(reading->keys, path);
+  const kz_key *chooser = key && key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
+  if (kz_tree_child(mapping, child->name) != child)
+    complain_key(reading, child, path, "is given twice; once");
+  else if (!key)
+    complain_unknown(reading, child, parent, path);
+  else if (chooser && chooser->form != key->form)
+    complain_key(reading, child, path, "contradicts %s, another way to give the same; the keys of one way", chooser->path);
+  else
+    read_key(reading, key, child);
+}
+
+/* Ends at the first complaint: what follows in the document cannot come before it. */
+static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent)
+{
+  for (const kz_node *child = mapping->first; child && child->order < reading->first; child = child->next)
+    read_child(reading, mapping, child, parent);
+}
+
+/* The mapping that should hold `key`, or NULL where it is not there. */
+static const kz_node *holder(const kz_reading *reading, const kz_key *key, char *parent, size_t bytes)
+{
+  const char *dot = strrchr(key->path, '.');
+  snprintf(parent, bytes, "%.*s", dot ? (int)(dot - key->path) : 0, key->path);
+  const kz_node *node = dot ? kz_tree_find(reading->root, parent) : reading->root;
+  return node && node->kind == KZ_MAPPING ? node : NULL;
+}
+
+static void check_missing(kz_reading *reading, const kz_key *key)
+{
+  char parent[256], accepted[700];
+  const kz_node *mapping = holder(reading, key, parent, sizeof parent);
+  if (!mapping || key->fallback || kz_tree_find(reading->root, key->path)) return;
+  const kz_key *chooser = key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
+  if (chooser && chooser->form != key->form) return;
+  kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
+  kz_complain(reading, NULL, key->path, "is missing; %s", accepted);
+}
+
+/* A top-level mapping with a field is a study: at least one is needed. */
+static void check_studies(kz_reading *reading)
+{
+  char names[512] = "";
+  for (const kz_key *key = reading->keys; key->path; key++) {
+    if (key->type != KZ_KEY_MAPPING || key->offset == KZ_NO_FIELD || strchr(key->path, '.')) continue;
+    if (kz_tree_child(reading->root, key->path)) return;
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? ", " : "", key->path);
+  }
+  kz_complain(reading, NULL, "scene", "asks for no study; at least one of: %s", names);
+}
+
+/* The default of a key, through the same door as a user's value. */
+static kz_status set_default(const kz_key *key, void *scene)
+{
+  kz_value_clear(key, scene);
+  if (key->type == KZ_KEY_MAPPING || !key->fallback || !key->fallback[0]) return KZ_OK;
+  kz_node *node;
+  const kz_node *culprit;
+  KZ_TRY(kz_tree_read(key->fallback, strlen(key->fallback), key->path, true, &node));
+  const char *wrong = kz_value_read(key, node, scene, &culprit);
+  kz_tree_free(node);
+  return wrong ? kz_fail(KZ_FAILED, "%s: its default %s", key->path, wrong) : KZ_OK;
+}
+
+static void number(kz_node *node, int *next)
+{
+  for (; node; node = node->next) {
+    node->order = (*next)++;
+    number(node->first, next);
+  }
+}
+
+kz_status kz_reading_keys(kz_reading *reading)
+{
+  int next = 0;
+  reading->first = INT_MAX;
+  number(reading->root, &next);
+  for (const kz_key *key = reading->keys; key->path; key++) KZ_TRY(set_default(key, reading->scene));
+  if (reading->root->kind != KZ_MAPPING) {
+    kz_complain(reading, reading->root, "scene", "is not a mapping; lines such as \"pendulum: {k: 0, damping: 0.05, m: 0.5}\"");
+    return KZ_OK;
+  }
+  read_mapping(reading, reading->root, "");
+  for (const kz_key *key = reading->keys; key->path; key++) check_missing(reading, key);
+  check_studies(reading);
+  return KZ_OK;
+}

@@ -1,0 +1,76 @@
+/* Rules between keys, and values that follow from others. Each rule complains at the node that a user would change. */
+#include <math.h>
+#include <stdio.h>
+
+#include "kapitza/scene.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* min < max, and cells that double precision can tell apart. `path` names the mapping of the axis. */
+static void check_axis(kz_reading *reading, const kz_axis *axis, const char *path)
+{
+  char name[128];
+  if (isnan(axis->min) || isnan(axis->max)) return;
+  snprintf(name, sizeof name, "%s.max", path);
+  const kz_node *node = kz_tree_find(reading->root, name);
+  const double cell = (axis->max - axis->min) / (double)(axis->count > 0 ? axis->count : 1);
+  if (axis->max <= axis->min)
+    kz_complain(reading, node, name, "%.17g is not above min = %.17g; a larger number", axis->max, axis->min);
+  else if (cell < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max)))
+    kz_complain(reading, node, name, "%.17g leaves cells of width %g, too narrow for double precision; a wider window or a smaller count",
+                axis->max, cell);
+}
+
+/* Both edges or neither; neither is the whole circle. */
+static void theta_window(kz_reading *reading, kz_axis *theta, const char *path)
+{
+  char min[128], max[128];
+  snprintf(min, sizeof min, "%s.min", path);
+  snprintf(max, sizeof max, "%s.max", path);
+  const kz_node *min_node = kz_tree_find(reading->root, min), *max_node = kz_tree_find(reading->root, max);
+  if (min_node && !max_node) kz_complain(reading, NULL, max, "is missing beside min; both or neither");
+  if (max_node && !min_node) kz_complain(reading, NULL, min, "is missing beside max; both or neither");
+  if (!min_node && !max_node) {
+    theta->min = -PI;
+    theta->max = PI;
+  }
+  check_axis(reading, theta, path);
+  if (theta->max - theta->min > 2.0 * PI)
+    kz_complain(reading, max_node, max, "%.17g makes the window %.17g rad wide; at most 2 pi", theta->max,
+                theta->max - theta->min);
+}
+
+static void basin_rules(kz_reading *reading, kz_scene *scene)
+{
+  if (!scene->has_basin) return;
+  theta_window(reading, &scene->basin.theta, "basin.theta");
+  check_axis(reading, &scene->basin.velocity, "basin.velocity");
+}
+
+/* The scheme's own steps where the scene gives none. */
+static void numerics_rules(kz_reading *reading, kz_scene *scene)
+{
+  (void)reading;
+  if (scene->numerics.steps_per_period != KZ_UNSET_WORD) return;
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  scene->numerics.steps_per_period = scheme.default_steps;
+}
+
+/* k, beta, m from the form that the scene chose; only a reading without complaints has it whole. */
+static void pendulum_rules(kz_reading *reading, kz_scene *scene)
+{
+  if (reading->message[0] || kz_parameters_resolve(&scene->parameters) == KZ_OK) return;
+  char wrong[256];
+  snprintf(wrong, sizeof wrong, "%s", kz_message());
+  kz_message_clear();
+  kz_complain(reading, kz_tree_child(reading->root, "pendulum"), "pendulum", "%s", wrong);
+}
+
+typedef void (*rule)(kz_reading *reading, kz_scene *scene);
+static const rule rules[] = {numerics_rules, basin_rules, pendulum_rules};
+
+void kz_reading_rules(kz_reading *reading)
+{
+  for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);
+}

@@ -1,0 +1,97 @@
+/* Strict scalars: decimal numbers only, no octal look, no nan, nothing quoted. */
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/scene.h"
+
+static const char *skip_digits(const char *c)
+{
+  while (isdigit((unsigned char)*c)) c++;
+  return c;
+}
+
+/* [-+] digits [. digits] [e [-+] digits], no leading zeros. *whole: neither point nor exponent. */
+static bool is_decimal(const char *text, bool *whole)
+{
+  const char *start = text + (*text == '-' || *text == '+');
+  const char *c = skip_digits(start);
+  long digits = c - start;
+  if (digits > 1 && *start == '0') return false;
+  *whole = *c == '\0';
+  if (*c == '.') {
+    const char *end = skip_digits(c + 1);
+    digits += end - c - 1;
+    c = end;
+  }
+  if (digits == 0) return false;
+  if (*c == 'e' || *c == 'E') {
+    const char *exponent = c + 1 + (c[1] == '-' || c[1] == '+');
+    c = skip_digits(exponent);
+    if (c == exponent) return false;
+  }
+  return *c == '\0';
+}
+
+/* What keeps a node from being an unquoted scalar, or NULL. */
+static const char *not_plain(const kz_node *node)
+{
+  if (node->kind == KZ_SEQUENCE) return "is a list";
+  if (node->kind == KZ_MAPPING) return "is a mapping";
+  if (!node->plain) return "stands in quotes";
+  return node->text[0] ? NULL : "is empty";
+}
+
+const char *kz_scalar_integer(const kz_node *node, int64_t *value)
+{
+  bool whole;
+  const char *wrong = not_plain(node);
+  if (wrong) return wrong;
+  if (!is_decimal(node->text, &whole)) return "is not a decimal number";
+  if (!whole) return "is not an integer";
+  errno = 0;
+  *value = strtoll(node->text, NULL, 10);
+  return errno ? "is out of range" : NULL;
+}
+
+const char *kz_scalar_real(const kz_node *node, double *value)
+{
+  bool whole;
+  const char *wrong = not_plain(node);
+  if (wrong) return wrong;
+  if (!is_decimal(node->text, &whole)) return "is not a finite decimal number";
+  *value = strtod(node->text, NULL);
+  if (!isfinite(*value)) return "is too large for double precision";
+  const size_t mantissa = strcspn(node->text, "eE");
+  if (*value == 0.0 && strcspn(node->text, "123456789") < mantissa) return "is too small for double precision";
+  return NULL;
+}
+
+const char *kz_scalar_boolean(const kz_node *node, bool *value)
+{
+  const char *wrong = not_plain(node);
+  if (wrong) return wrong;
+  *value = strcmp(node->text, "true") == 0;
+  return *value || strcmp(node->text, "false") == 0 ? NULL : "is neither true nor false";
+}
+
+const char *kz_scalar_text(const kz_node *node)
+{
+  if (node->kind == KZ_SEQUENCE) return "is a list";
+  if (node->kind == KZ_MAPPING) return "is a mapping";
+  if (node->plain && node->text[0] == '\0') return "is empty";
+  for (const char *c = node->text; *c; c++)
+    if ((unsigned char)*c < 0x20 || *c == 0x7f) return "holds a line break or a control character";
+  return strlen(node->text) > 500 ? "is longer than 500 bytes" : NULL;
+}
+
+void kz_scalar_print(double value, char *text)
+{
+  for (int digits = 15; digits <= 17; digits++) {
+    snprintf(text, 32, "%.*g", digits, value);
+    if (strtod(text, NULL) == value) return;
+  }
+}

@@ -1,0 +1,98 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/scene.h"
+
+void kz_tree_free(kz_node *root)
+{
+  while (root) {
+    kz_node *next = root->next;
+    kz_tree_free(root->first);
+    free(root->name);
+    free(root->text);
+    free(root);
+    root = next;
+  }
+}
+
+static kz_node *child_named(const kz_node *mapping, const char *name, size_t length)
+{
+  if (!mapping || mapping->kind != KZ_MAPPING) return NULL;
+  for (kz_node *child = mapping->first; child; child = child->next)
+    if (strlen(child->name) == length && strncmp(child->name, name, length) == 0) return child;
+  return NULL;
+}
+
+kz_node *kz_tree_child(const kz_node *mapping, const char *name) { return child_named(mapping, name, strlen(name)); }
+
+kz_node *kz_tree_find(const kz_node *root, const char *path)
+{
+  const size_t length = strcspn(path, ".");
+  kz_node *child = child_named(root, path, length);
+  return path[length] == '.' && child ? kz_tree_find(child, path + length + 1) : child;
+}
+
+static void append(kz_node *mapping, kz_node *child)
+{
+  kz_node **end = &mapping->first;
+  while (*end) end = &(*end)->next;
+  *end = child;
+}
+
+/* Puts the content of `value` in the place of `node`. */
+static void replace(kz_node *node, kz_node *value)
+{
+  value->next = node->next;
+  node->next = NULL;
+  const kz_node content = *value;
+  *value = *node;
+  *node = content;
+  kz_tree_free(value);
+}
+
+/* An empty mapping called `name` [length], created by the option that brought `value`. */
+static kz_node *new_mapping(const char *name, size_t length, const kz_node *value)
+{
+  kz_node *node = calloc(1, sizeof *node);
+  if (!node) return NULL;
+  node->kind = KZ_MAPPING;
+  node->source = value->source;
+  node->name = strndup(name, length);
+  if (node->name) return node;
+  free(node);
+  return NULL;
+}
+
+static kz_status set_here(kz_node *mapping, const char *name, kz_node *value)
+{
+  free(value->name);
+  value->name = strdup(name);
+  if (!value->name) {
+    const char *source = value->source;
+    kz_tree_free(value);
+    return kz_fail(KZ_FAILED, "out of memory while reading %s", source);
+  }
+  kz_node *old = kz_tree_child(mapping, name);
+  if (old)
+    replace(old, value);
+  else
+    append(mapping, value);
+  return KZ_OK;
+}
+
+kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value)
+{
+  const size_t length = strcspn(path, ".");
+  if (path[length] == '\0') return set_here(root, path, value);
+  kz_node *child = child_named(root, path, length);
+  if (!child) {
+    child = new_mapping(path, length, value);
+    if (child) append(root, child);
+  }
+  if (child && child->kind == KZ_MAPPING) return kz_tree_set(child, path + length + 1, value);
+  const char *source = value->source;
+  kz_tree_free(value);
+  if (!child) return kz_fail(KZ_FAILED, "out of memory while reading %s", source);
+  return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; a mapping there, or a --set of all of it", source,
+                 (int)length, path);
+}

@@ -1,0 +1,199 @@
+/* Values of the table's types: cleared, read from a node, printed. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/scene.h"
+
+static const char *read_text(const kz_key *key, const kz_node *node, void *field)
+{
+  (void)key;
+  const char *wrong = kz_scalar_text(node);
+  if (wrong) return wrong;
+  char *copy = strdup(node->text);
+  if (!copy) return "does not fit in memory";
+  free(*(char **)field);
+  *(char **)field = copy;
+  return NULL;
+}
+
+static const char *find_word(const kz_key *key, const kz_node *node, int64_t *index)
+{
+  const char *wrong = kz_scalar_text(node);
+  if (wrong) return wrong;
+  *index = 0;
+  for (const char *word = kz_key_words(key); *word; (*index)++) {
+    const size_t length = strcspn(word, "|");
+    if (strlen(node->text) == length && strncmp(word, node->text, length) == 0) return NULL;
+    word += length + (word[length] == '|');
+  }
+  return "is unknown";
+}
+
+static const char *read_word(const kz_key *key, const kz_node *node, void *field)
+{
+  int64_t index;
+  const char *wrong = find_word(key, node, &index);
+  if (!wrong) *(int32_t *)field = (int32_t)index;
+  return wrong;
+}
+
+static const char *read_index(const kz_key *key, const kz_node *node, void *field) { return find_word(key, node, field); }
+
+static const char *read_boolean(const kz_key *key, const kz_node *node, void *field)
+{
+  (void)key;
+  return kz_scalar_boolean(node, field);
+}
+
+static const char *find_integer(const kz_key *key, const kz_node *node, int64_t *value)
+{
+  const char *wrong = kz_scalar_integer(node, value);
+  if (wrong) return wrong;
+  return (double)*value < key->low || (double)*value > key->high ? "is out of range" : NULL;
+}
+
+static const char *read_integer(const kz_key *key, const kz_node *node, void *field)
+{
+  int64_t value;
+  const char *wrong = find_integer(key, node, &value);
+  if (!wrong) *(int64_t *)field = value;
+  return wrong;
+}
+
+static const char *read_count(const kz_key *key, const kz_node *node, void *field)
+{
+  int64_t value;
+  const char *wrong = find_integer(key, node, &value);
+  if (!wrong) *(int32_t *)field = (int32_t)value;
+  return wrong;
+}
+
+static const char *read_real(const kz_key *key, const kz_node *node, void *field)
+{
+  double value;
+  const char *wrong = kz_scalar_real(node, &value);
+  if (wrong) return wrong;
+  if (value < key->low || value > key->high) return "is out of range";
+  *(double *)field = value;
+  return NULL;
+}
+
+typedef const char *(*read_function)(const kz_key *key, const kz_node *node, void *field);
+
+/* One value, or one value of a list, by the type of its key. */
+static const read_function readers[] = {
+    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,       [KZ_KEY_BOOLEAN] = read_boolean,
+    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count,     [KZ_KEY_REAL] = read_real,
+    [KZ_KEY_WORDS] = read_index,     [KZ_KEY_INTEGERS] = read_integer, [KZ_KEY_REALS] = read_real,
+};
+
+static bool is_list(const kz_key *key) { return key->type >= KZ_KEY_WORDS; }
+
+/* kz_reals and kz_integers have one layout: a count and values of eight bytes. */
+static const char *read_list(const kz_key *key, const kz_node *node, kz_integers *list, const kz_node **culprit)
+{
+  if (node->kind != KZ_SEQUENCE) return "is not a list";
+  list->count = 0;
+  for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
+    if (list->count == KZ_LIST_MAX) return "is one value too many (at most 256)";
+    const char *wrong = readers[key->type](key, *culprit, &list->values[list->count++]);
+    if (wrong) return wrong;
+  }
+  *culprit = node;
+  return list->count > 0 ? NULL : "is an empty list";
+}
+
+const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit)
+{
+  void *field = (char *)scene + key->offset;
+  *culprit = node;
+  return is_list(key) ? read_list(key, node, field, culprit) : readers[key->type](key, node, field);
+}
+
+void kz_value_clear(const kz_key *key, void *scene)
+{
+  if (key->offset == KZ_NO_FIELD) return;
+  void *field = (char *)scene + key->offset;
+  switch (key->type) {
+  case KZ_KEY_MAPPING:
+  case KZ_KEY_BOOLEAN: *(bool *)field = false; break;
+  case KZ_KEY_TEXT: *(char **)field = NULL; break;
+  case KZ_KEY_WORD:
+  case KZ_KEY_COUNT: *(int32_t *)field = KZ_UNSET_WORD; break;
+  case KZ_KEY_INTEGER: *(int64_t *)field = KZ_UNSET_INTEGER; break;
+  case KZ_KEY_REAL: *(double *)field = NAN; break;
+  default: ((kz_integers *)field)->count = 0;
+  }
+}
+
+static bool is_set(const kz_key *key, const void *field)
+{
+  switch (key->type) {
+  case KZ_KEY_MAPPING: return false;
+  case KZ_KEY_BOOLEAN: return true;
+  case KZ_KEY_TEXT: return *(char *const *)field != NULL;
+  case KZ_KEY_WORD:
+  case KZ_KEY_COUNT: return *(const int32_t *)field != KZ_UNSET_WORD;
+  case KZ_KEY_INTEGER: return *(const int64_t *)field != KZ_UNSET_INTEGER;
+  case KZ_KEY_REAL: return !isnan(*(const double *)field);
+  default: return ((const kz_integers *)field)->count > 0;
+  }
+}
+
+bool kz_value_is_set(const kz_key *key, const void *scene)
+{
+  return key->offset != KZ_NO_FIELD && is_set(key, (const char *)scene + key->offset);
+}
+
+static void print_word(const kz_key *key, int64_t index, FILE *out)
+{
+  const char *word = kz_key_words(key);
+  for (; index > 0; index--) word += strcspn(word, "|") + 1;
+  fprintf(out, "%.*s", (int)strcspn(word, "|"), word);
+}
+
+static void print_real(double value, FILE *out)
+{
+  char text[32];
+  kz_scalar_print(value, text);
+  fputs(text, out);
+}
+
+/* In double quotes; what may stand in a text needs no other escapes. */
+static void print_text(const char *text, FILE *out)
+{
+  fputc('"', out);
+  for (; *text; text++) fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+  fputc('"', out);
+}
+
+static void print_list(const kz_key *key, const void *field, FILE *out)
+{
+  const kz_integers *integers = field;
+  const kz_reals *reals = field;
+  for (int64_t i = 0; i < integers->count; i++) {
+    fputs(i == 0 ? "[" : ", ", out);
+    if (key->type == KZ_KEY_WORDS) print_word(key, integers->values[i], out);
+    if (key->type == KZ_KEY_INTEGERS) fprintf(out, "%" PRId64, integers->values[i]);
+    if (key->type == KZ_KEY_REALS) print_real(reals->values[i], out);
+  }
+  fputc(']', out);
+}
+
+void kz_value_print(const kz_key *key, const void *scene, FILE *out)
+{
+  const void *field = (const char *)scene + key->offset;
+  switch (key->type) {
+  case KZ_KEY_MAPPING: break;
+  case KZ_KEY_BOOLEAN: fputs(*(const bool *)field ? "true" : "false", out); break;
+  case KZ_KEY_TEXT: print_text(*(char *const *)field, out); break;
+  case KZ_KEY_WORD: print_word(key, *(const int32_t *)field, out); break;
+  case KZ_KEY_COUNT: fprintf(out, "%" PRId32, *(const int32_t *)field); break;
+  case KZ_KEY_INTEGER: fprintf(out, "%" PRId64, *(const int64_t *)field); break;
+  case KZ_KEY_REAL: print_real(*(const double *)field, out); break;
+  default: print_list(key, field, out);
+  }
+}

@@ -1,0 +1,226 @@
+/* The only file that knows libyaml. A text is scanned first (depth, anchors, aliases, tags), so that the loader meets nothing
+ * that grows or refers elsewhere; then it is loaded and copied into a tree of kz_node. */
+#include <yaml.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/scene.h"
+
+enum { MAX_DEPTH = 16 };
+
+typedef struct {
+  const char *text;
+  size_t length;
+  const char *source;
+  bool option;
+} source_text;
+
+/* Token that a scene may not hold, and what to say about it. */
+static const struct {
+  yaml_token_type_t type;
+  bool in_options_only;
+  const char *wrong;
+} refused_tokens[] = {
+    {YAML_ANCHOR_TOKEN, false, "an anchor (&name) stands here; the value written out"},
+    {YAML_ALIAS_TOKEN, false, "an alias (*name) stands here; the value written out"},
+    {YAML_TAG_TOKEN, false, "a tag (!name) stands here; the value without it"},
+    {YAML_TAG_DIRECTIVE_TOKEN, false, "a %TAG directive stands here; YAML without tags"},
+    {YAML_BLOCK_MAPPING_START_TOKEN, true, "is a block mapping; flow text such as {min: -2, max: 2}"},
+    {YAML_BLOCK_SEQUENCE_START_TOKEN, true, "is a block list; flow text such as [1, 2]"},
+};
+
+static kz_status refuse(const source_text *source, size_t line, size_t column, const char *wrong)
+{
+  if (source->option) return kz_fail(KZ_REFUSED, "%s: %s", source->source, wrong);
+  return kz_fail(KZ_REFUSED, "%s:%zu:%zu: scene: %s", source->source, line + 1, column + 1, wrong);
+}
+
+/* What libyaml's reader or scanner stumbled over. The reader knows only an offset in bytes. */
+static kz_status refuse_problem(const source_text *source, const yaml_parser_t *parser)
+{
+  char wrong[256];
+  size_t line = parser->problem_mark.line, column = parser->problem_mark.column;
+  if (parser->error == YAML_MEMORY_ERROR) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
+  if (parser->error == YAML_READER_ERROR) {
+    const size_t end = parser->problem_offset < source->length ? parser->problem_offset : source->length;
+    line = column = 0;
+    for (size_t i = 0; i < end; i++) {
+      column = source->text[i] == '\n' ? 0 : column + (((unsigned char)source->text[i] & 0xC0) != 0x80);
+      line += source->text[i] == '\n';
+    }
+    snprintf(wrong, sizeof wrong, "is not text (%s); YAML in UTF-8 without control characters", parser->problem);
+  } else {
+    const size_t at = parser->problem_mark.index;
+    const bool tab = at < source->length && source->text[at] == '\t';
+    snprintf(wrong, sizeof wrong, "is not YAML: %s%s%s%s; lines such as \"key: value\", indented with spaces",
+             parser->problem ? parser->problem : "malformed", parser->context ? " " : "",
+             parser->context ? parser->context : "", tab ? " (a tab stands here)" : "");
+  }
+  return refuse(source, line, column, wrong);
+}
+
+static int depth_change(yaml_token_type_t type)
+{
+  switch (type) {
+  case YAML_BLOCK_SEQUENCE_START_TOKEN:
+  case YAML_BLOCK_MAPPING_START_TOKEN:
+  case YAML_FLOW_SEQUENCE_START_TOKEN:
+  case YAML_FLOW_MAPPING_START_TOKEN:
+    return 1;
+  case YAML_BLOCK_END_TOKEN:
+  case YAML_FLOW_SEQUENCE_END_TOKEN:
+  case YAML_FLOW_MAPPING_END_TOKEN:
+    return -1;
+  default:
+    return 0;
+  }
+}
+
+static kz_status check_token(const source_text *source, const yaml_token_t *token, int depth)
+{
+  const yaml_mark_t *at = &token->start_mark;
+  for (size_t i = 0; i < sizeof refused_tokens / sizeof refused_tokens[0]; i++)
+    if (token->type == refused_tokens[i].type && (source->option || !refused_tokens[i].in_options_only))
+      return refuse(source, at->line, at->column, refused_tokens[i].wrong);
+  if (depth > MAX_DEPTH) return refuse(source, at->line, at->column, "is nested too deeply; at most 16 levels");
+  return KZ_OK;
+}
+
+static void start_parser(yaml_parser_t *parser, const source_text *source)
+{
+  yaml_parser_set_encoding(parser, YAML_UTF8_ENCODING);
+  yaml_parser_set_input_string(parser, (const unsigned char *)source->text, source->length);
+}
+
+static kz_status scan(const source_text *source)
+{
+  yaml_parser_t parser;
+  if (!yaml_parser_initialize(&parser)) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
+  start_parser(&parser, source);
+  kz_status status = KZ_OK;
+  bool end = false;
+  for (int depth = 0; status == KZ_OK && !end;) {
+    yaml_token_t token;
+    if (!yaml_parser_scan(&parser, &token)) {
+      status = refuse_problem(source, &parser);
+      break;
+    }
+    depth += depth_change(token.type);
+    status = check_token(source, &token, depth);
+    end = token.type == YAML_STREAM_END_TOKEN;
+    yaml_token_delete(&token);
+  }
+  yaml_parser_delete(&parser);
+  return status;
+}
+
+static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from);
+
+/* Appends a copy of `from` to *end, named by the scalar `key` (NULL in a list). */
+static bool copy_child(yaml_document_t *document, const source_text *source, const yaml_node_t *key, const yaml_node_t *from,
+                       kz_node ***end)
+{
+  kz_node *child = copy(document, source, from);
+  if (!child) return false;
+  **end = child;
+  *end = &child->next;
+  if (!key) return true;
+  free(child->name);
+  child->name = strdup(key->type == YAML_SCALAR_NODE ? (const char *)key->data.scalar.value : "?");
+  child->name_line = source->option ? 0 : (int)key->start_mark.line + 1;
+  child->name_column = source->option ? 0 : (int)key->start_mark.column + 1;
+  return child->name != NULL;
+}
+
+static bool copy_children(yaml_document_t *document, const source_text *source, const yaml_node_t *from, kz_node *node)
+{
+  kz_node **end = &node->first;
+  if (from->type == YAML_SEQUENCE_NODE) {
+    for (const yaml_node_item_t *item = from->data.sequence.items.start; item < from->data.sequence.items.top; item++)
+      if (!copy_child(document, source, NULL, yaml_document_get_node(document, *item), &end)) return false;
+  } else if (from->type == YAML_MAPPING_NODE) {
+    for (const yaml_node_pair_t *pair = from->data.mapping.pairs.start; pair < from->data.mapping.pairs.top; pair++)
+      if (!copy_child(document, source, yaml_document_get_node(document, pair->key),
+                      yaml_document_get_node(document, pair->value), &end))
+        return false;
+  }
+  return true;
+}
+
+/* A scalar's text. A NUL written as "\0" would end it early: it becomes the control character 1, which no text may hold. */
+static char *copy_text(const yaml_node_t *from)
+{
+  const size_t length = from->data.scalar.length;
+  char *text = malloc(length + 1);
+  if (!text) return NULL;
+  memcpy(text, from->data.scalar.value, length);
+  for (size_t i = 0; i < length; i++)
+    if (text[i] == '\0') text[i] = '\1';
+  text[length] = '\0';
+  return text;
+}
+
+static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from)
+{
+  static const kz_node_kind kinds[] = {[YAML_SCALAR_NODE] = KZ_SCALAR, [YAML_SEQUENCE_NODE] = KZ_SEQUENCE,
+                                       [YAML_MAPPING_NODE] = KZ_MAPPING};
+  kz_node *node = calloc(1, sizeof *node);
+  if (!node) return NULL;
+  node->kind = kinds[from->type];
+  node->source = source->source;
+  node->line = source->option ? 0 : (int)from->start_mark.line + 1;
+  node->column = source->option ? 0 : (int)from->start_mark.column + 1;
+  node->name = strdup("");
+  if (node->kind == KZ_SCALAR) {
+    node->plain = from->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    node->text = copy_text(from);
+  }
+  if (node->name && (node->text || node->kind != KZ_SCALAR) && copy_children(document, source, from, node)) return node;
+  kz_tree_free(node);
+  return NULL;
+}
+
+/* Loads the next document; *root = NULL at the end of the text. */
+static kz_status load_next(yaml_parser_t *parser, const source_text *source, kz_node **root)
+{
+  yaml_document_t document;
+  *root = NULL;
+  if (!yaml_parser_load(parser, &document)) return refuse_problem(source, parser);
+  const yaml_node_t *top = yaml_document_get_root_node(&document);
+  if (top) *root = copy(&document, source, top);
+  const bool failed = top && !*root;
+  yaml_document_delete(&document);
+  return failed ? kz_fail(KZ_FAILED, "%s: out of memory", source->source) : KZ_OK;
+}
+
+static kz_status load(const source_text *source, kz_node **root)
+{
+  yaml_parser_t parser;
+  if (!yaml_parser_initialize(&parser)) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
+  start_parser(&parser, source);
+  kz_node *second = NULL;
+  kz_status status = load_next(&parser, source, root);
+  if (status == KZ_OK && !*root)
+    status = refuse(source, 0, 0, source->option ? "has no value; a value after =" : "is empty; a pendulum and a study");
+  else if (status == KZ_OK)
+    status = load_next(&parser, source, &second);
+  if (second) status = refuse(source, (size_t)second->line - 1, (size_t)second->column - 1,
+                              "a second YAML document begins here; only one");
+  kz_tree_free(second);
+  yaml_parser_delete(&parser);
+  if (status == KZ_OK) return KZ_OK;
+  kz_tree_free(*root);
+  *root = NULL;
+  return status;
+}
+
+kz_status kz_tree_read(const char *text, size_t length, const char *source, bool option, kz_node **root)
+{
+  const source_text from = {.text = text, .length = length, .source = source, .option = option};
+  *root = NULL;
+  if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0)
+    return refuse(&from, 0, 0, "begins with a byte-order mark; UTF-8 without it");
+  KZ_TRY(scan(&from));
+  return load(&from, root);
+}

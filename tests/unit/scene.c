@@ -1,0 +1,264 @@
+/* The table of keys, strict scalars, the reading of a scene and its resolved text. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "kapitza/scene.h"
+
+#define GOOD                                                        \
+  "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n" \
+  "basin:\n"                                                        \
+  "  velocity: {min: -2, max: 2}\n"
+
+static kz_status read_scene(const char *text, const char *set, kz_scene *scene)
+{
+  char *sets[1] = {(char *)set};
+  kz_message_clear();
+  return kz_scene_read(text, strlen(text), "s.yaml", set ? 1 : 0, sets, scene);
+}
+
+/* The whole message of a refused scene. */
+static void expect_refused(const char *text, const char *set, const char *message)
+{
+  kz_scene scene;
+  assert_int_equal(read_scene(text, set, &scene), KZ_REFUSED);
+  assert_string_equal(kz_message(), message);
+}
+
+static char *resolved(const kz_scene *scene)
+{
+  char *text;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  kz_scene_write(kz_keys, scene, false, out);
+  fclose(out);
+  return text;
+}
+
+static void defaults_are_those_of_the_table(void **state)
+{
+  (void)state;
+  kz_scene scene;
+  assert_int_equal(read_scene(GOOD, NULL, &scene), KZ_OK);
+  assert_true(scene.has_basin);
+  assert_string_equal(scene.title, "");
+  assert_int_equal(scene.basin.theta.count, 1000);
+  assert_true(scene.basin.theta.min == -M_PI && scene.basin.theta.max == M_PI);
+  assert_int_equal(scene.basin.method, KZ_METHOD_ICM);
+  assert_int_equal(scene.basin.interpolation, KZ_QUINTIC);
+  assert_int_equal(scene.numerics.precision, KZ_DOUBLE);
+  kz_scheme scheme;
+  kz_scheme_row(scene.numerics.scheme, &scheme);
+  assert_string_equal(scheme.name, "split6");
+  assert_int_equal(scene.numerics.steps_per_period, scheme.default_steps);
+  assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-18);
+  assert_true(fabs(scene.parameters.pendulum.beta - 1.0 / 55) < 1e-17);
+  kz_scene_free(&scene);
+}
+
+/* Forms a, b and c of one pendulum agree (BSG Eq. 1 and 2). */
+static void three_forms_agree(void **state)
+{
+  (void)state;
+  static const char *const forms[] = {
+      "pendulum={quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
+      "pendulum={k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}",
+      /* M r/I = 2.5 /m, omega = 100 rad/s: g = k omega^2/2.5, b = beta I omega, A = m/2.5 */
+      "pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
+      "pivot_amplitude: 0.12, pivot_frequency: 100}"};
+  for (int i = 0; i < 3; i++) {
+    kz_scene scene;
+    assert_int_equal(read_scene(GOOD, forms[i], &scene), KZ_OK);
+    assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-15);
+    assert_true(fabs(scene.parameters.pendulum.beta - 1.0 / 55) < 1e-15);
+    assert_true(fabs(scene.parameters.pendulum.m - 0.3) < 1e-15);
+    assert_true(fabs(scene.parameters.quality_factor - 5.0) < 1e-12);
+    assert_true(fabs(scene.parameters.drive_frequency - 11.0) < 1e-12);
+    kz_scene_free(&scene);
+  }
+}
+
+static void undefined_parameters_are_nan(void **state)
+{
+  (void)state;
+  kz_scene scene;
+  assert_int_equal(read_scene(GOOD, "pendulum={k: 0, damping: 0.05, m: 0.5}", &scene), KZ_OK);
+  assert_true(isnan(scene.parameters.quality_factor) && isnan(scene.parameters.drive_frequency));
+  assert_true(scene.parameters.drive_amplitude == 0.5);
+  kz_scene_free(&scene);
+  assert_int_equal(read_scene(GOOD, "pendulum={drive_frequency: 11, drive_amplitude: 0.3}", &scene), KZ_OK);
+  assert_true(scene.parameters.pendulum.beta == 0.0 && isnan(scene.parameters.quality_factor));
+  kz_scene_free(&scene);
+}
+
+static void resolved_text_is_a_fixed_point(void **state)
+{
+  (void)state;
+  kz_scene scene;
+  assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, precision: quad}", &scene), KZ_OK);
+  char *once = resolved(&scene);
+  kz_scene_free(&scene);
+  assert_int_equal(read_scene(once, NULL, &scene), KZ_OK);
+  assert_string_equal(scene.title, "say \"a\\b\"");
+  char *twice = resolved(&scene);
+  assert_string_equal(once, twice);
+  assert_non_null(strstr(once, "\n  steps_per_period: 100\n"));
+  free(once);
+  free(twice);
+  kz_scene_free(&scene);
+}
+
+static void options_override_and_create(void **state)
+{
+  (void)state;
+  kz_scene scene;
+  assert_int_equal(read_scene(GOOD, "basin.attractors.seed=7", &scene), KZ_OK);
+  assert_int_equal(scene.basin.seed, 7);
+  kz_scene_free(&scene);
+  assert_int_equal(read_scene(GOOD, "basin.velocity={min: 0, max: 1, count: 3}", &scene), KZ_OK);
+  assert_int_equal(scene.basin.velocity.count, 3);
+  assert_true(scene.basin.velocity.min == 0.0 && scene.basin.velocity.max == 1.0);
+  kz_scene_free(&scene);
+}
+
+static void errors_name_place_key_and_remedy(void **state)
+{
+  (void)state;
+  expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
+  expect_refused(GOOD "  method: imc\n", NULL,
+                 "s.yaml:4:11: basin.method: \"imc\" is unknown; one of icm, direct (did you mean icm?)");
+  expect_refused(GOOD "  max_periods: 1.5x\n", NULL,
+                 "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; an integer from 1 to 4000000000");
+  expect_refused("basin: {}\n", NULL, "s.yaml:1:1: pendulum: is missing; a mapping of quality_factor, drive_frequency, "
+                 "drive_amplitude, k, damping, m, mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency");
+  expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
+                 "s.yaml:4:16: basin.theta.max: 1 is not above min = 2; a larger number");
+  expect_refused(GOOD, "basin.theta.cout=2", "--set basin.theta.cout=2: basin.theta.cout: unknown key; did you mean basin.theta.count?");
+  expect_refused(GOOD, "basin.theta.count=x",
+                 "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; an integer from 1 to 1000000");
+}
+
+/* An error further up is told first, whichever check finds it; a missing key comes last. */
+static void first_error_in_document_order(void **state)
+{
+  (void)state;
+  expect_refused("basin:\n  velocity: {min: 2, max: -2}\npendulum: {k: nan}\n", NULL,
+                 "s.yaml:2:27: basin.velocity.max: -2 is not above min = 2; a larger number");
+  expect_refused("basin:\n  method: xyz\n", NULL, "s.yaml:2:11: basin.method: \"xyz\" is unknown; one of icm, direct");
+}
+
+static void scalars_are_strict(void **state)
+{
+  (void)state;
+  static const char *const bad[] = {"1.5x", "0x10", "maybe", ".nan",  ".inf", "nan", "inf", "-inf", "''",  "'1'", "\"1\"", "010", "1_0",
+                                    "1e",   "e1",   ".",     "1e999", "1e-999", "--1", "+-1", "1 2", "[1]", "{}", "~", "null", "1e1.5"};
+  for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+    char set[64];
+    kz_scene scene;
+    snprintf(set, sizeof set, "basin.velocity.max=%s", bad[i]);
+    if (read_scene(GOOD, set, &scene) != KZ_REFUSED) fail_msg("%s was accepted", set);
+    assert_non_null(strstr(kz_message(), "basin.velocity.max: "));
+  }
+  static const struct { const char *text; double value; } good[] = {
+      {"3", 3}, {"+3.5", 3.5}, {".5", .5}, {"5.", 5}, {"1e3", 1e3}, {"2E-1", .2}, {"0.1", 0.1}, {"5e-324", 5e-324}};
+  for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+    double value;
+    const kz_node node = {.kind = KZ_SCALAR, .text = (char *)good[i].text, .plain = true};
+    assert_null(kz_scalar_real(&node, &value));
+    assert_true(value == good[i].value);
+  }
+}
+
+static void structure_is_strict(void **state)
+{
+  (void)state;
+  expect_refused("", NULL, "s.yaml:1:1: scene: is empty; a pendulum and a study");
+  expect_refused("a: &x 1\n", NULL, "s.yaml:1:4: scene: an anchor (&name) stands here; the value written out");
+  expect_refused("a: *x\n", NULL, "s.yaml:1:4: scene: an alias (*name) stands here; the value written out");
+  expect_refused(GOOD "---\nb: 1\n", NULL, "s.yaml:5:1: scene: a second YAML document begins here; only one");
+  expect_refused("[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", NULL, "s.yaml:1:17: scene: is nested too deeply; at most 16 levels");
+  expect_refused("a: 1\nb: \xff\n", NULL,
+                 "s.yaml:2:4: scene: is not text (invalid leading UTF-8 octet); YAML in UTF-8 without control characters");
+  expect_refused("title: a\ntitle: b\n" GOOD, NULL, "s.yaml:2:1: title: is given twice; once");
+  expect_refused("pendulum: {k: 0, m: 1, mass: 3}\nbasin: {}\n", NULL,
+                 "s.yaml:1:24: pendulum.mass: contradicts pendulum.k, another way to give the same; the keys of one way");
+}
+
+/* A table of its own tries the types that hold lists. */
+typedef struct {
+  kz_reals reals;
+  kz_integers integers, words;
+  bool boolean, study;
+} lists;
+static const kz_key list_keys[] = {
+    {.path = "s", .type = KZ_KEY_MAPPING, .unit = "", .fallback = "", .offset = offsetof(lists, study), .help = ""},
+    {.path = "s.r", .type = KZ_KEY_REALS, .unit = "rad", .low = -1, .high = 9, .fallback = "[0.5]", .offset = offsetof(lists, reals), .help = ""},
+    {.path = "s.i", .type = KZ_KEY_INTEGERS, .unit = "", .low = 2, .high = 64, .fallback = "", .offset = offsetof(lists, integers), .help = ""},
+    {.path = "s.w", .type = KZ_KEY_WORDS, .unit = "", .words = "red|green", .fallback = "[green, red]", .offset = offsetof(lists, words), .help = ""},
+    {.path = "s.b", .type = KZ_KEY_BOOLEAN, .unit = "", .fallback = "false", .offset = offsetof(lists, boolean), .help = ""},
+    {.path = NULL}};
+
+static void lists_are_read_and_written(void **state)
+{
+  (void)state;
+  static const struct { const char *text, *message, *written; } cases[] = {
+      {"s: {}\n", "", "s.r: [0.5]\ns.w: [green, red]\ns.b: false\n"},
+      {"s: {r: [1, 2.5], i: [2, 64], w: [red], b: true}\n", "", "s.r: [1, 2.5]\ns.i: [2, 64]\ns.w: [red]\ns.b: true\n"},
+      {"s: {i: [2, 65]}\n", "f:1:12: s.i: \"65\" is out of range; a list of integers from 2 to 64", NULL},
+      {"s: {w: [red, gren]}\n", "f:1:14: s.w: \"gren\" is unknown; a list out of red, green (did you mean green?)", NULL},
+      {"s: {r: []}\n", "f:1:8: s.r: the value is an empty list; a list of numbers from -1 to 9 in rad", NULL},
+      {"s: {r: 1}\n", "f:1:8: s.r: \"1\" is not a list; a list of numbers from -1 to 9 in rad", NULL},
+      {"s: {b: yes}\n", "f:1:8: s.b: \"yes\" is neither true nor false; true or false", NULL}};
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    lists scene;
+    kz_reading reading = {.keys = list_keys, .scene = &scene, .file = "f"};
+    assert_int_equal(kz_tree_read(cases[i].text, strlen(cases[i].text), "f", false, &reading.root), KZ_OK);
+    assert_int_equal(kz_reading_keys(&reading), KZ_OK);
+    assert_string_equal(reading.message, cases[i].message);
+    kz_tree_free(reading.root);
+    if (!cases[i].written) continue;
+    char *text;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    kz_scene_write(list_keys, &scene, true, out);
+    fclose(out);
+    assert_string_equal(text, cases[i].written);
+    free(text);
+  }
+}
+
+/* Every row has a help, a default that its own range accepts, and a mapping above it in the table. */
+static void table_is_sound(void **state)
+{
+  (void)state;
+  kz_scene scene;
+  memset(&scene, 0, sizeof scene);
+  for (const kz_key *key = kz_keys; key->path; key++) {
+    char parent[128];
+    const char *dot = strrchr(key->path, '.');
+    assert_true(key->help && key->help[0]);
+    assert_ptr_equal(kz_key_find(kz_keys, key->path), key);
+    snprintf(parent, sizeof parent, "%.*s", dot ? (int)(dot - key->path) : 0, key->path);
+    const kz_key *above = dot ? kz_key_find(kz_keys, parent) : NULL;
+    assert_true(!dot || (above && above < key && above->type == KZ_KEY_MAPPING));
+  }
+  assert_int_equal(read_scene(GOOD, NULL, &scene), KZ_OK);
+  kz_scene_free(&scene);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(defaults_are_those_of_the_table), cmocka_unit_test(three_forms_agree),
+      cmocka_unit_test(undefined_parameters_are_nan),    cmocka_unit_test(resolved_text_is_a_fixed_point),
+      cmocka_unit_test(options_override_and_create),     cmocka_unit_test(errors_name_place_key_and_remedy),
+      cmocka_unit_test(first_error_in_document_order),   cmocka_unit_test(scalars_are_strict),
+      cmocka_unit_test(structure_is_strict),             cmocka_unit_test(lists_are_read_and_written),
+      cmocka_unit_test(table_is_sound),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
