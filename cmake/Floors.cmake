@@ -22,6 +22,8 @@ function(kapitza_floor name)
   list(FILTER sources EXCLUDE REGEX "/main\\.c$")
   if(NOT sources) # a floor that nobody has built yet
     add_library(kapitza_${name} INTERFACE)
+    list(TRANSFORM arg_FLOORS PREPEND kapitza_)
+    target_link_libraries(kapitza_${name} INTERFACE ${arg_FLOORS})
     return()
   endif()
   add_library(kapitza_${name} STATIC ${sources})

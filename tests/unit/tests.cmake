@@ -1,0 +1,1 @@
+kapitza_test(scene LABEL unit FLOOR app)
