@@ -1,0 +1,80 @@
+"""The one reader of kapitza's result files (HDF5, netCDF-4 readable).
+
+>>> result = Result("blackburn-fig12.h5")
+>>> basin = result.group("basin")           # an xarray.Dataset, in memory
+>>> result.pendulum["k"], result.attributes["title"]
+"""
+
+import sys
+from pathlib import Path
+
+import h5py
+import xarray
+
+# Variables without which a group is of no use to any script; the study that writes a group adds its row here.
+NEEDED = {
+    "attractors": ["period", "winding", "centre", "name", "mirror", "strobe_theta", "strobe_velocity"],
+    "basin": ["theta", "velocity", "attractor", "settling_time", "evidence"],
+}
+
+
+class BadFile(Exception):
+    """A file that cannot be used; the text says which and why, in one line."""
+
+
+class Result:
+    """A complete result file of kapitza."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        self.attributes, self.groups, self.pendulum = self._open()
+
+    def _open(self):
+        if not self.path.is_file():
+            raise BadFile(f"{self.path}: no such file")
+        try:
+            with h5py.File(self.path, "r") as file:
+                attributes = {name: _plain(value) for name, value in file.attrs.items()}
+                groups = [name for name, item in file.items() if isinstance(item, h5py.Group)]
+                pendulum = {name: _plain(value) for name, value in file["pendulum"].attrs.items()} if "pendulum" in file else {}
+        except OSError as error:
+            reason = "truncated" if "truncated" in str(error) else "not an HDF5 file, or damaged"
+            raise BadFile(f"{self.path}: {reason}") from error
+        except (KeyError, RuntimeError, ValueError) as error:
+            raise BadFile(f"{self.path}: damaged") from error
+        if attributes.get("program") != "kapitza":
+            raise BadFile(f"{self.path}: not a result of kapitza")
+        if not {"k", "beta", "m"} <= pendulum.keys():
+            raise BadFile(f"{self.path}: incomplete, the group pendulum lacks k, beta or m")
+        return attributes, groups, pendulum
+
+    def group(self, name):
+        """The group as an xarray.Dataset, read whole."""
+        if name not in self.groups:
+            held = ", ".join(group for group in self.groups if group != "pendulum") or "none"
+            raise BadFile(f"{self.path}: holds no {name} (studies in it: {held})")
+        try:
+            with xarray.open_dataset(self.path, group=name, engine="h5netcdf") as dataset:
+                dataset = dataset.load()
+        except Exception as error:  # h5py and h5netcdf raise many kinds for one cause: the bytes are damaged
+            raise BadFile(f"{self.path}: damaged in the group {name}") from error
+        lacking = [variable for variable in NEEDED.get(name, []) if variable not in dataset]
+        if lacking:
+            raise BadFile(f"{self.path}: incomplete, the group {name} lacks {', '.join(lacking)}")
+        return dataset
+
+
+def _plain(value):
+    """An attribute as str, int or float."""
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if hasattr(value, "item") and getattr(value, "size", 1) == 1 else value
+
+
+def run(main):
+    """Calls main() and ends the script: one line and status 1 for a file that cannot be used."""
+    try:
+        main()
+    except BadFile as error:
+        print(f"error: {error}", file=sys.stderr)
+        sys.exit(1)
