@@ -1,0 +1,251 @@
+#!/usr/bin/env python3
+"""Draws the basins of attraction in a result file of kapitza.
+
+    scripts/plot_basin.py blackburn-fig12.h5                              every basin in its colour
+    scripts/plot_basin.py blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
+    scripts/plot_basin.py blackburn-fig12.h5 --quantity settling_time     how long every start takes to settle
+"""
+
+import argparse
+import warnings
+from pathlib import Path
+
+import kapitza_style as style
+import matplotlib.pyplot as plt
+import numpy as np
+from kapitza_file import BadFile, Result, run
+from matplotlib.colors import LogNorm, to_rgb
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b"]
+FORMATS = ("png", "svg", "pdf")
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", help="result file that holds a basin")
+    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence"], default="attractor")
+    parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
+    parser.add_argument("--centre", choices=["down", "inverted"], default="down",
+                        help="state in the middle of a whole-circle picture (default: down)")
+    parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
+    parser.add_argument("--no-legend", action="store_true")
+    parser.add_argument("--dpi", type=int, default=200)
+    arguments = parser.parse_args()
+    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
+    if arguments.output.suffix[1:].lower() not in FORMATS:
+        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
+    if arguments.attractor and (arguments.quantity != "attractor" or arguments.shade):
+        parser.error("--attractor goes with neither --quantity nor --shade")
+    return arguments
+
+
+class Plane:
+    """The window of starts as drawn: cells in the order of the picture, and its edges."""
+
+    def __init__(self, basin, centre):
+        theta, velocity = basin["theta"].values, basin["velocity"].values
+        width = _step(theta) * len(theta)
+        self.whole_circle = abs(width - 2 * np.pi) < 1e-9
+        turn = len(theta) // 2 if self.whole_circle and centre == "inverted" else 0
+        self.order = np.roll(np.arange(len(theta)), -turn)
+        left = theta[0] - _step(theta) / 2 + turn * _step(theta)
+        self.theta_range = (left, left + width)
+        half = _step(velocity) / 2
+        self.velocity_range = (velocity[0] - half, velocity[-1] + half)
+
+    def cells(self, variable):
+        """A (velocity, theta) variable in the order of the picture."""
+        return variable.values[:, self.order]
+
+    def inside(self, theta, velocity):
+        """Every image of the points, theta + 2 pi n, that lies in the window (edges included)."""
+        theta, velocity = np.ravel(theta), np.ravel(velocity)
+        known = np.isfinite(theta)
+        theta, velocity = theta[known], velocity[known]
+        (left, right), (low, high) = self.theta_range, self.velocity_range
+        turns = np.arange(np.floor((left - np.pi) / (2 * np.pi)), np.ceil((right + np.pi) / (2 * np.pi)) + 1)
+        images = theta[:, None] + 2 * np.pi * turns
+        heights = np.broadcast_to(velocity[:, None], images.shape)
+        edge = 1e-9
+        keep = (images >= left - edge) & (images <= right + edge) & (heights >= low) & (heights <= high)
+        return images[keep], heights[keep]
+
+    @property
+    def extent(self):
+        return (*self.theta_range, *self.velocity_range)
+
+    @property
+    def shape(self):
+        """Height over width of the picture: a radian is as long on both axes where that gives a readable shape."""
+        width, height = np.ptp(self.theta_range), np.ptp(self.velocity_range)
+        return height / width if 1 / 3 <= height / width <= 1.5 else 0.7
+
+
+def _step(centres):
+    """Width of a cell; a single cell is drawn one unit wide."""
+    return (centres[-1] - centres[0]) / (len(centres) - 1) if len(centres) > 1 else 1.0
+
+
+def chosen_ids(result, attractors, wanted):
+    """The ids that ID or NAME stands for."""
+    names = [str(name) for name in attractors["name"].values]
+    ids = [index for index, name in enumerate(names) if name == wanted]
+    if not ids and wanted.lstrip("-").isdigit() and 0 <= int(wanted) < len(names):
+        ids = [int(wanted)]
+    if not ids:
+        raise BadFile(f"{result.path}: has no attractor {wanted}; it has 0..{len(names) - 1}: {', '.join(dict.fromkeys(names))}")
+    return ids
+
+
+def draw_basins(axes, plane, basin, attractors, shaded):
+    """Every basin in its colour."""
+    colours = style.colours(attractors)
+    table = np.array([to_rgb(colour) for colour in [*colours, style.UNSETTLED]])
+    image = table[plane.cells(basin["attractor"])]  # -1 takes the last row
+    if shaded:
+        image = image * (1 - 0.55 * _slowness(plane.cells(basin["settling_time"])))[..., None]
+    axes.imshow(image, extent=plane.extent, origin="lower", aspect="auto")
+    for index, colour in enumerate(colours):
+        mark_strobe_points(axes, plane, attractors, [index], style.shade(colour, -0.45))
+    return basin_entries(attractors, colours, basin["attractor"].values)
+
+
+def _slowness(periods):
+    """0 for the cells that settle first, 1 for the slowest percent, by the logarithm of the time."""
+    time = np.log1p(periods.astype(float))
+    return np.clip(time / max(np.percentile(time, 99), 1e-300), 0, 1)
+
+
+def mark_strobe_points(axes, plane, attractors, ids, colour):
+    """Every strobe point of the attractors, at every place of the window where it shows."""
+    theta, velocity = plane.inside(attractors["strobe_theta"].values[ids], attractors["strobe_velocity"].values[ids])
+    axes.plot(theta, velocity, "o", markersize=4.6, markerfacecolor=colour, markeredgecolor="white", markeredgewidth=0.9,
+              clip_on=False, zorder=3)
+
+
+def basin_entries(attractors, colours, labels):
+    """Legend entries (colour, name, share) of the basins that have cells here, largest first; the unsettled cells last."""
+    entries = [(colour, name, np.mean(labels == index))
+               for index, (name, colour) in enumerate(zip(attractors["name"].values, colours, strict=True))]
+    entries.sort(key=lambda entry: -entry[2])
+    entries.append((style.UNSETTLED, "not settled", np.mean(labels < 0)))
+    return [entry for entry in entries if entry[2] > 0]
+
+
+def draw_one(axes, plane, basin, attractors, ids):
+    """One basin black on white, its strobe points as open rings."""
+    mine = np.isin(basin["attractor"].values, ids)
+    axes.imshow(np.where(mine[:, plane.order, None], 0.0, 1.0) * np.ones(3), extent=plane.extent, origin="lower", aspect="auto")
+    theta, velocity = plane.inside(attractors["strobe_theta"].values[ids], attractors["strobe_velocity"].values[ids])
+    axes.plot(theta, velocity, "o", markersize=5, markerfacecolor="white", markeredgecolor="black", markeredgewidth=1,
+              clip_on=False, zorder=3)
+    return [("black", attractors["name"].values[ids[0]], np.mean(mine))]
+
+
+def draw_settling_time(axes, plane, basin):
+    """Drive periods until capture, on a logarithmic scale; unsettled cells stay white."""
+    time = np.ma.masked_where(plane.cells(basin["attractor"]) < 0, plane.cells(basin["settling_time"]).astype(float) + 1)
+    colours = plt.get_cmap("cividis").with_extremes(bad="white")
+    image = axes.imshow(time, extent=plane.extent, origin="lower", aspect="auto", cmap=colours,
+                        norm=LogNorm(1, max(2.0, time.max() if time.count() else 2.0)))
+    bar = axes.figure.colorbar(image, cax=axes.inset_axes([1.02, 0, 0.025, 1]))
+    bar.set_label("drive periods until trapped, plus one")
+    bar.outline.set_linewidth(0.7)
+    return []
+
+
+def draw_evidence(axes, plane, basin):
+    """On what ground every cell got its label."""
+    evidence = plane.cells(basin["evidence"])
+    table = np.array([to_rgb(colour) for colour in EVIDENCE_COLOURS])
+    axes.imshow(table[evidence], extent=plane.extent, origin="lower", aspect="auto")
+    words = str(basin["evidence"].attrs["flag_meanings"]).split()
+    return [(colour, word.replace("_", " "), np.mean(evidence == code))
+            for code, (colour, word) in enumerate(zip(EVIDENCE_COLOURS, words, strict=False)) if np.any(evidence == code)]
+
+
+def write_legend(axes, entries):
+    """Colour and name in one column, the share in the next, digits under digits."""
+    shares = [style.share_text(share) for _, _, share in entries]
+    digits = max(share.find(".") if "." in share else share.find(" ") for share in shares)
+    figure_space = "\u2007"
+    patches = [Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5, label=style.name_text(name))
+               for colour, name, _ in entries]
+    columns = [Line2D([], [], linestyle="", label=figure_space * (digits - max(share.find("."), 1)) + share) for share in shares]
+    legend = axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0),
+                         borderaxespad=0, handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize=8)
+    legend.set_in_layout(False)  # beside the axes, whose size stays the same in every figure
+
+
+def label_axes(axes, plane):
+    """Angle in units of pi, velocity in its own unit."""
+    axes.set_xlim(plane.theta_range)
+    axes.set_ylim(plane.velocity_range)
+    width = np.ptp(plane.theta_range) / np.pi
+    step = min((1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2), key=lambda step: abs(width / step - 5))
+    first = np.ceil(plane.theta_range[0] / np.pi / step - 1e-9)
+    ticks = np.arange(first, plane.theta_range[1] / np.pi / step + 1e-9) * step
+    if width > 1 / 16:
+        axes.set_xticks(ticks * np.pi, [style.pi_text(tick) for tick in ticks])
+    axes.set_xlabel("angle θ from down (rad)")
+    axes.set_ylabel("velocity dθ/d(ωt) (rad per drive radian)")
+    axes.tick_params(direction="out", length=3)
+
+
+def write_titles(axes, result, basin):
+    """The scene's title, the parameters, and how the labels were found."""
+    axes.set_title(result.attributes.get("title") or result.path.stem, pad=22)
+    axes.text(0, 1.02, style.parameters_text(result.pendulum), transform=axes.transAxes, va="bottom", ha="left",
+              fontsize=9, color=style.FAINT)
+    rows, columns = basin["attractor"].shape
+    axes.text(1, 1.02, f"{columns} × {rows} starts, {_method(basin)}", transform=axes.transAxes, va="bottom", ha="right",
+              fontsize=8, color=style.FAINT)
+
+
+def _method(basin):
+    words = {"icm": "interpolated cell mapping", "direct": "integrated directly", "hybrid": "mapped and re-integrated"}
+    method = str(basin.attrs.get("method", ""))
+    return words.get(method, method)
+
+
+def draw(arguments):
+    result = Result(arguments.file)
+    basin, attractors = result.group("basin"), result.group("attractors")
+    plane = Plane(basin, arguments.centre)
+    width = 7.2
+    figure, axes = plt.subplots(figsize=(width, width * plane.shape), layout="constrained")
+    axes.set_box_aspect(plane.shape)
+    if arguments.attractor:
+        entries = draw_one(axes, plane, basin, attractors, chosen_ids(result, attractors, arguments.attractor))
+    elif arguments.quantity == "attractor":
+        entries = draw_basins(axes, plane, basin, attractors, arguments.shade)
+    elif arguments.quantity == "evidence":
+        entries = draw_evidence(axes, plane, basin)
+    else:
+        entries = draw_settling_time(axes, plane, basin)
+    label_axes(axes, plane)
+    write_titles(axes, result, basin)
+    if entries and not arguments.no_legend:
+        write_legend(axes, entries)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # a missing glyph or a failed layout is a fault, not a footnote
+        figure.savefig(arguments.output, dpi=arguments.dpi, bbox_inches="tight", metadata=_no_clock(arguments.output))
+    print(arguments.output)
+
+
+def _no_clock(output):
+    """The same file gives the same picture, byte for byte."""
+    return {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(output.suffix.lower(), {})
+
+
+def main():
+    arguments = parse_arguments()
+    style.use()
+    draw(arguments)
+
+
+if __name__ == "__main__":
+    run(main)

@@ -1,0 +1,116 @@
+"""Shared fixtures: a result file as the contract asks for, made without the program, and the program itself."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "build" / "kapitza"
+TEXT = h5py.string_dtype("utf-8")
+
+
+def pytest_configure(config):
+    """The mpirun settings of scripts/setup, for those who call pytest by hand."""
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                      OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_orte_execute_quiet="1")
+
+
+def attractor_name(period, winding, centre):
+    """The contract's name of a periodic attractor."""
+    if centre == 2:
+        return f"rotation {winding:+d}/{period}"
+    about = ("down", "inverted", "", "other")[centre]
+    if (centre, period) == (1, 2):
+        return "flutter"
+    return about if period == 1 else f"{about} {period}-nodding"
+
+
+def write_result(path, attractors, theta, velocity, labels, settling_time, title="", pendulum=None):
+    """Writes the groups pendulum, attractors and basin. attractors: dicts of period, winding, centre, points (n, 2)."""
+    count, phases = len(attractors), max(len(row["points"]) for row in attractors)
+    strobe = np.full((2, count, phases), np.nan)
+    for index, row in enumerate(attractors):
+        strobe[:, index, : len(row["points"])] = np.transpose(row["points"])
+    with h5py.File(path, "w") as file:
+        file.attrs.update({"title": title, "program": "kapitza", "version": "0.1.0", "Conventions": "CF-1.8"})
+        file.create_group("pendulum").attrs.update(pendulum or {"k": 1 / 121, "beta": 1 / 55, "m": 0.3})
+        group = file.create_group("attractors")
+        _scale(group, "attractor", np.arange(count, dtype="i4"), "id")
+        _scale(group, "phase", np.arange(phases, dtype="i4"), "strobe point")
+        for name in ("period", "winding"):
+            _variable(group, name, [row[name] for row in attractors], "i4", ["attractor"])
+        _variable(group, "centre", [row["centre"] for row in attractors], "i1", ["attractor"])
+        _variable(group, "mirror", _mirrors(attractors), "i4", ["attractor"])
+        names = [attractor_name(row["period"], row["winding"], row["centre"]) for row in attractors]
+        _variable(group, "name", np.array(names, dtype=object), TEXT, ["attractor"])
+        _variable(group, "fraction", [np.mean(labels == index) for index in range(count)], "f8", ["attractor"])
+        _variable(group, "strobe_theta", strobe[0], "f8", ["attractor", "phase"])
+        _variable(group, "strobe_velocity", strobe[1], "f8", ["attractor", "phase"])
+        group = file.create_group("basin")
+        group.attrs.update({"method": "icm", "max_periods": 2000})
+        _scale(group, "velocity", velocity, "velocity")
+        _scale(group, "theta", theta, "angle from down")
+        _variable(group, "attractor", labels, "i2", ["velocity", "theta"])
+        _variable(group, "settling_time", settling_time, "u4", ["velocity", "theta"])
+        _variable(group, "evidence", np.where(labels < 0, 0, 2), "u1", ["velocity", "theta"])
+        group["evidence"].attrs["flag_meanings"] = "unsettled started_inside followed integrated"
+
+
+def _mirrors(attractors):
+    """The id of the attractor through (-theta, -v) of each one's first point."""
+    def distance(row, point):
+        gap = row["points"] - point
+        gap[:, 0] -= 2 * np.pi * np.rint(gap[:, 0] / (2 * np.pi))
+        return np.abs(gap).sum(axis=1).min()
+    images = [-np.asarray(row["points"])[0] for row in attractors]
+    return [min(range(len(attractors)), key=lambda index: distance(attractors[index], image)) for image in images]
+
+
+def _scale(group, name, values, long_name):
+    group.create_dataset(name, data=values)
+    group[name].make_scale(name)
+    group[name].attrs.update({"units": "1", "long_name": long_name})
+
+
+def _variable(group, name, values, dtype, dimensions):
+    data = group.create_dataset(name, data=np.asarray(values, dtype=None if dtype is TEXT else dtype), dtype=dtype)
+    data.attrs.update({"units": "1", "long_name": name.replace("_", " ")})
+    for axis, dimension in enumerate(dimensions):
+        data.dims[axis].attach_scale(group[dimension])
+
+
+@pytest.fixture
+def made_file(tmp_path):
+    """A small result file: a circle with rotations, a mirror pair, a strobe point on the seam, and unsettled cells."""
+    attractors = [
+        {"period": 1, "winding": 0, "centre": 0, "points": np.array([[0.0, 0.0]])},
+        {"period": 1, "winding": 0, "centre": 1, "points": np.array([[-np.pi, 0.0]])},
+        {"period": 3, "winding": 0, "centre": 1, "points": np.array([[2.1, -0.1], [2.9, -0.05], [-2.8, 0.2]])},
+        {"period": 3, "winding": 0, "centre": 1, "points": np.array([[2.8, -0.2], [-2.1, 0.1], [-2.9, 0.05]])},
+        {"period": 1, "winding": 1, "centre": 2, "points": np.array([[3.0, 1.1]])},
+        {"period": 1, "winding": -1, "centre": 2, "points": np.array([[-3.0, -1.1]])},
+    ]
+    theta = (2 * np.arange(60) + 1 - 60) * (np.pi / 60)
+    velocity = (2 * np.arange(40) + 1 - 40) * (2 / 40)
+    labels = np.fromfunction(lambda i, j: (i // 7 + j // 9) % 7 - 1, (40, 60)).astype("i2")
+    path = tmp_path / "made.h5"
+    write_result(path, attractors, theta, velocity, labels, np.where(labels < 0, 2000, 5), title="A made-up plane")
+    return path
+
+
+@pytest.fixture(scope="session")
+def kapitza():
+    """Runs the program: kapitza("run", scene, ranks=2, folder=..., check=0) -> CompletedProcess."""
+    assert PROGRAM.is_file(), "build/kapitza is missing: scripts/setup builds it"
+
+    def call(*arguments, ranks=None, folder=ROOT, status=0):
+        launcher = ["mpirun", "-n", str(ranks)] if ranks else []
+        done = subprocess.run([*launcher, PROGRAM, *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=280)
+        assert status is None or done.returncode == status, done.stderr + done.stdout
+        return done
+
+    return call

@@ -1,0 +1,141 @@
+"""The plotting script: every mode draws, draws what the file says, and files that cannot be used are refused in one line."""
+
+import io
+import subprocess
+import sys
+from contextlib import redirect_stderr, redirect_stdout
+
+import h5py
+import matplotlib.image
+import numpy as np
+import plot_basin
+import pytest
+from conftest import ROOT
+from hypothesis import given
+from hypothesis import strategies as st
+from kapitza_file import Result, run
+
+SCRIPT = ROOT / "scripts" / "plot_basin.py"
+
+
+def plot(*arguments):
+    """The script's returncode, stdout and stderr, without the second that a new Python takes."""
+    output, errors, status = io.StringIO(), io.StringIO(), 0
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(errors):
+        patch.setattr(sys, "argv", [str(SCRIPT), *map(str, arguments)])
+        try:
+            run(plot_basin.main)
+        except SystemExit as end:
+            status = end.code
+        finally:
+            plot_basin.plt.close("all")
+    return subprocess.CompletedProcess(arguments, status, output.getvalue(), errors.getvalue())
+
+
+def test_the_script_runs_by_itself(made_file, tmp_path):
+    done = subprocess.run([sys.executable, SCRIPT, made_file], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "made.png\n", "")
+    assert (tmp_path / "made.png").is_file()
+
+
+@pytest.mark.parametrize("options", [[], ["--shade"], ["--centre", "inverted"], ["--quantity", "settling_time"],
+                                     ["--quantity", "evidence"], ["--attractor", "inverted"], ["--attractor", "2"], ["--no-legend"]])
+def test_every_mode_draws(made_file, tmp_path, options):
+    done = plot(made_file, "-o", tmp_path / "out.png", "--dpi", 100, *options)
+    assert (done.returncode, done.stderr) == (0, "")
+    image = matplotlib.image.imread(tmp_path / "out.png")
+    assert image.shape[1] > 600 and image[..., :3].std() > 0.05
+
+
+@pytest.mark.parametrize("suffix, first", [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
+def test_formats_are_what_they_say_and_repeatable(made_file, tmp_path, suffix, first):
+    pictures = [tmp_path / f"{name}.{suffix}" for name in "ab"]
+    for picture in pictures:
+        assert plot(made_file, "-o", picture).returncode == 0
+    assert pictures[0].read_bytes().startswith(first)
+    assert pictures[0].read_bytes() == pictures[1].read_bytes()
+
+
+def test_the_legend_gives_names_and_shares(made_file, tmp_path):
+    assert plot(made_file, "-o", tmp_path / "out.svg").returncode == 0
+    text = (tmp_path / "out.svg").read_text()
+    labels = Result(made_file).group("basin")["attractor"].values
+    share = plot_basin.style.share_text(np.mean(labels == 4))
+    assert "rotation +1/1" in text and "not settled" in text and share in text
+
+
+def test_black_and_white_draws_just_that_basin(made_file):
+    result = Result(made_file)
+    basin, attractors = result.group("basin"), result.group("attractors")
+    assert plot_basin.chosen_ids(result, attractors, "inverted 3-nodding") == [2, 3]
+    assert plot_basin.chosen_ids(result, attractors, "3") == [3]
+    axes = plot_basin.plt.figure().add_subplot()
+    ((_, _, share),) = plot_basin.draw_one(axes, plot_basin.Plane(basin, "down"), basin, attractors, [2, 3])
+    drawn = axes.images[0].get_array()[..., 0] == 0
+    assert np.array_equal(drawn, np.isin(basin["attractor"].values, [2, 3])) and share == drawn.mean()
+
+
+def test_a_strobe_point_on_the_seam_shows_on_both_edges(made_file):
+    plane = plot_basin.Plane(Result(made_file).group("basin"), "down")
+    theta, velocity = plane.inside([[-np.pi, np.nan]], [[0.0, np.nan]])
+    assert np.allclose(sorted(theta), [-np.pi, np.pi]) and np.all(velocity == 0)
+
+
+@given(st.floats(-np.pi, np.pi), st.floats(-20, 20), st.floats(0.01, 2 * np.pi))
+def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
+    plane = plot_basin.Plane.__new__(plot_basin.Plane)
+    plane.theta_range, plane.velocity_range = (left, left + width), (-1, 1)
+    found, _ = plane.inside([theta], [0.0])
+    wanted = [image for turn in range(-9, 10) if left <= (image := theta + 2 * np.pi * turn) <= left + width]
+    assert len(found) >= len(wanted) and all(left - 1e-8 <= image <= left + width + 1e-8 for image in found)
+
+
+@pytest.mark.parametrize("arguments, words", [(["--attractor", "nobody"], "has no attractor nobody"), (["-o", "out.gif"], "must end in"),
+                                              (["--attractor", "0", "--shade"], "goes with neither")])
+def test_wrong_requests_are_refused(made_file, arguments, words):
+    done = plot(made_file, *arguments)
+    assert done.returncode != 0 and words in done.stderr and "Traceback" not in done.stderr
+
+
+def damage(path, how):
+    if how == "missing":
+        path.unlink()
+    elif how == "empty":
+        path.write_bytes(b"")
+    elif how == "text":
+        path.write_text("not a file of this kind")
+    elif how == "truncated":
+        path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+    else:
+        with h5py.File(path, "r+") as file:
+            if how == "foreign":
+                del file.attrs["program"]
+            elif how == "no basin":
+                del file["basin"]
+            elif how == "no labels":
+                del file["basin/attractor"]
+            elif how == "no parameters":
+                del file["pendulum"].attrs["k"]
+
+
+@pytest.mark.parametrize("how, words", [("missing", "no such file"), ("empty", "not an HDF5 file"), ("text", "not an HDF5 file"),
+                                        ("truncated", "truncated"), ("foreign", "not a result of kapitza"), ("no basin", "holds no basin"),
+                                        ("no labels", "lacks attractor"), ("no parameters", "lacks k, beta or m")])
+def test_files_that_cannot_be_used_get_one_line(made_file, tmp_path, how, words):
+    damage(made_file, how)
+    done = plot(made_file, "-o", tmp_path / "out.png")
+    assert done.returncode == 1 and not (tmp_path / "out.png").exists()
+    (line,) = done.stderr.splitlines()
+    assert line.startswith(f"error: {made_file}: ") and words in line
+
+
+def test_flipped_bytes_never_give_a_traceback(made_file, tmp_path):
+    whole = made_file.read_bytes()
+    generator = np.random.default_rng(5)
+    for _ in range(12):
+        damaged = bytearray(whole)
+        for place in generator.integers(0, len(whole), 40):
+            damaged[place] ^= 0xFF
+        made_file.write_bytes(damaged)
+        done = plot(made_file, "-o", tmp_path / "out.png", "--dpi", 40)
+        assert done.returncode in (0, 1) and "Traceback" not in done.stderr, done.stderr

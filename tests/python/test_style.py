@@ -1,0 +1,75 @@
+"""The colour table: the same kind has the same colour everywhere, and colour-blind readers can tell kinds apart."""
+
+import itertools
+
+import kapitza_style as style
+import numpy as np
+import pytest
+import xarray
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.colors import to_rgb
+
+# Full dichromacy: Machado, Oliveira & Fernandes, IEEE TVCG 15 (2009) 1291, severity 1.0, on linear RGB.
+SIGHT = {
+    "full": np.eye(3),
+    "protan": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]),
+    "deutan": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]),
+}
+# CIE XYZ (D65, relative to white) from linear sRGB: IEC 61966-2-1.
+XYZ = np.array([[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]) / [[0.9505], [1.0], [1.089]]
+
+
+def lab(colour, sight):
+    """CIE L*a*b* of the colour as that eye sees it."""
+    rgb = np.array(to_rgb(colour))
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    x, y, z = np.cbrt(np.clip(XYZ @ np.clip(SIGHT[sight] @ linear, 0, 1), 1e-4, None))
+    return np.array([116 * y - 16, 500 * (x - y), 200 * (y - z)])
+
+
+@pytest.mark.parametrize("sight", SIGHT)
+def test_kinds_stay_apart(sight):
+    colours = {**style.KINDS, "unsettled": style.UNSETTLED}
+    near = {pair: np.linalg.norm(lab(colours[pair[0]], sight) - lab(colours[pair[1]], sight))
+            for pair in itertools.combinations(colours, 2)}
+    pair, distance = min(near.items(), key=lambda item: item[1])
+    assert distance > 10, f"{pair} look alike ({sight}): {distance:.1f}"
+
+
+def catalogue(*rows):
+    """A dataset of attractors from rows of (period, winding, centre, mirror)."""
+    columns = np.array(rows).T
+    names = ("period", "winding", "centre", "mirror")
+    return xarray.Dataset({name: ("attractor", column) for name, column in zip(names, columns, strict=True)})
+
+
+def test_a_colour_does_not_depend_on_the_id():
+    first = catalogue((1, 0, 0, 0), (1, 0, 1, 1), (1, 1, 2, 3), (1, -1, 2, 2))
+    second = catalogue((1, 0, 1, 0), (6, 0, 0, 1), (1, 1, 2, 3), (1, -1, 2, 2))
+    assert style.colours(first)[1] == style.colours(second)[0] == style.KINDS["inverted"]
+    assert style.colours(first)[2:] == style.colours(second)[2:]
+
+
+def test_every_attractor_of_the_five_figures_has_its_own_colour():
+    fig12 = [(1, 0, 0, 0), (6, 0, 0, 1), (1, 0, 1, 2), (6, 2, 2, 4), (6, -2, 2, 3), (2, 1, 2, 6), (2, -1, 2, 5), (1, 1, 2, 8), (1, -1, 2, 7)]
+    fig14 = [(2, 0, 0, 0), (2, 0, 1, 1), (3, 0, 1, 3), (3, 0, 1, 2), (9, 0, 1, 5), (9, 0, 1, 4), (1, 1, 2, 7), (1, -1, 2, 6)]
+    for rows in (fig12, fig14):
+        assert len(set(style.colours(catalogue(*rows)))) == len(rows)
+
+
+@given(st.integers(0, 96), st.integers(-200, 200), st.integers(0, 3))
+def test_every_attractor_has_a_colour(period, winding, centre):
+    centre = 2 if winding else centre % 2
+    (colour,) = style.colours(catalogue((period, winding, centre, 0)))
+    assert all(0 <= part <= 1 for part in to_rgb(colour))
+
+
+@pytest.mark.parametrize("share, text", [(0.3191, "31.9 %"), (0.0012, "0.12 %"), (1e-6, "< 0.01 %"), (1, "100 %"), (0, "0 %")])
+def test_share_text(share, text):
+    assert style.share_text(share) == text
+
+
+@pytest.mark.parametrize("multiple, text", [(0, "0"), (1, "π"), (-0.5, "−π/2"), (1.5, "3π/2"), (-0.0, "0")])
+def test_pi_text(multiple, text):
+    assert style.pi_text(multiple) == text
