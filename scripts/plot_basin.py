@@ -20,6 +20,7 @@ from matplotlib.patches import Patch
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b"]
 FORMATS = ("png", "svg", "pdf")
+PLANE_WIDTH = 5.6  # inches, the same in every figure
 
 
 def parse_arguments():
@@ -109,7 +110,7 @@ def draw_basins(axes, plane, basin, attractors, shaded):
         image = image * (1 - 0.55 * _slowness(plane.cells(basin["settling_time"])))[..., None]
     axes.imshow(image, extent=plane.extent, origin="lower", aspect="auto")
     for index, colour in enumerate(colours):
-        mark_strobe_points(axes, plane, attractors, [index], style.shade(colour, -0.45))
+        mark_strobe_points(axes, plane, attractors, index, style.shade(colour, -0.45), "white")
     return basin_entries(attractors, colours, basin["attractor"].values)
 
 
@@ -119,10 +120,11 @@ def _slowness(periods):
     return np.clip(time / max(np.percentile(time, 99), 1e-300), 0, 1)
 
 
-def mark_strobe_points(axes, plane, attractors, ids, colour):
-    """Every strobe point of the attractors, at every place of the window where it shows."""
-    theta, velocity = plane.inside(attractors["strobe_theta"].values[ids], attractors["strobe_velocity"].values[ids])
-    axes.plot(theta, velocity, "o", markersize=4.6, markerfacecolor=colour, markeredgecolor="white", markeredgewidth=0.9,
+def mark_strobe_points(axes, plane, attractors, index, face, edge):
+    """Every strobe point of the attractor, at every place of the window where it shows; many points are drawn smaller."""
+    size, line = (4.6, 0.9) if attractors["period"].values[index] <= 2 else (3.2, 0.6)
+    points = plane.inside(attractors["strobe_theta"].values[index], attractors["strobe_velocity"].values[index])
+    axes.plot(*points, "o", markersize=size, markerfacecolor=face, markeredgecolor=edge, markeredgewidth=line,
               clip_on=False, zorder=3)
 
 
@@ -139,9 +141,8 @@ def draw_one(axes, plane, basin, attractors, ids):
     """One basin black on white, its strobe points as open rings."""
     mine = np.isin(basin["attractor"].values, ids)
     axes.imshow(np.where(mine[:, plane.order, None], 0.0, 1.0) * np.ones(3), extent=plane.extent, origin="lower", aspect="auto")
-    theta, velocity = plane.inside(attractors["strobe_theta"].values[ids], attractors["strobe_velocity"].values[ids])
-    axes.plot(theta, velocity, "o", markersize=5, markerfacecolor="white", markeredgecolor="black", markeredgewidth=1,
-              clip_on=False, zorder=3)
+    for index in ids:
+        mark_strobe_points(axes, plane, attractors, index, "white", "black")
     return [("black", attractors["name"].values[ids[0]], np.mean(mine))]
 
 
@@ -175,9 +176,8 @@ def write_legend(axes, entries):
     patches = [Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5, label=style.name_text(name))
                for colour, name, _ in entries]
     columns = [Line2D([], [], linestyle="", label=figure_space * (digits - max(share.find("."), 1)) + share) for share in shares]
-    legend = axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0),
-                         borderaxespad=0, handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize=8)
-    legend.set_in_layout(False)  # beside the axes, whose size stays the same in every figure
+    axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0,
+                handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize=8)
 
 
 def label_axes(axes, plane):
@@ -215,9 +215,8 @@ def draw(arguments):
     result = Result(arguments.file)
     basin, attractors = result.group("basin"), result.group("attractors")
     plane = Plane(basin, arguments.centre)
-    width = 7.2
-    figure, axes = plt.subplots(figsize=(width, width * plane.shape), layout="constrained")
-    axes.set_box_aspect(plane.shape)
+    figure = plt.figure(figsize=(PLANE_WIDTH, PLANE_WIDTH * plane.shape))
+    axes = figure.add_axes((0, 0, 1, 1))  # the page grows around the plane when it is saved
     if arguments.attractor:
         entries = draw_one(axes, plane, basin, attractors, chosen_ids(result, attractors, arguments.attractor))
     elif arguments.quantity == "attractor":

@@ -1,0 +1,30 @@
+"""The table of figures: every scene that it names exists, every scene is named, every name is used once."""
+
+import subprocess
+import sys
+
+from conftest import ROOT
+from kapitza_figures import FIGURES
+
+
+def test_every_scene_has_a_figure_and_every_figure_a_scene():
+    scenes = {path.stem for path in (ROOT / "scenes").glob("*.yaml")}
+    assert {scene for _, scene, _, _ in FIGURES} == scenes
+
+
+def test_names_are_used_once_and_scripts_exist():
+    names = [name for name, _, _, _ in FIGURES]
+    assert len(set(names)) == len(names)
+    assert all((ROOT / "scripts" / script).is_file() for _, _, script, _ in FIGURES)
+
+
+def test_scenes_say_what_they_show_and_how_to_run_them():
+    for path in (ROOT / "scenes").glob("*.yaml"):
+        text = path.read_text()
+        assert text.startswith("# ") and f"build/kapitza run scenes/{path.name}" in text, path.name
+
+
+def test_the_list_shows_the_table():
+    script = ROOT / "scripts" / "reproduce.py"
+    done = subprocess.run([sys.executable, script, "--list", "small"], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and done.stdout.split()[:2] == ["small", "scenes/small.yaml"]
