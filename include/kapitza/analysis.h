@@ -1,0 +1,72 @@
+/* analysis: spectra of orbits (FFTW), their turning points and names; roots and characteristic values (GSL). C; floor 1.
+ *
+ * Angles in rad from the DOWN position, times in drive radians; a drive period is 2 pi. Nothing here is collective. */
+#ifndef KAPITZA_ANALYSIS_H
+#define KAPITZA_ANALYSIS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kapitza/status.h"
+
+/* ---- spectra of orbits ---- */
+
+/* What an orbit stays about; the values of the file. */
+enum { KZ_ABOUT_DOWN = 0, KZ_ABOUT_INVERTED = 1, KZ_ROTATING = 2, KZ_ABOUT_NEITHER = 3 };
+
+/* A motion sampled at equal times, sample i at t = 2 pi i / samples_per_period. */
+typedef struct {
+  int64_t periods;            /* drive periods of the record; n of a closed orbit */
+  int64_t samples_per_period; /* periods * samples_per_period samples in all, the end left out */
+  double rotation;            /* turns per drive period, counterclockwise +: winding/n of a closed orbit */
+  double centre;              /* rad: the angle that lines are counted from, 0 or pi */
+  bool closed;                /* the orbit closes after `periods`; else the record is seen through a window */
+} kz_record;
+
+/* Amplitudes under this count as none: their phase is NaN. */
+#define KZ_LINE_FLOOR 1e-12
+
+/* The mean rotation of a record (turns per drive period), fitted through the window below: for open records. */
+double kz_spectrum_rotation(const kz_record *record, const double *theta);
+
+/* Lines of a record: theta - centre - rotation t = a0 + sum_j A_j cos(j t/periods + phase_j).
+ * theta [periods * samples_per_period] unwrapped; amplitude, phase [n_lines], line j at j/periods drive frequencies; line 0 is
+ * abs(a0), a0 in [-pi, pi], phase 0 or pi. A closed record gives the Fourier coefficients to rounding. An open one is seen
+ * through the four-term Blackman-Harris window (Harris, Proc. IEEE 66 (1978) 51): side lobes below -92 dB, a line is eight
+ * bins wide, its top up to 0.83 dB low between bins, its phase right at bin centres alone. 2 n_lines must not exceed
+ * the samples (KZ_REFUSED); KZ_FAILED where memory ran out. */
+kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase);
+
+/* The largest line j >= 1; 0 where all are under KZ_LINE_FLOOR. */
+int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude);
+
+/* The period n that the lines tell: the smallest n whose multiples of 1/n hold every line that matters and whose
+ * n-fold rotation is whole. Closed record: n divides `periods`; lines above 1e-9 of the largest matter. Open record: peaks above 1e-3
+ * of the largest matter, n <= periods/8, and 0 where no n fits (aperiodic, not settled, or the record too short). */
+int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const double *amplitude);
+
+/* True where a closed orbit is its own mirror image (theta, v) -> (-theta, -v): no turns, and only odd lines of an even n, or
+ * at rest. `amplitude` as of a record of n = periods. */
+bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude);
+
+/* ---- turning points ---- */
+
+typedef struct {
+  double time;  /* drive radians from the first sample */
+  double angle; /* theta there */
+} kz_turning_point;
+
+/* Every change of sign of the velocity after the first sample. theta, velocity [n] at times i * step; found [n]; returns how
+ * many. Located on the Hermite polynomial through four samples (degree 7, error of order step^8). */
+int64_t kz_turning_points(int64_t n, double step, const double *theta, const double *velocity, kz_turning_point *found);
+
+/* ---- names ---- */
+
+enum { KZ_NAME_LENGTH = 48 };
+
+/* The name of an attractor from its period (0 = chaotic), winding and centre, into text [KZ_NAME_LENGTH]; docs/orbits.md has
+ * the table. */
+void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text);
+
+#endif
