@@ -1,0 +1,58 @@
+!> The truth's border to C: include/kapitza/truth.h. Quads stay inside, doubles come out.
+module kz_kernel_truth
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
+  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
+  implicit none
+  private
+
+  !> A state in quad precision: theta in rad, wrapped to [-pi, pi]; turns counted apart.
+  type, bind(C) :: truth_state_t
+    real(c_float128) :: theta
+    real(c_float128) :: velocity
+    integer(c_int64_t) :: turns
+  end type truth_state_t
+
+contains
+
+  subroutine start(n, theta, velocity, states) bind(C, name='kz_truth_start')
+    integer(c_int64_t), value :: n
+    real(c_double), intent(in) :: theta(n)
+    real(c_double), intent(in) :: velocity(n)
+    type(truth_state_t), intent(out) :: states(n)
+
+    states%theta = real(theta, qp)
+    states%velocity = real(velocity, qp)
+    states%turns = 0
+  end subroutine start
+
+  subroutine advance(pendulum, n_steps, n, periods, states) bind(C, name='kz_truth_advance')
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int32_t), value :: n_steps
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: periods
+    type(truth_state_t), intent(inout) :: states(n)
+    type(drive_t) :: drive
+    integer(c_int64_t) :: i, period
+
+    drive = make_drive(pendulum%k, pendulum%beta, pendulum%m, int(n_steps))
+    do i = 1, n
+      do period = 1, periods
+        call advance_period(drive, states(i)%theta, states(i)%velocity, states(i)%turns)
+      end do
+    end do
+  end subroutine advance
+
+  subroutine read_states(n, states, theta, velocity, turns) bind(C, name='kz_truth_read')
+    integer(c_int64_t), value :: n
+    type(truth_state_t), intent(in) :: states(n)
+    real(c_double), intent(out) :: theta(n)
+    real(c_double), intent(out) :: velocity(n)
+    integer(c_int64_t), intent(out) :: turns(n)
+
+    theta = real(states%theta, c_double)
+    velocity = real(states%velocity, c_double)
+    turns = states%turns
+  end subroutine read_states
+
+end module kz_kernel_truth

@@ -1,0 +1,1 @@
+kapitza_test(truth LABEL verification FLOOR kernel)
