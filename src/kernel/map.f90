@@ -23,6 +23,8 @@ module kz_kernel_map
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure(put_i), deferred :: put
+    !> Copies lane `from` over lane `to`.
+    procedure(move_i), deferred :: move
     !> Advances the lanes 1 .. n (or all) by one period.
     procedure(advance_i), deferred :: advance
   end type map_t
@@ -44,6 +46,13 @@ module kz_kernel_map
       real(c_double), intent(in) :: u
       real(c_double), intent(in) :: v
     end subroutine put_i
+
+    subroutine move_i(self, from, to)
+      import :: map_t
+      class(map_t), intent(inout) :: self
+      integer, intent(in) :: from
+      integer, intent(in) :: to
+    end subroutine move_i
 
     subroutine advance_i(self, n)
       import :: map_t

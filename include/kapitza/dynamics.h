@@ -1,0 +1,81 @@
+/* dynamics: attractors of the stroboscopic map, the map table (ICM), trapping regions, labels, measures (Fortran; floor 1).
+ *
+ * Attractors are numbered from 1 in the order of their discovery; kz_dynamics_order gives the order of the file. States are
+ * pairs (half-turns, velocity): theta/pi in [-1, 1], and rad per drive radian. */
+#ifndef KAPITZA_DYNAMICS_H
+#define KAPITZA_DYNAMICS_H
+
+#include <stdint.h>
+
+#include "kapitza/kernel.h"
+
+typedef struct kz_dynamics kz_dynamics;
+
+/* A window of starts: rad, rad per drive radian. */
+typedef struct {
+  double theta_min, theta_max, velocity_min, velocity_max;
+} kz_window;
+
+/* NULL where memory ran out; free with kz_dynamics_free. Cycles up to max_period are looked for. */
+kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
+void kz_dynamics_free(kz_dynamics *dynamics);
+
+/* Starts spread evenly over the window: state [n][2]. The seed moves them. */
+void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
+
+/* The velocity that a map table of this window must reach: the window's largest and the largest change in one period. */
+double kz_dynamics_reach(kz_dynamics *dynamics, const kz_window *window);
+
+/* Trapping regions from the ellipses and covers known now, on a coarse grid up to velocity `reach`: enough for a search. */
+void kz_dynamics_outline(kz_dynamics *dynamics, double reach);
+
+/* Follows n starts (state [n][2], in and out) by direct integration until each is trapped: owner [n] = attractor, 0 where it
+ * has not settled; periods [n] = first period inside a trapping region, max_periods where none. */
+void kz_dynamics_follow(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner, int64_t *periods);
+/* The same by interpolated cell mapping over `points` (2, 4, 6) nodes an axis of the map table. */
+void kz_dynamics_follow_table(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
+                              int32_t *owner, int64_t *periods);
+
+/* Looks for unknown cycles near n <= 64 states that come back to themselves within `closeness` rad; returns how many
+ * attractors are known then. */
+int64_t kz_dynamics_find_cycles(kz_dynamics *dynamics, int64_t n, const double *state, double closeness);
+/* Follows a bundle of orbits from one state through 60,000 periods; a chaotic attractor joins the catalogue (and the outline)
+ * where they diverge and are never trapped. Returns how many attractors are known then. */
+int64_t kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state);
+
+/* The catalogue as doubles, to travel between ranks. */
+int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
+void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
+void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
+
+/* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `reach`. */
+void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach);
+int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics); /* doubles per row */
+void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift); /* integrates row 0 .. n_velocity - 1 */
+void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);         /* all rows, in order */
+
+/* Grows the trapping regions over the table's cells; returns the share of its cells that are trapped. */
+double kz_dynamics_grow(kz_dynamics *dynamics);
+
+typedef struct {
+  int32_t period, winding, centre, symmetric, mirror;
+  double mean, mean_velocity; /* over time: rad in [-pi, pi], rad per drive radian */
+  double amplitude;           /* rad from the centre */
+  double multiplier_re[2], multiplier_im[2];
+  double lyapunov, lyapunov_error;
+} kz_attractor;
+
+int64_t kz_dynamics_count(const kz_dynamics *dynamics);
+/* Attractor number = 1 ..; theta, velocity [period]: strobe points from the lowest velocity, theta in [-pi, pi). */
+void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t number, kz_attractor *attractor, double *theta,
+                           double *velocity);
+/* number [count]: the attractors in the order of the file. */
+void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);
+
+/* Measures of a grid of labels [n_velocity][n_theta]. */
+void kz_basin_entropy(int64_t n_theta, int64_t n_velocity, const int16_t *label, double *entropy, double *boundary_entropy);
+/* Share of cells whose label differs from that of a cell `distance` columns away; circle = 1 where theta closes. */
+void kz_uncertain_share(int64_t n_theta, int64_t n_velocity, const int16_t *label, int64_t distance, int64_t circle,
+                        double *share);
+
+#endif

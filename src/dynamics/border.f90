@@ -1,0 +1,336 @@
+!> The border of dynamics to C: include/kapitza/dynamics.h.
+module kz_dynamics_border
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
+  use kz_kernel_map, only: flow_t, map_t, WIDTH, PI
+  use kz_kernel_plan, only: make_flow, FINE, DOUBLE
+  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_dynamics_catalogue, only: order_of, packed, unpacked
+  use kz_dynamics_chaos, only: find_chaos
+  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_growth, only: grow_regions
+  use kz_dynamics_labels, only: follow
+  use kz_dynamics_regions, only: regions_t, make_regions
+  use kz_dynamics_search, only: search_t, find_cycles
+  use kz_dynamics_tables, only: table_t, make_table, table_row, set_table_rows, table_map_t, make_table_map
+  implicit none
+  private
+
+  !> Cells of the outline's grid along an axis.
+  integer, parameter :: OUTLINE = 256
+
+  type :: dynamics_t
+    type(search_t) :: search
+    class(flow_t), allocatable :: flow !< the scene's map in the scene's precision
+    type(attractor_t), allocatable :: attractors(:)
+    type(regions_t) :: regions
+    type(table_t) :: table
+    real(dp) :: reach = 0
+  end type dynamics_t
+
+  type, bind(C) :: window_t
+    real(dp) :: theta_min, theta_max, velocity_min, velocity_max
+  end type window_t
+
+  type, bind(C) :: attractor_row_t
+    integer(c_int32_t) :: period, winding, centre, symmetric, mirror
+    real(dp) :: mean, mean_velocity, amplitude, multiplier_re(2), multiplier_im(2), lyapunov, lyapunov_error
+  end type attractor_row_t
+
+contains
+
+  function of_handle(handle) result(d)
+    type(c_ptr), intent(in) :: handle
+    type(dynamics_t), pointer :: d
+
+    call c_f_pointer(handle, d)
+  end function of_handle
+
+  function create(pendulum, numerics, max_period) bind(C, name='kz_dynamics_create') result(handle)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    integer(c_int64_t), value :: max_period
+    type(c_ptr) :: handle
+    type(dynamics_t), pointer :: d
+    type(numerics_t) :: coarse, polish
+    integer :: status
+
+    handle = c_null_ptr
+    allocate (d, stat=status)
+    if (status /= 0) return
+    coarse = numerics
+    coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
+    polish = FINE
+    polish%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_dp, abs(pendulum%k) + abs(pendulum%m))))
+    d%flow = make_flow(pendulum, numerics, joined=.true.)
+    d%search%pendulum = pendulum
+    d%search%max_period = int(max_period)
+    d%search%flow = make_flow(pendulum, coarse, joined=.true.)
+    d%search%fine = make_flow(pendulum, polish, joined=.true.)
+    d%search%apart = make_flow(pendulum, polish, joined=.false.)
+    allocate (d%attractors(0))
+    handle = c_loc(d)
+  end function create
+
+  subroutine destroy(handle) bind(C, name='kz_dynamics_free')
+    type(c_ptr), value :: handle
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    if (associated(d)) deallocate (d)
+  end subroutine destroy
+
+  !> Points of the additive recurrence of the plastic number, an even spread; the seed is its offset.
+  subroutine starts(window, seed, n, state) bind(C, name='kz_dynamics_starts')
+    type(window_t), intent(in) :: window
+    integer(c_int64_t), value :: seed
+    integer(c_int64_t), value :: n
+    real(dp), intent(out) :: state(2, n)
+    real(dp), parameter :: PLASTIC = 1.32471795724474602596_dp, GOLDEN = 0.61803398874989484820_dp
+    integer(c_int64_t) :: i
+    real(dp) :: share(2), offset(2)
+
+    offset = [modulo(0.5_dp + seed*GOLDEN, 1.0_dp), modulo(0.5_dp + seed*GOLDEN**2*PI, 1.0_dp)]
+    do i = 1, n
+      share = modulo(offset + i*[1/PLASTIC, 1/PLASTIC**2], 1.0_dp)
+      state(1, i) = (window%theta_min + share(1)*(window%theta_max - window%theta_min))/PI
+      state(1, i) = state(1, i) - 2*anint(0.5_dp*state(1, i))
+      state(2, i) = window%velocity_min + share(2)*(window%velocity_max - window%velocity_min)
+    end do
+  end subroutine starts
+
+  function reach(handle, window) bind(C, name='kz_dynamics_reach') result(top)
+    type(c_ptr), value :: handle
+    type(window_t), intent(in) :: window
+    real(dp) :: top
+    integer, parameter :: ROWS = 16
+    type(dynamics_t), pointer :: d
+    real(dp) :: largest, change, v
+    integer :: row, i
+
+    d => of_handle(handle)
+    largest = max(abs(window%velocity_min), abs(window%velocity_max))
+    change = 0
+    do row = -ROWS, ROWS
+      v = largest*row/ROWS
+      do i = 1, WIDTH
+        call d%search%flow%put(i, 2*real(i, dp)/WIDTH - 1, v)
+      end do
+      call d%search%flow%advance(WIDTH)
+      change = max(change, maxval(abs(d%search%flow%v - v)))
+    end do
+    top = largest + change
+  end function reach
+
+  subroutine outline_regions(handle, top) bind(C, name='kz_dynamics_outline')
+    type(c_ptr), value :: handle
+    real(dp), value :: top
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    d%reach = top
+    d%regions = make_regions(OUTLINE, OUTLINE, top, d%attractors)
+  end subroutine outline_regions
+
+  subroutine follow_directly(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    call follow_with(d%flow, d, max_periods, state, owner, periods)
+  end subroutine follow_directly
+
+  subroutine follow_table(handle, points, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow_table')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: points
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+    type(table_map_t) :: map
+
+    d => of_handle(handle)
+    map = make_table_map(d%table, int(points), d%search%flow)
+    call follow_with(map, d, max_periods, state, owner, periods)
+  end subroutine follow_table
+
+  subroutine follow_with(map, d, max_periods, state, owner, periods)
+    class(map_t), intent(inout) :: map
+    type(dynamics_t), intent(in) :: d
+    integer(c_int64_t), intent(in) :: max_periods
+    real(dp), intent(inout) :: state(:, :)
+    integer(c_int32_t), intent(out) :: owner(:)
+    integer(c_int64_t), intent(out) :: periods(:)
+    real(dp), allocatable :: u(:), v(:)
+
+    allocate (u, source=state(1, :))
+    allocate (v, source=state(2, :))
+    call follow(map, d%regions, d%attractors, max_periods, u, v, owner, periods)
+    state(1, :) = u
+    state(2, :) = v
+  end subroutine follow_with
+
+  function search_cycles(handle, n, state, closeness) bind(C, name='kz_dynamics_find_cycles') result(known)
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    real(dp), intent(in) :: state(2, n)
+    real(dp), value :: closeness
+    integer(c_int64_t) :: known
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    call find_cycles(d%search, state(1, :), state(2, :), closeness, d%attractors)
+    known = size(d%attractors)
+  end function search_cycles
+
+  function search_chaos(handle, state) bind(C, name='kz_dynamics_find_chaos') result(known)
+    type(c_ptr), value :: handle
+    real(dp), intent(in) :: state(2)
+    integer(c_int64_t) :: known
+    type(dynamics_t), pointer :: d
+    logical :: found
+
+    d => of_handle(handle)
+    call find_chaos(d%search, d%regions, state(1), state(2), d%attractors, found)
+    if (found) call outline_regions(handle, d%reach)
+    known = size(d%attractors)
+  end function search_chaos
+
+  function packed_size(handle) bind(C, name='kz_dynamics_packed_size') result(n)
+    type(c_ptr), value :: handle
+    integer(c_int64_t) :: n
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    n = size(packed(d%attractors))
+  end function packed_size
+
+  subroutine pack_catalogue(handle, n, flat) bind(C, name='kz_dynamics_pack')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    real(dp), intent(out) :: flat(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    flat = packed(d%attractors)
+  end subroutine pack_catalogue
+
+  subroutine unpack_catalogue(handle, n, flat) bind(C, name='kz_dynamics_unpack')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    real(dp), intent(in) :: flat(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    d%attractors = unpacked(flat)
+  end subroutine unpack_catalogue
+
+  subroutine table_create(handle, n_theta, n_velocity, top) bind(C, name='kz_dynamics_table_create')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n_theta
+    integer(c_int64_t), value :: n_velocity
+    real(dp), value :: top
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    d%table = make_table(int(n_theta), int(n_velocity), top)
+  end subroutine table_create
+
+  function table_row_size(handle) bind(C, name='kz_dynamics_table_row_size') result(n)
+    type(c_ptr), value :: handle
+    integer(c_int64_t) :: n
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    n = 2*(d%table%n_own + 1)
+  end function table_row_size
+
+  subroutine integrate_row(handle, row, shift) bind(C, name='kz_dynamics_table_row')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: row
+    type(c_ptr), value :: shift
+    type(dynamics_t), pointer :: d
+    real(dp), pointer :: values(:, :)
+
+    d => of_handle(handle)
+    call c_f_pointer(shift, values, [2, d%table%n_own + 1])
+    call table_row(d%table, d%search%flow, int(row) + 1, values)
+  end subroutine integrate_row
+
+  subroutine table_set(handle, rows) bind(C, name='kz_dynamics_table_set')
+    type(c_ptr), value :: handle
+    type(c_ptr), value :: rows
+    type(dynamics_t), pointer :: d
+    real(dp), pointer :: values(:, :, :)
+
+    d => of_handle(handle)
+    call c_f_pointer(rows, values, [2, d%table%n_own + 1, d%table%n_velocity])
+    call set_table_rows(d%table, values)
+  end subroutine table_set
+
+  function grow(handle) bind(C, name='kz_dynamics_grow') result(share)
+    type(c_ptr), value :: handle
+    real(dp) :: share
+    type(dynamics_t), pointer :: d
+    type(table_map_t) :: map
+
+    d => of_handle(handle)
+    d%regions = make_regions(d%table%n_circle, d%table%n_velocity - 1, d%table%top, d%attractors)
+    map = make_table_map(d%table, 6, d%search%flow)
+    call grow_regions(d%regions, d%attractors, map)
+    share = count(d%regions%owner > 0)/real(size(d%regions%owner), dp)
+  end function grow
+
+  function attractor_count(handle) bind(C, name='kz_dynamics_count') result(n)
+    type(c_ptr), value :: handle
+    integer(c_int64_t) :: n
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    n = size(d%attractors)
+  end function attractor_count
+
+  subroutine attractor_row(handle, number, row, theta, velocity) bind(C, name='kz_dynamics_attractor')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: number
+    type(attractor_row_t), intent(out) :: row
+    real(dp), intent(inout) :: theta(*)
+    real(dp), intent(inout) :: velocity(*)
+    type(dynamics_t), pointer :: d
+    integer :: n
+
+    d => of_handle(handle)
+    associate (a => d%attractors(number))
+      row = attractor_row_t(a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, a%mean_velocity, &
+                            a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
+      n = a%period
+      theta(:n) = half_open(a%u)
+      velocity(:n) = a%v + 0.0_dp
+    end associate
+  end subroutine attractor_row
+
+  !> Half-turns to rad in [-pi, pi), never -0.
+  elemental function half_open(u) result(theta)
+    real(dp), intent(in) :: u
+    real(dp) :: theta
+
+    theta = PI*u + 0.0_dp
+    if (theta >= PI) theta = -PI
+  end function half_open
+
+  subroutine attractor_order(handle, number) bind(C, name='kz_dynamics_order')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), intent(out) :: number(*)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    number(:size(d%attractors)) = order_of(d%attractors)
+  end subroutine attractor_order
+
+end module kz_dynamics_border

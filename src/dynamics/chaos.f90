@@ -1,0 +1,106 @@
+!> Chaotic attractors: recognised by a positive largest Lyapunov exponent of orbits that nothing traps, known by a cover of small
+!> cells that long orbits on them visit.
+module kz_dynamics_chaos
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_kernel_map, only: flow_t, WIDTH
+  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_portraits, only: portray
+  use kz_dynamics_regions, only: regions_t, captor, cover_cell, COVER
+  use kz_dynamics_search, only: search_t, add_with_mirror
+  implicit none
+  private
+  public :: find_chaos
+
+  !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
+  integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, PORTRAIT_PERIODS = 500
+  !> A positive exponent is believed from so many standard errors on.
+  real(dp), parameter :: CONFIDENCE = 5
+
+contains
+
+  !> Follows a bundle of orbits from (u, v). `found` where none of them is ever trapped and they diverge: then the attractor is
+  !> appended. A long chaotic transient is none: one of its orbits is trapped at last.
+  subroutine find_chaos(search, regions, u, v, attractors, found)
+    type(search_t), intent(inout) :: search
+    type(regions_t), intent(in) :: regions
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    logical, intent(out) :: found
+    type(attractor_t) :: attractor
+    integer, allocatable :: visits_of(:)
+    integer :: period, lane
+
+    do lane = 1, WIDTH
+      call search%flow%put(lane, u, v + 1e-9_dp*lane)
+    end do
+    allocate (visits_of(COVER**2), source=0)
+    found = .false.
+    do period = 1, SETTLE + VISITS
+      call search%flow%advance(WIDTH)
+      do lane = 1, WIDTH
+        if (captor(regions, attractors, search%flow%u(lane), search%flow%v(lane)) > 0) return
+        if (period > SETTLE) call visit(search%flow%u(lane), search%flow%v(lane))
+      end do
+    end do
+    call exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)
+    found = attractor%lyapunov > CONFIDENCE*attractor%lyapunov_error
+    if (.not. found) return
+    call set_cover(attractor, visits_of)
+    call portray(search%apart, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), PORTRAIT_PERIODS)
+    if (attractor%symmetric) then
+      attractor%mean = 0
+      attractor%mean_velocity = 0
+    end if
+    call add_with_mirror(search, attractor, attractors)
+    if (.not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
+  contains
+    subroutine visit(u_now, v_now)
+      real(dp), intent(in) :: u_now
+      real(dp), intent(in) :: v_now
+      integer :: cell
+
+      cell = cover_cell(regions, u_now, v_now)
+      if (cell > 0) visits_of(cell) = visits_of(cell) + 1
+    end subroutine visit
+  end subroutine find_chaos
+
+  !> The cover: all visited cells. An attractor whose cover meets its own mirror image in most cells is that image.
+  subroutine set_cover(attractor, visits_of)
+    type(attractor_t), intent(inout) :: attractor
+    integer, intent(in) :: visits_of(COVER**2)
+    logical, allocatable :: visited(:)
+    integer :: cell
+
+    allocate (visited, source=visits_of > 0)
+    attractor%symmetric = 2*count(visited .and. visited(COVER**2:1:-1)) > count(visited)
+    if (attractor%symmetric) visited = visited .or. visited(COVER**2:1:-1)
+    attractor%cover = pack([(cell, cell=1, COVER**2)], visited)
+  end subroutine set_cover
+
+  !> Largest Lyapunov exponent per period with its standard error over the lanes' orbits.
+  subroutine exponent(flow, mean, error)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(out) :: mean
+    real(dp), intent(out) :: error
+    real(dp) :: tangent(2, 2, WIDTH), growth(WIDTH), length
+    integer :: period, lane
+
+    tangent = 0
+    tangent(1, 1, :) = 1
+    growth = 0
+    do period = 1, EXPONENT_PERIODS
+      call flow%advance_tangent(WIDTH, tangent)
+      do lane = 1, WIDTH
+        length = norm2(tangent(:, 1, lane))
+        growth(lane) = growth(lane) + log(length)
+        tangent(:, 1, lane) = tangent(:, 1, lane)/length
+        tangent(:, 2, lane) = 0
+      end do
+    end do
+    growth = growth/EXPONENT_PERIODS
+    mean = sum(growth)/WIDTH
+    error = sqrt(sum((growth - mean)**2)/(WIDTH*(WIDTH - 1.0_dp)))
+  end subroutine exponent
+
+end module kz_dynamics_chaos

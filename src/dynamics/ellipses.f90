@@ -1,0 +1,189 @@
+!> Trapping regions: around every strobe point the largest ellipse that the n-period map is seen to carry inside itself.
+!>
+!> The map is a homeomorphism of the plane: where the boundary of a region goes strictly inside, the whole region does. Every
+!> ring of an ellipse is tried from a tiny one on, so that the cycle is the only invariant set in it. The norm is that of the
+!> eigenbasis of the monodromy: for complex multipliers the linear map contracts it by exactly |mu|.
+module kz_dynamics_ellipses
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_dynamics_cycles, only: attractor_t, apart
+  implicit none
+  private
+  public :: find_ellipses, in_ellipse
+
+  real(dp), parameter :: SMALLEST = 1e-7_dp, LARGEST = 2.0_dp, GROWTH = 2.0_dp
+  !> Rings tried between the centre and the final boundary.
+  integer, parameter :: N_RINGS = 16
+
+contains
+
+  !> Fills attractor%form. Half of the points of a symmetric cycle follow from the other half.
+  subroutine find_ellipses(flow, fine, attractor)
+    !> the map whose orbits are to be trapped
+    class(flow_t), intent(inout) :: flow
+    !> the map of the published strobe points
+    class(flow_t), intent(inout) :: fine
+    type(attractor_t), intent(inout) :: attractor
+    integer :: j, n_own
+
+    n_own = attractor%period
+    if (attractor%symmetric .and. n_own > 1) n_own = n_own/2
+    do j = 1, n_own
+      attractor%form(:, j) = ellipse(flow, fine, attractor, j)
+    end do
+    if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
+  end subroutine find_ellipses
+
+  pure function in_ellipse(attractor, j, u, v) result(inside)
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    logical :: inside
+    real(dp) :: du, dv
+
+    du = apart(u, attractor%u(j))
+    dv = v - attractor%v(j)
+    inside = attractor%form(1, j)*du**2 + 2*attractor%form(2, j)*du*dv + attractor%form(3, j)*dv**2 < 1 &
+             .and. attractor%form(1, j) > 0
+  end function in_ellipse
+
+  !> The form of the largest trapping ellipse of strobe point j; 0 where none was found.
+  function ellipse(flow, fine, attractor, j) result(form)
+    class(flow_t), intent(inout) :: flow
+    class(flow_t), intent(inout) :: fine
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    real(dp) :: form(3)
+    real(dp) :: basis(2, 2), inverse(2, 2), radius, trapped
+    logical :: good
+
+    form = 0
+    call eigenbasis(monodromy(fine, attractor, j), attractor%multiplier, basis, inverse)
+    trapped = 0
+    radius = SMALLEST
+    do while (radius < LARGEST)
+      good = carried_inside(flow, attractor, j, basis, inverse, radius)
+      if (trapped > 0 .and. .not. good) exit
+      if (trapped <= 0 .and. radius > 1e-2_dp) return
+      if (good) trapped = radius
+      radius = radius*GROWTH
+    end do
+    if (trapped <= 0) return
+    trapped = refined(flow, attractor, j, basis, inverse, trapped)
+    form = [PI**2*(inverse(1, 1)**2 + inverse(2, 1)**2), &
+            PI*(inverse(1, 1)*inverse(1, 2) + inverse(2, 1)*inverse(2, 2)), &
+            inverse(1, 2)**2 + inverse(2, 2)**2]/trapped**2
+  end function ellipse
+
+  !> Largest good radius between `radius` and the next tried one, with all rings below it good too.
+  function refined(flow, attractor, j, basis, inverse, radius) result(best)
+    class(flow_t), intent(inout) :: flow
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    real(dp), intent(in) :: basis(2, 2)
+    real(dp), intent(in) :: inverse(2, 2)
+    real(dp), intent(in) :: radius
+    real(dp) :: best, tried
+    integer :: i
+
+    best = radius
+    do i = 1, 5
+      tried = best + (GROWTH - 1)*radius*0.5_dp**i
+      if (carried_inside(flow, attractor, j, basis, inverse, tried)) best = tried
+    end do
+    do i = 1, N_RINGS - 1
+      tried = best*i/N_RINGS
+      if (carried_inside(flow, attractor, j, basis, inverse, tried)) cycle
+      best = 0.9_dp*best*max(i - 1, 1)/N_RINGS
+      exit
+    end do
+  end function refined
+
+  !> Are WIDTH points of the ring all carried inside it, by half of what the multiplier promises or by 5 %?
+  function carried_inside(flow, attractor, j, basis, inverse, radius) result(inside)
+    class(flow_t), intent(inout) :: flow
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    real(dp), intent(in) :: basis(2, 2)
+    real(dp), intent(in) :: inverse(2, 2)
+    real(dp), intent(in) :: radius
+    logical :: inside
+    real(dp) :: x(2), bound
+    integer :: i
+
+    do i = 1, WIDTH
+      x = radius*matmul(basis, [cos(2*PI*i/WIDTH), sin(2*PI*i/WIDTH)])
+      call flow%put(i, attractor%u(j) + x(1)/PI, attractor%v(j) + x(2))
+    end do
+    do i = 1, attractor%period
+      call flow%advance(WIDTH)
+    end do
+    bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
+    inside = .true.
+    do i = 1, WIDTH
+      x = [PI*apart(flow%u(i), attractor%u(j)), flow%v(i) - attractor%v(j)]
+      inside = inside .and. norm2(matmul(inverse, x)) < bound
+    end do
+  end function carried_inside
+
+  !> Derivative of the n-period map at strobe point j.
+  function monodromy(fine, attractor, j) result(matrix)
+    class(flow_t), intent(inout) :: fine
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    real(dp) :: matrix(2, 2)
+    real(dp) :: tangent(2, 2, WIDTH)
+    integer :: i
+
+    call fine%put(1, attractor%u(j), attractor%v(j))
+    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    do i = 1, attractor%period
+      call fine%advance_tangent(1, tangent)
+    end do
+    matrix = tangent(:, :, 1)
+  end function monodromy
+
+  !> Columns [Re w, Im w] of a complex eigenvector w, or the two real eigenvectors; scaled to a largest column of 1.
+  subroutine eigenbasis(matrix, multiplier, basis, inverse)
+    real(dp), intent(in) :: matrix(2, 2)
+    complex(dp), intent(in) :: multiplier(2)
+    real(dp), intent(out) :: basis(2, 2)
+    real(dp), intent(out) :: inverse(2, 2)
+    complex(dp) :: w(2)
+    real(dp) :: determinant
+
+    if (abs(aimag(multiplier(1))) > 0) then
+      w = eigenvector(matrix, multiplier(1))
+      basis(:, 1) = real(w, dp)
+      basis(:, 2) = aimag(w)
+      basis = basis/max(norm2(basis(:, 1)), norm2(basis(:, 2)))
+    else
+      w = eigenvector(matrix, multiplier(1))
+      basis(:, 1) = real(w, dp)/norm2(real(w, dp))
+      w = eigenvector(matrix, multiplier(2))
+      basis(:, 2) = real(w, dp)/norm2(real(w, dp))
+    end if
+    determinant = basis(1, 1)*basis(2, 2) - basis(1, 2)*basis(2, 1)
+    if (abs(determinant) < 1e-6_dp) then ! a (nearly) double multiplier: any norm serves, the rings decide
+      basis = reshape([1, 0, 0, 1], [2, 2])
+      determinant = 1
+    end if
+    inverse = reshape([basis(2, 2), -basis(2, 1), -basis(1, 2), basis(1, 1)], [2, 2])/determinant
+  end subroutine eigenbasis
+
+  !> From the row of (matrix - mu) that is the larger.
+  pure function eigenvector(matrix, mu) result(w)
+    real(dp), intent(in) :: matrix(2, 2)
+    complex(dp), intent(in) :: mu
+    complex(dp) :: w(2)
+
+    if (abs(matrix(1, 1) - mu) + abs(matrix(1, 2)) >= abs(matrix(2, 2) - mu) + abs(matrix(2, 1))) then
+      w = [cmplx(matrix(1, 2), 0, dp), mu - matrix(1, 1)]
+    else
+      w = [mu - matrix(2, 2), cmplx(matrix(2, 1), 0, dp)]
+    end if
+    if (abs(w(1)) + abs(w(2)) <= 0) w = 1
+  end function eigenvector
+
+end module kz_dynamics_ellipses

@@ -1,0 +1,288 @@
+!> Trapping regions grown outwards over the cells of the map table: a cell joins an attractor when the image of the whole cell,
+!> after 1, 2 or 4 periods, lies in cells that have joined it before, or in one of its ellipses.
+!>
+!> The image of a cell is the convex hull of its corners' images, widened by a bound on what bilinear interpolation misses:
+!> an eighth of the second differences, taken twice, and 2 % of a cell. A cell that cannot join yet waits for one open cell
+!> of its image; the end result does not depend on the order.
+module kz_dynamics_growth
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_kernel_map, only: WIDTH
+  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_ellipses, only: in_ellipse
+  use kz_dynamics_regions, only: regions_t, fold_cell, cell_owner
+  use kz_dynamics_tables, only: table_t, table_map_t, fill_ghosts
+  implicit none
+  private
+  public :: grow_regions
+
+  real(dp), parameter :: CURVATURE = 0.25_dp, SLACK = 0.02_dp
+  !> Images over more cells than this are not followed.
+  real(dp), parameter :: LARGEST_IMAGE = 2000
+  integer, parameter :: NEVER = -1
+
+  !> The image of one cell, in units of cells.
+  type :: image_t
+    real(dp) :: x(4)
+    real(dp) :: y(4)
+    real(dp) :: slack_x
+    real(dp) :: slack_y
+  end type image_t
+
+contains
+
+  !> Grows over the images of 4, 2 and 1 periods in turn.
+  subroutine grow_regions(regions, attractors, map)
+    type(regions_t), intent(inout) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    !> quintic interpolation of the table whose cells the regions have
+    type(table_map_t), intent(inout) :: map
+    real(dp), allocatable :: one(:, :, :), two(:, :, :), four(:, :, :)
+
+    allocate (one, source=map%table%shift)
+    call later(map, one, 1, two)
+    call later(map, two, 2, four)
+    call grow(regions, attractors, map%table, four)
+    call grow(regions, attractors, map%table, two)
+    call grow(regions, attractors, map%table, one)
+  end subroutine grow_regions
+
+  !> Displacement of every node after `periods` more than `field` has.
+  subroutine later(map, field, periods, more)
+    type(table_map_t), intent(inout) :: map
+    real(dp), allocatable, intent(in) :: field(:, :, :)
+    integer, intent(in) :: periods
+    real(dp), allocatable, intent(out) :: more(:, :, :)
+    real(dp) :: u, v, turns
+    integer :: first, n, i, j, lane, period
+
+    allocate (more, source=field)
+    do j = 1, map%table%n_velocity
+      do first = 0, map%table%n_own, WIDTH
+        n = min(WIDTH, map%table%n_own - first + 1)
+        do lane = 1, n
+          i = first + lane - 1
+          u = 2*real(i, dp)/map%table%n_circle + field(1, i, j)
+          call map%put(lane, u - 2*anint(0.5_dp*u), velocity(j) + field(2, i, j))
+        end do
+        do period = 1, periods
+          call map%advance(n)
+        end do
+        do lane = 1, n
+          i = first + lane - 1
+          v = 2*real(i, dp)/map%table%n_circle
+          turns = anint(0.5_dp*(v + field(1, i, j))) + map%turns(lane)
+          more(:, i, j) = [map%u(lane) + 2*turns - v, map%v(lane) - velocity(j)]
+        end do
+      end do
+    end do
+    call fill_ghosts(map%table, more)
+  contains
+    pure function velocity(row) result(node)
+      integer, intent(in) :: row
+      real(dp) :: node
+
+      node = (2*row - map%table%n_velocity - 1)*(map%table%top/(map%table%n_velocity - 1))
+    end function velocity
+  end subroutine later
+
+  !> Every open cell is asked; one that must wait is put on the list of the cell it waits for.
+  subroutine grow(regions, attractors, table, field)
+    type(regions_t), intent(inout) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    type(table_t), intent(in) :: table
+    real(dp), allocatable, intent(in) :: field(:, :, :)
+    integer, allocatable :: waiting(:), next(:), stack(:)
+    integer :: n_stack, cell, answer, blocker
+
+    allocate (waiting(0:size(regions%owner) - 1), next(0:size(regions%owner) - 1), stack(size(regions%owner)))
+    waiting = NEVER
+    n_stack = 0
+    do cell = size(regions%owner) - 1, 0, -1
+      n_stack = n_stack + 1
+      stack(n_stack) = cell
+    end do
+    do while (n_stack > 0)
+      cell = stack(n_stack)
+      n_stack = n_stack - 1
+      if (owner_of(cell) > 0) cycle
+      call ask(regions, attractors, cell_image(table, field, mod(cell, regions%n_theta), cell/regions%n_theta), answer, blocker)
+      if (answer > 0) then
+        regions%owner(mod(cell, regions%n_theta), cell/regions%n_theta) = answer
+        do while (waiting(cell) /= NEVER)
+          n_stack = n_stack + 1
+          stack(n_stack) = waiting(cell)
+          waiting(cell) = next(waiting(cell))
+        end do
+      else if (blocker /= NEVER) then
+        next(cell) = waiting(blocker)
+        waiting(blocker) = cell
+      end if
+    end do
+  contains
+    function owner_of(number) result(a)
+      integer, intent(in) :: number
+      integer :: a
+
+      a = regions%owner(mod(number, regions%n_theta), number/regions%n_theta)
+    end function owner_of
+  end subroutine grow
+
+  !> Corners' images and slack of cell (i, l), from 0; all NaN at the rim, where differences are missing.
+  pure function cell_image(table, field, i, l) result(image)
+    type(table_t), intent(in) :: table
+    real(dp), allocatable, intent(in) :: field(:, :, :)
+    integer, intent(in) :: i
+    integer, intent(in) :: l
+    type(image_t) :: image
+    real(dp) :: per_u, per_v, bend(2)
+    integer :: a, b, j
+
+    per_u = 0.5_dp*table%n_circle
+    per_v = (table%n_velocity - 1)/(2*table%top)
+    image%x = huge(1.0_dp)
+    image%y = huge(1.0_dp)
+    image%slack_x = 0
+    image%slack_y = 0
+    if (l < 1 .or. l > table%n_velocity - 3) return
+    do b = 0, 1
+      do a = 0, 1
+        j = l + 1 + b
+        image%x(1 + a + 2*b) = i + a + field(1, i + a, j)*per_u
+        image%y(1 + a + 2*b) = l + b + field(2, i + a, j)*per_v
+        bend = abs(field(:, i + a + 1, j) - 2*field(:, i + a, j) + field(:, i + a - 1, j)) &
+               + abs(field(:, i + a, j + 1) - 2*field(:, i + a, j) + field(:, i + a, j - 1))
+        image%slack_x = max(image%slack_x, CURVATURE*bend(1)*per_u + SLACK)
+        image%slack_y = max(image%slack_y, CURVATURE*bend(2)*per_v + SLACK)
+      end do
+    end do
+  end function cell_image
+
+  !> answer > 0: the attractor that owns the whole image. Else blocker: a stored cell that is open, or NEVER.
+  subroutine ask(regions, attractors, image, answer, blocker)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    type(image_t), intent(in) :: image
+    integer, intent(out) :: answer
+    integer, intent(out) :: blocker
+    real(dp) :: low, high, from, to
+    integer :: row, column, i, l, a
+    logical :: mirrored
+
+    answer = 0
+    blocker = NEVER
+    low = minval(image%y) - image%slack_y
+    high = maxval(image%y) + image%slack_y
+    if (low < 0 .or. high >= regions%n_velocity) return
+    if ((high - low)*(maxval(image%x) - minval(image%x) + 2*image%slack_x) > LARGEST_IMAGE) return
+    if (touched(regions, image)) answer = ellipse_around(regions, attractors, image)
+    if (answer > 0) return
+    do row = int(low), int(high)
+      call extent(image, row - image%slack_y, row + 1 + image%slack_y, from, to)
+      do column = floor(from - image%slack_x), floor(to + image%slack_x)
+        i = column
+        l = row
+        call fold_cell(regions, i, l, mirrored)
+        a = cell_owner(regions, attractors, i, l, mirrored)
+        if (a > 0 .and. (answer == 0 .or. a == answer)) then
+          answer = a
+          cycle
+        end if
+        if (a == 0) blocker = i + regions%n_theta*l
+        answer = 0
+        return
+      end do
+    end do
+  end subroutine ask
+
+  !> Range of x of the hull of the image between y = low and y = high: all segments between corners, clipped.
+  pure subroutine extent(image, low, high, from, to)
+    type(image_t), intent(in) :: image
+    real(dp), intent(in) :: low
+    real(dp), intent(in) :: high
+    real(dp), intent(out) :: from
+    real(dp), intent(out) :: to
+    real(dp) :: s, t, slope
+    integer :: a, b
+
+    from = huge(1.0_dp)
+    to = -huge(1.0_dp)
+    do a = 1, 3
+      do b = a + 1, 4
+        s = min(max(low, min(image%y(a), image%y(b))), max(image%y(a), image%y(b)))
+        t = min(max(high, min(image%y(a), image%y(b))), max(image%y(a), image%y(b)))
+        if (s > high .or. t < low) cycle
+        if (abs(image%y(b) - image%y(a)) <= 0) then
+          from = min(from, image%x(a), image%x(b))
+          to = max(to, image%x(a), image%x(b))
+          cycle
+        end if
+        slope = (image%x(b) - image%x(a))/(image%y(b) - image%y(a))
+        from = min(from, image%x(a) + slope*(s - image%y(a)), image%x(a) + slope*(t - image%y(a)))
+        to = max(to, image%x(a) + slope*(s - image%y(a)), image%x(a) + slope*(t - image%y(a)))
+      end do
+    end do
+  end subroutine extent
+
+  !> Does an ellipse touch the cell of the image's first corner?
+  function touched(regions, image)
+    type(regions_t), intent(in) :: regions
+    type(image_t), intent(in) :: image
+    logical :: touched
+    integer :: i, l
+    logical :: mirrored
+
+    i = floor(image%x(1))
+    l = int(image%y(1))
+    call fold_cell(regions, i, l, mirrored)
+    touched = regions%owner(i, l) < 0
+  end function touched
+
+  !> The attractor one of whose ellipses holds the box around the image; 0 = none.
+  function ellipse_around(regions, attractors, image) result(a)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    type(image_t), intent(in) :: image
+    integer :: a, t, i, l
+    logical :: mirrored
+
+    i = floor(image%x(1))
+    l = int(image%y(1))
+    call fold_cell(regions, i, l, mirrored)
+    t = -regions%owner(i, l)
+    do while (t > 0)
+      a = regions%touch(t)%attractor
+      if (holds(regions, attractors(a), regions%touch(t)%point, image, mirrored)) then
+        if (mirrored) a = attractors(a)%mirror
+        return
+      end if
+      t = regions%touch(t)%next
+    end do
+    a = 0
+  end function ellipse_around
+
+  !> Is the box around the image (or around its mirror image) in the ellipse of strobe point j?
+  pure function holds(regions, attractor, j, image, mirrored) result(inside)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    type(image_t), intent(in) :: image
+    logical, intent(in) :: mirrored
+    logical :: inside
+    real(dp) :: u(2), v(2)
+    integer :: a, b
+
+    u = [minval(image%x) - image%slack_x, maxval(image%x) + image%slack_x]*2/regions%n_circle
+    v = [minval(image%y) - image%slack_y, maxval(image%y) + image%slack_y]*(2*regions%top/regions%n_velocity) - regions%top
+    if (mirrored) then
+      u = -u
+      v = -v
+    end if
+    inside = .true.
+    do b = 1, 2
+      do a = 1, 2
+        inside = inside .and. in_ellipse(attractor, j, u(a), v(b))
+      end do
+    end do
+  end function holds
+
+end module kz_dynamics_growth

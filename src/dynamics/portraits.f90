@@ -1,0 +1,110 @@
+!> What an attractor looks like over continuous time: mean, amplitude, centre.
+module kz_dynamics_portraits
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_kernel_map, only: flow_t, PI
+  use kz_kernel_tables, only: pendulum_t
+  use kz_dynamics_cycles, only: attractor_t, apart
+  implicit none
+  private
+  public :: portray, SAMPLES
+
+  !> Samples per drive period.
+  integer, parameter :: SAMPLES = 96
+  integer, parameter :: DOWN = 0, INVERTED = 1, ROTATING = 2, ELSEWHERE = 3
+
+contains
+
+  !> Fills mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic one that starts at (u, v).
+  subroutine portray(apart_flow, pendulum, attractor, u, v, periods)
+    !> a fine flow whose steps are not joined
+    class(flow_t), intent(inout) :: apart_flow
+    type(pendulum_t), intent(in) :: pendulum
+    type(attractor_t), intent(inout) :: attractor
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer, intent(in) :: periods
+    real(dp), allocatable :: angle(:), velocity(:)
+    integer(c_int64_t) :: turns
+    integer :: i
+
+    allocate (angle(0:periods*SAMPLES), velocity(0:periods*SAMPLES))
+    call apart_flow%put(1, u, v)
+    angle(0) = u
+    velocity(0) = v
+    do i = 0, periods - 1
+      turns = apart_flow%turns(1)
+      call apart_flow%sample(SAMPLES, angle(i*SAMPLES + 1:(i + 1)*SAMPLES), velocity(i*SAMPLES + 1:(i + 1)*SAMPLES))
+      angle(i*SAMPLES + 1:(i + 1)*SAMPLES) = angle(i*SAMPLES + 1:(i + 1)*SAMPLES) + 2*turns
+    end do
+    attractor%mean = sum(angle(1:))/(periods*SAMPLES)
+    attractor%mean_velocity = PI*(angle(periods*SAMPLES) - angle(0))/(2*PI*periods)
+    call place(attractor, pendulum, angle, velocity)
+    attractor%mean = apart(attractor%mean, 0.0_dp)
+  end subroutine portray
+
+  !> Centre: down or inverted where the motion stays within pi of it and its mean within pi/4.
+  subroutine place(attractor, pendulum, angle, velocity)
+    type(attractor_t), intent(inout) :: attractor
+    type(pendulum_t), intent(in) :: pendulum
+    real(dp), intent(in) :: angle(0:)
+    real(dp), intent(in) :: velocity(0:)
+    real(dp) :: nearest
+
+    attractor%centre = ROTATING
+    attractor%amplitude = 0
+    if (attractor%winding /= 0) return
+    nearest = anint(attractor%mean)
+    attractor%amplitude = largest(pendulum, angle, velocity, nearest)
+    attractor%centre = ELSEWHERE
+    if (abs(attractor%mean - nearest) < 0.25_dp .and. attractor%amplitude < PI) &
+      attractor%centre = merge(DOWN, INVERTED, modulo(nearest, 2.0_dp) < 0.5_dp)
+  end subroutine place
+
+  !> Largest |theta - centre| in rad over continuous time: quintic Hermite interpolation where the velocity changes sign.
+  pure function largest(pendulum, angle, velocity, centre) result(most)
+    type(pendulum_t), intent(in) :: pendulum
+    real(dp), intent(in) :: angle(0:)
+    real(dp), intent(in) :: velocity(0:)
+    real(dp), intent(in) :: centre
+    real(dp) :: most
+    integer :: i
+
+    most = PI*maxval(abs(angle - centre))
+    do i = 0, ubound(angle, 1) - 1
+      if (velocity(i)*velocity(i + 1) >= 0) cycle
+      most = max(most, abs(turning_angle(PI*(angle(i:i + 1) - centre), velocity(i:i + 1), [bend(i), bend(i + 1)])))
+    end do
+  contains
+    !> theta'' at sample j
+    pure function bend(j) result(acceleration)
+      integer, intent(in) :: j
+      real(dp) :: acceleration
+
+      acceleration = -pendulum%beta*velocity(j) - (pendulum%k - pendulum%m*cos(2*PI*j/SAMPLES))*sin(PI*angle(j))
+    end function bend
+  end function largest
+
+  !> The extremum of the quintic with the given angles, velocities and accelerations at both ends of a sample interval.
+  pure function turning_angle(angle, velocity, acceleration) result(extremum)
+    real(dp), intent(in) :: angle(2)
+    real(dp), intent(in) :: velocity(2)
+    real(dp), intent(in) :: acceleration(2)
+    real(dp) :: extremum
+    real(dp), parameter :: H = 2*PI/SAMPLES
+    real(dp) :: c(0:5), d, e, f, s
+    integer :: i
+
+    c(0:2) = [angle(1), H*velocity(1), 0.5_dp*H**2*acceleration(1)]
+    d = angle(2) - c(0) - c(1) - c(2)
+    e = H*velocity(2) - c(1) - 2*c(2)
+    f = H**2*acceleration(2) - 2*c(2)
+    c(3:5) = [10*d - 4*e + 0.5_dp*f, -15*d + 7*e - f, 6*d - 3*e + 0.5_dp*f]
+    s = velocity(1)/(velocity(1) - velocity(2))
+    do i = 1, 6
+      s = s - (c(1) + s*(2*c(2) + s*(3*c(3) + s*(4*c(4) + s*5*c(5)))))/(2*c(2) + s*(6*c(3) + s*(12*c(4) + s*20*c(5))))
+      s = min(max(s, 0.0_dp), 1.0_dp)
+    end do
+    extremum = c(0) + s*(c(1) + s*(c(2) + s*(c(3) + s*(c(4) + s*c(5)))))
+  end function turning_angle
+
+end module kz_dynamics_portraits

@@ -1,0 +1,245 @@
+!> Where an orbit is known to be trapped: a grid of cells over the half plane 0 <= theta <= pi, each owned by an attractor,
+!> touched by trapping ellipses, or open.
+module kz_dynamics_regions
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_ellipses, only: in_ellipse
+  implicit none
+  private
+  public :: regions_t, make_regions, captor, fold_cell, cell_owner, cover_cell, coverer
+
+  !> An ellipse that touches a cell, and the next one.
+  type :: touch_t
+    integer :: attractor
+    integer :: point
+    integer :: next
+  end type touch_t
+
+  type :: regions_t
+    integer :: n_circle = 0   !< cells on the whole circle
+    integer :: n_theta = 0    !< cells from 0 to pi
+    integer :: n_velocity = 0 !< cells from -top to top
+    real(dp) :: top = 0
+    integer, allocatable :: owner(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -touch; 0 open
+    type(touch_t), allocatable :: touch(:)
+    integer :: n_touch = 0
+    integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
+  end type regions_t
+
+  !> Cells of a chaotic attractor's cover along an axis.
+  integer, parameter, public :: COVER = 512
+
+contains
+
+  !> Cells owned or touched by the ellipses of all attractors.
+  function make_regions(n_circle, n_velocity, top, attractors) result(regions)
+    integer, intent(in) :: n_circle
+    integer, intent(in) :: n_velocity
+    real(dp), intent(in) :: top
+    type(attractor_t), intent(in) :: attractors(:)
+    type(regions_t) :: regions
+    integer :: a, j, turn
+
+    regions%n_circle = n_circle
+    regions%n_theta = (n_circle + 1)/2
+    regions%n_velocity = n_velocity
+    regions%top = top
+    allocate (regions%owner(0:regions%n_theta - 1, 0:n_velocity - 1), regions%touch(64))
+    regions%owner = 0
+    do a = 1, size(attractors)
+      do j = 1, attractors(a)%period
+        do turn = -2, 2, 2
+          call draw(regions, attractors(a), a, j, turn)
+        end do
+      end do
+    end do
+    allocate (regions%covered(0))
+    if (all(attractors%period > 0)) return
+    deallocate (regions%covered)
+    allocate (regions%covered(COVER**2), source=0)
+    do a = 1, size(attractors)
+      if (attractors(a)%period == 0) regions%covered(attractors(a)%cover) = a
+    end do
+  end function make_regions
+
+  !> Number (from 1) of the cover's cell that holds (u, v); 0 outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
+  pure function cover_cell(regions, u, v) result(cell)
+    type(regions_t), intent(in) :: regions
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer :: cell
+    real(dp) :: fold, y
+
+    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(u, v))
+    cell = 0
+    y = (fold*v/regions%top + 1)*(COVER/2)
+    if (.not. (y >= 0 .and. y < COVER)) return
+    cell = 1 + min(int((fold*u + 1)*(COVER/2)), COVER - 1) + COVER*int(y)
+    if (fold < 0) cell = COVER**2 + 1 - cell
+  end function cover_cell
+
+  !> The chaotic attractor whose cover holds (u, v); 0 = none.
+  pure function coverer(regions, u, v) result(a)
+    type(regions_t), intent(in) :: regions
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer :: a
+
+    a = cover_cell(regions, u, v)
+    if (a > 0) a = regions%covered(a)
+  end function coverer
+
+  !> Draws the ellipse of strobe point j, moved by `turn` half-turns.
+  subroutine draw(regions, attractor, a, j, turn)
+    type(regions_t), intent(inout) :: regions
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: a
+    integer, intent(in) :: j
+    integer, intent(in) :: turn
+    real(dp) :: form(3), half_u, half_v, per_u, per_v, u, v
+    integer :: i, l
+
+    form = attractor%form(:, j)
+    if (form(1) <= 0) return
+    half_u = sqrt(form(3)/(form(1)*form(3) - form(2)**2))
+    half_v = sqrt(form(1)/(form(1)*form(3) - form(2)**2))
+    per_u = 0.5_dp*regions%n_circle
+    per_v = regions%n_velocity/(2*regions%top)
+    u = attractor%u(j) + turn
+    v = attractor%v(j)
+    do l = max(0, floor((v - half_v + regions%top)*per_v)), &
+           min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))
+      do i = max(0, floor((u - half_u)*per_u)), min(regions%n_theta - 1, floor((u + half_u)*per_u))
+        if (within(form, [i/per_u - u, (i + 1)/per_u - u], [l/per_v - regions%top - v, (l + 1)/per_v - regions%top - v])) then
+          regions%owner(i, l) = a
+        else if (regions%owner(i, l) <= 0) then
+          call add_touch(regions, touch_t(a, j, -regions%owner(i, l)))
+          regions%owner(i, l) = -regions%n_touch
+        end if
+      end do
+    end do
+  end subroutine draw
+
+  !> Are all four corners of a cell in the ellipse?
+  pure function within(form, du, dv) result(inside)
+    real(dp), intent(in) :: form(3)
+    real(dp), intent(in) :: du(2)
+    real(dp), intent(in) :: dv(2)
+    logical :: inside
+    integer :: a, b
+
+    inside = .true.
+    do b = 1, 2
+      do a = 1, 2
+        inside = inside .and. form(1)*du(a)**2 + 2*form(2)*du(a)*dv(b) + form(3)*dv(b)**2 < 1
+      end do
+    end do
+  end function within
+
+  subroutine add_touch(regions, touch)
+    type(regions_t), intent(inout) :: regions
+    type(touch_t), intent(in) :: touch
+    type(touch_t), allocatable :: longer(:)
+
+    if (regions%n_touch == size(regions%touch)) then
+      allocate (longer(2*regions%n_touch))
+      longer(:regions%n_touch) = regions%touch
+      call move_alloc(longer, regions%touch)
+    end if
+    regions%n_touch = regions%n_touch + 1
+    regions%touch(regions%n_touch) = touch
+  end subroutine add_touch
+
+  !> The attractor (from 1) whose trapping region holds (u, v), u in [-1, 1]; 0 = none.
+  function captor(regions, attractors, u, v) result(a)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer :: a
+    real(dp) :: fold, y
+    integer :: i
+
+    fold = merge(1.0_dp, -1.0_dp, .not. is_mirrored(u, v))
+    y = (fold*v + regions%top)*(regions%n_velocity/(2*regions%top))
+    if (y >= 0 .and. y < regions%n_velocity) then
+      i = min(int(fold*u*(0.5_dp*regions%n_circle)), regions%n_theta - 1)
+      a = cell_captor(regions, attractors, i, int(y), fold*u, fold*v)
+    else
+      a = ellipse_captor(attractors, fold*u, fold*v)
+    end if
+    if (a > 0 .and. fold < 0) a = attractors(a)%mirror
+  end function captor
+
+  !> Does (u, v) lie in the half that is not stored?
+  elemental function is_mirrored(u, v) result(mirrored)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    logical :: mirrored
+
+    mirrored = .not. (u > 0 .or. (.not. u < 0 .and. v >= 0))
+  end function is_mirrored
+
+  function cell_captor(regions, attractors, i, l, u, v) result(a)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    integer, intent(in) :: i
+    integer, intent(in) :: l
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer :: a, t
+
+    a = regions%owner(i, l)
+    if (a >= 0) return
+    t = -a
+    do while (t > 0)
+      a = regions%touch(t)%attractor
+      if (in_ellipse(attractors(a), regions%touch(t)%point, u, v)) return
+      t = regions%touch(t)%next
+    end do
+    a = 0
+  end function cell_captor
+
+  !> Outside the grid every ellipse is asked.
+  function ellipse_captor(attractors, u, v) result(a)
+    type(attractor_t), intent(in) :: attractors(:)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer :: a, j
+
+    do a = 1, size(attractors)
+      do j = 1, attractors(a)%period
+        if (in_ellipse(attractors(a), j, u, v)) return
+      end do
+    end do
+    a = 0
+  end function ellipse_captor
+
+  !> Brings cell (i, l), i any integer, to the stored half; `mirrored` where the stored one is its mirror image.
+  subroutine fold_cell(regions, i, l, mirrored)
+    type(regions_t), intent(in) :: regions
+    integer, intent(inout) :: i
+    integer, intent(inout) :: l
+    logical, intent(out) :: mirrored
+
+    i = modulo(i, regions%n_circle)
+    mirrored = i >= regions%n_theta
+    if (.not. mirrored) return
+    i = regions%n_circle - 1 - i
+    l = regions%n_velocity - 1 - l
+  end subroutine fold_cell
+
+  !> Owner of the stored cell (i, l), or of its mirror image; 0 = open or only touched.
+  function cell_owner(regions, attractors, i, l, mirrored) result(a)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    integer, intent(in) :: i
+    integer, intent(in) :: l
+    logical, intent(in) :: mirrored
+    integer :: a
+
+    a = max(0, regions%owner(i, l))
+    if (mirrored .and. a > 0) a = attractors(a)%mirror
+  end function cell_owner
+
+end module kz_dynamics_regions

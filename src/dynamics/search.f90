@@ -1,0 +1,155 @@
+!> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
+module kz_dynamics_search
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_kernel_tables, only: pendulum_t
+  use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, apart, listed_from_lowest
+  use kz_dynamics_ellipses, only: find_ellipses, in_ellipse
+  use kz_dynamics_portraits, only: portray
+  implicit none
+  private
+  public :: search_t, find_cycles, add_with_mirror
+
+  !> What a search works with.
+  type :: search_t
+    type(pendulum_t) :: pendulum
+    integer :: max_period = 48
+    class(flow_t), allocatable :: flow  !< the scene's map
+    class(flow_t), allocatable :: fine  !< the map of published values
+    class(flow_t), allocatable :: apart !< the same with its steps apart
+  end type search_t
+
+  !> Newton is tried for so many recurrences of a state, the closest first.
+  integer, parameter :: TRIES = 4
+
+contains
+
+  !> Looks at states (at most WIDTH) whose orbits may have settled on unknown cycles; appends the cycles that it finds, with
+  !> their mirror images.
+  subroutine find_cycles(search, u, v, closeness, attractors)
+    type(search_t), intent(inout) :: search
+    real(dp), intent(in) :: u(:)
+    real(dp), intent(in) :: v(:)
+    !> how near an orbit must come back to itself, rad
+    real(dp), intent(in) :: closeness
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    real(dp) :: orbit_u(size(u), 0:search%max_period), orbit_v(size(u), 0:search%max_period)
+    integer :: lane, n
+
+    do lane = 1, size(u)
+      call search%flow%put(lane, u(lane), v(lane))
+    end do
+    orbit_u(:, 0) = u
+    orbit_v(:, 0) = v
+    do n = 1, search%max_period
+      call search%flow%advance(size(u))
+      orbit_u(:, n) = search%flow%u(:size(u))
+      orbit_v(:, n) = search%flow%v(:size(u))
+    end do
+    do lane = 1, size(u)
+      call try_recurrences(search, orbit_u(lane, :), orbit_v(lane, :), closeness, attractors)
+    end do
+  end subroutine find_cycles
+
+  !> Polishes the closest recurrences of one orbit until one gives an attracting cycle.
+  subroutine try_recurrences(search, u, v, closeness, attractors)
+    type(search_t), intent(inout) :: search
+    real(dp), intent(in) :: u(0:)
+    real(dp), intent(in) :: v(0:)
+    real(dp), intent(in) :: closeness
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    real(dp) :: distance(ubound(u, 1))
+    type(attractor_t) :: candidate
+    logical :: found
+    integer :: try, n
+
+    n = ubound(u, 1)
+    if (trapped(attractors, u(n), v(n))) return
+    distance = hypot(PI*apart(u(1:), u(0)), v(1:) - v(0))
+    do try = 1, TRIES
+      n = first_of_the_closest(distance)
+      if (.not. distance(n) < closeness) return
+      call polish_cycle(search%fine, search%pendulum%beta, n, u(0), v(0), max(0.1_dp, 20*distance(n)), candidate, found)
+      if (found) then
+        if (.not. known(attractors, candidate)) call add_with_mirror(search, candidate, attractors)
+        return
+      end if
+      distance(n::n) = huge(1.0_dp) ! its multiples lead to the same cycle
+    end do
+  end subroutine try_recurrences
+
+  !> The shortest recurrence among those within a factor 3 of the closest: its multiples come back about as near.
+  pure function first_of_the_closest(distance) result(n)
+    real(dp), intent(in) :: distance(:)
+    integer :: n
+
+    do n = 1, size(distance)
+      if (distance(n) <= 3*minval(distance)) return
+    end do
+    n = 1
+  end function first_of_the_closest
+
+  pure function trapped(attractors, u, v)
+    type(attractor_t), intent(in) :: attractors(:)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    logical :: trapped
+    integer :: a, j
+
+    trapped = .true.
+    do a = 1, size(attractors)
+      do j = 1, attractors(a)%period
+        if (in_ellipse(attractors(a), j, u, v)) return
+      end do
+    end do
+    trapped = .false.
+  end function trapped
+
+  pure function known(attractors, candidate)
+    type(attractor_t), intent(in) :: attractors(:)
+    type(attractor_t), intent(in) :: candidate
+    logical :: known
+    integer :: a
+
+    known = .true.
+    do a = 1, size(attractors)
+      if (attractors(a)%period /= candidate%period) cycle
+      if (any(abs(apart(attractors(a)%u, candidate%u(1))) + abs(attractors(a)%v - candidate%v(1)) < 1e-7_dp)) return
+    end do
+    known = .false.
+  end function known
+
+  !> Completes an attractor (trapping ellipses, portrait) and appends it, and its mirror image where that is another one.
+  subroutine add_with_mirror(search, attractor, attractors)
+    type(search_t), intent(inout) :: search
+    type(attractor_t), intent(inout) :: attractor
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+
+    if (attractor%period > 0) then
+      call find_ellipses(search%flow, search%fine, attractor)
+      call portray(search%apart, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
+    end if
+    attractor%mirror = size(attractors) + 1
+    if (.not. attractor%symmetric) attractor%mirror = size(attractors) + 2
+    call append(attractors, attractor)
+    if (attractor%symmetric) return
+    call append(attractors, mirror_image(attractor))
+    attractors(size(attractors))%mirror = size(attractors) - 1
+  end subroutine add_with_mirror
+
+  subroutine append(attractors, attractor)
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    type(attractor_t), intent(in) :: attractor
+    type(attractor_t), allocatable :: longer(:)
+    integer :: i
+
+    allocate (longer(size(attractors) + 1))
+    do i = 1, size(attractors)
+      longer(i) = attractors(i)
+    end do
+    longer(size(longer)) = attractor
+    if (attractor%period > 0) call listed_from_lowest(longer(size(longer)))
+    call move_alloc(longer, attractors)
+  end subroutine append
+
+end module kz_dynamics_search

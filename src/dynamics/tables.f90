@@ -1,0 +1,274 @@
+!> The map table of interpolated cell mapping: the displacement F(x) - x on a grid of nodes, and the map that interpolates it.
+!>
+!> The mirror symmetry halves the table: only angles 0 .. pi are stored; a state is folded there, and its image unfolded.
+module kz_dynamics_tables
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_kernel_map, only: map_t, flow_t, WIDTH
+  implicit none
+  private
+  public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map
+
+  integer, parameter :: GHOSTS = 2
+
+  type :: table_t
+    integer :: n_circle = 0   !< nodes on the whole circle
+    integer :: n_theta = 0    !< cells from angle 0 to pi (the last may reach beyond)
+    integer :: n_own = 0      !< nodes from 0 to pi: 0 .. n_own
+    integer :: n_velocity = 0 !< nodes of the velocity
+    real(dp) :: top = 0       !< largest velocity; the smallest is -top
+    !> displacement over a period (half-turns, rad per drive radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
+    real(dp), allocatable :: shift(:, :, :)
+  end type table_t
+
+  type, extends(map_t) :: table_map_t
+    type(table_t), pointer :: table => null()
+    integer :: points = 6     !< of the stencil along an axis: 2, 4, 6
+    class(flow_t), allocatable :: flow !< integrates the periods that begin outside the table
+  contains
+    procedure :: put
+    procedure :: move
+    procedure :: advance
+  end type table_map_t
+
+contains
+
+  !> An empty table whose inner part (where every stencil fits) reaches the velocity `reach`.
+  function make_table(n_circle, n_velocity, reach) result(table)
+    integer, intent(in) :: n_circle
+    integer, intent(in) :: n_velocity
+    real(dp), intent(in) :: reach
+    type(table_t) :: table
+
+    table%n_circle = n_circle
+    table%n_theta = (n_circle + 1)/2
+    table%n_own = n_circle/2
+    table%n_velocity = n_velocity
+    table%top = reach*(n_velocity - 1)/(n_velocity - 1 - 2*GHOSTS)
+    allocate (table%shift(2, -GHOSTS:table%n_theta + GHOSTS, n_velocity))
+    table%shift = 0
+  end function make_table
+
+  !> Velocity of node j = 1 .. n_velocity; node n + 1 - j has exactly the opposite one.
+  pure function node_velocity(table, j) result(v)
+    type(table_t), intent(in) :: table
+    integer, intent(in) :: j
+    real(dp) :: v
+
+    v = (2*j - table%n_velocity - 1)*(table%top/(table%n_velocity - 1))
+  end function node_velocity
+
+  !> Integrates the nodes of row j: shift(2, 0 : n_own).
+  subroutine table_row(table, flow, j, shift)
+    type(table_t), intent(in) :: table
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: j
+    real(dp), intent(out) :: shift(2, 0:table%n_own)
+    real(dp) :: u, v
+    integer :: first, n, i
+
+    v = node_velocity(table, j)
+    do first = 0, table%n_own, WIDTH
+      n = min(WIDTH, table%n_own - first + 1)
+      do i = 1, n
+        call flow%put(i, 2*real(first + i - 1, dp)/table%n_circle, v)
+      end do
+      call flow%advance(n)
+      do i = 1, n
+        u = 2*real(first + i - 1, dp)/table%n_circle
+        shift(:, first + i - 1) = [flow%u(i) + 2*flow%turns(i) - u, flow%v(i) - v]
+      end do
+    end do
+  end subroutine table_row
+
+  !> Takes in all rows, as table_row gave them.
+  subroutine set_table_rows(table, rows)
+    type(table_t), intent(inout) :: table
+    real(dp), intent(in) :: rows(2, 0:table%n_own, table%n_velocity)
+
+    table%shift(:, 0:table%n_own, :) = rows
+    call fill_ghosts(table, table%shift)
+  end subroutine set_table_rows
+
+  !> The nodes below angle 0 and beyond pi are mirror images of own ones.
+  subroutine fill_ghosts(table, field)
+    type(table_t), intent(in) :: table
+    real(dp), intent(inout) :: field(2, -GHOSTS:table%n_theta + GHOSTS, table%n_velocity)
+    integer :: i, n
+
+    n = table%n_velocity
+    do i = -GHOSTS, -1
+      field(:, i, :) = -field(:, -i, n:1:-1)
+    end do
+    do i = table%n_own + 1, table%n_theta + GHOSTS
+      field(:, i, :) = -field(:, table%n_circle - i, n:1:-1)
+    end do
+  end subroutine fill_ghosts
+
+  function make_table_map(table, points, flow) result(map)
+    type(table_t), target, intent(in) :: table
+    integer, intent(in) :: points
+    class(flow_t), intent(in) :: flow
+    type(table_map_t) :: map
+
+    map%table => table
+    map%points = points
+    allocate (map%flow, source=flow)
+  end function make_table_map
+
+  subroutine put(self, lane, u, v)
+    class(table_map_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+
+    self%u(lane) = u
+    self%v(lane) = v
+    self%turns(lane) = 0
+  end subroutine put
+
+  subroutine move(self, from, to)
+    class(table_map_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    self%u(to) = self%u(from)
+    self%v(to) = self%v(from)
+    self%turns(to) = self%turns(from)
+  end subroutine move
+
+  subroutine advance(self, n)
+    class(table_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+
+    select case (self%points)
+    case (2)
+      call interpolate(self, n, 2)
+    case (4)
+      call interpolate(self, n, 4)
+    case default
+      call interpolate(self, n, 6)
+    end select
+  end subroutine advance
+
+  !> One period of n lanes by Lagrange interpolation over `points` x `points` nodes around each state.
+  subroutine interpolate(self, n, points)
+    class(table_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer, intent(in) :: points
+    real(dp) :: u(WIDTH), v(WIDTH), fold(WIDTH), x(WIDTH), y(WIDTH), wu(WIDTH, 6), wv(WIDTH, 6)
+    real(dp) :: row(2*points), shift(2), per_u, per_v, lowest, highest
+    integer :: i(WIDTH), j(WIDTH), outside(WIDTH), n_outside, lane, a, b
+
+    per_u = 0.5_dp*self%table%n_circle
+    per_v = (self%table%n_velocity - 1)/(2*self%table%top)
+    lowest = points/2 - 1
+    highest = self%table%n_velocity - 1 - lowest
+    do lane = 1, n
+      fold(lane) = folding(self%u(lane), self%v(lane))
+      u(lane) = fold(lane)*self%u(lane)
+      v(lane) = fold(lane)*self%v(lane)
+      x(lane) = u(lane)*per_u
+      y(lane) = (v(lane) + self%table%top)*per_v
+    end do
+    n_outside = 0
+    do lane = 1, n
+      if (y(lane) >= lowest .and. y(lane) < highest) cycle
+      n_outside = n_outside + 1
+      outside(n_outside) = lane
+      y(lane) = lowest
+    end do
+    do lane = 1, n
+      i(lane) = min(int(x(lane)), self%table%n_theta - 1)
+      j(lane) = int(y(lane))
+      x(lane) = x(lane) - i(lane)
+      y(lane) = y(lane) - j(lane)
+    end do
+    call lagrange(n, points, x, wu)
+    call lagrange(n, points, y, wv)
+    do lane = 1, n
+      row = 0
+      do b = 1, points
+        do a = 1, points
+          row(2*a - 1) = row(2*a - 1) + wv(lane, b)*self%table%shift(1, i(lane) + a - points/2, j(lane) + 1 + b - points/2)
+          row(2*a) = row(2*a) + wv(lane, b)*self%table%shift(2, i(lane) + a - points/2, j(lane) + 1 + b - points/2)
+        end do
+      end do
+      shift = 0
+      do a = 1, points
+        shift(1) = shift(1) + wu(lane, a)*row(2*a - 1)
+        shift(2) = shift(2) + wu(lane, a)*row(2*a)
+      end do
+      x(lane) = fold(lane)*(u(lane) + shift(1))
+      y(lane) = fold(lane)*(v(lane) + shift(2))
+    end do
+    if (n_outside > 0) call integrate(self, outside(:n_outside), x, y)
+    do lane = 1, n
+      u(lane) = anint(0.5_dp*x(lane))
+      self%turns(lane) = self%turns(lane) + int(u(lane), c_int64_t)
+      self%u(lane) = x(lane) - 2*u(lane)
+      self%v(lane) = y(lane)
+    end do
+  end subroutine interpolate
+
+  !> +1 where theta > 0, or theta = 0 and v >= 0; else -1: the sign that brings a state to the stored half.
+  elemental function folding(u, v) result(fold)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    real(dp) :: fold
+
+    fold = merge(1.0_dp, -1.0_dp, u > 0 .or. (.not. u < 0 .and. v >= 0))
+  end function folding
+
+  !> The lanes `outside` through one period by integration; x (unwrapped half-turns) and y (velocity) take the images.
+  subroutine integrate(self, outside, x, y)
+    class(table_map_t), intent(inout) :: self
+    integer, intent(in) :: outside(:)
+    real(dp), intent(inout) :: x(WIDTH)
+    real(dp), intent(inout) :: y(WIDTH)
+    integer :: k
+
+    do k = 1, size(outside)
+      call self%flow%put(k, self%u(outside(k)), self%v(outside(k)))
+    end do
+    call self%flow%advance(size(outside))
+    do k = 1, size(outside)
+      x(outside(k)) = self%flow%u(k) + 2*self%flow%turns(k)
+      y(outside(k)) = self%flow%v(k)
+    end do
+  end subroutine integrate
+
+  !> Weights of Lagrange's polynomial for nodes 1 - points/2 .. points/2 at s in [0, 1).
+  subroutine lagrange(n, points, s, w)
+    integer, intent(in) :: n
+    integer, intent(in) :: points
+    real(dp), intent(in) :: s(WIDTH)
+    real(dp), intent(out) :: w(WIDTH, 6)
+    real(dp) :: p
+    integer :: k
+
+    select case (points)
+    case (2)
+      w(:n, 1) = 1 - s(:n)
+      w(:n, 2) = s(:n)
+    case (4)
+      do k = 1, n
+        p = s(k)
+        w(k, 1) = -p*(p - 1)*(p - 2)/6
+        w(k, 2) = (p + 1)*(p - 1)*(p - 2)/2
+        w(k, 3) = -(p + 1)*p*(p - 2)/2
+        w(k, 4) = (p + 1)*p*(p - 1)/6
+      end do
+    case default
+      do k = 1, n
+        p = s(k)
+        w(k, 1) = -(p + 1)*p*(p - 1)*(p - 2)*(p - 3)/120
+        w(k, 2) = (p + 2)*p*(p - 1)*(p - 2)*(p - 3)/24
+        w(k, 3) = -(p + 2)*(p + 1)*(p - 1)*(p - 2)*(p - 3)/12
+        w(k, 4) = (p + 2)*(p + 1)*p*(p - 2)*(p - 3)/12
+        w(k, 5) = -(p + 2)*(p + 1)*p*(p - 1)*(p - 3)/24
+        w(k, 6) = (p + 2)*(p + 1)*p*(p - 1)*(p - 2)/120
+      end do
+    end select
+  end subroutine lagrange
+
+end module kz_dynamics_tables
