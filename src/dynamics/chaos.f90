@@ -5,7 +5,7 @@ module kz_dynamics_chaos
   use kz_kernel_map, only: flow_t, WIDTH
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_portraits, only: portray
-  use kz_dynamics_regions, only: regions_t, captor, cover_cell, COVER
+  use kz_dynamics_regions, only: regions_t, captors, cover_cell, COVER
   use kz_dynamics_search, only: search_t, add_with_mirror
   implicit none
   private
@@ -29,7 +29,7 @@ contains
     logical, intent(out) :: found
     type(attractor_t) :: attractor
     integer, allocatable :: visits_of(:)
-    integer :: period, lane
+    integer :: captor(WIDTH), period, lane
 
     do lane = 1, WIDTH
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
@@ -38,9 +38,11 @@ contains
     found = .false.
     do period = 1, SETTLE + VISITS
       call search%flow%advance(WIDTH)
+      call captors(regions, attractors, WIDTH, search%flow%u, search%flow%v, captor)
+      if (any(captor > 0)) return
+      if (period <= SETTLE) cycle
       do lane = 1, WIDTH
-        if (captor(regions, attractors, search%flow%u(lane), search%flow%v(lane)) > 0) return
-        if (period > SETTLE) call visit(search%flow%u(lane), search%flow%v(lane))
+        call visit(search%flow%u(lane), search%flow%v(lane))
       end do
     end do
     call exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)

@@ -9,7 +9,7 @@ module kz_dynamics_growth
   use kz_kernel_map, only: WIDTH
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_ellipses, only: in_ellipse
-  use kz_dynamics_regions, only: regions_t, fold_cell, cell_owner
+  use kz_dynamics_regions, only: regions_t, fold_cell
   use kz_dynamics_tables, only: table_t, table_map_t, fill_ghosts
   implicit none
   private
@@ -92,8 +92,10 @@ contains
     type(table_t), intent(in) :: table
     real(dp), allocatable, intent(in) :: field(:, :, :)
     integer, allocatable :: waiting(:), next(:), stack(:)
-    integer :: n_stack, cell, answer, blocker
+    integer :: mirrors(0:size(attractors)), n_stack, cell, answer, blocker
 
+    mirrors(0) = 0
+    mirrors(1:) = attractors%mirror
     allocate (waiting(0:size(regions%owner) - 1), next(0:size(regions%owner) - 1), stack(size(regions%owner)))
     waiting = NEVER
     n_stack = 0
@@ -105,7 +107,10 @@ contains
       cell = stack(n_stack)
       n_stack = n_stack - 1
       if (owner_of(cell) > 0) cycle
-      call ask(regions, attractors, cell_image(table, field, mod(cell, regions%n_theta), cell/regions%n_theta), answer, blocker)
+      call first_corner(regions, mirrors, table, field, mod(cell, regions%n_theta), cell/regions%n_theta, answer, blocker)
+      if (answer /= 0) &
+        call ask(regions, attractors, mirrors, cell_image(table, field, mod(cell, regions%n_theta), cell/regions%n_theta), &
+                 answer, blocker)
       if (answer > 0) then
         regions%owner(mod(cell, regions%n_theta), cell/regions%n_theta) = answer
         do while (waiting(cell) /= NEVER)
@@ -127,7 +132,48 @@ contains
     end function owner_of
   end subroutine grow
 
-  !> Corners' images and slack of cell (i, l), from 0; all NaN at the rim, where differences are missing.
+  !> Most cells that must wait are known by the image of their corner of lowest angle and velocity: answer = 0 and blocker = its
+  !> open cell; answer = 0 and blocker = NEVER at the rim of the table; else answer is not 0 and the cell is worth asking.
+  pure subroutine first_corner(regions, mirrors, table, field, i, l, answer, blocker)
+    type(regions_t), intent(in) :: regions
+    integer, intent(in) :: mirrors(0:)
+    type(table_t), intent(in) :: table
+    real(dp), allocatable, intent(in) :: field(:, :, :)
+    integer, intent(in) :: i
+    integer, intent(in) :: l
+    integer, intent(out) :: answer
+    integer, intent(out) :: blocker
+    real(dp) :: y
+    integer :: stored
+
+    answer = 0
+    blocker = NEVER
+    y = l + field(2, i, l + 1)*((table%n_velocity - 1)/(2*table%top))
+    if (.not. (y >= 0 .and. y < regions%n_velocity)) return
+    call look(regions, mirrors, floor(i + field(1, i, l + 1)*(0.5_dp*table%n_circle)), int(y), answer, stored)
+    if (answer == 0) blocker = stored
+  end subroutine first_corner
+
+  !> What is known of cell (column, row), any column: answer = its owner, 0 open, -touch; stored = the number of the stored cell.
+  pure subroutine look(regions, mirrors, column, row, answer, stored)
+    type(regions_t), intent(in) :: regions
+    integer, intent(in) :: mirrors(0:)
+    integer, intent(in) :: column
+    integer, intent(in) :: row
+    integer, intent(out) :: answer
+    integer, intent(out) :: stored
+    integer :: i, l
+    logical :: mirrored
+
+    i = column
+    l = row
+    call fold_cell(regions, i, l, mirrored)
+    stored = i + regions%n_theta*l
+    answer = regions%owner(i, l)
+    if (mirrored .and. answer > 0) answer = mirrors(answer)
+  end subroutine look
+
+  !> Corners' images and slack of cell (i, l), from 0; far away at the rim, where differences are missing.
   pure function cell_image(table, field, i, l) result(image)
     type(table_t), intent(in) :: table
     real(dp), allocatable, intent(in) :: field(:, :, :)
@@ -158,15 +204,15 @@ contains
   end function cell_image
 
   !> answer > 0: the attractor that owns the whole image. Else blocker: a stored cell that is open, or NEVER.
-  subroutine ask(regions, attractors, image, answer, blocker)
+  subroutine ask(regions, attractors, mirrors, image, answer, blocker)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
+    integer, intent(in) :: mirrors(0:)
     type(image_t), intent(in) :: image
     integer, intent(out) :: answer
     integer, intent(out) :: blocker
     real(dp) :: low, high, from, to
-    integer :: row, column, i, l, a
-    logical :: mirrored
+    integer :: row, column, stored, a
 
     answer = 0
     blocker = NEVER
@@ -179,15 +225,12 @@ contains
     do row = int(low), int(high)
       call extent(image, row - image%slack_y, row + 1 + image%slack_y, from, to)
       do column = floor(from - image%slack_x), floor(to + image%slack_x)
-        i = column
-        l = row
-        call fold_cell(regions, i, l, mirrored)
-        a = cell_owner(regions, attractors, i, l, mirrored)
+        call look(regions, mirrors, column, row, a, stored)
         if (a > 0 .and. (answer == 0 .or. a == answer)) then
           answer = a
           cycle
         end if
-        if (a == 0) blocker = i + regions%n_theta*l
+        if (a <= 0) blocker = stored
         answer = 0
         return
       end do

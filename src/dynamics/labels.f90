@@ -3,7 +3,7 @@ module kz_dynamics_labels
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_kernel_map, only: map_t, WIDTH
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_regions, only: regions_t, captor, coverer
+  use kz_dynamics_regions, only: regions_t, captors, coverer
   implicit none
   private
   public :: follow
@@ -32,17 +32,16 @@ contains
     integer(c_int32_t), intent(out) :: owner(:)
     integer(c_int64_t), intent(out) :: periods(:)
     type(lane_t) :: lanes(WIDTH)
-    integer(c_int64_t) :: next, settled_at
-    integer :: active, lane, a
+    integer(c_int64_t) :: next
+    integer :: captor(WIDTH), active, lane
 
+    call captors(regions, attractors, size(u), u, v, owner)
+    periods = 0
     active = 0
     next = 1
     do
       do while (active < WIDTH .and. next <= size(u))
-        a = captor(regions, attractors, u(next), v(next))
-        owner(next) = a
-        periods(next) = 0
-        if (a == 0) then
+        if (owner(next) == 0) then
           active = active + 1
           lanes(active) = lane_t(start=next)
           call map%put(active, u(next), v(next))
@@ -51,43 +50,41 @@ contains
       end do
       if (active == 0) return
       call map%advance(active)
-      lane = 1
-      do while (lane <= active)
+      call captors(regions, attractors, active, map%u, map%v, captor)
+      do lane = active, 1, -1
         lanes(lane)%age = lanes(lane)%age + 1
-        call judge(lanes(lane), map%u(lane), map%v(lane), a, settled_at)
-        if (a == 0 .and. lanes(lane)%age < max_periods) then
-          lane = lane + 1
-          cycle
-        end if
-        owner(lanes(lane)%start) = a
-        periods(lanes(lane)%start) = settled_at
-        u(lanes(lane)%start) = map%u(lane)
-        v(lanes(lane)%start) = map%v(lane)
+        if (captor(lane) == 0 .and. size(regions%covered) > 0) call visit(lanes(lane), lane)
+        if (captor(lane) == 0 .and. lanes(lane)%age < max_periods) cycle
+        call leave(lanes(lane), lane)
         call map%move(active, lane)
         lanes(lane) = lanes(active)
         active = active - 1
       end do
     end do
   contains
-    !> Is the orbit in a trapping region, or long enough in a cover?
-    subroutine judge(l, u_now, v_now, owner_now, since)
+    !> An orbit that has stayed long enough in a cover is captured since it came in.
+    subroutine visit(l, at)
       type(lane_t), intent(inout) :: l
-      real(dp), intent(in) :: u_now
-      real(dp), intent(in) :: v_now
-      integer, intent(out) :: owner_now
-      integer(c_int64_t), intent(out) :: since
+      integer, intent(in) :: at
       integer :: host
 
-      owner_now = captor(regions, attractors, u_now, v_now)
-      since = l%age
-      if (owner_now > 0 .or. size(regions%covered) == 0) return
-      host = coverer(regions, u_now, v_now)
+      host = coverer(regions, map%u(at), map%v(at))
       l%stay = merge(l%stay + 1, 1, host == l%guest_of)
       l%guest_of = host
       if (host == 0 .or. l%stay < STAY) return
-      owner_now = host
-      since = l%age - STAY + 1
-    end subroutine judge
+      captor(at) = host
+      l%age = l%age - STAY + 1
+    end subroutine visit
+
+    subroutine leave(l, at)
+      type(lane_t), intent(in) :: l
+      integer, intent(in) :: at
+
+      owner(l%start) = captor(at)
+      periods(l%start) = l%age
+      u(l%start) = map%u(at)
+      v(l%start) = map%v(at)
+    end subroutine leave
   end subroutine follow
 
 end module kz_dynamics_labels

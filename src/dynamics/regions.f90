@@ -6,7 +6,7 @@ module kz_dynamics_regions
   use kz_dynamics_ellipses, only: in_ellipse
   implicit none
   private
-  public :: regions_t, make_regions, captor, fold_cell, cell_owner, cover_cell, coverer
+  public :: regions_t, make_regions, captors, fold_cell, cover_cell, coverer
 
   !> An ellipse that touches a cell, and the next one.
   type :: touch_t
@@ -25,6 +25,9 @@ module kz_dynamics_regions
     integer :: n_touch = 0
     integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
   end type regions_t
+
+  !> What the grid answers beyond its velocities.
+  integer, parameter :: OUTSIDE = -huge(0)
 
   !> Cells of a chaotic attractor's cover along an axis.
   integer, parameter, public :: COVER = 512
@@ -150,25 +153,68 @@ contains
     regions%touch(regions%n_touch) = touch
   end subroutine add_touch
 
-  !> The attractor (from 1) whose trapping region holds (u, v), u in [-1, 1]; 0 = none.
-  function captor(regions, attractors, u, v) result(a)
+  !> owner(i) = the attractor (from 1) whose trapping region holds (u(i), v(i)), u in [-1, 1]; 0 = none.
+  subroutine captors(regions, attractors, n, u, v, owner)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: u(n)
+    real(dp), intent(in) :: v(n)
+    integer, intent(out) :: owner(n)
+    integer :: i
+
+    call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%owner, n, u, v, owner)
+    do i = 1, n
+      if (owner(i) < 0) owner(i) = captor(regions, attractors, owner(i), u(i), v(i))
+      if (owner(i) > 0 .and. is_mirrored(u(i), v(i))) owner(i) = attractors(owner(i))%mirror
+    end do
+  end subroutine captors
+
+  !> What the grid says of the states, folded to the stored half; OUTSIDE beyond its velocities.
+  pure subroutine look_up(n_theta, n_velocity, per_u, top, grid, n, u, v, entry)
+    integer, intent(in) :: n_theta
+    integer, intent(in) :: n_velocity
+    real(dp), intent(in) :: per_u
+    real(dp), intent(in) :: top
+    integer, intent(in) :: grid(0:n_theta*n_velocity - 1)
+    integer, intent(in) :: n
+    real(dp), intent(in) :: u(n)
+    real(dp), intent(in) :: v(n)
+    integer, intent(out) :: entry(n)
+    real(dp) :: y, per_v
+    integer :: i
+
+    per_v = n_velocity/(2*top)
+    do i = 1, n
+      y = (merge(-v(i), v(i), is_mirrored(u(i), v(i))) + top)*per_v
+      entry(i) = -1
+      if (y >= 0 .and. y < n_velocity) entry(i) = min(int(abs(u(i))*per_u), n_theta - 1) + n_theta*int(y)
+    end do
+    do i = 1, n
+      if (entry(i) >= 0) then
+        entry(i) = grid(entry(i))
+      else
+        entry(i) = OUTSIDE
+      end if
+    end do
+  end subroutine look_up
+
+  !> The attractor that holds (u, v), folded, where the grid's entry is a touch or OUTSIDE.
+  function captor(regions, attractors, entry, u, v) result(a)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    integer, intent(in) :: entry
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     integer :: a
-    real(dp) :: fold, y
-    integer :: i
+    real(dp) :: fold
 
-    fold = merge(1.0_dp, -1.0_dp, .not. is_mirrored(u, v))
-    y = (fold*v + regions%top)*(regions%n_velocity/(2*regions%top))
-    if (y >= 0 .and. y < regions%n_velocity) then
-      i = min(int(fold*u*(0.5_dp*regions%n_circle)), regions%n_theta - 1)
-      a = cell_captor(regions, attractors, i, int(y), fold*u, fold*v)
-    else
+    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(u, v))
+    if (entry == OUTSIDE) then
       a = ellipse_captor(attractors, fold*u, fold*v)
+    else
+      a = touch_captor(regions, attractors, -entry, fold*u, fold*v)
     end if
-    if (a > 0 .and. fold < 0) a = attractors(a)%mirror
   end function captor
 
   !> Does (u, v) lie in the half that is not stored?
@@ -180,25 +226,23 @@ contains
     mirrored = .not. (u > 0 .or. (.not. u < 0 .and. v >= 0))
   end function is_mirrored
 
-  function cell_captor(regions, attractors, i, l, u, v) result(a)
+  !> The first ellipse of the list that begins with touch `first`, and holds (u, v), says whose.
+  function touch_captor(regions, attractors, first, u, v) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    integer, intent(in) :: i
-    integer, intent(in) :: l
+    integer, intent(in) :: first
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     integer :: a, t
 
-    a = regions%owner(i, l)
-    if (a >= 0) return
-    t = -a
+    t = first
     do while (t > 0)
       a = regions%touch(t)%attractor
       if (in_ellipse(attractors(a), regions%touch(t)%point, u, v)) return
       t = regions%touch(t)%next
     end do
     a = 0
-  end function cell_captor
+  end function touch_captor
 
   !> Outside the grid every ellipse is asked.
   function ellipse_captor(attractors, u, v) result(a)
@@ -216,7 +260,7 @@ contains
   end function ellipse_captor
 
   !> Brings cell (i, l), i any integer, to the stored half; `mirrored` where the stored one is its mirror image.
-  subroutine fold_cell(regions, i, l, mirrored)
+  pure subroutine fold_cell(regions, i, l, mirrored)
     type(regions_t), intent(in) :: regions
     integer, intent(inout) :: i
     integer, intent(inout) :: l
@@ -228,18 +272,5 @@ contains
     i = regions%n_circle - 1 - i
     l = regions%n_velocity - 1 - l
   end subroutine fold_cell
-
-  !> Owner of the stored cell (i, l), or of its mirror image; 0 = open or only touched.
-  function cell_owner(regions, attractors, i, l, mirrored) result(a)
-    type(regions_t), intent(in) :: regions
-    type(attractor_t), intent(in) :: attractors(:)
-    integer, intent(in) :: i
-    integer, intent(in) :: l
-    logical, intent(in) :: mirrored
-    integer :: a
-
-    a = max(0, regions%owner(i, l))
-    if (mirrored .and. a > 0) a = attractors(a)%mirror
-  end function cell_owner
 
 end module kz_dynamics_regions

@@ -9,6 +9,8 @@ module kz_dynamics_tables
   public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map
 
   integer, parameter :: GHOSTS = 2
+  !> Adding it rounds to an integer.
+  real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
 
   type :: table_t
     integer :: n_circle = 0   !< nodes on the whole circle
@@ -27,7 +29,7 @@ module kz_dynamics_tables
   contains
     procedure :: put
     procedure :: move
-    procedure :: advance
+    procedure :: advance => interpolate
   end type table_map_t
 
 contains
@@ -136,35 +138,19 @@ contains
     self%turns(to) = self%turns(from)
   end subroutine move
 
-  subroutine advance(self, n)
+  !> One period of n lanes by Lagrange interpolation over the nodes around each state.
+  subroutine interpolate(self, n)
     class(table_map_t), intent(inout) :: self
     integer, intent(in) :: n
-
-    select case (self%points)
-    case (2)
-      call interpolate(self, n, 2)
-    case (4)
-      call interpolate(self, n, 4)
-    case default
-      call interpolate(self, n, 6)
-    end select
-  end subroutine advance
-
-  !> One period of n lanes by Lagrange interpolation over `points` x `points` nodes around each state.
-  subroutine interpolate(self, n, points)
-    class(table_map_t), intent(inout) :: self
-    integer, intent(in) :: n
-    integer, intent(in) :: points
-    real(dp) :: u(WIDTH), v(WIDTH), fold(WIDTH), x(WIDTH), y(WIDTH), wu(WIDTH, 6), wv(WIDTH, 6)
-    real(dp) :: row(2*points), shift(2), per_u, per_v, lowest, highest
-    integer :: i(WIDTH), j(WIDTH), outside(WIDTH), n_outside, lane, a, b
+    real(dp) :: fold(WIDTH), u(WIDTH), v(WIDTH), x(WIDTH), y(WIDTH), shift(2, WIDTH), per_u, per_v, lowest, highest
+    integer :: i(WIDTH), j(WIDTH), outside(WIDTH), n_outside, lane
 
     per_u = 0.5_dp*self%table%n_circle
     per_v = (self%table%n_velocity - 1)/(2*self%table%top)
-    lowest = points/2 - 1
+    lowest = self%points/2 - 1
     highest = self%table%n_velocity - 1 - lowest
-    do lane = 1, n
-      fold(lane) = folding(self%u(lane), self%v(lane))
+    do lane = 1, WIDTH
+      fold(lane) = merge(1.0_dp, -1.0_dp, self%u(lane) > 0 .or. (.not. self%u(lane) < 0 .and. self%v(lane) >= 0))
       u(lane) = fold(lane)*self%u(lane)
       v(lane) = fold(lane)*self%v(lane)
       x(lane) = u(lane)*per_u
@@ -183,41 +169,42 @@ contains
       x(lane) = x(lane) - i(lane)
       y(lane) = y(lane) - j(lane)
     end do
-    call lagrange(n, points, x, wu)
-    call lagrange(n, points, y, wv)
+    select case (self%points)
+    case (2)
+      call linear_stencils(n, self%table%n_theta, self%table%shift, i, j, x, y, shift)
+    case (4)
+      call cubic_stencils(n, self%table%n_theta, self%table%shift, i, j, x, y, shift)
+    case default
+      call quintic_stencils(n, self%table%n_theta, self%table%shift, i, j, x, y, shift)
+    end select
     do lane = 1, n
-      row = 0
-      do b = 1, points
-        do a = 1, points
-          row(2*a - 1) = row(2*a - 1) + wv(lane, b)*self%table%shift(1, i(lane) + a - points/2, j(lane) + 1 + b - points/2)
-          row(2*a) = row(2*a) + wv(lane, b)*self%table%shift(2, i(lane) + a - points/2, j(lane) + 1 + b - points/2)
-        end do
-      end do
-      shift = 0
-      do a = 1, points
-        shift(1) = shift(1) + wu(lane, a)*row(2*a - 1)
-        shift(2) = shift(2) + wu(lane, a)*row(2*a)
-      end do
-      x(lane) = fold(lane)*(u(lane) + shift(1))
-      y(lane) = fold(lane)*(v(lane) + shift(2))
+      x(lane) = fold(lane)*(u(lane) + shift(1, lane))
+      y(lane) = fold(lane)*(v(lane) + shift(2, lane))
     end do
     if (n_outside > 0) call integrate(self, outside(:n_outside), x, y)
     do lane = 1, n
-      u(lane) = anint(0.5_dp*x(lane))
+      u(lane) = (0.5_dp*x(lane) + MAGIC) - MAGIC
       self%turns(lane) = self%turns(lane) + int(u(lane), c_int64_t)
       self%u(lane) = x(lane) - 2*u(lane)
       self%v(lane) = y(lane)
     end do
   end subroutine interpolate
 
-  !> +1 where theta > 0, or theta = 0 and v >= 0; else -1: the sign that brings a state to the stored half.
-  elemental function folding(u, v) result(fold)
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-    real(dp) :: fold
+  ! One text for the three stencils: the constant lets the compiler unroll it.
+  subroutine linear_stencils(n, n_theta, field, i, j, x, y, shift)
+    integer, parameter :: POINTS = 2
+    include 'stencil.inc'
+  end subroutine linear_stencils
 
-    fold = merge(1.0_dp, -1.0_dp, u > 0 .or. (.not. u < 0 .and. v >= 0))
-  end function folding
+  subroutine cubic_stencils(n, n_theta, field, i, j, x, y, shift)
+    integer, parameter :: POINTS = 4
+    include 'stencil.inc'
+  end subroutine cubic_stencils
+
+  subroutine quintic_stencils(n, n_theta, field, i, j, x, y, shift)
+    integer, parameter :: POINTS = 6
+    include 'stencil.inc'
+  end subroutine quintic_stencils
 
   !> The lanes `outside` through one period by integration; x (unwrapped half-turns) and y (velocity) take the images.
   subroutine integrate(self, outside, x, y)
@@ -238,36 +225,27 @@ contains
   end subroutine integrate
 
   !> Weights of Lagrange's polynomial for nodes 1 - points/2 .. points/2 at s in [0, 1).
-  subroutine lagrange(n, points, s, w)
-    integer, intent(in) :: n
+  pure subroutine lagrange(points, s, w)
     integer, intent(in) :: points
     real(dp), intent(in) :: s(WIDTH)
     real(dp), intent(out) :: w(WIDTH, 6)
-    real(dp) :: p
-    integer :: k
 
     select case (points)
     case (2)
-      w(:n, 1) = 1 - s(:n)
-      w(:n, 2) = s(:n)
+      w(:, 1) = 1 - s
+      w(:, 2) = s
     case (4)
-      do k = 1, n
-        p = s(k)
-        w(k, 1) = -p*(p - 1)*(p - 2)/6
-        w(k, 2) = (p + 1)*(p - 1)*(p - 2)/2
-        w(k, 3) = -(p + 1)*p*(p - 2)/2
-        w(k, 4) = (p + 1)*p*(p - 1)/6
-      end do
+      w(:, 1) = -s*(s - 1)*(s - 2)*(1/6.0_dp)
+      w(:, 2) = (s + 1)*(s - 1)*(s - 2)*0.5_dp
+      w(:, 3) = -(s + 1)*s*(s - 2)*0.5_dp
+      w(:, 4) = (s + 1)*s*(s - 1)*(1/6.0_dp)
     case default
-      do k = 1, n
-        p = s(k)
-        w(k, 1) = -(p + 1)*p*(p - 1)*(p - 2)*(p - 3)/120
-        w(k, 2) = (p + 2)*p*(p - 1)*(p - 2)*(p - 3)/24
-        w(k, 3) = -(p + 2)*(p + 1)*(p - 1)*(p - 2)*(p - 3)/12
-        w(k, 4) = (p + 2)*(p + 1)*p*(p - 2)*(p - 3)/12
-        w(k, 5) = -(p + 2)*(p + 1)*p*(p - 1)*(p - 3)/24
-        w(k, 6) = (p + 2)*(p + 1)*p*(p - 1)*(p - 2)/120
-      end do
+      w(:, 1) = -(s + 1)*s*(s - 1)*(s - 2)*(s - 3)*(1/120.0_dp)
+      w(:, 2) = (s + 2)*s*(s - 1)*(s - 2)*(s - 3)*(1/24.0_dp)
+      w(:, 3) = -(s + 2)*(s + 1)*(s - 1)*(s - 2)*(s - 3)*(1/12.0_dp)
+      w(:, 4) = (s + 2)*(s + 1)*s*(s - 2)*(s - 3)*(1/12.0_dp)
+      w(:, 5) = -(s + 2)*(s + 1)*s*(s - 1)*(s - 3)*(1/24.0_dp)
+      w(:, 6) = (s + 2)*(s + 1)*s*(s - 1)*(s - 2)*(1/120.0_dp)
     end select
   end subroutine lagrange
 
