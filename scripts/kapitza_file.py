@@ -34,9 +34,8 @@ class Result:
             raise BadFile(f"{self.path}: no such file")
         try:
             with h5py.File(self.path, "r") as file:
-                attributes = {name: _plain(value) for name, value in file.attrs.items()}
                 groups = [name for name, item in file.items() if isinstance(item, h5py.Group)]
-                pendulum = {name: _plain(value) for name, value in file["pendulum"].attrs.items()} if "pendulum" in file else {}
+                attributes, pendulum = _attributes(file), _attributes(file["pendulum"]) if "pendulum" in groups else {}
         except OSError as error:
             reason = "truncated" if "truncated" in str(error) else "not an HDF5 file, or damaged"
             raise BadFile(f"{self.path}: {reason}") from error
@@ -64,11 +63,15 @@ class Result:
         return dataset
 
 
+def _attributes(item):
+    """The attributes of a file or group as str, int, float or array."""
+    return {name: _plain(value) for name, value in item.attrs.items()}
+
+
 def _plain(value):
-    """An attribute as str, int or float."""
     if isinstance(value, bytes):
         return value.decode()
-    return value.item() if hasattr(value, "item") and getattr(value, "size", 1) == 1 else value
+    return value.item() if getattr(value, "size", 0) == 1 else value
 
 
 def run(main):

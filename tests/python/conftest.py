@@ -114,3 +114,25 @@ def kapitza():
         return done
 
     return call
+
+
+@pytest.fixture(scope="session")
+def small_result(kapitza, tmp_path_factory):
+    """The result of scenes/small.yaml on two ranks."""
+    folder = tmp_path_factory.mktemp("small")
+    kapitza("run", ROOT / "scenes" / "small.yaml", ranks=2, folder=folder)
+    return folder / "small.h5"
+
+
+def datasets(path):
+    """Every dataset of a file as bytes (text as it reads), by its full name."""
+    contents = {}
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset):
+            text = h5py.check_string_dtype(item.dtype)
+            contents[name] = "\n".join(item.asstr()[:].ravel()) if text else (str(item.dtype), item.shape, item[()].tobytes())
+
+    with h5py.File(path) as file:
+        file.visititems(visit)
+    return contents

@@ -38,10 +38,10 @@ def test_the_script_runs_by_itself(made_file, tmp_path):
     assert (tmp_path / "made.png").is_file()
 
 
-@pytest.mark.parametrize("options", [[], ["--shade"], ["--centre", "inverted"], ["--quantity", "settling_time"],
-                                     ["--quantity", "evidence"], ["--attractor", "inverted"], ["--attractor", "2"], ["--no-legend"]])
+@pytest.mark.parametrize("options", ["", "--shade", "--centre inverted", "--quantity settling_time", "--quantity evidence",
+                                     "--attractor inverted", "--attractor 2", "--no-legend"])
 def test_every_mode_draws(made_file, tmp_path, options):
-    done = plot(made_file, "-o", tmp_path / "out.png", "--dpi", 100, *options)
+    done = plot(made_file, "-o", tmp_path / "out.png", "--dpi", 100, *options.split())
     assert (done.returncode, done.stderr) == (0, "")
     image = matplotlib.image.imread(tmp_path / "out.png")
     assert image.shape[1] > 600 and image[..., :3].std() > 0.05
@@ -90,8 +90,11 @@ def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
     assert len(found) >= len(wanted) and all(left - 1e-8 <= image <= left + width + 1e-8 for image in found)
 
 
-@pytest.mark.parametrize("arguments, words", [(["--attractor", "nobody"], "has no attractor nobody"), (["-o", "out.gif"], "must end in"),
-                                              (["--attractor", "0", "--shade"], "goes with neither")])
+@pytest.mark.parametrize("arguments, words", [
+    (["--attractor", "nobody"], "has no attractor nobody"),
+    (["-o", "out.gif"], "must end in"),
+    (["--attractor", "0", "--shade"], "goes with neither"),
+])
 def test_wrong_requests_are_refused(made_file, arguments, words):
     done = plot(made_file, *arguments)
     assert done.returncode != 0 and words in done.stderr and "Traceback" not in done.stderr
@@ -118,9 +121,16 @@ def damage(path, how):
                 del file["pendulum"].attrs["k"]
 
 
-@pytest.mark.parametrize("how, words", [("missing", "no such file"), ("empty", "not an HDF5 file"), ("text", "not an HDF5 file"),
-                                        ("truncated", "truncated"), ("foreign", "not a result of kapitza"), ("no basin", "holds no basin"),
-                                        ("no labels", "lacks attractor"), ("no parameters", "lacks k, beta or m")])
+@pytest.mark.parametrize("how, words", [
+    ("missing", "no such file"),
+    ("empty", "not an HDF5 file"),
+    ("text", "not an HDF5 file"),
+    ("truncated", "truncated"),
+    ("foreign", "not a result of kapitza"),
+    ("no basin", "holds no basin"),
+    ("no labels", "lacks attractor"),
+    ("no parameters", "lacks k, beta or m"),
+])
 def test_files_that_cannot_be_used_get_one_line(made_file, tmp_path, how, words):
     damage(made_file, how)
     done = plot(made_file, "-o", tmp_path / "out.png")

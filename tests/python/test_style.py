@@ -52,7 +52,8 @@ def test_a_colour_does_not_depend_on_the_id():
 
 
 def test_every_attractor_of_the_five_figures_has_its_own_colour():
-    fig12 = [(1, 0, 0, 0), (6, 0, 0, 1), (1, 0, 1, 2), (6, 2, 2, 4), (6, -2, 2, 3), (2, 1, 2, 6), (2, -1, 2, 5), (1, 1, 2, 8), (1, -1, 2, 7)]
+    fig12 = [(1, 0, 0, 0), (6, 0, 0, 1), (1, 0, 1, 2), (6, 2, 2, 4), (6, -2, 2, 3), (2, 1, 2, 6), (2, -1, 2, 5), (1, 1, 2, 8),
+             (1, -1, 2, 7)]
     fig14 = [(2, 0, 0, 0), (2, 0, 1, 1), (3, 0, 1, 3), (3, 0, 1, 2), (9, 0, 1, 5), (9, 0, 1, 4), (1, 1, 2, 7), (1, -1, 2, 6)]
     for rows in (fig12, fig14):
         assert len(set(style.colours(catalogue(*rows)))) == len(rows)
