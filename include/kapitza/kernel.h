@@ -54,6 +54,15 @@ void kz_advance_tangent(const kz_plan *plan, int64_t n, int64_t periods, double 
 void kz_sample(const kz_plan *plan, int64_t periods, int64_t samples_per_period, double theta, double velocity,
                double *theta_out, double *velocity_out);
 
+/* Models of an orbit: the pendulum itself, and two simpler ones. */
+enum { KZ_PENDULUM = 0, KZ_MATHIEU = 1, KZ_EFFECTIVE = 2 };
+
+/* One motion of a simpler model, sampled like kz_sample, with fine steps of its own (split6, at least 96 a period).
+ * KZ_MATHIEU: u'' + beta u' + (k - m cos t) u = 0, with (-k, beta, -m) about the inverted position, u = theta - pi.
+ * KZ_EFFECTIVE: theta'' + beta theta' + dE/dtheta = 0 with the potential of BSG Eq. (10). */
+void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods, int64_t samples_per_period, double theta,
+                     double velocity, double *theta_out, double *velocity_out);
+
 /* The kernel's own sine: sin(pi u) of half-turns u [n], in the given kind (for tests). */
 void kz_sine(int32_t precision, int64_t n, const double *half_turns, double *sine);
 

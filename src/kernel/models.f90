@@ -1,0 +1,119 @@
+!> Two simpler models of the same pendulum as time series: the linear (Mathieu) equation and the slow equation of the
+!> effective potential. Both are drifts and kicks like the pendulum itself; only the restoring force differs.
+module kz_kernel_models
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use kz_kernel_plan, only: FINE
+  use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
+  implicit none
+  private
+  public :: sample_model
+
+  !> The codes of kernel.h.
+  integer(c_int32_t), parameter :: MATHIEU = 1, EFFECTIVE = 2
+
+  !> theta'' + beta theta' + drive(t) * restoring(theta) = 0, the drive tabulated over one period.
+  type :: model_t
+    integer(c_int32_t) :: code
+    type(pendulum_t) :: pendulum
+    type(period_t) :: period
+    real(c_double), allocatable :: drift(:)
+    real(c_double), allocatable :: decay(:)
+    real(c_double), allocatable :: kick(:)
+  end type model_t
+
+contains
+
+  subroutine sample_model(code, pendulum, periods, samples, theta, velocity, theta_out, velocity_out) &
+    bind(C, name='kz_sample_model')
+    !> MATHIEU or EFFECTIVE
+    integer(c_int32_t), value :: code
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> drive periods
+    integer(c_int64_t), value :: periods
+    !> samples per period
+    integer(c_int64_t), value :: samples
+    !> start, rad
+    real(c_double), value :: theta
+    !> start, rad per drive radian
+    real(c_double), value :: velocity
+    !> angles at t = 2 pi s/samples, s = 0 .. periods*samples
+    real(c_double), intent(out) :: theta_out(0:periods*samples)
+    !> velocities there
+    real(c_double), intent(out) :: velocity_out(0:periods*samples)
+    type(model_t) :: model
+    real(c_double) :: x(2)
+    integer(c_int64_t) :: s
+    integer :: stride, part
+
+    call make_model(code, pendulum, int(samples), model)
+    stride = model%period%n_steps/int(samples)
+    x = [theta, velocity]
+    theta_out(0) = x(1)
+    velocity_out(0) = x(2)
+    do s = 1, periods*samples
+      part = int(mod(s - 1, samples))
+      call advance(model, part*stride, (part + 1)*stride, x)
+      theta_out(s) = x(1)
+      velocity_out(s) = x(2)
+    end do
+  end subroutine sample_model
+
+  !> The tables: fine steps, a multiple of the samples. The slow equation knows no drive: its force is 1.
+  subroutine make_model(code, pendulum, samples, model)
+    integer(c_int32_t), intent(in) :: code
+    type(pendulum_t), intent(in) :: pendulum
+    integer, intent(in) :: samples
+    type(model_t), intent(out) :: model
+    type(numerics_t) :: numerics
+
+    numerics = FINE
+    numerics%steps_per_period = samples*((FINE%steps_per_period + samples - 1)/samples)
+    model%code = code
+    model%pendulum = pendulum
+    if (code == EFFECTIVE) then
+      model%period = make_period(pendulum_t(1, pendulum%beta, 0), numerics, joined=.false.)
+    else
+      model%period = make_period(pendulum, numerics, joined=.false.)
+    end if
+    model%drift = real(model%period%drift, c_double)
+    model%decay = real(model%period%decay, c_double)
+    model%kick = real(model%period%kick, c_double)
+  end subroutine make_model
+
+  !> x = (theta, velocity) from the end of step `from` to the end of step `to` of a period.
+  subroutine advance(model, from, to, x)
+    type(model_t), intent(in) :: model
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+    real(c_double), intent(inout) :: x(2)
+    integer :: s, first
+
+    first = 1
+    if (from > 0) first = model%period%step_end(from) + 1
+    do s = first, model%period%step_end(to)
+      x(1) = x(1) + model%drift(s)*x(2)
+      x(2) = model%decay(s)*x(2) - model%kick(s)*restoring(model, x(1))
+    end do
+  end subroutine advance
+
+  pure function restoring(model, theta) result(force)
+    type(model_t), intent(in) :: model
+    real(c_double), intent(in) :: theta
+    real(c_double) :: force
+
+    force = theta
+    if (model%code == EFFECTIVE) force = potential_slope(model%pendulum, theta)
+  end function restoring
+
+  !> dE/dtheta of the potential of BSG Eq. (10), in units of I omega^2, with its whole dependence on k and beta.
+  pure function potential_slope(pendulum, theta) result(slope)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), intent(in) :: theta
+    real(c_double) :: slope, u
+
+    u = 1 - pendulum%k*cos(theta)
+    slope = sin(theta)*(pendulum%k + 0.5_c_double*pendulum%m**2*cos(theta)*u/(u**2 + pendulum%beta**2))
+  end function potential_slope
+
+end module kz_kernel_models
