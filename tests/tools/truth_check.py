@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Judges the labels of a basin file by quad precision: the share of wrong ones among random cells, with its 95 % interval.
+
+    tests/tools/truth_check.py blackburn-fig12.h5 --cells 1000 --seed 7
+
+Every sampled cell is followed by build/tests/truth_label to an attractor of the file's catalogue. Unsettled cells are wrong.
+A cell whose true orbit comes to none of the periodic attractors belongs to the chaotic ones; without any it is wrong.
+"""
+
+import argparse
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from kapitza_file import BadFile, Result, run  # noqa: E402
+
+TRUTH_LABEL = ROOT / "build" / "tests" / "truth_label"
+NONE = -1
+
+
+def wilson(wrong, n, z=1.959963984540054):
+    """The 95 % interval of a share seen `wrong` times in n."""
+    centre = (wrong + z * z / 2) / (n + z * z)
+    half = z / (n + z * z) * math.sqrt(wrong * (n - wrong) / n + z * z / 4)
+    return max(0.0, centre - half), min(1.0, centre + half)
+
+
+class Catalogue:
+    """A pendulum and the strobe points of its attractors, as text for truth_label and for the textbook programs."""
+
+    def __init__(self, result):
+        self.pendulum = [result.pendulum[name] for name in ("k", "beta", "m")]
+        group = result.group("attractors")
+        self.period = group["period"].values
+        self.theta, self.velocity = group["strobe_theta"].values, group["strobe_velocity"].values
+        self.periodic = np.flatnonzero(self.period > 0)
+        self.chaotic = np.flatnonzero(self.period == 0)
+
+    def text(self, max_periods):
+        """Pendulum, longest run, and one line per periodic attractor."""
+        lines = [" ".join(map(repr, map(float, self.pendulum))), f"{max_periods} {len(self.periodic)}"]
+        for attractor in self.periodic:
+            points = np.stack([self.theta[attractor], self.velocity[attractor]], axis=1)[: self.period[attractor]]
+            lines.append(f"{self.period[attractor]} " + " ".join(map(repr, points.ravel().tolist())))
+        return "\n".join(lines) + "\n"
+
+    def ids(self, numbers):
+        """Attractor ids of the numbers that count the periodic attractors alone; NONE stays."""
+        return np.where(numbers < 0, NONE, self.periodic[np.maximum(numbers, 0)]) if len(self.periodic) else numbers
+
+
+def states_text(theta, velocity):
+    return "".join(f"{a!r} {b!r}\n" for a, b in zip(theta.tolist(), velocity.tolist(), strict=True))
+
+
+def truth_labels(catalogue, theta, velocity, max_periods=4000, processes=2):
+    """True attractor ids of states (NONE: captured by no periodic attractor), by `processes` copies of truth_label."""
+    head = catalogue.text(max_periods)
+    parts = np.array_split(np.arange(len(theta)), processes)
+    running = [subprocess.Popen([TRUTH_LABEL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) for _ in parts]
+    for process, part in zip(running, parts, strict=True):
+        process.stdin.write(head + states_text(theta[part], velocity[part]))
+        process.stdin.close()
+    answers = [np.loadtxt(process.stdout, dtype=np.int64, ndmin=2) for process in running]
+    if any(process.wait() for process in running):
+        raise BadFile(f"{TRUTH_LABEL.name} failed")
+    return catalogue.ids(np.concatenate([answer.reshape(-1, 2)[:, 0] for answer in answers]))
+
+
+def sample_cells(shape, count, seed):
+    """Rows and columns of `count` different random cells (of all cells, where there are fewer)."""
+    total = shape[0] * shape[1]
+    return np.unravel_index(np.random.default_rng(seed).choice(total, min(count, total), replace=False), shape)
+
+
+def judge(labels, truth, catalogue):
+    """Counts of the labels against the truth."""
+    homeless = (truth == NONE) & (len(catalogue.chaotic) == 0)
+    right = np.where(truth == NONE, np.isin(labels, catalogue.chaotic), labels == truth)
+    wrong, n = int(np.count_nonzero(~right)), len(labels)
+    low, high = wilson(wrong, n)
+    return {"cells": n, "wrong": wrong, "share": wrong / n, "low": low, "high": high,
+            "unsettled": int(np.count_nonzero(labels == NONE)), "homeless": int(np.count_nonzero(homeless))}
+
+
+def check_file(path, count, seed, processes, max_periods):
+    """The verdict on a result file, and where it is wrong."""
+    result = Result(path)
+    basin, catalogue = result.group("basin"), Catalogue(result)
+    if not catalogue.pendulum[1] > 0:
+        raise BadFile(f"{path}: undamped, nothing to judge")
+    row, column = sample_cells(basin["attractor"].shape, count, seed)
+    theta, velocity = basin["theta"].values[column], basin["velocity"].values[row]
+    labels = basin["attractor"].values[row, column].astype(np.int64)
+    truth = truth_labels(catalogue, theta, velocity, max_periods, processes)
+    verdict = judge(labels, truth, catalogue) | {"file": str(path), "method": basin.attrs.get("method", ""), "seed": seed}
+    return verdict, (theta, velocity, labels, truth)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--cells", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--processes", type=int, default=2)
+    parser.add_argument("--max-periods", type=int, default=4000, help="how long a true orbit is followed")
+    parser.add_argument("--json", action="store_true")
+    parser.add_argument("--list", action="store_true", help="also print every wrong cell")
+    arguments = parser.parse_args()
+    verdict, cells = check_file(arguments.file, arguments.cells, arguments.seed, arguments.processes, arguments.max_periods)
+    if arguments.json:
+        print(json.dumps(verdict))
+    else:
+        print("{file}: {method}: {wrong} of {cells} cells wrong, {0:.3f} % (95 %: {1:.3f} .. {2:.3f} %); {unsettled} unsettled, "
+              "{homeless} come to no attractor of the file".format(*(100 * verdict[key] for key in ("share", "low", "high")),
+                                                                 **verdict))
+    if arguments.list:
+        for theta, velocity, label, truth in zip(*(part.tolist() for part in cells), strict=True):
+            if label != truth:
+                print(f"  theta {theta!r} velocity {velocity!r} labelled {label}, in truth {truth}")
+
+
+if __name__ == "__main__":
+    run(main)
