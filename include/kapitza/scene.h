@@ -32,7 +32,7 @@ typedef enum {
 #define KZ_ABOVE_ZERO DBL_TRUE_MIN /* lowest value of a range that excludes zero */
 
 typedef struct {
-  const char *path;                /* "basin.theta.count"; a mapping's row stands before the rows of its keys */
+  const char *path; /* "basin.theta.count"; a mapping's row stands before the rows of its keys */
   kz_key_type type;
   const char *unit;                /* "" = none */
   double low, high;                /* accepted values, ends included */
@@ -70,7 +70,7 @@ typedef struct kz_node {
   const char *source;         /* file name, or the option "--set KEY=VALUE"; not owned */
   int name_line, name_column; /* from 1; 0 in an option */
   int line, column;
-  int order;                  /* rank in document order */
+  int order; /* rank in document order */
   struct kz_node *first, *next;
 } kz_node;
 
@@ -106,8 +106,8 @@ typedef struct {
   kz_node *root;
   void *scene;
   const char *file;
-  int first;          /* order of the complaint kept; INT_MAX = none */
-  char message[1024];
+  int first; /* order of the complaint kept; INT_MAX = none */
+  char message[2000];
 } kz_reading;
 
 /* Records a complaint about `path` at the value of `node`; NULL = a missing key, reported at the mapping it misses from. */

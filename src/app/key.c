@@ -7,29 +7,25 @@
 
 enum { LONGEST_WORD = 63 };
 
-const char *kz_key_words(const kz_key *key)
-{
+const char *kz_key_words(const kz_key *key) {
   if (key->words_from) return key->words_from();
   return key->words ? key->words : "";
 }
 
-const kz_key *kz_key_find(const kz_key *keys, const char *path)
-{
+const kz_key *kz_key_find(const kz_key *keys, const char *path) {
   for (; keys->path; keys++)
     if (strcmp(keys->path, path) == 0) return keys;
   return NULL;
 }
 
-bool kz_key_is_child(const char *path, const char *parent)
-{
+bool kz_key_is_child(const char *path, const char *parent) {
   const size_t length = strlen(parent);
   if (length == 0) return strchr(path, '.') == NULL;
   return strncmp(path, parent, length) == 0 && path[length] == '.' && strchr(path + length + 1, '.') == NULL;
 }
 
 /* "from 1 to 512", "above 0", "of at least 0", or nothing where any value does. */
-static void print_range(const kz_key *key, char *text, size_t bytes)
-{
+static void print_range(const kz_key *key, char *text, size_t bytes) {
   char low[32], high[32];
   kz_scalar_print(key->low, low);
   kz_scalar_print(key->high, high);
@@ -45,8 +41,7 @@ static void print_range(const kz_key *key, char *text, size_t bytes)
 }
 
 /* Writes the words of "a|b|c" as "a, b, c". */
-static void print_words(const char *words, char *text, size_t bytes)
-{
+static void print_words(const char *words, char *text, size_t bytes) {
   size_t at = 0;
   for (; *words && at + 3 < bytes; words++) {
     text[at++] = *words == '|' ? ',' : *words;
@@ -55,8 +50,7 @@ static void print_words(const char *words, char *text, size_t bytes)
   text[at] = '\0';
 }
 
-void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes)
-{
+void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes) {
   const size_t skip = parent[0] ? strlen(parent) + 1 : 0;
   text[0] = '\0';
   for (; keys->path; keys++)
@@ -64,14 +58,12 @@ void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t 
       snprintf(text + strlen(text), bytes - strlen(text), "%s%s", text[0] ? "|" : "", keys->path + skip);
 }
 
-void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes)
-{
+void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes) {
   static const char *const nouns[] = {
-      [KZ_KEY_MAPPING] = "a mapping of ",       [KZ_KEY_TEXT] = "one line of text",
-      [KZ_KEY_WORD] = "one of ",                [KZ_KEY_BOOLEAN] = "true or false",
-      [KZ_KEY_INTEGER] = "an integer",          [KZ_KEY_COUNT] = "an integer",
-      [KZ_KEY_REAL] = "a number",               [KZ_KEY_WORDS] = "a list out of ",
-      [KZ_KEY_INTEGERS] = "a list of integers", [KZ_KEY_REALS] = "a list of numbers",
+      [KZ_KEY_MAPPING] = "a mapping of ",   [KZ_KEY_TEXT] = "one line of text", [KZ_KEY_WORD] = "one of ",
+      [KZ_KEY_BOOLEAN] = "true or false",   [KZ_KEY_INTEGER] = "an integer",    [KZ_KEY_COUNT] = "an integer",
+      [KZ_KEY_REAL] = "a number",           [KZ_KEY_WORDS] = "a list out of ",  [KZ_KEY_INTEGERS] = "a list of integers",
+      [KZ_KEY_REALS] = "a list of numbers",
   };
   char names[512] = "", detail[512] = "";
   if (key->type == KZ_KEY_MAPPING)
@@ -83,11 +75,12 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
   snprintf(text, bytes, "%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit);
 }
 
-static size_t least(size_t a, size_t b) { return a < b ? a : b; }
+static size_t least(size_t a, size_t b) {
+  return a < b ? a : b;
+}
 
 /* Edit distance with swapped neighbours counted once (Damerau 1964, optimal string alignment). */
-static size_t distance(const char *a, const char *b)
-{
+static size_t distance(const char *a, const char *b) {
   static size_t d[LONGEST_WORD + 1][LONGEST_WORD + 1];
   const size_t n = strlen(a), m = strlen(b);
   if (n > LONGEST_WORD || m > LONGEST_WORD) return SIZE_MAX;
@@ -104,8 +97,7 @@ static size_t distance(const char *a, const char *b)
   return d[n][m];
 }
 
-bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes)
-{
+bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes) {
   size_t best = strlen(word) / 3 + 1; /* worse is no likeness */
   if (best > 3) best = 3;
   bool found = false;

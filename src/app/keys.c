@@ -5,23 +5,24 @@
 
 #define AT(field) offsetof(kz_scene, field)
 
-#define MAPPING(path_, fallback_, offset_, help_) \
-  {.path = path_, .type = KZ_KEY_MAPPING, .unit = "", .fallback = fallback_, .offset = offset_, .help = help_}
-#define REAL(path_, unit_, low_, high_, fallback_, field_, help_)                                                       \
-  {.path = path_, .type = KZ_KEY_REAL, .unit = unit_, .low = low_, .high = high_, .fallback = fallback_, .offset = AT(field_), \
-   .help = help_}
-#define PENDULUM(form_, name_, unit_, low_, fallback_, help_)                                                            \
-  {.path = "pendulum." #name_, .type = KZ_KEY_REAL, .unit = unit_, .low = low_, .high = DBL_MAX, .fallback = fallback_,  \
-   .form = form_, .offset = AT(parameters.written.name_), .help = help_}
-#define INTEGER(path_, low_, high_, fallback_, field_, help_)                                                            \
-  {.path = path_, .type = KZ_KEY_INTEGER, .unit = "", .low = low_, .high = high_, .fallback = fallback_, .offset = AT(field_), \
-   .help = help_}
-#define WORD(path_, words_, fallback_, field_, help_) \
-  {.path = path_, .type = KZ_KEY_WORD, .unit = "", .words = words_, .fallback = fallback_, .offset = AT(field_), .help = help_}
+/* One row: the first four of every type, then what the type needs. */
+#define ROW(path_, type_, fallback_, offset_, help_, ...) \
+  { .path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__ }
+#define MAPPING(path, fallback, offset, help) ROW(path, KZ_KEY_MAPPING, fallback, offset, help, .unit = "")
+#define TEXT(path, fallback, field, help) ROW(path, KZ_KEY_TEXT, fallback, AT(field), help, .unit = "")
+#define WORD(path, words_, fallback, field, help) ROW(path, KZ_KEY_WORD, fallback, AT(field), help, .unit = "", .words = words_)
+#define INTEGER(path, low_, high_, fallback, field, help) \
+  ROW(path, KZ_KEY_INTEGER, fallback, AT(field), help, .unit = "", .low = low_, .high = high_)
+#define COUNT(path, low_, high_, fallback, field, help) \
+  ROW(path, KZ_KEY_COUNT, fallback, AT(field), help, .unit = "", .low = low_, .high = high_)
+#define REAL(path, unit_, low_, high_, fallback, field, help) \
+  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_)
+#define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
+  ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
+      .high = DBL_MAX, .form = form_)
 
 /* The names of the kernel's table of schemes. */
-static const char *scheme_words(void)
-{
+static const char *scheme_words(void) {
   static char words[512];
   words[0] = '\0';
   for (int32_t row = 0; row < kz_scheme_count(); row++) {
@@ -34,8 +35,7 @@ static const char *scheme_words(void)
 }
 
 const kz_key kz_keys[] = {
-    {.path = "title", .type = KZ_KEY_TEXT, .unit = "", .fallback = "", .offset = AT(title),
-     .help = "One line that names the scene in files and pictures."},
+    TEXT("title", "", title, "One line that names the scene in files and pictures."),
 
     MAPPING("pendulum", NULL, KZ_NO_FIELD, "The parameters, in ONE of three ways."),
     PENDULUM('a', quality_factor, "", KZ_ABOVE_ZERO, "", "Q = omega0 I/b, so that beta = 1/(Omega Q); left out: no damping."),
@@ -53,10 +53,11 @@ const kz_key kz_keys[] = {
     PENDULUM('c', pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, NULL, "omega of the pivot."),
 
     MAPPING("numerics", "", KZ_NO_FIELD, "How one drive period is integrated."),
-    {.path = "numerics.scheme", .type = KZ_KEY_WORD, .unit = "", .words_from = scheme_words, .fallback = "split6",
-     .offset = AT(numerics.scheme), .help = "Integrator; rk4 is the classical one, the split ones are exact in the damping."},
-    {.path = "numerics.steps_per_period", .type = KZ_KEY_COUNT, .unit = "", .low = 1, .high = 100000, .fallback = "",
-     .offset = AT(numerics.steps_per_period), .help = "Whole steps of the scheme in a drive period; left out: the scheme's own number."},
+    ROW("numerics.scheme", KZ_KEY_WORD, "split6", AT(numerics.scheme),
+        "Integrator; rk4 is the classical one, the split ones are exact in the damping.", .unit = "",
+        .words_from = scheme_words),
+    COUNT("numerics.steps_per_period", 1, 100000, "", numerics.steps_per_period,
+          "Whole steps of the scheme in a drive period; left out: the scheme's own number."),
     WORD("numerics.precision", "single|double|quad", "double", numerics.precision, "Kind of the arithmetic."),
 
     MAPPING("basin", "", AT(has_basin), "Study: the attractors, then a label for every cell of a window."),

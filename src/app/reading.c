@@ -8,8 +8,7 @@
 #include "kapitza/scene.h"
 
 /* "FILE:LINE:COLUMN" or the option. */
-static void print_place(const kz_node *node, bool at_name, char *text, size_t bytes)
-{
+static void print_place(const kz_node *node, bool at_name, char *text, size_t bytes) {
   const int line = at_name ? node->name_line : node->line;
   const int column = at_name ? node->name_column : node->column;
   if (line > 0)
@@ -19,8 +18,7 @@ static void print_place(const kz_node *node, bool at_name, char *text, size_t by
 }
 
 /* The deepest mapping that is there on the way to `path`. */
-static const kz_node *nearest_mapping(const kz_node *root, const char *path)
-{
+static const kz_node *nearest_mapping(const kz_node *root, const char *path) {
   const kz_node *node = root;
   char name[64];
   for (size_t length; path[length = strcspn(path, ".")] == '.'; path += length + 1) {
@@ -32,8 +30,7 @@ static const kz_node *nearest_mapping(const kz_node *root, const char *path)
   return node;
 }
 
-static void keep(kz_reading *reading, int order, const char *place, const char *path, const char *format, va_list arguments)
-{
+static void keep(kz_reading *reading, int order, const char *place, const char *path, const char *format, va_list arguments) {
   if (order >= reading->first) return;
   reading->first = order;
   const int length = snprintf(reading->message, sizeof reading->message, "%s: %s: ", place, path);
@@ -41,9 +38,8 @@ static void keep(kz_reading *reading, int order, const char *place, const char *
     vsnprintf(reading->message + length, sizeof reading->message - (size_t)length, format, arguments);
 }
 
-void kz_complain(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...)
-{
-  char place[512];
+void kz_complain(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...) {
+  char place[1200];
   print_place(node ? node : nearest_mapping(reading->root, path), false, place, sizeof place);
   va_list arguments;
   va_start(arguments, format);
@@ -53,9 +49,8 @@ void kz_complain(kz_reading *reading, const kz_node *node, const char *path, con
 
 /* The same at the key of `node` rather than at its value. */
 __attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *reading, const kz_node *node, const char *path,
-                                                               const char *format, ...)
-{
-  char place[512];
+                                                               const char *format, ...) {
+  char place[1200];
   print_place(node, true, place, sizeof place);
   va_list arguments;
   va_start(arguments, format);
@@ -64,8 +59,7 @@ __attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *readi
 }
 
 /* Complains about a value: what is wrong with it, what would be accepted. */
-static void complain_value(kz_reading *reading, const kz_key *key, const kz_node *node, const char *wrong)
-{
+static void complain_value(kz_reading *reading, const kz_key *key, const kz_node *node, const char *wrong) {
   char accepted[700], nearest[64], hint[96] = "";
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
   if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
@@ -76,8 +70,7 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
     kz_complain(reading, node, key->path, "the value %s; %s", wrong, accepted);
 }
 
-static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path)
-{
+static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path) {
   char names[1024], nearest[64];
   kz_key_children(reading->keys, parent, names, sizeof names);
   if (kz_key_suggest(node->name, names, nearest, sizeof nearest)) {
@@ -91,8 +84,7 @@ static void complain_unknown(kz_reading *reading, const kz_node *node, const cha
 
 static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent);
 
-static void read_key(kz_reading *reading, const kz_key *key, const kz_node *node)
-{
+static void read_key(kz_reading *reading, const kz_key *key, const kz_node *node) {
   const kz_node *culprit = node;
   const char *wrong = NULL;
   if (key->type != KZ_KEY_MAPPING) {
@@ -107,8 +99,7 @@ static void read_key(kz_reading *reading, const kz_key *key, const kz_node *node
 }
 
 /* The first key of a mapping that belongs to a form: it chooses the form. NULL where none does. */
-static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, const char *parent)
-{
+static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, const char *parent) {
   for (const kz_node *child = mapping->first; child; child = child->next) {
     char path[256];
     snprintf(path, sizeof path, "%s.%.100s", parent, child->name);
@@ -118,8 +109,7 @@ static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, co
   return NULL;
 }
 
-static void read_child(kz_reading *reading, const kz_node *mapping, const kz_node *child, const char *parent)
-{
+static void read_child(kz_reading *reading, const kz_node *mapping, const kz_node *child, const char *parent) {
   char path[256];
   snprintf(path, sizeof path, "%s%s%.100s", parent, parent[0] ? "." : "", child->name);
   const kz_key *key = kz_key_find(reading->keys, path);
@@ -135,23 +125,20 @@ static void read_child(kz_reading *reading, const kz_node *mapping, const kz_nod
 }
 
 /* Ends at the first complaint: what follows in the document cannot come before it. */
-static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent)
-{
+static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent) {
   for (const kz_node *child = mapping->first; child && child->order < reading->first; child = child->next)
     read_child(reading, mapping, child, parent);
 }
 
 /* The mapping that should hold `key`, or NULL where it is not there. */
-static const kz_node *holder(const kz_reading *reading, const kz_key *key, char *parent, size_t bytes)
-{
+static const kz_node *holder(const kz_reading *reading, const kz_key *key, char *parent, size_t bytes) {
   const char *dot = strrchr(key->path, '.');
   snprintf(parent, bytes, "%.*s", dot ? (int)(dot - key->path) : 0, key->path);
   const kz_node *node = dot ? kz_tree_find(reading->root, parent) : reading->root;
   return node && node->kind == KZ_MAPPING ? node : NULL;
 }
 
-static void check_missing(kz_reading *reading, const kz_key *key)
-{
+static void check_missing(kz_reading *reading, const kz_key *key) {
   char parent[256], accepted[700];
   const kz_node *mapping = holder(reading, key, parent, sizeof parent);
   if (!mapping || key->fallback || kz_tree_find(reading->root, key->path)) return;
@@ -162,8 +149,7 @@ static void check_missing(kz_reading *reading, const kz_key *key)
 }
 
 /* A top-level mapping with a field is a study: at least one is needed. */
-static void check_studies(kz_reading *reading)
-{
+static void check_studies(kz_reading *reading) {
   char names[512] = "";
   for (const kz_key *key = reading->keys; key->path; key++) {
     if (key->type != KZ_KEY_MAPPING || key->offset == KZ_NO_FIELD || strchr(key->path, '.')) continue;
@@ -174,8 +160,7 @@ static void check_studies(kz_reading *reading)
 }
 
 /* The default of a key, through the same door as a user's value. */
-static kz_status set_default(const kz_key *key, void *scene)
-{
+static kz_status set_default(const kz_key *key, void *scene) {
   kz_value_clear(key, scene);
   if (key->type == KZ_KEY_MAPPING || !key->fallback || !key->fallback[0]) return KZ_OK;
   kz_node *node;
@@ -186,16 +171,14 @@ static kz_status set_default(const kz_key *key, void *scene)
   return wrong ? kz_fail(KZ_FAILED, "%s: its default %s", key->path, wrong) : KZ_OK;
 }
 
-static void number(kz_node *node, int *next)
-{
+static void number(kz_node *node, int *next) {
   for (; node; node = node->next) {
     node->order = (*next)++;
     number(node->first, next);
   }
 }
 
-kz_status kz_reading_keys(kz_reading *reading)
-{
+kz_status kz_reading_keys(kz_reading *reading) {
   int next = 0;
   reading->first = INT_MAX;
   number(reading->root, &next);

@@ -7,8 +7,7 @@
 static const double PI = 3.14159265358979323846;
 
 /* min < max, and cells that double precision can tell apart. `path` names the mapping of the axis. */
-static void check_axis(kz_reading *reading, const kz_axis *axis, const char *path)
-{
+static void check_axis(kz_reading *reading, const kz_axis *axis, const char *path) {
   char name[128];
   if (isnan(axis->min) || isnan(axis->max)) return;
   snprintf(name, sizeof name, "%s.max", path);
@@ -17,13 +16,13 @@ static void check_axis(kz_reading *reading, const kz_axis *axis, const char *pat
   if (axis->max <= axis->min)
     kz_complain(reading, node, name, "%.17g is not above min = %.17g; a larger number", axis->max, axis->min);
   else if (cell < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max)))
-    kz_complain(reading, node, name, "%.17g leaves cells of width %g, too narrow for double precision; a wider window or a smaller count",
-                axis->max, cell);
+    kz_complain(reading, node, name,
+                "%.17g leaves cells of width %g, too narrow for double precision; a wider window or a smaller count", axis->max,
+                cell);
 }
 
 /* Both edges or neither; neither is the whole circle. */
-static void theta_window(kz_reading *reading, kz_axis *theta, const char *path)
-{
+static void theta_window(kz_reading *reading, kz_axis *theta, const char *path) {
   char min[128], max[128];
   snprintf(min, sizeof min, "%s.min", path);
   snprintf(max, sizeof max, "%s.max", path);
@@ -40,16 +39,14 @@ static void theta_window(kz_reading *reading, kz_axis *theta, const char *path)
                 theta->max - theta->min);
 }
 
-static void basin_rules(kz_reading *reading, kz_scene *scene)
-{
+static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin) return;
   theta_window(reading, &scene->basin.theta, "basin.theta");
   check_axis(reading, &scene->basin.velocity, "basin.velocity");
 }
 
 /* The scheme's own steps where the scene gives none. */
-static void numerics_rules(kz_reading *reading, kz_scene *scene)
-{
+static void numerics_rules(kz_reading *reading, kz_scene *scene) {
   (void)reading;
   if (scene->numerics.steps_per_period != KZ_UNSET_WORD) return;
   kz_scheme scheme;
@@ -58,8 +55,7 @@ static void numerics_rules(kz_reading *reading, kz_scene *scene)
 }
 
 /* k, beta, m from the form that the scene chose; only a reading without complaints has it whole. */
-static void pendulum_rules(kz_reading *reading, kz_scene *scene)
-{
+static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
   if (reading->message[0] || kz_parameters_resolve(&scene->parameters) == KZ_OK) return;
   char wrong[256];
   snprintf(wrong, sizeof wrong, "%s", kz_message());
@@ -70,7 +66,6 @@ static void pendulum_rules(kz_reading *reading, kz_scene *scene)
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
 static const rule rules[] = {numerics_rules, basin_rules, pendulum_rules};
 
-void kz_reading_rules(kz_reading *reading)
-{
+void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);
 }

@@ -8,15 +8,13 @@
 
 #include "kapitza/scene.h"
 
-static const char *skip_digits(const char *c)
-{
+static const char *skip_digits(const char *c) {
   while (isdigit((unsigned char)*c)) c++;
   return c;
 }
 
 /* [-+] digits [. digits] [e [-+] digits], no leading zeros. *whole: neither point nor exponent. */
-static bool is_decimal(const char *text, bool *whole)
-{
+static bool is_decimal(const char *text, bool *whole) {
   const char *start = text + (*text == '-' || *text == '+');
   const char *c = skip_digits(start);
   long digits = c - start;
@@ -37,16 +35,14 @@ static bool is_decimal(const char *text, bool *whole)
 }
 
 /* What keeps a node from being an unquoted scalar, or NULL. */
-static const char *not_plain(const kz_node *node)
-{
+static const char *not_plain(const kz_node *node) {
   if (node->kind == KZ_SEQUENCE) return "is a list";
   if (node->kind == KZ_MAPPING) return "is a mapping";
   if (!node->plain) return "stands in quotes";
   return node->text[0] ? NULL : "is empty";
 }
 
-const char *kz_scalar_integer(const kz_node *node, int64_t *value)
-{
+const char *kz_scalar_integer(const kz_node *node, int64_t *value) {
   bool whole;
   const char *wrong = not_plain(node);
   if (wrong) return wrong;
@@ -57,8 +53,7 @@ const char *kz_scalar_integer(const kz_node *node, int64_t *value)
   return errno ? "is out of range" : NULL;
 }
 
-const char *kz_scalar_real(const kz_node *node, double *value)
-{
+const char *kz_scalar_real(const kz_node *node, double *value) {
   bool whole;
   const char *wrong = not_plain(node);
   if (wrong) return wrong;
@@ -70,16 +65,14 @@ const char *kz_scalar_real(const kz_node *node, double *value)
   return NULL;
 }
 
-const char *kz_scalar_boolean(const kz_node *node, bool *value)
-{
+const char *kz_scalar_boolean(const kz_node *node, bool *value) {
   const char *wrong = not_plain(node);
   if (wrong) return wrong;
   *value = strcmp(node->text, "true") == 0;
   return *value || strcmp(node->text, "false") == 0 ? NULL : "is neither true nor false";
 }
 
-const char *kz_scalar_text(const kz_node *node)
-{
+const char *kz_scalar_text(const kz_node *node) {
   if (node->kind == KZ_SEQUENCE) return "is a list";
   if (node->kind == KZ_MAPPING) return "is a mapping";
   if (node->plain && node->text[0] == '\0') return "is empty";
@@ -88,8 +81,7 @@ const char *kz_scalar_text(const kz_node *node)
   return strlen(node->text) > 500 ? "is longer than 500 bytes" : NULL;
 }
 
-void kz_scalar_print(double value, char *text)
-{
+void kz_scalar_print(double value, char *text) {
   for (int digits = 15; digits <= 17; digits++) {
     snprintf(text, 32, "%.*g", digits, value);
     if (strtod(text, NULL) == value) return;

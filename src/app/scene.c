@@ -1,27 +1,26 @@
 /* A scene: file and options -> tree -> kz_scene. */
+#include "kapitza/scene.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "kapitza/scene.h"
-
 enum { MAX_BYTES = 1000000 };
 
-static kz_status check_file(const char *path)
-{
+static kz_status check_file(const char *path) {
   struct stat facts;
   if (stat(path, &facts) != 0)
     return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; the name of a scene file", path, strerror(errno));
   if (S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is a folder; the name of a scene file", path);
   if (!S_ISREG(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is not a regular file; the name of a scene file", path);
   if (facts.st_size > MAX_BYTES)
-    return kz_fail(KZ_REFUSED, "%s: has %lld bytes, too many for a scene; at most %d", path, (long long)facts.st_size, MAX_BYTES);
+    return kz_fail(KZ_REFUSED, "%s: has %lld bytes, too many for a scene; at most %d", path, (long long)facts.st_size,
+                   MAX_BYTES);
   return KZ_OK;
 }
 
-kz_status kz_scene_load(const char *path, char **text, size_t *length)
-{
+kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   KZ_TRY(check_file(path));
   FILE *file = fopen(path, "rb");
   if (!file) return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; a readable scene file", path, strerror(errno));
@@ -41,8 +40,7 @@ kz_status kz_scene_load(const char *path, char **text, size_t *length)
 }
 
 /* Refuses an option whose key is not in the table, naming the nearest one of its mapping. */
-static kz_status refuse_key(const kz_key *keys, const char *label, const char *path)
-{
+static kz_status refuse_key(const kz_key *keys, const char *label, const char *path) {
   char names[1024], parent[256], nearest[64];
   const char *dot = strrchr(path, '.');
   snprintf(parent, sizeof parent, "%.*s", dot ? (int)(dot - path) : 0, path);
@@ -56,10 +54,8 @@ static kz_status refuse_key(const kz_key *keys, const char *label, const char *p
   return kz_fail(KZ_REFUSED, "%s: %s: unknown key; one of: %s", label, path, names);
 }
 
-/* One option, "KEY=VALUE"; label = "--set KEY=VALUE", the source that its errors name. */
-static kz_status apply_set(const kz_key *keys, kz_node *root, const char *label)
-{
-  const char *option = label + strlen("--set ");
+/* One option, "KEY=VALUE"; label = the source that its errors name. */
+static kz_status apply_set(const kz_key *keys, kz_node *root, const char *option, const char *label) {
   const char *equals = strchr(option, '=');
   char path[256];
   if (!equals || equals == option || equals - option >= (long)sizeof path)
@@ -71,13 +67,21 @@ static kz_status apply_set(const kz_key *keys, kz_node *root, const char *label)
   return kz_tree_set(root, path, value);
 }
 
-static kz_status read_tree(const char *text, size_t length, const char *file, int n_sets, char *const *labels, kz_scene *scene)
-{
+/* "--set KEY=VALUE", cut where it would bury the message. */
+typedef char option_label[128];
+
+static void print_label(const char *option, char *label) {
+  const bool whole = strlen(option) < 100;
+  snprintf(label, sizeof(option_label), "--set %.*s%s", whole ? 100 : 96, option, whole ? "" : "...");
+}
+
+static kz_status read_tree(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
+                           const option_label *labels, kz_scene *scene) {
   kz_node *root;
   KZ_TRY(kz_tree_read(text, length, file, false, &root));
   kz_status status = KZ_OK;
   if (root->kind == KZ_MAPPING)
-    for (int i = 0; status == KZ_OK && i < n_sets; i++) status = apply_set(kz_keys, root, labels[i]);
+    for (int i = 0; status == KZ_OK && i < n_sets; i++) status = apply_set(kz_keys, root, sets[i], labels[i]);
   kz_reading reading = {.keys = kz_keys, .root = root, .scene = scene, .file = file};
   if (status == KZ_OK) status = kz_reading_keys(&reading);
   if (status == KZ_OK && root->kind == KZ_MAPPING) kz_reading_rules(&reading);
@@ -86,42 +90,20 @@ static kz_status read_tree(const char *text, size_t length, const char *file, in
   return status;
 }
 
-static void free_labels(int n, char **labels)
-{
-  for (int i = 0; labels && i < n; i++) free(labels[i]);
-  free(labels);
-}
-
-/* "--set KEY=VALUE" of every option. */
-static char **make_labels(int n, char *const *sets)
-{
-  char **labels = calloc((size_t)n + 1, sizeof *labels);
-  for (int i = 0; labels && i < n; i++) {
-    labels[i] = malloc(strlen(sets[i]) + sizeof "--set ");
-    if (!labels[i]) {
-      free_labels(n, labels);
-      return NULL;
-    }
-    strcpy(stpcpy(labels[i], "--set "), sets[i]);
-  }
-  return labels;
-}
-
-kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene)
-{
+kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene) {
   memset(scene, 0, sizeof *scene);
-  char **labels = make_labels(n_sets, sets);
+  option_label *labels = calloc((size_t)n_sets + 1, sizeof *labels);
   if (!labels) return kz_fail(KZ_FAILED, "out of memory while reading the command line");
-  kz_status status = read_tree(text, length, file, n_sets, labels, scene);
-  free_labels(n_sets, labels);
+  for (int i = 0; i < n_sets; i++) print_label(sets[i], labels[i]);
+  kz_status status = read_tree(text, length, file, n_sets, sets, labels, scene);
+  free(labels);
   if (status == KZ_OK && !scene->title) scene->title = strdup("");
   if (status == KZ_OK && !scene->title) status = kz_fail(KZ_FAILED, "out of memory while reading %s", file);
   if (status != KZ_OK) kz_scene_free(scene);
   return status;
 }
 
-void kz_scene_free(kz_scene *scene)
-{
+void kz_scene_free(kz_scene *scene) {
   for (const kz_key *key = kz_keys; key->path; key++)
     if (key->type == KZ_KEY_TEXT) free(*(char **)((char *)scene + key->offset));
   memset(scene, 0, sizeof *scene);

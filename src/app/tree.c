@@ -3,8 +3,7 @@
 
 #include "kapitza/scene.h"
 
-void kz_tree_free(kz_node *root)
-{
+void kz_tree_free(kz_node *root) {
   while (root) {
     kz_node *next = root->next;
     kz_tree_free(root->first);
@@ -15,33 +14,31 @@ void kz_tree_free(kz_node *root)
   }
 }
 
-static kz_node *child_named(const kz_node *mapping, const char *name, size_t length)
-{
+static kz_node *child_named(const kz_node *mapping, const char *name, size_t length) {
   if (!mapping || mapping->kind != KZ_MAPPING) return NULL;
   for (kz_node *child = mapping->first; child; child = child->next)
     if (strlen(child->name) == length && strncmp(child->name, name, length) == 0) return child;
   return NULL;
 }
 
-kz_node *kz_tree_child(const kz_node *mapping, const char *name) { return child_named(mapping, name, strlen(name)); }
+kz_node *kz_tree_child(const kz_node *mapping, const char *name) {
+  return child_named(mapping, name, strlen(name));
+}
 
-kz_node *kz_tree_find(const kz_node *root, const char *path)
-{
+kz_node *kz_tree_find(const kz_node *root, const char *path) {
   const size_t length = strcspn(path, ".");
   kz_node *child = child_named(root, path, length);
   return path[length] == '.' && child ? kz_tree_find(child, path + length + 1) : child;
 }
 
-static void append(kz_node *mapping, kz_node *child)
-{
+static void append(kz_node *mapping, kz_node *child) {
   kz_node **end = &mapping->first;
   while (*end) end = &(*end)->next;
   *end = child;
 }
 
 /* Puts the content of `value` in the place of `node`. */
-static void replace(kz_node *node, kz_node *value)
-{
+static void replace(kz_node *node, kz_node *value) {
   value->next = node->next;
   node->next = NULL;
   const kz_node content = *value;
@@ -51,8 +48,7 @@ static void replace(kz_node *node, kz_node *value)
 }
 
 /* An empty mapping called `name` [length], created by the option that brought `value`. */
-static kz_node *new_mapping(const char *name, size_t length, const kz_node *value)
-{
+static kz_node *new_mapping(const char *name, size_t length, const kz_node *value) {
   kz_node *node = calloc(1, sizeof *node);
   if (!node) return NULL;
   node->kind = KZ_MAPPING;
@@ -63,8 +59,7 @@ static kz_node *new_mapping(const char *name, size_t length, const kz_node *valu
   return NULL;
 }
 
-static kz_status set_here(kz_node *mapping, const char *name, kz_node *value)
-{
+static kz_status set_here(kz_node *mapping, const char *name, kz_node *value) {
   free(value->name);
   value->name = strdup(name);
   if (!value->name) {
@@ -80,8 +75,7 @@ static kz_status set_here(kz_node *mapping, const char *name, kz_node *value)
   return KZ_OK;
 }
 
-kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value)
-{
+kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   const size_t length = strcspn(path, ".");
   if (path[length] == '\0') return set_here(root, path, value);
   kz_node *child = child_named(root, path, length);

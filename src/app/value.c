@@ -7,8 +7,7 @@
 
 #include "kapitza/scene.h"
 
-static const char *read_text(const kz_key *key, const kz_node *node, void *field)
-{
+static const char *read_text(const kz_key *key, const kz_node *node, void *field) {
   (void)key;
   const char *wrong = kz_scalar_text(node);
   if (wrong) return wrong;
@@ -19,8 +18,7 @@ static const char *read_text(const kz_key *key, const kz_node *node, void *field
   return NULL;
 }
 
-static const char *find_word(const kz_key *key, const kz_node *node, int64_t *index)
-{
+static const char *find_word(const kz_key *key, const kz_node *node, int64_t *index) {
   const char *wrong = kz_scalar_text(node);
   if (wrong) return wrong;
   *index = 0;
@@ -32,47 +30,43 @@ static const char *find_word(const kz_key *key, const kz_node *node, int64_t *in
   return "is unknown";
 }
 
-static const char *read_word(const kz_key *key, const kz_node *node, void *field)
-{
+static const char *read_word(const kz_key *key, const kz_node *node, void *field) {
   int64_t index;
   const char *wrong = find_word(key, node, &index);
   if (!wrong) *(int32_t *)field = (int32_t)index;
   return wrong;
 }
 
-static const char *read_index(const kz_key *key, const kz_node *node, void *field) { return find_word(key, node, field); }
+static const char *read_index(const kz_key *key, const kz_node *node, void *field) {
+  return find_word(key, node, field);
+}
 
-static const char *read_boolean(const kz_key *key, const kz_node *node, void *field)
-{
+static const char *read_boolean(const kz_key *key, const kz_node *node, void *field) {
   (void)key;
   return kz_scalar_boolean(node, field);
 }
 
-static const char *find_integer(const kz_key *key, const kz_node *node, int64_t *value)
-{
+static const char *find_integer(const kz_key *key, const kz_node *node, int64_t *value) {
   const char *wrong = kz_scalar_integer(node, value);
   if (wrong) return wrong;
   return (double)*value < key->low || (double)*value > key->high ? "is out of range" : NULL;
 }
 
-static const char *read_integer(const kz_key *key, const kz_node *node, void *field)
-{
+static const char *read_integer(const kz_key *key, const kz_node *node, void *field) {
   int64_t value;
   const char *wrong = find_integer(key, node, &value);
   if (!wrong) *(int64_t *)field = value;
   return wrong;
 }
 
-static const char *read_count(const kz_key *key, const kz_node *node, void *field)
-{
+static const char *read_count(const kz_key *key, const kz_node *node, void *field) {
   int64_t value;
   const char *wrong = find_integer(key, node, &value);
   if (!wrong) *(int32_t *)field = (int32_t)value;
   return wrong;
 }
 
-static const char *read_real(const kz_key *key, const kz_node *node, void *field)
-{
+static const char *read_real(const kz_key *key, const kz_node *node, void *field) {
   double value;
   const char *wrong = kz_scalar_real(node, &value);
   if (wrong) return wrong;
@@ -85,16 +79,17 @@ typedef const char *(*read_function)(const kz_key *key, const kz_node *node, voi
 
 /* One value, or one value of a list, by the type of its key. */
 static const read_function readers[] = {
-    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,       [KZ_KEY_BOOLEAN] = read_boolean,
-    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count,     [KZ_KEY_REAL] = read_real,
+    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,        [KZ_KEY_BOOLEAN] = read_boolean,
+    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count,      [KZ_KEY_REAL] = read_real,
     [KZ_KEY_WORDS] = read_index,     [KZ_KEY_INTEGERS] = read_integer, [KZ_KEY_REALS] = read_real,
 };
 
-static bool is_list(const kz_key *key) { return key->type >= KZ_KEY_WORDS; }
+static bool is_list(const kz_key *key) {
+  return key->type >= KZ_KEY_WORDS;
+}
 
 /* kz_reals and kz_integers have one layout: a count and values of eight bytes. */
-static const char *read_list(const kz_key *key, const kz_node *node, kz_integers *list, const kz_node **culprit)
-{
+static const char *read_list(const kz_key *key, const kz_node *node, kz_integers *list, const kz_node **culprit) {
   if (node->kind != KZ_SEQUENCE) return "is not a list";
   list->count = 0;
   for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
@@ -106,72 +101,82 @@ static const char *read_list(const kz_key *key, const kz_node *node, kz_integers
   return list->count > 0 ? NULL : "is an empty list";
 }
 
-const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit)
-{
+const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit) {
   void *field = (char *)scene + key->offset;
   *culprit = node;
   return is_list(key) ? read_list(key, node, field, culprit) : readers[key->type](key, node, field);
 }
 
-void kz_value_clear(const kz_key *key, void *scene)
-{
+void kz_value_clear(const kz_key *key, void *scene) {
   if (key->offset == KZ_NO_FIELD) return;
   void *field = (char *)scene + key->offset;
   switch (key->type) {
-  case KZ_KEY_MAPPING:
-  case KZ_KEY_BOOLEAN: *(bool *)field = false; break;
-  case KZ_KEY_TEXT: *(char **)field = NULL; break;
-  case KZ_KEY_WORD:
-  case KZ_KEY_COUNT: *(int32_t *)field = KZ_UNSET_WORD; break;
-  case KZ_KEY_INTEGER: *(int64_t *)field = KZ_UNSET_INTEGER; break;
-  case KZ_KEY_REAL: *(double *)field = NAN; break;
-  default: ((kz_integers *)field)->count = 0;
+    case KZ_KEY_MAPPING:
+    case KZ_KEY_BOOLEAN:
+      *(bool *)field = false;
+      break;
+    case KZ_KEY_TEXT:
+      *(char **)field = NULL;
+      break;
+    case KZ_KEY_WORD:
+    case KZ_KEY_COUNT:
+      *(int32_t *)field = KZ_UNSET_WORD;
+      break;
+    case KZ_KEY_INTEGER:
+      *(int64_t *)field = KZ_UNSET_INTEGER;
+      break;
+    case KZ_KEY_REAL:
+      *(double *)field = NAN;
+      break;
+    default:
+      ((kz_integers *)field)->count = 0;
   }
 }
 
-static bool is_set(const kz_key *key, const void *field)
-{
+static bool is_set(const kz_key *key, const void *field) {
   switch (key->type) {
-  case KZ_KEY_MAPPING: return false;
-  case KZ_KEY_BOOLEAN: return true;
-  case KZ_KEY_TEXT: return *(char *const *)field != NULL;
-  case KZ_KEY_WORD:
-  case KZ_KEY_COUNT: return *(const int32_t *)field != KZ_UNSET_WORD;
-  case KZ_KEY_INTEGER: return *(const int64_t *)field != KZ_UNSET_INTEGER;
-  case KZ_KEY_REAL: return !isnan(*(const double *)field);
-  default: return ((const kz_integers *)field)->count > 0;
+    case KZ_KEY_MAPPING:
+      return false;
+    case KZ_KEY_BOOLEAN:
+      return true;
+    case KZ_KEY_TEXT:
+      return *(char *const *)field != NULL;
+    case KZ_KEY_WORD:
+    case KZ_KEY_COUNT:
+      return *(const int32_t *)field != KZ_UNSET_WORD;
+    case KZ_KEY_INTEGER:
+      return *(const int64_t *)field != KZ_UNSET_INTEGER;
+    case KZ_KEY_REAL:
+      return !isnan(*(const double *)field);
+    default:
+      return ((const kz_integers *)field)->count > 0;
   }
 }
 
-bool kz_value_is_set(const kz_key *key, const void *scene)
-{
+bool kz_value_is_set(const kz_key *key, const void *scene) {
   return key->offset != KZ_NO_FIELD && is_set(key, (const char *)scene + key->offset);
 }
 
-static void print_word(const kz_key *key, int64_t index, FILE *out)
-{
+static void print_word(const kz_key *key, int64_t index, FILE *out) {
   const char *word = kz_key_words(key);
   for (; index > 0; index--) word += strcspn(word, "|") + 1;
   fprintf(out, "%.*s", (int)strcspn(word, "|"), word);
 }
 
-static void print_real(double value, FILE *out)
-{
+static void print_real(double value, FILE *out) {
   char text[32];
   kz_scalar_print(value, text);
   fputs(text, out);
 }
 
 /* In double quotes; what may stand in a text needs no other escapes. */
-static void print_text(const char *text, FILE *out)
-{
+static void print_text(const char *text, FILE *out) {
   fputc('"', out);
   for (; *text; text++) fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
   fputc('"', out);
 }
 
-static void print_list(const kz_key *key, const void *field, FILE *out)
-{
+static void print_list(const kz_key *key, const void *field, FILE *out) {
   const kz_integers *integers = field;
   const kz_reals *reals = field;
   for (int64_t i = 0; i < integers->count; i++) {
@@ -183,17 +188,30 @@ static void print_list(const kz_key *key, const void *field, FILE *out)
   fputc(']', out);
 }
 
-void kz_value_print(const kz_key *key, const void *scene, FILE *out)
-{
+void kz_value_print(const kz_key *key, const void *scene, FILE *out) {
   const void *field = (const char *)scene + key->offset;
   switch (key->type) {
-  case KZ_KEY_MAPPING: break;
-  case KZ_KEY_BOOLEAN: fputs(*(const bool *)field ? "true" : "false", out); break;
-  case KZ_KEY_TEXT: print_text(*(char *const *)field, out); break;
-  case KZ_KEY_WORD: print_word(key, *(const int32_t *)field, out); break;
-  case KZ_KEY_COUNT: fprintf(out, "%" PRId32, *(const int32_t *)field); break;
-  case KZ_KEY_INTEGER: fprintf(out, "%" PRId64, *(const int64_t *)field); break;
-  case KZ_KEY_REAL: print_real(*(const double *)field, out); break;
-  default: print_list(key, field, out);
+    case KZ_KEY_MAPPING:
+      break;
+    case KZ_KEY_BOOLEAN:
+      fputs(*(const bool *)field ? "true" : "false", out);
+      break;
+    case KZ_KEY_TEXT:
+      print_text(*(char *const *)field, out);
+      break;
+    case KZ_KEY_WORD:
+      print_word(key, *(const int32_t *)field, out);
+      break;
+    case KZ_KEY_COUNT:
+      fprintf(out, "%" PRId32, *(const int32_t *)field);
+      break;
+    case KZ_KEY_INTEGER:
+      fprintf(out, "%" PRId64, *(const int64_t *)field);
+      break;
+    case KZ_KEY_REAL:
+      print_real(*(const double *)field, out);
+      break;
+    default:
+      print_list(key, field, out);
   }
 }

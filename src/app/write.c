@@ -4,8 +4,7 @@
 #include "kapitza/scene.h"
 
 /* True where a mapping on the way to `key` is a study that the scene does not hold. */
-static bool is_left_out(const kz_key *keys, const kz_key *key, const void *scene)
-{
+static bool is_left_out(const kz_key *keys, const kz_key *key, const void *scene) {
   for (const kz_key *row = keys; row->path; row++) {
     const size_t length = strlen(row->path);
     if (row->type == KZ_KEY_MAPPING && row->offset != KZ_NO_FIELD && strncmp(row->path, key->path, length) == 0 &&
@@ -15,11 +14,12 @@ static bool is_left_out(const kz_key *keys, const kz_key *key, const void *scene
   return false;
 }
 
-static void indent(int depth, FILE *out) { fprintf(out, "%*s", 2 * depth, ""); }
+static void indent(int depth, FILE *out) {
+  fprintf(out, "%*s", 2 * depth, "");
+}
 
 /* Opens the mappings of `path` that `last`, the path written before, was not in; then writes the name of the key. */
-static void write_name(const char *path, const char *last, FILE *out)
-{
+static void write_name(const char *path, const char *last, FILE *out) {
   int depth = 0;
   bool inside = true; /* so far, the path written before lies in the same mappings */
   const char *name = path;
@@ -33,8 +33,7 @@ static void write_name(const char *path, const char *last, FILE *out)
   fprintf(out, "%s: ", name);
 }
 
-void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out)
-{
+void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out) {
   const char *last = "";
   for (const kz_key *key = keys; key->path; key++) {
     if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene)) continue;
@@ -48,14 +47,12 @@ void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out)
   }
 }
 
-static const char *default_of(const kz_key *key)
-{
+static const char *default_of(const kz_key *key) {
   if (!key->fallback) return "required";
   return key->fallback[0] ? key->fallback : "-";
 }
 
-static void write_row(const kz_key *keys, const kz_key *key, FILE *out)
-{
+static void write_row(const kz_key *keys, const kz_key *key, FILE *out) {
   char accepted[700];
   kz_key_accepts(keys, key, accepted, sizeof accepted);
   fprintf(out, "| `%s` | %s | %s | %s%s%s%s |\n", key->path, accepted, default_of(key), key->form ? "(" : "",
@@ -63,16 +60,18 @@ static void write_row(const kz_key *keys, const kz_key *key, FILE *out)
 }
 
 /* A section for each top-level mapping. */
-void kz_scene_reference(const kz_key *keys, FILE *out)
-{
-  fputs("# The keys of a scene\n\n"
-        "Written by `kapitza keys` from the program's own table; do not edit. `-` = may be left out and has no default.\n"
-        "Where a key carries a letter, only keys of one letter may stand together.\n\n",
-        out);
+void kz_scene_reference(const kz_key *keys, FILE *out) {
+  fputs(
+      "# The keys of a scene\n\n"
+      "Written by `kapitza keys` from the program's own table; do not edit. `-` = may be left out and has no default.\n"
+      "Keys with a letter are ways to give the same: only those of one letter stand together, and required means within that "
+      "letter.\n\n",
+      out);
   fputs("| key | accepted | default | meaning |\n| --- | --- | --- | --- |\n", out);
   for (const kz_key *key = keys; key->path; key++) {
     if (key->type == KZ_KEY_MAPPING && !strchr(key->path, '.'))
-      fprintf(out, "\n## %s\n\n%s\n\n| key | accepted | default | meaning |\n| --- | --- | --- | --- |\n", key->path, key->help);
+      fprintf(out, "\n## %s\n\n%s\n\n| key | accepted | default | meaning |\n| --- | --- | --- | --- |\n", key->path,
+              key->help);
     else
       write_row(keys, key, out);
   }

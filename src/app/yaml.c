@@ -1,9 +1,8 @@
 /* The only file that knows libyaml. A text is scanned first (depth, anchors, aliases, tags), so that the loader meets nothing
  * that grows or refers elsewhere; then it is loaded and copied into a tree of kz_node. */
-#include <yaml.h>
-
 #include <stdlib.h>
 #include <string.h>
+#include <yaml.h>
 
 #include "kapitza/scene.h"
 
@@ -30,15 +29,13 @@ static const struct {
     {YAML_BLOCK_SEQUENCE_START_TOKEN, true, "is a block list; flow text such as [1, 2]"},
 };
 
-static kz_status refuse(const source_text *source, size_t line, size_t column, const char *wrong)
-{
+static kz_status refuse(const source_text *source, size_t line, size_t column, const char *wrong) {
   if (source->option) return kz_fail(KZ_REFUSED, "%s: %s", source->source, wrong);
   return kz_fail(KZ_REFUSED, "%s:%zu:%zu: scene: %s", source->source, line + 1, column + 1, wrong);
 }
 
 /* What libyaml's reader or scanner stumbled over. The reader knows only an offset in bytes. */
-static kz_status refuse_problem(const source_text *source, const yaml_parser_t *parser)
-{
+static kz_status refuse_problem(const source_text *source, const yaml_parser_t *parser) {
   char wrong[256];
   size_t line = parser->problem_mark.line, column = parser->problem_mark.column;
   if (parser->error == YAML_MEMORY_ERROR) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
@@ -60,25 +57,23 @@ static kz_status refuse_problem(const source_text *source, const yaml_parser_t *
   return refuse(source, line, column, wrong);
 }
 
-static int depth_change(yaml_token_type_t type)
-{
+static int depth_change(yaml_token_type_t type) {
   switch (type) {
-  case YAML_BLOCK_SEQUENCE_START_TOKEN:
-  case YAML_BLOCK_MAPPING_START_TOKEN:
-  case YAML_FLOW_SEQUENCE_START_TOKEN:
-  case YAML_FLOW_MAPPING_START_TOKEN:
-    return 1;
-  case YAML_BLOCK_END_TOKEN:
-  case YAML_FLOW_SEQUENCE_END_TOKEN:
-  case YAML_FLOW_MAPPING_END_TOKEN:
-    return -1;
-  default:
-    return 0;
+    case YAML_BLOCK_SEQUENCE_START_TOKEN:
+    case YAML_BLOCK_MAPPING_START_TOKEN:
+    case YAML_FLOW_SEQUENCE_START_TOKEN:
+    case YAML_FLOW_MAPPING_START_TOKEN:
+      return 1;
+    case YAML_BLOCK_END_TOKEN:
+    case YAML_FLOW_SEQUENCE_END_TOKEN:
+    case YAML_FLOW_MAPPING_END_TOKEN:
+      return -1;
+    default:
+      return 0;
   }
 }
 
-static kz_status check_token(const source_text *source, const yaml_token_t *token, int depth)
-{
+static kz_status check_token(const source_text *source, const yaml_token_t *token, int depth) {
   const yaml_mark_t *at = &token->start_mark;
   for (size_t i = 0; i < sizeof refused_tokens / sizeof refused_tokens[0]; i++)
     if (token->type == refused_tokens[i].type && (source->option || !refused_tokens[i].in_options_only))
@@ -87,14 +82,12 @@ static kz_status check_token(const source_text *source, const yaml_token_t *toke
   return KZ_OK;
 }
 
-static void start_parser(yaml_parser_t *parser, const source_text *source)
-{
+static void start_parser(yaml_parser_t *parser, const source_text *source) {
   yaml_parser_set_encoding(parser, YAML_UTF8_ENCODING);
   yaml_parser_set_input_string(parser, (const unsigned char *)source->text, source->length);
 }
 
-static kz_status scan(const source_text *source)
-{
+static kz_status scan(const source_text *source) {
   yaml_parser_t parser;
   if (!yaml_parser_initialize(&parser)) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
   start_parser(&parser, source);
@@ -119,8 +112,7 @@ static kz_node *copy(yaml_document_t *document, const source_text *source, const
 
 /* Appends a copy of `from` to *end, named by the scalar `key` (NULL in a list). */
 static bool copy_child(yaml_document_t *document, const source_text *source, const yaml_node_t *key, const yaml_node_t *from,
-                       kz_node ***end)
-{
+                       kz_node ***end) {
   kz_node *child = copy(document, source, from);
   if (!child) return false;
   **end = child;
@@ -133,8 +125,7 @@ static bool copy_child(yaml_document_t *document, const source_text *source, con
   return child->name != NULL;
 }
 
-static bool copy_children(yaml_document_t *document, const source_text *source, const yaml_node_t *from, kz_node *node)
-{
+static bool copy_children(yaml_document_t *document, const source_text *source, const yaml_node_t *from, kz_node *node) {
   kz_node **end = &node->first;
   if (from->type == YAML_SEQUENCE_NODE) {
     for (const yaml_node_item_t *item = from->data.sequence.items.start; item < from->data.sequence.items.top; item++)
@@ -149,8 +140,7 @@ static bool copy_children(yaml_document_t *document, const source_text *source, 
 }
 
 /* A scalar's text. A NUL written as "\0" would end it early: it becomes the control character 1, which no text may hold. */
-static char *copy_text(const yaml_node_t *from)
-{
+static char *copy_text(const yaml_node_t *from) {
   const size_t length = from->data.scalar.length;
   char *text = malloc(length + 1);
   if (!text) return NULL;
@@ -161,10 +151,9 @@ static char *copy_text(const yaml_node_t *from)
   return text;
 }
 
-static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from)
-{
-  static const kz_node_kind kinds[] = {[YAML_SCALAR_NODE] = KZ_SCALAR, [YAML_SEQUENCE_NODE] = KZ_SEQUENCE,
-                                       [YAML_MAPPING_NODE] = KZ_MAPPING};
+static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from) {
+  static const kz_node_kind kinds[] = {
+      [YAML_SCALAR_NODE] = KZ_SCALAR, [YAML_SEQUENCE_NODE] = KZ_SEQUENCE, [YAML_MAPPING_NODE] = KZ_MAPPING};
   kz_node *node = calloc(1, sizeof *node);
   if (!node) return NULL;
   node->kind = kinds[from->type];
@@ -182,8 +171,7 @@ static kz_node *copy(yaml_document_t *document, const source_text *source, const
 }
 
 /* Loads the next document; *root = NULL at the end of the text. */
-static kz_status load_next(yaml_parser_t *parser, const source_text *source, kz_node **root)
-{
+static kz_status load_next(yaml_parser_t *parser, const source_text *source, kz_node **root) {
   yaml_document_t document;
   *root = NULL;
   if (!yaml_parser_load(parser, &document)) return refuse_problem(source, parser);
@@ -194,8 +182,7 @@ static kz_status load_next(yaml_parser_t *parser, const source_text *source, kz_
   return failed ? kz_fail(KZ_FAILED, "%s: out of memory", source->source) : KZ_OK;
 }
 
-static kz_status load(const source_text *source, kz_node **root)
-{
+static kz_status load(const source_text *source, kz_node **root) {
   yaml_parser_t parser;
   if (!yaml_parser_initialize(&parser)) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
   start_parser(&parser, source);
@@ -205,8 +192,9 @@ static kz_status load(const source_text *source, kz_node **root)
     status = refuse(source, 0, 0, source->option ? "has no value; a value after =" : "is empty; a pendulum and a study");
   else if (status == KZ_OK)
     status = load_next(&parser, source, &second);
-  if (second) status = refuse(source, (size_t)second->line - 1, (size_t)second->column - 1,
-                              "a second YAML document begins here; only one");
+  if (second)
+    status =
+        refuse(source, (size_t)second->line - 1, (size_t)second->column - 1, "a second YAML document begins here; only one");
   kz_tree_free(second);
   yaml_parser_delete(&parser);
   if (status == KZ_OK) return KZ_OK;
@@ -215,8 +203,7 @@ static kz_status load(const source_text *source, kz_node **root)
   return status;
 }
 
-kz_status kz_tree_read(const char *text, size_t length, const char *source, bool option, kz_node **root)
-{
+kz_status kz_tree_read(const char *text, size_t length, const char *source, bool option, kz_node **root) {
   const source_text from = {.text = text, .length = length, .source = source, .option = option};
   *root = NULL;
   if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0)

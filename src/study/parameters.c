@@ -3,16 +3,14 @@
 #include "kapitza/study.h"
 
 /* k = 1/Omega^2, beta = 1/(Omega Q), m = epsilon (BSG Eq. 2); no Q, no damping. */
-static kz_pendulum from_quality(const kz_pendulum_keys *written)
-{
+static kz_pendulum from_quality(const kz_pendulum_keys *written) {
   const double omega = written->drive_frequency;
   const double q = written->quality_factor;
   return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = isnan(q) ? 0.0 : 1.0 / (omega * q), .m = written->drive_amplitude};
 }
 
 /* k = M g r/(I omega^2), beta = b/(I omega), m = M r A/I (BSG Eq. 1 in drive time). */
-static kz_pendulum from_si(const kz_pendulum_keys *written)
-{
+static kz_pendulum from_si(const kz_pendulum_keys *written) {
   const double lever = written->mass * written->radius / written->inertia; /* M r/I, 1/m */
   const double omega = written->pivot_frequency;
   return (kz_pendulum){.k = lever * written->gravity / (omega * omega),
@@ -20,16 +18,14 @@ static kz_pendulum from_si(const kz_pendulum_keys *written)
                        .m = lever * written->pivot_amplitude};
 }
 
-static kz_pendulum from_written(const kz_pendulum_keys *written)
-{
+static kz_pendulum from_written(const kz_pendulum_keys *written) {
   if (!isnan(written->drive_frequency)) return from_quality(written);
   if (!isnan(written->mass)) return from_si(written);
   return (kz_pendulum){.k = written->k, .beta = written->damping, .m = written->m};
 }
 
 /* Q = sqrt|k|/beta, Omega = 1/sqrt k, where they are defined and not given. */
-static void fill_defined(kz_parameters *parameters)
-{
+static void fill_defined(kz_parameters *parameters) {
   const kz_pendulum *p = &parameters->pendulum;
   const kz_pendulum_keys *written = &parameters->written;
   const bool given = !isnan(written->drive_frequency);
@@ -40,12 +36,10 @@ static void fill_defined(kz_parameters *parameters)
   if (!given && p->k != 0.0 && p->beta > 0.0) parameters->quality_factor = sqrt(fabs(p->k)) / p->beta;
 }
 
-kz_status kz_parameters_resolve(kz_parameters *parameters)
-{
+kz_status kz_parameters_resolve(kz_parameters *parameters) {
   const kz_pendulum p = from_written(&parameters->written);
   if (!isfinite(p.k) || !isfinite(p.beta) || !isfinite(p.m))
-    return kz_fail(KZ_REFUSED, "gives k = %g, beta = %g, m = %g, not all finite; less extreme parameters", p.k, p.beta,
-                   p.m);
+    return kz_fail(KZ_REFUSED, "gives k = %g, beta = %g, m = %g, not all finite; less extreme parameters", p.k, p.beta, p.m);
   parameters->pendulum = p;
   fill_defined(parameters);
   return KZ_OK;

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAM = ROOT / "build" / "kapitza"
+PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 TEXT = h5py.string_dtype("utf-8")
 
 

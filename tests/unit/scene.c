@@ -1,36 +1,37 @@
 /* The table of keys, strict scalars, the reading of a scene and its resolved text. */
-#include <math.h>
+/* cmocka.h needs the three before it: */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include <stddef.h>
 #include <cmocka.h>
+/* clang-format on */
 
 #include "kapitza/scene.h"
 
-#define GOOD                                                        \
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define GOOD                                                                   \
   "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n" \
-  "basin:\n"                                                        \
+  "basin:\n"                                                                   \
   "  velocity: {min: -2, max: 2}\n"
 
-static kz_status read_scene(const char *text, const char *set, kz_scene *scene)
-{
+static kz_status read_scene(const char *text, const char *set, kz_scene *scene) {
   char *sets[1] = {(char *)set};
   kz_message_clear();
   return kz_scene_read(text, strlen(text), "s.yaml", set ? 1 : 0, sets, scene);
 }
 
 /* The whole message of a refused scene. */
-static void expect_refused(const char *text, const char *set, const char *message)
-{
+static void expect_refused(const char *text, const char *set, const char *message) {
   kz_scene scene;
   assert_int_equal(read_scene(text, set, &scene), KZ_REFUSED);
   assert_string_equal(kz_message(), message);
 }
 
-static char *resolved(const kz_scene *scene)
-{
+static char *resolved(const kz_scene *scene) {
   char *text;
   size_t size;
   FILE *out = open_memstream(&text, &size);
@@ -39,8 +40,7 @@ static char *resolved(const kz_scene *scene)
   return text;
 }
 
-static void defaults_are_those_of_the_table(void **state)
-{
+static void defaults_are_those_of_the_table(void **state) {
   (void)state;
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, NULL, &scene), KZ_OK);
@@ -61,8 +61,7 @@ static void defaults_are_those_of_the_table(void **state)
 }
 
 /* Forms a, b and c of one pendulum agree (BSG Eq. 1 and 2). */
-static void three_forms_agree(void **state)
-{
+static void three_forms_agree(void **state) {
   (void)state;
   static const char *const forms[] = {
       "pendulum={quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
@@ -82,8 +81,7 @@ static void three_forms_agree(void **state)
   }
 }
 
-static void undefined_parameters_are_nan(void **state)
-{
+static void undefined_parameters_are_nan(void **state) {
   (void)state;
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "pendulum={k: 0, damping: 0.05, m: 0.5}", &scene), KZ_OK);
@@ -95,8 +93,7 @@ static void undefined_parameters_are_nan(void **state)
   kz_scene_free(&scene);
 }
 
-static void resolved_text_is_a_fixed_point(void **state)
-{
+static void resolved_text_is_a_fixed_point(void **state) {
   (void)state;
   kz_scene scene;
   assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, precision: quad}", &scene), KZ_OK);
@@ -112,8 +109,7 @@ static void resolved_text_is_a_fixed_point(void **state)
   kz_scene_free(&scene);
 }
 
-static void options_override_and_create(void **state)
-{
+static void options_override_and_create(void **state) {
   (void)state;
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "basin.attractors.seed=7", &scene), KZ_OK);
@@ -125,37 +121,37 @@ static void options_override_and_create(void **state)
   kz_scene_free(&scene);
 }
 
-static void errors_name_place_key_and_remedy(void **state)
-{
+static void errors_name_place_key_and_remedy(void **state) {
   (void)state;
   expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
   expect_refused(GOOD "  method: imc\n", NULL,
                  "s.yaml:4:11: basin.method: \"imc\" is unknown; one of icm, direct (did you mean icm?)");
   expect_refused(GOOD "  max_periods: 1.5x\n", NULL,
                  "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; an integer from 1 to 4000000000");
-  expect_refused("basin: {}\n", NULL, "s.yaml:1:1: pendulum: is missing; a mapping of quality_factor, drive_frequency, "
+  expect_refused("basin: {}\n", NULL,
+                 "s.yaml:1:1: pendulum: is missing; a mapping of quality_factor, drive_frequency, "
                  "drive_amplitude, k, damping, m, mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
                  "s.yaml:4:16: basin.theta.max: 1 is not above min = 2; a larger number");
-  expect_refused(GOOD, "basin.theta.cout=2", "--set basin.theta.cout=2: basin.theta.cout: unknown key; did you mean basin.theta.count?");
+  expect_refused(GOOD, "basin.theta.cout=2",
+                 "--set basin.theta.cout=2: basin.theta.cout: unknown key; did you mean basin.theta.count?");
   expect_refused(GOOD, "basin.theta.count=x",
                  "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; an integer from 1 to 1000000");
 }
 
 /* An error further up is told first, whichever check finds it; a missing key comes last. */
-static void first_error_in_document_order(void **state)
-{
+static void first_error_in_document_order(void **state) {
   (void)state;
   expect_refused("basin:\n  velocity: {min: 2, max: -2}\npendulum: {k: nan}\n", NULL,
                  "s.yaml:2:27: basin.velocity.max: -2 is not above min = 2; a larger number");
   expect_refused("basin:\n  method: xyz\n", NULL, "s.yaml:2:11: basin.method: \"xyz\" is unknown; one of icm, direct");
 }
 
-static void scalars_are_strict(void **state)
-{
+static void scalars_are_strict(void **state) {
   (void)state;
-  static const char *const bad[] = {"1.5x", "0x10", "maybe", ".nan",  ".inf", "nan", "inf", "-inf", "''",  "'1'", "\"1\"", "010", "1_0",
-                                    "1e",   "e1",   ".",     "1e999", "1e-999", "--1", "+-1", "1 2", "[1]", "{}", "~", "null", "1e1.5"};
+  static const char *const bad[] = {"1.5x", "0x10",  "maybe", ".nan", ".inf", "nan", "inf",  "-inf",  "''",
+                                    "'1'",  "\"1\"", "010",   "1_0",  "1e",   "e1",  ".",    "1e999", "1e-999",
+                                    "--1",  "+-1",   "1 2",   "[1]",  "{}",   "~",   "null", "1e1.5"};
   for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
     char set[64];
     kz_scene scene;
@@ -163,8 +159,10 @@ static void scalars_are_strict(void **state)
     if (read_scene(GOOD, set, &scene) != KZ_REFUSED) fail_msg("%s was accepted", set);
     assert_non_null(strstr(kz_message(), "basin.velocity.max: "));
   }
-  static const struct { const char *text; double value; } good[] = {
-      {"3", 3}, {"+3.5", 3.5}, {".5", .5}, {"5.", 5}, {"1e3", 1e3}, {"2E-1", .2}, {"0.1", 0.1}, {"5e-324", 5e-324}};
+  static const struct {
+    const char *text;
+    double value;
+  } good[] = {{"3", 3}, {"+3.5", 3.5}, {".5", .5}, {"5.", 5}, {"1e3", 1e3}, {"2E-1", .2}, {"0.1", 0.1}, {"5e-324", 5e-324}};
   for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
     double value;
     const kz_node node = {.kind = KZ_SCALAR, .text = (char *)good[i].text, .plain = true};
@@ -173,8 +171,7 @@ static void scalars_are_strict(void **state)
   }
 }
 
-static void structure_is_strict(void **state)
-{
+static void structure_is_strict(void **state) {
   (void)state;
   expect_refused("", NULL, "s.yaml:1:1: scene: is empty; a pendulum and a study");
   expect_refused("a: &x 1\n", NULL, "s.yaml:1:4: scene: an anchor (&name) stands here; the value written out");
@@ -196,16 +193,37 @@ typedef struct {
 } lists;
 static const kz_key list_keys[] = {
     {.path = "s", .type = KZ_KEY_MAPPING, .unit = "", .fallback = "", .offset = offsetof(lists, study), .help = ""},
-    {.path = "s.r", .type = KZ_KEY_REALS, .unit = "rad", .low = -1, .high = 9, .fallback = "[0.5]", .offset = offsetof(lists, reals), .help = ""},
-    {.path = "s.i", .type = KZ_KEY_INTEGERS, .unit = "", .low = 2, .high = 64, .fallback = "", .offset = offsetof(lists, integers), .help = ""},
-    {.path = "s.w", .type = KZ_KEY_WORDS, .unit = "", .words = "red|green", .fallback = "[green, red]", .offset = offsetof(lists, words), .help = ""},
+    {.path = "s.r",
+     .type = KZ_KEY_REALS,
+     .unit = "rad",
+     .low = -1,
+     .high = 9,
+     .fallback = "[0.5]",
+     .offset = offsetof(lists, reals),
+     .help = ""},
+    {.path = "s.i",
+     .type = KZ_KEY_INTEGERS,
+     .unit = "",
+     .low = 2,
+     .high = 64,
+     .fallback = "",
+     .offset = offsetof(lists, integers),
+     .help = ""},
+    {.path = "s.w",
+     .type = KZ_KEY_WORDS,
+     .unit = "",
+     .words = "red|green",
+     .fallback = "[green, red]",
+     .offset = offsetof(lists, words),
+     .help = ""},
     {.path = "s.b", .type = KZ_KEY_BOOLEAN, .unit = "", .fallback = "false", .offset = offsetof(lists, boolean), .help = ""},
     {.path = NULL}};
 
-static void lists_are_read_and_written(void **state)
-{
+static void lists_are_read_and_written(void **state) {
   (void)state;
-  static const struct { const char *text, *message, *written; } cases[] = {
+  static const struct {
+    const char *text, *message, *written;
+  } cases[] = {
       {"s: {}\n", "", "s.r: [0.5]\ns.w: [green, red]\ns.b: false\n"},
       {"s: {r: [1, 2.5], i: [2, 64], w: [red], b: true}\n", "", "s.r: [1, 2.5]\ns.i: [2, 64]\ns.w: [red]\ns.b: true\n"},
       {"s: {i: [2, 65]}\n", "f:1:12: s.i: \"65\" is out of range; a list of integers from 2 to 64", NULL},
@@ -232,8 +250,7 @@ static void lists_are_read_and_written(void **state)
 }
 
 /* Every row has a help, a default that its own range accepts, and a mapping above it in the table. */
-static void table_is_sound(void **state)
-{
+static void table_is_sound(void **state) {
   (void)state;
   kz_scene scene;
   memset(&scene, 0, sizeof scene);
@@ -250,14 +267,18 @@ static void table_is_sound(void **state)
   kz_scene_free(&scene);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(defaults_are_those_of_the_table), cmocka_unit_test(three_forms_agree),
-      cmocka_unit_test(undefined_parameters_are_nan),    cmocka_unit_test(resolved_text_is_a_fixed_point),
-      cmocka_unit_test(options_override_and_create),     cmocka_unit_test(errors_name_place_key_and_remedy),
-      cmocka_unit_test(first_error_in_document_order),   cmocka_unit_test(scalars_are_strict),
-      cmocka_unit_test(structure_is_strict),             cmocka_unit_test(lists_are_read_and_written),
+      cmocka_unit_test(defaults_are_those_of_the_table),
+      cmocka_unit_test(three_forms_agree),
+      cmocka_unit_test(undefined_parameters_are_nan),
+      cmocka_unit_test(resolved_text_is_a_fixed_point),
+      cmocka_unit_test(options_override_and_create),
+      cmocka_unit_test(errors_name_place_key_and_remedy),
+      cmocka_unit_test(first_error_in_document_order),
+      cmocka_unit_test(scalars_are_strict),
+      cmocka_unit_test(structure_is_strict),
+      cmocka_unit_test(lists_are_read_and_written),
       cmocka_unit_test(table_is_sound),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

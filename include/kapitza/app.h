@@ -1,0 +1,68 @@
+/* app: the command line, what its commands do, and messages for people (C; floor 4). */
+#ifndef KAPITZA_APP_H
+#define KAPITZA_APP_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "kapitza/scene.h"
+
+/* Instruction sets that this build uses, as bits; the program's entry refuses a CPU that lacks one of them. */
+#define KZ_INSTRUCTION_LIST(X) \
+  X(SSE3, 0, "sse3")           \
+  X(SSSE3, 1, "ssse3")         \
+  X(SSE4_1, 2, "sse4.1")       \
+  X(SSE4_2, 3, "sse4.2")       \
+  X(POPCNT, 4, "popcnt")       \
+  X(AVX, 5, "avx")             \
+  X(AVX2, 6, "avx2")           \
+  X(FMA, 7, "fma")             \
+  X(BMI, 8, "bmi")             \
+  X(BMI2, 9, "bmi2")           \
+  X(AVX512F, 10, "avx512f")    \
+  X(AVX512BW, 11, "avx512bw")  \
+  X(AVX512CD, 12, "avx512cd")  \
+  X(AVX512DQ, 13, "avx512dq")  \
+  X(AVX512VL, 14, "avx512vl")
+extern const unsigned kz_instructions;
+/* "avx2 fma ...": the same for people and for the file; always the same text in one build. */
+const char *kz_instruction_names(void);
+
+typedef struct {
+  const char *scene;  /* path of the scene file */
+  const char *output; /* FILE; NULL = base name of the scene + ".h5" in the current folder */
+  char **sets;        /* KEY=VALUE of every --set, in order */
+  int n_sets;
+  bool resume, force;
+  double time_limit; /* seconds; 0 = none */
+  kz_progress progress;
+  bool speaks; /* this process prints: the first of those that mpirun started */
+  char *line;  /* the command line as typed */
+} kz_options;
+
+/* Reads the command line and carries it out: the whole program but for its entry. */
+kz_status kz_app(int argc, char **argv, bool speaks);
+
+/* The commands. */
+kz_status kz_app_run(const kz_options *options);
+kz_status kz_app_check(const kz_options *options);
+kz_status kz_app_keys(const kz_options *options);
+void kz_app_version(FILE *out);
+
+/* FILE of a run, written to path [bytes]. KZ_REFUSED where the name is too long. */
+kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);
+/* Everything about FILE that can be known before modelling. *complete: it holds this very scene already (with --resume). */
+kz_status kz_output_check(const kz_options *options, const char *path, const char *fingerprint, bool *complete);
+
+/* The sum of what the wanted studies cost; the memory is that of the most demanding one. */
+kz_cost kz_cost_of(const kz_scene *scene);
+/* KZ_REFUSED where the ranks of this node need more memory than it has. */
+kz_status kz_cost_check(const kz_cost *cost);
+/* "12.3 MB" in text [32]. */
+void kz_cost_print_bytes(double bytes, char *text);
+
+/* A scene as text in memory (kz_scene_write), and what a resumed run must share. NULL without memory; the caller frees. */
+char *kz_scene_resolved(const kz_scene *scene);
+char *kz_scene_fingerprint(const kz_scene *scene);
+
+#endif

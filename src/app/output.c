@@ -1,0 +1,88 @@
+/* FILE and its companions, before modelling: nothing stays written here. */
+#include <errno.h>
+#include <libgen.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "kapitza/app.h"
+
+kz_status kz_output_name(const kz_options *options, char *path, size_t bytes) {
+  int length;
+  if (options->output) {
+    length = snprintf(path, bytes, "%s", options->output);
+  } else {
+    const char *slash = strrchr(options->scene, '/');
+    const char *base = slash ? slash + 1 : options->scene;
+    const char *dot = strrchr(base, '.');
+    const bool yaml = dot && dot > base && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
+    length = snprintf(path, bytes, "%.*s.h5", (int)(yaml ? (size_t)(dot - base) : strlen(base)), base);
+  }
+  if (length >= 0 && (size_t)length < bytes) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "%.80s...: the name of the output is too long; a shorter one", path);
+}
+
+static kz_status check_folder(const char *path) {
+  char copy[PATH_MAX];
+  struct stat facts;
+  snprintf(copy, sizeof copy, "%s", path);
+  const char *folder = dirname(copy);
+  if (stat(folder, &facts) != 0)
+    return kz_fail(KZ_REFUSED, "%s: the folder %s cannot be used: %s; an existing folder", path, folder, strerror(errno));
+  if (!S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: %s is a file; an existing folder", path, folder);
+  return KZ_OK;
+}
+
+/* What stands under FILE, FILE.part and FILE.checkpoint may only be regular files. *exists: FILE itself is there. */
+static kz_status check_names(const char *path, struct stat *file, bool *exists) {
+  static const char *const suffixes[] = {".checkpoint", ".part", ""};
+  *exists = false;
+  for (int i = 0; i < 3; i++) {
+    char name[PATH_MAX + 16];
+    snprintf(name, sizeof name, "%s%s", path, suffixes[i]);
+    if (stat(name, file) == 0) {
+      *exists = i == 2;
+      if (!S_ISREG(file->st_mode))
+        return kz_fail(KZ_REFUSED, "%s: is %s; the name of a file", name,
+                       S_ISDIR(file->st_mode) ? "a folder" : "not a regular file");
+    } else if (errno != ENOENT) {
+      return kz_fail(KZ_REFUSED, "%s: cannot be used: %s; another name", name, strerror(errno));
+    }
+  }
+  return KZ_OK;
+}
+
+/* A file is made in the folder and removed again: permissions, read-only mounts and quotas all answer. */
+static kz_status try_folder(const char *path) {
+  char name[PATH_MAX + 16];
+  snprintf(name, sizeof name, "%s.XXXXXX", path);
+  const int file = mkstemp(name);
+  if (file < 0) return kz_fail(KZ_REFUSED, "%s: cannot be written: %s; a name in a writable folder", path, strerror(errno));
+  close(file);
+  unlink(name);
+  return KZ_OK;
+}
+
+static bool is_same_file(const struct stat *file, const char *path) {
+  struct stat other;
+  return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
+}
+
+kz_status kz_output_check(const kz_options *options, const char *path, const char *fingerprint, bool *complete) {
+  struct stat file;
+  bool exists;
+  *complete = false;
+  KZ_TRY(check_folder(path));
+  KZ_TRY(check_names(path, &file, &exists));
+  if (!exists) return try_folder(path);
+  if (is_same_file(&file, options->scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; another name", path);
+  if (options->force) return try_folder(path);
+  *complete = options->resume && kz_store_is_complete(path, fingerprint);
+  if (*complete) return KZ_OK;
+  return kz_fail(KZ_REFUSED,
+                 options->resume ? "%s: exists and is not a complete file of this scene and program; --force, or another name"
+                                 : "%s: exists; --force to overwrite it, or another name",
+                 path);
+}

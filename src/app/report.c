@@ -1,0 +1,82 @@
+/* What the program says about itself and about a scene: check, keys, --version. */
+#include <stdlib.h>
+
+#include "kapitza/app.h"
+#include "kapitza/version.h"
+
+static char *write_scene(const kz_scene *scene, bool flat) {
+  char *text = NULL;
+  size_t size = 0;
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return NULL;
+  kz_scene_write(kz_keys, scene, flat, out);
+  if (flat)
+    fprintf(out, "program version: %s\ngit revision: %s\ninstruction set: %s\n", KZ_VERSION, KZ_GIT_REVISION,
+            kz_instruction_names());
+  if (fclose(out) == 0) return text;
+  free(text);
+  return NULL;
+}
+
+char *kz_scene_resolved(const kz_scene *scene) {
+  return write_scene(scene, false);
+}
+
+char *kz_scene_fingerprint(const kz_scene *scene) {
+  return write_scene(scene, true);
+}
+
+static void print_duration(double seconds) {
+  if (seconds < 120.0)
+    printf("%.3g s", seconds);
+  else if (seconds < 7200.0)
+    printf("%.3g min", seconds / 60.0);
+  else
+    printf("%.3g h", seconds / 3600.0);
+}
+
+static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved) {
+  char disk[32], memory[32];
+  const kz_cost cost = kz_cost_of(scene);
+  kz_cost_print_bytes(cost.disk_bytes, disk);
+  kz_cost_print_bytes(cost.memory_bytes, memory);
+  const kz_pendulum *p = &scene->parameters.pendulum;
+  printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
+  printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\nstudies         ", p->k, p->beta, p->m);
+  for (int i = 0; i < kz_study_count; i++)
+    if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);
+  printf("\ncells            %lld\ndisk             %s\nmemory per rank  %s\nestimated time   ", (long long)cost.cells, disk,
+         memory);
+  print_duration(cost.core_seconds);
+  puts(" on one core, divided by the number of ranks");
+}
+
+kz_status kz_app_check(const kz_options *options) {
+  char *text;
+  size_t length;
+  kz_scene scene;
+  KZ_TRY(kz_scene_load(options->scene, &text, &length));
+  kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
+  free(text);
+  KZ_TRY(status);
+  char *resolved = kz_scene_resolved(&scene);
+  const kz_cost cost = kz_cost_of(&scene);
+  status = resolved ? kz_cost_check(&cost) : kz_fail(KZ_FAILED, "out of memory");
+  if (status == KZ_OK && options->speaks) print_check(options, &scene, resolved);
+  free(resolved);
+  kz_scene_free(&scene);
+  return status;
+}
+
+kz_status kz_app_keys(const kz_options *options) {
+  if (options->speaks) kz_scene_reference(kz_keys, stdout);
+  return KZ_OK;
+}
+
+void kz_app_version(FILE *out) {
+  fprintf(out, "kapitza %s (%s)\n", KZ_VERSION, KZ_GIT_REVISION);
+  fprintf(out, "compiler         %s\n", KZ_COMPILER);
+  fprintf(out, "instruction set  %s: %s\n", KZ_ARCH, kz_instruction_names());
+  fprintf(out, "MPI              %s\nHDF5             %s\nGSL              %s\nFFTW             %s\n", KZ_MPI_VERSION,
+          KZ_HDF5_VERSION, KZ_GSL_VERSION, KZ_FFTW_VERSION);
+}

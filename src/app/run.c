@@ -1,0 +1,178 @@
+/* The command run: one job from the scene's text to the complete file. All ranks walk through it together. */
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "kapitza/app.h"
+#include "kapitza/version.h"
+
+typedef struct {
+  const kz_options *options;
+  kz_team *team;
+  bool first; /* rank 0: reads, writes and speaks */
+  char *text; /* of the scene, `length` bytes and a NUL */
+  uint64_t length;
+  kz_scene scene;
+  char *resolved, *fingerprint;
+  char path[PATH_MAX];
+  kz_store *store; /* NULL but on rank 0 */
+  FILE *summary;   /* NULL but on rank 0 */
+  char *words;     /* what the summary holds, n_words bytes */
+  size_t n_words;
+} job;
+
+/* Every rank has the bytes that rank 0 read, so that all come to the same verdict on them. */
+static kz_status share_text(job *j) {
+  size_t length = 0;
+  KZ_TRY(kz_team_agree(j->team, j->first ? kz_scene_load(j->options->scene, &j->text, &length) : KZ_OK));
+  j->length = length;
+  KZ_TRY(kz_team_broadcast(j->team, &j->length, sizeof j->length));
+  if (!j->first) j->text = calloc(1, j->length + 1);
+  KZ_TRY(kz_team_agree(j->team, j->text ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", j->options->scene)));
+  return kz_team_broadcast(j->team, j->text, j->length);
+}
+
+static kz_status read_scene(job *j) {
+  const kz_options *o = j->options;
+  KZ_TRY(kz_scene_read(j->text, j->length, o->scene, o->n_sets, o->sets, &j->scene));
+  j->resolved = kz_scene_resolved(&j->scene);
+  j->fingerprint = kz_scene_fingerprint(&j->scene);
+  return j->resolved && j->fingerprint ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", o->scene);
+}
+
+/* All that can be refused before modelling. *complete: there is nothing left to do. */
+static kz_status prepare(job *j, bool *complete) {
+  KZ_TRY(share_text(j));
+  KZ_TRY(kz_team_agree(j->team, read_scene(j)));
+  kz_status status = kz_output_name(j->options, j->path, sizeof j->path);
+  if (status == KZ_OK && j->first) status = kz_output_check(j->options, j->path, j->fingerprint, complete);
+  KZ_TRY(kz_team_agree(j->team, status));
+  KZ_TRY(kz_team_broadcast(j->team, complete, sizeof *complete));
+  const kz_cost cost = kz_cost_of(&j->scene);
+  return kz_team_agree(j->team, kz_cost_check(&cost));
+}
+
+static kz_status write_root(job *j) {
+  char created[32];
+  const time_t now = time(NULL);
+  struct tm utc;
+  strftime(created, sizeof created, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+  const struct {
+    const char *name, *value;
+  } texts[] = {{"title", j->scene.title},
+               {"program", "kapitza"},
+               {"version", KZ_VERSION},
+               {"git_revision", KZ_GIT_REVISION},
+               {"created", created},
+               {"command", j->options->line},
+               {"scene", j->text},
+               {"scene_resolved", j->resolved},
+               {"instruction_set", kz_instruction_names()},
+               {"fingerprint", j->fingerprint},
+               {"Conventions", "CF-1.8"}};
+  for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+    KZ_TRY(kz_store_text(j->store, "/", texts[i].name, texts[i].value));
+  return kz_store_integer(j->store, "/", "ranks", kz_team_size(j->team));
+}
+
+static kz_status write_pendulum(job *j) {
+  const kz_parameters *p = &j->scene.parameters;
+  const struct {
+    const char *name;
+    double value;
+  } reals[] = {{"k", p->pendulum.k},
+               {"beta", p->pendulum.beta},
+               {"m", p->pendulum.m},
+               {"quality_factor", p->quality_factor},
+               {"drive_frequency", p->drive_frequency},
+               {"drive_amplitude", p->drive_amplitude}};
+  for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++)
+    if (reals[i].value == reals[i].value) KZ_TRY(kz_store_real(j->store, "/pendulum", reals[i].name, reals[i].value));
+  return KZ_OK;
+}
+
+static kz_status open_outputs(job *j) {
+  j->summary = open_memstream(&j->words, &j->n_words);
+  if (!j->summary) return kz_fail(KZ_FAILED, "out of memory for the summary");
+  KZ_TRY(kz_store_create(j->path, &j->store));
+  KZ_TRY(write_root(j));
+  return write_pendulum(j);
+}
+
+static kz_status run_studies(job *j) {
+  KZ_TRY(kz_team_agree(j->team, j->first ? open_outputs(j) : KZ_OK));
+  for (int i = 0; i < kz_study_count; i++)
+    if (kz_studies[i].wanted(&j->scene))
+      KZ_TRY(kz_team_agree(j->team, kz_studies[i].run(&j->scene, j->team, j->store, j->summary)));
+  return KZ_OK;
+}
+
+static void print_summary(job *j) {
+  const kz_pendulum *p = &j->scene.parameters.pendulum;
+  fclose(j->summary);
+  j->summary = NULL;
+  if (j->scene.title[0]) puts(j->scene.title);
+  printf("k = %.10g, beta = %.10g, m = %.10g\n%swritten to %s\n", p->k, p->beta, p->m, j->words, j->path);
+}
+
+/* The file appears under its name, or not at all. */
+static kz_status finish(job *j, kz_status status) {
+  if (j->store && status == KZ_OK) {
+    status = kz_store_complete(j->store);
+  } else if (j->store) {
+    kz_store_discard(j->store);
+  }
+  j->store = NULL;
+  status = kz_team_agree(j->team, status);
+  const kz_status closed = kz_checkpoint_close(j->team, status == KZ_OK);
+  if (status == KZ_OK) status = closed;
+  if (status == KZ_OK && j->first) print_summary(j);
+  return status;
+}
+
+/* A checkpoint that outlived its complete file has nothing to tell. */
+static kz_status leave_complete(job *j) {
+  char name[PATH_MAX + 16];
+  if (!j->first) return KZ_OK;
+  snprintf(name, sizeof name, "%s.checkpoint", j->path);
+  unlink(name);
+  printf("%s is already complete for this scene\n", j->path);
+  return KZ_OK;
+}
+
+static kz_status carry_out(job *j) {
+  bool complete = false;
+  kz_team_set_progress(j->team, j->options->progress);
+  kz_team_set_time_limit(j->team, j->options->time_limit);
+  KZ_TRY(prepare(j, &complete));
+  if (complete) return leave_complete(j);
+  char name[PATH_MAX + 16];
+  snprintf(name, sizeof name, "%s.checkpoint", j->path);
+  KZ_TRY(kz_checkpoint_open(
+      j->team, &(kz_checkpoint_plan){
+                   .path = name, .fingerprint = j->fingerprint, .resume = j->options->resume, .force = j->options->force}));
+  return finish(j, run_studies(j));
+}
+
+static void free_job(job *j) {
+  if (j->summary) fclose(j->summary);
+  free(j->words);
+  free(j->text);
+  free(j->resolved);
+  free(j->fingerprint);
+  kz_scene_free(&j->scene);
+}
+
+kz_status kz_app_run(const kz_options *options) {
+  job j = {.options = options};
+  KZ_TRY(kz_team_start(NULL, NULL, &j.team));
+  j.first = kz_team_rank(j.team) == 0;
+  const kz_status status = carry_out(&j);
+  const bool first = j.first;
+  kz_team_end(j.team);
+  free_job(&j);
+  if (!first) kz_message_clear();
+  return status;
+}
