@@ -69,4 +69,13 @@ enum { KZ_NAME_LENGTH = 48 };
  * the table. */
 void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text);
 
+/* ---- fits ---- */
+
+typedef struct {
+  double intercept, slope, slope_stderr;
+} kz_line;
+
+/* Least squares through n points; all NaN for n < 3. */
+kz_line kz_fit_line(int64_t n, const double *x, const double *y);
+
 #endif

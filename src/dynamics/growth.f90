@@ -20,6 +20,13 @@ module kz_dynamics_growth
   real(dp), parameter :: LARGEST_IMAGE = 2000
   integer, parameter :: NEVER = -1
 
+  !> How far the cells of an image have been seen to belong to one attractor: they need not be looked at again.
+  type :: progress_t
+    integer :: answer = 0
+    integer :: row = -huge(0)
+    integer :: column = -huge(0)
+  end type progress_t
+
   !> The image of one cell, in units of cells.
   type :: image_t
     real(dp) :: x(4)
@@ -92,11 +99,13 @@ contains
     type(table_t), intent(in) :: table
     real(dp), allocatable, intent(in) :: field(:, :, :)
     integer, allocatable :: waiting(:), next(:), stack(:)
+    type(progress_t), allocatable :: progress(:)
     integer :: mirrors(0:size(attractors)), n_stack, cell, answer, blocker
 
     mirrors(0) = 0
     mirrors(1:) = attractors%mirror
-    allocate (waiting(0:size(regions%owner) - 1), next(0:size(regions%owner) - 1), stack(size(regions%owner)))
+    allocate (waiting(0:size(regions%owner) - 1), next(0:size(regions%owner) - 1), stack(size(regions%owner)), &
+              progress(0:size(regions%owner) - 1))
     waiting = NEVER
     n_stack = 0
     do cell = size(regions%owner) - 1, 0, -1
@@ -110,7 +119,7 @@ contains
       call first_corner(regions, mirrors, table, field, mod(cell, regions%n_theta), cell/regions%n_theta, answer, blocker)
       if (answer /= 0) &
         call ask(regions, attractors, mirrors, cell_image(table, field, mod(cell, regions%n_theta), cell/regions%n_theta), &
-                 answer, blocker)
+                 progress(cell), answer, blocker)
       if (answer > 0) then
         regions%owner(mod(cell, regions%n_theta), cell/regions%n_theta) = answer
         do while (waiting(cell) /= NEVER)
@@ -204,15 +213,16 @@ contains
   end function cell_image
 
   !> answer > 0: the attractor that owns the whole image. Else blocker: a stored cell that is open, or NEVER.
-  subroutine ask(regions, attractors, mirrors, image, answer, blocker)
+  subroutine ask(regions, attractors, mirrors, image, progress, answer, blocker)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     integer, intent(in) :: mirrors(0:)
     type(image_t), intent(in) :: image
+    type(progress_t), intent(inout) :: progress
     integer, intent(out) :: answer
     integer, intent(out) :: blocker
     real(dp) :: low, high, from, to
-    integer :: row, column, stored, a
+    integer :: row, column, first, stored, a
 
     answer = 0
     blocker = NEVER
@@ -222,15 +232,19 @@ contains
     if ((high - low)*(maxval(image%x) - minval(image%x) + 2*image%slack_x) > LARGEST_IMAGE) return
     if (touched(regions, image)) answer = ellipse_around(regions, attractors, image)
     if (answer > 0) return
-    do row = int(low), int(high)
+    answer = progress%answer
+    do row = max(int(low), progress%row), int(high)
       call extent(image, row - image%slack_y, row + 1 + image%slack_y, from, to)
-      do column = floor(from - image%slack_x), floor(to + image%slack_x)
+      first = floor(from - image%slack_x)
+      if (row == progress%row) first = max(first, progress%column)
+      do column = first, floor(to + image%slack_x)
         call look(regions, mirrors, column, row, a, stored)
         if (a > 0 .and. (answer == 0 .or. a == answer)) then
           answer = a
           cycle
         end if
         if (a <= 0) blocker = stored
+        progress = progress_t(answer, row, column)
         answer = 0
         return
       end do

@@ -1,0 +1,297 @@
+/* Study `basin`: the attractors of a window, then a label for every cell.
+ *
+ * scene -> discovery -> map table -> trapping regions -> tiles of cells -> (cells that ended nowhere known feed another round) ->
+ * measures -> file. A window that is its own mirror image needs half the cells: cell f mirrors cell n - 1 - f. */
+#include "basin.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "catalogue.h"
+#include "discovery.h"
+
+enum {
+  CELLS = 4096,       /* per tile */
+  ROWS = 4,           /* of the map table per tile */
+  ROUNDS = 4          /* of discovery, at most */
+};
+
+typedef struct {
+  int16_t owner[CELLS]; /* number of kz_dynamics, 0 = not settled */
+  uint32_t periods[CELLS];
+} labelled;
+
+typedef struct {
+  const kz_basin_plan *plan;
+  kz_dynamics *dynamics;
+  double reach, trapped_share;
+  int64_t total, own;       /* cells of the window; those that are labelled, the others mirror them */
+  int16_t *owner;           /* [own], rank 0 */
+  uint32_t *periods;        /* [own], rank 0 */
+  int64_t n_open, *open;    /* cells of the present round; NULL = all own ones */
+  int64_t *reached;         /* [INT16_MAX + 1] starts and cells that ended on each attractor */
+} basin;
+
+bool kz_axis_is_symmetric(const kz_axis *axis) { return axis->min == -axis->max; }
+
+double kz_axis_centre(const kz_axis *axis, int64_t i)
+{
+  return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
+         (axis->min + axis->max) / 2;
+}
+
+/* State of cell f: half-turns in [-1, 1] and velocity. */
+static void cell_state(const kz_basin_plan *plan, int64_t f, double state[2])
+{
+  double half_turns = kz_axis_centre(&plan->theta, f % plan->theta.count) / M_PI;
+  state[0] = half_turns - 2 * rint(half_turns / 2);
+  state[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
+}
+
+static kz_status follow_cells(const basin *b, int64_t n, double *state, int32_t *owner, int64_t *periods)
+{
+  static const int32_t points[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
+  if (b->plan->method == KZ_METHOD_DIRECT)
+    kz_dynamics_follow(b->dynamics, n, b->plan->max_periods, state, owner, periods);
+  else
+    kz_dynamics_follow_table(b->dynamics, points[b->plan->interpolation], n, b->plan->max_periods, state, owner, periods);
+  return KZ_OK;
+}
+
+static kz_status label_tile(void *context, int64_t tile, void *record)
+{
+  const basin *b = context;
+  labelled *out = record;
+  double state[2 * CELLS];
+  int32_t owner[CELLS];
+  int64_t periods[CELLS], first = tile * CELLS, n = b->n_open - first < CELLS ? b->n_open - first : CELLS;
+  for (int64_t i = 0; i < n; i++) cell_state(b->plan, b->open ? b->open[first + i] : first + i, state + 2 * i);
+  KZ_TRY(follow_cells(b, n, state, owner, periods));
+  for (int64_t i = 0; i < n; i++) {
+    out->owner[i] = (int16_t)owner[i];
+    out->periods[i] = (uint32_t)periods[i];
+  }
+  return KZ_OK;
+}
+
+static kz_status table_tile(void *context, int64_t tile, void *record)
+{
+  const basin *b = context;
+  int64_t size = kz_dynamics_table_row_size(b->dynamics);
+  for (int64_t row = tile * ROWS; row < (tile + 1) * ROWS && row < b->plan->table_velocity; row++)
+    kz_dynamics_table_row(b->dynamics, row, (double *)record + (row - tile * ROWS) * size);
+  return KZ_OK;
+}
+
+/* Builds the map table, shared out over the ranks. */
+static kz_status make_table(basin *b, kz_team *team)
+{
+  kz_dynamics_table_create(b->dynamics, b->plan->table_theta, b->plan->table_velocity, b->reach);
+  kz_stage stage = {.name = "map table", .n_tiles = (b->plan->table_velocity + ROWS - 1) / ROWS,
+                    .record_bytes = ROWS * (size_t)kz_dynamics_table_row_size(b->dynamics) * sizeof(double),
+                    .work = table_tile, .context = b, .everywhere = true};
+  double *rows = malloc((size_t)stage.n_tiles * stage.record_bytes);
+  kz_status status = kz_team_agree(team, rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table"));
+  if (status == KZ_OK) status = kz_stage_run(team, &stage, rows);
+  if (status == KZ_OK) kz_dynamics_table_set(b->dynamics, rows);
+  free(rows);
+  return status;
+}
+
+/* Labels the open cells; on rank 0 they go to their places. */
+static kz_status label_cells(basin *b, kz_team *team, int round)
+{
+  char name[32];
+  snprintf(name, sizeof name, round == 0 ? "cells" : "cells, round %d", round + 1);
+  kz_stage stage = {.name = name, .n_tiles = (b->n_open + CELLS - 1) / CELLS, .record_bytes = sizeof(labelled),
+                    .work = label_tile, .context = b, .keep = true};
+  labelled *records = NULL;
+  if (kz_team_rank(team) == 0) records = malloc((size_t)stage.n_tiles * sizeof *records);
+  kz_status status = KZ_OK;
+  if (kz_team_rank(team) == 0 && !records) status = kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->n_open);
+  status = kz_team_agree(team, status);
+  if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
+  for (int64_t i = 0; status == KZ_OK && records && i < b->n_open; i++) {
+    int64_t f = b->open ? b->open[i] : i;
+    b->owner[f] = records[i / CELLS].owner[i % CELLS];
+    b->periods[f] = records[i / CELLS].periods[i % CELLS];
+  }
+  free(records);
+  return status;
+}
+
+/* Discovery from n states; what they reach is counted. */
+static kz_status discover(basin *b, kz_team *team, int64_t n, double *state)
+{
+  int32_t *owner = malloc((size_t)n * sizeof *owner + 1);
+  kz_status status = kz_team_agree(team, owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+  if (status == KZ_OK) status = kz_discover(team, b->dynamics, b->reach, b->plan->max_periods, n, state, owner);
+  if (status == KZ_OK && kz_dynamics_count(b->dynamics) > INT16_MAX)
+    status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) b->reached[owner[i]]++;
+  free(owner);
+  return status;
+}
+
+static kz_status first_discovery(basin *b, kz_team *team, const kz_window *window)
+{
+  int64_t n = b->plan->starts;
+  double *state = malloc((size_t)n * 2 * sizeof *state);
+  kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+  if (status == KZ_OK) {
+    kz_dynamics_starts(window, b->plan->seed, n, state);
+    status = discover(b, team, n, state);
+  }
+  free(state);
+  return status;
+}
+
+/* The cells that have not settled, on every rank. */
+static kz_status list_unsettled(basin *b, kz_team *team)
+{
+  int64_t n = 0;
+  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += b->owner[f] == 0;
+  KZ_TRY(kz_team_broadcast(team, &n, sizeof n));
+  free(b->open);
+  b->open = malloc((size_t)n * sizeof *b->open + 1);
+  b->n_open = n;
+  KZ_TRY(kz_team_agree(team, b->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)n)));
+  n = 0;
+  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++)
+    if (b->owner[f] == 0) b->open[n++] = f;
+  return kz_team_broadcast(team, b->open, (size_t)b->n_open * sizeof *b->open);
+}
+
+/* Unsettled cells, evenly chosen, as starts of another discovery. */
+static kz_status discover_again(basin *b, kz_team *team)
+{
+  int64_t n = b->n_open < b->plan->starts ? b->n_open : b->plan->starts;
+  double *state = malloc((size_t)n * 2 * sizeof *state);
+  kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) cell_state(b->plan, b->open[i * b->n_open / n], state + 2 * i);
+  if (status == KZ_OK) status = discover(b, team, n, state);
+  free(state);
+  return status;
+}
+
+/* Everything up to the labels. */
+static kz_status model(basin *b, kz_team *team, const kz_window *window)
+{
+  KZ_TRY(first_discovery(b, team, window));
+  KZ_TRY(make_table(b, team));
+  b->n_open = b->own;
+  for (int round = 0;; round++) {
+    b->trapped_share = kz_dynamics_grow(b->dynamics);
+    KZ_TRY(label_cells(b, team, round));
+    if (round == ROUNDS - 1) return KZ_OK;
+    KZ_TRY(list_unsettled(b, team));
+    if (b->n_open == 0) return KZ_OK;
+    int64_t known = kz_dynamics_count(b->dynamics);
+    KZ_TRY(discover_again(b, team));
+    if (kz_dynamics_count(b->dynamics) == known) return KZ_OK;
+  }
+}
+
+static kz_status allocate(basin *b, bool leads)
+{
+  b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
+  b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
+  b->periods = leads ? calloc((size_t)b->own, sizeof *b->periods) : NULL;
+  if (b->reached && (!leads || (b->owner && b->periods))) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->own);
+}
+
+/* From numbers of own cells to ids of all cells. */
+static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels)
+{
+  KZ_TRY(kz_labels_allocate(b->total, labels));
+  for (int64_t f = 0; f < b->own; f++) b->reached[b->owner[f]]++;
+  kz_status status = kz_catalogue_make(b->dynamics, b->reached, catalogue);
+  for (int64_t f = 0; status == KZ_OK && f < b->total; f++) {
+    bool mirrored = f >= b->own;
+    int64_t own = mirrored ? b->total - 1 - f : f;
+    int32_t id = b->owner[own] > 0 ? catalogue->id_of[b->owner[own]] : -1;
+    labels->attractor[f] = (int16_t)(mirrored && id >= 0 ? catalogue->entries[id].mirror : id);
+    labels->settling_time[f] = b->periods[own];
+    labels->evidence[f] = id < 0 ? 0 : b->periods[own] == 0 ? 1 : 2;
+  }
+  return status;
+}
+
+static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
+{
+  const kz_basin_plan *plan = &scene->basin;
+  basin b = {.plan = plan, .total = plan->theta.count * plan->velocity.count};
+  kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
+  bool symmetric = kz_axis_is_symmetric(&plan->theta) && kz_axis_is_symmetric(&plan->velocity);
+  b.own = symmetric ? (b.total + 1) / 2 : b.total;
+  b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
+  kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
+  status = kz_team_agree(team, status);
+  if (status == KZ_OK) {
+    b.reach = kz_dynamics_reach(b.dynamics, &window);
+    status = model(&b, team, &window);
+  }
+  if (status == KZ_OK && kz_team_rank(team) == 0) {
+    kz_catalogue catalogue = {0};
+    kz_labels labels = {.trapped_share = b.trapped_share};
+    status = finish(&b, &catalogue, &labels);
+    if (status == KZ_OK) status = kz_basin_write(scene, &catalogue, &labels, store, summary);
+    kz_catalogue_free(&catalogue);
+    kz_labels_free(&labels);
+  }
+  if (b.dynamics) kz_dynamics_free(b.dynamics);
+  free(b.owner);
+  free(b.periods);
+  free(b.open);
+  free(b.reached);
+  return kz_team_agree(team, status);
+}
+
+/* Without damping areas are conserved and nothing attracts. */
+static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
+{
+  kz_status status = KZ_OK;
+  if (kz_team_rank(team) == 0) {
+    kz_catalogue catalogue = {0};
+    kz_labels labels = {0};
+    int64_t total = scene->basin.theta.count * scene->basin.velocity.count;
+    status = kz_labels_allocate(total, &labels);
+    for (int64_t f = 0; status == KZ_OK && f < total; f++) {
+      labels.attractor[f] = -1;
+      labels.settling_time[f] = (uint32_t)scene->basin.max_periods;
+    }
+    if (status == KZ_OK) {
+      fprintf(summary, "basin: without damping nothing attracts: every cell is labelled -1\n");
+      status = kz_basin_write(scene, &catalogue, &labels, store, summary);
+    }
+    kz_labels_free(&labels);
+  }
+  return kz_team_agree(team, status);
+}
+
+kz_status kz_basin_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
+{
+  return (scene->parameters.pendulum.beta > 0 ? run_damped : run_undamped)(scene, team, store, summary);
+}
+
+bool kz_basin_wanted(const kz_scene *scene) { return scene->has_basin; }
+
+kz_cost kz_basin_cost(const kz_scene *scene)
+{
+  const kz_basin_plan *plan = &scene->basin;
+  double cells = (double)plan->theta.count * (double)plan->velocity.count;
+  double nodes = (double)plan->table_theta * (double)plan->table_velocity;
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  static const double kick_seconds[] = {[KZ_SINGLE] = 4e-10, [KZ_DOUBLE] = 8e-10, [KZ_QUAD] = 2e-6};
+  double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
+  double period = kicks * kick_seconds[scene->numerics.precision];
+  double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
+  double cell_period = plan->method == KZ_METHOD_DIRECT ? period : 3e-8;
+  return (kz_cost){.cells = plan->theta.count * plan->velocity.count,
+                   .disk_bytes = 14 * cells,
+                   .memory_bytes = 5e7 + 27 * cells + 100 * nodes,
+                   .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) + cells * 10 * cell_period};
+}

@@ -1,0 +1,112 @@
+/* Study `basin`: measures of the labelled grid, its groups in the file, its summary. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "basin.h"
+
+enum { DISTANCES = 8 };
+
+kz_status kz_labels_allocate(int64_t cells, kz_labels *labels)
+{
+  labels->cells = cells;
+  labels->attractor = calloc((size_t)cells, sizeof *labels->attractor);
+  labels->settling_time = calloc((size_t)cells, sizeof *labels->settling_time);
+  labels->evidence = calloc((size_t)cells, sizeof *labels->evidence);
+  if (labels->attractor && labels->settling_time && labels->evidence) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)cells);
+}
+
+void kz_labels_free(kz_labels *labels)
+{
+  free(labels->attractor);
+  free(labels->settling_time);
+  free(labels->evidence);
+}
+
+/* Share of the cells of each attractor; returns the number of unsettled cells. */
+static int64_t count_fractions(const kz_labels *labels, kz_catalogue *catalogue)
+{
+  int64_t unsettled = 0;
+  for (int64_t i = 0; i < catalogue->count; i++) catalogue->entries[i].fraction = 0;
+  for (int64_t f = 0; f < labels->cells; f++) {
+    if (labels->attractor[f] < 0) unsettled++;
+    else catalogue->entries[labels->attractor[f]].fraction++;
+  }
+  for (int64_t i = 0; i < catalogue->count; i++) catalogue->entries[i].fraction /= (double)labels->cells;
+  return unsettled;
+}
+
+/* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
+static kz_line uncertainty(const kz_basin_plan *plan, const kz_labels *labels)
+{
+  double x[DISTANCES], y[DISTANCES], share;
+  int64_t n = 0, circle = plan->theta.max - plan->theta.min == 2 * M_PI;
+  for (int64_t distance = 1; n < DISTANCES && 16 * distance <= plan->theta.count; distance *= 2) {
+    kz_uncertain_share(plan->theta.count, plan->velocity.count, labels->attractor, distance, circle, &share);
+    if (share <= 0) break;
+    x[n] = log((double)distance);
+    y[n++] = log(share);
+  }
+  return kz_fit_line(n, x, y);
+}
+
+static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, kz_store *store, FILE *summary)
+{
+  double entropy, boundary_entropy;
+  kz_basin_entropy(plan->theta.count, plan->velocity.count, labels->attractor, &entropy, &boundary_entropy);
+  kz_line line = uncertainty(plan, labels);
+  KZ_TRY(kz_store_real(store, "basin", "trapped_share", labels->trapped_share));
+  KZ_TRY(kz_store_real(store, "basin", "basin_entropy", entropy));
+  KZ_TRY(kz_store_real(store, "basin", "boundary_basin_entropy", boundary_entropy));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent", line.slope));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_stderr", line.slope_stderr));
+  fprintf(summary, "basin entropy %.4f, at the boundaries %.4f", entropy, boundary_entropy);
+  if (!isnan(line.slope)) fprintf(summary, "; uncertainty exponent %.3f +- %.3f", line.slope, line.slope_stderr);
+  fprintf(summary, "\n");
+  return KZ_OK;
+}
+
+static kz_status write_numerics(const kz_scene *scene, kz_store *store)
+{
+  static const char *const methods[] = {"icm", "direct", "hybrid"}, *const precisions[] = {"single", "double", "quad"},
+                    *const interpolations[] = {"linear", "cubic", "quintic"};
+  const kz_basin_plan *plan = &scene->basin;
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  KZ_TRY(kz_store_text(store, "basin", "method", methods[plan->method]));
+  KZ_TRY(kz_store_integer(store, "basin", "max_periods", plan->max_periods));
+  KZ_TRY(kz_store_text(store, "basin", "scheme", scheme.name));
+  KZ_TRY(kz_store_integer(store, "basin", "steps_per_period", scene->numerics.steps_per_period));
+  KZ_TRY(kz_store_text(store, "basin", "precision", precisions[scene->numerics.precision]));
+  KZ_TRY(kz_store_text(store, "basin", "interpolation", interpolations[plan->interpolation]));
+  KZ_TRY(kz_store_integer(store, "basin", "table_theta", plan->table_theta));
+  return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
+}
+
+static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store)
+{
+  double *centres = malloc((size_t)axis->count * sizeof *centres);
+  if (!centres) return kz_fail(KZ_FAILED, "no memory for the axis %s", name);
+  for (int64_t i = 0; i < axis->count; i++) centres[i] = kz_axis_centre(axis, i);
+  kz_status status = kz_store_dimension(store, "basin", name, axis->count, centres);
+  free(centres);
+  return status;
+}
+
+kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
+                         FILE *summary)
+{
+  const kz_basin_plan *plan = &scene->basin;
+  int64_t unsettled = count_fractions(labels, catalogue);
+  kz_catalogue_print(catalogue, true, summary);
+  fprintf(summary, "%lld of %lld cells did not settle within %lld periods\n", (long long)unsettled, (long long)labels->cells,
+          (long long)plan->max_periods);
+  KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
+  KZ_TRY(write_axis(&plan->theta, "theta", store));
+  KZ_TRY(write_axis(&plan->velocity, "velocity", store));
+  KZ_TRY(kz_store_variable(store, "basin", "attractor", labels->attractor));
+  KZ_TRY(kz_store_variable(store, "basin", "settling_time", labels->settling_time));
+  KZ_TRY(kz_store_variable(store, "basin", "evidence", labels->evidence));
+  KZ_TRY(write_numerics(scene, store));
+  return write_measures(plan, labels, store, summary);
+}

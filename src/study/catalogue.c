@@ -1,0 +1,213 @@
+#include "catalogue.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SAMPLES = 96, LINES_PER_PERIOD = 8 };
+
+void kz_catalogue_free(kz_catalogue *catalogue)
+{
+  for (int64_t i = 0; i < catalogue->count; i++) {
+    free(catalogue->entries[i].theta);
+    free(catalogue->entries[i].velocity);
+  }
+  free(catalogue->entries);
+  free(catalogue->id_of);
+  *catalogue = (kz_catalogue){0};
+}
+
+static kz_status fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number)
+{
+  size_t most = (size_t)kz_dynamics_packed_size(dynamics);
+  entry->theta = calloc(most, sizeof(double));
+  entry->velocity = calloc(most, sizeof(double));
+  if (!entry->theta || !entry->velocity) return kz_fail(KZ_FAILED, "no memory for an attractor");
+  kz_dynamics_attractor(dynamics, number, &entry->row, entry->theta, entry->velocity);
+  kz_orbit_name(entry->row.period, entry->row.winding, entry->row.centre, entry->name);
+  if (entry->row.centre > 1) entry->row.amplitude = NAN;
+  return KZ_OK;
+}
+
+kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue)
+{
+  int64_t known = kz_dynamics_count(dynamics);
+  int64_t *order = calloc((size_t)known + 1, sizeof *order);
+  *catalogue = (kz_catalogue){.entries = calloc((size_t)known + 1, sizeof(kz_entry)),
+                              .id_of = calloc((size_t)known + 1, sizeof(int32_t))};
+  if (!order || !catalogue->entries || !catalogue->id_of) {
+    free(order);
+    return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  }
+  kz_dynamics_order(dynamics, order);
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i <= known; i++) catalogue->id_of[i] = -1;
+  for (int64_t i = 0; i < known && status == KZ_OK; i++) {
+    kz_entry entry = {.fraction = NAN};
+    status = fill(&entry, dynamics, order[i]);
+    if (reached[order[i]] == 0 && reached[entry.row.mirror] == 0) {
+      free(entry.theta);
+      free(entry.velocity);
+      continue;
+    }
+    catalogue->id_of[order[i]] = (int32_t)catalogue->count;
+    catalogue->entries[catalogue->count++] = entry;
+  }
+  for (int64_t i = 0; i < catalogue->count; i++)
+    catalogue->entries[i].mirror = catalogue->id_of[catalogue->entries[i].row.mirror];
+  free(order);
+  return status;
+}
+
+static int64_t longest(const kz_catalogue *catalogue)
+{
+  int64_t most = 1;
+  for (int64_t i = 0; i < catalogue->count; i++)
+    if (catalogue->entries[i].row.period > most) most = catalogue->entries[i].row.period;
+  return most;
+}
+
+/* One value of each entry, as the store takes it. */
+#define COLUMN(type, name, expression)                                                     \
+  do {                                                                                     \
+    type *column = calloc((size_t)catalogue->count + 1, sizeof *column);                   \
+    if (!column) return kz_fail(KZ_FAILED, "no memory for /attractors/" name);             \
+    for (int64_t i = 0; i < catalogue->count; i++) {                                       \
+      const kz_entry *e = catalogue->entries + i;                                          \
+      column[i] = (expression);                                                            \
+    }                                                                                      \
+    kz_status column_status = kz_store_variable(store, "attractors", name, column);        \
+    free(column);                                                                          \
+    KZ_TRY(column_status);                                                                 \
+  } while (0)
+
+static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction, kz_store *store)
+{
+  COLUMN(int32_t, "period", e->row.period);
+  COLUMN(int32_t, "winding", e->row.winding);
+  COLUMN(int8_t, "centre", (int8_t)e->row.centre);
+  COLUMN(const char *, "name", e->name);
+  COLUMN(int8_t, "symmetric", (int8_t)e->row.symmetric);
+  COLUMN(int32_t, "mirror", e->mirror);
+  COLUMN(double, "amplitude", e->row.amplitude);
+  COLUMN(double, "lyapunov", e->row.lyapunov);
+  COLUMN(double, "lyapunov_error", e->row.lyapunov_error);
+  if (with_fraction) COLUMN(double, "fraction", e->fraction);
+  return KZ_OK;
+}
+
+typedef struct {
+  int64_t phases, lines;
+  double *theta, *velocity, *re, *im, *amplitude, *phase;
+  int32_t *dominant;
+} matrices;
+
+static double *nan_filled(int64_t n)
+{
+  double *values = malloc((size_t)(n + 1) * sizeof *values);
+  for (int64_t i = 0; values && i < n; i++) values[i] = NAN;
+  return values;
+}
+
+/* Lines of one closed orbit, from its first listed strobe point; those beyond what the samples carry stay NaN. */
+static kz_status lines_of(const kz_entry *entry, const kz_plan *plan, int64_t lines, double *amplitude, double *phase,
+                          int32_t *dominant)
+{
+  int64_t n = entry->row.period, samples = n * SAMPLES, most = samples / 2 < lines ? samples / 2 : lines;
+  double *theta = malloc((size_t)(samples + 1) * sizeof *theta), *velocity = malloc((size_t)(samples + 1) * sizeof *velocity);
+  kz_status status = theta && velocity ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a spectrum");
+  if (status == KZ_OK) {
+    kz_record record = {.periods = n, .samples_per_period = SAMPLES, .rotation = (double)entry->row.winding / (double)n,
+                        .centre = entry->row.centre == KZ_ABOUT_INVERTED ? M_PI : 0.0, .closed = true};
+    kz_sample(plan, n, SAMPLES, entry->theta[0], entry->velocity[0], theta, velocity);
+    status = kz_spectrum_lines(&record, theta, most, amplitude, phase);
+    *dominant = (int32_t)kz_spectrum_dominant(most, amplitude);
+  }
+  free(theta);
+  free(velocity);
+  return status;
+}
+
+static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_plan *plan, matrices *x)
+{
+  for (int64_t i = 0; i < catalogue->count; i++) {
+    const kz_entry *e = catalogue->entries + i;
+    if (e->row.period == 0) continue;
+    memcpy(x->theta + i * x->phases, e->theta, (size_t)e->row.period * sizeof(double));
+    memcpy(x->velocity + i * x->phases, e->velocity, (size_t)e->row.period * sizeof(double));
+    memcpy(x->re + 2 * i, e->row.multiplier_re, 2 * sizeof(double));
+    memcpy(x->im + 2 * i, e->row.multiplier_im, 2 * sizeof(double));
+    KZ_TRY(lines_of(e, plan, x->lines, x->amplitude + i * x->lines, x->phase + i * x->lines, x->dominant + i));
+  }
+  return KZ_OK;
+}
+
+static kz_status write_matrices(const matrices *x, kz_store *store)
+{
+  KZ_TRY(kz_store_variable(store, "attractors", "strobe_theta", x->theta));
+  KZ_TRY(kz_store_variable(store, "attractors", "strobe_velocity", x->velocity));
+  KZ_TRY(kz_store_variable(store, "attractors", "multiplier_re", x->re));
+  KZ_TRY(kz_store_variable(store, "attractors", "multiplier_im", x->im));
+  KZ_TRY(kz_store_variable(store, "attractors", "line_amplitude", x->amplitude));
+  KZ_TRY(kz_store_variable(store, "attractors", "line_phase", x->phase));
+  return kz_store_variable(store, "attractors", "dominant_line", x->dominant);
+}
+
+static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *pendulum, matrices *x, kz_store *store)
+{
+  int64_t n = catalogue->count;
+  kz_numerics fine = {.scheme = 2, .steps_per_period = SAMPLES, .precision = KZ_DOUBLE};
+  fine.steps_per_period *= (int32_t)ceil(sqrt(fmax(1, fabs(pendulum->k) + fabs(pendulum->m))));
+  kz_plan *plan = kz_plan_create(pendulum, &fine);
+  x->theta = nan_filled(n * x->phases);
+  x->velocity = nan_filled(n * x->phases);
+  x->re = nan_filled(2 * n);
+  x->im = nan_filled(2 * n);
+  x->amplitude = nan_filled(n * x->lines);
+  x->phase = nan_filled(n * x->lines);
+  x->dominant = calloc((size_t)n + 1, sizeof *x->dominant);
+  kz_status status = KZ_OK;
+  if (!plan || !x->theta || !x->velocity || !x->re || !x->im || !x->amplitude || !x->phase || !x->dominant)
+    status = kz_fail(KZ_FAILED, "no memory for the orbits of %lld attractors", (long long)n);
+  if (status == KZ_OK) status = fill_matrices(catalogue, plan, x);
+  if (status == KZ_OK) status = write_matrices(x, store);
+  if (plan) kz_plan_free(plan);
+  return status;
+}
+
+kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store)
+{
+  matrices x = {.phases = longest(catalogue)};
+  x.lines = LINES_PER_PERIOD * x.phases + 1;
+  KZ_TRY(kz_store_dimension(store, "attractors", "attractor", catalogue->count, NULL));
+  KZ_TRY(kz_store_dimension(store, "attractors", "phase", x.phases, NULL));
+  KZ_TRY(kz_store_dimension(store, "attractors", "pair", 2, NULL));
+  KZ_TRY(kz_store_dimension(store, "attractors", "line", x.lines, NULL));
+  KZ_TRY(write_columns(catalogue, with_fraction, store));
+  kz_status status = write_orbits(catalogue, pendulum, &x, store);
+  free(x.theta);
+  free(x.velocity);
+  free(x.re);
+  free(x.im);
+  free(x.amplitude);
+  free(x.phase);
+  free(x.dominant);
+  return status;
+}
+
+void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary)
+{
+  fprintf(summary, "  id  name                   period  winding  amplitude  multiplier  exponent%s\n",
+          with_fraction ? "    share" : "");
+  for (int64_t i = 0; i < catalogue->count; i++) {
+    const kz_entry *e = catalogue->entries + i;
+    fprintf(summary, "%4lld  %-21s  %6d  %7d", (long long)i, e->name, e->row.period, e->row.winding);
+    if (isnan(e->row.amplitude)) fprintf(summary, "          -");
+    else fprintf(summary, "  %5.2f deg", e->row.amplitude * 180 / M_PI);
+    if (e->row.period == 0) fprintf(summary, "           -");
+    else fprintf(summary, "  %10.6f", hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
+    fprintf(summary, "  %8.5f", e->row.lyapunov);
+    if (with_fraction) fprintf(summary, "  %6.3f %%", 100 * e->fraction);
+    fprintf(summary, "\n");
+  }
+}

@@ -1,0 +1,38 @@
+/* The catalogue of attractors as users see it: their order, their names, their group in the file. */
+#ifndef KAPITZA_CATALOGUE_H
+#define KAPITZA_CATALOGUE_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+#include "kapitza/analysis.h"
+#include "kapitza/dynamics.h"
+#include "kapitza/store.h"
+
+typedef struct {
+  kz_attractor row;
+  char name[KZ_NAME_LENGTH];
+  int32_t mirror;   /* id of the mirror image */
+  double fraction;  /* of the grid's cells; NaN without a grid */
+  double *theta, *velocity; /* [period] strobe points */
+} kz_entry;
+
+/* In the order of the file: id = index. */
+typedef struct {
+  int64_t count;
+  kz_entry *entries;
+  int32_t *id_of; /* [numbers from 1]: id of a number of kz_dynamics, -1 = not in the catalogue */
+} kz_catalogue;
+
+/* The attractors whose reached [number] is not 0, and their mirror images. */
+kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);
+void kz_catalogue_free(kz_catalogue *catalogue);
+
+/* Writes group /attractors, with the lines of every closed orbit; `fraction` only `with_fraction`. */
+kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction,
+                             kz_store *store);
+
+/* The table for people. */
+void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
+
+#endif
