@@ -48,6 +48,12 @@ int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
 void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
+/* The cycle near a state, by Newton's method on the strobe map of `numerics`: n = a period that closes it; returns its smallest
+ * period, 0 where none lies within `reach` (rad). theta, velocity become its point there; re, im [2] its Floquet multipliers
+ * over the smallest period, larger modulus first, + imaginary first. It need not attract. */
+int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double reach, double *theta,
+                                double *velocity, double *re, double *im);
+
 /* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `reach`. */
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach);
 int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics); /* doubles per row */

@@ -43,6 +43,25 @@ typedef struct {
   int64_t values[KZ_LIST_MAX];
 } kz_integers;
 
+/* Study `attractors`: the axes' counts are of no meaning. */
+typedef struct {
+  kz_axis theta, velocity;
+  int64_t starts, max_period, seed;
+} kz_attractors_plan;
+
+/* Study `orbit`. Unset: NaN (start), INT64_MIN (attractor, periods, period). */
+typedef struct {
+  double theta, velocity; /* start */
+  int64_t attractor;      /* id in the catalogue of the same scene, instead of a start */
+  int32_t model;          /* KZ_PENDULUM, KZ_MATHIEU, KZ_EFFECTIVE */
+  int32_t about;          /* of the linear model: 0 down, 1 inverted */
+  int64_t transient;      /* drive periods before the record */
+  int64_t periods;        /* of the record */
+  int64_t samples_per_period;
+  bool closed;
+  int64_t period;         /* of a closed orbit; unset = found */
+} kz_orbit_plan;
+
 /* The pendulum mapping as written, in one of three forms; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                               /* a: Q, Omega, epsilon */
@@ -66,6 +85,10 @@ typedef struct {
   kz_numerics numerics;
   bool has_basin;
   kz_basin_plan basin;
+  bool has_attractors;
+  kz_attractors_plan attractors;
+  bool has_orbit;
+  kz_orbit_plan orbit;
 } kz_scene;
 
 /* What a study would cost. */

@@ -10,8 +10,7 @@ static const double PEAK_TOLERANCE = 0.03;
 /* The window spreads a line over eight bins: multiples of 1/n must lie at least so far apart. */
 static const int64_t WINDOW_BINS = 8;
 
-int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude)
-{
+int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude) {
   int64_t dominant = 0;
   for (int64_t j = 1; j < n_lines; j++) {
     if (amplitude[j] >= KZ_LINE_FLOOR && (dominant == 0 || amplitude[j] > amplitude[dominant])) dominant = j;
@@ -20,14 +19,12 @@ int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude)
 }
 
 /* Lines above this matter; at rest none does. */
-static double least_line(int64_t n_lines, const double *amplitude, double share)
-{
+static double least_line(int64_t n_lines, const double *amplitude, double share) {
   int64_t dominant = kz_spectrum_dominant(n_lines, amplitude);
   return dominant ? fmax(KZ_LINE_FLOOR, share * amplitude[dominant]) : INFINITY;
 }
 
-static int64_t common_divisor(int64_t a, int64_t b)
-{
+static int64_t common_divisor(int64_t a, int64_t b) {
   while (b != 0) {
     int64_t rest = a % b;
     a = b;
@@ -36,8 +33,7 @@ static int64_t common_divisor(int64_t a, int64_t b)
   return a < 0 ? -a : a;
 }
 
-static int64_t closed_period(const kz_record *record, int64_t n_lines, const double *amplitude)
-{
+static int64_t closed_period(const kz_record *record, int64_t n_lines, const double *amplitude) {
   double least = least_line(n_lines, amplitude, MATTERS_CLOSED);
   int64_t winding = llrint(record->rotation * (double)record->periods);
   int64_t divisor = common_divisor(record->periods, winding);
@@ -47,22 +43,21 @@ static int64_t closed_period(const kz_record *record, int64_t n_lines, const dou
   return record->periods / divisor;
 }
 
-static bool is_peak(const double *amplitude, int64_t j)
-{
+static bool is_peak(const double *amplitude, int64_t j) {
   return amplitude[j] > amplitude[j - 1] && amplitude[j] >= amplitude[j + 1];
 }
 
 /* Where the top of a peak lies, in bins: a parabola through the logarithms. */
-static double peak_top(const double *amplitude, int64_t j)
-{
+static double peak_top(const double *amplitude, int64_t j) {
   double a = log(amplitude[j - 1]), b = log(amplitude[j]), c = log(amplitude[j + 1]);
   return (double)j + 0.5 * (a - c) / (a - 2 * b + c);
 }
 
-static bool is_multiple(double x, double unit) { return fabs(remainder(x, unit)) <= PEAK_TOLERANCE; }
+static bool is_multiple(double x, double unit) {
+  return fabs(remainder(x, unit)) <= PEAK_TOLERANCE;
+}
 
-static bool peaks_fit(const kz_record *record, int64_t n_lines, const double *amplitude, int64_t n)
-{
+static bool peaks_fit(const kz_record *record, int64_t n_lines, const double *amplitude, int64_t n) {
   double least = least_line(n_lines, amplitude, MATTERS_OPEN), unit = (double)record->periods / (double)n;
   for (int64_t j = 1; j + 1 < n_lines; j++) {
     if (amplitude[j] <= least || !is_peak(amplitude, j)) continue;
@@ -71,8 +66,7 @@ static bool peaks_fit(const kz_record *record, int64_t n_lines, const double *am
   return true;
 }
 
-static int64_t open_period(const kz_record *record, int64_t n_lines, const double *amplitude)
-{
+static int64_t open_period(const kz_record *record, int64_t n_lines, const double *amplitude) {
   double rotation_bins = record->rotation * (double)record->periods;
   for (int64_t n = 1; n * WINDOW_BINS <= record->periods; n++) {
     bool rotation_fits = is_multiple(rotation_bins, (double)record->periods / (double)n);
@@ -81,13 +75,11 @@ static int64_t open_period(const kz_record *record, int64_t n_lines, const doubl
   return 0;
 }
 
-int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const double *amplitude)
-{
+int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const double *amplitude) {
   return record->closed ? closed_period(record, n_lines, amplitude) : open_period(record, n_lines, amplitude);
 }
 
-bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude)
-{
+bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude) {
   if (record->rotation != 0) return false;
   bool at_rest = kz_spectrum_dominant(n_lines, amplitude) == 0;
   double least = at_rest ? KZ_LINE_FLOOR : least_line(n_lines, amplitude, MATTERS_CLOSED);

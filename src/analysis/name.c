@@ -19,15 +19,17 @@ static const struct {
 static const char *const PLACE[] = {
     [KZ_ABOUT_DOWN] = "down", [KZ_ABOUT_INVERTED] = "inverted", [KZ_ROTATING] = "rotation", [KZ_ABOUT_NEITHER] = "wide"};
 
-void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text)
-{
+void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text) {
   for (size_t i = 0; i < sizeof NAMED / sizeof NAMED[0]; i++) {
     if (NAMED[i].period == period && NAMED[i].centre == centre) {
       strcpy(text, NAMED[i].name);
       return;
     }
   }
-  if (period == 0) strcpy(text, "chaotic");
-  else if (centre == KZ_ROTATING) snprintf(text, KZ_NAME_LENGTH, "rotation %+" PRId64 "/%" PRId64, winding, period);
-  else snprintf(text, KZ_NAME_LENGTH, "%s %" PRId64 "-nodding", PLACE[centre], period);
+  if (period == 0)
+    strcpy(text, "chaotic");
+  else if (centre == KZ_ROTATING)
+    snprintf(text, KZ_NAME_LENGTH, "rotation %+" PRId64 "/%" PRId64, winding, period);
+  else
+    snprintf(text, KZ_NAME_LENGTH, "%s %" PRId64 "-nodding", PLACE[centre], period);
 }

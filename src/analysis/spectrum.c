@@ -7,18 +7,18 @@
 static const double PI = 3.14159265358979323846;
 
 /* Four-term Blackman-Harris window at sample i of n. */
-static double window(int64_t i, int64_t n)
-{
+static double window(int64_t i, int64_t n) {
   static const double weight[4] = {0.35875, -0.48829, 0.14128, -0.01168};
   double x = 2 * PI * (double)i / (double)n, sum = 0;
   for (int j = 0; j < 4; j++) sum += weight[j] * cos(j * x);
   return sum;
 }
 
-static int64_t samples(const kz_record *record) { return record->periods * record->samples_per_period; }
+static int64_t samples(const kz_record *record) {
+  return record->periods * record->samples_per_period;
+}
 
-double kz_spectrum_rotation(const kz_record *record, const double *theta)
-{
+double kz_spectrum_rotation(const kz_record *record, const double *theta) {
   int64_t n = samples(record);
   double moment = 0, spread = 0;
   for (int64_t i = 0; i < n; i++) {
@@ -30,8 +30,7 @@ double kz_spectrum_rotation(const kz_record *record, const double *theta)
 }
 
 /* The weighted deviation from the steady turn, less its mean. Returns the mean; `total` is the sum of the weights. */
-static double fill_deviation(const kz_record *record, const double *theta, double *deviation, double *total)
-{
+static double fill_deviation(const kz_record *record, const double *theta, double *deviation, double *total) {
   int64_t n = samples(record);
   double turn = 2 * PI * record->rotation / (double)record->samples_per_period, mean = 0;
   *total = 0;
@@ -46,15 +45,13 @@ static double fill_deviation(const kz_record *record, const double *theta, doubl
   return mean;
 }
 
-static double line_phase(double amplitude, double re, double im)
-{
+static double line_phase(double amplitude, double re, double im) {
   if (amplitude < KZ_LINE_FLOOR) return NAN;
   double phase = atan2(im, re);
   return phase == -PI ? PI : phase;
 }
 
-static void read_lines(const fftw_complex *bin, double total, double mean, int64_t n_lines, double *amplitude, double *phase)
-{
+static void read_lines(const fftw_complex *bin, double total, double mean, int64_t n_lines, double *amplitude, double *phase) {
   double a0 = remainder(mean, 2 * PI);
   amplitude[0] = fabs(a0);
   phase[0] = line_phase(amplitude[0], a0, 0);
@@ -64,8 +61,7 @@ static void read_lines(const fftw_complex *bin, double total, double mean, int64
   }
 }
 
-kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase)
-{
+kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase) {
   int64_t n = samples(record);
   if (n < 2 || n > INT32_MAX || 2 * n_lines > n)
     return kz_fail(KZ_REFUSED, "%lld lines cannot be read from %lld samples", (long long)n_lines, (long long)n);

@@ -5,11 +5,12 @@
 
 enum { NODES = 4, TERMS = 2 * NODES };
 
-static int node(int term) { return term / 2; }
+static int node(int term) {
+  return term / 2;
+}
 
 /* The polynomial with the angles and velocities of four samples: Newton's coefficients on the nodes 0 0 1 1 2 2 3 3. */
-static void hermite(double step, const double *theta, const double *velocity, double *c)
-{
+static void hermite(double step, const double *theta, const double *velocity, double *c) {
   for (int i = 0; i < TERMS; i++) c[i] = theta[node(i)];
   for (int order = 1; order < TERMS; order++) {
     for (int i = TERMS - 1; i >= order; i--) {
@@ -20,8 +21,7 @@ static void hermite(double step, const double *theta, const double *velocity, do
 }
 
 /* Angle and slope at s steps after the first node. */
-static double hermite_at(const double *c, double s, double *slope)
-{
+static double hermite_at(const double *c, double s, double *slope) {
   double value = c[TERMS - 1];
   *slope = 0;
   for (int i = TERMS - 2; i >= 0; i--) {
@@ -32,21 +32,21 @@ static double hermite_at(const double *c, double s, double *slope)
 }
 
 /* The root of the slope between two neighbouring nodes, whose slopes differ in sign, by bisection to the last bit. */
-static double slope_root(const double *c, double low, double high)
-{
+static double slope_root(const double *c, double low, double high) {
   double slope, slope_low;
   hermite_at(c, low, &slope_low);
   for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
     hermite_at(c, middle, &slope);
-    if ((slope < 0) == (slope_low < 0)) low = middle;
-    else high = middle;
+    if ((slope < 0) == (slope_low < 0))
+      low = middle;
+    else
+      high = middle;
   }
   return high;
 }
 
 /* The turning point between samples i - 1 and i of n. */
-static kz_turning_point between(int64_t i, int64_t n, double step, const double *theta, const double *velocity)
-{
+static kz_turning_point between(int64_t i, int64_t n, double step, const double *theta, const double *velocity) {
   int64_t first = i - NODES / 2;
   if (first > n - NODES) first = n - NODES;
   if (first < 0) first = 0;
@@ -56,8 +56,7 @@ static kz_turning_point between(int64_t i, int64_t n, double step, const double 
   return (kz_turning_point){((double)first + s) * step, hermite_at(c, s, &slope)};
 }
 
-int64_t kz_turning_points(int64_t n, double step, const double *theta, const double *velocity, kz_turning_point *found)
-{
+int64_t kz_turning_points(int64_t n, double step, const double *theta, const double *velocity, kz_turning_point *found) {
   int64_t count = 0, moving = -1; /* the latest sample with a velocity */
   if (n < NODES) return 0;
   for (int64_t i = 0; i < n; i++) {

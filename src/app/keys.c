@@ -15,6 +15,7 @@
   ROW(path, KZ_KEY_INTEGER, fallback, AT(field), help, .unit = "", .low = low_, .high = high_)
 #define COUNT(path, low_, high_, fallback, field, help) \
   ROW(path, KZ_KEY_COUNT, fallback, AT(field), help, .unit = "", .low = low_, .high = high_)
+#define BOOLEAN(path, fallback, field, help) ROW(path, KZ_KEY_BOOLEAN, fallback, AT(field), help, .unit = "")
 #define REAL(path, unit_, low_, high_, fallback, field, help) \
   ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_)
 #define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
@@ -81,6 +82,40 @@ const kz_key kz_keys[] = {
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
+
+    MAPPING("attractors", "", AT(has_attractors), "Study: the attractors of a window of starts, without a grid."),
+    MAPPING("attractors.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
+    REAL("attractors.theta.min", "rad", -1e6, 1e6, "", attractors.theta.min, "Lower edge of the window."),
+    REAL("attractors.theta.max", "rad", -1e6, 1e6, "", attractors.theta.max, "Upper edge of the window."),
+    MAPPING("attractors.velocity", NULL, KZ_NO_FIELD, "Velocities of the starts."),
+    REAL("attractors.velocity.min", "rad per drive radian", -1e9, 1e9, NULL, attractors.velocity.min,
+         "Lower edge of the window."),
+    REAL("attractors.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, attractors.velocity.max,
+         "Upper edge of the window."),
+    INTEGER("attractors.starts", 1, 1e8, "8192", attractors.starts, "Starts of the search."),
+    INTEGER("attractors.max_period", 1, 512, "48", attractors.max_period, "Longest period that is looked for."),
+    INTEGER("attractors.seed", 0, 9007199254740992.0, "1", attractors.seed, "Chooses the starts."),
+
+    MAPPING("orbit", "", AT(has_orbit), "Study: one motion, its strobe points, turning points and spectrum."),
+    MAPPING("orbit.start", "", KZ_NO_FIELD, "Where it starts, at t = 0; this or an attractor."),
+    REAL("orbit.start.theta", "rad", -1e6, 1e6, NULL, orbit.theta, "Angle from down."),
+    REAL("orbit.start.velocity", "rad per drive radian", -1e9, 1e9, NULL, orbit.velocity, "Velocity."),
+    INTEGER("orbit.attractor", 0, 32767, "", orbit.attractor,
+            "Id in the catalogue of the basin or attractors study of the same scene: its closed orbit from the first strobe "
+            "point."),
+    WORD("orbit.model", "pendulum|mathieu|effective", "pendulum", orbit.model,
+         "pendulum: the full equation; mathieu: linear about down or inverted; effective: the slow equation of the effective "
+         "potential."),
+    WORD("orbit.about", "down|inverted", "", orbit.about, "Position that the model mathieu is linear about; left out: down."),
+    INTEGER("orbit.transient", 0, 1e9, "0", orbit.transient, "Drive periods before the record begins."),
+    INTEGER("orbit.periods", 1, 1e6, "", orbit.periods,
+            "Drive periods of the record; left out: 100, or the period of a closed orbit; a closed orbit is recorded once at "
+            "least."),
+    INTEGER("orbit.samples_per_period", 4, 4096, "96", orbit.samples_per_period, "Points of the series in a drive period."),
+    BOOLEAN("orbit.closed", "false", orbit.closed,
+            "The cycle near the start, by Newton's method, instead of the motion from it; of the model mathieu: the motion "
+            "must close."),
+    INTEGER("orbit.period", 1, 512, "", orbit.period, "Drive periods of the closed orbit; left out: found."),
 
     {.path = NULL},
 };

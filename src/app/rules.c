@@ -45,6 +45,49 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   check_axis(reading, &scene->basin.velocity, "basin.velocity");
 }
 
+static void attractors_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_attractors) return;
+  theta_window(reading, &scene->attractors.theta, "attractors.theta");
+  check_axis(reading, &scene->attractors.velocity, "attractors.velocity");
+  if (scene->has_basin)
+    kz_complain(reading, kz_tree_child(reading->root, "attractors"), "attractors",
+                "stands beside basin, which finds the attractors of its window itself; one of them");
+}
+
+/* Complains about `name` of the study orbit where it is given. */
+static void orbit_refuse(kz_reading *reading, const char *name, const char *why) {
+  const kz_node *node = kz_tree_find(reading->root, name);
+  if (node) kz_complain(reading, node, name, "%s", why);
+}
+
+/* The keys that an attractor answers itself. */
+static void orbit_attractor_rules(kz_reading *reading, const kz_scene *scene) {
+  if (!scene->has_basin && !scene->has_attractors)
+    orbit_refuse(reading, "orbit.attractor", "has no catalogue to choose from; a basin or attractors study in the same scene");
+  orbit_refuse(reading, "orbit.start", "contradicts attractor; one of them");
+  orbit_refuse(reading, "orbit.closed", "goes without saying with attractor; without it");
+  orbit_refuse(reading, "orbit.period", "is known with attractor; without it");
+  if (scene->orbit.model != KZ_PENDULUM)
+    orbit_refuse(reading, "orbit.model", "has no attractors of the catalogue; pendulum, or a start");
+}
+
+static void orbit_rules(kz_reading *reading, kz_scene *scene) {
+  kz_orbit_plan *orbit = &scene->orbit;
+  if (!scene->has_orbit) return;
+  const bool linear = orbit->model == KZ_MATHIEU;
+  if (orbit->attractor != KZ_UNSET_INTEGER)
+    orbit_attractor_rules(reading, scene);
+  else if (!kz_tree_find(reading->root, "orbit.start"))
+    kz_complain(reading, NULL, "orbit.start", "is missing; a mapping of theta, velocity, or an attractor instead");
+  if (!linear) orbit_refuse(reading, "orbit.about", "is a choice of the model mathieu alone; without it");
+  if (orbit->model == KZ_EFFECTIVE && orbit->closed)
+    orbit_refuse(reading, "orbit.closed", "is not for the model effective, which knows no drive; false");
+  if (!orbit->closed) orbit_refuse(reading, "orbit.period", "is of closed orbits alone; closed: true beside it");
+  if (linear && orbit->closed && orbit->period == KZ_UNSET_INTEGER)
+    kz_complain(reading, NULL, "orbit.period", "is missing; the period of a closed orbit of the model mathieu cannot be found");
+  if (linear && orbit->about == KZ_UNSET_WORD) orbit->about = 0;
+}
+
 /* The scheme's own steps where the scene gives none. */
 static void numerics_rules(kz_reading *reading, kz_scene *scene) {
   (void)reading;
@@ -64,7 +107,7 @@ static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {numerics_rules, basin_rules, pendulum_rules};
+static const rule rules[] = {numerics_rules, basin_rules, attractors_rules, orbit_rules, pendulum_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

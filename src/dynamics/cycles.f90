@@ -4,7 +4,7 @@ module kz_dynamics_cycles
   use kz_kernel_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: attractor_t, polish_cycle, mirror_image, apart, listed_from_lowest, eigenvalues
+  public :: attractor_t, polish_cycle, close_cycle, mirror_image, apart, listed_from_lowest, eigenvalues
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
@@ -39,9 +39,28 @@ contains
     d = d - 2*anint(0.5_dp*d)
   end function apart
 
-  !> Newton's method on the n-period map from (u, v), with a fine flow. `found` only where it converges within `reach` of the
-  !> start to an attracting cycle; the cycle then has its true (minimal) period.
+  !> close_cycle, `found` only where the cycle attracts.
   subroutine polish_cycle(flow, beta, n, u, v, reach, cycle, found)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(in) :: beta
+    integer, intent(in) :: n
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    real(dp), intent(in) :: reach
+    type(attractor_t), intent(out) :: cycle
+    logical, intent(out) :: found
+
+    call close_cycle(flow, beta, n, u, v, reach, cycle, found)
+    if (.not. found) return
+    found = abs(cycle%multiplier(1)) < 1
+    if (.not. found) return
+    cycle%lyapunov = log(abs(cycle%multiplier(1)))/cycle%period
+    call symmetrise(cycle)
+  end subroutine polish_cycle
+
+  !> Newton's method on the n-period map from (u, v), with a fine flow. `found` only where it converges within `reach` of the
+  !> start; the cycle, attracting or not, then has its true (minimal) period.
+  subroutine close_cycle(flow, beta, n, u, v, reach, cycle, found)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: beta
     integer, intent(in) :: n
@@ -61,11 +80,7 @@ contains
     if (.not. found) return
     call orbit_of(flow, period, x, cycle, matrix)
     cycle%multiplier = eigenvalues(matrix, exp(-2*PI*beta*period))
-    found = abs(cycle%multiplier(1)) < 1
-    if (.not. found) return
-    cycle%lyapunov = log(abs(cycle%multiplier(1)))/period
-    call symmetrise(cycle)
-  end subroutine polish_cycle
+  end subroutine close_cycle
 
   !> x = (half-turns, velocity) becomes the fixed point of the n-period map near it.
   subroutine newton(flow, n, reach, x, found)

@@ -1,8 +1,12 @@
 /* What a scene can ask for, in the order in which it is modelled: one row per study. */
+#include "attractors.h"
 #include "basin.h"
 #include "kapitza/study.h"
+#include "orbit.h"
 
 const kz_study kz_studies[] = {
-  {"basin", kz_basin_wanted, kz_basin_cost, kz_basin_run},
+    {"basin", kz_basin_wanted, kz_basin_cost, kz_basin_run},
+    {"attractors", kz_attractors_wanted, kz_attractors_cost, kz_attractors_run},
+    {"orbit", kz_orbit_wanted, kz_orbit_cost, kz_orbit_run},
 };
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];

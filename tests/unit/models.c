@@ -1,9 +1,13 @@
 /* The linear and the slow model against what is known in closed form. */
-#include <math.h>
+/* cmocka.h needs the three before it: */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
+/* clang-format on */
+
+#include <math.h>
 
 #include "kapitza/kernel.h"
 
@@ -12,8 +16,7 @@ static const double PI = 3.14159265358979323846;
 static double theta[ALL], velocity[ALL];
 
 /* m = 0: a damped oscillator. */
-static void linear_without_drive(void **state)
-{
+static void linear_without_drive(void **state) {
   (void)state;
   const kz_pendulum pendulum = {0.09, 0.02, 0};
   const double omega = sqrt(0.09 - 0.0001), phase = atan2(0.01, omega);
@@ -25,8 +28,7 @@ static void linear_without_drive(void **state)
 }
 
 /* On transition curve 2 at k = 0 the sine solution has twice the period of the drive (BUT Eq. 4). */
-static void curve_2_is_flutter(void **state)
-{
+static void curve_2_is_flutter(void **state) {
   (void)state;
   const kz_pendulum pendulum = {0, 0, 0.4540231668672888};
   kz_sample_model(KZ_MATHIEU, &pendulum, PERIODS, SAMPLES, 0, 0.1, theta, velocity);
@@ -35,16 +37,14 @@ static void curve_2_is_flutter(void **state)
 }
 
 /* The energy of the slow motion by the closed form of the potential of BSG Eq. (10). */
-static double energy(const kz_pendulum *p, double angle, double v)
-{
+static double energy(const kz_pendulum *p, double angle, double v) {
   double u = 1 - p->k * cos(angle), first = 1 - p->k;
   double g = 0.5 * log((u * u + p->beta * p->beta) / (first * first + p->beta * p->beta)) - (u - first);
   if (p->beta > 0) g += p->beta * (atan(u / p->beta) - atan(first / p->beta));
   return 0.5 * v * v + p->k * (1 - cos(angle)) + 0.5 * p->m * p->m / (p->k * p->k) * g;
 }
 
-static void slow_motion_keeps_its_energy(void **state)
-{
+static void slow_motion_keeps_its_energy(void **state) {
   (void)state;
   const kz_pendulum pendulum = {1.0 / 9, 0, 0.6};
   kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, 2.0, 0.3, theta, velocity);
@@ -53,8 +53,7 @@ static void slow_motion_keeps_its_energy(void **state)
 }
 
 /* Damping takes the power beta v^2, whatever the potential. */
-static void slow_motion_loses_what_damping_takes(void **state)
-{
+static void slow_motion_loses_what_damping_takes(void **state) {
   (void)state;
   const kz_pendulum pendulum = {1.0 / 9, 0.05, 0.6};
   kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, 2.5, 0, theta, velocity);
@@ -66,8 +65,7 @@ static void slow_motion_loses_what_damping_takes(void **state)
   assert_true(fabs(lost - taken) < 1e-7);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(linear_without_drive),
       cmocka_unit_test(curve_2_is_flutter),

@@ -1,9 +1,13 @@
 /* Lines of orbits that are known in closed form. */
-#include <math.h>
+/* cmocka.h needs the three before it: */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
+/* clang-format on */
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +22,8 @@ typedef struct {
 } line_t;
 
 /* A six-nodding cycle: dominant 1/6, satellites 5/6 and 7/6. */
-static const line_t NODDING[] = {{1.0 / 6, 1.1291, 0.3}, {3.0 / 6, 0.0816, -1.2}, {5.0 / 6, 0.1809, 2.9}, {7.0 / 6, 0.0915, -3.0}};
+static const line_t NODDING[] = {
+    {1.0 / 6, 1.1291, 0.3}, {3.0 / 6, 0.0816, -1.2}, {5.0 / 6, 0.1809, 2.9}, {7.0 / 6, 0.0915, -3.0}};
 static const line_t WITH_EVEN[] = {{1.0 / 6, 1.1, 0.3}, {2.0 / 6, 1e-4, 1.0}, {5.0 / 6, 0.18, 2.9}};
 static const line_t FAST[] = {{1.0, 0.01, 1.0}, {2.0, 0.001, -2.0}};
 static const line_t INCOMMENSURATE[] = {{0.3819660112501051, 1.0, 0.0}, {0.6180339887498949, 0.3, 1.0}};
@@ -29,28 +34,24 @@ typedef struct {
 } room_t;
 static room_t *room;
 
-static int make_room(void **state)
-{
+static int make_room(void **state) {
   (void)state;
   room = malloc(sizeof *room);
   return room == NULL;
 }
 
-static int free_room(void **state)
-{
+static int free_room(void **state) {
   (void)state;
   free(room);
   return 0;
 }
 
-static kz_record closed(int64_t periods, double rotation, double centre)
-{
+static kz_record closed(int64_t periods, double rotation, double centre) {
   return (kz_record){periods, SAMPLES, rotation, centre, true};
 }
 
 /* Samples centre + a0 + rotation t + the lines, the clock `shift` drive radians ahead. */
-static void fill(const kz_record *record, double a0, const line_t *line, int n, double shift)
-{
+static void fill(const kz_record *record, double a0, const line_t *line, int n, double shift) {
   for (int64_t i = 0; i < record->periods * SAMPLES; i++) {
     double t = 2 * PI * (double)i / SAMPLES + shift;
     room->theta[i] = record->centre + a0 + record->rotation * t;
@@ -58,13 +59,11 @@ static void fill(const kz_record *record, double a0, const line_t *line, int n, 
   }
 }
 
-static void lines(const kz_record *record, int64_t n)
-{
+static void lines(const kz_record *record, int64_t n) {
   assert_int_equal(kz_spectrum_lines(record, room->theta, n, room->amplitude, room->phase), KZ_OK);
 }
 
-static void analytic_lines_come_back(void **state)
-{
+static void analytic_lines_come_back(void **state) {
   (void)state;
   kz_record record = closed(6, 0, PI);
   fill(&record, -0.02, NODDING, 4, 0);
@@ -85,8 +84,7 @@ static void analytic_lines_come_back(void **state)
   assert_int_equal(kz_spectrum_dominant(N_LINES, room->amplitude), 1);
 }
 
-static void rotation_and_centre_are_removed(void **state)
-{
+static void rotation_and_centre_are_removed(void **state) {
   (void)state;
   kz_record record = closed(6, -2.0 / 6, 0);
   fill(&record, 2 * PI * 3 + 0.5, NODDING, 4, 0);
@@ -97,8 +95,7 @@ static void rotation_and_centre_are_removed(void **state)
   assert_int_equal(kz_spectrum_period(&record, N_LINES, room->amplitude), 6);
 }
 
-static void parseval(void **state)
-{
+static void parseval(void **state) {
   (void)state;
   kz_record record = closed(6, 0, 0);
   fill(&record, 0.1, NODDING, 4, 0.7);
@@ -114,8 +111,7 @@ static void parseval(void **state)
   assert_true(fabs(in_lines - in_time) < 1e-12 * in_time);
 }
 
-static void time_shift_changes_phases_alone(void **state)
-{
+static void time_shift_changes_phases_alone(void **state) {
   (void)state;
   static double amplitude[N_LINES], phase[N_LINES];
   const double shift = 1.2345;
@@ -132,8 +128,7 @@ static void time_shift_changes_phases_alone(void **state)
   }
 }
 
-static void mirror_orbit_has_mirrored_lines(void **state)
-{
+static void mirror_orbit_has_mirrored_lines(void **state) {
   (void)state;
   static double amplitude[N_LINES], phase[N_LINES];
   kz_record record = closed(6, 1.0 / 6, 0), mirror = closed(6, -1.0 / 6, 0);
@@ -149,8 +144,7 @@ static void mirror_orbit_has_mirrored_lines(void **state)
   }
 }
 
-static void doubled_sampling_is_still_n(void **state)
-{
+static void doubled_sampling_is_still_n(void **state) {
   (void)state;
   for (int times = 1; times <= 4; times++) {
     kz_record record = closed(6 * times, 0, 0);
@@ -161,8 +155,7 @@ static void doubled_sampling_is_still_n(void **state)
   }
 }
 
-static void winding_counts_in_the_period(void **state)
-{
+static void winding_counts_in_the_period(void **state) {
   (void)state;
   kz_record record = closed(6, 2.0 / 6, 0), whole = closed(6, 1.0, 0);
   fill(&record, 0, FAST, 2, 0);
@@ -173,8 +166,7 @@ static void winding_counts_in_the_period(void **state)
   assert_int_equal(kz_spectrum_period(&whole, N_LINES, room->amplitude), 1);
 }
 
-static void symmetry_is_told_from_even_lines(void **state)
-{
+static void symmetry_is_told_from_even_lines(void **state) {
   (void)state;
   kz_record record = closed(6, 0, PI);
   fill(&record, 0, NODDING, 4, 0);
@@ -192,8 +184,7 @@ static void symmetry_is_told_from_even_lines(void **state)
   assert_false(kz_spectrum_symmetric(&turning, N_LINES, room->amplitude));
 }
 
-static void rest_has_no_lines(void **state)
-{
+static void rest_has_no_lines(void **state) {
   (void)state;
   kz_record record = closed(4, 0, PI);
   fill(&record, 0, NODDING, 0, 0);
@@ -205,8 +196,7 @@ static void rest_has_no_lines(void **state)
 }
 
 /* An open record: any number of periods, a fitted rotation. */
-static int64_t open_period(int64_t periods, double rotation, const line_t *line, int n, double *largest)
-{
+static int64_t open_period(int64_t periods, double rotation, const line_t *line, int n, double *largest) {
   kz_record record = {periods, SAMPLES, rotation, 0, false};
   fill(&record, 0.3, line, n, 0.1);
   record.rotation = kz_spectrum_rotation(&record, room->theta);
@@ -216,8 +206,7 @@ static int64_t open_period(int64_t periods, double rotation, const line_t *line,
   return kz_spectrum_period(&record, 8 * periods, room->amplitude);
 }
 
-static void open_records_tell_n(void **state)
-{
+static void open_records_tell_n(void **state) {
   (void)state;
   double largest;
   assert_int_equal(open_period(500, 0, NODDING, 4, &largest), 6);
@@ -231,8 +220,7 @@ static void open_records_tell_n(void **state)
   assert_int_equal(open_period(40, 0, NODDING, 4, &largest), 0); /* too short for n = 6 */
 }
 
-static void too_many_lines_are_refused(void **state)
-{
+static void too_many_lines_are_refused(void **state) {
   (void)state;
   kz_record record = closed(1, 0, 0);
   kz_message_clear();
@@ -241,8 +229,7 @@ static void too_many_lines_are_refused(void **state)
   kz_message_clear();
 }
 
-static void names(void **state)
-{
+static void names(void **state) {
   (void)state;
   static const struct {
     int64_t period, winding;
@@ -265,8 +252,7 @@ static void names(void **state)
   }
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(analytic_lines_come_back),
       cmocka_unit_test(rotation_and_centre_are_removed),

@@ -1,9 +1,13 @@
 /* Turning points of motions that are known in closed form. */
-#include <math.h>
+/* cmocka.h needs the three before it: */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
+/* clang-format on */
+
+#include <math.h>
 
 #include "kapitza/analysis.h"
 
@@ -13,8 +17,7 @@ static double theta[MOST], velocity[MOST];
 static kz_turning_point found[MOST];
 
 /* a cos(t + phase) over `periods`, `samples` a period, both ends. */
-static int64_t cosine(int64_t periods, int64_t samples, double a, double phase)
-{
+static int64_t cosine(int64_t periods, int64_t samples, double a, double phase) {
   int64_t n = periods * samples + 1;
   for (int64_t i = 0; i < n; i++) {
     double t = 2 * PI * (double)i / (double)samples;
@@ -24,8 +27,7 @@ static int64_t cosine(int64_t periods, int64_t samples, double a, double phase)
   return kz_turning_points(n, 2 * PI / (double)samples, theta, velocity, found);
 }
 
-static void extremes_of_a_cosine(void **state)
-{
+static void extremes_of_a_cosine(void **state) {
   (void)state;
   assert_int_equal(cosine(10, 96, 0.7, -0.3), 20);
   for (int i = 0; i < 20; i++) {
@@ -34,15 +36,13 @@ static void extremes_of_a_cosine(void **state)
   }
 }
 
-static void coarse_samples_keep_eight_digits(void **state)
-{
+static void coarse_samples_keep_eight_digits(void **state) {
   (void)state;
   assert_int_equal(cosine(4, 24, 1.0, -0.1), 8);
   for (int i = 0; i < 8; i++) assert_true(fabs(fabs(found[i].angle) - 1) < 1e-9);
 }
 
-static void release_from_rest_is_not_a_turning_point(void **state)
-{
+static void release_from_rest_is_not_a_turning_point(void **state) {
   (void)state;
   for (int i = 0; i < 97; i++) {
     double t = 2 * PI * i / 96;
@@ -52,8 +52,7 @@ static void release_from_rest_is_not_a_turning_point(void **state)
   assert_int_equal(kz_turning_points(97, 2 * PI / 96, theta, velocity, found), 0);
 }
 
-static void a_sample_may_lie_on_the_turn(void **state)
-{
+static void a_sample_may_lie_on_the_turn(void **state) {
   (void)state;
   for (int i = 0; i < 9; i++) {
     theta[i] = -(i - 4.0) * (i - 4.0);
@@ -63,15 +62,13 @@ static void a_sample_may_lie_on_the_turn(void **state)
   assert_true(found[0].time == 4 && found[0].angle == 0);
 }
 
-static void rest_never_turns(void **state)
-{
+static void rest_never_turns(void **state) {
   (void)state;
   assert_int_equal(cosine(3, 32, 0, 0), 0);
   assert_int_equal(kz_turning_points(3, 0.1, theta, velocity, found), 0);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(extremes_of_a_cosine),
       cmocka_unit_test(coarse_samples_keep_eight_digits),

@@ -1,0 +1,47 @@
+!> One cycle near one state, for C: include/kapitza/dynamics.h.
+module kz_dynamics_closing
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_kernel_map, only: flow_t, PI
+  use kz_kernel_plan, only: make_flow
+  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_dynamics_cycles, only: attractor_t, close_cycle
+  implicit none
+  private
+
+contains
+
+  function close_near(pendulum, numerics, n, reach, theta, velocity, re, im) &
+    bind(C, name='kz_dynamics_close_cycle') result(period)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> of the strobe map
+    type(numerics_t), intent(in) :: numerics
+    !> a period that closes the cycle
+    integer(c_int64_t), value :: n
+    !> farthest that the cycle may lie from the start
+    real(dp), value :: reach
+    !> start, then the cycle's point; rad
+    real(dp), intent(inout) :: theta
+    !> the same, rad per drive radian
+    real(dp), intent(inout) :: velocity
+    !> real parts of the multipliers
+    real(dp), intent(out) :: re(2)
+    !> imaginary parts
+    real(dp), intent(out) :: im(2)
+    integer(c_int64_t) :: period
+    class(flow_t), allocatable :: flow
+    type(attractor_t) :: cycle
+    logical :: found
+
+    allocate (flow, source=make_flow(pendulum, numerics, joined=.true.))
+    call close_cycle(flow, pendulum%beta, int(n), theta/PI, velocity, reach, cycle, found)
+    period = 0
+    if (.not. found) return
+    period = cycle%period
+    theta = PI*cycle%u(1)
+    velocity = cycle%v(1)
+    re = real(cycle%multiplier, dp)
+    im = aimag(cycle%multiplier)
+  end function close_near
+
+end module kz_dynamics_closing

@@ -1,0 +1,84 @@
+/* Study `attractors`: the catalogue of a window of starts, without a grid. */
+#include "attractors.h"
+
+#include <stdlib.h>
+
+#include "catalogue.h"
+#include "discovery.h"
+
+/* Drive periods after which a start counts as not settled. */
+enum { MAX_PERIODS = 2000 };
+
+typedef struct {
+  const kz_attractors_plan *plan;
+  kz_window window;
+  kz_dynamics *dynamics;
+  double *state;    /* [starts][2] */
+  int32_t *owner;   /* [starts] */
+  int64_t *reached; /* [numbers from 1] */
+} search;
+
+bool kz_attractors_wanted(const kz_scene *scene) {
+  return scene->has_attractors;
+}
+
+kz_cost kz_attractors_cost(const kz_scene *scene) {
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  double starts = (double)scene->attractors.starts, kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
+  return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 5e7 + 100 * starts, .core_seconds = 1e-9 * 200 * kicks * starts};
+}
+
+static kz_status allocate(const kz_scene *scene, search *s) {
+  size_t n = (size_t)scene->attractors.starts;
+  s->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
+  s->state = malloc(2 * n * sizeof *s->state);
+  s->owner = malloc(n * sizeof *s->owner);
+  if (s->dynamics && s->state && s->owner) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
+}
+
+static kz_status discover(kz_team *team, search *s) {
+  kz_dynamics_starts(&s->window, s->plan->seed, s->plan->starts, s->state);
+  double reach = kz_dynamics_reach(s->dynamics, &s->window);
+  KZ_TRY(kz_discover(team, s->dynamics, reach, MAX_PERIODS, s->plan->starts, s->state, s->owner));
+  s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
+  if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->owner[i]]++;
+  return KZ_OK;
+}
+
+static kz_status publish(const kz_scene *scene, const search *s, kz_store *store, FILE *summary) {
+  kz_catalogue catalogue = {0};
+  kz_status status = KZ_OK;
+  if (s->dynamics) status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
+  if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
+  if (status == KZ_OK && s->dynamics) {
+    kz_catalogue_print(&catalogue, false, summary);
+    fprintf(summary, "%lld of %lld starts did not settle within %d periods\n", (long long)s->reached[0],
+            (long long)s->plan->starts, MAX_PERIODS);
+  }
+  kz_catalogue_free(&catalogue);
+  return status;
+}
+
+/* Without damping areas are conserved and nothing attracts. */
+static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  if (kz_team_rank(team) != 0) return KZ_OK;
+  fprintf(summary, "attractors: without damping nothing attracts\n");
+  return publish(scene, &(search){0}, store, summary);
+}
+
+kz_status kz_attractors_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, team, store, summary);
+  const kz_attractors_plan *plan = &scene->attractors;
+  search s = {.plan = plan, .window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max}};
+  kz_status status = kz_team_agree(team, allocate(scene, &s));
+  if (status == KZ_OK) status = kz_team_agree(team, discover(team, &s));
+  if (status == KZ_OK && kz_team_rank(team) == 0) status = publish(scene, &s, store, summary);
+  if (s.dynamics) kz_dynamics_free(s.dynamics);
+  free(s.state);
+  free(s.owner);
+  free(s.reached);
+  return status;
+}

@@ -1,0 +1,11 @@
+/* Study `attractors`. */
+#ifndef KAPITZA_STUDY_ATTRACTORS_H
+#define KAPITZA_STUDY_ATTRACTORS_H
+
+#include "kapitza/study.h"
+
+bool kz_attractors_wanted(const kz_scene *scene);
+kz_cost kz_attractors_cost(const kz_scene *scene);
+kz_status kz_attractors_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+
+#endif

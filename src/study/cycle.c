@@ -1,0 +1,65 @@
+/* Closed orbits: which period, and where exactly. */
+#include <math.h>
+
+#include "kapitza/dynamics.h"
+#include "motion.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* A cycle must lie this near to the start (rad), or Newton has gone to another one. */
+static const double REACH = 0.3;
+/* Linear orbits count as closed when they come back to this share of their size. */
+static const double CLOSED = 1e-9;
+enum { MOST_PERIODS = 512 };
+
+/* Newton from `start` for period n; the cycle then has its smallest period. */
+static bool close_with(const kz_mover *mover, int64_t n, kz_state start, kz_cycle *cycle) {
+  cycle->state = start;
+  cycle->period = kz_dynamics_close_cycle(&mover->pendulum, &mover->numerics, n, REACH, &cycle->state.theta,
+                                          &cycle->state.velocity, cycle->re, cycle->im);
+  return cycle->period > 0;
+}
+
+/* The shortest return within ever wider distances that Newton confirms. */
+static kz_status find(const kz_mover *mover, kz_state start, kz_cycle *cycle) {
+  static const double WITHIN[] = {1e-6, 1e-4, 1e-2, 1e-1};
+  double back[MOST_PERIODS + 1];
+  kz_state x = start;
+  for (int n = 1; n <= MOST_PERIODS; n++) {
+    kz_mover_skip(mover, 1, &x);
+    back[n] = hypot(remainder(x.theta - start.theta, 2 * PI), x.velocity - start.velocity);
+  }
+  for (size_t i = 0; i < sizeof WITHIN / sizeof WITHIN[0]; i++) {
+    for (int n = 1; n <= MOST_PERIODS; n++)
+      if (back[n] < WITHIN[i] && close_with(mover, n, start, cycle)) return KZ_OK;
+  }
+  return kz_fail(KZ_FAILED,
+                 "orbit.closed: no cycle of up to %d periods near theta = %.9g, velocity = %.9g; a nearer start, "
+                 "a longer transient, or the period",
+                 MOST_PERIODS, start.theta, start.velocity);
+}
+
+/* The linear model scales: its orbits close or not. */
+static kz_status check_linear(const kz_mover *mover, int64_t period, kz_state start, kz_cycle *cycle) {
+  *cycle = (kz_cycle){start, period, {NAN, NAN}, {NAN, NAN}};
+  kz_state end = start;
+  kz_mover_skip(mover, period, &end);
+  double gap = hypot(end.theta - start.theta, end.velocity - start.velocity);
+  if (gap <= CLOSED * hypot(start.theta - mover->origin, start.velocity)) return KZ_OK;
+  return kz_fail(KZ_FAILED,
+                 "orbit.closed: the linear motion ends %.3g from its start after %lld periods; parameters on a curve of "
+                 "this period, or no closed",
+                 gap, (long long)period);
+}
+
+kz_status kz_cycle_close(const kz_mover *mover, int64_t period, kz_state start, kz_cycle *cycle) {
+  if (!mover->plan) return check_linear(mover, period, start, cycle);
+  if (period == 0) return find(mover, start, cycle);
+  if (!close_with(mover, period, start, cycle))
+    return kz_fail(KZ_FAILED,
+                   "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; a nearer start",
+                   (long long)period, REACH, start.theta, start.velocity);
+  if (cycle->period == period) return KZ_OK;
+  return kz_fail(KZ_FAILED, "orbit.period: %lld, but the cycle found there closes after %lld; that period, or a nearer start",
+                 (long long)period, (long long)cycle->period);
+}

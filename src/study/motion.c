@@ -1,0 +1,74 @@
+/* Motions of the three models behind one door. */
+#include "motion.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Samples a period that turning points and spectra need, whatever the scene wants to see. */
+enum { LEAST_SAMPLES = 96 };
+
+static int64_t multiple(int64_t unit, int64_t least) {
+  return unit * ((least + unit - 1) / unit);
+}
+
+kz_status kz_mover_make(const kz_scene *scene, kz_mover *mover) {
+  const kz_orbit_plan *orbit = &scene->orbit;
+  const kz_pendulum *p = &scene->parameters.pendulum;
+  bool inverted = orbit->model == KZ_MATHIEU && orbit->about == KZ_ABOUT_INVERTED;
+  *mover = (kz_mover){.model = orbit->model, .pendulum = *p, .samples = multiple(orbit->samples_per_period, LEAST_SAMPLES)};
+  if (inverted) mover->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
+  if (inverted) mover->origin = PI;
+  if (mover->model != KZ_PENDULUM) return KZ_OK;
+  mover->numerics = scene->numerics;
+  mover->numerics.steps_per_period = (int32_t)multiple(mover->samples, scene->numerics.steps_per_period);
+  if (orbit->closed && mover->numerics.precision == KZ_SINGLE) mover->numerics.precision = KZ_DOUBLE;
+  mover->plan = kz_plan_create(p, &mover->numerics);
+  return mover->plan ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
+}
+
+void kz_mover_free(kz_mover *mover) {
+  if (mover->plan) kz_plan_free(mover->plan);
+  mover->plan = NULL;
+}
+
+void kz_mover_skip(const kz_mover *mover, int64_t periods, kz_state *state) {
+  int64_t turns = 0;
+  if (mover->plan) kz_advance(mover->plan, 1, periods, &state->theta, &state->velocity, &turns);
+  for (int64_t i = 0; !mover->plan && i < periods; i++) {
+    double theta[2], velocity[2];
+    kz_sample_model(mover->model, &mover->pendulum, 1, 1, state->theta - mover->origin, state->velocity, theta, velocity);
+    *state = (kz_state){theta[1] + mover->origin, velocity[1]};
+  }
+}
+
+static kz_status check_range(const kz_motion *motion) {
+  for (int64_t i = 0; i <= motion->periods * motion->samples; i++) {
+    if (isfinite(motion->theta[i]) && isfinite(motion->velocity[i])) continue;
+    return kz_fail(KZ_FAILED, "orbit: the motion leaves the range of numbers in period %lld; fewer periods or a smaller start",
+                   (long long)(i / motion->samples));
+  }
+  return KZ_OK;
+}
+
+kz_status kz_mover_record(const kz_mover *mover, int64_t periods, kz_state start, kz_motion *motion) {
+  size_t n = (size_t)(periods * mover->samples) + 1;
+  *motion = (kz_motion){periods, mover->samples, malloc(n * sizeof(double)), malloc(n * sizeof(double))};
+  if (!motion->theta || !motion->velocity)
+    return kz_fail(KZ_FAILED, "out of memory for an orbit of %lld periods", (long long)periods);
+  if (mover->plan) {
+    kz_sample(mover->plan, periods, mover->samples, start.theta, start.velocity, motion->theta, motion->velocity);
+  } else {
+    kz_sample_model(mover->model, &mover->pendulum, periods, mover->samples, start.theta - mover->origin, start.velocity,
+                    motion->theta, motion->velocity);
+    for (size_t i = 0; i < n; i++) motion->theta[i] += mover->origin;
+  }
+  return check_range(motion);
+}
+
+void kz_motion_free(kz_motion *motion) {
+  free(motion->theta);
+  free(motion->velocity);
+  motion->theta = motion->velocity = NULL;
+}

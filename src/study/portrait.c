@@ -1,0 +1,80 @@
+#include "portrait.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* Lines up to this many drive frequencies. */
+enum { TOP_FREQUENCY = 8 };
+
+/* Net turns a period: whole turns of a cycle, the fitted rate of an open record that turns at least once. */
+static double rotation_of(const kz_motion *motion, const kz_record *record) {
+  if (record->closed) {
+    double advance = motion->theta[record->periods * record->samples_per_period] - motion->theta[0];
+    return (double)llrint(advance / (2 * PI)) / (double)record->periods;
+  }
+  double rotation = kz_spectrum_rotation(record, motion->theta);
+  return fabs(rotation) * (double)record->periods < 1 ? 0 : rotation;
+}
+
+/* Down or inverted: mean within pi/4 of it and amplitude below pi; *origin = the copy of it that the orbit is about. */
+static int centre_of(const kz_motion *motion, int64_t n, double rotation, double *origin) {
+  double mean = 0, amplitude = 0;
+  *origin = 0;
+  if (rotation != 0) return KZ_ROTATING;
+  for (int64_t i = 0; i < n; i++) mean += motion->theta[i] / (double)n;
+  double nearest = rint(mean / PI);
+  for (int64_t i = 0; i < n; i++) amplitude = fmax(amplitude, fabs(motion->theta[i] - nearest * PI));
+  if (fabs(mean - nearest * PI) > PI / 4 || amplitude >= PI) return KZ_ABOUT_NEITHER;
+  *origin = nearest * PI;
+  return fmod(nearest, 2) == 0 ? KZ_ABOUT_DOWN : KZ_ABOUT_INVERTED;
+}
+
+static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz_portrait *portrait) {
+  size_t n = (size_t)(TOP_FREQUENCY * record->periods) + 1;
+  portrait->n_lines = (int64_t)n;
+  portrait->record_periods = record->periods;
+  portrait->amplitude = malloc(n * sizeof(double));
+  portrait->phase = malloc(n * sizeof(double));
+  if (!portrait->amplitude || !portrait->phase) return kz_fail(KZ_FAILED, "out of memory for the lines of an orbit");
+  KZ_TRY(kz_spectrum_lines(record, motion->theta, portrait->n_lines, portrait->amplitude, portrait->phase));
+  portrait->dominant = kz_spectrum_dominant(portrait->n_lines, portrait->amplitude);
+  portrait->period = kz_spectrum_period(record, portrait->n_lines, portrait->amplitude);
+  portrait->symmetric = record->closed && kz_spectrum_symmetric(record, portrait->n_lines, portrait->amplitude);
+  return KZ_OK;
+}
+
+static kz_status make_turning(const kz_motion *motion, kz_portrait *portrait) {
+  int64_t n = motion->periods * motion->samples + 1;
+  portrait->turning = malloc((size_t)n * sizeof *portrait->turning);
+  if (!portrait->turning) return kz_fail(KZ_FAILED, "out of memory for the turning points of an orbit");
+  double step = 2 * PI / (double)motion->samples;
+  portrait->n_turning = kz_turning_points(n, step, motion->theta, motion->velocity, portrait->turning);
+  for (int64_t i = 0; i < portrait->n_turning; i++) portrait->turning[i].angle -= portrait->origin;
+  return KZ_OK;
+}
+
+kz_status kz_portrait_make(const kz_motion *motion, int64_t period, kz_portrait *portrait) {
+  *portrait = (kz_portrait){.closed = period > 0};
+  kz_record record = {
+      .periods = period > 0 ? period : motion->periods, .samples_per_period = motion->samples, .closed = period > 0};
+  record.rotation = rotation_of(motion, &record);
+  portrait->centre = centre_of(motion, record.periods * motion->samples, record.rotation, &portrait->origin);
+  record.centre = portrait->origin;
+  KZ_TRY(make_lines(motion, &record, portrait));
+  if (record.closed && portrait->period != period)
+    return kz_fail(KZ_FAILED, "orbit: the strobe points close after %lld periods, the lines say %lld; a less degenerate cycle",
+                   (long long)period, (long long)portrait->period);
+  int64_t span = portrait->period > 0 ? portrait->period : record.periods;
+  portrait->winding = llrint(record.rotation * (double)span);
+  if (portrait->period > 0) kz_orbit_name(portrait->period, portrait->winding, portrait->centre, portrait->name);
+  return make_turning(motion, portrait);
+}
+
+void kz_portrait_free(kz_portrait *portrait) {
+  free(portrait->amplitude);
+  free(portrait->phase);
+  free(portrait->turning);
+  *portrait = (kz_portrait){0};
+}
