@@ -1,3 +1,5 @@
+kapitza_test(dynamics LABEL unit FLOOR dynamics TIMEOUT 600)
+kapitza_test(kernel LABEL unit FLOOR kernel)
 kapitza_test(models LABEL unit FLOOR kernel)
 kapitza_test(scene LABEL unit FLOOR app)
 kapitza_test(scene_fuzz LABEL unit FLOOR app)

@@ -1,1 +1,2 @@
+kapitza_test(orders LABEL verification FLOOR kernel)
 kapitza_test(truth LABEL verification FLOOR kernel)

@@ -1,0 +1,264 @@
+/* Attractors, map table, trapping regions, labels and measures. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "kapitza/dynamics.h"
+
+static const kz_numerics NUMERICS = {2, 16, KZ_DOUBLE};
+static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
+
+enum { STARTS = 8192 };
+
+/* Follows starts and looks for cycles until every start is trapped. */
+static kz_dynamics *explored(double m, int64_t seed, double reach)
+{
+  kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
+  kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 12);
+  double *state = malloc(2 * STARTS * sizeof *state);
+  int32_t *owner = malloc(STARTS * sizeof *owner);
+  int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
+  assert_non_null(d);
+  kz_dynamics_starts(&WINDOW, seed, n, state);
+  for (int round = 0; n > 0 && round < 12; round++) {
+    kz_dynamics_outline(d, reach);
+    kz_dynamics_follow(d, n, 128, state, owner, periods);
+    int64_t open = 0;
+    for (int64_t i = 0; i < n; i++)
+      if (owner[i] == 0) {
+        memmove(state + 2 * open, state + 2 * i, 2 * sizeof *state);
+        open++;
+      }
+    n = open;
+    for (int64_t first = 0; first < n; first += 64)
+      kz_dynamics_find_cycles(d, n - first < 64 ? n - first : 64, state + 2 * first, 0.02);
+  }
+  assert_int_equal(n, 0);
+  free(state);
+  free(owner);
+  free(periods);
+  return d;
+}
+
+static void with_table(kz_dynamics *d, int64_t nodes, double reach)
+{
+  kz_dynamics_table_create(d, nodes, nodes, reach);
+  int64_t size = kz_dynamics_table_row_size(d);
+  double *rows = malloc((size_t)(nodes * size) * sizeof *rows);
+  for (int64_t row = 0; row < nodes; row++) kz_dynamics_table_row(d, row, rows + row * size);
+  kz_dynamics_table_set(d, rows);
+  free(rows);
+}
+
+/* The nine attractors of Fig. 12, whatever the seed: pairs are exact mirror images, ids do not depend on the search. */
+static void test_catalogue(void **state)
+{
+  (void)state;
+  kz_dynamics *a = explored(0.3, 1, 3), *b = explored(0.3, 77, 3);
+  int64_t order_a[64], order_b[64], n = kz_dynamics_count(a);
+  assert_int_equal(n, 9);
+  assert_int_equal(kz_dynamics_count(b), n);
+  kz_dynamics_order(a, order_a);
+  kz_dynamics_order(b, order_b);
+  for (int64_t i = 0; i < n; i++) {
+    kz_attractor x, y, z;
+    double theta[12], velocity[12], theta2[12], velocity2[12];
+    kz_dynamics_attractor(b, order_b[i], &y, theta2, velocity2);
+    kz_dynamics_attractor(a, order_a[i], &x, theta, velocity);
+    assert_int_equal(x.period, y.period);
+    assert_int_equal(x.winding, y.winding);
+    assert_true(hypot(x.multiplier_re[0], x.multiplier_im[0]) < 1);
+    for (int j = 0; j < x.period; j++) {
+      assert_true(fabs(theta[j] - theta2[j]) < 1e-9 && fabs(velocity[j] - velocity2[j]) < 1e-9);
+      assert_true(theta[j] >= -M_PI && theta[j] < M_PI);
+      assert_false(signbit(theta[j]) && theta[j] == 0);
+      assert_false(signbit(velocity[j]) && velocity[j] == 0);
+    }
+    kz_dynamics_attractor(a, x.mirror, &z, theta2, velocity2);
+    assert_int_equal(z.winding, -x.winding);
+    assert_int_equal(z.mirror, order_a[i]);
+    assert_int_equal(x.symmetric, x.mirror == order_a[i]);
+    for (int j = 0; j < x.period; j++) {
+      int found = 0;
+      for (int k = 0; k < x.period; k++)
+        found += velocity2[k] == -velocity[j] && (theta2[k] == -theta[j] || theta[j] == -M_PI);
+      assert_true(found >= 1);
+    }
+  }
+  kz_dynamics_free(a);
+  kz_dynamics_free(b);
+}
+
+/* A period of ICM converges to a period of integration with the order of its interpolation. */
+static void test_interpolation(void **state)
+{
+  (void)state;
+  kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
+  enum { N = 500 };
+  for (int points = 2; points <= 6; points += 2) {
+    double error[2] = {0, 0};
+    for (int fine = 0; fine < 2; fine++) {
+      kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 4);
+      double x[2 * N], y[2 * N];
+      int32_t owner[N];
+      int64_t periods[N];
+      kz_dynamics_starts(&WINDOW, 3, N, x);
+      memcpy(y, x, sizeof y);
+      kz_dynamics_outline(d, 3);
+      with_table(d, fine ? 401 : 201, 3);
+      kz_dynamics_follow(d, N, 1, x, owner, periods);
+      kz_dynamics_follow_table(d, points, N, 1, y, owner, periods);
+      for (int i = 0; i < N; i++) {
+        double du = x[2 * i] - y[2 * i];
+        error[fine] += fabs(du - 2 * rint(du / 2)) + fabs(x[2 * i + 1] - y[2 * i + 1]);
+      }
+      kz_dynamics_free(d);
+    }
+    double order = log2(error[0] / error[1]);
+    print_message("%d nodes: order %.2f\n", points, order);
+    assert_true(fabs(order - points) < 0.5);
+  }
+}
+
+/* Mirrored starts get mirrored labels and equal settling times; a cell outside the table is integrated, not guessed. */
+static void test_mirrored_labels(void **state)
+{
+  (void)state;
+  enum { N = 3000 };
+  kz_dynamics *d = explored(0.3, 1, 3);
+  with_table(d, 200, 3);
+  assert_true(kz_dynamics_grow(d) > 0.3);
+  double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
+  int32_t a[N], b[N];
+  int64_t pa[N], pb[N];
+  for (int points = 0; points <= 6; points += 2) {
+    kz_window wide = {-M_PI, M_PI, -6, 6};
+    kz_dynamics_starts(&wide, 5, N, x);
+    for (int i = 0; i < 2 * N; i++) y[i] = -x[i];
+    if (points == 0) {
+      kz_dynamics_follow(d, N, 2000, x, a, pa);
+      kz_dynamics_follow(d, N, 2000, y, b, pb);
+    } else {
+      kz_dynamics_follow_table(d, points, N, 2000, x, a, pa);
+      kz_dynamics_follow_table(d, points, N, 2000, y, b, pb);
+    }
+    for (int i = 0; i < N; i++) {
+      kz_attractor row;
+      double theta[12], velocity[12];
+      assert_true(a[i] > 0);
+      kz_dynamics_attractor(d, a[i], &row, theta, velocity);
+      assert_int_equal(b[i], row.mirror);
+      assert_int_equal(pa[i], pb[i]);
+    }
+  }
+  free(x);
+  free(y);
+  kz_dynamics_free(d);
+}
+
+/* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search. */
+static void test_regions_are_right(void **state)
+{
+  (void)state;
+  enum { N = 4000 };
+  const double drives[] = {0.15, 0.3, 0.46};
+  for (int c = 0; c < 3; c++) {
+    kz_dynamics *d = explored(drives[c], 1, 3.5), *plain = explored(drives[c], 1, 3.5);
+    with_table(d, 300, 3.5);
+    kz_dynamics_grow(d);
+    kz_dynamics_outline(plain, 3.5);
+    double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
+    int32_t owner[N], truth[N];
+    int64_t periods[N], late[N];
+    int inside = 0;
+    kz_dynamics_starts(&WINDOW, 9, N, x);
+    memcpy(y, x, 2 * N * sizeof *y);
+    kz_dynamics_follow(d, N, 1, x, owner, periods);
+    kz_dynamics_follow(plain, N, 3000, y, truth, late);
+    for (int i = 0; i < N; i++) {
+      if (owner[i] == 0 || periods[i] > 0) continue;
+      inside++;
+      assert_int_equal(owner[i], truth[i]);
+    }
+    print_message("m = %.2f: %d of %d starts inside, none wrong\n", drives[c], inside, N);
+    assert_true(inside > N / 20);
+    free(x);
+    free(y);
+    kz_dynamics_free(d);
+    kz_dynamics_free(plain);
+  }
+}
+
+static void test_measures(void **state)
+{
+  (void)state;
+  int16_t one[100] = {0}, halves[100];
+  double entropy, boundary, share;
+  for (int i = 0; i < 100; i++) halves[i] = i % 10 < 5 ? 0 : (i / 10) % 2 == 0 ? 1 : -1;
+  kz_basin_entropy(10, 10, one, &entropy, &boundary);
+  assert_true(entropy == 0 && boundary == 0);
+  kz_basin_entropy(10, 10, halves, &entropy, &boundary);
+  double mixed = (-0.6 * log(0.6) - 0.4 * log(0.4));
+  assert_true(fabs(boundary - mixed) < 1e-15 && fabs(entropy - mixed / 2) < 1e-15);
+  kz_uncertain_share(10, 10, halves, 1, 0, &share);
+  assert_true(fabs(share - 2.0 / 8) < 1e-15);
+  kz_uncertain_share(10, 10, halves, 1, 1, &share);
+  assert_true(fabs(share - 4.0 / 10) < 1e-15);
+}
+
+/* The catalogue survives its travel as doubles. */
+static void test_packing(void **state)
+{
+  (void)state;
+  kz_dynamics *a = explored(0.3, 1, 3);
+  kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
+  kz_dynamics *b = kz_dynamics_create(&pendulum, &NUMERICS, 12);
+  int64_t size = kz_dynamics_packed_size(a);
+  double *flat = malloc((size_t)size * sizeof *flat), *again = malloc((size_t)size * sizeof *again);
+  kz_dynamics_pack(a, size, flat);
+  kz_dynamics_unpack(b, size, flat);
+  assert_int_equal(kz_dynamics_packed_size(b), size);
+  kz_dynamics_pack(b, size, again);
+  assert_memory_equal(flat, again, (size_t)size * sizeof *flat);
+  free(flat);
+  free(again);
+  kz_dynamics_free(a);
+  kz_dynamics_free(b);
+}
+
+/* k = 0.25, beta = 0.05, m = 0.5: one chaotic attractor owns the plane. */
+static void test_chaos(void **state)
+{
+  (void)state;
+  enum { N = 256 };
+  kz_pendulum pendulum = {0.25, 0.05, 0.5};
+  kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 48);
+  double x[2 * N];
+  int32_t owner[N];
+  int64_t periods[N];
+  kz_attractor row;
+  kz_dynamics_starts(&WINDOW, 1, N, x);
+  kz_dynamics_outline(d, 4);
+  assert_int_equal(kz_dynamics_find_chaos(d, x), 1);
+  kz_dynamics_attractor(d, 1, &row, NULL, NULL);
+  assert_int_equal(row.period, 0);
+  assert_int_equal(row.symmetric, 1);
+  assert_true(row.lyapunov > 0.8 && row.lyapunov < 0.9 && row.lyapunov_error < 0.02);
+  kz_dynamics_follow(d, N, 2000, x, owner, periods);
+  for (int i = 0; i < N; i++) assert_int_equal(owner[i], 1);
+  kz_dynamics_free(d);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_catalogue), cmocka_unit_test(test_interpolation), cmocka_unit_test(test_mirrored_labels),
+    cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_measures), cmocka_unit_test(test_packing),
+    cmocka_unit_test(test_chaos),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,176 @@
+/* The kernel: sine, mirror symmetry, lanes, tangent map, sampling; every scheme in every kind. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <cmocka.h>
+#include <math.h>
+#include <string.h>
+
+#include "kapitza/kernel.h"
+
+static const kz_pendulum PENDULUM = {1.0 / 121, 1.0 / 55, 0.3};
+static const int KINDS = 3;
+static const double EPSILON[] = {0x1p-24, 0x1p-53, 0x1p-53};
+
+enum { N = 200 };
+
+static void starts(double *theta, double *velocity, int64_t *turns)
+{
+  for (int i = 0; i < N; i++) {
+    theta[i] = fmod(0.7548776662 * (i + 1), 1.0) * 6.2 - 3.1;
+    velocity[i] = fmod(0.5698402910 * (i + 1), 1.0) * 4 - 2;
+    turns[i] = 0;
+  }
+}
+
+static kz_plan *plan_of(int scheme, int steps, int precision)
+{
+  kz_numerics numerics = {scheme, steps, precision};
+  kz_plan *plan = kz_plan_create(&PENDULUM, &numerics);
+  assert_non_null(plan);
+  return plan;
+}
+
+/* sin(pi u) within 1.5 units in the last place over the wrapped range and beyond. */
+static void test_sine(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < KINDS; kind++)
+    for (int i = -30000; i <= 30000; i++) {
+      double u = i / 10000.0, s;
+      if (kind == KZ_SINGLE) u = (float)u;
+      kz_sine(kind, 1, &u, &s);
+      double nearest = rint(u);
+      long double exact = sinl(3.14159265358979323846264338327950288L * ((long double)u - nearest));
+      if (fmod(fabs(nearest), 2) == 1) exact = -exact;
+      if (exact == 0) assert_true(s == 0);
+      else assert_true(fabsl(s / exact - 1) <= 3 * EPSILON[kind]);
+    }
+}
+
+/* The image of (-theta, -v) is the mirror image of that of (theta, v), to the bit. */
+static void test_mirror(void **state)
+{
+  (void)state;
+  for (int scheme = 0; scheme < kz_scheme_count(); scheme++)
+    for (int kind = 0; kind < KINDS; kind++) {
+      double a[N], va[N], b[N], vb[N];
+      int64_t ta[N], tb[N];
+      int n = kind == KZ_QUAD ? 8 : N;
+      kz_plan *plan = plan_of(scheme, 16, kind);
+      starts(a, va, ta);
+      memcpy(tb, ta, sizeof tb);
+      for (int i = 0; i < n; i++) b[i] = -a[i], vb[i] = -va[i];
+      kz_advance(plan, n, 5, a, va, ta);
+      kz_advance(plan, n, 5, b, vb, tb);
+      for (int i = 0; i < n; i++) {
+        assert_true(a[i] == -b[i] && va[i] == -vb[i]);
+        assert_int_equal(ta[i], -tb[i]);
+        assert_true(fabs(a[i]) <= M_PI);
+      }
+      kz_plan_free(plan);
+    }
+}
+
+/* A start gives the same bits alone and in any lane of a tile. */
+static void test_lanes(void **state)
+{
+  (void)state;
+  for (int scheme = 0; scheme < kz_scheme_count(); scheme++)
+    for (int kind = 0; kind < 2; kind++) {
+      double a[N], va[N];
+      int64_t ta[N];
+      kz_plan *plan = plan_of(scheme, 24, kind);
+      starts(a, va, ta);
+      kz_advance(plan, N, 7, a, va, ta);
+      for (int i = 0; i < N; i += 9) {
+        double b[N], vb[N];
+        int64_t tb[N];
+        starts(b, vb, tb);
+        kz_advance(plan, 1, 7, b + i, vb + i, tb + i);
+        assert_true(a[i] == b[i] && va[i] == vb[i] && ta[i] == tb[i]);
+      }
+      kz_plan_free(plan);
+    }
+}
+
+/* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly. */
+static void test_determinant(void **state)
+{
+  (void)state;
+  for (int scheme = 0; scheme < kz_scheme_count(); scheme++)
+    for (int kind = 0; kind < KINDS; kind++) {
+      double theta[N], velocity[N], matrix[N][4];
+      int64_t turns[N];
+      int n = kind == KZ_QUAD ? 4 : N;
+      kz_plan *plan = plan_of(scheme, scheme == 0 ? 400 : 24, kind);
+      starts(theta, velocity, turns);
+      kz_advance_tangent(plan, n, 1, theta, velocity, turns, matrix[0]);
+      for (int i = 0; i < n; i++) {
+        double determinant = matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2];
+        double scale = fabs(matrix[i][0] * matrix[i][3]) + fabs(matrix[i][1] * matrix[i][2]);
+        double error = fabs(determinant - exp(-2 * M_PI * PENDULUM.beta));
+        assert_true(error <= 400 * EPSILON[kind] * scale + (scheme == 0 ? 1e-9 : 0));
+      }
+      kz_plan_free(plan);
+    }
+}
+
+/* The tangent map is the derivative of the map. */
+static void test_tangent(void **state)
+{
+  (void)state;
+  const double h = 1e-5;
+  for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
+    kz_plan *plan = plan_of(scheme, 24, KZ_DOUBLE);
+    double theta = 0.7, velocity = -0.3, matrix[4], x[4] = {0.7 + h, 0.7 - h, 0.7, 0.7}, v[4] = {-0.3, -0.3, -0.3 + h, -0.3 - h};
+    int64_t turn = 0, turns[4] = {0};
+    kz_advance_tangent(plan, 1, 2, &theta, &velocity, &turn, matrix);
+    kz_advance(plan, 4, 2, x, v, turns);
+    assert_true(fabs((x[0] - x[1]) / (2 * h) - matrix[0]) < 1e-6);
+    assert_true(fabs((x[2] - x[3]) / (2 * h) - matrix[1]) < 1e-6);
+    assert_true(fabs((v[0] - v[1]) / (2 * h) - matrix[2]) < 1e-6);
+    assert_true(fabs((v[2] - v[3]) / (2 * h) - matrix[3]) < 1e-6);
+    kz_plan_free(plan);
+  }
+}
+
+/* Samples at whole periods are the strobe points, and theta is unwrapped. */
+static void test_sample(void **state)
+{
+  (void)state;
+  for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
+    kz_plan *plan = plan_of(scheme, 48, KZ_DOUBLE);
+    double theta = 3.0, velocity = 1.1, series[10 * 24 + 1], speeds[10 * 24 + 1];
+    int64_t turns = 0;
+    kz_sample(plan, 10, 24, theta, velocity, series, speeds);
+    kz_advance(plan, 1, 10, &theta, &velocity, &turns);
+    assert_true(fabs(series[240] - (theta + 2 * M_PI * (double)turns)) < 1e-11);
+    assert_true(fabs(speeds[240] - velocity) < 1e-12);
+    assert_true(turns > 0);
+    for (int i = 0; i < 240; i++) assert_true(fabs(series[i + 1] - series[i]) < 0.8);
+    kz_plan_free(plan);
+  }
+}
+
+static void test_table_of_schemes(void **state)
+{
+  (void)state;
+  for (int row = 0; row < kz_scheme_count(); row++) {
+    kz_scheme scheme;
+    kz_scheme_row(row, &scheme);
+    assert_true(strlen(scheme.name) > 0 && strlen(scheme.source) > 10);
+    assert_true(scheme.order >= 4 && scheme.kicks >= 4 && scheme.default_steps >= 8);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(test_sine),        cmocka_unit_test(test_mirror),  cmocka_unit_test(test_lanes),
+    cmocka_unit_test(test_determinant), cmocka_unit_test(test_tangent), cmocka_unit_test(test_sample),
+    cmocka_unit_test(test_table_of_schemes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
