@@ -2,33 +2,24 @@
  * trapping regions: an orbit is captured once it has come within a small circle of an attractor's strobe sequence, in phase,
  * and then, never leaving the circle, has shrunk its distance tenfold.
  *
- * stdin, text:  k beta m / max_periods / number of attractors / per attractor: period, then period times theta velocity /
- *               any number of states: theta velocity.  stdout, a line per state: label (-1 = captured by none), periods. */
+ * stdin: as catalogue.h says.  stdout, a line per state: label (-1 = captured by none), periods followed. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 
+#include "catalogue.h"
 #include "kapitza/truth.h"
 
 enum { BATCH = 256 };
-static const double two_pi = 6.28318530717958647692;
 static const double widest_circle = 1e-2; /* rad */
 static const double share_of_gap = 0.2;   /* of the smallest distance between two strobe points */
 static const double shrinking = 0.1;
+static const double at_rest = 1e-8;        /* as good as on the attractor */
 
 typedef struct {
-  double theta, velocity;
-  int attractor, next; /* whose strobe point, and the index of the one that follows */
-} strobe_point;
-
-typedef struct {
-  kz_pendulum pendulum;
-  long max_periods;
-  int n_points;
-  strobe_point *points;
-  double circle;
-} catalogue;
+  kz_catalogue catalogue;
+  double circle; /* radius, rad */
+} judge;
 
 typedef struct {
   int label;
@@ -37,79 +28,49 @@ typedef struct {
   double entry; /* distance from it when the orbit entered the circle */
 } orbit;
 
-static double distance(double theta, double velocity, const strobe_point *point)
-{
-  return hypot(remainder(theta - point->theta, two_pi), velocity - point->velocity);
-}
-
-static bool read_attractor(catalogue *c, int attractor)
-{
-  int period;
-  if (scanf("%d", &period) != 1 || period < 1) return false;
-  strobe_point *points = realloc(c->points, (size_t)(c->n_points + period) * sizeof *points);
-  if (!points) return false;
-  c->points = points;
-  for (int phase = 0; phase < period; phase++) {
-    strobe_point *point = &points[c->n_points + phase];
-    if (scanf("%lf %lf", &point->theta, &point->velocity) != 2) return false;
-    point->attractor = attractor;
-    point->next = c->n_points + (phase + 1) % period;
-  }
-  c->n_points += period;
-  return true;
-}
-
-static bool read_catalogue(catalogue *c)
-{
-  int n_attractors;
-  if (scanf("%lf %lf %lf", &c->pendulum.k, &c->pendulum.beta, &c->pendulum.m) != 3) return false;
-  if (scanf("%ld %d", &c->max_periods, &n_attractors) != 2) return false;
-  for (int attractor = 0; attractor < n_attractors; attractor++)
-    if (!read_attractor(c, attractor)) return false;
-  return true;
-}
-
 /* The circle: small against the gaps, so that no state is near two strobe points. */
-static double circle_of(const catalogue *c)
+static double circle_of(const kz_catalogue *c)
 {
   double circle = widest_circle;
   for (int i = 0; i < c->n_points; i++)
     for (int j = 0; j < i; j++)
-      circle = fmin(circle, share_of_gap * distance(c->points[i].theta, c->points[i].velocity, &c->points[j]));
+      circle = fmin(circle, share_of_gap * kz_point_distance(c->points[i].theta, c->points[i].velocity, &c->points[j]));
   return circle;
 }
 
-static int point_within(const catalogue *c, double theta, double velocity)
+static int point_within(const judge *j, double theta, double velocity)
 {
-  for (int i = 0; i < c->n_points; i++)
-    if (distance(theta, velocity, &c->points[i]) < c->circle) return i;
+  for (int i = 0; i < j->catalogue.n_points; i++)
+    if (kz_point_distance(theta, velocity, &j->catalogue.points[i]) < j->circle) return i;
   return -1;
 }
 
 /* Takes note of the orbit's strobe state after another period; true where it is settled or out of time. */
-static bool settled(const catalogue *c, orbit *o, double theta, double velocity)
+static bool settled(const judge *j, orbit *o, double theta, double velocity)
 {
-  double d = o->expected >= 0 ? distance(theta, velocity, &c->points[o->expected]) : INFINITY;
-  if (d > c->circle) {
-    o->expected = point_within(c, theta, velocity);
-    if (o->expected >= 0) o->entry = distance(theta, velocity, &c->points[o->expected]);
-  } else if (d <= shrinking * o->entry) {
-    o->label = c->points[o->expected].attractor;
+  double d = o->expected >= 0 ? kz_point_distance(theta, velocity, &j->catalogue.points[o->expected]) : INFINITY;
+  if (d > j->circle) {
+    o->expected = point_within(j, theta, velocity);
+    if (o->expected >= 0) o->entry = kz_point_distance(theta, velocity, &j->catalogue.points[o->expected]);
+  } else if (d <= fmax(shrinking * o->entry, at_rest)) {
+    o->label = j->catalogue.points[o->expected].attractor;
     return true;
   }
-  if (o->expected >= 0) o->expected = c->points[o->expected].next;
-  return o->periods++ == c->max_periods;
+  if (o->expected >= 0) o->expected = j->catalogue.points[o->expected].next;
+  if (o->periods == j->catalogue.max_periods) return true;
+  o->periods++;
+  return false;
 }
 
 /* Follows n orbits together, each until it settles: the first `left` ones are still under way. */
-static void follow(const catalogue *c, int n, kz_truth_state *states, orbit **under_way)
+static void follow(const judge *j, int n, kz_truth_state *states, orbit **under_way)
 {
   double theta[BATCH], velocity[BATCH];
   int64_t turns[BATCH];
-  for (int left = n; left > 0; kz_truth_advance(&c->pendulum, KZ_TRUTH_STEPS, left, 1, states)) {
+  for (int left = n; left > 0; kz_truth_advance(&j->catalogue.pendulum, KZ_TRUTH_STEPS, left, 1, states)) {
     kz_truth_read(left, states, theta, velocity, turns);
     for (int i = left - 1; i >= 0; i--)
-      if (settled(c, under_way[i], theta[i], velocity[i])) {
+      if (settled(j, under_way[i], theta[i], velocity[i])) {
         left--;
         states[i] = states[left];
         under_way[i] = under_way[left];
@@ -118,7 +79,7 @@ static void follow(const catalogue *c, int n, kz_truth_state *states, orbit **un
 }
 
 /* Labels the next batch of stdin; its size, 0 at the end. */
-static int label_batch(const catalogue *c)
+static int label_batch(const judge *j)
 {
   static kz_truth_state states[BATCH];
   double theta[BATCH], velocity[BATCH];
@@ -130,21 +91,21 @@ static int label_batch(const catalogue *c)
     n++;
   }
   kz_truth_start(n, theta, velocity, states);
-  follow(c, n, states, under_way);
+  follow(j, n, states, under_way);
   for (int i = 0; i < n; i++) printf("%d %ld\n", orbits[i].label, orbits[i].periods);
   return n;
 }
 
 int main(void)
 {
-  catalogue c = {0};
-  if (!read_catalogue(&c)) {
+  judge j;
+  if (!kz_catalogue_read(stdin, &j.catalogue)) {
     fputs("truth_label: error: stdin: not a catalogue\n", stderr);
-    free(c.points);
+    kz_catalogue_free(&j.catalogue);
     return 2;
   }
-  c.circle = circle_of(&c);
-  while (label_batch(&c) > 0) continue;
-  free(c.points);
+  j.circle = circle_of(&j.catalogue);
+  while (label_batch(&j) > 0) continue;
+  kz_catalogue_free(&j.catalogue);
   return fflush(stdout) || ferror(stdout) ? 1 : 0;
 }

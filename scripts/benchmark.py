@@ -1,0 +1,164 @@
+"""Time per cell and share of wrong labels of this program and of textbook RK4, from one run on one core.
+
+The textbook programs (benchmarks/) label a random subset of the scene's cells and are told the attractors; only their
+labelling is timed. This program labels the whole scene; its time is that of the whole command: start, discovery, table,
+cells, file. All take turns, so that the machine's moods hit all alike; ratios are taken within each round."""
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+from kapitza_file import BadFile, Result, run
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "tools"))
+
+import truth_check  # noqa: E402
+
+PROGRAM = ROOT / "build" / "kapitza"
+TRUTH_CACHE = ROOT / "results" / "benchmark-truth"
+TWIN = "RK4-100, SIMD twin"
+# name | program in build/benchmarks | cells timed
+TEXTBOOK = [("RK4-100, textbook", "textbook", 2000), (TWIN, "twin", 100_000)]
+# name: scene keys
+OURS = ["direct: basin.method=direct", "ICM: basin.method=icm"]
+UNKNOWN = -2  # an attractor that the reference catalogue lacks
+
+
+def pinned(command, core, **options):
+    """Runs a command on one core; its output and its seconds."""
+    start = time.perf_counter()
+    done = subprocess.run(["taskset", "-c", str(core), *map(str, command)], check=False, text=True, capture_output=True, **options)
+    seconds = time.perf_counter() - start
+    if done.returncode:
+        raise BadFile(f"{' '.join(map(str, command))}: {done.stderr.strip() or f'status {done.returncode}'}")
+    return done.stdout, seconds
+
+
+def textbook_run(program, catalogue, theta, velocity, core):
+    """Labels (attractor ids) and seconds a cell."""
+    text = catalogue.text(2000) + truth_check.states_text(theta, velocity)
+    output, _ = pinned([ROOT / "build" / "benchmarks" / program], core, input=text)
+    head, labels = output.split("\n", 1)
+    return catalogue.ids(np.array(labels.split(), dtype=np.int64)), float(head.split()[0]) / len(theta)
+
+
+class Ours:
+    """One setting of this program on the scene."""
+
+    def __init__(self, setting, scene, folder):
+        self.name, _, keys = setting.partition(":")
+        self.command = [PROGRAM, "run", scene, "--force", "--progress", "never"]
+        self.command += [word for key in keys.split() for word in ("--set", key)]
+        self.file = Path(folder) / (self.name.replace(" ", "-").replace("/", "-") + ".h5")
+
+    def seconds_per_cell(self, core):
+        _, seconds = pinned([*self.command, "-o", self.file], core)
+        return seconds / Result(self.file).group("basin")["attractor"].size
+
+    def labels(self, cells, reference):
+        """Labels of some cells in the ids of the reference catalogue."""
+        result = Result(self.file)
+        numbers = result.group("basin")["attractor"].values[cells].astype(np.int64)
+        return translation(truth_check.Catalogue(result), reference)[numbers]
+
+
+def translation(catalogue, reference):
+    """Reference ids by a catalogue's own ids; the last entry is for -1. The same attractor = same period, same strobe point."""
+    ids = np.full(len(catalogue.period) + 1, UNKNOWN)
+    ids[-1] = truth_check.NONE
+    for index in catalogue.periodic:
+        gap = np.hypot(np.sin((reference.theta[:, 0] - catalogue.theta[index, 0]) / 2),
+                       reference.velocity[:, 0] - catalogue.velocity[index, 0])
+        same = np.flatnonzero((reference.period == catalogue.period[index]) & (gap < 1e-6))
+        ids[index] = same[0] if len(same) else UNKNOWN
+    if len(reference.chaotic):
+        ids[catalogue.chaotic] = reference.chaotic[0]
+    return ids
+
+
+def cached_truth(catalogue, theta, velocity):
+    """True labels; those of an earlier run where everything is the same."""
+    key = hashlib.sha256((catalogue.text(4000) + truth_check.states_text(theta, velocity)).encode()).hexdigest()[:16]
+    path = TRUTH_CACHE / f"{key}.npy"
+    if not path.exists():
+        labels = truth_check.truth_labels(catalogue, theta, velocity, processes=os.cpu_count())
+        path.parent.mkdir(parents=True, exist_ok=True)
+        np.save(path, labels)
+    return np.load(path)
+
+
+def spread(values):
+    return {"median": float(np.median(values)), "min": float(np.min(values)), "max": float(np.max(values))}
+
+
+def rounds_of(arguments, ours, catalogue, states):
+    """Seconds a cell of everyone, by name, one value a round."""
+    seconds = {name: [] for name in [row[0] for row in TEXTBOOK] + [setting.name for setting in ours]}
+    for number in range(arguments.rounds):
+        print(f"benchmark: round {number + 1} of {arguments.rounds}", file=sys.stderr, flush=True)
+        for name, program, count in TEXTBOOK:
+            seconds[name].append(textbook_run(program, catalogue, *states(count, number + 1), arguments.core)[1])
+        for setting in ours:
+            seconds[setting.name].append(setting.seconds_per_cell(arguments.core))
+    return seconds
+
+
+def measure(arguments, folder):
+    """One row per contestant: time a cell, ratio to the twin, wrong labels."""
+    ours = [Ours(setting, arguments.scene, folder) for setting in OURS + arguments.try_]
+    ours[0].seconds_per_cell(arguments.core)
+    result = Result(ours[0].file)
+    basin, catalogue = result.group("basin"), truth_check.Catalogue(result)
+
+    def states(count, seed):
+        row, column = truth_check.sample_cells(basin["attractor"].shape, count, seed)
+        return basin["theta"].values[column], basin["velocity"].values[row]
+
+    seconds = rounds_of(arguments, ours, catalogue, states)
+    print(f"benchmark: the truth of {arguments.cells} cells", file=sys.stderr, flush=True)
+    truth = cached_truth(catalogue, *states(arguments.cells, 0))
+    cells = truth_check.sample_cells(basin["attractor"].shape, arguments.cells, 0)
+    labels = {name: textbook_run(program, catalogue, *states(arguments.cells, 0), arguments.core)[0] for name, program, _ in TEXTBOOK}
+    labels |= {setting.name: setting.labels(cells, catalogue) for setting in ours}
+    rows = []
+    for name, taken in seconds.items():
+        ratio = np.array(seconds[TWIN]) / np.array(taken)
+        rows.append({"name": name, "microseconds_per_cell": spread(1e6 * np.array(taken)), "times_faster_than_twin": spread(ratio)}
+                    | truth_check.judge(labels[name], truth, catalogue))
+    return rows
+
+
+def table(rows):
+    yield f"{'':32} {'us per cell':>24} {'times the twin':>24} {'wrong of ' + str(rows[0]['cells']):>14} {'95 %':>20}"
+    for row in rows:
+        time_, ratio = row["microseconds_per_cell"], row["times_faster_than_twin"]
+        yield (f"{row['name']:32} {time_['median']:9.3f} ({time_['min']:.3f} .. {time_['max']:.3f})"
+               f" {ratio['median']:9.2f} ({ratio['min']:.2f} .. {ratio['max']:.2f})"
+               f" {row['wrong']:6d} {100 * row['low']:9.2f} .. {100 * row['high']:.2f} %")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scene", type=Path, default=ROOT / "scenes" / "blackburn-fig12.yaml")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--cells", type=int, default=2000, help="cells judged by quad precision")
+    parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="the core that all run on")
+    parser.add_argument("--try", dest="try_", action="append", default=[], metavar="'NAME: KEY=VALUE ...'",
+                        help="one more setting of this program")
+    parser.add_argument("--json", action="store_true")
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        rows = measure(arguments, folder)
+    print(json.dumps(rows, indent=1) if arguments.json else "\n".join(table(rows)))
+
+
+if __name__ == "__main__":
+    run(main)
