@@ -124,9 +124,9 @@ def measure(arguments, folder):
 
     seconds = rounds_of(arguments, ours, catalogue, states)
     print(f"benchmark: the truth of {arguments.cells} cells", file=sys.stderr, flush=True)
-    truth = cached_truth(catalogue, *states(arguments.cells, 0))
-    cells = truth_check.sample_cells(basin["attractor"].shape, arguments.cells, 0)
-    labels = {name: textbook_run(program, catalogue, *states(arguments.cells, 0), arguments.core)[0] for name, program, _ in TEXTBOOK}
+    judged, cells = states(arguments.cells, 0), truth_check.sample_cells(basin["attractor"].shape, arguments.cells, 0)
+    truth = cached_truth(catalogue, *judged)
+    labels = {name: textbook_run(program, catalogue, *judged, arguments.core)[0] for name, program, _ in TEXTBOOK}
     labels |= {setting.name: setting.labels(cells, catalogue) for setting in ours}
     rows = []
     for name, taken in seconds.items():
