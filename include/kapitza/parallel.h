@@ -14,39 +14,46 @@
 
 typedef struct kz_team kz_team;
 
+/* What can be known without starting MPI: this process's rank as its launcher tells it (-1: none does), and the library. */
+int kz_launch_rank(void);
+const char *kz_parallel_library(void);
+
 typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;
 
-/* Starts MPI (signal handlers first) and makes the team of all ranks. Collective. */
+/* Starts MPI (signal handlers first: SIGUSR1, SIGTERM and SIGINT ask for a stop) and makes the team of all ranks. `team`
+ * is NULL or must be ended also where this fails. Collective. */
 kz_status kz_team_start(int *argc, char ***argv, kz_team **team);
-/* Frees the team and leaves through MPI_Finalize. Collective. */
+/* Frees the team (NULL too), its hold on the checkpoint, and leaves through MPI_Finalize. Collective. */
 void kz_team_end(kz_team *team);
 
 int kz_team_rank(const kz_team *team);
 int kz_team_size(const kz_team *team);
 
-/* The worst status of all ranks, with that rank's message brought to rank 0. Collective. */
+/* The worst status of all ranks (failed, refused, stopped, done), with that rank's message on every rank. Collective. */
 kz_status kz_team_agree(kz_team *team, kz_status mine);
 
 /* Bytes of rank 0 to every rank. Collective. */
 kz_status kz_team_broadcast(kz_team *team, void *data, size_t bytes);
 
+/* auto: a bar where a person's terminal is found, else a line every 10 s; always: where no terminal is, a line every
+ * second and one at the end of each stage; never: nothing. Stages of one tile are silent. */
 void kz_team_set_progress(kz_team *team, kz_progress progress);
 /* Stop (KZ_STOPPED) once `seconds` have passed since kz_team_start; 0 = no limit. */
 void kz_team_set_time_limit(kz_team *team, double seconds);
 
-/* Checkpoint of a run: one regular locked file. `fingerprint` is text (scene, version, numerics: one "name: value" a line)
+/* Checkpoint of a run: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is text (scene, version, numerics: one "name: value" a line)
  * that a resumed run must match; a difference is refused naming the first line that differs. Collective. */
 typedef struct {
-  const char *path;
+  const char *path;        /* of the checkpoint itself */
   const char *fingerprint;
   bool resume; /* go on from an existing file */
   bool force;  /* discard an existing file */
 } kz_checkpoint_plan;
 kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan);
-/* Closes it; removes the file when `complete`. Collective. */
+/* Closes it; removes the file when `complete`, or where no kept stage has begun. Without an open one: KZ_OK. Collective. */
 kz_status kz_checkpoint_close(kz_team *team, bool complete);
 
-/* Fills record (record_bytes, zeroed before the call) with the result of one tile. */
+/* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, no kz_team call. */
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
 
 typedef struct {
@@ -60,7 +67,9 @@ typedef struct {
 } kz_stage;
 
 /* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless
- * everywhere). The first failing rank stops the others. Collective. KZ_STOPPED: kept records are safe on disk. */
+ * everywhere). The first failing rank stops the others, and all return its status. Collective. KZ_STOPPED: a signal or the
+ * time limit came before the last tile was begun; finished kept records are on disk. Kept stages must come in the same
+ * order in every run. Without an open checkpoint nothing is kept. */
 kz_status kz_stage_run(kz_team *team, const kz_stage *stage, void *records);
 
 #endif

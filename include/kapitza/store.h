@@ -1,7 +1,8 @@
 /* store: the result file (HDF5, netCDF-4 readable; floor 2). Names, types, units and long names of every dataset of the
  * file's contract are stated once, in a table of this floor. Written by one rank with the serial library.
  *
- * The file is written as PATH.part and renamed to PATH when complete. */
+ * The file grows in memory; PATH.part is made at once, so that a wrong path is known early, and is written, saved and renamed
+ * to PATH when complete. */
 #ifndef KAPITZA_STORE_H
 #define KAPITZA_STORE_H
 
@@ -12,14 +13,18 @@
 
 typedef struct kz_store kz_store;
 
-/* Creates PATH.part. */
+/* Name and version of the library. */
+const char *kz_store_library(void);
+
+/* Creates PATH.part. KZ_REFUSED where the path cannot be written. */
 kz_status kz_store_create(const char *path, kz_store **store);
-/* Flushes, closes and renames to PATH (fsync before the rename). Frees the store in every case. */
+/* Flushes, closes and renames to PATH (fsync before the rename). Frees the store in every case; where it fails
+ * (KZ_FAILED, as on a full disk) no PATH and no PATH.part is left. */
 kz_status kz_store_complete(kz_store *store);
-/* Closes and removes PATH.part. */
+/* Closes and removes PATH.part. NULL: nothing. */
 void kz_store_discard(kz_store *store);
 
-/* Attributes of a group ("/" = root). Text of any length (over 64 KiB too). */
+/* Attributes of a group ("/" = root, "basin" or "/basin"). Text of any length (over 64 KiB too). */
 kz_status kz_store_text(kz_store *store, const char *group, const char *name, const char *value);
 kz_status kz_store_real(kz_store *store, const char *group, const char *name, double value);
 kz_status kz_store_integer(kz_store *store, const char *group, const char *name, int64_t value);

@@ -1,0 +1,76 @@
+/* Opening and closing the checkpoint together. */
+#include "checkpoint.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "team.h"
+
+void kz_checkpoint_release(kz_checkpoint *checkpoint) {
+  if (checkpoint->file >= 0) close(checkpoint->file);
+  free(checkpoint->path);
+  *checkpoint = (kz_checkpoint){.file = -1};
+}
+
+/* Rank 0 decides whether the file is gone on from or begun anew. */
+static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan) {
+  kz_hold hold = {.file = -1};
+  KZ_TRY(kz_hold_take(plan->path, plan->resume || plan->force, &hold));
+  checkpoint->file = hold.file;
+  checkpoint->fresh = !hold.existed;
+  bool anew = !hold.existed || plan->force;
+  if (!anew) KZ_TRY(kz_header_read(checkpoint, plan->fingerprint, &anew));
+  if (anew) KZ_TRY(kz_header_write(checkpoint, plan->fingerprint));
+  return kz_hold_share(plan->path, hold.file);
+}
+
+/* A file that holds no work of this run or an earlier one is not left behind. */
+static void abandon(kz_checkpoint *checkpoint, int rank) {
+  if (rank == 0 && checkpoint->file >= 0 && checkpoint->fresh && checkpoint->n_sections == 0 &&
+      kz_hold_names(checkpoint->path, checkpoint->file))
+    unlink(checkpoint->path);
+  kz_checkpoint_release(checkpoint);
+}
+
+kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan) {
+  kz_checkpoint *checkpoint = &team->checkpoint;
+  checkpoint->path = strdup(plan->path);
+  kz_status status = checkpoint->path ? KZ_OK : kz_fail(KZ_FAILED, "%s: out of memory", plan->path);
+  if (status == KZ_OK && team->rank == 0) status = begin(checkpoint, plan);
+  status = kz_team_agree(team, status);
+  if (status == KZ_OK && team->rank != 0) status = kz_hold_join(plan->path, &checkpoint->file);
+  if (status == KZ_OK) {
+    status = kz_team_broadcast(team, &checkpoint->seed, sizeof checkpoint->seed);
+    status = kz_team_agree(team, status);
+  }
+  if (status != KZ_OK) abandon(checkpoint, team->rank);
+  return status;
+}
+
+static kz_status remove_file(const kz_checkpoint *checkpoint) {
+  if (unlink(checkpoint->path) == 0 || errno == ENOENT) return KZ_OK;
+  return kz_fail(KZ_FAILED, "%s: cannot be removed: %s", checkpoint->path, strerror(errno));
+}
+
+static kz_status keep_file(const kz_checkpoint *checkpoint) {
+  if (!kz_hold_names(checkpoint->path, checkpoint->file))
+    return kz_fail(KZ_FAILED, "%s: was removed during the run; finished work is lost", checkpoint->path);
+  if (fsync(checkpoint->file) == 0) return KZ_OK;
+  return kz_fail(KZ_FAILED, "%s: cannot be saved: %s", checkpoint->path, strerror(errno));
+}
+
+kz_status kz_checkpoint_close(kz_team *team, bool complete) {
+  kz_checkpoint *checkpoint = &team->checkpoint;
+  if (checkpoint->file < 0) return KZ_OK;
+  const bool holds_work = !checkpoint->fresh || checkpoint->n_sections > 0;
+  kz_status status = KZ_OK;
+  if (complete) {
+    if (team->rank == 0) status = remove_file(checkpoint);
+  } else if (holds_work)
+    status = keep_file(checkpoint);
+  status = kz_team_agree(team, status);
+  abandon(checkpoint, team->rank);
+  return status;
+}

@@ -1,0 +1,54 @@
+/* The checkpoint: one regular, locked file of finished records.
+ *
+ *   header            magic, format, fingerprint, checksum; whole pages
+ *   section, one per kept stage in the order of the run:
+ *     head            name, tiles, bytes of a record, checksum; one page
+ *     slot per tile   tile number, checksum, record; whole pages, so that two writers never share one
+ *
+ * Every checksum is continued from that of the part above it: a slot counts only in its own section of its own run. */
+#ifndef KAPITZA_PARALLEL_CHECKPOINT_H
+#define KAPITZA_PARALLEL_CHECKPOINT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "kapitza/status.h"
+
+typedef struct {
+  int file; /* -1: none is open */
+  char *path;
+  bool fresh;    /* begun by this run */
+  uint64_t seed; /* checksum of the header */
+  int64_t end;   /* offset of the next section */
+  int64_t n_sections;
+} kz_checkpoint;
+
+enum { KZ_PAGE = 4096 };
+static inline int64_t kz_whole_pages(int64_t bytes) {
+  return (bytes + KZ_PAGE - 1) / KZ_PAGE * KZ_PAGE;
+}
+
+/* Closes this rank's file, which gives its locks back. The file stays. */
+void kz_checkpoint_release(kz_checkpoint *checkpoint);
+
+/* Takes hold of the file at `path` for rank 0: opens or creates it, locks it against every other run, and waits for
+ * ranks of an earlier run that are still writing. `existed` tells whether it was there. */
+typedef struct kz_hold {
+  int file;
+  bool existed;
+} kz_hold;
+kz_status kz_hold_take(const char *path, bool may_exist, kz_hold *hold);
+/* Lets the other ranks of this run in. */
+kz_status kz_hold_share(const char *path, int file);
+/* Joins as another rank of this run. */
+kz_status kz_hold_join(const char *path, int *file);
+/* True where `path` still names the open file. */
+bool kz_hold_names(const char *path, int file);
+
+/* The header of a run with this fingerprint. */
+kz_status kz_header_write(kz_checkpoint *checkpoint, const char *fingerprint);
+/* Reads it back: `unfinished` where the run that created the file ended before its header was written; a damaged header
+ * or another fingerprint is refused. */
+kz_status kz_header_read(kz_checkpoint *checkpoint, const char *fingerprint, bool *unfinished);
+
+#endif

@@ -1,0 +1,30 @@
+/* Records that a rank keeps until they are delivered to rank 0: blocks of slots, one block = one message. */
+#ifndef KAPITZA_PARALLEL_HARVEST_H
+#define KAPITZA_PARALLEL_HARVEST_H
+
+#include "team.h"
+
+typedef struct kz_block kz_block;
+
+typedef struct {
+  size_t record_bytes;
+  size_t stride;       /* bytes of a slot: tile number and record */
+  int64_t block_slots; /* slots of a block */
+  int64_t n_blocks;
+  kz_block *first, *last;
+} kz_harvest;
+
+/* Records larger than this do not fit into a message. */
+#define KZ_RECORD_MAX ((size_t)1 << 30)
+
+void kz_harvest_begin(kz_harvest *harvest, size_t record_bytes);
+/* Room for the record of `tile`, zeroed and aligned for any type; NULL where memory ran out. */
+void *kz_harvest_add(kz_harvest *harvest, int64_t tile);
+/* Bytes of the largest message. */
+size_t kz_harvest_message_bytes(const kz_harvest *harvest);
+/* Brings the records of all other ranks to `records` [tile][record_bytes] on rank 0, by way of `buffer`
+ * [kz_harvest_message_bytes] there. Collective. */
+kz_status kz_harvest_deliver(const kz_harvest *harvest, kz_team *team, void *buffer, char *records);
+void kz_harvest_end(kz_harvest *harvest);
+
+#endif

@@ -1,0 +1,87 @@
+/* Who may use the checkpoint file. Locks belong to the open file, so they end with the process whatever kills it.
+ *
+ * Byte 0 is locked by rank 0, byte 1 is shared by all ranks of the run. A new run must get both alone. */
+#define _GNU_SOURCE /* locks of an open file, not of a process */
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "checkpoint.h"
+#include "team.h"
+
+static const double WAIT = 15.0; /* s: ranks outlive a killed mpirun by a few seconds */
+static const struct timespec PAUSE = {.tv_nsec = 100000000};
+
+enum { OWNER = 0, MEMBERS = 1 };
+
+static int lock(int file, short type, off_t first, off_t n) {
+  struct flock range = {.l_type = type, .l_whence = SEEK_SET, .l_start = first, .l_len = n};
+  return fcntl(file, F_OFD_SETLK, &range);
+}
+
+static bool is_held(int error) {
+  return error == EAGAIN || error == EACCES;
+}
+
+bool kz_hold_names(const char *path, int file) {
+  struct stat named, opened;
+  return stat(path, &named) == 0 && fstat(file, &opened) == 0 && named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+}
+
+static kz_status open_or_create(const char *path, kz_hold *hold) {
+  do {
+    hold->existed = true;
+    hold->file = open(path, O_RDWR | O_CLOEXEC);
+    if (hold->file < 0 && errno == ENOENT) {
+      hold->existed = false;
+      hold->file = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+  } while (hold->file < 0 && errno == EEXIST);
+  struct stat facts;
+  if (hold->file >= 0 && fstat(hold->file, &facts) == 0 && S_ISREG(facts.st_mode)) return KZ_OK;
+  const char *reason = hold->file < 0 ? strerror(errno) : "not a regular file";
+  if (hold->file >= 0) close(hold->file);
+  hold->file = -1;
+  return kz_fail(KZ_REFUSED, "%s: cannot be used as checkpoint: %s", path, reason);
+}
+
+/* One attempt: KZ_OK with file < 0 where another process holds it, or where it was replaced meanwhile. */
+static kz_status attempt(const char *path, bool may_exist, kz_hold *hold) {
+  KZ_TRY(open_or_create(path, hold));
+  kz_status status = KZ_OK;
+  if (hold->existed && !may_exist)
+    status = kz_fail(KZ_REFUSED, "%s: a checkpoint is there; use --resume to go on from it or --force to discard it", path);
+  else if (lock(hold->file, F_WRLCK, OWNER, 2) == 0 && kz_hold_names(path, hold->file))
+    return KZ_OK;
+  else if (!is_held(errno) && kz_hold_names(path, hold->file))
+    status = kz_fail(KZ_REFUSED, "%s: cannot be locked: %s", path, strerror(errno));
+  close(hold->file);
+  hold->file = -1;
+  return status;
+}
+
+kz_status kz_hold_take(const char *path, bool may_exist, kz_hold *hold) {
+  for (const double begun = kz_clock(); kz_clock() - begun < WAIT; nanosleep(&PAUSE, NULL)) {
+    KZ_TRY(attempt(path, may_exist, hold));
+    if (hold->file >= 0) return KZ_OK;
+    if (kz_signals_caught()) return kz_fail(KZ_STOPPED, "%s: stopped while it was held by another process", path);
+  }
+  return kz_fail(KZ_REFUSED, "%s: is held by another process; wait until that run has ended", path);
+}
+
+kz_status kz_hold_share(const char *path, int file) {
+  if (lock(file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
+  return kz_fail(KZ_FAILED, "%s: cannot be shared: %s", path, strerror(errno));
+}
+
+kz_status kz_hold_join(const char *path, int *file) {
+  *file = open(path, O_RDWR | O_CLOEXEC);
+  if (*file >= 0 && lock(*file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
+  const int error = errno;
+  if (*file >= 0) close(*file);
+  *file = -1;
+  return kz_fail(KZ_FAILED, "%s: cannot be joined by every rank: %s", path, strerror(error));
+}

@@ -1,0 +1,64 @@
+/* A live bar where a terminal is there, else a line now and then. */
+#include "progress.h"
+
+#include <unistd.h>
+
+static const double BAR_DELAY = 0.5, BAR_PERIOD = 0.2, LINE_PERIOD = 10.0, LINE_PERIOD_ALWAYS = 1.0; /* s */
+enum { BAR_CELLS = 32, CLOCK_BYTES = 24 };
+
+/* Under a launcher neither stderr nor stdout tells whether a person looks on: ask for the terminal itself. */
+static FILE *find_terminal(kz_team *team) {
+  if (isatty(STDERR_FILENO)) return stderr;
+  if (!team->terminal && kz_launch_rank() >= 0) team->terminal = fopen("/dev/tty", "we");
+  return team->terminal;
+}
+
+void kz_meter_begin(kz_meter *meter, kz_team *team, const char *name, int64_t total, int64_t first) {
+  *meter = (kz_meter){.name = name, .total = total, .first = first, .begun = kz_clock()};
+  if (team->rank != 0 || team->progress == KZ_PROGRESS_NEVER || total < 2) return;
+  FILE *terminal = find_terminal(team);
+  const bool always = team->progress == KZ_PROGRESS_ALWAYS;
+  meter->live = terminal != NULL;
+  meter->out = terminal ? terminal : stderr;
+  meter->last = always && !meter->live;
+  meter->due = meter->begun + (meter->live ? BAR_DELAY : always ? LINE_PERIOD_ALWAYS : LINE_PERIOD);
+}
+
+static const char *clock_text(double seconds, char text[CLOCK_BYTES]) {
+  const long long whole = (long long)(seconds + 0.5), hours = whole / 3600;
+  if (hours > 0)
+    snprintf(text, CLOCK_BYTES, "%lld:%02lld:%02lld", hours, whole / 60 % 60, whole % 60);
+  else
+    snprintf(text, CLOCK_BYTES, "%lld:%02lld", whole / 60, whole % 60);
+  return text;
+}
+
+static void draw(const kz_meter *meter, int64_t done, double elapsed) {
+  char bar[BAR_CELLS + 1] = "", spent[CLOCK_BYTES], left[CLOCK_BYTES] = "?";
+  const double share = (double)done / (double)meter->total;
+  const int64_t fresh = done - meter->first;
+  if (fresh > 0) clock_text(elapsed * (double)(meter->total - done) / (double)fresh, left);
+  for (int i = 0; i < BAR_CELLS; ++i) bar[i] = i < share * BAR_CELLS ? '#' : '.';
+  if (meter->live)
+    fprintf(meter->out, "\r%-12s [%s] %3.0f %%  %s, %s left \033[K", meter->name, bar, 100 * share, clock_text(elapsed, spent),
+            left);
+  else
+    fprintf(meter->out, "kapitza: %s: %.0f %%, %s, %s left\n", meter->name, 100 * share, clock_text(elapsed, spent), left);
+  fflush(meter->out);
+}
+
+void kz_meter_show(kz_meter *meter, int64_t done) {
+  if (!meter->out) return;
+  const double now = kz_clock();
+  if (now < meter->due) return;
+  meter->due = now + (meter->live ? BAR_PERIOD : meter->last ? LINE_PERIOD_ALWAYS : LINE_PERIOD);
+  meter->shown = true;
+  draw(meter, done < meter->total ? done : meter->total, now - meter->begun);
+}
+
+void kz_meter_end(kz_meter *meter, bool complete) {
+  if (!meter->out) return;
+  if (meter->live && meter->shown) fputs("\r\033[K", meter->out);
+  if (meter->last && complete) draw(meter, meter->total, kz_clock() - meter->begun);
+  fflush(meter->out);
+}

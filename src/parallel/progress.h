@@ -1,0 +1,24 @@
+/* Progress of one stage, shown to people on rank 0. */
+#ifndef KAPITZA_PARALLEL_PROGRESS_H
+#define KAPITZA_PARALLEL_PROGRESS_H
+
+#include "team.h"
+
+typedef struct {
+  const char *name;
+  FILE *out; /* NULL: silent */
+  bool live; /* a bar that is redrawn, else lines */
+  bool last; /* the end of the stage is told too */
+  bool shown;
+  int64_t total, first; /* tiles; `first` were done before */
+  double begun, due;    /* s, kz_clock; nothing is shown before `due` */
+} kz_meter;
+
+/* Begins a stage of `total` tiles of which `first` are done. */
+void kz_meter_begin(kz_meter *meter, kz_team *team, const char *name, int64_t total, int64_t first);
+/* Shows `done` tiles where the time for it has come. */
+void kz_meter_show(kz_meter *meter, int64_t done);
+/* Removes the bar, or tells the end. */
+void kz_meter_end(kz_meter *meter, bool complete);
+
+#endif

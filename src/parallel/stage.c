@@ -1,0 +1,111 @@
+/* A stage: tiles are drawn, worked, kept and delivered. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "harvest.h"
+#include "progress.h"
+#include "section.h"
+#include "team.h"
+
+typedef struct {
+  kz_team *team;
+  const kz_stage *stage;
+  char *records;      /* [n_tiles][record_bytes]: complete on rank 0 */
+  bool kept;          /* finished records go to the section */
+  kz_section section; /* of the checkpoint */
+  int64_t n_todo;
+  int64_t *todo; /* [n_todo] tiles to do; NULL: all of them in order */
+  kz_harvest harvest;
+  void *buffer; /* of the delivery, rank 0 */
+  kz_meter meter;
+} kz_shift;
+
+static kz_status check(const kz_shift *shift) {
+  const kz_stage *stage = shift->stage;
+  if (stage->n_tiles < 0 || stage->n_tiles >= KZ_COUNTER_MAX || stage->record_bytes > KZ_RECORD_MAX)
+    return kz_fail(KZ_FAILED, "stage %s: %lld tiles of %zu bytes are too many", stage->name, (long long)stage->n_tiles,
+                   stage->record_bytes);
+  if (!shift->records && stage->n_tiles > 0 && (shift->team->rank == 0 || stage->everywhere))
+    return kz_fail(KZ_FAILED, "stage %s: no room for the records", stage->name);
+  return KZ_OK;
+}
+
+static kz_status prepare(kz_shift *shift) {
+  KZ_TRY(check(shift));
+  kz_team *team = shift->team;
+  kz_harvest_begin(&shift->harvest, shift->stage->record_bytes);
+  if (team->rank == 0 && team->size > 1 && !(shift->buffer = malloc(kz_harvest_message_bytes(&shift->harvest))))
+    return kz_fail(KZ_FAILED, "stage %s: out of memory", shift->stage->name);
+  return kz_counter_reset(team);
+}
+
+/* Tiles whose records are in the checkpoint are not done again. Collective. */
+static kz_status recall(kz_shift *shift) {
+  kz_team *team = shift->team;
+  int64_t *todo = NULL;
+  kz_status status = KZ_OK;
+  if (team->rank == 0)
+    status = kz_section_open(&team->checkpoint, shift->stage, shift->records, &shift->section, &todo, &shift->n_todo);
+  if ((status = kz_team_agree(team, status)) == KZ_OK) status = kz_team_broadcast(team, &shift->section, sizeof shift->section);
+  if (status == KZ_OK) status = kz_team_broadcast(team, &shift->n_todo, sizeof shift->n_todo);
+  if (team->rank != 0 && status == KZ_OK && !(todo = malloc((size_t)shift->n_todo * sizeof *todo + 1)))
+    status = kz_fail(KZ_FAILED, "stage %s: out of memory", shift->stage->name);
+  shift->todo = todo;
+  KZ_TRY(kz_team_agree(team, status));
+  kz_section_adopt(&team->checkpoint, &shift->section);
+  return kz_team_broadcast(team, todo, (size_t)shift->n_todo * sizeof *todo);
+}
+
+static kz_status do_tile(kz_shift *shift, int64_t tile) {
+  const kz_stage *stage = shift->stage;
+  void *record;
+  if (shift->team->rank == 0)
+    record = memset(shift->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
+  else if (!(record = kz_harvest_add(&shift->harvest, tile)))
+    return kz_fail(KZ_FAILED, "stage %s: out of memory for the records", stage->name);
+  KZ_TRY(stage->work(stage->context, tile, record));
+  return shift->kept ? kz_section_save(&shift->team->checkpoint, &shift->section, tile, record) : KZ_OK;
+}
+
+/* Draws and does tiles until none is left; whoever cannot go on halts all ranks. */
+static kz_status work(kz_shift *shift) {
+  for (;;) {
+    int64_t drawn;
+    KZ_TRY(kz_counter_draw(shift->team, &drawn));
+    if (drawn >= shift->n_todo) return KZ_OK;
+    kz_meter_show(&shift->meter, shift->stage->n_tiles - shift->n_todo + drawn);
+    kz_status status = kz_team_interrupted(shift->team);
+    if (status == KZ_OK) status = do_tile(shift, shift->todo ? shift->todo[drawn] : drawn);
+    if (status != KZ_OK) {
+      KZ_TRY(kz_counter_halt(shift->team));
+      return status;
+    }
+  }
+}
+
+static kz_status deliver(kz_shift *shift) {
+  const kz_stage *stage = shift->stage;
+  KZ_TRY(kz_harvest_deliver(&shift->harvest, shift->team, shift->buffer, shift->records));
+  if (!stage->everywhere) return KZ_OK;
+  return kz_team_broadcast(shift->team, shift->records, (size_t)stage->n_tiles * stage->record_bytes);
+}
+
+static kz_status run(kz_shift *shift) {
+  KZ_TRY(kz_team_agree(shift->team, prepare(shift)));
+  if (shift->kept) KZ_TRY(recall(shift));
+  kz_meter_begin(&shift->meter, shift->team, shift->stage->name, shift->stage->n_tiles, shift->stage->n_tiles - shift->n_todo);
+  const kz_status status = kz_team_agree(shift->team, work(shift));
+  kz_meter_end(&shift->meter, status == KZ_OK);
+  KZ_TRY(status);
+  return deliver(shift);
+}
+
+kz_status kz_stage_run(kz_team *team, const kz_stage *stage, void *records) {
+  kz_shift shift = {.team = team, .stage = stage, .records = records, .n_todo = stage->n_tiles};
+  shift.kept = stage->keep && team->checkpoint.file >= 0;
+  const kz_status status = run(&shift);
+  kz_harvest_end(&shift.harvest);
+  free(shift.buffer);
+  free(shift.todo);
+  return status;
+}

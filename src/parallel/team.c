@@ -1,0 +1,117 @@
+/* The team of all ranks: start, end, agreement, broadcast. */
+#include "team.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { MESSAGE_BYTES = 2048 };
+static const size_t CHUNK_BYTES = (size_t)1 << 30; /* MPI counts are int */
+
+double kz_clock(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+kz_status kz_mpi_fail(int code, const char *file, int line) {
+  char text[MPI_MAX_ERROR_STRING] = "";
+  int length = 0;
+  if (MPI_Error_string(code, text, &length) != MPI_SUCCESS) snprintf(text, sizeof text, "MPI error %d", code);
+  const char *base = strrchr(file, '/');
+  return kz_fail(KZ_FAILED, "MPI: %s (%s:%d)", text, base ? base + 1 : file, line);
+}
+
+static kz_status connect_ranks(kz_team *team) {
+  KZ_MPI(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN));
+  KZ_MPI(MPI_Comm_dup(MPI_COMM_WORLD, &team->comm));
+  KZ_MPI(MPI_Comm_set_errhandler(team->comm, MPI_ERRORS_RETURN));
+  KZ_MPI(MPI_Comm_rank(team->comm, &team->rank));
+  KZ_MPI(MPI_Comm_size(team->comm, &team->size));
+  return kz_counter_create(team);
+}
+
+kz_status kz_team_start(int *argc, char ***argv, kz_team **team) {
+  kz_signals_catch();
+  KZ_MPI(MPI_Init(argc, argv));
+  kz_signals_catch();
+  kz_team *started = calloc(1, sizeof *started);
+  if (!started) return kz_fail(KZ_FAILED, "out of memory while starting");
+  started->start = kz_clock();
+  started->comm = MPI_COMM_NULL;
+  started->counter = MPI_WIN_NULL;
+  started->checkpoint.file = -1;
+  *team = started;
+  return connect_ranks(started);
+}
+
+void kz_team_end(kz_team *team) {
+  if (team) {
+    kz_checkpoint_release(&team->checkpoint);
+    if (team->terminal) fclose(team->terminal);
+    kz_counter_free(team);
+    if (team->comm != MPI_COMM_NULL) MPI_Comm_free(&team->comm);
+    free(team);
+  }
+  int begun = 0, ended = 0;
+  MPI_Initialized(&begun);
+  MPI_Finalized(&ended);
+  if (begun && !ended) MPI_Finalize();
+}
+
+int kz_team_rank(const kz_team *team) {
+  return team->rank;
+}
+
+int kz_team_size(const kz_team *team) {
+  return team->size;
+}
+
+static int severity(kz_status status) {
+  const kz_status order[] = {KZ_OK, KZ_STOPPED, KZ_REFUSED, KZ_FAILED};
+  int place = 3;
+  while (place > 0 && order[place] != status) --place;
+  return place;
+}
+
+kz_status kz_team_agree(kz_team *team, kz_status mine) {
+  struct {
+    int severity, rank;
+  } own = {severity(mine), team->rank}, worst;
+  KZ_MPI(MPI_Allreduce(&own, &worst, 1, MPI_2INT, MPI_MAXLOC, team->comm));
+  if (worst.severity == 0) return KZ_OK;
+  struct {
+    kz_status status;
+    char message[MESSAGE_BYTES];
+  } told = {.status = mine};
+  snprintf(told.message, sizeof told.message, "%s", kz_message());
+  KZ_MPI(MPI_Bcast(&told, sizeof told, MPI_BYTE, worst.rank, team->comm));
+  kz_message_clear();
+  return kz_fail(told.status, "%s", told.message);
+}
+
+kz_status kz_team_broadcast(kz_team *team, void *data, size_t bytes) {
+  for (size_t sent = 0; sent < bytes; sent += CHUNK_BYTES) {
+    const size_t left = bytes - sent;
+    KZ_MPI(MPI_Bcast((char *)data + sent, (int)(left < CHUNK_BYTES ? left : CHUNK_BYTES), MPI_BYTE, 0, team->comm));
+  }
+  return KZ_OK;
+}
+
+void kz_team_set_progress(kz_team *team, kz_progress progress) {
+  team->progress = progress;
+}
+
+void kz_team_set_time_limit(kz_team *team, double seconds) {
+  team->limit = seconds;
+}
+
+kz_status kz_team_interrupted(const kz_team *team) {
+  const bool saved = team->checkpoint.file >= 0;
+  const char *where = saved ? "; finished work is in " : "", *path = saved ? team->checkpoint.path : "";
+  const char *signal = kz_signals_caught();
+  if (signal) return kz_fail(KZ_STOPPED, "stopped by %s%s%s", signal, where, path);
+  if (team->limit > 0 && kz_clock() - team->start >= team->limit)
+    return kz_fail(KZ_STOPPED, "stopped by the time limit of %g s%s%s", team->limit, where, path);
+  return KZ_OK;
+}

@@ -1,0 +1,24 @@
+#include "hdf5_call.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { TEXT_BYTES = 512 };
+
+/* The deepest entry of HDF5's error stack is the cause. */
+static herr_t keep_cause(unsigned depth, const H5E_error2_t *error, void *text) {
+  (void)depth;
+  if (error->desc) snprintf(text, TEXT_BYTES, "%s", error->desc);
+  return 0;
+}
+
+kz_status kz_hdf5_fail(const char *file, int line) {
+  char text[TEXT_BYTES] = "unknown error";
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_cause, text);
+  const char *base = strrchr(file, '/');
+  return kz_fail(KZ_FAILED, "HDF5: %s (%s:%d)", text, base ? base + 1 : file, line);
+}
+
+void kz_hdf5_silence(void) {
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}

@@ -1,0 +1,26 @@
+/* The inside of a store: the file is made in memory and written in one go, so that a full disk is one plain error. */
+#ifndef KAPITZA_STORE_STORE_H
+#define KAPITZA_STORE_STORE_H
+
+#include "hdf5_call.h"
+#include "kapitza/store.h"
+#include "table.h"
+
+struct kz_store {
+  char *path, *part; /* PATH and PATH.part */
+  int disk;          /* PATH.part, open for writing */
+  hid_t file;        /* HDF5 file in memory */
+};
+
+/* The group of that name ("/" = root), made where it is missing; closed by the caller. */
+kz_status kz_store_group(kz_store *store, const char *group, hid_t *opened);
+
+/* Attributes of an open object. */
+kz_status kz_attribute_text(hid_t object, const char *name, const char *value);
+kz_status kz_attribute_array(hid_t object, const char *name, hid_t type, hsize_t n, const void *values);
+/* Variable-length UTF-8, closed by the caller. */
+kz_status kz_text_type(hid_t *type);
+/* The text of an attribute, freed by the caller; NULL where there is none. */
+char *kz_attribute_read_text(hid_t object, const char *name);
+
+#endif

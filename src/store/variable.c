@@ -1,0 +1,151 @@
+/* Variables and their dimension scales, as the table has them. */
+#include <hdf5_hl.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "store.h"
+
+static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20; /* smaller arrays stay whole; larger ones are packed */
+enum { DEFLATE = 4 };
+
+/* An HDF5 type of each kind; text is made anew each time. */
+static hid_t memory_type(kz_kind kind) {
+  const hid_t types[] = {[KZ_REAL] = H5T_NATIVE_DOUBLE, [KZ_INT8] = H5T_NATIVE_INT8,   [KZ_UINT8] = H5T_NATIVE_UINT8,
+                         [KZ_INT16] = H5T_NATIVE_INT16, [KZ_INT32] = H5T_NATIVE_INT32, [KZ_UINT32] = H5T_NATIVE_UINT32};
+  hid_t type = H5I_INVALID_HID;
+  return kind != KZ_TEXT ? H5Tcopy(types[kind]) : kz_text_type(&type) == KZ_OK ? type : H5I_INVALID_HID;
+}
+
+/* Chunks of whole rows of about CHUNK_BYTES; a single row that is longer is cut. */
+static kz_status set_chunks(hid_t creation, const kz_variable *row, int rank, const hsize_t *lengths, size_t item) {
+  hsize_t chunk[KZ_MAX_DIMENSIONS], bytes = item;
+  for (int d = 0; d < rank; ++d) bytes *= chunk[d] = lengths[d];
+  if (bytes <= PLAIN_BYTES || row->kind == KZ_TEXT) return KZ_OK;
+  bytes = item;
+  for (int d = rank - 1; d >= 0; --d) {
+    const hsize_t fit = bytes < CHUNK_BYTES ? CHUNK_BYTES / bytes : 1;
+    if (chunk[d] > fit) chunk[d] = fit;
+    bytes *= chunk[d];
+  }
+  KZ_HDF5(H5Pset_chunk(creation, rank, chunk));
+  KZ_HDF5(H5Pset_shuffle(creation));
+  KZ_HDF5(H5Pset_deflate(creation, DEFLATE));
+  return KZ_OK;
+}
+
+/* Coded variables are of one byte, so their flag values are too. */
+static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) {
+  char meanings[256] = "", values[KZ_MAX_FLAGS];
+  hsize_t n = 0;
+  for (; row->flags[n]; ++n) {
+    values[n] = (char)n;
+    if (n > 0) strncat(meanings, " ", sizeof meanings - strlen(meanings) - 1);
+    strncat(meanings, row->flags[n], sizeof meanings - strlen(meanings) - 1);
+  }
+  if (n == 0) return KZ_OK;
+  KZ_TRY(kz_attribute_array(dataset, "flag_values", type, n, values));
+  return kz_attribute_text(dataset, "flag_meanings", meanings);
+}
+
+static kz_status describe(hid_t dataset, const kz_variable *row, hid_t type) {
+  KZ_TRY(kz_attribute_text(dataset, "long_name", row->long_name));
+  KZ_TRY(kz_attribute_text(dataset, "units", row->units));
+  return write_flags(dataset, row, type);
+}
+
+static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type, int rank, const hsize_t *lengths,
+                                hid_t *dataset) {
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, lengths, NULL);
+  kz_status status = set_chunks(creation, row, rank, lengths, H5Tget_size(type));
+  H5Pset_obj_track_times(creation, 0);
+  if (status == KZ_OK && (*dataset = H5Dcreate2(group, row->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT)) < 0)
+    status = kz_hdf5_fail(__FILE__, __LINE__);
+  if (space >= 0) H5Sclose(space);
+  if (creation >= 0) H5Pclose(creation);
+  return status;
+}
+
+/* The variable with data and description; open, to be closed by the caller. */
+static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, const hsize_t *lengths, const void *data,
+                               hid_t *dataset) {
+  hid_t type;
+  KZ_HDF5(type = memory_type(row->kind));
+  kz_status status = create_dataset(group, row, type, rank, lengths, dataset);
+  hsize_t n = 1;
+  for (int d = 0; d < rank; ++d) n *= lengths[d];
+  if (status == KZ_OK && n > 0 && H5Dwrite(*dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+    status = kz_hdf5_fail(__FILE__, __LINE__);
+  if (status == KZ_OK) status = describe(*dataset, row, type);
+  H5Tclose(type);
+  return status;
+}
+
+static kz_status find(const char *group, const char *name, const kz_variable **row) {
+  *row = kz_variable_find(group + (group[0] == '/'), name);
+  return *row ? KZ_OK : kz_fail(KZ_FAILED, "the result file has no variable %s/%s", group, name);
+}
+
+/* 0, 1, 2, ... for a dimension without coordinates. */
+static kz_status write_index(hid_t group, const kz_variable *row, hsize_t length, hid_t *dataset) {
+  int32_t *index = malloc(length * sizeof *index + 1);
+  if (!index) return kz_fail(KZ_FAILED, "out of memory for the dimension %s", row->name);
+  for (hsize_t i = 0; i < length; ++i) index[i] = (int32_t)i;
+  const kz_status status = write_dataset(group, row, 1, &length, index, dataset);
+  free(index);
+  return status;
+}
+
+kz_status kz_store_dimension(kz_store *store, const char *group, const char *name, int64_t length, const void *values) {
+  const kz_variable *row;
+  KZ_TRY(find(group, name, &row));
+  if (!values && row->kind != KZ_INT32) return kz_fail(KZ_FAILED, "the dimension %s/%s needs its values", group, name);
+  hid_t folder, dataset = H5I_INVALID_HID;
+  KZ_TRY(kz_store_group(store, group, &folder));
+  const hsize_t n = (hsize_t)length;
+  kz_status status = values ? write_dataset(folder, row, 1, &n, values, &dataset) : write_index(folder, row, n, &dataset);
+  if (status == KZ_OK && H5DSset_scale(dataset, name) < 0) status = kz_hdf5_fail(__FILE__, __LINE__);
+  if (dataset >= 0) H5Dclose(dataset);
+  H5Gclose(folder);
+  return status;
+}
+
+/* Length of a dimension declared before. */
+static kz_status dimension_length(hid_t group, const char *name, hsize_t *length) {
+  const hid_t scale = H5Dopen2(group, name, H5P_DEFAULT);
+  if (scale < 0) return kz_fail(KZ_FAILED, "the dimension %s of the result file is not declared", name);
+  const hid_t space = H5Dget_space(scale);
+  const kz_status status = H5Sget_simple_extent_dims(space, length, NULL) < 0 ? kz_hdf5_fail(__FILE__, __LINE__) : KZ_OK;
+  H5Sclose(space);
+  H5Dclose(scale);
+  return status;
+}
+
+static kz_status attach(hid_t group, hid_t dataset, const char *name, int place) {
+  hid_t scale;
+  KZ_HDF5(scale = H5Dopen2(group, name, H5P_DEFAULT));
+  const herr_t attached = H5DSattach_scale(dataset, scale, (unsigned)place);
+  H5Dclose(scale);
+  KZ_HDF5(attached);
+  return KZ_OK;
+}
+
+static kz_status write_variable(hid_t group, const kz_variable *row, const void *data) {
+  hsize_t lengths[KZ_MAX_DIMENSIONS];
+  int rank = 0;
+  for (; row->dimensions[rank]; ++rank) KZ_TRY(dimension_length(group, row->dimensions[rank], &lengths[rank]));
+  hid_t dataset = H5I_INVALID_HID;
+  kz_status status = write_dataset(group, row, rank, lengths, data, &dataset);
+  for (int d = 0; d < rank && status == KZ_OK; ++d) status = attach(group, dataset, row->dimensions[d], d);
+  if (dataset >= 0) H5Dclose(dataset);
+  return status;
+}
+
+kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data) {
+  const kz_variable *row;
+  hid_t folder;
+  KZ_TRY(find(group, name, &row));
+  KZ_TRY(kz_store_group(store, group, &folder));
+  const kz_status status = write_variable(folder, row, data);
+  H5Gclose(folder);
+  return status;
+}

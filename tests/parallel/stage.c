@@ -1,0 +1,168 @@
+/* Stages: every record arrives, whoever did it; a failure ends all ranks. */
+#include "ranks.h"
+
+enum { N_TILES = 200, N_NUMBERS = 9 };
+
+typedef struct {
+  int64_t number[N_NUMBERS];
+  char tail[3]; /* a record whose size is no multiple of anything */
+} record;
+
+typedef struct {
+  int64_t done;    /* tiles of this rank */
+  int64_t failing; /* tile that fails, -1: none */
+  double seconds;  /* of a tile */
+  int dirty;       /* records that were not zero at the start */
+} job;
+
+static kz_status fill(void *context, int64_t tile, void *bytes)
+{
+  job *j = context;
+  record *r = bytes;
+  for (size_t i = 0; i < sizeof *r; ++i) j->dirty += ((char *)bytes)[i] != 0;
+  ++j->done;
+  if (j->seconds > 0) pause_for(j->seconds);
+  if (tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)tile);
+  for (int i = 0; i < N_NUMBERS; ++i) r->number[i] = tile * 100 + i;
+  memcpy(r->tail, "end", 3);
+  return KZ_OK;
+}
+
+static int is_right(const record *records, int64_t n_tiles)
+{
+  for (int64_t t = 0; t < n_tiles; ++t)
+    for (int i = 0; i < N_NUMBERS; ++i)
+      if (records[t].number[i] != t * 100 + i || memcmp(records[t].tail, "end", 3) != 0) return 0;
+  return 1;
+}
+
+static kz_stage stage_of(job *j, int64_t n_tiles, bool everywhere)
+{
+  return (kz_stage){.name = "test", .n_tiles = n_tiles, .record_bytes = sizeof(record), .work = fill, .context = j, .everywhere = everywhere};
+}
+
+static void records_arrive_on_rank_0(void **state)
+{
+  (void)state;
+  job j = {.failing = -1};
+  const kz_stage stage = stage_of(&j, N_TILES, false);
+  record *records = kz_team_rank(team) == 0 ? malloc(N_TILES * sizeof *records) : NULL;
+  assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+  assert_all(kz_team_rank(team) != 0 || is_right(records, N_TILES));
+  assert_all(j.dirty == 0);
+  free(records);
+}
+
+static void records_arrive_everywhere(void **state)
+{
+  (void)state;
+  job j = {.failing = -1};
+  const kz_stage stage = stage_of(&j, N_TILES, true);
+  static record records[N_TILES];
+  for (int again = 0; again < 3; ++again) {
+    memset(records, 0x55, sizeof records);
+    assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+    assert_all(is_right(records, N_TILES));
+  }
+}
+
+static void few_tiles_are_enough(void **state)
+{
+  (void)state;
+  static record records[2];
+  for (int64_t n = 0; n <= 2; ++n) {
+    job j = {.failing = -1};
+    const kz_stage stage = stage_of(&j, n, true);
+    memset(records, 0, sizeof records);
+    assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+    assert_all(is_right(records, n));
+    assert_all(j.done <= n);
+  }
+}
+
+static void all_ranks_take_part(void **state)
+{
+  (void)state;
+  job j = {.failing = -1, .seconds = 0.005};
+  const kz_stage stage = stage_of(&j, N_TILES, true);
+  static record records[N_TILES];
+  assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+  assert_all(j.done > 0 && j.done < (kz_team_size(team) == 1 ? N_TILES + 1 : N_TILES));
+}
+
+static void a_failing_tile_ends_all_ranks(void **state)
+{
+  (void)state;
+  static record records[N_TILES];
+  for (int64_t failing = 0; failing < N_TILES; failing += 57) {
+    job j = {.failing = failing, .seconds = 0.001};
+    const kz_stage stage = stage_of(&j, N_TILES, true);
+    const kz_status status = kz_stage_run(team, &stage, records);
+    char expected[64];
+    snprintf(expected, sizeof expected, "tile %lld fails", (long long)failing);
+    assert_all(status == KZ_FAILED && strcmp(kz_message(), expected) == 0);
+  }
+  records_arrive_everywhere(state); /* and the team is as good as before */
+}
+
+static void a_missing_array_ends_all_ranks(void **state)
+{
+  (void)state;
+  job j = {.failing = -1};
+  const kz_stage stage = stage_of(&j, N_TILES, false);
+  assert_all(kz_stage_run(team, &stage, NULL) == KZ_FAILED);
+  assert_all(j.done == 0);
+}
+
+static kz_status fill_large(void *context, int64_t tile, void *bytes)
+{
+  const size_t n = *(const size_t *)context;
+  memset(bytes, (int)tile + 1, n);
+  return KZ_OK;
+}
+
+static void records_beyond_a_message_arrive(void **state)
+{
+  (void)state;
+  size_t n = ((size_t)6 << 20) + 7; /* larger than a block of small ones */
+  const kz_stage stage = {.name = "large", .n_tiles = 7, .record_bytes = n, .work = fill_large, .context = &n, .everywhere = true};
+  char *records = malloc(7 * n);
+  assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+  int wrong = 0;
+  for (int t = 0; t < 7; ++t) wrong += records[(size_t)t * n] != t + 1 || records[(size_t)(t + 1) * n - 1] != t + 1;
+  assert_all(wrong == 0);
+  free(records);
+}
+
+static void the_worst_status_wins(void **state)
+{
+  (void)state;
+  const int last = kz_team_size(team) - 1, rank = kz_team_rank(team);
+  const kz_status mine = rank == last ? kz_fail(KZ_REFUSED, "rank %d", rank) : kz_fail(KZ_STOPPED, "stop");
+  const kz_status agreed = kz_team_agree(team, mine);
+  char expected[32];
+  snprintf(expected, sizeof expected, "rank %d", last);
+  assert_all(agreed == KZ_REFUSED && strcmp(kz_message(), expected) == 0);
+  assert_all(kz_team_agree(team, KZ_OK) == KZ_OK);
+}
+
+static void broadcast_reaches_all(void **state)
+{
+  (void)state;
+  char text[100000];
+  memset(text, kz_team_rank(team) == 0 ? 'x' : 'y', sizeof text);
+  assert_all(kz_team_broadcast(team, text, sizeof text) == KZ_OK);
+  assert_all(text[0] == 'x' && text[sizeof text - 1] == 'x');
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(records_arrive_on_rank_0),      cmocka_unit_test(records_arrive_everywhere),
+      cmocka_unit_test(few_tiles_are_enough),          cmocka_unit_test(all_ranks_take_part),
+      cmocka_unit_test(a_failing_tile_ends_all_ranks), cmocka_unit_test(a_missing_array_ends_all_ranks),
+      cmocka_unit_test(records_beyond_a_message_arrive), cmocka_unit_test(the_worst_status_wins),
+      cmocka_unit_test(broadcast_reaches_all),
+  };
+  return run_ranks(tests, sizeof tests / sizeof *tests);
+}

@@ -1,0 +1,282 @@
+/* The result file: written whole, read back with the library itself. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include <hdf5.h>
+#include <hdf5_hl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "kapitza/store.h"
+
+#include <cmocka.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+#include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/kapitza-store-XXXXXX";
+static char path[64], part[72];
+
+enum { N_THETA = 300, N_VELOCITY = 200 };
+
+static int make_folder(void **state) {
+  (void)state;
+  if (!mkdtemp(folder)) return -1;
+  snprintf(path, sizeof path, "%s/a.h5", folder);
+  snprintf(part, sizeof part, "%s.part", path);
+  return 0;
+}
+
+static int remove_folder(void **state) {
+  (void)state;
+  return rmdir(folder); /* fails where a test left a file behind */
+}
+
+static int clear(void **state) {
+  (void)state;
+  kz_message_clear();
+  unlink(path);
+  return access(part, F_OK) == 0 ? -1 : 0;
+}
+
+static kz_store *begin(void) {
+  kz_store *store = NULL;
+  assert_int_equal(kz_store_create(path, &store), KZ_OK);
+  return store;
+}
+
+static void write_basin(kz_store *store, double *theta, double *velocity, int16_t *label) {
+  for (int i = 0; i < N_THETA; ++i) theta[i] = 0.01 * i;
+  for (int j = 0; j < N_VELOCITY; ++j) velocity[j] = -1 + 0.01 * j;
+  for (int c = 0; c < N_THETA * N_VELOCITY; ++c) label[c] = (int16_t)(c * 7919 % 13 - 1);
+  assert_int_equal(kz_store_dimension(store, "basin", "velocity", N_VELOCITY, velocity), KZ_OK);
+  assert_int_equal(kz_store_dimension(store, "basin", "theta", N_THETA, theta), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "basin", "attractor", label), KZ_OK);
+}
+
+static void a_basin_comes_back(void **state) {
+  (void)state;
+  static double theta[N_THETA], velocity[N_VELOCITY], found[N_THETA];
+  static int16_t label[N_THETA * N_VELOCITY], read[N_THETA * N_VELOCITY];
+  kz_store *store = begin();
+  write_basin(store, theta, velocity, label);
+  assert_int_equal(access(path, F_OK), -1);
+  assert_int_equal(kz_store_complete(store), KZ_OK);
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  assert_true(file >= 0);
+  assert_true(H5LTread_dataset(file, "basin/attractor", H5T_NATIVE_INT16, read) >= 0);
+  assert_memory_equal(read, label, sizeof label);
+  assert_true(H5LTread_dataset(file, "basin/theta", H5T_NATIVE_DOUBLE, found) >= 0);
+  assert_memory_equal(found, theta, sizeof theta);
+  const hid_t dataset = H5Dopen2(file, "basin/attractor", H5P_DEFAULT), creation = H5Dget_create_plist(dataset);
+  assert_int_equal(H5DSget_num_scales(dataset, 0), 1);
+  assert_int_equal(H5DSget_num_scales(dataset, 1), 1);
+  assert_int_equal(H5Pget_layout(creation), H5D_CHUNKED);
+  assert_int_equal(H5Pget_nfilters(creation), 2);
+  assert_int_equal(H5Aexists(dataset, "_FillValue"), 0);
+  assert_int_equal(H5Aexists(dataset, "units"), 1);
+  assert_int_equal(H5Aexists(dataset, "long_name"), 1);
+  H5Pclose(creation);
+  H5Dclose(dataset);
+  H5Fclose(file);
+}
+
+static void long_text_comes_back(void **state) {
+  (void)state;
+  enum { LONG = 300000 };
+  char *scene = malloc(LONG + 1);
+  memset(scene, 'x', LONG);
+  scene[LONG] = '\0';
+  memcpy(scene, "\xcf\x80", 2);
+  kz_store *store = begin();
+  assert_int_equal(kz_store_text(store, "/", "scene", scene), KZ_OK);
+  assert_int_equal(kz_store_text(store, "/", "title", ""), KZ_OK);
+  assert_int_equal(kz_store_real(store, "/pendulum", "k", 0.25), KZ_OK);
+  assert_int_equal(kz_store_integer(store, "basin", "max_periods", 2000), KZ_OK);
+  assert_int_equal(kz_store_integer(store, "basin", "max_periods", 3000), KZ_OK);
+  assert_int_equal(kz_store_complete(store), KZ_OK);
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  char *found = NULL;
+  double k = 0;
+  long periods = 0;
+  assert_true(H5LTget_attribute_string(file, "/", "scene", (char *)&found) >= 0);
+  assert_string_equal(found, scene);
+  assert_true(H5LTget_attribute_double(file, "pendulum", "k", &k) >= 0);
+  assert_true(k == 0.25);
+  assert_true(H5LTget_attribute_long(file, "basin", "max_periods", &periods) >= 0);
+  assert_int_equal(periods, 3000);
+  H5free_memory(found);
+  H5Fclose(file);
+  free(scene);
+}
+
+static void write_catalogue(int64_t n, int64_t n_phases) {
+  const char *name[] = {"down", "rotation +1/1"};
+  const int8_t centre[] = {0, 2};
+  const double theta[] = {0, NAN, 1, 2};
+  kz_store *store = begin();
+  assert_int_equal(kz_store_dimension(store, "attractors", "attractor", n, NULL), KZ_OK);
+  assert_int_equal(kz_store_dimension(store, "attractors", "phase", n_phases, NULL), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "attractors", "name", name), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "attractors", "centre", centre), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "attractors", "strobe_theta", theta), KZ_OK);
+  assert_int_equal(kz_store_complete(store), KZ_OK);
+}
+
+static void a_catalogue_comes_back(void **state) {
+  (void)state;
+  write_catalogue(2, 2);
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  char *names[2];
+  int32_t ids[2];
+  signed char flags[4];
+  assert_true(H5LTread_dataset(file, "attractors/name", type, names) >= 0);
+  assert_string_equal(names[1], "rotation +1/1");
+  assert_true(H5LTread_dataset(file, "attractors/attractor", H5T_NATIVE_INT32, ids) >= 0);
+  assert_int_equal(ids[1], 1);
+  assert_true(H5LTget_attribute_char(file, "attractors/centre", "flag_values", (char *)flags) >= 0);
+  assert_int_equal(flags[3], 3);
+  H5free_memory(names[0]);
+  H5free_memory(names[1]);
+  H5Tclose(type);
+  H5Fclose(file);
+}
+
+static void no_attractors_is_a_file_too(void **state) {
+  (void)state;
+  write_catalogue(0, 0);
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  hsize_t lengths[2] = {9, 9};
+  assert_true(H5LTget_dataset_info(file, "attractors/strobe_theta", lengths, NULL, NULL) >= 0);
+  assert_int_equal(lengths[0], 0);
+  H5Fclose(file);
+}
+
+static long read_file(char **bytes) {
+  FILE *file = fopen(path, "rb");
+  fseek(file, 0, SEEK_END);
+  const long n = ftell(file);
+  rewind(file);
+  *bytes = malloc((size_t)n);
+  assert_int_equal(fread(*bytes, 1, (size_t)n, file), n);
+  fclose(file);
+  return n;
+}
+
+static void the_same_data_give_the_same_bytes(void **state) {
+  (void)state;
+  static double theta[N_THETA], velocity[N_VELOCITY];
+  static int16_t label[N_THETA * N_VELOCITY];
+  char *bytes[2];
+  long n[2];
+  for (int i = 0; i < 2; ++i) {
+    kz_store *store = begin();
+    write_basin(store, theta, velocity, label);
+    assert_int_equal(kz_store_complete(store), KZ_OK);
+    n[i] = read_file(&bytes[i]);
+    if (i == 0) sleep(1); /* a time stamp would differ */
+  }
+  assert_int_equal(n[0], n[1]);
+  assert_memory_equal(bytes[0], bytes[1], (size_t)n[0]);
+  free(bytes[0]);
+  free(bytes[1]);
+}
+
+static void completeness_needs_the_fingerprint(void **state) {
+  (void)state;
+  assert_false(kz_store_is_complete(path, "a"));
+  kz_store *store = begin();
+  assert_int_equal(kz_store_text(store, "/", "fingerprint", "version: 1\nk: 0.25\n"), KZ_OK);
+  assert_int_equal(kz_store_complete(store), KZ_OK);
+  assert_true(kz_store_is_complete(path, "version: 1\nk: 0.25\n"));
+  assert_false(kz_store_is_complete(path, "version: 1\nk: 0.26\n"));
+  assert_int_equal(truncate(path, 700), 0);
+  assert_false(kz_store_is_complete(path, "version: 1\nk: 0.25\n"));
+}
+
+static void a_discarded_file_leaves_nothing(void **state) {
+  (void)state;
+  kz_store *store = begin();
+  assert_int_equal(access(part, F_OK), 0);
+  kz_store_discard(store);
+  assert_int_equal(access(part, F_OK), -1);
+  assert_int_equal(access(path, F_OK), -1);
+}
+
+static void a_wrong_path_is_refused(void **state) {
+  (void)state;
+  kz_store *store = NULL;
+  char missing[96];
+  snprintf(missing, sizeof missing, "%s/missing/a.h5", folder);
+  assert_int_equal(kz_store_create(missing, &store), KZ_REFUSED);
+  assert_non_null(strstr(kz_message(), "No such file or directory"));
+  assert_null(store);
+}
+
+static void what_the_table_lacks_is_an_error(void **state) {
+  (void)state;
+  const double value = 0;
+  kz_store *store = begin();
+  assert_int_equal(kz_store_variable(store, "basin", "colour", &value), KZ_FAILED);
+  kz_message_clear();
+  assert_int_equal(kz_store_variable(store, "basin", "attractor", &value), KZ_FAILED);
+  assert_non_null(strstr(kz_message(), "velocity"));
+  kz_store_discard(store);
+}
+
+/* A limit on the size of files stands for a full disk: both end the write early. */
+static void a_full_disk_is_one_clear_error(void **state) {
+  (void)state;
+  static double theta[N_THETA], velocity[N_VELOCITY];
+  static int16_t label[N_THETA * N_VELOCITY];
+  struct rlimit before, tight;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  tight = before;
+  tight.rlim_cur = 5000;
+  signal(SIGXFSZ, SIG_IGN);
+  kz_store *store = begin();
+  write_basin(store, theta, velocity, label);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &tight), 0);
+  const kz_status status = kz_store_complete(store);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+  assert_int_equal(status, KZ_FAILED);
+  assert_non_null(strstr(kz_message(), "cannot be written: File too large"));
+  assert_int_equal(access(path, F_OK), -1);
+  assert_int_equal(access(part, F_OK), -1);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test_teardown(a_basin_comes_back, clear),
+      cmocka_unit_test_teardown(long_text_comes_back, clear),
+      cmocka_unit_test_teardown(a_catalogue_comes_back, clear),
+      cmocka_unit_test_teardown(no_attractors_is_a_file_too, clear),
+      cmocka_unit_test_teardown(the_same_data_give_the_same_bytes, clear),
+      cmocka_unit_test_teardown(completeness_needs_the_fingerprint, clear),
+      cmocka_unit_test_teardown(a_discarded_file_leaves_nothing, clear),
+      cmocka_unit_test_teardown(a_wrong_path_is_refused, clear),
+      cmocka_unit_test_teardown(what_the_table_lacks_is_an_error, clear),
+      cmocka_unit_test_teardown(a_full_disk_is_one_clear_error, clear),
+  };
+  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
