@@ -32,6 +32,8 @@ void kz_dynamics_outline(kz_dynamics *dynamics, double reach);
 /* Follows n starts (state [n][2], in and out) by direct integration until each is trapped: owner [n] = attractor, 0 where it
  * has not settled; periods [n] = first period inside a trapping region, max_periods where none. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner, int64_t *periods);
+/* The same in double precision at most: enough for a search. */
+void kz_dynamics_settle(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner, int64_t *periods);
 /* The same by interpolated cell mapping over `points` (2, 4, 6) nodes an axis of the map table. */
 void kz_dynamics_follow_table(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
                               int32_t *owner, int64_t *periods);

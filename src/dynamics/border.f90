@@ -131,6 +131,19 @@ contains
     d%regions = make_regions(OUTLINE, OUTLINE, top, d%attractors)
   end subroutine outline_regions
 
+  subroutine settle(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_settle')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    call follow_with(d%search%flow, d, max_periods, state, owner, periods)
+  end subroutine settle
+
   subroutine follow_directly(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n

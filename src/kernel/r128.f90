@@ -10,7 +10,7 @@ module kz_kernel_r128
 
   integer, parameter :: ik = selected_int_kind(38)
   !> Each lane costs; only those in use are advanced.
-  logical, parameter :: WHOLE_TILE = .false.
+  integer, parameter :: VECTOR = 1
 
   !> sin(pi r)/r as a polynomial in r**2 on |r| <= 1/2, minimax, relative error 2.0e-37 (Remez exchange in 60 digits).
   real(rk), parameter :: SINE_COEFFICIENTS(15) = [ &

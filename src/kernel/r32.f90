@@ -9,7 +9,7 @@ module kz_kernel_r32
   public :: tile_t, make_tile, sine
 
   !> Vector loops run over the whole tile.
-  logical, parameter :: WHOLE_TILE = .true.
+  integer, parameter :: VECTOR = 16
 
   !> sin(pi r)/r as a polynomial in r**2 on |r| <= 1/2, minimax, relative error 2.0e-11 (Remez exchange in 60 digits).
   real(rk), parameter :: SINE_COEFFICIENTS(6) = [ &
