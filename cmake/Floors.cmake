@@ -54,5 +54,4 @@ execute_process(COMMAND git describe --always --dirty WORKING_DIRECTORY ${PROJEC
 if(NOT KAPITZA_GIT_REVISION)
   set(KAPITZA_GIT_REVISION unknown)
 endif()
-string(REGEX REPLACE "[,\n].*" "" KAPITZA_MPI_VERSION "${MPI_C_LIBRARY_VERSION_STRING}") # "Open MPI v4.1.4, package: ..."
 configure_file(cmake/version.h.in ${PROJECT_BINARY_DIR}/include/kapitza/version.h)

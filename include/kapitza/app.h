@@ -40,8 +40,8 @@ typedef struct {
   char *line;  /* the command line as typed */
 } kz_options;
 
-/* Reads the command line and carries it out: the whole program but for its entry. */
-kz_status kz_app(int argc, char **argv, bool speaks);
+/* Reads the command line and carries it out: the whole program but for its entry. The message is left for one process alone. */
+kz_status kz_app(int argc, char **argv);
 
 /* The commands. */
 kz_status kz_app_run(const kz_options *options);

@@ -1,1 +1,34 @@
-int main(void) { return 0; }
+/* The entry, compiled for plain x86-64: it looks at the CPU before anything that was built for a newer one runs. */
+#include <stdio.h>
+
+#include "kapitza/app.h"
+
+/* The first instruction set that the build uses and this CPU lacks, or NULL. */
+static const char *missing_instruction(void) {
+  __builtin_cpu_init();
+#define CHECK(name, bit, text) \
+  if ((kz_instructions & (1u << bit)) && !__builtin_cpu_supports(text)) return text;
+  KZ_INSTRUCTION_LIST(CHECK)
+#undef CHECK
+  return NULL;
+}
+
+/* One line whatever the message holds: control characters become '?'. */
+static void print_message(kz_status status) {
+  fputs(status == KZ_STOPPED ? "kapitza: " : "kapitza: error: ", stderr);
+  for (const char *c = kz_message(); *c; c++) fputc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, stderr);
+  fputc('\n', stderr);
+}
+
+int main(int argc, char **argv) {
+  const char *missing = missing_instruction();
+  if (missing) {
+    fprintf(stderr, "kapitza: error: this program was built for %s, which this CPU lacks; a build with -DKAPITZA_ARCH=x86-64\n",
+            missing);
+    return KZ_REFUSED;
+  }
+  kz_status status = kz_app(argc, argv);
+  if (fflush(stdout) != 0 && status == KZ_OK) status = kz_fail(KZ_FAILED, "standard output cannot be written");
+  if (status != KZ_OK && kz_message()[0]) print_message(status);
+  return status;
+}

@@ -217,7 +217,8 @@ static char *join(int argc, char **argv) {
   return line;
 }
 
-kz_status kz_app(int argc, char **argv, bool speaks) {
+kz_status kz_app(int argc, char **argv) {
+  const bool speaks = kz_launch_rank() <= 0;
   kz_options options = {.speaks = speaks, .progress = KZ_PROGRESS_AUTO};
   options.line = join(argc, argv);
   options.sets = calloc((size_t)argc + 1, sizeof *options.sets);

@@ -77,6 +77,6 @@ void kz_app_version(FILE *out) {
   fprintf(out, "kapitza %s (%s)\n", KZ_VERSION, KZ_GIT_REVISION);
   fprintf(out, "compiler         %s\n", KZ_COMPILER);
   fprintf(out, "instruction set  %s: %s\n", KZ_ARCH, kz_instruction_names());
-  fprintf(out, "MPI              %s\nHDF5             %s\nGSL              %s\nFFTW             %s\n", KZ_MPI_VERSION,
+  fprintf(out, "MPI              %s\nHDF5             %s\nGSL              %s\nFFTW             %s\n", kz_parallel_library(),
           KZ_HDF5_VERSION, KZ_GSL_VERSION, KZ_FFTW_VERSION);
 }

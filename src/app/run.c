@@ -167,12 +167,12 @@ static void free_job(job *j) {
 
 kz_status kz_app_run(const kz_options *options) {
   job j = {.options = options};
-  KZ_TRY(kz_team_start(NULL, NULL, &j.team));
-  j.first = kz_team_rank(j.team) == 0;
-  const kz_status status = carry_out(&j);
-  const bool first = j.first;
+  kz_status status = kz_team_start(NULL, NULL, &j.team);
+  if (status == KZ_OK) {
+    j.first = kz_team_rank(j.team) == 0;
+    status = carry_out(&j);
+  }
   kz_team_end(j.team);
   free_job(&j);
-  if (!first) kz_message_clear();
   return status;
 }

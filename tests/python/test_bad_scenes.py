@@ -1,0 +1,240 @@
+"""Scenes and command lines that must be refused: exit 2, one line that names the key, nothing written."""
+
+import os
+import subprocess
+
+import pytest
+from conftest import PROGRAM
+
+GOOD = """\
+title: good
+pendulum:
+  quality_factor: 5
+  drive_frequency: 11
+  drive_amplitude: 0.3
+basin:
+  theta: {count: 20}
+  velocity: {min: -2, max: 2, count: 20}
+"""
+BASIN = "basin: {velocity: {min: -2, max: 2}}\n"
+
+
+def program(folder, *arguments, launcher=()):
+    done = subprocess.run([*launcher, PROGRAM, *arguments], cwd=folder, capture_output=True, timeout=60)
+    return done.returncode, done.stdout, done.stderr.decode("utf-8", "replace")
+
+
+def contents(folder):
+    return {path: path.stat().st_mtime_ns for path in sorted(folder.rglob("*"))}
+
+
+def refused(folder, *arguments):
+    """The one line of a refusal, after looking that nothing else came of it."""
+    before = contents(folder)
+    status, out, err = program(folder, *arguments)
+    assert (status, out) == (2, b""), err
+    assert contents(folder) == before
+    assert err.endswith("\n") and err.count("\n") == 1, err
+    assert err.startswith("kapitza: error: ")
+    return err
+
+
+def replaced(old, new):
+    assert old in GOOD
+    return GOOD.replace(old, new)
+
+
+# text of the scene; where the error stands; what the line must name
+SCENES = {
+    "unknown key": (GOOD + "colour: red\n", "9:1", "colour: unknown key"),
+    "unknown nested key": (GOOD + "  accuracy: 0.99\n", "9:3", "basin.accuracy: unknown key"),
+    "typo at the top": (replaced("pendulum", "pendulm"), "2:1", "pendulm: unknown key; did you mean pendulum?"),
+    "typo nested": (replaced("velocity", "velocty"), "8:3", "basin.velocty: unknown key; did you mean velocity?"),
+    "swapped letters": (replaced("count: 20}\n  v", "conut: 20}\n  v"), "7:11", "basin.theta.conut: unknown key; did you mean count?"),
+    "typo in a word": (GOOD + "  method: derect\n", "9:11", 'basin.method: "derect" is unknown; one of icm, direct (did you mean direct?)'),
+    "word of a later version": (GOOD + "  method: hybrd\n", "9:11", "basin.method"),
+    "case of a word": (GOOD + "  method: ICM\n", "9:11", "basin.method"),
+    "case of a key": (replaced("title", "Title"), "1:1", "Title: unknown key; did you mean title?"),
+    "unknown scheme": (GOOD + "numerics: {scheme: rk5}\n", "9:20", "numerics.scheme"),
+    "unknown precision": (GOOD + "numerics: {precision: half}\n", "9:23", "numerics.precision"),
+    "trailing letter": (replaced("factor: 5", "factor: 1.5x"), "3:19", 'pendulum.quality_factor: "1.5x" is not a finite decimal number'),
+    "hexadecimal": (replaced("frequency: 11", "frequency: 0x10"), "4:20", "pendulum.drive_frequency"),
+    "octal look": (replaced("frequency: 11", "frequency: 011"), "4:20", "pendulum.drive_frequency"),
+    "octal of YAML 1.2": (replaced("frequency: 11", "frequency: 0o11"), "4:20", "pendulum.drive_frequency"),
+    "underscore": (replaced("frequency: 11", "frequency: 1_1"), "4:20", "pendulum.drive_frequency"),
+    "decimal comma": (replaced("amplitude: 0.3", "amplitude: 0,3"), "5:20", "pendulum.drive_amplitude"),
+    "word for a number": (replaced("amplitude: 0.3", "amplitude: maybe"), "5:20", "pendulum.drive_amplitude"),
+    "truth for a number": (replaced("amplitude: 0.3", "amplitude: true"), "5:20", "pendulum.drive_amplitude"),
+    "quoted number": (replaced("amplitude: 0.3", "amplitude: '0.3'"), "5:20", "stands in quotes"),
+    "nan": (replaced("amplitude: 0.3", "amplitude: nan"), "5:20", "pendulum.drive_amplitude"),
+    ".nan": (replaced("amplitude: 0.3", "amplitude: .nan"), "5:20", "pendulum.drive_amplitude"),
+    ".inf": (replaced("amplitude: 0.3", "amplitude: .inf"), "5:20", "pendulum.drive_amplitude"),
+    "-inf": (replaced("amplitude: 0.3", "amplitude: -.inf"), "5:20", "pendulum.drive_amplitude"),
+    "overflow": (replaced("amplitude: 0.3", "amplitude: 1e999"), "5:20", "too large"),
+    "underflow": (replaced("amplitude: 0.3", "amplitude: 1e-999"), "5:20", "too small"),
+    "sexagesimal": (replaced("amplitude: 0.3", "amplitude: 1:30"), "5:20", "pendulum.drive_amplitude"),
+    "empty value": (replaced("amplitude: 0.3", "amplitude:"), "", "pendulum.drive_amplitude: the value is empty"),
+    "null": (replaced("amplitude: 0.3", "amplitude: null"), "5:20", "pendulum.drive_amplitude"),
+    "list for a number": (replaced("amplitude: 0.3", "amplitude: [0.3]"), "5:20", "pendulum.drive_amplitude: the value is a list"),
+    "mapping for a number": (replaced("amplitude: 0.3", "amplitude: {a: 1}"), "5:20", "pendulum.drive_amplitude"),
+    "number for a mapping": (replaced("theta: {count: 20}", "theta: 20"), "7:10", "basin.theta"),
+    "list for a mapping": (replaced("theta: {count: 20}", "theta: [20]"), "7:10", "basin.theta"),
+    "empty mapping": (replaced("theta: {count: 20}", "theta:"), "", "basin.theta: the value is empty"),
+    "list for a title": (replaced("title: good", "title: [a]"), "1:8", "title"),
+    "empty title": (replaced("title: good", "title:"), "", "title: the value is empty"),
+    "title of two lines": (replaced("title: good", 'title: "a\\nb"'), "1:8", "title"),
+    "title with a nul": (replaced("title: good", 'title: "a\\0b"'), "1:8", "title"),
+    "negative count": (replaced("theta: {count: 20}", "theta: {count: -20}"), "7:18", "basin.theta.count"),
+    "zero count": (replaced("theta: {count: 20}", "theta: {count: 0}"), "7:18", "basin.theta.count"),
+    "real count": (replaced("theta: {count: 20}", "theta: {count: 20.5}"), "7:18", "basin.theta.count"),
+    "huge count": (replaced("theta: {count: 20}", "theta: {count: 1000001}"), "7:18", "from 1 to 1000000"),
+    "count beyond 64 bits": (replaced("theta: {count: 20}", "theta: {count: 99999999999999999999}"), "7:18", "basin.theta.count"),
+    "counts beyond memory": (replaced("count: 20", "count: 1000000"), "", "memory"),
+    "table beyond memory": (GOOD + "  icm: {theta: 100000, velocity: 100000}\n", "", "memory"),
+    "table too small": (GOOD + "  icm: {theta: 7}\n", "9:16", "basin.icm.theta"),
+    "negative seed": (GOOD + "  attractors: {seed: -1}\n", "9:22", "basin.attractors.seed"),
+    "period too long": (GOOD + "  attractors: {max_period: 513}\n", "9:28", "basin.attractors.max_period"),
+    "no starts": (GOOD + "  attractors: {starts: 0}\n", "9:24", "basin.attractors.starts"),
+    "no periods": (GOOD + "  max_periods: 0\n", "9:16", "basin.max_periods"),
+    "too many periods": (GOOD + "  max_periods: 5000000000\n", "9:16", "basin.max_periods"),
+    "no steps": (GOOD + "numerics: {steps_per_period: 0}\n", "9:30", "numerics.steps_per_period"),
+    "too many steps": (GOOD + "numerics: {steps_per_period: 100001}\n", "9:30", "numerics.steps_per_period"),
+    "min above max": (replaced("min: -2, max: 2", "min: 2, max: -2"), "8:27", "basin.velocity.max: -2 is not above min = 2"),
+    "min equals max": (replaced("min: -2, max: 2", "min: 2, max: 2"), "8:27", "basin.velocity.max"),
+    "velocity without max": (replaced("min: -2, max: 2", "min: -2"), "8:13", "basin.velocity.max: is missing"),
+    "theta with min alone": (replaced("theta: {count", "theta: {min: 0, count"), "7:10", "basin.theta.max: is missing beside min"),
+    "theta wider than a turn": (replaced("theta: {count", "theta: {min: -4, max: 4, count"), "7:25", "at most 2 pi"),
+    "cells too narrow": (replaced("min: -2, max: 2", "min: 1, max: 1.0000000000000009"), "8:27", "too narrow"),
+    "no velocity": ("pendulum: {k: 0, damping: 0.1, m: 0.5}\nbasin: {}\n", "2:8", "basin.velocity: is missing"),
+    "no pendulum": (BASIN, "1:1", "pendulum: is missing"),
+    "no study": ("pendulum: {k: 0, damping: 0.1, m: 0.5}\n", "1:1", "basin"),
+    "no parameters": ("pendulum: {}\n" + BASIN, "1:11", "pendulum.drive_frequency: is missing"),
+    "half of form a": ("pendulum: {drive_frequency: 11}\n" + BASIN, "1:11", "pendulum.drive_amplitude: is missing"),
+    "half of form b": ("pendulum: {k: 0, m: 0.5}\n" + BASIN, "1:11", "pendulum.damping: is missing"),
+    "half of form c": ("pendulum: {mass: 1, radius: 1}\n" + BASIN, "1:11", "pendulum.inertia: is missing"),
+    "forms a and b": (replaced("  drive_amplitude: 0.3", "  m: 0.3"), "5:3", "pendulum.m: contradicts pendulum.quality_factor"),
+    "forms b and c": ("pendulum: {k: 0, damping: 0, m: 1, mass: 1}\n" + BASIN, "1:36", "pendulum.mass: contradicts pendulum.k"),
+    "three forms": ("pendulum: {k: 0, drive_frequency: 2, mass: 1}\n" + BASIN, "1:18", "pendulum.drive_frequency: contradicts pendulum.k"),
+    "negative damping": ("pendulum: {k: 0, damping: -0.1, m: 0.5}\n" + BASIN, "1:27", "pendulum.damping"),
+    "negative quality factor": (replaced("factor: 5", "factor: -5"), "3:19", "pendulum.quality_factor"),
+    "zero quality factor": (replaced("factor: 5", "factor: 0"), "3:19", "above 0"),
+    "zero frequency": (replaced("frequency: 11", "frequency: 0"), "4:20", "pendulum.drive_frequency"),
+    "k overflows": (replaced("frequency: 11", "frequency: 1e-200"), "3:3", "pendulum: gives k = inf"),
+    "negative mass": ("pendulum: {mass: -1}\n" + BASIN, "1:18", "pendulum.mass"),
+    "key twice": (GOOD + "title: again\n", "9:1", "title: is given twice"),
+    "nested key twice": (replaced("min: -2, max: 2", "min: -2, max: 2, min: -1"), "8:31", "basin.velocity.min: is given twice"),
+    "study twice": (GOOD + BASIN, "9:1", "basin: is given twice"),
+    "anchor": (replaced("title: good", "title: &t good"), "1:8", "anchor"),
+    "alias bomb": ("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n", "1:4", "anchor"),
+    "alias alone": ("title: *t\n", "1:8", "alias"),
+    "tag": (replaced("title: good", "title: !!str good"), "1:8", "tag"),
+    "merge key": ("<<: {title: x}\n" + GOOD, "1:1", "<<: unknown key"),
+    "list as a key": ("? [a, b]\n: 1\n", "1:3", "unknown key"),
+    "list as the scene": ("- a\n- b\n", "1:1", "scene: "),
+    "text as the scene": ("just words\n", "1:1", "scene: "),
+    "two documents": (GOOD + "---\n" + GOOD, "10:1", "second YAML document"),
+    "bracket left open": (replaced("{count: 20}\n", "{count: 20\n"), "", "is not YAML"),
+    "bad indentation": (replaced("  drive_frequency", " drive_frequency"), "5:18", "is not YAML"),
+    "tab": (replaced("  drive_frequency", "\tdrive_frequency"), "4:1", "a tab stands here"),
+    "quote left open": (replaced("title: good", "title: 'good"), "", "is not YAML"),
+    "nested 1000 deep": ("a: " + "[" * 1000 + "]" * 1000 + "\n", "1:", "nested too deeply"),
+    "empty file": ("", "1:1", "scene: is empty"),
+    "comments alone": ("# nothing\n\n", "1:1", "scene: is empty"),
+    "binary file": (b"\x89HDF\r\n\x1a\n\0\0\0\0", "1:1", "is not text"),
+    "nul byte": (GOOD.encode() + b"a: \0\n", "9:4", "is not text"),
+    "invalid UTF-8": (GOOD.encode() + b"# caf\xe9\n", "9:6", "is not text"),
+    "UTF-16": (GOOD.encode("utf-16"), "1:1", "is not text"),
+    "byte-order mark": (b"\xef\xbb\xbf" + GOOD.encode(), "1:1", "byte-order mark"),
+    "too large": (GOOD + "#" * 1_000_000, "", "too many for a scene"),
+    "first of two errors": (replaced("factor: 5", "factor: x") + "colour: red\n", "3:19", "pendulum.quality_factor"),
+    "range before a later typo": (replaced("min: -2, max: 2", "min: 2, max: 1") + "colour: red\n", "8:27", "basin.velocity.max"),
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_scene_is_refused(tmp_path, name, command):
+    text, place, named = SCENES[name]
+    (tmp_path / "scene.yaml").write_bytes(text if isinstance(text, bytes) else text.encode())
+    line = refused(tmp_path, command, "scene.yaml")
+    assert named in line
+    if place:
+        assert line.startswith(f"kapitza: error: scene.yaml:{place}")
+
+
+# arguments after `kapitza`; what the line must name
+COMMAND_LINES = {
+    "nothing": ([], "no command"),
+    "unknown command": (["modl", "scene.yaml"], "modl"),
+    "typo in a command": (["chekc", "scene.yaml"], "did you mean check?"),
+    "no scene": (["run"], "names no scene"),
+    "two scenes": (["run", "scene.yaml", "scene.yaml"], "one argument too many"),
+    "missing scene": (["run", "absent.yaml"], "absent.yaml: cannot be opened"),
+    "folder as the scene": (["run", "folder"], "folder: is a folder"),
+    "device as the scene": (["run", "/dev/null"], "/dev/null: is not a regular file"),
+    "scene below a file": (["run", "scene.yaml/x"], "scene.yaml/x: cannot be opened"),
+    "unknown option": (["run", "scene.yaml", "--colour"], "--colour: unknown option"),
+    "typo in an option": (["run", "scene.yaml", "--resmue"], "did you mean --resume?"),
+    "unknown letter": (["run", "scene.yaml", "-x"], "-x: unknown option"),
+    "option without value": (["run", "scene.yaml", "--set"], "--set: needs a value"),
+    "value without need": (["run", "scene.yaml", "--force=1"], "--force=1: takes no value"),
+    "option of another command": (["check", "scene.yaml", "--force"], "--force: unknown option"),
+    "resume and force": (["run", "scene.yaml", "--resume", "--force"], "--resume: contradicts --force"),
+    "progress": (["run", "scene.yaml", "--progress", "maybe"], "--progress"),
+    "time limit of words": (["run", "scene.yaml", "--time-limit", "soon"], "--time-limit"),
+    "time limit of zero": (["run", "scene.yaml", "--time-limit", "0"], "--time-limit"),
+    "time limit below zero": (["run", "scene.yaml", "--time-limit=-3"], "--time-limit"),
+    "empty output": (["run", "scene.yaml", "-o", ""], "--output"),
+    "missing folder": (["run", "scene.yaml", "-o", "absent/x.h5"], "absent/x.h5: the folder absent"),
+    "file as the folder": (["run", "scene.yaml", "-o", "scene.yaml/x.h5"], "scene.yaml is a file"),
+    "folder as the output": (["run", "scene.yaml", "-o", "folder"], "folder: is a folder"),
+    "device as the output": (["run", "scene.yaml", "-o", "/dev/null"], "/dev/null"),
+    "name too long": (["run", "scene.yaml", "-o", "x" * 300], "File name too long"),
+    "path too long": (["run", "scene.yaml", "-o", "x/" * 3000], "too long"),
+    "read-only folder": (["run", "scene.yaml", "-o", "/proc/x.h5"], "/proc/x.h5"),
+    "existing output": (["run", "scene.yaml", "-o", "there.h5"], "there.h5: exists; --force"),
+    "resume into another file": (["run", "scene.yaml", "-o", "there.h5", "--resume"], "there.h5: exists and is not"),
+    "existing checkpoint": (["run", "scene.yaml", "-o", "half.h5"], "half.h5.checkpoint"),
+    "checkpoint of another program": (["run", "scene.yaml", "-o", "half.h5", "--resume"], "half.h5.checkpoint"),
+    "scene as the output": (["run", "scene.yaml", "-o", "scene.yaml", "--force"], "scene.yaml: is the scene itself"),
+    "set without value": (["run", "scene.yaml", "--set", "basin.theta.count"], "--set basin.theta.count: is not KEY=VALUE"),
+    "set with empty value": (["run", "scene.yaml", "--set", "basin.theta.count="], "--set basin.theta.count=: has no value"),
+    "set without key": (["run", "scene.yaml", "--set", "=3"], "--set =3"),
+    "set of an unknown key": (["run", "scene.yaml", "--set", "basin.theta.cuont=3"], "did you mean basin.theta.count?"),
+    "set of an unknown study": (["run", "scene.yaml", "--set", "basins.theta.count=3"], "basins: unknown key; did you mean basin?"),
+    "set below a value": (["run", "scene.yaml", "--set", "title.x=3"], "title"),
+    "set out of range": (["run", "scene.yaml", "--set", "basin.theta.count=0"], "--set basin.theta.count=0: basin.theta.count"),
+    "set to nan": (["run", "scene.yaml", "--set", "basin.velocity.max=.nan"], "--set basin.velocity.max=.nan: basin.velocity.max"),
+    "set to block text": (["run", "scene.yaml", "--set", "basin.theta=count: 3"], "flow text"),
+    "set to two values": (["run", "scene.yaml", "--set", "basin.theta.count=3\n--- 4"], "--set"),
+    "set to an open bracket": (["run", "scene.yaml", "--set", "basin.theta={count: 3"], "is not YAML"),
+    "set that contradicts": (["run", "scene.yaml", "--set", "pendulum.k=1"], "--set pendulum.k=1: pendulum.k: contradicts"),
+    "set that turns the window": (["run", "scene.yaml", "--set", "basin.velocity.max=-3"], "basin.velocity.max"),
+    "set inside a replaced mapping": (["run", "scene.yaml", "--set", "basin.velocity={min: 0, mx: 1}"], "basin.velocity.mx"),
+}
+
+
+@pytest.mark.parametrize("name", COMMAND_LINES)
+def test_command_line_is_refused(tmp_path, name):
+    arguments, named = COMMAND_LINES[name]
+    (tmp_path / "scene.yaml").write_text(GOOD)
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "there.h5").write_text("here already")
+    (tmp_path / "half.h5.checkpoint").write_text("begun")
+    assert named in refused(tmp_path, *arguments)
+
+
+def test_unwritable_folder(tmp_path):
+    if os.geteuid() == 0:
+        pytest.skip("the superuser may write everywhere")
+    (tmp_path / "scene.yaml").write_text(GOOD)
+    tmp_path.chmod(0o500)
+    assert "cannot be written" in refused(tmp_path, "run", "scene.yaml")
+
+
+@pytest.mark.parametrize("arguments", [["run", "scene.yaml"], ["run", "--colour"], ["check", "scene.yaml"]])
+def test_one_line_under_mpirun(tmp_path, arguments):
+    (tmp_path / "scene.yaml").write_text(GOOD + "colour: red\n")
+    status, _, err = program(tmp_path, *arguments, launcher=["mpirun", "-n", "2"])
+    lines = [line for line in err.splitlines() if "kapitza" in line]
+    assert status == 2 and len(lines) == 1 and "colour: unknown" in lines[0], err

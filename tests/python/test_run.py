@@ -1,0 +1,77 @@
+"""The command run from end to end: the file's root, resuming, stopping, exit statuses."""
+
+import re
+from datetime import UTC, datetime
+
+import h5py
+import pytest
+import yaml
+from conftest import ROOT, datasets
+
+SMALL = ROOT / "scenes" / "small.yaml"
+# A short search, then some seconds of cells.
+SLOW = ["--set", "basin.method=direct", "--set", "basin.theta.count=400", "--set", "basin.velocity.count=400",
+        "--set", "numerics.steps_per_period=160", "--set", "basin.attractors.starts=128"]
+
+
+def test_root_tells_where_the_file_comes_from(small_result):
+    with h5py.File(small_result) as file:
+        root = dict(file.attrs)
+    assert root["program"] == "kapitza" and re.fullmatch(r"\d+\.\d+\.\d+", root["version"])
+    assert root["scene"] == SMALL.read_text() and root["title"] in root["scene"]
+    assert "run" in root["command"] and "small.yaml" in root["command"]
+    assert root["ranks"] == 2 and root["instruction_set"] and root["git_revision"] and root["Conventions"]
+    age = datetime.now(UTC) - datetime.fromisoformat(root["created"])
+    assert 0 <= age.total_seconds() < 3600
+
+
+def test_pendulum_of_the_file(small_result):
+    with h5py.File(small_result) as file:
+        pendulum = dict(file["pendulum"].attrs)
+    assert pendulum["k"] == pytest.approx(1 / 121, rel=1e-15) and pendulum["beta"] == pytest.approx(1 / 55, rel=1e-15)
+    assert (pendulum["m"], pendulum["quality_factor"], pendulum["drive_frequency"]) == (0.3, 5, 11)
+
+
+def test_undefined_parameters_are_left_out(kapitza, tmp_path):
+    kapitza("run", SMALL, "--set", "pendulum={k: -0.1, damping: 0, m: 0.5}", folder=tmp_path)
+    with h5py.File(tmp_path / "small.h5") as file:
+        assert set(file["pendulum"].attrs) == {"k", "beta", "m", "drive_amplitude"}
+
+
+def test_resolved_scene_gives_the_same_datasets(kapitza, small_result, tmp_path):
+    with h5py.File(small_result) as file:
+        (tmp_path / "again.yaml").write_text(file.attrs["scene_resolved"])
+    kapitza("run", "again.yaml", folder=tmp_path)
+    assert datasets(tmp_path / "again.h5") == datasets(small_result)
+    assert yaml.safe_load((tmp_path / "again.yaml").read_text())["basin"]["attractors"]["starts"] == 8192
+
+
+def test_resume_of_a_complete_file_is_success_at_once(kapitza, tmp_path):
+    kapitza("run", SMALL, "-o", "x.h5", folder=tmp_path)
+    before = (tmp_path / "x.h5").stat().st_mtime_ns
+    (tmp_path / "x.h5.checkpoint").write_text("left over")
+    done = kapitza("run", SMALL, "-o", "x.h5", "--resume", ranks=2, folder=tmp_path)
+    assert "already complete" in done.stdout and (tmp_path / "x.h5").stat().st_mtime_ns == before
+    assert [path.name for path in tmp_path.iterdir()] == ["x.h5"]
+    kapitza("run", SMALL, "-o", "x.h5", "--resume", "--set", "basin.attractors.seed=2", folder=tmp_path, status=2)
+    kapitza("run", SMALL, "-o", "x.h5", "--force", folder=tmp_path)
+
+
+def test_time_limit_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path):
+    done = kapitza("run", SMALL, *SLOW, "--time-limit", "2", ranks=2, folder=tmp_path, status=75)
+    assert "time limit" in done.stderr and done.stderr.count("\n") == 1 and "error" not in done.stderr
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5.checkpoint"]
+    other = kapitza("run", SMALL, *SLOW, "--resume", "--set", "basin.max_periods=1999", folder=tmp_path, status=2)
+    assert "basin.max_periods: 2000" in other.stderr and "basin.max_periods: 1999" in other.stderr
+    kapitza("run", SMALL, *SLOW, "--resume", ranks=3, folder=tmp_path)
+    kapitza("run", SMALL, *SLOW, "-o", "undisturbed.h5", ranks=2, folder=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5", "undisturbed.h5"]
+    assert datasets(tmp_path / "small.h5") == datasets(tmp_path / "undisturbed.h5")
+
+
+def test_check_predicts_what_run_would_do(kapitza, tmp_path):
+    done = kapitza("check", SMALL, folder=tmp_path)
+    assert not list(tmp_path.iterdir())
+    rows = dict(re.split(r"\s{2,}", line, maxsplit=1) for line in done.stdout.split("\n\n")[-1].strip().splitlines())
+    assert rows["studies"] == "basin" and rows["cells"] == "10000"
+    assert "MB" in rows["memory per rank"] and "on one core" in rows["estimated time"]

@@ -1,0 +1,140 @@
+"""Good scenes: numbers as typed, options as written, the resolved text, help and reference."""
+
+import math
+import subprocess
+
+import pytest
+import yaml
+from conftest import PROGRAM, ROOT
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from test_bad_scenes import GOOD, program
+
+SETTINGS = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+
+
+def resolved(folder, *arguments, scene=GOOD):
+    """The resolved text that `check` prints between its first line and the table of costs."""
+    (folder / "scene.yaml").write_text(scene, encoding="utf-8")
+    status, out, err = program(folder, "check", "scene.yaml", *arguments)
+    assert (status, err) == (0, "")
+    return out.decode().split("\n\n")[1] + "\n"
+
+
+
+
+def at(tree, path):
+    for name in path.split("."):
+        tree = tree[name]
+    return tree
+
+
+@SETTINGS
+@given(value=FINITE)
+def test_reals_are_read_exactly(tmp_path, value):
+    text = resolved(tmp_path, "--set", f"pendulum.drive_amplitude={value!r}")
+    line = next(line for line in text.splitlines() if "drive_amplitude" in line)
+    assert float(line.split(":")[1]) == value
+
+
+@SETTINGS
+@given(value=st.integers(-(2**70), 2**70) | st.integers(0, 1_100_000))
+def test_integers_are_in_range_or_refused(tmp_path, value):
+    (tmp_path / "scene.yaml").write_text(GOOD)
+    status, out, err = program(tmp_path, "check", "scene.yaml", "--set", f"basin.theta.count={value}")
+    if 1 <= value <= 1_000_000:
+        assert status == 0 and at(yaml.safe_load(out.decode().split("\n\n")[1]), "basin.theta.count") == value
+    else:
+        assert status == 2 and "basin.theta.count" in err and err.count("\n") == 1
+
+
+OPTIONS = {
+    "basin.theta.count": st.integers(1, 1000),
+    "basin.max_periods": st.integers(1, 4_000_000_000),
+    "basin.method": st.sampled_from(["icm", "direct"]),
+    "basin.icm": st.fixed_dictionaries({}, optional={"theta": st.integers(8, 500), "interpolation": st.sampled_from(["linear", "cubic"])}),
+    "basin.attractors.seed": st.integers(0, 2**53),
+    "numerics.scheme": st.sampled_from(["rk4", "split4", "split6", "split6-11"]),
+    "numerics.steps_per_period": st.integers(1, 100_000),
+    "pendulum.quality_factor": st.floats(1e-3, 1e8),
+    "pendulum": st.fixed_dictionaries({"k": st.floats(-10, 10), "damping": st.floats(0, 10), "m": st.floats(-10, 10)}),
+}
+ONE_OPTION = st.sampled_from(sorted(OPTIONS)).flatmap(lambda path: OPTIONS[path].map(lambda value: (path, value)))
+
+
+def flow(value):
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{name}: {flow(item)}" for name, item in value.items()) + "}"
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+@SETTINGS
+@given(option=ONE_OPTION)
+def test_option_is_what_the_scene_would_say(tmp_path, option):
+    path, value = option
+    by_option = resolved(tmp_path, "--set", f"{path}={flow(value)}")
+    tree = yaml.safe_load(GOOD)
+    *parents, name = path.split(".")
+    mapping = tree
+    for parent in parents:
+        mapping = mapping.setdefault(parent, {})
+    mapping[name] = value
+    assert by_option == resolved(tmp_path, scene=flow(tree) + "\n")
+
+
+@SETTINGS
+@given(options=st.lists(ONE_OPTION, max_size=4))
+def test_resolved_text_is_a_fixed_point(tmp_path, options):
+    options = [option for option in options if option[0] != "pendulum.quality_factor"]
+    arguments = [word for path, value in options for word in ("--set", f"{path}={flow(value)}")]
+    once = resolved(tmp_path, *arguments)
+    assert resolved(tmp_path, scene=once) == once
+
+
+def test_last_option_wins(tmp_path):
+    text = resolved(tmp_path, "--set", "basin.theta.count=3", "--set", "basin.theta={count: 4}", "--set", "basin.theta.count=5")
+    assert at(yaml.safe_load(text), "basin.theta.count") == 5
+
+
+@SETTINGS
+@given(title=st.text(st.characters(exclude_categories=["Cc", "Cs", "Cn", "Co", "Zl", "Zp"], exclude_characters="\ufeff"), max_size=60))
+def test_titles_keep_every_letter(tmp_path, title):
+    quoted = title.replace("'", "''")
+    assert yaml.safe_load(resolved(tmp_path, scene=GOOD.replace("good", f"'{quoted}'")))["title"] == title
+
+
+def test_windows_line_ends_are_read(tmp_path):
+    assert resolved(tmp_path, scene=GOOD.replace("\n", "\r\n")) == resolved(tmp_path)
+
+
+def test_whole_circle_is_the_default(tmp_path):
+    theta = yaml.safe_load(resolved(tmp_path))["basin"]["theta"]
+    assert theta == {"min": -math.pi, "max": math.pi, "count": 20}
+
+
+@pytest.mark.parametrize("name", sorted(path.name for path in (ROOT / "scenes").glob("*.yaml")))
+def test_every_scene_of_the_repository_is_valid(tmp_path, name):
+    status, _, err = program(tmp_path, "check", ROOT / "scenes" / name)
+    assert status == 0, err
+
+
+def test_reference_of_the_keys_is_current(tmp_path):
+    status, out, _ = program(tmp_path, "keys")
+    assert status == 0
+    assert out.decode() == (ROOT / "docs" / "scene.md").read_text(), "build/kapitza keys > docs/scene.md"
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["run", "--help"], ["check", "--help"], ["keys", "--help"]])
+@pytest.mark.parametrize("launcher", [[], ["mpirun", "-n", "2"]])
+def test_help_and_version_are_printed_once(tmp_path, arguments, launcher):
+    status, out, err = program(tmp_path, *arguments, launcher=launcher)
+    assert (status, err) == (0, "")
+    word = b"HDF5" if "--version" in arguments else b"Usage: kapitza"
+    assert out.count(word) == 1
+
+
+def test_output_that_cannot_be_written_is_a_failure():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([PROGRAM, "--help"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    assert done.returncode == 1 and "standard output" in done.stderr
