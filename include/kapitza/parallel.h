@@ -41,8 +41,9 @@ void kz_team_set_progress(kz_team *team, kz_progress progress);
 /* Stop (KZ_STOPPED) once `seconds` have passed since kz_team_start; 0 = no limit. */
 void kz_team_set_time_limit(kz_team *team, double seconds);
 
-/* Checkpoint of a run: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is text (scene, version, numerics: one "name: value" a line)
- * that a resumed run must match; a difference is refused naming the first line that differs. Collective. */
+/* Checkpoint of a run: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is
+ * text (scene, version, numerics: one "name: value" a line) that a resumed run must match; a difference is refused naming
+ * the first line that differs. Collective. */
 typedef struct {
   const char *path;        /* of the checkpoint itself */
   const char *fingerprint;

@@ -1,3 +1,16 @@
 foreach(ranks 1 2 3 5)
   kapitza_test(stage LABEL parallel FLOOR parallel RANKS ${ranks} TIMEOUT 60)
+  kapitza_test(checkpoint LABEL parallel FLOOR parallel RANKS ${ranks} TIMEOUT 60)
+  kapitza_test(stop LABEL parallel FLOOR parallel RANKS ${ranks} TIMEOUT 60)
 endforeach()
+kapitza_test(hold LABEL parallel FLOOR parallel RANKS 2 TIMEOUT 60)
+kapitza_test(stage LABEL parallel FLOOR parallel TIMEOUT 60) # and without mpirun
+
+# A small program that is killed at random moments and resumed.
+add_executable(worker parallel/worker.c)
+target_compile_options(worker PRIVATE ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
+target_link_libraries(worker PRIVATE kapitza_parallel)
+set_target_properties(worker PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_test(NAME parallel.kills COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tools/kill_loop.sh ${Python3_EXECUTABLE} $<TARGET_FILE:worker>)
+set_tests_properties(parallel.kills PROPERTIES LABELS parallel TIMEOUT 240 RESOURCE_LOCK mpirun PROCESSORS 2)

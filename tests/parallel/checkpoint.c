@@ -1,0 +1,289 @@
+/* Checkpoints: finished work is used again, damaged work is done again, foreign work is refused. */
+#include <fcntl.h>
+#include <mpi.h>
+#include <sys/stat.h>
+
+#include "ranks.h"
+
+enum { N_TILES = 40, N_BYTES = 5000, PAGE = 4096, SLOT = 2 * PAGE, FIRST_SLOT = 2 * PAGE };
+static const char FINGERPRINT[] = "version: 1\nk: 0.25\nsteps: 24\n";
+static char path[64];
+static unsigned char records[N_TILES][N_BYTES];
+
+typedef struct {
+  int64_t done, failing;
+} job;
+
+static kz_status fill(void *context, int64_t tile, void *bytes)
+{
+  job *j = context;
+  if (tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)tile);
+  for (int i = 0; i < N_BYTES; ++i) ((unsigned char *)bytes)[i] = (unsigned char)(tile * 31 + i * 7 + 1);
+  ++j->done;
+  pause_for(0.0005);
+  return KZ_OK;
+}
+
+static bool first(void) { return kz_team_rank(team) == 0; }
+
+static int64_t sum(int64_t mine)
+{
+  int64_t all = -1;
+  MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+  return all;
+}
+
+static kz_status run_named(const char *name, job *j)
+{
+  const kz_stage stage = {
+      .name = name, .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = fill, .context = j, .keep = true, .everywhere = true};
+  memset(records, 0, sizeof records);
+  return kz_stage_run(team, &stage, records);
+}
+
+static bool is_right(void)
+{
+  for (int t = 0; t < N_TILES; ++t)
+    for (int i = 0; i < N_BYTES; ++i)
+      if (records[t][i] != (unsigned char)(t * 31 + i * 7 + 1)) return false;
+  return true;
+}
+
+static kz_status open_with(const char *fingerprint, bool resume, bool force)
+{
+  const kz_checkpoint_plan plan = {.path = path, .fingerprint = fingerprint, .resume = resume, .force = force};
+  return kz_checkpoint_open(team, &plan);
+}
+
+/* A run that does some tiles and fails; how many it did. */
+static int64_t leave_partial(int64_t failing)
+{
+  job j = {.failing = failing};
+  assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
+  assert_all(run_named("first", &j) == (failing < 0 ? KZ_OK : KZ_FAILED));
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(!first() || access(path, R_OK) == 0);
+  return sum(j.done);
+}
+
+/* A resumed run to the end; how many tiles it did. */
+static int64_t resume(void)
+{
+  job j = {.failing = -1};
+  assert_all(open_with(FINGERPRINT, true, false) == KZ_OK);
+  assert_all(run_named("first", &j) == KZ_OK);
+  assert_all(is_right());
+  assert_all(kz_checkpoint_close(team, true) == KZ_OK);
+  assert_all(!first() || access(path, F_OK) != 0);
+  return sum(j.done);
+}
+
+/* One bit of the file turned over, on rank 0, seen by all. */
+static void flip(long offset)
+{
+  unsigned char byte = 0;
+  if (first()) {
+    FILE *file = fopen(path, "r+b");
+    fseek(file, offset, SEEK_SET);
+    if (fread(&byte, 1, 1, file) != 1) byte = 0;
+    byte ^= 4;
+    fseek(file, offset, SEEK_SET);
+    fwrite(&byte, 1, 1, file);
+    fclose(file);
+  }
+  kz_team_broadcast(team, &byte, 1);
+}
+
+static void finished_tiles_are_not_done_again(void **state)
+{
+  (void)state;
+  for (int64_t failing = 0; failing < N_TILES; failing += 13) {
+    const int64_t done = leave_partial(failing);
+    assert_all(resume() == N_TILES - done);
+  }
+  assert_all(leave_partial(-1) == N_TILES);
+  assert_all(resume() == 0);
+}
+
+static void resume_without_a_file_starts_anew(void **state)
+{
+  (void)state;
+  assert_all(resume() == N_TILES);
+  if (first()) fclose(fopen(path, "w")); /* killed before the header was there */
+  assert_all(resume() == N_TILES);
+}
+
+static void a_flipped_bit_is_done_again(void **state)
+{
+  (void)state;
+  const long offsets[] = {0, 1, 9, 16, 17, 2000, 16 + N_BYTES - 1}; /* of a slot: tile, checksum, record */
+  for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
+    leave_partial(-1);
+    flip(FIRST_SLOT + 7 * SLOT + offsets[i]);
+    assert_all(resume() == 1);
+  }
+  leave_partial(-1);
+  flip(FIRST_SLOT + SLOT - 1); /* padding means nothing */
+  assert_all(resume() == 0);
+}
+
+static void a_damaged_section_is_done_again(void **state)
+{
+  (void)state;
+  leave_partial(-1);
+  flip(PAGE + 12);
+  assert_all(resume() == N_TILES);
+}
+
+static void a_short_file_is_done_again_or_refused(void **state)
+{
+  (void)state;
+  for (int kept = 0; kept < N_TILES; kept += 11) {
+    leave_partial(-1);
+    if (first() && truncate(path, FIRST_SLOT + kept * SLOT + 100) != 0) perror("truncate");
+    assert_all(resume() == N_TILES - kept);
+  }
+  leave_partial(-1);
+  if (first() && truncate(path, 50) != 0) perror("truncate");
+  assert_all(open_with(FINGERPRINT, true, false) == KZ_REFUSED);
+  assert_all(!first() || unlink(path) == 0);
+}
+
+static void a_damaged_header_is_refused(void **state)
+{
+  (void)state;
+  const long offsets[] = {0, 3, 8, 17, 25, 40};
+  for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
+    leave_partial(3);
+    flip(offsets[i]);
+    const kz_status status = open_with(FINGERPRINT, true, false);
+    assert_all(status == KZ_REFUSED && strstr(kz_message(), path) && strstr(kz_message(), "damaged"));
+    assert_all(!first() || access(path, F_OK) == 0);
+  }
+  leave_partial(3); /* --force replaces it */
+  assert_all(resume() > 0);
+}
+
+static void another_run_is_refused(void **state)
+{
+  (void)state;
+  const int64_t done = leave_partial(20);
+  kz_status status = open_with("version: 1\nk: 0.26\nsteps: 24\n", true, false);
+  assert_all(status == KZ_REFUSED && strstr(kz_message(), "\"k: 0.25\"") && strstr(kz_message(), "\"k: 0.26\""));
+  status = open_with("version: 1\nk: 0.25\n", true, false);
+  assert_all(status == KZ_REFUSED && strstr(kz_message(), "\"steps: 24\"") && strstr(kz_message(), "\"nothing\""));
+  status = open_with("version: 1\nk: 0.25\nsteps: 24\nmore: 1\n", true, false);
+  assert_all(status == KZ_REFUSED && strstr(kz_message(), "\"more: 1\""));
+  assert_all(resume() == N_TILES - done);
+}
+
+static void an_existing_file_needs_a_word(void **state)
+{
+  (void)state;
+  leave_partial(20);
+  const kz_status status = open_with(FINGERPRINT, false, false);
+  assert_all(status == KZ_REFUSED && strstr(kz_message(), "--resume") && strstr(kz_message(), "--force"));
+  job j = {.failing = -1};
+  assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
+  assert_all(run_named("first", &j) == KZ_OK && is_right());
+  assert_all(sum(j.done) == N_TILES);
+  assert_all(kz_checkpoint_close(team, true) == KZ_OK);
+}
+
+static void sections_follow_each_other(void **state)
+{
+  (void)state;
+  job j = {.failing = -1}, k = {.failing = 30}, again = {.failing = -1};
+  assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
+  assert_all(run_named("first", &j) == KZ_OK);
+  assert_all(run_named("second", &k) == KZ_FAILED);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(open_with(FINGERPRINT, true, false) == KZ_OK);
+  assert_all(run_named("first", &again) == KZ_OK && is_right());
+  assert_all(sum(again.done) == 0);
+  assert_all(run_named("second", &again) == KZ_OK && is_right());
+  assert_all(sum(again.done) == N_TILES - sum(k.done));
+  assert_all(run_named("third", &again) == KZ_OK && is_right());
+  assert_all(kz_checkpoint_close(team, true) == KZ_OK);
+}
+
+static void nothing_kept_leaves_nothing(void **state)
+{
+  (void)state;
+  assert_all(open_with(FINGERPRINT, false, false) == KZ_OK);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(!first() || access(path, F_OK) != 0);
+  assert_all(kz_checkpoint_close(team, true) == KZ_OK);
+}
+
+static void a_wrong_path_is_refused(void **state)
+{
+  (void)state;
+  const kz_checkpoint_plan missing = {.path = "/proc/nowhere/a.checkpoint", .fingerprint = ""};
+  const kz_checkpoint_plan device = {.path = "/dev/null", .fingerprint = "", .resume = true};
+  const kz_checkpoint_plan directory = {.path = "/dev", .fingerprint = "", .resume = true};
+  assert_all(kz_checkpoint_open(team, &missing) == KZ_REFUSED);
+  assert_all(kz_checkpoint_open(team, &device) == KZ_REFUSED);
+  assert_all(kz_checkpoint_open(team, &directory) == KZ_REFUSED);
+}
+
+static kz_status remove_and_fill(void *context, int64_t tile, void *bytes)
+{
+  if (tile == N_TILES / 2) unlink(path);
+  return fill(context, tile, bytes);
+}
+
+static void a_removed_file_is_noticed(void **state)
+{
+  (void)state;
+  job j = {.failing = -1};
+  kz_stage stage = {.name = "first", .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = remove_and_fill, .context = &j, .keep = true};
+  assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
+  const kz_status status = kz_stage_run(team, &stage, records);
+  assert_all(status == KZ_FAILED && strstr(kz_message(), "was removed during the run"));
+  assert_all(kz_checkpoint_close(team, false) == KZ_FAILED);
+}
+
+static void too_large_for_the_disk_is_known_early(void **state)
+{
+  (void)state;
+  job j = {.failing = -1};
+  kz_stage stage = {.name = "huge", .n_tiles = (int64_t)1 << 43, .record_bytes = N_BYTES, .work = fill, .context = &j, .keep = true};
+  assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
+  const kz_status status = kz_stage_run(team, &stage, records);
+  assert_all(status == KZ_FAILED && strstr(kz_message(), "no room"));
+  assert_all(j.done == 0);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+}
+
+int main(void)
+{
+  char folder[] = "/tmp/kapitza-checkpoint-XXXXXX";
+  if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
+  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
+  kz_team_set_progress(team, KZ_PROGRESS_NEVER);
+  kz_team_broadcast(team, folder, sizeof folder);
+  snprintf(path, sizeof path, "%s/a.checkpoint", folder);
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(finished_tiles_are_not_done_again),
+      cmocka_unit_test(resume_without_a_file_starts_anew),
+      cmocka_unit_test(a_flipped_bit_is_done_again),
+      cmocka_unit_test(a_damaged_section_is_done_again),
+      cmocka_unit_test(a_short_file_is_done_again_or_refused),
+      cmocka_unit_test(a_damaged_header_is_refused),
+      cmocka_unit_test(another_run_is_refused),
+      cmocka_unit_test(an_existing_file_needs_a_word),
+      cmocka_unit_test(sections_follow_each_other),
+      cmocka_unit_test(nothing_kept_leaves_nothing),
+      cmocka_unit_test(a_wrong_path_is_refused),
+      cmocka_unit_test(a_removed_file_is_noticed),
+      cmocka_unit_test(too_large_for_the_disk_is_known_early),
+  };
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  if (first()) {
+    unlink(path);
+    rmdir(folder);
+  }
+  kz_team_end(team);
+  return failed;
+}

@@ -1,0 +1,85 @@
+/* A checkpoint in use: waited for while its ranks end, refused where they do not. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <sys/wait.h>
+
+#include "ranks.h"
+
+static char path[64];
+
+/* A process that holds the file for a while, as an orphan of a killed run does: byte 1, shared. */
+static pid_t hold_for(double seconds)
+{
+  const int file = open(path, O_RDWR | O_CREAT, 0666);
+  struct flock byte = {.l_type = F_RDLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
+  if (file < 0 || fcntl(file, F_OFD_SETLK, &byte) != 0) perror(path);
+  const pid_t child = fork();
+  if (child == 0) {
+    pause_for(seconds);
+    _exit(0);
+  }
+  close(file);
+  return child;
+}
+
+/* Opens against a holder; the time it took. */
+static double open_against(double seconds, kz_status expected)
+{
+  const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
+  const pid_t child = kz_team_rank(team) == 0 ? hold_for(seconds) : 0;
+  const double begun = now();
+  const kz_status status = kz_checkpoint_open(team, &plan);
+  const double took = now() - begun;
+  assert_all(status == expected && (status == KZ_OK || strstr(kz_message(), "held by another process")));
+  if (child > 0) waitpid(child, NULL, 0);
+  return took;
+}
+
+static void orphans_are_waited_for(void **state)
+{
+  (void)state;
+  const double took = open_against(1.5, KZ_OK);
+  assert_all(kz_team_rank(team) != 0 || (took > 1.0 && took < 6.0));
+  assert_all(kz_checkpoint_close(team, true) == KZ_OK);
+}
+
+static void a_running_program_is_refused(void **state)
+{
+  (void)state;
+  const double took = open_against(17, KZ_REFUSED);
+  assert_all(kz_team_rank(team) != 0 || (took > 14.0 && took < 17.0));
+}
+
+static void a_rank_of_this_run_holds_it(void **state)
+{
+  (void)state;
+  const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .force = true};
+  struct flock byte = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
+  assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
+  const int other = open(path, O_RDWR);
+  assert_all(fcntl(other, F_OFD_SETLK, &byte) == -1);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(fcntl(other, F_OFD_GETLK, &byte) == 0 && byte.l_type == F_UNLCK);
+  close(other);
+}
+
+int main(void)
+{
+  char folder[] = "/tmp/kapitza-hold-XXXXXX";
+  if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
+  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
+  kz_team_broadcast(team, folder, sizeof folder);
+  snprintf(path, sizeof path, "%s/a.checkpoint", folder);
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_rank_of_this_run_holds_it),
+      cmocka_unit_test(orphans_are_waited_for),
+      cmocka_unit_test(a_running_program_is_refused),
+  };
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  if (kz_team_rank(team) == 0) {
+    unlink(path);
+    rmdir(folder);
+  }
+  kz_team_end(team);
+  return failed;
+}

@@ -1,0 +1,83 @@
+/* Requests to stop: one rank hears of it, all ranks stop, nothing finished is lost. */
+#include <signal.h>
+
+#include "ranks.h"
+
+enum { N_TILES = 400 };
+static char path[64];
+static int64_t records[N_TILES];
+static int64_t raising = -1;
+
+static kz_status fill(void *context, int64_t tile, void *bytes)
+{
+  ++*(int64_t *)context;
+  pause_for(0.005);
+  if (tile == raising && raise(SIGUSR1) != 0) return kz_fail(KZ_FAILED, "raise");
+  *(int64_t *)bytes = tile + 1;
+  return KZ_OK;
+}
+
+static kz_status run(int64_t *done)
+{
+  const kz_stage stage = {.name = "cells", .n_tiles = N_TILES, .record_bytes = sizeof *records, .work = fill, .context = done, .keep = true};
+  memset(records, 0, sizeof records);
+  return kz_stage_run(team, &stage, records);
+}
+
+static bool is_right(void)
+{
+  for (int64_t t = 0; t < N_TILES; ++t)
+    if (records[t] != t + 1) return false;
+  return true;
+}
+
+static void the_time_limit_stops_and_resumes(void **state)
+{
+  (void)state;
+  const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
+  int64_t done = 0, more = 0;
+  kz_team_set_time_limit(team, 0.05);
+  pause_for(0.05);
+  assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
+  assert_all(run(&done) == KZ_STOPPED && done == 0);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  kz_team_set_time_limit(team, 0);
+  assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
+  assert_all(run(&more) == KZ_OK && (kz_team_rank(team) != 0 || is_right()));
+  assert_all(kz_checkpoint_close(team, true) == KZ_OK);
+}
+
+/* The last of the tests: a request stays. */
+static void a_signal_to_one_rank_stops_all(void **state)
+{
+  (void)state;
+  const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
+  int64_t done = 0;
+  raising = 20;
+  assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
+  const double begun = now();
+  const kz_status status = run(&done);
+  assert_all(status == KZ_STOPPED && strstr(kz_message(), "SIGUSR1") && strstr(kz_message(), path));
+  assert_all(now() - begun < 10);
+  assert_all(done <= 21);
+  assert_all(run(&done) == KZ_STOPPED);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(kz_team_rank(team) != 0 || unlink(path) == 0);
+}
+
+int main(void)
+{
+  char folder[] = "/tmp/kapitza-stop-XXXXXX";
+  if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
+  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
+  kz_team_broadcast(team, folder, sizeof folder);
+  snprintf(path, sizeof path, "%s/a.checkpoint", folder);
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(the_time_limit_stops_and_resumes),
+      cmocka_unit_test(a_signal_to_one_rank_stops_all),
+  };
+  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+  if (kz_team_rank(team) == 0) rmdir(folder);
+  kz_team_end(team);
+  return failed;
+}
