@@ -37,6 +37,11 @@ kz_status kz_store_dimension(kz_store *store, const char *group, const char *nam
  * data is an array of double, int8_t, uint8_t, int16_t, int32_t, uint32_t or const char * accordingly. */
 kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data);
 
+/* What a study before has written: the length of a dimension (0 where there is none), and one number of a variable at
+ * index [its dimensions]. */
+kz_status kz_store_length(kz_store *store, const char *group, const char *dimension, int64_t *length);
+kz_status kz_store_number(kz_store *store, const char *group, const char *name, const int64_t *index, double *value);
+
 /* True where PATH is a complete file of this program whose root attribute `fingerprint` equals the given one. */
 bool kz_store_is_complete(const char *path, const char *fingerprint);
 

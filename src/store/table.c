@@ -5,6 +5,7 @@
 #define ANGLE "rad"
 #define VELOCITY "rad per drive radian"
 #define PERIODS "drive periods"
+#define TIME "drive radians"
 #define NONE "1"
 
 const kz_variable kz_variables[] = {
@@ -90,6 +91,19 @@ const kz_variable kz_variables[] = {
      NONE,
      "what the label rests on",
      {"unsettled", "started_inside_a_trapping_region", "followed_into_a_trapping_region", "re_integrated"}},
+
+    {"orbit", "time", KZ_REAL, {"time"}, TIME, "time since the record began", {0}},
+    {"orbit", "theta", KZ_REAL, {"time"}, ANGLE, "angle from down, counterclockwise, not wrapped", {0}},
+    {"orbit", "velocity", KZ_REAL, {"time"}, VELOCITY, "angular velocity", {0}},
+    {"orbit", "pivot", KZ_REAL, {"time"}, NONE, "height of the pivot m cos t, in units of I/(M r)", {0}},
+    {"orbit", "strobe_time", KZ_REAL, {"strobe_time"}, TIME, "time of the strobe points, both ends of the record", {0}},
+    {"orbit", "strobe_theta", KZ_REAL, {"strobe_time"}, ANGLE, "angle of the strobe point from down, not wrapped", {0}},
+    {"orbit", "strobe_velocity", KZ_REAL, {"strobe_time"}, VELOCITY, "angular velocity of the strobe point", {0}},
+    {"orbit", "maximum_time", KZ_REAL, {"maximum_time"}, TIME, "time of the turning points after the first sample", {0}},
+    {"orbit", "maximum_angle", KZ_REAL, {"maximum_time"}, ANGLE, "angle of the turning point from the centre", {0}},
+    {"orbit", "line_frequency", KZ_REAL, {"line_frequency"}, "drive frequencies", "frequency of the spectral line", {0}},
+    {"orbit", "line_amplitude", KZ_REAL, {"line_frequency"}, ANGLE, "amplitude of the spectral line; line 0 = |mean|", {0}},
+    {"orbit", "line_phase", KZ_REAL, {"line_frequency"}, ANGLE, "phase of the spectral line at the first sample", {0}},
 };
 const size_t kz_variable_count = sizeof kz_variables / sizeof *kz_variables;
 

@@ -40,14 +40,32 @@ kz_cost kz_orbit_cost(const kz_scene *scene) {
                    .core_seconds = 1e-4 * (periods + (double)plan->transient)};
 }
 
-/* The motion from the scene's start. */
-static kz_status follow(kz_orbit *orbit) {
+/* The state and the period of an attractor, as the study before has written it. */
+static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *period) {
+  int64_t count;
+  double n, *const values[] = {&n, &start->theta, &start->velocity};
+  const char *const names[] = {"period", "strobe_theta", "strobe_velocity"};
+  KZ_TRY(kz_store_length(store, "attractors", "attractor", &count));
+  if (id >= count)
+    return kz_fail(KZ_FAILED, "orbit.attractor: %lld is not in the catalogue, which has %lld; an id below that", (long long)id,
+                   (long long)count);
+  for (int i = 0; i < 3; i++) KZ_TRY(kz_store_number(store, "attractors", names[i], (int64_t[]){id, 0}, values[i]));
+  *period = (int64_t)n;
+  if (n > 0) return KZ_OK;
+  return kz_fail(KZ_FAILED, "orbit.attractor: %lld is chaotic and never closes; another id, or a start", (long long)id);
+}
+
+/* The motion that the scene asks for, recorded and portrayed. */
+static kz_status follow(kz_orbit *orbit, kz_store *store) {
   const kz_orbit_plan *plan = orbit->plan;
+  const bool listed = plan->attractor >= 0, closed = plan->closed || listed;
   kz_state start = {plan->theta, plan->velocity};
+  int64_t period = given(plan->period, 0);
+  if (listed) KZ_TRY(recall(store, plan->attractor, &start, &period));
   if (plan->transient > 0) kz_mover_skip(&orbit->mover, plan->transient, &start);
   orbit->cycle = (kz_cycle){.state = start};
-  if (plan->closed) KZ_TRY(kz_cycle_close(&orbit->mover, given(plan->period, 0), start, &orbit->cycle));
-  int64_t periods = given(plan->periods, plan->closed ? orbit->cycle.period : OPEN_PERIODS);
+  if (closed) KZ_TRY(kz_cycle_close(&orbit->mover, period, start, &orbit->cycle));
+  int64_t periods = given(plan->periods, closed ? orbit->cycle.period : OPEN_PERIODS);
   if (periods < orbit->cycle.period) periods = orbit->cycle.period;
   KZ_TRY(kz_mover_record(&orbit->mover, periods, orbit->cycle.state, &orbit->motion));
   return kz_portrait_make(&orbit->motion, orbit->cycle.period, &orbit->portrait);
@@ -139,7 +157,7 @@ static void summarise(const kz_orbit *orbit, FILE *summary) {
 
 static kz_status model(kz_orbit *orbit, const kz_scene *scene, kz_store *store, FILE *summary) {
   KZ_TRY(kz_mover_make(scene, &orbit->mover));
-  KZ_TRY(follow(orbit));
+  KZ_TRY(follow(orbit, store));
   KZ_TRY(write_series(orbit, store));
   KZ_TRY(write_portrait(&orbit->portrait, store));
   KZ_TRY(write_attributes(orbit, store));
