@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+"""Draws one orbit from a result file of kapitza: time graph with harmonics, bob path, phase portrait, line spectrum.
+
+    scripts/plot_orbit.py butikov-fig07.h5                               all four panels
+    scripts/plot_orbit.py blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
+    scripts/plot_orbit.py blackburn-fig09-050.h5 --panels phase,path
+"""
+
+import argparse
+import warnings
+from pathlib import Path
+
+import kapitza_style as style
+import matplotlib.pyplot as plt
+import numpy as np
+from kapitza_file import BadFile, Result, run
+from matplotlib.ticker import MaxNLocator
+
+FORMATS = ("png", "svg", "pdf")
+PANELS = ("time", "path", "phase", "spectrum")
+HARMONICS = ["#d1602f", "#12806a", "#8a5fb8", "#b08a1e"]  # the strongest lines, in this order
+TURN = 2 * np.pi
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", help="result file that holds an orbit")
+    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser.add_argument("--panels", default=",".join(PANELS), help=f"some of {','.join(PANELS)} (default: all)")
+    parser.add_argument("--harmonics", type=int, default=3, choices=range(5), help="lines drawn into the time graph (default: 3)")
+    parser.add_argument("--dpi", type=int, default=200)
+    arguments = parser.parse_args()
+    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
+    if arguments.output.suffix[1:].lower() not in FORMATS:
+        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
+    arguments.panels = arguments.panels.split(",")
+    if not set(arguments.panels) <= set(PANELS):
+        parser.error(f"--panels takes some of {','.join(PANELS)}")
+    return arguments
+
+
+class Orbit:
+    """The group orbit in the units of the pictures: degrees from the centre, drive periods."""
+
+    def __init__(self, result):
+        self.data = result.group("orbit")
+        self.attributes = self.data.attrs
+        self.closed = bool(self.attributes["closed"])
+        self.rotating = int(self.attributes["centre"]) == 2
+        self.period = int(self.attributes["period"])
+        self.centre = self._centre()
+        self.time = self.data["time"].values / TURN
+        self.theta = self.data["theta"].values
+        self.velocity = self.data["velocity"].values
+
+    def _centre(self):
+        """The copy of down or inverted that the orbit moves about; rad."""
+        if int(self.attributes["centre"]) > 1:
+            return 0.0
+        offset = np.pi * int(self.attributes["centre"])
+        mean = float(self.data["theta"].mean())
+        return offset + TURN * np.rint((mean - offset) / TURN)
+
+    @property
+    def place(self):
+        return {0: "down", 1: "inverted"}.get(int(self.attributes["centre"]), "down")
+
+    def rotation(self):
+        """Turns per drive period that the lines leave out."""
+        return int(self.attributes["winding"]) / max(self.period, 1) if self.rotating and self.period else 0.0
+
+    def deflection(self):
+        """Degrees from the centre, the steady rotation taken out."""
+        return np.degrees(self.theta - self.centre - self.rotation() * self.data["time"].values)
+
+    def wrapped(self, theta):
+        """Degrees from the centre within half a turn."""
+        return np.degrees(theta - self.centre - TURN * np.rint((theta - self.centre) / TURN))
+
+    def strongest(self, count):
+        """Numbers j >= 1 of the strongest lines."""
+        amplitude = self.data["line_amplitude"].values[1:]
+        order = 1 + np.argsort(-amplitude)[:count]
+        return [j for j in order if amplitude[j - 1] > 0.01 * amplitude.max()]
+
+    def line_text(self, j):
+        """j/n of the drive."""
+        whole = round(1 / float(self.data["line_frequency"].values[1]))
+        return f"{j}/{whole}" if j % whole else str(j // whole)
+
+
+def draw_time(axes, orbit, harmonics):
+    """The angle against time; of a closed orbit its strongest harmonics beneath it, of an open one its turning points."""
+    span = 2 * orbit.period if orbit.closed and orbit.period <= 4 else np.inf
+    for t, y in repeated(orbit, span):
+        axes.plot(t, y, color=style.INK, linewidth=1.3, zorder=3)
+    end = axes.dataLim.x1
+    pivot_axis(axes, orbit, end)
+    if orbit.closed:
+        draw_harmonics(axes, orbit, end, harmonics)
+    elif not orbit.rotating and orbit.data.sizes["maximum_time"] < 200:
+        axes.plot(orbit.data["maximum_time"] / TURN, np.degrees(orbit.data["maximum_angle"]), "o", markersize=3.2,
+                  color=style.KINDS["rotation -"], zorder=4, label="turning points")
+    strobes = orbit.data["strobe_time"].values / TURN
+    if orbit.closed and orbit.period <= 24:
+        t, y = strobe_deflection(orbit)
+        for shift in np.arange(0, end - 1e-9, orbit.time[-1]):
+            keep = t + shift <= end + 1e-9
+            axes.plot(t[keep] + shift, y[keep], "o", markersize=4, color=style.KINDS["rotation +"], zorder=4,
+                      label="strobe points" if shift == 0 else None)
+    axes.set_xlim(0, end)
+    axes.set_xlabel("time (drive periods)")
+    what = "rotation taken out" if orbit.rotation() else f"from {orbit.place}"
+    axes.set_ylabel(f"angle, {what} (deg)")
+    axes.margins(y=0.08)
+    if len(strobes) <= 25:
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=6, fontsize=7.5, handlelength=1.4, columnspacing=1.2)
+
+
+def repeated(orbit, span):
+    """(time, deflection), again and again up to `span` periods for a short closed orbit."""
+    y, length = orbit.deflection(), orbit.time[-1]
+    shifts = np.arange(0, span - 1e-9, length) if np.isfinite(span) else [0.0]
+    return [(orbit.time + shift, y) for shift in shifts]
+
+
+def strobe_deflection(orbit):
+    time = orbit.data["strobe_time"].values
+    return time / TURN, np.degrees(orbit.data["strobe_theta"].values - orbit.centre - orbit.rotation() * time)
+
+
+def pivot_axis(axes, orbit, end):
+    """The pivot's motion as a faint curve that fills a fifth of the height."""
+    height = 0.2 * np.abs(orbit.deflection()).max()
+    if not orbit.data["pivot"].values.any() or end > 40:
+        return
+    t = np.linspace(0, end, int(60 * end) + 1)
+    sign = np.sign(orbit.data["pivot"].values[0])
+    axes.plot(t, sign * height * np.cos(TURN * t), color="#b9c2cb", linewidth=0.9, zorder=1, label="pivot (not to scale)")
+
+
+def draw_harmonics(axes, orbit, end, count):
+    t = np.linspace(0, end, int(100 * end) + 1)
+    for colour, j in zip(HARMONICS, orbit.strongest(count), strict=False):
+        frequency, amplitude, phase = (float(orbit.data[f"line_{name}"].values[j]) for name in ("frequency", "amplitude", "phase"))
+        axes.plot(t, np.degrees(amplitude) * np.cos(TURN * frequency * t + phase), color=colour, linewidth=0.9, zorder=2,
+                  label=f"line {orbit.line_text(j)}: {np.degrees(amplitude):.3g}°")
+
+
+def draw_path(axes, orbit):
+    """Where the bob goes, in lengths of the pendulum; the pivot's stroke is the thick line."""
+    pivot = orbit.data["pivot"].values
+    x, y = np.sin(orbit.theta), pivot - np.cos(orbit.theta)
+    axes.plot(x, y, color=style.INK, linewidth=0.9)
+    stroke = np.abs(pivot).max()
+    axes.plot([0, 0], [-stroke, stroke], color=style.KINDS["rotation -"], linewidth=2.5, solid_capstyle="round", label="pivot")
+    strobe = orbit.data["strobe_theta"].values
+    axes.plot(np.sin(strobe), pivot[0] - np.cos(strobe), "o", markersize=3.5, color=style.KINDS["rotation +"])
+    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_xlabel("x / length")
+    axes.set_ylabel("y / length")
+    axes.legend(loc="best", fontsize=7.5, handlelength=0.8)
+
+
+def draw_phase(axes, orbit):
+    """Velocity against angle, strobe points as dots; a rotating orbit is cut where it passes the far side."""
+    angle = orbit.wrapped(orbit.theta)
+    cut = np.flatnonzero(np.abs(np.diff(angle)) > 180) + 1
+    for part in np.split(np.arange(len(angle)), cut):
+        axes.plot(angle[part], orbit.velocity[part], color=style.INK, linewidth=0.8 if orbit.closed else 0.45)
+    strobe, velocity = orbit.wrapped(orbit.data["strobe_theta"].values), orbit.data["strobe_velocity"].values
+    axes.plot(strobe, velocity, "o", markersize=4.5 if orbit.closed else 2, color=style.KINDS["rotation +"], zorder=3,
+              label="strobe points")
+    axes.set_xlabel(f"angle from {orbit.place} (deg)")
+    axes.set_ylabel("velocity (rad per drive radian)")
+    axes.legend(loc="upper right", fontsize=7.5, handlelength=0.8)
+
+
+def draw_spectrum(axes, orbit):
+    """Amplitudes against frequency: stems for a closed orbit, a curve for an open record seen through its window."""
+    frequency, amplitude = orbit.data["line_frequency"].values, orbit.data["line_amplitude"].values
+    top = amplitude[1:].max()
+    if top <= 0:
+        axes.text(0.5, 0.5, "at rest: no lines", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
+        return
+    floor = max(top * 1e-7, 1e-12)
+    if orbit.closed:
+        lines = amplitude > floor
+        axes.vlines(frequency[lines], floor, amplitude[lines], color=style.KINDS["rotation +"], linewidth=1.6)
+        for j in orbit.strongest(4):
+            axes.annotate(orbit.line_text(j), (frequency[j], amplitude[j]), (0, 2), textcoords="offset points", ha="center", fontsize=7)
+    else:
+        axes.plot(frequency[1:], np.maximum(amplitude[1:], floor), color=style.KINDS["rotation +"], linewidth=0.9)
+    axes.set_yscale("log")
+    axes.set_ylim(floor, top * 4)
+    axes.set_xlim(-0.05, last_line(frequency, amplitude, floor))
+    axes.set_xlabel("frequency / drive frequency")
+    axes.set_ylabel("amplitude (rad)" + ("" if orbit.closed else ", through a window"))
+
+
+def last_line(frequency, amplitude, floor):
+    shown = frequency[amplitude > 10 * floor]
+    return max(1.2, shown.max() + 0.2) if len(shown) else 1.2
+
+
+def lay_out(panels):
+    """The time graph over the whole width, the others beneath it side by side."""
+    below = [name for name in panels if name != "time"]
+    rows = [["time"] * max(1, len(below))] if "time" in panels else []
+    rows += [below] if below else []
+    width = 3.3 * max(2, len(below)) if below else 7.0
+    figure, axes = plt.subplot_mosaic(rows, figsize=(width, 3.0 * len(rows)), layout="constrained")
+    return figure, axes
+
+
+def write_title(figure, result, orbit):
+    words = {"mathieu": "linear equation", "effective": "slow equation of the effective potential"}.get(
+        str(orbit.attributes.get("model")), "")
+    name = style.name_text(orbit.attributes.get("name", "")) if orbit.closed else "open record"
+    parts = [style.parameters_text(result.pendulum), words, name, f"period {orbit.period}" if orbit.closed else ""]
+    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    figure.text(0.01, -0.01, "   |   ".join(part for part in parts if part), ha="left", va="top", fontsize=8, color=style.FAINT)
+
+
+def draw(arguments):
+    result = Result(arguments.file)
+    orbit = Orbit(result)
+    if len(orbit.time) < 2:
+        raise BadFile(f"{result.path}: the orbit has no length")
+    figure, axes = lay_out(arguments.panels)
+    if "time" in axes:
+        draw_time(axes["time"], orbit, arguments.harmonics)
+    for name, panel in (("path", draw_path), ("phase", draw_phase), ("spectrum", draw_spectrum)):
+        if name in axes:
+            panel(axes[name], orbit)
+    write_title(figure, result, orbit)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # a missing glyph or a failed layout is a fault, not a footnote
+        figure.savefig(arguments.output, dpi=arguments.dpi, bbox_inches="tight", metadata=_no_clock(arguments.output))
+    print(arguments.output)
+
+
+def _no_clock(output):
+    """The same file gives the same picture, byte for byte."""
+    return {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(output.suffix.lower(), {})
+
+
+def main():
+    arguments = parse_arguments()
+    style.use()
+    draw(arguments)
+
+
+if __name__ == "__main__":
+    run(main)
