@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from conftest import PROGRAM
@@ -151,17 +152,6 @@ SCENES = {
 }
 
 
-@pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("command", ["run", "check"])
-def test_scene_is_refused(tmp_path, name, command):
-    text, place, named = SCENES[name]
-    (tmp_path / "scene.yaml").write_bytes(text if isinstance(text, bytes) else text.encode())
-    line = refused(tmp_path, command, "scene.yaml")
-    assert named in line
-    if place:
-        assert line.startswith(f"kapitza: error: scene.yaml:{place}")
-
-
 # arguments after `kapitza`; what the line must name
 COMMAND_LINES = {
     "nothing": ([], "no command"),
@@ -214,14 +204,44 @@ COMMAND_LINES = {
 }
 
 
+def refuse_command_line(folder, name):
+    (folder / "scene.yaml").write_text(GOOD)
+    (folder / "folder").mkdir()
+    (folder / "there.h5").write_text("here already")
+    (folder / "half.h5.checkpoint").write_text("begun")
+    return refused(folder, *COMMAND_LINES[name][0])
+
+
+@pytest.fixture(scope="module")
+def refusals(tmp_path_factory):
+    """All of them side by side, since starting MPI is mostly waiting: (command, name) -> the line, once it is asked for."""
+    with ThreadPoolExecutor(8) as pool:
+        lines = {("line", name): pool.submit(refuse_command_line, tmp_path_factory.mktemp("line"), name) for name in COMMAND_LINES}
+        for command in ("run", "check"):
+            for name in SCENES:
+                lines[command, name] = pool.submit(refuse_scene, tmp_path_factory.mktemp(command), command, name)
+        return lines
+
+
+def refuse_scene(folder, command, name):
+    text = SCENES[name][0]
+    (folder / "scene.yaml").write_bytes(text if isinstance(text, bytes) else text.encode())
+    return refused(folder, command, "scene.yaml")
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_scene_is_refused(refusals, name, command):
+    line = refusals[command, name].result()
+    _, place, named = SCENES[name]
+    assert named in line
+    if place:
+        assert line.startswith(f"kapitza: error: scene.yaml:{place}")
+
+
 @pytest.mark.parametrize("name", COMMAND_LINES)
-def test_command_line_is_refused(tmp_path, name):
-    arguments, named = COMMAND_LINES[name]
-    (tmp_path / "scene.yaml").write_text(GOOD)
-    (tmp_path / "folder").mkdir()
-    (tmp_path / "there.h5").write_text("here already")
-    (tmp_path / "half.h5.checkpoint").write_text("begun")
-    assert named in refused(tmp_path, *arguments)
+def test_command_line_is_refused(refusals, name):
+    assert COMMAND_LINES[name][1] in refusals["line", name].result()
 
 
 def test_unwritable_folder(tmp_path):
