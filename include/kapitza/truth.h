@@ -1,6 +1,6 @@
-/* truth: whole drive periods in quad precision (Fortran; floor 0). Taylor series in real128, order and step following the
- * motion; independent of the schemes of kernel.h. It is what labels are judged by: about 1e-33 a period, where double
- * precision leaves 1e-16. */
+/* truth: whole drive periods in quad precision (Fortran; floor 0). States in real128, moved by Taylor series of order 40 whose
+ * steps follow the motion; independent of the schemes of kernel.h. It is what labels are judged by: some 1e-32 a period,
+ * where double precision leaves 1e-16. */
 #ifndef KAPITZA_TRUTH_H
 #define KAPITZA_TRUTH_H
 
@@ -8,8 +8,8 @@
 
 #include "kapitza/kernel.h"
 
-/* Steps a period that cost least; any other number gives the same motion to about 1e-33 a period. */
-enum { KZ_TRUTH_STEPS = 18 };
+/* Steps a period that cost least; any other number gives the same motion to some 1e-32 a period. */
+enum { KZ_TRUTH_STEPS = 32 };
 
 /* A state in quad precision. Opaque: kz_truth_start fills it, kz_truth_read shows it. Owned by the caller. */
 typedef struct {
@@ -20,9 +20,10 @@ typedef struct {
 /* States [n] at t = 0 from doubles: theta [n] in rad, velocity [n] in rad per drive radian, both taken as exact. */
 void kz_truth_start(int64_t n, const double *theta, const double *velocity, kz_truth_state *states);
 
-/* Advances states [n] through `periods` whole periods with steps >= 1 a period, each cut further where the motion is too
- * fast for it. A motion that cannot be carried (some 1e7 times faster than the drive) becomes NaN. Tables are made per call:
- * give it many states or many periods. */
+/* Advances states [n] through `periods` whole periods with `steps` >= 1 a period, halved for a state whose series does not
+ * converge on them. A motion that no halving carries (some 1e7 times faster than the drive) becomes NaN. A state's result
+ * depends neither on its neighbours nor on how periods are shared out to calls; eight states or more go together at best
+ * speed, and tables are made per call. */
 void kz_truth_advance(const kz_pendulum *pendulum, int32_t steps, int64_t n, int64_t periods, kz_truth_state *states);
 
 /* The states rounded to doubles: theta [n] wrapped to [-pi, pi], turns [n] = net turns since kz_truth_start. */

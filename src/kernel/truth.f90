@@ -33,13 +33,11 @@ contains
     integer(c_int64_t), value :: periods
     type(truth_state_t), intent(inout) :: states(n)
     type(drive_t) :: drive
-    integer(c_int64_t) :: i, period
+    integer(c_int64_t) :: period
 
     drive = make_drive(pendulum%k, pendulum%beta, pendulum%m, int(n_steps))
-    do i = 1, n
-      do period = 1, periods
-        call advance_period(drive, states(i)%theta, states(i)%velocity, states(i)%turns)
-      end do
+    do period = 1, periods
+      call advance_period(drive, states%theta, states%velocity, states%turns)
     end do
   end subroutine advance
 
