@@ -1,0 +1,119 @@
+"""The five scenes of Blackburn's Figs 11 to 15: the attractors are those of the literature, each once, and truly closed."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import ROOT
+from kapitza_file import Result
+from scipy.integrate import solve_ivp
+
+REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())["blackburn_fig11_15_attractors_Q5_Omega11"]
+FIGURES = {11: "0.150", 12: "0.300", 13: "0.460", 14: "0.470", 15: "0.520"}
+
+
+@pytest.fixture(scope="module", params=FIGURES)
+def figure(request, kapitza, tmp_path_factory):
+    """(reference attractors, result) of one scene on a small grid."""
+    path = tmp_path_factory.mktemp("figures") / f"{request.param}.h5"
+    kapitza("run", ROOT / "scenes" / f"blackburn-fig{request.param}.yaml", "--set", "basin.theta.count=50",
+            "--set", "basin.velocity.count=50", "-o", path, ranks=2)
+    return REFERENCE[FIGURES[request.param]]["attractors"], Result(path)
+
+
+def around(angle):
+    """The angle in [-pi, pi]."""
+    return angle - 2 * np.pi * np.rint(angle / (2 * np.pi))
+
+
+def points_of(table, row):
+    period = int(table["period"].values[row])
+    return np.column_stack([table["strobe_theta"].values[row, :period], table["strobe_velocity"].values[row, :period]])
+
+
+def apart(points, others):
+    """Largest distance of a cycle from successive points of another (the reference lists at most eight)."""
+    turns = [np.roll(points, turn, axis=0)[: len(others)] for turn in range(len(points))]
+    return min(max(np.abs(around(turn[:, 0] - others[:, 0])).max(), np.abs(turn[:, 1] - others[:, 1]).max()) for turn in turns)
+
+
+def partner(table, known):
+    """The row with the reference's period and winding that lies nearest, and its distance."""
+    points = np.array(known["strobe_points"], dtype=float)
+    rows = np.flatnonzero((table["period"].values == known["period"]) & (table["winding"].values == known["winding_total"]))
+    assert len(rows) > 0, f"{known['kind']} was not found"
+    distances = [apart(points_of(table, row), points) for row in rows]
+    return rows[np.argmin(distances)], min(distances)
+
+
+def test_every_known_attractor_is_found_once(figure):
+    known, result = figure
+    table = result.group("attractors")
+    found = [partner(table, row) for row in known]
+    assert max(distance for _, distance in found) < 1e-9
+    assert len({row for row, _ in found}) == len(known)
+
+
+def test_none_is_listed_twice(figure):
+    table = figure[1].group("attractors")
+    points = [points_of(table, row) for row in range(table.sizes["attractor"])]
+    for row, mine in enumerate(points):
+        for other in points[:row]:
+            gap = mine[:, None, :] - other[None, :, :]
+            assert np.hypot(around(gap[..., 0]), gap[..., 1]).min() > 1e-7
+
+
+def test_multipliers_are_those_of_the_literature(figure):
+    known, result = figure
+    table = result.group("attractors")
+    for row in known:
+        index, _ = partner(table, row)
+        mine = table["multiplier_re"].values[index] + 1j * table["multiplier_im"].values[index]
+        theirs = [complex(value) for value in row["multipliers"]]
+        assert max(min(abs(value - other) for other in theirs) for value in mine) < 1e-7, row["kind"]
+
+
+def test_every_attractor_attracts_and_closes(figure):
+    """Flown once around by an integrator that shares nothing with the program."""
+    result = figure[1]
+    k, beta, m = (result.pendulum[name] for name in ("k", "beta", "m"))
+    table = result.group("attractors")
+    for row in range(table.sizes["attractor"]):
+        period, winding = int(table["period"].values[row]), int(table["winding"].values[row])
+        start = points_of(table, row)[0]
+        end = solve_ivp(lambda t, x: (x[1], -beta * x[1] - (k - m * np.cos(t)) * np.sin(x[0])), (0, 2 * np.pi * period), start,
+                        method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+        assert np.abs(end - start - [2 * np.pi * winding, 0]).max() < 1e-9, table["name"].values[row]
+        assert np.hypot(table["multiplier_re"].values[row], table["multiplier_im"].values[row]).max() < 1
+
+
+def test_shares_are_near_those_of_the_literature(figure):
+    """2500 cells of |v| < 2 against 1500 random starts of |v| < 3: the large basins agree within a few percent."""
+    known, result = figure
+    table = result.group("attractors")
+    for row in known:
+        index, _ = partner(table, row)
+        assert abs(float(table["fraction"].values[index]) - row["basin_frac_v3"]) < 0.06, row["kind"]
+
+
+def test_labels_of_fig11_are_those_of_an_independent_integration(kapitza, tmp_path):
+    """40 random cells, flown 400 periods by an integrator that shares nothing with the program. At epsilon = 0.150 boundaries
+    are thin enough that none of them should differ."""
+    path = tmp_path / "11.h5"
+    kapitza("run", ROOT / "scenes" / "blackburn-fig11.yaml", "--set", "basin.theta.count=200", "--set",
+            "basin.velocity.count=200", "-o", path, ranks=2)
+    result = Result(path)
+    basin, table = result.group("basin"), result.group("attractors")
+    k, beta, m = (result.pendulum[name] for name in ("k", "beta", "m"))
+    rows, columns = np.random.default_rng(11).integers(0, 200, (2, 40))
+
+    def motion(t, state):
+        theta, velocity = np.split(state, 2)
+        return np.concatenate([velocity, -beta * velocity - (k - m * np.cos(t)) * np.sin(theta)])
+
+    start = np.concatenate([basin["theta"].values[columns], basin["velocity"].values[rows]])
+    end = solve_ivp(motion, (0, 2 * np.pi * 400), start, method="DOP853", rtol=1e-10, atol=1e-12).y[:, -1].reshape(2, -1)
+    labels = basin["attractor"].values[rows, columns]
+    for theta, velocity, label in zip(*end, labels, strict=True):
+        points = points_of(table, label)
+        assert np.hypot(around(points[:, 0] - theta), points[:, 1] - velocity).min() < 1e-6

@@ -1,0 +1,91 @@
+"""The program as a whole: the same bytes on any number of ranks, mirrored starts, files and exit statuses, names."""
+
+import shutil
+
+import numpy as np
+import pytest
+from conftest import ROOT, datasets
+from kapitza_file import Result
+
+SMALL = ROOT / "scenes" / "small.yaml"
+TINY = ["--set", "basin.theta.count=40", "--set", "basin.velocity.count=30", "--set", "basin.attractors.starts=1024"]
+
+
+@pytest.fixture(scope="module")
+def tiny(kapitza, tmp_path_factory):
+    """A tiny run on one rank without mpirun."""
+    folder = tmp_path_factory.mktemp("tiny")
+    kapitza("run", SMALL, *TINY, folder=folder)
+    return folder / "small.h5"
+
+
+@pytest.mark.parametrize("method", ["icm", "direct"])
+def test_the_same_bytes_on_any_number_of_ranks(kapitza, tmp_path, method):
+    contents = []
+    for ranks in (1, 2, 3, 5):
+        path = tmp_path / f"{ranks}.h5"
+        kapitza("run", SMALL, *TINY, "--set", f"basin.method={method}", "-o", path, ranks=ranks)
+        contents.append(datasets(path))
+    assert all(other == contents[0] for other in contents[1:])
+
+
+def test_mpirun_changes_nothing(kapitza, tiny, tmp_path):
+    kapitza("run", SMALL, *TINY, ranks=1, folder=tmp_path)
+    assert datasets(tmp_path / "small.h5") == datasets(tiny)
+
+
+def test_a_symmetric_window_has_mirrored_labels(small_result):
+    result = Result(small_result)
+    labels, mirror = result.group("basin")["attractor"].values, result.group("attractors")["mirror"].values
+    assert np.array_equal(labels[::-1, ::-1], np.append(mirror, -1)[labels])
+
+
+@pytest.mark.parametrize("method", ["icm", "direct"])
+def test_a_mirrored_scene_has_mirrored_labels(kapitza, tmp_path, method):
+    found = []
+    for low, high in ((-1.5, 0.5), (-0.5, 1.5)):
+        path = tmp_path / f"{low}.h5"
+        kapitza("run", SMALL, *TINY, "--set", f"basin.method={method}", "--set", f"basin.velocity.min={low}",
+                "--set", f"basin.velocity.max={high}", "-o", path)
+        result = Result(path)
+        found.append((result.group("basin")["attractor"].values, result.group("attractors")))
+    (labels, table), (image, other) = found
+    assert np.allclose(table["strobe_theta"], other["strobe_theta"], rtol=0, atol=1e-9, equal_nan=True)
+    assert np.array_equal(image[::-1, ::-1], np.append(table["mirror"].values, -1)[labels])
+
+
+def test_output_goes_where_it_is_told_and_is_not_overwritten(kapitza, tiny, tmp_path):
+    path = tmp_path / "here.h5"
+    kapitza("run", SMALL, *TINY, "-o", path)
+    before = path.read_bytes()
+    done = kapitza("run", SMALL, *TINY, "-o", path, status=2)
+    assert path.read_bytes() == before and str(path) in done.stderr and len(done.stderr.splitlines()) == 1
+    kapitza("run", SMALL, *TINY, "--set", "pendulum.drive_amplitude=0.15", "--force", "-o", path)
+    assert Result(path).pendulum["m"] == 0.15
+    assert [item.name for item in tmp_path.iterdir()] == ["here.h5"]
+
+
+def test_the_scene_given_by_a_bare_name_writes_into_the_current_folder(kapitza, tmp_path):
+    (tmp_path / "scenes").mkdir()
+    shutil.copy(SMALL, tmp_path / "scenes" / "mine.yaml")
+    kapitza("run", "scenes/mine.yaml", *TINY, folder=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["mine.h5", "scenes"]
+
+
+def test_check_runs_nothing(kapitza, tmp_path):
+    done = kapitza("check", SMALL, folder=tmp_path)
+    assert "basin" in done.stdout and "10000" in done.stdout.replace(" ", "").replace(",", "")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_damping_there_are_no_attractors(kapitza, tmp_path):
+    done = kapitza("run", SMALL, *TINY, "--set", "pendulum={k: 0.01, damping: 0, m: 0.3}", folder=tmp_path)
+    assert "damping" in done.stdout + done.stderr
+    with_labels = Result(tmp_path / "small.h5").group("basin")
+    assert np.all(with_labels["attractor"].values == -1)
+
+
+def test_the_summary_names_every_attractor(kapitza, tmp_path):
+    done = kapitza("run", SMALL, *TINY, folder=tmp_path)
+    for name in Result(tmp_path / "small.h5").group("attractors")["name"].values:
+        assert str(name) in done.stdout

@@ -1,0 +1,127 @@
+"""The result file keeps its contract: netCDF-4 tools open it, everything is named, sized, and says its unit."""
+
+import subprocess
+
+import h5py
+import numpy as np
+import pytest
+import xarray
+from kapitza_file import Result
+
+WHAT_TYPE = {
+    "attractors/period": "i4", "attractors/winding": "i4", "attractors/centre": "i1", "attractors/symmetric": "i1",
+    "attractors/mirror": "i4", "attractors/amplitude": "f8", "attractors/strobe_theta": "f8", "attractors/strobe_velocity": "f8",
+    "attractors/multiplier_re": "f8", "attractors/multiplier_im": "f8", "attractors/lyapunov": "f8",
+    "attractors/lyapunov_error": "f8", "attractors/fraction": "f8", "basin/theta": "f8", "basin/velocity": "f8",
+    "basin/attractor": "i2", "basin/settling_time": "u4", "basin/evidence": "u1",
+}
+
+
+@pytest.fixture(scope="module")
+def file(small_result):
+    with h5py.File(small_result) as opened:
+        yield opened
+
+
+def every_dataset(file):
+    found = []
+    file.visititems(lambda name, item: found.append(item) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def test_every_group_opens_with_xarray(small_result):
+    for name in Result(small_result).groups:
+        with xarray.open_dataset(small_result, group=name, engine="h5netcdf") as dataset:
+            dataset.load()
+
+
+def test_ncdump_reads_the_header(small_result):
+    done = subprocess.run(["ncdump", "-h", small_result], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0 and done.stderr == ""
+    assert "group: basin" in done.stdout and "group: attractors" in done.stdout
+
+
+def test_every_variable_says_what_it_is_in_which_unit(file):
+    for item in every_dataset(file):
+        assert {"units", "long_name"} <= item.attrs.keys(), item.name
+        assert str(item.attrs["long_name"]).strip(), item.name
+
+
+def test_every_dimension_has_a_named_scale(file):
+    for item in every_dataset(file):
+        if item.is_scale:
+            continue
+        for axis in range(item.ndim):
+            scales = list(item.dims[axis].values())
+            assert len(scales) == 1 and scales[0].parent == item.parent, f"{item.name} axis {axis}"
+
+
+def test_types_are_those_of_the_contract(file):
+    for name, kind in WHAT_TYPE.items():
+        assert file[name].dtype == np.dtype(kind), name
+    text = h5py.check_string_dtype(file["attractors/name"].dtype)
+    assert text.encoding == "utf-8" and text.length is None
+
+
+def test_codes_are_explained_and_labels_have_no_fill_value(file):
+    for name in ("basin/evidence", "attractors/centre"):
+        attributes = file[name].attrs
+        assert len(attributes["flag_values"]) == len(str(attributes["flag_meanings"]).split()), name
+    assert all("_FillValue" not in item.attrs for item in every_dataset(file) if item.dtype.kind in "iu")
+
+
+def test_nothing_is_left_beside_the_file(small_result):
+    assert [path.name for path in small_result.parent.iterdir()] == ["small.h5"]
+
+
+def test_cells_lie_where_the_contract_says(file):
+    low, high, count = -2.0, 2.0, 100
+    i = np.arange(count)
+    assert np.array_equal(file["basin/velocity"][:], (2 * i + 1 - count) * ((high - low) / (2 * count)) + (low + high) / 2)
+    theta = file["basin/theta"][:]
+    assert np.array_equal(theta, -theta[::-1]) and np.allclose(np.diff(theta), 2 * np.pi / count)
+
+
+def test_shares_and_labels_agree(small_result):
+    result = Result(small_result)
+    attractors, labels = result.group("attractors"), result.group("basin")["attractor"].values
+    shares = [np.mean(labels == index) for index in range(attractors.sizes["attractor"])]
+    assert labels.min() >= -1 and labels.max() < len(shares)
+    assert np.allclose(attractors["fraction"], shares, rtol=0, atol=1e-15)
+
+
+def test_evidence_and_settling_time_agree_with_the_labels(small_result):
+    basin = Result(small_result).group("basin")
+    unsettled = basin["attractor"].values < 0
+    assert np.array_equal(unsettled, basin["evidence"].values == 0)
+    assert np.array_equal(basin["evidence"].values == 1, basin["settling_time"].values == 0)
+    assert np.all(basin["settling_time"].values[unsettled] == basin.attrs["max_periods"])
+
+
+def test_the_catalogue_is_in_order(small_result):
+    """Sorted by centre, period (0 last), |winding|/period, + before -, then the first strobe point."""
+    table = Result(small_result).group("attractors")
+    period, winding = table["period"].values, table["winding"].values
+    keys = list(zip(table["centre"].values, np.where(period == 0, 10**6, period), np.abs(winding) / np.maximum(period, 1),
+                    -np.sign(winding), table["strobe_velocity"].values[:, 0].round(9), table["strobe_theta"].values[:, 0].round(9),
+                    strict=True))
+    assert keys == sorted(keys)
+
+
+def test_strobe_points_are_listed_as_promised(small_result):
+    table = Result(small_result).group("attractors")
+    for row in range(table.sizes["attractor"]):
+        theta, velocity = table["strobe_theta"].values[row], table["strobe_velocity"].values[row]
+        period = int(table["period"].values[row])
+        assert np.all(np.isfinite(theta[:period])) and np.all(np.isnan(theta[period:])) and np.all(np.isnan(velocity[period:]))
+        assert np.all((theta[:period] >= -np.pi) & (theta[:period] < np.pi))
+        assert not np.any((theta[:period] == 0) & np.signbit(theta[:period])), "a negative zero"
+        assert velocity[0] == velocity[:period].min()
+
+
+def test_mirror_images_are_mutual(small_result):
+    table = Result(small_result).group("attractors")
+    mirror, ids = table["mirror"].values, np.arange(table.sizes["attractor"])
+    assert np.array_equal(mirror[mirror], ids)
+    assert np.array_equal(mirror == ids, table["symmetric"].values == 1)
+    assert np.array_equal(table["winding"].values[mirror], -table["winding"].values)
