@@ -11,8 +11,16 @@ PAPERS = {
 _BASIN = ("plot_basin.py", ["--centre", "inverted"])
 _INVERTED = ("plot_basin.py", ["--centre", "inverted", "--attractor", "inverted"])
 _FLUTTER = ("plot_basin.py", ["--centre", "inverted", "--attractor", "flutter"])
+_ORBIT = ("plot_orbit.py", [])
+_PHASE = ("plot_orbit.py", ["--panels", "phase,path"])
+_TIME = ("plot_orbit.py", ["--panels", "time"])
 
 FIGURES = [
+    ("blackburn-fig08", "blackburn-fig08", *_TIME),
+    ("blackburn-fig09a", "blackburn-fig09a", *_PHASE),
+    ("blackburn-fig09b", "blackburn-fig09b", *_PHASE),
+    ("blackburn-fig09c", "blackburn-fig09c", *_PHASE),
+    ("blackburn-fig09d", "blackburn-fig09d", *_PHASE),
     ("blackburn-fig11", "blackburn-fig11", *_BASIN),
     ("blackburn-fig11-inverted", "blackburn-fig11", *_INVERTED),
     ("blackburn-fig12", "blackburn-fig12", *_BASIN),
@@ -23,5 +31,16 @@ FIGURES = [
     ("blackburn-fig14-flutter", "blackburn-fig14", *_FLUTTER),
     ("blackburn-fig15", "blackburn-fig15", *_BASIN),
     ("blackburn-fig15-flutter", "blackburn-fig15", *_FLUTTER),
+    ("butikov-fig02", "butikov-fig02", *_ORBIT),
+    ("butikov-fig03", "butikov-fig03", *_ORBIT),
+    ("butikov-fig04", "butikov-fig04", *_ORBIT),
+    ("butikov-fig05", "butikov-fig05", *_ORBIT),
+    ("butikov-fig06", "butikov-fig06", *_ORBIT),
+    ("butikov-fig07", "butikov-fig07", *_ORBIT),
+    ("butikov-fig08", "butikov-fig08", *_ORBIT),
+    ("butikov-fig10a", "butikov-fig10a", *_ORBIT),
+    ("butikov-fig10b", "butikov-fig10b", *_ORBIT),
+    ("butikov-fig10c", "butikov-fig10c", *_ORBIT),
+    ("butikov-fig12", "butikov-fig12", *_ORBIT),
     ("small", "small", *_BASIN),
 ]

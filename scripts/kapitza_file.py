@@ -14,8 +14,8 @@ import xarray
 # Variables without which a group is of no use to any script; the study that writes a group adds its row here.
 NEEDED = {
     "attractors": ["period", "winding", "centre", "name", "mirror", "strobe_theta", "strobe_velocity"],
-    "orbit": ["time", "theta", "velocity", "pivot", "strobe_time", "strobe_theta", "strobe_velocity", "maximum_time", "maximum_angle",
-              "line_frequency", "line_amplitude", "line_phase"],
+    "orbit": ["time", "theta", "velocity", "pivot", "strobe_time", "strobe_theta", "strobe_velocity", "maximum_time",
+              "maximum_angle", "line_frequency", "line_amplitude", "line_phase"],
     "basin": ["theta", "velocity", "attractor", "settling_time", "evidence"],
 }
 

@@ -69,9 +69,16 @@ class Orbit:
         """Turns per drive period that the lines leave out."""
         return int(self.attributes["winding"]) / max(self.period, 1) if self.rotating and self.period else 0.0
 
-    def deflection(self):
-        """Degrees from the centre, the steady rotation taken out."""
-        return np.degrees(self.theta - self.centre - self.rotation() * self.data["time"].values)
+    def deflection(self, theta=None, time=None):
+        """Degrees from the centre; of a rotation, from the steady turn."""
+        theta, time = (self.theta, self.data["time"].values) if theta is None else (theta, time)
+        return np.degrees(theta - self.centre - self.rotation() * time - self._mean())
+
+    def _mean(self):
+        """Mean angle of a rotation beside its steady turn; rad."""
+        if not self.rotation():
+            return 0.0
+        return float(np.mean((self.theta - self.rotation() * self.data["time"].values)[:-1]))
 
     def wrapped(self, theta):
         """Degrees from the centre within half a turn."""
@@ -110,12 +117,17 @@ def draw_time(axes, orbit, harmonics):
                       label="strobe points" if shift == 0 else None)
     axes.set_xlim(0, end)
     axes.set_xlabel("time (drive periods)")
-    what = "rotation taken out" if orbit.rotation() else f"from {orbit.place}"
-    axes.set_ylabel(f"angle, {what} (deg)")
+    what = "from the steady rotation" if orbit.rotation() else f"from {orbit.place}"
+    axes.set_ylabel(f"angle {what} (deg)")
     axes.margins(y=0.08)
     if len(strobes) <= 25:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=6, fontsize=7.5, handlelength=1.4, columnspacing=1.2)
+    write_legend(axes)
+
+
+def write_legend(axes):
+    """Above the panel, where it hides nothing."""
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize=7.5, handlelength=1.4, columnspacing=1.2)
 
 
 def repeated(orbit, span):
@@ -127,7 +139,7 @@ def repeated(orbit, span):
 
 def strobe_deflection(orbit):
     time = orbit.data["strobe_time"].values
-    return time / TURN, np.degrees(orbit.data["strobe_theta"].values - orbit.centre - orbit.rotation() * time)
+    return time / TURN, orbit.deflection(orbit.data["strobe_theta"].values, time)
 
 
 def pivot_axis(axes, orbit, end):
@@ -142,6 +154,10 @@ def pivot_axis(axes, orbit, end):
 
 def draw_harmonics(axes, orbit, end, count):
     t = np.linspace(0, end, int(100 * end) + 1)
+    constant, phase = float(orbit.data["line_amplitude"].values[0]), float(orbit.data["line_phase"].values[0])
+    if not orbit.rotating and constant > 0.01 * orbit.data["line_amplitude"].values.max():
+        axes.axhline(np.degrees(constant * np.cos(phase)), color=style.FAINT, linewidth=0.9, linestyle="--", zorder=2,
+                     label=f"constant: {np.degrees(constant):.3g}°")
     for colour, j in zip(HARMONICS, orbit.strongest(count), strict=False):
         frequency, amplitude, phase = (float(orbit.data[f"line_{name}"].values[j]) for name in ("frequency", "amplitude", "phase"))
         axes.plot(t, np.degrees(amplitude) * np.cos(TURN * frequency * t + phase), color=colour, linewidth=0.9, zorder=2,
@@ -154,13 +170,14 @@ def draw_path(axes, orbit):
     x, y = np.sin(orbit.theta), pivot - np.cos(orbit.theta)
     axes.plot(x, y, color=style.INK, linewidth=0.9)
     stroke = np.abs(pivot).max()
-    axes.plot([0, 0], [-stroke, stroke], color=style.KINDS["rotation -"], linewidth=2.5, solid_capstyle="round", label="pivot")
+    axes.plot([0, 0], [-stroke, stroke], color=style.KINDS["rotation -"], linewidth=2.5, solid_capstyle="round",
+              label="stroke of the pivot")
     strobe = orbit.data["strobe_theta"].values
     axes.plot(np.sin(strobe), pivot[0] - np.cos(strobe), "o", markersize=3.5, color=style.KINDS["rotation +"])
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("x / length")
     axes.set_ylabel("y / length")
-    axes.legend(loc="best", fontsize=7.5, handlelength=0.8)
+    write_legend(axes)
 
 
 def draw_phase(axes, orbit):
@@ -174,7 +191,7 @@ def draw_phase(axes, orbit):
               label="strobe points")
     axes.set_xlabel(f"angle from {orbit.place} (deg)")
     axes.set_ylabel("velocity (rad per drive radian)")
-    axes.legend(loc="upper right", fontsize=7.5, handlelength=0.8)
+    write_legend(axes)
 
 
 def draw_spectrum(axes, orbit):
@@ -186,10 +203,11 @@ def draw_spectrum(axes, orbit):
         return
     floor = max(top * 1e-7, 1e-12)
     if orbit.closed:
-        lines = amplitude > floor
+        lines = (amplitude > floor) & (np.arange(len(amplitude)) >= orbit.rotating)  # the phase of a rotation is no line
         axes.vlines(frequency[lines], floor, amplitude[lines], color=style.KINDS["rotation +"], linewidth=1.6)
         for j in orbit.strongest(4):
-            axes.annotate(orbit.line_text(j), (frequency[j], amplitude[j]), (0, 2), textcoords="offset points", ha="center", fontsize=7)
+            axes.annotate(orbit.line_text(j), (frequency[j], amplitude[j]), (0, 2), textcoords="offset points", ha="center",
+                          fontsize=7)
     else:
         axes.plot(frequency[1:], np.maximum(amplitude[1:], floor), color=style.KINDS["rotation +"], linewidth=0.9)
     axes.set_yscale("log")
