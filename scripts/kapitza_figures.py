@@ -1,12 +1,8 @@
 """Which figure comes from which scene by which script: the one table behind scripts/reproduce.
 
-A figure is (name, scene, script, options). One scene may serve several figures; it is run once.
+A figure is (name, scene, script, options), named after the paper and its figure (docs/theory.md). A scene may serve several
+figures; it is run once.
 """
-
-PAPERS = {
-    "blackburn": "J. A. Blackburn, H. J. T. Smith, N. Groenbech-Jensen, Am. J. Phys. 60 (1992) 903",
-    "butikov": "E. I. Butikov, Am. J. Phys. 86 (2018) 257",
-}
 
 _BASIN = ("plot_basin.py", ["--centre", "inverted"])
 _INVERTED = ("plot_basin.py", ["--centre", "inverted", "--attractor", "inverted"])

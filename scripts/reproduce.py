@@ -25,12 +25,17 @@ def parse_arguments():
     return arguments
 
 
-def step(command):
-    """Runs one command; its failure ends the script with its status."""
+def step(*command):
+    """Runs one command and returns its status."""
     print("reproduce:", *command, flush=True)
-    status = subprocess.run(command, cwd=ROOT).returncode
-    if status:
-        sys.exit(status)
+    return subprocess.run(command, cwd=ROOT).returncode
+
+
+def run_scene(scene, ranks):
+    """Goes on from an interrupted run, keeps a complete result, replaces one of another scene or program (status 2)."""
+    run = ["mpirun", "-n", str(ranks), "build/kapitza", "run", f"scenes/{scene}.yaml", "-o", f"results/{scene}.h5"]
+    status = step(*run, "--resume")
+    return step(*run, "--force") if status == 2 else status
 
 
 def main():
@@ -41,10 +46,11 @@ def main():
         return
     RESULTS.mkdir(exist_ok=True)
     for scene in dict.fromkeys(scene for _, scene, _, _ in arguments.figures):
-        step(["mpirun", "-n", str(arguments.ranks), "build/kapitza", "run", f"scenes/{scene}.yaml",
-              "-o", f"results/{scene}.h5", "--resume"])
+        if status := run_scene(scene, arguments.ranks):
+            sys.exit(status)
     for name, scene, script, options in arguments.figures:
-        step([sys.executable, f"scripts/{script}", f"results/{scene}.h5", "-o", f"results/{name}.png", *options])
+        if status := step(sys.executable, f"scripts/{script}", f"results/{scene}.h5", "-o", f"results/{name}.png", *options):
+            sys.exit(status)
 
 
 if __name__ == "__main__":
