@@ -1,0 +1,253 @@
+!> Mathieu's damped equation u'' + beta u' + (k - m cos t) u = 0 over a period, a lane per point (k, beta, m).
+!>
+!> u = exp(-beta t/2) w removes the damping; w'' + (kappa - m cos t) w = 0, kappa = k - beta**2/4, is integrated over half a
+!> period by Taylor series about the middle of each step. See include/kapitza/linear.h.
+module kz_kernel_linear
+  use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: rk => real64
+  use kz_kernel_map, only: WIDTH
+  implicit none
+  private
+
+  real(rk), parameter :: PI = 3.14159265358979323846_rk
+  !> Terms of the series, and how far sqrt(|kappa| + |m|) times half a step may go: truncation below 1e-17, rounding
+  !> amplified by exp(REACH) at most.
+  integer, parameter :: ORDER = 20
+  real(rk), parameter :: REACH = 1.2_rk
+  !> Numbers beyond 2**LIFT_BITS are scaled down by it.
+  integer, parameter :: LIFT_BITS = 400
+
+  type, bind(C) :: half_period_t
+    real(c_double) :: c
+    real(c_double) :: s
+    real(c_double) :: c_dot
+    real(c_double) :: s_dot
+    integer(c_int64_t) :: exponent
+  end type half_period_t
+
+  !> The two solutions at the current time in units of 2**(LIFT_BITS lifts); derivatives are per half step.
+  type :: solutions_t
+    real(rk) :: w(WIDTH, 2)
+    real(rk) :: w_dot(WIDTH, 2)
+    integer(c_int64_t) :: lifts(WIDTH)
+  end type solutions_t
+
+contains
+
+  !> Solutions at t = pi for n points.
+  subroutine half_periods(n, k, beta, m, half) bind(C, name='kz_linear_half_period')
+    integer(c_int64_t), value :: n
+    !> stiffness [n]
+    real(c_double), intent(in) :: k(n)
+    !> damping [n]
+    real(c_double), intent(in) :: beta(n)
+    !> drive [n]
+    real(c_double), intent(in) :: m(n)
+    !> the four numbers [n]
+    type(half_period_t), intent(out) :: half(n)
+    integer(c_int64_t) :: first
+    integer :: lanes
+
+    do first = 1, n, WIDTH
+      lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
+      call half_tile(lanes, k(first:), beta(first:), m(first:), half(first:))
+    end do
+  end subroutine half_periods
+
+  !> Largest multiplier, its angle and the verdict for n points.
+  subroutine floquet(n, k, beta, m, log_multiplier, angle, stable) bind(C, name='kz_linear_floquet')
+    integer(c_int64_t), value :: n
+    !> stiffness [n]
+    real(c_double), intent(in) :: k(n)
+    !> damping [n]
+    real(c_double), intent(in) :: beta(n)
+    !> drive [n]
+    real(c_double), intent(in) :: m(n)
+    !> natural log of the largest |multiplier| [n]
+    real(c_double), intent(out) :: log_multiplier(n)
+    !> Floquet angle / 2 pi [n]
+    real(c_double), intent(out) :: angle(n)
+    !> 1 = stable [n]
+    integer(c_int8_t), intent(out) :: stable(n)
+    type(half_period_t) :: half(WIDTH)
+    integer(c_int64_t) :: first
+    integer :: lanes, i
+
+    do first = 1, n, WIDTH
+      lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
+      call half_tile(lanes, k(first:), beta(first:), m(first:), half)
+      do i = 1, lanes
+        call verdict(half(i), beta(first + i - 1), log_multiplier(first + i - 1), angle(first + i - 1), &
+                     stable(first + i - 1))
+      end do
+    end do
+  end subroutine floquet
+
+  !> Multiplier, angle and stability of one point. With growth mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus
+  !> sinh(mu/2)**2 = s c' or -c s'; between the tongues sin(pi angle)**2 = -s c'.
+  pure subroutine verdict(half, beta, log_multiplier, angle, stable)
+    type(half_period_t), intent(in) :: half
+    real(rk), intent(in) :: beta
+    real(rk), intent(out) :: log_multiplier
+    real(rk), intent(out) :: angle
+    integer(c_int8_t), intent(out) :: stable
+    real(rk) :: plus, minus, growth
+
+    plus = half%s*half%c_dot
+    minus = -half%c*half%s_dot
+    if (plus >= 0) then
+      growth = growth_of(plus, half%exponent)
+      angle = 0
+    else if (minus >= 0) then
+      growth = growth_of(minus, half%exponent)
+      angle = 0.5_rk
+    else
+      growth = 0
+      angle = atan2(sqrt(-plus), sqrt(-minus))/PI
+    end if
+    log_multiplier = growth - PI*beta
+    stable = merge(1_c_int8_t, 0_c_int8_t, log_multiplier < 0 .or. (beta <= 0 .and. plus < 0 .and. minus < 0))
+  end subroutine verdict
+
+  !> mu with sinh(mu/2)**2 = square 4**exponent.
+  pure function growth_of(square, exponent) result(growth)
+    real(rk), intent(in) :: square
+    integer(c_int64_t), intent(in) :: exponent
+    real(rk) :: growth
+
+    if (exponent == 0 .and. square < 1e30_rk) then
+      growth = 2*asinh(sqrt(square))
+    else
+      growth = log(4*max(square, tiny(1.0_rk))) + 2*exponent*log(2.0_rk)
+    end if
+  end function growth_of
+
+  !> One tile through half a period; its steps suit its hardest lane.
+  subroutine half_tile(lanes, k, beta, m, half)
+    integer, intent(in) :: lanes
+    real(rk), intent(in) :: k(*)
+    real(rk), intent(in) :: beta(*)
+    real(rk), intent(in) :: m(*)
+    type(half_period_t), intent(out) :: half(*)
+    real(rk) :: kappa(WIDTH), drive(WIDTH), h
+    type(solutions_t) :: y
+    integer :: n_steps, i
+
+    kappa = 0
+    drive = 0
+    kappa(:lanes) = k(:lanes) - 0.25_rk*beta(:lanes)**2
+    drive(:lanes) = m(:lanes)
+    n_steps = max(3, ceiling(PI*sqrt(maxval(abs(kappa) + abs(drive)))/(2*REACH)))
+    h = PI/(2*n_steps)
+    y%w = spread([1.0_rk, 0.0_rk], 1, WIDTH)
+    y%w_dot = spread([0.0_rk, h], 1, WIDTH)
+    y%lifts = 0
+    do i = 1, n_steps
+      call step(y, -h*h*kappa, h*h*drive, cosine_series((2*i - 1)*h, h), cosine_terms(h))
+    end do
+    do i = 1, lanes
+      half(i) = half_period_t(y%w(i, 1), y%w(i, 2), y%w_dot(i, 1)/h, y%w_dot(i, 2)/h, LIFT_BITS*y%lifts(i))
+    end do
+  end subroutine half_tile
+
+  !> Taylor coefficients of cos(t + h x) in x.
+  pure function cosine_series(t, h) result(series)
+    real(rk), intent(in) :: t
+    real(rk), intent(in) :: h
+    real(rk) :: series(0:ORDER + 3)
+    real(rk) :: scale
+    integer :: j
+
+    scale = 1
+    do j = 0, ORDER + 3
+      series(j) = scale*merge(cos(t), -sin(t), mod(j, 2) == 0)*merge(1, -1, mod(j/2, 2) == 0)
+      scale = scale*h/(j + 1)
+    end do
+  end function cosine_series
+
+  !> Terms of that series that a double can see.
+  pure function cosine_terms(h) result(terms)
+    real(rk), intent(in) :: h
+    integer :: terms
+    real(rk) :: size
+
+    size = 1
+    do terms = 1, ORDER - 1
+      size = size*h/terms
+      if (size < 1e-18_rk) exit
+    end do
+  end function cosine_terms
+
+  !> A step of two units of x about its middle: with the middle's two solutions A, B the states at its ends are
+  !> W(x) = (A, B; A', B') times the middle's, det W = 1.
+  subroutine step(y, stiffness, drive, cosine, terms)
+    type(solutions_t), intent(inout) :: y
+    real(rk), intent(in) :: stiffness(WIDTH)
+    real(rk), intent(in) :: drive(WIDTH)
+    real(rk), intent(in) :: cosine(0:ORDER + 3)
+    integer, intent(in) :: terms
+    real(rk), dimension(WIDTH) :: a_even, a_odd, da_even, da_odd, b_even, b_odd, db_even, db_odd, at, slope
+    integer :: j
+
+    call series_sums(1, stiffness, drive, cosine, terms, a_even, a_odd, da_even, da_odd)
+    call series_sums(2, stiffness, drive, cosine, terms, b_even, b_odd, db_even, db_odd)
+    do j = 1, 2
+      at = (db_odd - db_even)*y%w(:, j) - (b_even - b_odd)*y%w_dot(:, j)
+      slope = (a_even - a_odd)*y%w_dot(:, j) - (da_odd - da_even)*y%w(:, j)
+      y%w(:, j) = (a_even + a_odd)*at + (b_even + b_odd)*slope
+      y%w_dot(:, j) = (da_odd + da_even)*at + (db_odd + db_even)*slope
+    end do
+    call lift(y)
+  end subroutine step
+
+  !> The solution with first coefficients (1, 0) or (0, 1): sums of its even and odd terms at x = 1 and of their derivatives.
+  subroutine series_sums(which, stiffness, drive, cosine, terms, even, odd, d_even, d_odd)
+    integer, intent(in) :: which
+    real(rk), intent(in) :: stiffness(WIDTH)
+    real(rk), intent(in) :: drive(WIDTH)
+    real(rk), intent(in) :: cosine(0:ORDER + 3)
+    integer, intent(in) :: terms
+    real(rk), dimension(WIDTH), intent(out) :: even, odd, d_even, d_odd
+    real(rk) :: a(WIDTH, -3:ORDER + 1), forced(WIDTH)
+    integer :: n, j
+
+    a(:, :-1) = 0
+    a(:, 0) = merge(1, 0, which == 1)
+    a(:, 1) = merge(0, 1, which == 1)
+    do n = 0, ORDER - 1
+      forced = 0
+      do j = 0, min(n, terms), 4
+        forced = forced + cosine(j)*a(:, n - j) + cosine(j + 1)*a(:, n - j - 1) + cosine(j + 2)*a(:, n - j - 2) &
+                 + cosine(j + 3)*a(:, n - j - 3)
+      end do
+      a(:, n + 2) = (stiffness*a(:, n) + drive*forced)*(1.0_rk/((n + 1)*(n + 2)))
+    end do
+    even = 0
+    odd = 0
+    d_even = 0
+    d_odd = 0
+    do n = ORDER, 0, -2
+      even = even + a(:, n)
+      d_even = d_even + n*a(:, n)
+      odd = odd + a(:, n + 1)
+      d_odd = d_odd + (n + 1)*a(:, n + 1)
+    end do
+  end subroutine series_sums
+
+  !> Scales lanes down before they overflow.
+  subroutine lift(y)
+    type(solutions_t), intent(inout) :: y
+    real(rk) :: large(WIDTH), scale(WIDTH)
+    integer :: j
+
+    large = max(maxval(abs(y%w), 2), maxval(abs(y%w_dot), 2))
+    if (all(large < 2.0_rk**LIFT_BITS)) return
+    scale = merge(2.0_rk**(-LIFT_BITS), 1.0_rk, large >= 2.0_rk**LIFT_BITS)
+    do j = 1, 2
+      y%w(:, j) = y%w(:, j)*scale
+      y%w_dot(:, j) = y%w_dot(:, j)*scale
+    end do
+    y%lifts = y%lifts + merge(1, 0, large >= 2.0_rk**LIFT_BITS)
+  end subroutine lift
+
+end module kz_kernel_linear
