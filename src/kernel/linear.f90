@@ -10,9 +10,9 @@ module kz_kernel_linear
   private
 
   real(rk), parameter :: PI = 3.14159265358979323846_rk
-  !> Terms of the series, and how far sqrt(|kappa| + |m|) times half a step may go: truncation below 1e-17, rounding
+  !> Terms of the series, and how far sqrt(|kappa| + |m|) times half a step may go: truncation below 1e-15, rounding
   !> amplified by exp(REACH) at most.
-  integer, parameter :: ORDER = 20
+  integer, parameter :: ORDER = 22
   real(rk), parameter :: REACH = 1.2_rk
   !> Numbers beyond 2**LIFT_BITS are scaled down by it.
   integer, parameter :: LIFT_BITS = 400

@@ -1,0 +1,136 @@
+#include <complex.h>
+#include <math.h>
+#include <string.h>
+
+#include "hill.h"
+#include "kapitza/stability.h"
+#include "mathieu.h"
+#include "roots.h"
+#include "tongues.h"
+
+/* NaN outside low <= k <= high. */
+static double within(double k, double low, double high, double m) { return k >= low && k <= high ? m : NAN; }
+/* A radicand that rounding may push below 0 at the end of its domain. */
+static double root_of(double x) { return x < 0 && x > -1e-12 ? 0 : sqrt(x); }
+
+#define CURVE(name) static double name(double k, double beta, double turn)
+#define UNDAMPED (void)beta, (void)turn
+
+CURVE(exact_1) { return (void)beta, kz_mathieu_m(1, k, turn, 0); }
+CURVE(exact_2) { return (void)beta, kz_mathieu_m(2, k, turn, 0); }
+CURVE(exact_3) { return (void)beta, kz_mathieu_m(3, k, turn, 0); }
+CURVE(exact_3_upper) { return (void)beta, kz_mathieu_m(3, k, turn, 1); }
+CURVE(exact_4) { return (void)beta, kz_mathieu_m(4, k, turn, 0); }
+CURVE(exact_5) { return (void)beta, kz_mathieu_m(5, k, turn, 0); }
+CURVE(exact_5_upper) { return (void)beta, kz_mathieu_m(5, k, turn, 1); }
+static double turn_3(void) { return kz_mathieu_turn(3); }
+static double turn_5(void) { return kz_mathieu_turn(5); }
+
+static double cosine_cut(double k) { return 2 * root_of(k * (k - 1) * (k - 4) / (3 * k - 8)); }
+static double half_radical(double k) { return root_of((9 - 4 * k) * (13 - 20 * k)); }
+CURVE(butikov_1) { return UNDAMPED, within(k, -INFINITY, 0, cosine_cut(k)); }
+CURVE(butikov_2) { return UNDAMPED, within(k, -INFINITY, 0.25, 0.25 * (half_radical(k) - (9 - 4 * k))); }
+CURVE(butikov_3) { return UNDAMPED, within(k, 0.25, 0.65, 0.25 * (9 - 4 * k - half_radical(k))); }
+CURVE(butikov_3_upper) { return UNDAMPED, within(k, -INFINITY, 0.65, 0.25 * (9 - 4 * k + half_radical(k))); }
+CURVE(butikov_4) { return UNDAMPED, within(k, -INFINITY, 1, root_of(2 * (k - 1) * (k - 4) * (k - 9) / (k - 5))); }
+CURVE(butikov_5) { return UNDAMPED, within(k, 1, 8.0 / 3, cosine_cut(k)); }
+CURVE(butikov_4_refined) {
+  double inner = root_of((((5 * k - 162) * k + 2101) * k - 12136) * k + 24592);
+  return UNDAMPED, within(k, -INFINITY, 1, root_of(2 * ((3 * k - 47) * k + 164 - inner)));
+}
+static double refined_5(double k, double sign) {
+  double inner = root_of(648 + k * (k - 9) * (k * k - 13 * k + 68));
+  return root_of(4 * k * k - 36 * k + 72 + sign * 2 * sqrt(2) * inner);
+}
+CURVE(butikov_5_refined) { return UNDAMPED, within(k, 1, 4, refined_5(k, -1)); }
+CURVE(butikov_5_refined_upper) { return UNDAMPED, within(k, -INFINITY, 4, refined_5(k, 1)); }
+
+CURVE(blackburn_lower) { return UNDAMPED, within(k, -INFINITY, 0, sqrt(-2 * k)); }
+CURVE(blackburn_upper) { return UNDAMPED, within(k, -INFINITY, 0, 0.450 - 1.799 * k); }
+CURVE(blackburn_down_upper) { return UNDAMPED, within(k, 0, 0.25, 0.450 - 1.799 * k); }
+
+CURVE(damped_0) { return (void)turn, kz_tongue_lower(k, beta); }
+CURVE(damped_1) { return kz_tongue_edge(1, k, beta, turn); }
+CURVE(damped_2) { return kz_tongue_edge(2, k, beta, turn); }
+CURVE(butikov_damped_1) { return (void)turn, within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta)); }
+CURVE(butikov_damped_2) { return (void)turn, within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta)); }
+
+#define ROW(name, domain, source, turn) {#name, #name, domain, source, name, turn}
+#define UPPER(name, domain, source, turn) {#name "_upper", #name, domain, source, name##_upper, turn}
+const kz_curve kz_curves[] = {
+    ROW(exact_1, "k <= 0", "4k = a_0(2m)", NULL),
+    ROW(exact_2, "k <= 1/4", "4k = b_1(2m)", NULL),
+    ROW(exact_3, "1/4 <= k <= 0.6304", "4k = a_1(2m)", turn_3),
+    UPPER(exact_3, "k <= 0.6304", "4k = a_1(2m), beyond its turn", turn_3),
+    ROW(exact_4, "k <= 1", "4k = b_2(2m)", NULL),
+    ROW(exact_5, "1 <= k <= 2.0313", "4k = a_2(2m)", turn_5),
+    UPPER(exact_5, "k <= 2.0313", "4k = a_2(2m), beyond its turn", turn_5),
+    ROW(butikov_1, "k <= 0", "BUT (3)", NULL),
+    ROW(butikov_2, "k <= 1/4", "BUT (4)", NULL),
+    ROW(butikov_3, "1/4 <= k <= 13/20", "BUT (5), minus", NULL),
+    UPPER(butikov_3, "k <= 13/20", "BUT (5), plus", NULL),
+    ROW(butikov_4, "k <= 1", "BUT (6)", NULL),
+    ROW(butikov_5, "1 <= k < 8/3", "BUT (7)", NULL),
+    ROW(butikov_4_refined, "k <= 1", "BUT (17)", NULL),
+    ROW(butikov_5_refined, "1 <= k <= 2.042", "BUT (19), minus", NULL),
+    UPPER(butikov_5_refined, "k <= 2.042", "BUT (19), plus", NULL),
+    ROW(blackburn_lower, "k <= 0", "BSG (5)", NULL),
+    ROW(blackburn_upper, "k <= 0", "BSG (6)", NULL),
+    ROW(blackburn_down_upper, "0 <= k <= 1/4", "BSG (6), hanging", NULL),
+    ROW(damped_0, "k <= 0", "multiplier 1, continues curve 1", NULL),
+    ROW(damped_1, "where tongue 1 is", "multiplier -1, continues curves 2 and 3", turn_3),
+    ROW(damped_2, "where tongue 2 is", "multiplier 1, continues curves 4 and 5", turn_5),
+    ROW(butikov_damped_1, "k <= 9/4 and a real root", "BUT (25), corrected", NULL),
+    ROW(butikov_damped_2, "k <= 8/3 and a real root", "BUT (26), corrected", NULL),
+};
+const int kz_curve_count = sizeof kz_curves / sizeof kz_curves[0];
+
+const char *kz_curve_names(void) {
+  static char names[512];
+  if (names[0]) return names;
+  for (int i = 0; i < kz_curve_count; i++) {
+    if (strcmp(kz_curves[i].name, kz_curves[i].asked) != 0) continue;
+    if (names[0]) strcat(names, "|");
+    strcat(names, kz_curves[i].name);
+  }
+  return names;
+}
+
+double kz_damping_at(const kz_damping *damping, double k) {
+  return damping->quality_factor > 0 ? sqrt(fabs(k)) / damping->quality_factor : damping->beta;
+}
+
+void kz_curve_values(const kz_curve *curve, const kz_damping *damping, int64_t n, const double *k, double *m) {
+  double turn = curve->turn ? curve->turn() : 0;
+  for (int64_t i = 0; i < n; i++) m[i] = curve->value(k[i], kz_damping_at(damping, k[i]), turn);
+}
+
+typedef struct {
+  double k, nu;
+} angle_place;
+
+/* Zero where a solution has the Floquet angle 2 pi nu. */
+static double angle_residual(double m, void *context) {
+  const angle_place *at = context;
+  double complex up = kz_hill_pivot(at->k, 0, m, 1 + at->nu), down = kz_hill_pivot(at->k, 0, m, 1 - at->nu);
+  return at->k - at->nu * at->nu - 0.25 * m * m * (1 / creal(up) + 1 / creal(down));
+}
+
+/* Between curve 1 (angle 0) and curve 2 (angle pi) the angle only rises. */
+static double angle_curve(double k, double nu) {
+  if (k > nu * nu) return NAN;
+  if (k == nu * nu) return 0;
+  angle_place at = {k, nu};
+  double low = k < 0 ? kz_mathieu_m(1, k, 0, 0) : 0, high = kz_mathieu_m(2, k, 0, 0);
+  double m = kz_root(angle_residual, &at, low, high);
+  return isfinite(m) ? m : high;
+}
+
+void kz_subharmonic_values(int32_t order, int64_t n, const double *k, double *m_exact, double *m_formula) {
+  double nu = 1.0 / order, turn = order == 2 ? kz_mathieu_turn(3) : 0;
+  for (int64_t i = 0; i < n; i++) {
+    if (order == 2) m_exact[i] = k[i] <= 0.25 ? kz_mathieu_m(2, k[i], 0, 0) : kz_mathieu_m(3, k[i], turn, 0);
+    else m_exact[i] = angle_curve(k[i], nu);
+    m_formula[i] = k[i] <= (order == 2 ? 1 : nu * nu) ? kz_hill_cut_angle(k[i], nu) : NAN;
+  }
+}

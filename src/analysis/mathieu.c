@@ -1,0 +1,118 @@
+#include "mathieu.h"
+
+#include <float.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_sf_mathieu.h>
+#include <math.h>
+
+#include "hill.h"
+#include "roots.h"
+
+typedef int (*value_fn)(int order, double q, gsl_sf_result *result);
+static int value_a(int order, double q, gsl_sf_result *result) { return gsl_sf_mathieu_a_e(order, q, result); }
+static int value_b(int order, double q, gsl_sf_result *result) { return gsl_sf_mathieu_b_e(order, q, result); }
+
+/* Harmonics w = first, first + 1, ...; `corner` (units of m) stands in the first diagonal entry, the first off-diagonal
+ * entry is m/2 sqrt(link); `index` counts eigenvalues from the lowest. axis: k at m = 0. */
+typedef struct {
+  value_fn gsl;
+  int order, index;
+  double first, corner, link, axis;
+} family;
+static const family families[] = {
+    {value_a, 0, 0, 0.0, 0.0, 2.0, 0.0},   {value_b, 1, 0, 0.5, -0.5, 1.0, 0.25}, {value_a, 1, 0, 0.5, 0.5, 1.0, 0.25},
+    {value_b, 2, 0, 1.0, 0.0, 1.0, 1.0},   {value_a, 2, 1, 0.0, 0.0, 2.0, 1.0},
+};
+static const double GSL_REACH = 5000; /* in q */
+
+double kz_mathieu_k_gsl(int curve, double m) {
+  const family *row = &families[curve - 1];
+  gsl_sf_result result;
+  gsl_error_handler_t *handler = gsl_set_error_handler_off();
+  int status = row->gsl(row->order, 2 * m, &result);
+  gsl_set_error_handler(handler);
+  return status == GSL_SUCCESS ? 0.25 * result.val : NAN;
+}
+
+/* Eigenvalues below k of the tridiagonal matrix, by the signs of its pivots (Sturm). */
+static int count_below(const family *row, double m, double k, int rows) {
+  int below = 0;
+  double pivot = 1;
+  for (int j = 0; j < rows; j++) {
+    double w = row->first + j, coupling = j == 0 ? 0 : 0.25 * m * m * (j == 1 ? row->link : 1);
+    pivot = w * w + (j == 0 ? row->corner * m : 0) - k - coupling / pivot;
+    if (pivot == 0) pivot = DBL_MIN;
+    below += pivot < 0;
+  }
+  return below;
+}
+
+double kz_mathieu_k_tridiagonal(int curve, double m) {
+  const family *row = &families[curve - 1];
+  int rows = 24 + (int)(3 * sqrt(m));
+  double low = -2 * m - 1, high = 4 + 2 * m;
+  for (;;) {
+    double middle = 0.5 * (low + high);
+    if (!(middle > low && middle < high)) return middle;
+    if (count_below(row, m, middle, rows) > row->index) high = middle;
+    else low = middle;
+  }
+}
+
+double kz_mathieu_k(int curve, double m) {
+  double k = 2 * m <= GSL_REACH ? kz_mathieu_k_gsl(curve, m) : NAN;
+  return isfinite(k) ? k : kz_mathieu_k_tridiagonal(curve, m);
+}
+
+typedef struct {
+  int curve;
+  double k;
+} place;
+
+static double below_axis(double m, void *context) {
+  const place *at = context;
+  return at->k - kz_mathieu_k(at->curve, m);
+}
+
+double kz_mathieu_turn(int curve) {
+  place at = {curve, 0};
+  return kz_lowest(below_axis, &at, 0.1, 2, 8);
+}
+
+/* The same zero, well-conditioned next to the axis: Hill's pivots subtract k - w^2 exactly. */
+static double residual(double m, void *context) {
+  const place *at = context;
+  double pivot = creal(kz_hill_pivot(at->k, 0, m, families[at->curve - 1].axis == 0.25 ? 0.5 : 1));
+  switch (at->curve) {
+    case 2: return pivot + 0.5 * m;
+    case 3: return pivot - 0.5 * m;
+    case 4: return pivot;
+    default: return at->k * pivot - 0.5 * m * m;
+  }
+}
+
+/* The root next to `m` of the well-conditioned form; m itself where rounding hides it. */
+static double polish(const place *at, double m) {
+  place copy = *at;
+  for (double part = 1e-12; part < 0.7; part *= 8) {
+    double root = kz_root(residual, &copy, m * (1 - part), m * (1 + part));
+    if (isfinite(root)) return root;
+  }
+  return m;
+}
+
+double kz_mathieu_m(int curve, double k, double turn, int upper) {
+  place at = {curve, k};
+  double axis = families[curve - 1].axis;
+  if (!isfinite(k)) return NAN;
+  if (!upper && k == axis) return 0;
+  if (!upper && (turn > 0 ? k < axis : k > axis)) return NAN;
+  double low = upper ? turn : 0, high = turn;
+  if (turn > 0 && k > kz_mathieu_k(curve, turn)) return NAN;
+  if (upper || turn == 0) {
+    high = 2 * turn + fabs(k) + 1;
+    while (kz_mathieu_k(curve, high) > k) high *= 2;
+  }
+  double m = kz_root(below_axis, &at, low, high);
+  return isfinite(m) ? polish(&at, m) : turn;
+}

@@ -1,0 +1,68 @@
+#include <gsl/gsl_integration.h>
+#include <math.h>
+
+#include "kapitza/stability.h"
+#include "roots.h"
+
+/* The slow equation BSG (10) is theta'' + beta theta' = -k sin(theta) - (m^2/2) sin(theta) cos(theta) u/(u^2 + beta^2),
+ * u = 1 - k cos(theta). With d(theta)/d(energy) = k sin + ... its energy is
+ * k (1 - cos) + m^2/(2 k^2) (G(u) - G(1 - k)), G(u) = ln(u^2 + beta^2)/2 - u + beta atan(u/beta). */
+static double primitive(double u, double beta) {
+  return 0.5 * log(u * u + beta * beta) - u + (beta > 0 ? beta * atan2(u, beta) : 0);
+}
+
+typedef struct {
+  double k, beta;
+} slow;
+
+static double bracket(double cosine, const slow *s) {
+  double u = 1 - s->k * cosine;
+  return u / (u * u + s->beta * s->beta);
+}
+
+static double integrand(double cosine, void *context) { return cosine * bracket(cosine, context); }
+
+/* The same integral without the cancellation by k^2; exact to rounding for |k| <= 0.1. */
+static double by_quadrature(const slow *s, double cosine) {
+  gsl_integration_fixed_workspace *rule = gsl_integration_fixed_alloc(gsl_integration_fixed_legendre, 24, cosine, 1, 0, 0);
+  if (!rule) return NAN;
+  gsl_function function = {integrand, (void *)s};
+  double sum;
+  gsl_integration_fixed(&function, &sum, rule);
+  gsl_integration_fixed_free(rule);
+  return 0.5 * sum;
+}
+
+static double by_closed_form(const slow *s, double cosine) {
+  return (primitive(1 - s->k * cosine, s->beta) - primitive(1 - s->k, s->beta)) / (2 * s->k * s->k);
+}
+
+void kz_potential_energy(double k, double beta, double m, double theta, kz_energy *energy) {
+  const slow s = {k, beta};
+  double cosine = cos(theta), sine = sin(theta), lift = 2 * k * pow(sin(0.5 * theta), 2);
+  double drive;
+  if (cosine == 1) drive = 0;
+  else drive = fabs(k) <= 0.1 ? by_quadrature(&s, cosine) : by_closed_form(&s, cosine);
+  energy->exact = lift + m * m * drive;
+  energy->blackburn = lift + 0.25 * m * m * sine * sine * bracket(cosine, &s);
+  energy->simple = lift + 0.25 * m * m * sine * sine;
+}
+
+typedef struct {
+  slow s;
+  double m;
+} hill_top;
+
+/* d(energy)/d(theta)/sin(theta) of the exact potential over cos(theta). */
+static double pull(double cosine, void *context) {
+  const hill_top *top = context;
+  return top->s.k + 0.5 * top->m * top->m * cosine * bracket(cosine, &top->s);
+}
+
+void kz_potential_rim(double k, double beta, double m, kz_rim *rim) {
+  hill_top top = {{k, beta}, m};
+  rim->stable_inverted = pull(-1, &top) < 0;
+  double cosine = rim->stable_inverted ? kz_root(pull, &top, -1, 0) : NAN;
+  rim->exact = acos(cosine);
+  rim->simple = m * m > 2 * k && k >= 0 ? acos(-2 * k / (m * m)) : NAN;
+}

@@ -1,0 +1,126 @@
+#include "tongues.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+#include "hill.h"
+#include "kapitza/linear.h"
+#include "kapitza/stability.h"
+#include "mathieu.h"
+#include "roots.h"
+
+enum { PROBES = 64, ROUNDS = 4 };
+
+typedef struct {
+  double k, beta;
+  bool half;
+} place;
+
+static double residual(double m, void *context) {
+  const place *at = context;
+  return at->half ? kz_hill_half(at->k, at->beta, m) : kz_hill_whole(at->k, at->beta, m);
+}
+
+/* Undamped stiffness with the same growth: u = exp(-beta t/2) w. */
+static double undamped(double k, double beta) { return k - 0.25 * beta * beta; }
+
+double kz_tongue_lower(double k, double beta) {
+  if (k > 0) return NAN;
+  double above = kz_mathieu_m(1, undamped(k, beta), 0, false);
+  if (beta == 0 || k == 0) return k == 0 ? 0 : above;
+  place at = {k, beta, false};
+  double m = kz_root(residual, &at, 0, above);
+  return isfinite(m) ? m : above;
+}
+
+/* Largest growth among equally spaced m between low and high; *best its place. The ends move to its neighbours. */
+static double probe(const place *at, double *low, double *high, double *best) {
+  double k[PROBES], beta[PROBES], m[PROBES], growth[PROBES], angle[PROBES];
+  uint8_t stable[PROBES];
+  double step = (*high - *low) / (PROBES + 1);
+  for (int i = 0; i < PROBES; i++) {
+    k[i] = at->k;
+    beta[i] = at->beta;
+    m[i] = *low + (i + 1) * step;
+  }
+  kz_linear_floquet(PROBES, k, beta, m, growth, angle, stable);
+  int top = 0;
+  for (int i = 1; i < PROBES; i++)
+    if (growth[i] > growth[top]) top = i;
+  *best = m[top];
+  *low = m[top] - step;
+  *high = m[top] + step;
+  return growth[top];
+}
+
+/* Within the undamped tongue growth rises from its lower edge to one maximum: the damped edge lies between. */
+double kz_tongue_edge(int tongue, double k, double beta, double turn) {
+  int lower = tongue == 1 ? 2 : 4, upper = lower + 1;
+  double kappa = undamped(k, beta), axis = tongue == 1 ? 0.25 : 1;
+  double edge = kappa <= axis ? kz_mathieu_m(lower, kappa, 0, false) : kz_mathieu_m(upper, kappa, turn, false);
+  if (beta == 0 || !isfinite(edge)) return edge;
+  place at = {k, beta, tongue == 1};
+  double low = edge, high = kz_mathieu_m(upper, kappa, turn, true), inside = NAN;
+  for (int round = 0; round < ROUNDS; round++) {
+    if (probe(&at, &low, &high, &inside) > 0) {
+      double m = kz_root(residual, &at, edge, inside);
+      return isfinite(m) ? m : edge;
+    }
+  }
+  return NAN;
+}
+
+/* ---- thresholds ---- */
+
+/* The edge over the distance from exact tuning: its valley at large Q is far narrower than an ulp-safe step in k itself. */
+typedef struct {
+  int tongue, way;
+  double quality_factor, axis, turn, step;
+} valley;
+
+static double edge_at(double from_axis, void *context) {
+  const valley *v = context;
+  double k = v->axis + from_axis, beta = sqrt(fabs(k)) / v->quality_factor;
+  if (v->way == KZ_BY_FLOQUET) return kz_tongue_edge(v->tongue, k, beta, v->turn);
+  return v->tongue == 1 ? kz_hill_cut_half(k, beta) : kz_hill_cut_whole(k, beta);
+}
+
+/* Slope of the edge, fourth order. */
+static double slope_at(double x, void *context) {
+  const valley *v = context;
+  double h = v->step;
+  return 8 * (edge_at(x + h, context) - edge_at(x - h, context)) - edge_at(x + 2 * h, context) + edge_at(x - 2 * h, context);
+}
+
+/* The lowest of equally spaced points, then Brent's minimum, then the zero of the slope: k to 1e-11 of the tongue's width.
+ * NaN where the edge has no lowest point inside (low Q: it only falls towards k = 0). */
+static double lowest_from_axis(valley *v) {
+  enum { POINTS = 256 };
+  double spacing = 2.4 * v->axis / POINTS, lowest = INFINITY;
+  int at = 0;
+  for (int i = 1; i < POINTS; i++) {
+    double edge = edge_at(i * spacing - v->axis, v);
+    if (!(edge < lowest)) continue;
+    lowest = edge;
+    at = i;
+  }
+  double best = at * spacing - v->axis;
+  if (at < 1 || !(edge_at(best - spacing, v) > lowest) || !(edge_at(best + spacing, v) > lowest)) return NAN;
+  double x = kz_lowest(edge_at, v, best - spacing, best, best + spacing);
+  double width = v->tongue == 1 ? edge_at(x, v) : pow(edge_at(x, v), 2);
+  v->step = 5e-4 * fmin(width, v->axis + x);
+  double refined = kz_root(slope_at, v, x - 0.02 * width, x + 0.02 * width);
+  return isfinite(refined) ? refined : x;
+}
+
+void kz_tongue_threshold(int32_t tongue, double quality_factor, int32_t way, kz_threshold *threshold) {
+  double q = quality_factor, axis = tongue == 1 ? 0.25 : 1;
+  if (way == KZ_BY_ASYMPTOTE) {
+    if (tongue == 1) *threshold = (kz_threshold){0.25 - 5 / (32 * q * q), 1 / (2 * q), 1 / (2 * q)};
+    else *threshold = (kz_threshold){1 + 2 / (3 * q), 2 / sqrt(q), sqrt(12 / sqrt(5)) / sqrt(q)};
+    return;
+  }
+  valley v = {tongue, way, q, axis, kz_mathieu_turn(tongue == 1 ? 3 : 5), 0};
+  double lowest = lowest_from_axis(&v);
+  *threshold = (kz_threshold){axis + lowest, edge_at(lowest, &v), edge_at(0, &v)};
+}

@@ -1,0 +1,1 @@
+kapitza_test(stability LABEL extremes FLOOR analysis)

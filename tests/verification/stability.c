@@ -1,0 +1,229 @@
+/* Three ways agree: Floquet multipliers by integration, Hill's determinant, GSL's characteristic values. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "../../src/analysis/hill.h"
+#include "../../src/analysis/mathieu.h"
+#include "kapitza/kernel.h"
+#include "kapitza/linear.h"
+#include "kapitza/stability.h"
+
+#define PI 3.14159265358979323846
+enum { POINTS = 400 };
+
+static double random_between(double low, double high) { return low + (high - low) * drand48(); }
+
+static kz_half_period half_period(double k, double beta, double m)
+{
+  kz_half_period half;
+  kz_linear_half_period(1, &k, &beta, &m, &half);
+  return half;
+}
+
+static double growth(double k, double beta, double m, double *angle)
+{
+  double log_multiplier;
+  uint8_t stable;
+  kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, angle, &stable);
+  return log_multiplier;
+}
+
+/* Without drive the solutions are known. */
+static void no_drive_is_elementary(void **unused)
+{
+  (void)unused;
+  for (int i = 0; i < POINTS; i++) {
+    double k = random_between(-40, 40), root = sqrt(fabs(k));
+    kz_half_period half = half_period(k, 0, 0);
+    double c = k > 0 ? cos(PI * root) : cosh(PI * root), s = k > 0 ? sin(PI * root) / root : sinh(PI * root) / root;
+    double size = k > 0 ? 1 : c;
+    assert_true(fabs(half.c - c) < 2e-13 * size && fabs(half.s - s) < 2e-13 * size / root);
+  }
+}
+
+/* Wronskian: c s' - s c' = 1. */
+static void area_is_kept(void **unused)
+{
+  (void)unused;
+  for (int i = 0; i < POINTS; i++) {
+    double k = random_between(-2, 20), beta = random_between(0, 1), m = random_between(-5, 5);
+    kz_half_period half = half_period(k, beta, m);
+    double scale = fabs(half.c * half.s_dot) + fabs(half.s * half.c_dot);
+    assert_true(fabs(half.c * half.s_dot - half.s * half.c_dot - 1) < 5e-13 * (1 + scale));
+  }
+}
+
+/* The tangent map of the nonlinear pendulum at rest, in quad precision, is the linear equation about down. */
+static void nonlinear_tangent_map_agrees(void **unused)
+{
+  (void)unused;
+  for (int i = 0; i < 6; i++) {
+    kz_pendulum pendulum = {random_between(-0.5, 1.5), random_between(0, 0.4), random_between(-1, 1)};
+    kz_numerics fine = {0, 64, KZ_QUAD};
+    for (int32_t row = 0; row < kz_scheme_count(); row++) {
+      kz_scheme scheme;
+      kz_scheme_row(row, &scheme);
+      if (strcmp(scheme.name, "split6") == 0) fine.scheme = row;
+    }
+    kz_plan *plan = kz_plan_create(&pendulum, &fine);
+    double theta = 0, velocity = 0, matrix[4];
+    int64_t turns = 0;
+    kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
+    kz_plan_free(plan);
+    kz_half_period half = half_period(pendulum.k, pendulum.beta, pendulum.m);
+    double trace = 2 * exp(-PI * pendulum.beta) * (2 * half.c * half.s_dot - 1);
+    assert_true(fabs(trace - (matrix[0] + matrix[3])) < 1e-10 * (1 + fabs(trace)));
+  }
+}
+
+/* On an exact curve the multiplier is +1 or -1: Floquet's root lies within 1e-10. The curve's zero among c, s, c', s'. */
+static double floquet_zero(int curve, double k, double m)
+{
+  kz_half_period half = half_period(k, 0, m);
+  const double zero[] = {half.c_dot, half.s_dot, half.c, half.s, half.c_dot};
+  return zero[curve - 1];
+}
+
+static void curves_are_floquet_roots(void **unused)
+{
+  (void)unused;
+  const kz_damping none = {0, NAN};
+  int seen = 0;
+  for (int row = 0; row < 7; row++)
+    for (int i = 0; i < POINTS / 4; i++) {
+      double k = random_between(-5, 2.03), m;
+      kz_curve_values(&kz_curves[row], &none, 1, &k, &m);
+      if (isnan(m) || m < 1e-6) continue;
+      int curve = kz_curves[row].name[6] - '0';
+      assert_true(floquet_zero(curve, k, m * (1 - 1e-10)) * floquet_zero(curve, k, m * (1 + 1e-10)) < 0);
+      seen++;
+    }
+  assert_true(seen > 200);
+}
+
+static void gsl_and_tridiagonal_agree(void **unused)
+{
+  (void)unused;
+  for (int curve = 1; curve <= 5; curve++)
+    for (double m = 1e-3; m < 2500; m *= 1.3) {
+      double gsl = kz_mathieu_k_gsl(curve, m), tridiagonal = kz_mathieu_k_tridiagonal(curve, m);
+      assert_true(fabs(gsl - tridiagonal) < 2e-12 * (1 + fabs(gsl)));
+    }
+}
+
+/* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue 1) or +1 (others). */
+static void damped_edges_have_multiplier_one(void **unused)
+{
+  (void)unused;
+  const char *names[] = {"damped_0", "damped_1", "damped_2"};
+  int seen = 0;
+  for (int row = 0; row < kz_curve_count; row++)
+    for (int tongue = 0; tongue < 3; tongue++) {
+      if (strcmp(kz_curves[row].name, names[tongue]) != 0) continue;
+      for (int i = 0; i < POINTS / 4; i++) {
+        double k = random_between(-2, 1.9), m, angle;
+        kz_damping damping = {0, exp(random_between(log(0.7), log(1e4)))};
+        kz_curve_values(&kz_curves[row], &damping, 1, &k, &m);
+        if (isnan(m)) continue;
+        double beta = kz_damping_at(&damping, k);
+        double below = growth(k, beta, m * (1 - 1e-9), &angle), above = growth(k, beta, m * (1 + 1e-9), &angle);
+        assert_true(tongue == 0 ? below > 0 && above < 0 : below < 0 && above > 0);
+        if (tongue > 0) assert_true(angle == (tongue == 1 ? 0.5 : 0));
+        seen++;
+      }
+    }
+  assert_true(seen > 150);
+}
+
+/* Between the tongues the Floquet angle makes Hill's determinant zero; the size of its terms is the measure. */
+static void angle_is_root_of_hills_determinant(void **unused)
+{
+  (void)unused;
+  int seen = 0;
+  for (int i = 0; i < 2 * POINTS; i++) {
+    double k = random_between(-0.5, 1), m = random_between(0, 2), angle;
+    if (growth(k, 0, m, &angle) > 0 || angle < 0.02 || angle > 0.48) continue;
+    double up = creal(kz_hill_pivot(k, 0, m, 1 + angle)), down = creal(kz_hill_pivot(k, 0, m, 1 - angle)), x = 0.25 * m * m;
+    double terms[] = {(k - angle * angle) * up * down, -x * down, -x * up};
+    double size = fabs(terms[0]) + fabs(terms[1]) + fabs(terms[2]);
+    assert_true(fabs(terms[0] + terms[1] + terms[2]) < 1e-11 * size + 1e-12);
+    seen++;
+  }
+  assert_true(seen > 100);
+}
+
+/* At any n, real subharmonic curves hold solutions with the angle 1/n. */
+static void subharmonics_have_their_angle(void **unused)
+{
+  (void)unused;
+  const int32_t orders[] = {3, 5, 8, 17, 100};
+  for (int j = 0; j < 5; j++)
+    for (int i = 0; i < POINTS / 8; i++) {
+      double k = random_between(-1, 1.0 / (orders[j] * orders[j])), exact, formula, angle;
+      kz_subharmonic_values(orders[j], 1, &k, &exact, &formula);
+      growth(k, 0, exact, &angle);
+      assert_true(fabs(angle - 1.0 / orders[j]) < 1e-9);
+      assert_true(fabs(formula - exact) < 0.01 * (1 + exact));
+    }
+}
+
+/* Closed form against quadrature at the crossing, and the energy's slope against BSG (10). */
+static void potential_is_the_integral_of_the_slow_force(void **unused)
+{
+  (void)unused;
+  for (int i = 0; i < POINTS; i++) {
+    double k = random_between(-0.3, 0.3), beta = random_between(0, 0.2), m = random_between(0, 1);
+    double theta = random_between(0.1, 3), h = 1e-3, slope = 0;
+    const double weight[] = {1, -8, 8, -1}, at[] = {-2, -1, 1, 2};
+    for (int j = 0; j < 4; j++) {
+      kz_energy energy;
+      kz_potential_energy(k, beta, m, theta + at[j] * h, &energy);
+      slope += weight[j] * energy.exact / (12 * h);
+    }
+    double u = 1 - k * cos(theta);
+    double force = k * sin(theta) + 0.5 * m * m * sin(theta) * cos(theta) * u / (u * u + beta * beta);
+    assert_true(fabs(slope - force) < 1e-9);
+  }
+}
+
+static void leading_terms_of_thresholds(void **unused)
+{
+  (void)unused;
+  for (int tongue = 1; tongue <= 2; tongue++) {
+    double before = INFINITY;
+    for (double q = 10; q < 1e9; q *= 10) {
+      kz_threshold exact, leading;
+      kz_tongue_threshold(tongue, q, KZ_BY_FLOQUET, &exact);
+      kz_tongue_threshold(tongue, q, KZ_BY_ASYMPTOTE, &leading);
+      double error = fabs(leading.m_lowest / exact.m_lowest - 1);
+      assert_true(error < before * 0.2 || error < 1e-12);
+      assert_true(error < (tongue == 1 ? 0.2 / (q * q) : 1.0 / q) + 1e-13);
+      assert_true(fabs(leading.m_tuned / exact.m_tuned - 1) < 1.0 / q);
+      before = error;
+    }
+  }
+}
+
+int main(void)
+{
+  srand48(4);
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(no_drive_is_elementary),
+      cmocka_unit_test(area_is_kept),
+      cmocka_unit_test(nonlinear_tangent_map_agrees),
+      cmocka_unit_test(curves_are_floquet_roots),
+      cmocka_unit_test(gsl_and_tridiagonal_agree),
+      cmocka_unit_test(damped_edges_have_multiplier_one),
+      cmocka_unit_test(angle_is_root_of_hills_determinant),
+      cmocka_unit_test(subharmonics_have_their_angle),
+      cmocka_unit_test(potential_is_the_integral_of_the_slow_force),
+      cmocka_unit_test(leading_terms_of_thresholds),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
