@@ -65,6 +65,10 @@ void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);         /
 /* Grows the trapping regions over the table's cells; returns the share of its cells that are trapped. */
 double kz_dynamics_grow(kz_dynamics *dynamics);
 
+/* Periods for which an orbit of the map table (`points` nodes an axis) can be trusted: until its interpolation error, stretched
+ * period by period, has grown to a cell. Needs the table and the grown regions. */
+double kz_dynamics_trust_horizon(kz_dynamics *dynamics, int32_t points);
+
 typedef struct {
   int32_t period, winding, centre, symmetric, mirror;
   double mean, mean_velocity; /* over time: rad in [-pi, pi], rad per drive radian */

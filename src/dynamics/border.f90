@@ -11,6 +11,7 @@ module kz_dynamics_border
   use kz_dynamics_labels, only: follow
   use kz_dynamics_regions, only: regions_t, make_regions
   use kz_dynamics_search, only: search_t, find_cycles
+  use kz_dynamics_trust, only: trust_horizon
   use kz_dynamics_tables, only: table_t, make_table, table_row, set_table_rows, table_map_t, make_table_map
   implicit none
   private
@@ -299,6 +300,22 @@ contains
     call grow_regions(d%regions, d%attractors, map)
     share = count(d%regions%owner > 0)/real(size(d%regions%owner), dp)
   end function grow
+
+  function horizon(handle, points) bind(C, name='kz_dynamics_trust_horizon') result(periods)
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: points
+    real(dp) :: periods
+    integer(c_int64_t), parameter :: SAMPLES = 16*WIDTH
+    type(dynamics_t), pointer :: d
+    type(table_map_t) :: map
+    real(dp), allocatable :: state(:, :)
+
+    d => of_handle(handle)
+    allocate (state(2, SAMPLES))
+    call starts(window_t(-PI, PI, -d%table%top, d%table%top), 1_c_int64_t, SAMPLES, state)
+    map = make_table_map(d%table, int(points), d%search%flow)
+    periods = trust_horizon(d%search%flow, map, d%regions, d%attractors, state)
+  end function horizon
 
   function attractor_count(handle) bind(C, name='kz_dynamics_count') result(n)
     type(c_ptr), value :: handle

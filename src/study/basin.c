@@ -1,6 +1,7 @@
 /* Study `basin`: the attractors of a window, then a label for every cell.
  *
- * scene -> discovery -> map table -> trapping regions -> tiles of cells -> (cells that ended nowhere known feed another round) ->
+ * scene -> discovery -> map table -> trapping regions -> tiles of cells -> (hybrid: cells that the table does not back are integrated)
+ * -> (cells that ended nowhere known feed another round) ->
  * measures -> file. A window that is its own mirror image needs half the cells: cell f mirrors cell n - 1 - f. */
 #include "basin.h"
 
@@ -17,6 +18,9 @@ enum {
   ROUNDS = 4          /* of discovery, at most */
 };
 
+/* What a label rests on, as the file says it. */
+enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3 };
+
 typedef struct {
   int16_t owner[CELLS]; /* number of kz_dynamics, 0 = not settled */
   uint32_t periods[CELLS];
@@ -29,7 +33,10 @@ typedef struct {
   int64_t total, own;       /* cells of the window; those that are labelled, the others mirror them */
   int16_t *owner;           /* [own], rank 0 */
   uint32_t *periods;        /* [own], rank 0 */
-  int64_t n_open, *open;    /* cells of the present round; NULL = all own ones */
+  int64_t n_open, *open;    /* cells of the present stage; NULL = all own ones */
+  bool directly;            /* the present stage integrates them */
+  uint8_t *again;           /* [own], rank 0: integrated because the table was not trusted */
+  uint8_t *mark;            /* [own], rank 0: scratch */
   int64_t *reached;         /* [INT16_MAX + 1] starts and cells that ended on each attractor */
 } basin;
 
@@ -49,15 +56,8 @@ static void cell_state(const kz_basin_plan *plan, int64_t f, double state[2])
   state[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
 }
 
-static kz_status follow_cells(const basin *b, int64_t n, double *state, int32_t *owner, int64_t *periods)
-{
-  static const int32_t points[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
-  if (b->plan->method == KZ_METHOD_DIRECT)
-    kz_dynamics_follow(b->dynamics, n, b->plan->max_periods, state, owner, periods);
-  else
-    kz_dynamics_follow_table(b->dynamics, points[b->plan->interpolation], n, b->plan->max_periods, state, owner, periods);
-  return KZ_OK;
-}
+/* Nodes an axis of the stencil. */
+static const int32_t points[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
 
 static kz_status label_tile(void *context, int64_t tile, void *record)
 {
@@ -67,7 +67,10 @@ static kz_status label_tile(void *context, int64_t tile, void *record)
   int32_t owner[CELLS];
   int64_t periods[CELLS], first = tile * CELLS, n = b->n_open - first < CELLS ? b->n_open - first : CELLS;
   for (int64_t i = 0; i < n; i++) cell_state(b->plan, b->open ? b->open[first + i] : first + i, state + 2 * i);
-  KZ_TRY(follow_cells(b, n, state, owner, periods));
+  if (b->directly)
+    kz_dynamics_follow(b->dynamics, n, b->plan->max_periods, state, owner, periods);
+  else
+    kz_dynamics_follow_table(b->dynamics, points[b->plan->interpolation], n, b->plan->max_periods, state, owner, periods);
   for (int64_t i = 0; i < n; i++) {
     out->owner[i] = (int16_t)owner[i];
     out->periods[i] = (uint32_t)periods[i];
@@ -100,10 +103,11 @@ static kz_status make_table(basin *b, kz_team *team)
 }
 
 /* Labels the open cells; on rank 0 they go to their places. */
-static kz_status label_cells(basin *b, kz_team *team, int round)
+static kz_status label_cells(basin *b, kz_team *team, int round, bool directly)
 {
   char name[32];
-  snprintf(name, sizeof name, round == 0 ? "cells" : "cells, round %d", round + 1);
+  snprintf(name, sizeof name, "cells %d%s", round + 1, directly ? " directly" : "");
+  b->directly = directly;
   kz_stage stage = {.name = name, .n_tiles = (b->n_open + CELLS - 1) / CELLS, .record_bytes = sizeof(labelled),
                     .work = label_tile, .context = b, .keep = true};
   labelled *records = NULL;
@@ -147,11 +151,11 @@ static kz_status first_discovery(basin *b, kz_team *team, const kz_window *windo
   return status;
 }
 
-/* The cells that have not settled, on every rank. */
-static kz_status list_unsettled(basin *b, kz_team *team)
+/* The cells that are marked on rank 0, as the open ones of every rank. */
+static kz_status open_marked(basin *b, kz_team *team, const uint8_t *mark)
 {
   int64_t n = 0;
-  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += b->owner[f] == 0;
+  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += mark[f];
   KZ_TRY(kz_team_broadcast(team, &n, sizeof n));
   free(b->open);
   b->open = malloc((size_t)n * sizeof *b->open + 1);
@@ -159,8 +163,31 @@ static kz_status list_unsettled(basin *b, kz_team *team)
   KZ_TRY(kz_team_agree(team, b->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)n)));
   n = 0;
   for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++)
-    if (b->owner[f] == 0) b->open[n++] = f;
+    if (mark[f]) b->open[n++] = f;
   return kz_team_broadcast(team, b->open, (size_t)b->n_open * sizeof *b->open);
+}
+
+static kz_status open_unsettled(basin *b, kz_team *team)
+{
+  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) b->mark[f] = b->owner[f] == 0;
+  return open_marked(b, team, b->mark);
+}
+
+/* Hybrid: integrates those open cells whose label the table does not back. */
+static kz_status label_distrusted(basin *b, kz_team *team, int round)
+{
+  kz_grid grid = {b->plan, b->dynamics, b->total, b->own, b->owner, b->periods};
+  double horizon = kz_dynamics_trust_horizon(b->dynamics, points[b->plan->interpolation]);
+  kz_status status = KZ_OK;
+  if (kz_team_rank(team) == 0) {
+    memset(b->mark, 0, (size_t)b->own);
+    for (int64_t i = 0; i < b->n_open; i++) b->mark[b->open ? b->open[i] : i] = 1;
+    status = kz_grid_distrust(&grid, horizon, b->mark);
+    for (int64_t f = 0; f < b->own; f++) b->again[f] |= b->mark[f];
+  }
+  KZ_TRY(kz_team_agree(team, status));
+  KZ_TRY(open_marked(b, team, b->mark));
+  return label_cells(b, team, round, true);
 }
 
 /* Unsettled cells, evenly chosen, as starts of another discovery. */
@@ -183,9 +210,10 @@ static kz_status model(basin *b, kz_team *team, const kz_window *window)
   b->n_open = b->own;
   for (int round = 0;; round++) {
     b->trapped_share = kz_dynamics_grow(b->dynamics);
-    KZ_TRY(label_cells(b, team, round));
+    KZ_TRY(label_cells(b, team, round, b->plan->method == KZ_METHOD_DIRECT));
+    if (b->plan->method == KZ_METHOD_HYBRID) KZ_TRY(label_distrusted(b, team, round));
     if (round == ROUNDS - 1) return KZ_OK;
-    KZ_TRY(list_unsettled(b, team));
+    KZ_TRY(open_unsettled(b, team));
     if (b->n_open == 0) return KZ_OK;
     int64_t known = kz_dynamics_count(b->dynamics);
     KZ_TRY(discover_again(b, team));
@@ -198,7 +226,9 @@ static kz_status allocate(basin *b, bool leads)
   b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
   b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
   b->periods = leads ? calloc((size_t)b->own, sizeof *b->periods) : NULL;
-  if (b->reached && (!leads || (b->owner && b->periods))) return KZ_OK;
+  b->again = leads ? calloc((size_t)b->own, sizeof *b->again) : NULL;
+  b->mark = leads ? calloc((size_t)b->own, sizeof *b->mark) : NULL;
+  if (b->reached && (!leads || (b->owner && b->periods && b->again && b->mark))) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->own);
 }
 
@@ -214,7 +244,7 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels)
     int32_t id = b->owner[own] > 0 ? catalogue->id_of[b->owner[own]] : -1;
     labels->attractor[f] = (int16_t)(mirrored && id >= 0 ? catalogue->entries[id].mirror : id);
     labels->settling_time[f] = b->periods[own];
-    labels->evidence[f] = id < 0 ? 0 : b->periods[own] == 0 ? 1 : 2;
+    labels->evidence[f] = id < 0 ? UNSETTLED : b->periods[own] == 0 ? INSIDE : b->again[own] ? INTEGRATED : FOLLOWED;
   }
   return status;
 }
@@ -244,6 +274,8 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   if (b.dynamics) kz_dynamics_free(b.dynamics);
   free(b.owner);
   free(b.periods);
+  free(b.again);
+  free(b.mark);
   free(b.open);
   free(b.reached);
   return kz_team_agree(team, status);
@@ -289,7 +321,7 @@ kz_cost kz_basin_cost(const kz_scene *scene)
   double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
-  double cell_period = plan->method == KZ_METHOD_DIRECT ? period : 3e-8;
+  double cell_period = plan->method == KZ_METHOD_ICM ? 3e-8 : period;
   return (kz_cost){.cells = plan->theta.count * plan->velocity.count,
                    .disk_bytes = 14 * cells,
                    .memory_bytes = 5e7 + 27 * cells + 100 * nodes,

@@ -17,6 +17,19 @@ typedef struct {
 kz_status kz_labels_allocate(int64_t cells, kz_labels *labels);
 void kz_labels_free(kz_labels *labels);
 
+/* The own cells of a window as they are labelled so far, on rank 0. */
+typedef struct {
+  const kz_basin_plan *plan;
+  const kz_dynamics *dynamics;
+  int64_t total, own;
+  const int16_t *owner;
+  const uint32_t *periods;
+} kz_grid;
+
+/* mark [own]: of the marked cells those stay marked whose label the map table does not back: they have not started inside a
+ * trapping region, and took longer than `horizon` periods, or have not settled, or differ from a neighbour. */
+kz_status kz_grid_distrust(const kz_grid *grid, double horizon, uint8_t *mark);
+
 /* Centre of cell i; exactly mirrored in a symmetric window. */
 double kz_axis_centre(const kz_axis *axis, int64_t i);
 bool kz_axis_is_symmetric(const kz_axis *axis);
