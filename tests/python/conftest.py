@@ -1,5 +1,6 @@
 """Shared fixtures: a result file as the contract asks for, made without the program, and the program itself."""
 
+import json
 import os
 import subprocess
 from pathlib import Path
@@ -100,6 +101,15 @@ def made_file(tmp_path):
     path = tmp_path / "made.h5"
     write_result(path, attractors, theta, velocity, labels, np.where(labels < 0, 2000, 5), title="A made-up plane")
     return path
+
+
+@pytest.fixture(scope="session")
+def fig12_attractors():
+    """The published attractors of Blackburn's Fig. 12, for write_result."""
+    known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
+    return [{"period": row["period"], "winding": row["winding_total"], "centre": 2 if row["winding_total"] else 0,
+             "points": np.array(row["strobe_points"], dtype=float)}
+            for row in known["blackburn_fig11_15_attractors_Q5_Omega11"]["0.300"]["attractors"]]
 
 
 @pytest.fixture(scope="session")

@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,7 +12,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kapitza_file import BadFile
 
-REFERENCE = Path(__file__).resolve().parents[1] / "literature" / "reference.json"
 NEEDS_TOOL = pytest.mark.skipif(not truth_check.TRUTH_LABEL.exists(), reason="build/tests/truth_label is not built")
 
 
@@ -41,15 +39,12 @@ def test_sampled_cells_differ_and_repeat(rows, columns, count, seed):
 
 
 @pytest.fixture
-def fig12_file(tmp_path):
-    """Figure 12's attractors on 6 x 5 cells labelled by quad precision."""
-    known = json.loads(REFERENCE.read_text())["blackburn_fig11_15_attractors_Q5_Omega11"]["0.300"]["attractors"]
-    attractors = [{"period": row["period"], "winding": row["winding_total"], "centre": 2 if row["winding_total"] else 0,
-                   "points": np.array(row["strobe_points"], dtype=float)} for row in known]
+def fig12_file(tmp_path, fig12_attractors):
+    """Figure 12's attractors on 6 x 5 cells, and the cells' labels by quad precision."""
     theta, velocity = (2 * np.arange(6) + 1 - 6) * (np.pi / 6), (2 * np.arange(5) + 1 - 5) * (2 / 5)
     path = tmp_path / "fig12.h5"
 
-    def write(labels, rows=attractors):
+    def write(labels, rows=fig12_attractors):
         write_result(path, rows, theta, velocity, labels, np.full(labels.shape, 50))
         return path
 
@@ -57,7 +52,7 @@ def fig12_file(tmp_path):
     catalogue = truth_check.Catalogue(truth_check.Result(path))
     grid = np.meshgrid(theta, velocity)
     truth = truth_check.truth_labels(catalogue, grid[0].ravel(), grid[1].ravel())
-    return write, truth.reshape(5, 6), attractors
+    return write, truth.reshape(5, 6), fig12_attractors
 
 
 @NEEDS_TOOL

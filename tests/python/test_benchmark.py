@@ -1,0 +1,54 @@
+"""The benchmark's fairness: the two textbook programs label alike and well, and labels of two files are compared rightly."""
+
+import subprocess
+
+import benchmark
+import numpy as np
+import pytest
+import truth_check
+from conftest import ROOT, write_result
+
+POINTS = [[[0.0, 0.0]], [[3.0, 1.1]], [[-3.0, -1.1]], [[0.1, 0.3], [0.2, -0.4]]]
+ROWS = [{"period": len(points), "winding": round(points[0][1]) if len(points) == 1 else 0,
+         "centre": 2 if abs(points[0][1]) > 1 else 0, "points": np.array(points)} for points in POINTS]
+
+
+def catalogue_of(path, rows):
+    write_result(path, rows, np.zeros(1), np.zeros(1), np.zeros((1, 1), dtype=int), np.zeros((1, 1)))
+    return truth_check.Catalogue(truth_check.Result(path))
+
+
+def test_labels_are_translated_between_catalogues(tmp_path):
+    order = [2, 0, 3, 1]
+    reference = catalogue_of(tmp_path / "a.h5", ROWS)
+    ids = benchmark.translation(catalogue_of(tmp_path / "b.h5", [ROWS[i] for i in order]), reference)
+    assert ids.tolist() == [*order, truth_check.NONE]
+    assert ids[np.array([-1, 0])].tolist() == [truth_check.NONE, 2]
+    fewer = catalogue_of(tmp_path / "c.h5", ROWS[:3])
+    assert benchmark.translation(reference, fewer).tolist() == [0, 1, 2, benchmark.UNKNOWN, truth_check.NONE]
+
+
+def test_ratios_are_of_one_round():
+    rows = benchmark.rows_of({benchmark.TWIN: [4e-6, 40e-6], "direct": [1e-6, 10e-6]}, lambda name: {"wrong": 0})
+    assert [row["times_faster_than_twin"]["median"] for row in rows] == pytest.approx([1, 4])
+    assert rows[1]["microseconds_per_cell"] == pytest.approx({"median": 5.5, "min": 1, "max": 10})
+
+
+@pytest.fixture(scope="module")
+def built():
+    """The textbook programs, which the default build leaves out."""
+    if not (ROOT / "build" / "build.ninja").exists():
+        pytest.skip("build/ is not configured")
+    subprocess.run(["cmake", "--build", "build", "--target", "benchmark"], cwd=ROOT, check=True, capture_output=True)
+
+
+def test_textbook_programs_agree_with_the_truth(built, tmp_path, fig12_attractors):
+    fig12_catalogue = catalogue_of(tmp_path / "fig12.h5", fig12_attractors)
+    generator = np.random.default_rng(1)
+    theta, velocity = generator.uniform(-np.pi, np.pi, 60), generator.uniform(-2, 2, 60)
+    core = min(benchmark.os.sched_getaffinity(0))
+    scalar, lanes = (benchmark.textbook_run(name, fig12_catalogue, theta, velocity, core)[0] for name in ("textbook", "twin"))
+    truth = truth_check.truth_labels(fig12_catalogue, theta, velocity)
+    assert np.count_nonzero(scalar != lanes) <= 1
+    assert np.count_nonzero(lanes != truth) <= 3
+    assert len(np.unique(truth)) >= 4 and (truth >= 0).all()
