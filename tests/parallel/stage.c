@@ -1,4 +1,6 @@
 /* Stages: every record arrives, whoever did it; a failure ends all ranks. */
+#include <sys/resource.h>
+
 #include "ranks.h"
 
 enum { N_TILES = 200, N_NUMBERS = 9 };
@@ -38,7 +40,8 @@ static int is_right(const record *records, int64_t n_tiles)
 
 static kz_stage stage_of(job *j, int64_t n_tiles, bool everywhere)
 {
-  return (kz_stage){.name = "test", .n_tiles = n_tiles, .record_bytes = sizeof(record), .work = fill, .context = j, .everywhere = everywhere};
+  return (kz_stage){
+      .name = "test", .n_tiles = n_tiles, .record_bytes = sizeof(record), .work = fill, .context = j, .everywhere = everywhere};
 }
 
 static void records_arrive_on_rank_0(void **state)
@@ -118,6 +121,7 @@ static kz_status fill_large(void *context, int64_t tile, void *bytes)
 {
   const size_t n = *(const size_t *)context;
   memset(bytes, (int)tile + 1, n);
+  pause_for(0.1); /* every rank gets one */
   return KZ_OK;
 }
 
@@ -131,6 +135,34 @@ static void records_beyond_a_message_arrive(void **state)
   int wrong = 0;
   for (int t = 0; t < 7; ++t) wrong += records[(size_t)t * n] != t + 1 || records[(size_t)(t + 1) * n - 1] != t + 1;
   assert_all(wrong == 0);
+  free(records);
+}
+
+/* No more address space than now, and a little. */
+static void limit_memory(struct rlimit *before)
+{
+  long pages = 0;
+  FILE *file = fopen("/proc/self/statm", "r");
+  if (!file || fscanf(file, "%ld", &pages) != 1) perror("statm");
+  if (file) fclose(file);
+  getrlimit(RLIMIT_AS, before);
+  struct rlimit tight = *before;
+  tight.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + (4 << 20);
+  setrlimit(RLIMIT_AS, &tight);
+}
+
+static void memory_that_runs_out_on_one_rank_ends_all(void **state)
+{
+  (void)state;
+  size_t n = (size_t)16 << 20;
+  const kz_stage stage = {.name = "large", .n_tiles = 20, .record_bytes = n, .work = fill_large, .context = &n};
+  const int rank = kz_team_rank(team), last = kz_team_size(team) - 1;
+  char *records = rank == 0 ? malloc(20 * n) : NULL;
+  struct rlimit before;
+  if (rank == last && rank > 0) limit_memory(&before);
+  const kz_status status = kz_stage_run(team, &stage, records);
+  if (rank == last && rank > 0) setrlimit(RLIMIT_AS, &before);
+  assert_all(last == 0 ? status == KZ_OK : status == KZ_FAILED && strstr(kz_message(), "out of memory") != NULL);
   free(records);
 }
 
@@ -162,7 +194,7 @@ int main(void)
       cmocka_unit_test(few_tiles_are_enough),          cmocka_unit_test(all_ranks_take_part),
       cmocka_unit_test(a_failing_tile_ends_all_ranks), cmocka_unit_test(a_missing_array_ends_all_ranks),
       cmocka_unit_test(records_beyond_a_message_arrive), cmocka_unit_test(the_worst_status_wins),
-      cmocka_unit_test(broadcast_reaches_all),
+      cmocka_unit_test(broadcast_reaches_all),         cmocka_unit_test(memory_that_runs_out_on_one_rank_ends_all),
   };
   return run_ranks(tests, sizeof tests / sizeof *tests);
 }

@@ -5,6 +5,7 @@ foreach(ranks 1 2 3 5)
 endforeach()
 kapitza_test(hold LABEL parallel FLOOR parallel RANKS 2 TIMEOUT 60)
 kapitza_test(stage LABEL parallel FLOOR parallel TIMEOUT 60) # and without mpirun
+kapitza_test(progress LABEL parallel FLOOR parallel TIMEOUT 60)
 
 # A small program that is killed at random moments and resumed.
 add_executable(worker parallel/worker.c)

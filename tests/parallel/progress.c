@@ -1,0 +1,94 @@
+/* What a person sees: a bar on a terminal, lines elsewhere, nothing where nothing is asked for. */
+#define _GNU_SOURCE
+#include <fcntl.h>
+#include <pty.h>
+
+#include "ranks.h"
+
+static char shown[100000];
+
+static kz_status fill(void *context, int64_t tile, void *bytes)
+{
+  (void)context;
+  (void)bytes;
+  (void)tile;
+  pause_for(0.02);
+  return KZ_OK;
+}
+
+/* Runs a stage with stderr at `end`; what came out is read from `file` into shown. */
+static void show(kz_progress progress, int64_t n_tiles, int end, int file)
+{
+  const kz_stage stage = {.name = "cells", .n_tiles = n_tiles, .record_bytes = 1, .work = fill};
+  char records[100];
+  const int before = dup(STDERR_FILENO);
+  dup2(end, STDERR_FILENO);
+  kz_team_set_progress(team, progress);
+  const kz_status status = kz_stage_run(team, &stage, records);
+  dup2(before, STDERR_FILENO);
+  close(before);
+  assert_int_equal(status, KZ_OK);
+  fcntl(file, F_SETFL, O_NONBLOCK);
+  const ssize_t n = read(file, shown, sizeof shown - 1);
+  shown[n > 0 ? n : 0] = '\0';
+}
+
+static void show_in_pipe(kz_progress progress, int64_t n_tiles)
+{
+  int ends[2];
+  assert_int_equal(pipe(ends), 0);
+  show(progress, n_tiles, ends[1], ends[0]);
+  close(ends[0]);
+  close(ends[1]);
+}
+
+static void show_on_terminal(kz_progress progress, int64_t n_tiles)
+{
+  int here, there;
+  assert_int_equal(openpty(&here, &there, NULL, NULL, NULL), 0);
+  show(progress, n_tiles, there, here);
+  close(here);
+  close(there);
+}
+
+static void a_terminal_gets_a_bar(void **state)
+{
+  (void)state;
+  show_on_terminal(KZ_PROGRESS_AUTO, 60);
+  assert_non_null(strstr(shown, "\rcells"));
+  assert_non_null(strstr(shown, "###"));
+  assert_string_equal(shown + strlen(shown) - 4, "\r\033[K"); /* and is clean again */
+}
+
+static void a_file_gets_lines(void **state)
+{
+  (void)state;
+  show_in_pipe(KZ_PROGRESS_ALWAYS, 70);
+  assert_non_null(strstr(shown, "kapitza: cells: 100 %"));
+  assert_ptr_not_equal(strstr(shown, "kapitza: cells:"), strstr(shown, "kapitza: cells: 100 %"));
+  assert_null(strchr(shown, '\r'));
+}
+
+static void nothing_is_nothing(void **state)
+{
+  (void)state;
+  show_in_pipe(KZ_PROGRESS_AUTO, 60); /* over before the first line is due */
+  assert_string_equal(shown, "");
+  show_on_terminal(KZ_PROGRESS_NEVER, 60);
+  assert_string_equal(shown, "");
+  show_on_terminal(KZ_PROGRESS_AUTO, 5);
+  assert_string_equal(shown, "");
+  show_in_pipe(KZ_PROGRESS_ALWAYS, 1);
+  assert_string_equal(shown, "");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_terminal_gets_a_bar),
+      cmocka_unit_test(a_file_gets_lines),
+      cmocka_unit_test(nothing_is_nothing),
+  };
+  if (unsetenv("OMPI_COMM_WORLD_RANK") != 0) return 1;
+  return run_ranks(tests, sizeof tests / sizeof *tests);
+}
