@@ -1,4 +1,4 @@
-/* truth: whole drive periods in quad precision (Fortran; floor 0). States in real128, moved by Taylor series of order 40 whose
+/* truth: whole drive periods in quad precision (Fortran; floor 0). States in real128, moved by Taylor series of order 56 whose
  * steps follow the motion; independent of the schemes of kernel.h. It is what labels are judged by: some 1e-32 a period,
  * where double precision leaves 1e-16. */
 #ifndef KAPITZA_TRUTH_H
@@ -9,7 +9,7 @@
 #include "kapitza/kernel.h"
 
 /* Steps a period that cost least; any other number gives the same motion to some 1e-32 a period. */
-enum { KZ_TRUTH_STEPS = 32 };
+enum { KZ_TRUTH_STEPS = 18 };
 
 /* A state in quad precision. Opaque: kz_truth_start fills it, kz_truth_read shows it. Owned by the caller. */
 typedef struct {

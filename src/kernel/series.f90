@@ -16,8 +16,8 @@ module kz_kernel_series
   integer, parameter :: qp = real128
   integer, parameter :: LANES = 8
   !> Highest order in pairs, and of all.
-  integer, parameter :: FINE = 20
-  integer, parameter :: LAST = 40
+  integer, parameter :: FINE = 28
+  integer, parameter :: LAST = 56
   !> Largest coefficients at FINE and at LAST, relative to the motion's own size.
   real(dp), parameter :: COARSE = 1e-16_dp
   real(dp), parameter :: TOLERANCE = 1e-33_dp

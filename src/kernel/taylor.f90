@@ -26,7 +26,8 @@ module kz_kernel_taylor
 contains
 
   !> The drive of a pendulum for n_steps steps a period.
-  pure function make_drive(k, beta, m, n_steps) result(drive)
+  pure subroutine make_drive(drive, k, beta, m, n_steps)
+    type(drive_t), intent(out) :: drive
     !> 1/Omega^2.
     real(dp), intent(in) :: k
     !> Damping.
@@ -35,7 +36,6 @@ contains
     real(dp), intent(in) :: m
     !> Steps a period where the motion is gentle.
     integer, intent(in) :: n_steps
-    type(drive_t) :: drive
     integer :: i
 
     drive%k = k
@@ -46,7 +46,7 @@ contains
     do i = 1, n_steps
       drive%force(i) = force_series(drive, (i - 1)*TWO_PI/n_steps, TWO_PI/n_steps)
     end do
-  end function make_drive
+  end subroutine make_drive
 
   !> Scaled Taylor coefficients of h^2 (k - m cos t) about t0.
   pure function force_series(drive, t0, h) result(force)

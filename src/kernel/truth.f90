@@ -33,12 +33,19 @@ contains
     integer(c_int64_t), value :: periods
     type(truth_state_t), intent(inout) :: states(n)
     type(drive_t) :: drive
-    integer(c_int64_t) :: period
+    real(qp) :: theta(n), velocity(n)
+    integer(c_int64_t) :: turns(n), period
 
-    drive = make_drive(pendulum%k, pendulum%beta, pendulum%m, int(n_steps))
+    call make_drive(drive, pendulum%k, pendulum%beta, pendulum%m, int(n_steps))
+    theta = states%theta
+    velocity = states%velocity
+    turns = states%turns
     do period = 1, periods
-      call advance_period(drive, states%theta, states%velocity, states%turns)
+      call advance_period(drive, theta, velocity, turns)
     end do
+    states%theta = theta
+    states%velocity = velocity
+    states%turns = turns
   end subroutine advance
 
   subroutine read_states(n, states, theta, velocity, turns) bind(C, name='kz_truth_read')
