@@ -24,7 +24,7 @@ void kz_linear_half_period(int64_t n, const double *k, const double *beta, const
  * log_multiplier [n]: natural log of the largest |multiplier| over one period.
  * angle [n]: argument of that multiplier / 2 pi, in [0, 1/2].
  * stable [n]: 1 where |trace| < 2 (beta = 0), |trace| < 1 + det (beta > 0), else 0. */
-void kz_linear_floquet(int64_t n, const double *k, const double *beta, const double *m, double *log_multiplier,
-                       double *angle, uint8_t *stable);
+void kz_linear_floquet(int64_t n, const double *k, const double *beta, const double *m, double *log_multiplier, double *angle,
+                       uint8_t *stable);
 
 #endif

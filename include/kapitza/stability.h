@@ -60,8 +60,8 @@ typedef struct {
 void kz_potential_energy(double k, double beta, double m, double theta, kz_energy *energy);
 
 typedef struct {
-  double simple; /* rad from down: cos = -2 k/m^2, the top of (12) */
-  double exact;  /* the top of the exact potential; NaN without a well about theta = pi */
+  double simple;        /* rad from down: cos = -2 k/m^2, the top of (12) */
+  double exact;         /* the top of the exact potential; NaN without a well about theta = pi */
   bool stable_inverted; /* the exact potential has that well */
 } kz_rim;
 void kz_potential_rim(double k, double beta, double m, kz_rim *rim);

@@ -62,6 +62,19 @@ typedef struct {
   int64_t period;         /* of a closed orbit; unset = found */
 } kz_orbit_plan;
 
+/* Study `stability`; damping and quality factor NaN = not given, curves: places among kz_curve_names(). */
+typedef struct {
+  kz_axis k, m; /* values with both ends */
+  double damping, quality_factor;
+  kz_integers curves, subharmonics;
+} kz_stability_plan;
+
+/* Study `potential`. */
+typedef struct {
+  kz_reals drive_amplitudes;
+  int64_t theta_count;
+} kz_potential_plan;
+
 /* The pendulum mapping as written, in one of three forms; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                               /* a: Q, Omega, epsilon */
@@ -89,6 +102,10 @@ typedef struct {
   kz_attractors_plan attractors;
   bool has_orbit;
   kz_orbit_plan orbit;
+  bool has_stability;
+  kz_stability_plan stability;
+  bool has_potential;
+  kz_potential_plan potential;
 } kz_scene;
 
 /* What a study would cost. */

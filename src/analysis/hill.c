@@ -4,7 +4,9 @@
 #include <math.h>
 #include <stdbool.h>
 
-static double complex diagonal(double k, double beta, double w) { return k - w * w + I * beta * w; }
+static double complex diagonal(double k, double beta, double w) {
+  return k - w * w + I * beta * w;
+}
 
 double complex kz_hill_pivot(double k, double beta, double m, double w) {
   double x = 0.25 * m * m;

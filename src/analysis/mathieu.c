@@ -9,8 +9,12 @@
 #include "roots.h"
 
 typedef int (*value_fn)(int order, double q, gsl_sf_result *result);
-static int value_a(int order, double q, gsl_sf_result *result) { return gsl_sf_mathieu_a_e(order, q, result); }
-static int value_b(int order, double q, gsl_sf_result *result) { return gsl_sf_mathieu_b_e(order, q, result); }
+static int value_a(int order, double q, gsl_sf_result *result) {
+  return gsl_sf_mathieu_a_e(order, q, result);
+}
+static int value_b(int order, double q, gsl_sf_result *result) {
+  return gsl_sf_mathieu_b_e(order, q, result);
+}
 
 /* Harmonics w = first, first + 1, ...; `corner` (units of m) stands in the first diagonal entry, the first off-diagonal
  * entry is m/2 sqrt(link); `index` counts eigenvalues from the lowest. axis: k at m = 0. */
@@ -20,8 +24,8 @@ typedef struct {
   double first, corner, link, axis;
 } family;
 static const family families[] = {
-    {value_a, 0, 0, 0.0, 0.0, 2.0, 0.0},   {value_b, 1, 0, 0.5, -0.5, 1.0, 0.25}, {value_a, 1, 0, 0.5, 0.5, 1.0, 0.25},
-    {value_b, 2, 0, 1.0, 0.0, 1.0, 1.0},   {value_a, 2, 1, 0.0, 0.0, 2.0, 1.0},
+    {value_a, 0, 0, 0.0, 0.0, 2.0, 0.0}, {value_b, 1, 0, 0.5, -0.5, 1.0, 0.25}, {value_a, 1, 0, 0.5, 0.5, 1.0, 0.25},
+    {value_b, 2, 0, 1.0, 0.0, 1.0, 1.0}, {value_a, 2, 1, 0.0, 0.0, 2.0, 1.0},
 };
 static const double GSL_REACH = 5000; /* in q */
 
@@ -54,8 +58,10 @@ double kz_mathieu_k_tridiagonal(int curve, double m) {
   for (;;) {
     double middle = 0.5 * (low + high);
     if (!(middle > low && middle < high)) return middle;
-    if (count_below(row, m, middle, rows) > row->index) high = middle;
-    else low = middle;
+    if (count_below(row, m, middle, rows) > row->index)
+      high = middle;
+    else
+      low = middle;
   }
 }
 
@@ -84,10 +90,14 @@ static double residual(double m, void *context) {
   const place *at = context;
   double pivot = creal(kz_hill_pivot(at->k, 0, m, families[at->curve - 1].axis == 0.25 ? 0.5 : 1));
   switch (at->curve) {
-    case 2: return pivot + 0.5 * m;
-    case 3: return pivot - 0.5 * m;
-    case 4: return pivot;
-    default: return at->k * pivot - 0.5 * m * m;
+    case 2:
+      return pivot + 0.5 * m;
+    case 3:
+      return pivot - 0.5 * m;
+    case 4:
+      return pivot;
+    default:
+      return at->k * pivot - 0.5 * m * m;
   }
 }
 

@@ -20,7 +20,9 @@ static double bracket(double cosine, const slow *s) {
   return u / (u * u + s->beta * s->beta);
 }
 
-static double integrand(double cosine, void *context) { return cosine * bracket(cosine, context); }
+static double integrand(double cosine, void *context) {
+  return cosine * bracket(cosine, context);
+}
 
 /* The same integral without the cancellation by k^2; exact to rounding for |k| <= 0.1. */
 static double by_quadrature(const slow *s, double cosine) {
@@ -41,8 +43,10 @@ void kz_potential_energy(double k, double beta, double m, double theta, kz_energ
   const slow s = {k, beta};
   double cosine = cos(theta), sine = sin(theta), lift = 2 * k * pow(sin(0.5 * theta), 2);
   double drive;
-  if (cosine == 1) drive = 0;
-  else drive = fabs(k) <= 0.1 ? by_quadrature(&s, cosine) : by_closed_form(&s, cosine);
+  if (cosine == 1)
+    drive = 0;
+  else
+    drive = fabs(k) <= 0.1 ? by_quadrature(&s, cosine) : by_closed_form(&s, cosine);
   energy->exact = lift + m * m * drive;
   energy->blackburn = lift + 0.25 * m * m * sine * sine * bracket(cosine, &s);
   energy->simple = lift + 0.25 * m * m * sine * sine;

@@ -22,7 +22,9 @@ static double residual(double m, void *context) {
 }
 
 /* Undamped stiffness with the same growth: u = exp(-beta t/2) w. */
-static double undamped(double k, double beta) { return k - 0.25 * beta * beta; }
+static double undamped(double k, double beta) {
+  return k - 0.25 * beta * beta;
+}
 
 double kz_tongue_lower(double k, double beta) {
   if (k > 0) return NAN;
@@ -116,8 +118,10 @@ static double lowest_from_axis(valley *v) {
 void kz_tongue_threshold(int32_t tongue, double quality_factor, int32_t way, kz_threshold *threshold) {
   double q = quality_factor, axis = tongue == 1 ? 0.25 : 1;
   if (way == KZ_BY_ASYMPTOTE) {
-    if (tongue == 1) *threshold = (kz_threshold){0.25 - 5 / (32 * q * q), 1 / (2 * q), 1 / (2 * q)};
-    else *threshold = (kz_threshold){1 + 2 / (3 * q), 2 / sqrt(q), sqrt(12 / sqrt(5)) / sqrt(q)};
+    if (tongue == 1)
+      *threshold = (kz_threshold){0.25 - 5 / (32 * q * q), 1 / (2 * q), 1 / (2 * q)};
+    else
+      *threshold = (kz_threshold){1 + 2 / (3 * q), 2 / sqrt(q), sqrt(12 / sqrt(5)) / sqrt(q)};
     return;
   }
   valley v = {tongue, way, q, axis, kz_mathieu_turn(tongue == 1 ? 3 : 5), 0};

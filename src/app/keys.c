@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "kapitza/scene.h"
+#include "kapitza/stability.h"
 
 #define AT(field) offsetof(kz_scene, field)
 
@@ -21,6 +22,9 @@
 #define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
+
+#define STABILITY_DAMPING(form_, name, low_, help) \
+  ROW("stability." #name, KZ_KEY_REAL, "", AT(stability.name), help, .unit = "", .low = low_, .high = 1e5, .form = form_)
 
 /* The names of the kernel's table of schemes. */
 static const char *scheme_words(void) {
@@ -117,6 +121,31 @@ const kz_key kz_keys[] = {
             "The cycle near the start, by Newton's method, instead of the motion from it; of the model mathieu: the motion "
             "must close."),
     INTEGER("orbit.period", 1, 512, "", orbit.period, "Drive periods of the closed orbit; left out: found."),
+
+    MAPPING(
+        "stability", "", AT(has_stability),
+        "Study: the chart of the linear equation u'' + beta u' + (k - m cos t) u = 0 over (k, m), and its transition curves."),
+    MAPPING("stability.k", NULL, KZ_NO_FIELD, "Values of k, both ends included; negative about the inverted position."),
+    REAL("stability.k.min", "", -1e6, 1e6, NULL, stability.k.min, "First value."),
+    REAL("stability.k.max", "", -1e6, 1e6, NULL, stability.k.max, "Last value."),
+    INTEGER("stability.k.count", 1, 1e6, "1000", stability.k.count, "Number of values."),
+    MAPPING("stability.m", NULL, KZ_NO_FIELD, "Values of m, both ends included."),
+    REAL("stability.m.min", "", -1e6, 1e6, NULL, stability.m.min, "First value."),
+    REAL("stability.m.max", "", -1e6, 1e6, NULL, stability.m.max, "Last value."),
+    INTEGER("stability.m.count", 1, 1e6, "1000", stability.m.count, "Number of values."),
+    STABILITY_DAMPING('a', damping, 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
+    STABILITY_DAMPING('b', quality_factor, 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
+    ROW("stability.curves", KZ_KEY_WORDS, "", AT(stability.curves),
+        "Transition curves; one that turns back brings its upper branch.", .unit = "", .words_from = kz_curve_names),
+    ROW("stability.subharmonics", KZ_KEY_INTEGERS, "", AT(stability.subharmonics),
+        "Periods n of subharmonic solutions, whose curves are wanted: exact and by the determinant.", .unit = "", .low = 2,
+        .high = 1000),
+
+    MAPPING("potential", "", AT(has_potential), "Study: the effective potential of the slow motion over the whole circle."),
+    ROW("potential.drive_amplitudes", KZ_KEY_REALS, NULL, AT(potential.drive_amplitudes),
+        "Values of m (epsilon), instead of the pendulum's.", .unit = "", .low = -1e6, .high = 1e6),
+    MAPPING("potential.theta", "", KZ_NO_FIELD, "Angles from -pi to pi, both ends included."),
+    INTEGER("potential.theta.count", 2, 1e6, "721", potential.theta_count, "Number of angles."),
 
     {.path = NULL},
 };

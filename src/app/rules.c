@@ -88,6 +88,23 @@ static void orbit_rules(kz_reading *reading, kz_scene *scene) {
   if (linear && orbit->about == KZ_UNSET_WORD) orbit->about = 0;
 }
 
+/* Values from min to max, both included: one value where they are equal. */
+static void check_ends(kz_reading *reading, const kz_axis *axis, const char *path) {
+  char name[128];
+  snprintf(name, sizeof name, "%s.max", path);
+  const kz_node *node = kz_tree_find(reading->root, name);
+  if (axis->count == 1 && axis->max != axis->min)
+    kz_complain(reading, node, name, "%.17g is not min = %.17g though count is 1; the same number", axis->max, axis->min);
+  else if (axis->count > 1 && axis->max <= axis->min)
+    kz_complain(reading, node, name, "%.17g is not above min = %.17g; a larger number", axis->max, axis->min);
+}
+
+static void stability_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_stability) return;
+  check_ends(reading, &scene->stability.k, "stability.k");
+  check_ends(reading, &scene->stability.m, "stability.m");
+}
+
 /* The scheme's own steps where the scene gives none. */
 static void numerics_rules(kz_reading *reading, kz_scene *scene) {
   (void)reading;
@@ -107,7 +124,7 @@ static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {numerics_rules, basin_rules, attractors_rules, orbit_rules, pendulum_rules};
+static const rule rules[] = {numerics_rules, basin_rules, attractors_rules, orbit_rules, stability_rules, pendulum_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -1,5 +1,6 @@
 #include "table.h"
 
+#include <stdbool.h>
 #include <string.h>
 
 #define ANGLE "rad"
@@ -7,6 +8,13 @@
 #define PERIODS "drive periods"
 #define TIME "drive radians"
 #define NONE "1"
+#define ENERGY "I omega^2"
+#define CURVE(name, long_name)                            \
+  {                                                       \
+    "stability", name, KZ_REAL, {"k"}, NONE, long_name, { \
+      0                                                   \
+    }                                                     \
+  }
 
 const kz_variable kz_variables[] = {
     /* group, name, kind, dimensions, units, long name, flag meanings */
@@ -104,11 +112,101 @@ const kz_variable kz_variables[] = {
     {"orbit", "line_frequency", KZ_REAL, {"line_frequency"}, "drive frequencies", "frequency of the spectral line", {0}},
     {"orbit", "line_amplitude", KZ_REAL, {"line_frequency"}, ANGLE, "amplitude of the spectral line; line 0 = |mean|", {0}},
     {"orbit", "line_phase", KZ_REAL, {"line_frequency"}, ANGLE, "phase of the spectral line at the first sample", {0}},
+
+    {"stability", "k", KZ_REAL, {"k"}, NONE, "gravity term, (natural / drive frequency) squared; < 0 about inverted", {0}},
+    {"stability", "m", KZ_REAL, {"m"}, NONE, "drive amplitude", {0}},
+    {"stability",
+     "log_multiplier",
+     KZ_REAL,
+     {"m", "k"},
+     "1 per drive period",
+     "natural logarithm of the largest |Floquet multiplier|",
+     {0}},
+    {"stability", "angle", KZ_REAL, {"m", "k"}, NONE, "Floquet angle / 2 pi", {0}},
+    {"stability", "stable", KZ_UINT8, {"m", "k"}, NONE, "whether small oscillations stay small", {"no", "yes"}},
+    CURVE("exact_1", "exact transition curve 4k = a_0(2m)"),
+    CURVE("exact_2", "exact transition curve 4k = b_1(2m)"),
+    CURVE("exact_3", "exact transition curve 4k = a_1(2m)"),
+    CURVE("exact_3_upper", "exact transition curve 4k = a_1(2m), beyond its turn"),
+    CURVE("exact_4", "exact transition curve 4k = b_2(2m)"),
+    CURVE("exact_5", "exact transition curve 4k = a_2(2m)"),
+    CURVE("exact_5_upper", "exact transition curve 4k = a_2(2m), beyond its turn"),
+    CURVE("butikov_1", "transition curve by Butikov (2018) Eq. (3)"),
+    CURVE("butikov_2", "transition curve by Butikov (2018) Eq. (4)"),
+    CURVE("butikov_3", "transition curve by Butikov (2018) Eq. (5), lower sign"),
+    CURVE("butikov_3_upper", "transition curve by Butikov (2018) Eq. (5), upper sign"),
+    CURVE("butikov_4", "transition curve by Butikov (2018) Eq. (6)"),
+    CURVE("butikov_5", "transition curve by Butikov (2018) Eq. (7)"),
+    CURVE("butikov_4_refined", "transition curve by Butikov (2018) Eq. (17)"),
+    CURVE("butikov_5_refined", "transition curve by Butikov (2018) Eq. (19)"),
+    CURVE("butikov_5_refined_upper", "transition curve by Butikov (2018) Eq. (19), other sign"),
+    CURVE("blackburn_lower", "lower boundary of the inverted state, Blackburn (1992) Eq. (5)"),
+    CURVE("blackburn_upper", "upper boundary of the inverted state, Blackburn (1992) Eq. (6)"),
+    CURVE("blackburn_down_upper", "upper boundary of the hanging state, Blackburn (1992) Eq. (6)"),
+    CURVE("damped_0", "exact lower boundary of the inverted state with damping"),
+    CURVE("damped_1", "exact lowest m of the damped tongue from k = 1/4"),
+    CURVE("damped_2", "exact lowest m of the damped tongue from k = 1"),
+    CURVE("butikov_damped_1", "damped tongue from k = 1/4 by Butikov (2018) Eq. (25), corrected"),
+    CURVE("butikov_damped_2", "damped tongue from k = 1 by Butikov (2018) Eq. (26), corrected"),
+    CURVE("subharmonic_#", "exact curve of solutions that repeat after this many drive periods"),
+    CURVE("butikov_subharmonic_#", "the same curve by Butikov (2018) Eq. (21), corrected"),
+
+    {"potential", "theta", KZ_REAL, {"theta"}, ANGLE, "slow angle from down, counterclockwise", {0}},
+    {"potential", "drive_amplitude", KZ_REAL, {"drive_amplitude"}, NONE, "drive amplitude m", {0}},
+    {"potential",
+     "energy",
+     KZ_REAL,
+     {"drive_amplitude", "theta"},
+     ENERGY,
+     "effective potential of the slow equation, Blackburn (1992) Eq. (10), exact",
+     {0}},
+    {"potential",
+     "energy_blackburn",
+     KZ_REAL,
+     {"drive_amplitude", "theta"},
+     ENERGY,
+     "effective potential by Blackburn (1992) Eq. (11)",
+     {0}},
+    {"potential",
+     "energy_simple",
+     KZ_REAL,
+     {"drive_amplitude", "theta"},
+     ENERGY,
+     "effective potential by Blackburn (1992) Eq. (12)",
+     {0}},
+    {"potential",
+     "rim",
+     KZ_REAL,
+     {"drive_amplitude"},
+     ANGLE,
+     "rim of the inverted well from down, cos = -2 k/m^2 of Eq. (12); NaN: no well",
+     {0}},
+    {"potential",
+     "rim_exact",
+     KZ_REAL,
+     {"drive_amplitude"},
+     ANGLE,
+     "rim of the inverted well of the exact potential from down; NaN: no well",
+     {0}},
+    {"potential",
+     "stable_inverted",
+     KZ_UINT8,
+     {"drive_amplitude"},
+     NONE,
+     "whether the exact potential has an inverted well",
+     {"no", "yes"}},
 };
 const size_t kz_variable_count = sizeof kz_variables / sizeof *kz_variables;
 
+/* The same name; "#" at the end of a row's name stands for a number. */
+static bool is_name(const char *row, const char *name) {
+  const size_t stem = strcspn(row, "#");
+  if (row[stem] == '\0') return strcmp(row, name) == 0;
+  return strncmp(row, name, stem) == 0 && name[stem] != '\0' && strspn(name + stem, "0123456789") == strlen(name + stem);
+}
+
 const kz_variable *kz_variable_find(const char *group, const char *name) {
   for (size_t i = 0; i < kz_variable_count; ++i)
-    if (strcmp(kz_variables[i].group, group) == 0 && strcmp(kz_variables[i].name, name) == 0) return &kz_variables[i];
+    if (strcmp(kz_variables[i].group, group) == 0 && is_name(kz_variables[i].name, name)) return &kz_variables[i];
   return NULL;
 }

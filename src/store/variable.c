@@ -80,9 +80,12 @@ static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, co
   return status;
 }
 
-static kz_status find(const char *group, const char *name, const kz_variable **row) {
-  *row = kz_variable_find(group + (group[0] == '/'), name);
-  return *row ? KZ_OK : kz_fail(KZ_FAILED, "the result file has no variable %s/%s", group, name);
+/* The table's row, under the name asked for. */
+static kz_status find(const char *group, const char *name, kz_variable *row) {
+  const kz_variable *found = kz_variable_find(group + (group[0] == '/'), name);
+  if (found) *row = *found;
+  row->name = name;
+  return found ? KZ_OK : kz_fail(KZ_FAILED, "the result file has no variable %s/%s", group, name);
 }
 
 /* 0, 1, 2, ... for a dimension without coordinates. */
@@ -96,13 +99,13 @@ static kz_status write_index(hid_t group, const kz_variable *row, hsize_t length
 }
 
 kz_status kz_store_dimension(kz_store *store, const char *group, const char *name, int64_t length, const void *values) {
-  const kz_variable *row;
+  kz_variable row;
   KZ_TRY(find(group, name, &row));
-  if (!values && row->kind != KZ_INT32) return kz_fail(KZ_FAILED, "the dimension %s/%s needs its values", group, name);
+  if (!values && row.kind != KZ_INT32) return kz_fail(KZ_FAILED, "the dimension %s/%s needs its values", group, name);
   hid_t folder, dataset = H5I_INVALID_HID;
   KZ_TRY(kz_store_group(store, group, &folder));
   const hsize_t n = (hsize_t)length;
-  kz_status status = values ? write_dataset(folder, row, 1, &n, values, &dataset) : write_index(folder, row, n, &dataset);
+  kz_status status = values ? write_dataset(folder, &row, 1, &n, values, &dataset) : write_index(folder, &row, n, &dataset);
   if (status == KZ_OK && H5DSset_scale(dataset, name) < 0) status = kz_hdf5_fail(__FILE__, __LINE__);
   if (dataset >= 0) H5Dclose(dataset);
   H5Gclose(folder);
@@ -141,11 +144,11 @@ static kz_status write_variable(hid_t group, const kz_variable *row, const void 
 }
 
 kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data) {
-  const kz_variable *row;
+  kz_variable row;
   hid_t folder;
   KZ_TRY(find(group, name, &row));
   KZ_TRY(kz_store_group(store, group, &folder));
-  const kz_status status = write_variable(folder, row, data);
+  const kz_status status = write_variable(folder, &row, data);
   H5Gclose(folder);
   return status;
 }

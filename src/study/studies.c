@@ -3,10 +3,14 @@
 #include "basin.h"
 #include "kapitza/study.h"
 #include "orbit.h"
+#include "potential.h"
+#include "stability.h"
 
 const kz_study kz_studies[] = {
     {"basin", kz_basin_wanted, kz_basin_cost, kz_basin_run},
     {"attractors", kz_attractors_wanted, kz_attractors_cost, kz_attractors_run},
     {"orbit", kz_orbit_wanted, kz_orbit_cost, kz_orbit_run},
+    {"stability", kz_stability_wanted, kz_stability_cost, kz_stability_run},
+    {"potential", kz_potential_wanted, kz_potential_cost, kz_potential_run},
 };
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];

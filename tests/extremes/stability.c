@@ -13,8 +13,7 @@
 
 #define PI 3.14159265358979323846
 
-static double value(const char *name, double k, double beta, double quality_factor)
-{
+static double value(const char *name, double k, double beta, double quality_factor) {
   kz_damping damping = {beta, quality_factor};
   for (int i = 0; i < kz_curve_count; i++) {
     double m;
@@ -26,8 +25,7 @@ static double value(const char *name, double k, double beta, double quality_fact
   return NAN;
 }
 
-static void chart_holds_numbers(void **unused)
-{
+static void chart_holds_numbers(void **unused) {
   (void)unused;
   const double ks[] = {-1e4, -300, -1, -1e-8, 0, 1e-300, 1e-8, 0.25, 1, 77, 1e4};
   const double ms[] = {0, 1e-300, 1e-12, 1e-3, 1, 30, 1e3, -1e3}, qs[] = {0.5, 1, 10, 1e8, INFINITY};
@@ -44,8 +42,7 @@ static void chart_holds_numbers(void **unused)
 }
 
 /* Multipliers beyond any double: the growth of u'' = 1e4 u is exp(100 t). */
-static void growth_is_a_logarithm(void **unused)
-{
+static void growth_is_a_logarithm(void **unused) {
   (void)unused;
   const double k = -1e4, m = 0, betas[] = {0, 1, 200, 1e4};
   for (int i = 0; i < 4; i++) {
@@ -58,8 +55,7 @@ static void growth_is_a_logarithm(void **unused)
 }
 
 /* 40-digit Taylor integration: angles deep in stable zones. */
-static void angles_to_twelve_digits(void **unused)
-{
+static void angles_to_twelve_digits(void **unused) {
   (void)unused;
   const struct {
     double k, beta, m, angle;
@@ -86,8 +82,7 @@ static void angles_to_twelve_digits(void **unused)
 }
 
 /* Next to the axis m follows from the distance to it: k = 1/4 -+ m/2, 1 - m^2/12, 1 + 5 m^2/12, -m^2/2. */
-static void curves_next_to_the_axis(void **unused)
-{
+static void curves_next_to_the_axis(void **unused) {
   (void)unused;
   for (double distance = 1e-3; distance > 1e-15; distance *= 0.1) {
     double below = 0.25 - distance, above = 0.25 + distance, tolerance = distance + 1e-12;
@@ -101,8 +96,7 @@ static void curves_next_to_the_axis(void **unused)
 }
 
 /* Far below, a_r and b_(r+1) follow 4k = -2q + 2 (2r+1) sqrt(q) - ((2r+1)^2 + 1)/8 - ... (DLMF 28.8.1). */
-static void curves_far_below(void **unused)
-{
+static void curves_far_below(void **unused) {
   (void)unused;
   const char *names[] = {"exact_1", "exact_2", "exact_3_upper", "exact_4", "exact_5_upper"};
   const int order[] = {0, 0, 1, 1, 2};
@@ -115,8 +109,7 @@ static void curves_far_below(void **unused)
     }
 }
 
-static void gsl_is_left_before_it_fails(void **unused)
-{
+static void gsl_is_left_before_it_fails(void **unused) {
   (void)unused;
   double lost = fabs(kz_mathieu_k_gsl(1, 1e5) / kz_mathieu_k_tridiagonal(1, 1e5) - 1);
   assert_true(lost > 1e-8 || isnan(lost)); /* why the eigenproblem takes over; GSL may mend it one day */
@@ -126,8 +119,7 @@ static void gsl_is_left_before_it_fails(void **unused)
 }
 
 /* The damped edges exist and order themselves for every quality factor; thresholds keep their digits at Q = 1e8. */
-static void damping_at_its_ends(void **unused)
-{
+static void damping_at_its_ends(void **unused) {
   (void)unused;
   for (double q = 0.5; q <= 1e8; q *= 4)
     for (double k = -1e-12; k >= -1e4; k *= 10) {
@@ -143,8 +135,7 @@ static void damping_at_its_ends(void **unused)
 }
 
 /* The slow energy keeps its digits where k^2 would cancel them, and where u passes 0. */
-static void potential_at_its_ends(void **unused)
-{
+static void potential_at_its_ends(void **unused) {
   (void)unused;
   for (double k = 1e-3; k > 1e-300; k *= 1e-3) {
     kz_energy energy;
@@ -158,13 +149,12 @@ static void potential_at_its_ends(void **unused)
   }
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(chart_holds_numbers),         cmocka_unit_test(growth_is_a_logarithm),
-      cmocka_unit_test(angles_to_twelve_digits),     cmocka_unit_test(curves_next_to_the_axis),
-      cmocka_unit_test(curves_far_below),            cmocka_unit_test(gsl_is_left_before_it_fails),
-      cmocka_unit_test(damping_at_its_ends),         cmocka_unit_test(potential_at_its_ends),
+      cmocka_unit_test(chart_holds_numbers),     cmocka_unit_test(growth_is_a_logarithm),
+      cmocka_unit_test(angles_to_twelve_digits), cmocka_unit_test(curves_next_to_the_axis),
+      cmocka_unit_test(curves_far_below),        cmocka_unit_test(gsl_is_left_before_it_fails),
+      cmocka_unit_test(damping_at_its_ends),     cmocka_unit_test(potential_at_its_ends),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,8 +12,7 @@ typedef struct {
   const char *first, *last;
 } reference_span;
 
-static const char *reference_text(void)
-{
+static const char *reference_text(void) {
   static char *text;
   if (text) return text;
   FILE *file = fopen(KZ_TEST_DATA "/literature/reference.json", "rb");
@@ -28,8 +27,7 @@ static const char *reference_text(void)
 }
 
 /* The bracketed value that starts at or after `at`. */
-static reference_span reference_value(const char *at, const char *stop)
-{
+static reference_span reference_value(const char *at, const char *stop) {
   const char *first = at;
   while (first && first < stop && *first != '[' && *first != '{') first++;
   if (!first || first >= stop) return (reference_span){NULL, NULL};
@@ -41,8 +39,7 @@ static reference_span reference_value(const char *at, const char *stop)
   return (reference_span){NULL, NULL};
 }
 
-static const char *reference_key(reference_span in, const char *name)
-{
+static const char *reference_key(reference_span in, const char *name) {
   char quoted[128];
   snprintf(quoted, sizeof quoted, "\"%s\":", name);
   const char *found = strstr(in.first, quoted);
@@ -50,28 +47,24 @@ static const char *reference_key(reference_span in, const char *name)
 }
 
 /* The bracketed value of a key of `in`; in.first = NULL: of the whole file. */
-static reference_span reference_section(reference_span in, const char *name)
-{
+static reference_span reference_section(reference_span in, const char *name) {
   if (!in.first) in = (reference_span){reference_text(), reference_text() + strlen(reference_text())};
   const char *at = reference_key(in, name);
   return at ? reference_value(at, in.last) : (reference_span){NULL, NULL};
 }
 
 /* The next bracketed value inside `in` after `previous` (previous.first = NULL: the first). */
-static reference_span reference_next(reference_span in, reference_span previous)
-{
+static reference_span reference_next(reference_span in, reference_span previous) {
   return reference_value(previous.first ? previous.last + 1 : in.first + 1, in.last);
 }
 
-static double reference_number_at(const char *at)
-{
+static double reference_number_at(const char *at) {
   while (*at == ' ' || *at == '\n' || *at == '"' || *at == ',' || *at == '[') at++;
   return strtod(at, NULL);
 }
 
 /* The number of a key of `in`; NaN where there is none. */
-static double reference_number(reference_span in, const char *name)
-{
+static double reference_number(reference_span in, const char *name) {
   const char *at = in.first ? reference_key(in, name) : NULL;
   return at ? reference_number_at(at) : NAN;
 }

@@ -12,16 +12,14 @@
 
 static const reference_span whole_file = {NULL, NULL};
 
-static const kz_curve *curve_named(const char *name)
-{
+static const kz_curve *curve_named(const char *name) {
   for (int i = 0; i < kz_curve_count; i++)
     if (strcmp(kz_curves[i].name, name) == 0) return &kz_curves[i];
   fail_msg("no curve %s", name);
   return NULL;
 }
 
-static double value(const char *name, double k, double quality_factor)
-{
+static double value(const char *name, double k, double quality_factor) {
   kz_damping damping = {0, quality_factor};
   double m;
   kz_curve_values(curve_named(name), &damping, 1, &k, &m);
@@ -29,13 +27,11 @@ static double value(const char *name, double k, double quality_factor)
 }
 
 #define CLOSE(ours, theirs, tolerance) close_to(#ours, ours, theirs, tolerance)
-static void close_to(const char *what, double ours, double theirs, double tolerance)
-{
+static void close_to(const char *what, double ours, double theirs, double tolerance) {
   if (!(fabs(ours - theirs) <= tolerance)) fail_msg("%s: %.16g, published %.16g", what, ours, theirs);
 }
 
-static void transition_curves_of_butikov_fig_1(void **unused)
-{
+static void transition_curves_of_butikov_fig_1(void **unused) {
   (void)unused;
   int seen = 0;
   for (int c = 1; c <= 5; c++) {
@@ -56,8 +52,7 @@ static void transition_curves_of_butikov_fig_1(void **unused)
   assert_true(seen > 40);
 }
 
-static void curves_turn_back_where_published(void **unused)
-{
+static void curves_turn_back_where_published(void **unused) {
   (void)unused;
   reference_span exact = reference_section(whole_file, "butikov_curve3_turning_point_exact");
   CLOSE(curve_named("exact_3")->turn(), reference_number(exact, "m"), 1e-7);
@@ -68,8 +63,7 @@ static void curves_turn_back_where_published(void **unused)
   CLOSE(curve_named("exact_5")->turn(), 3.829, 1e-3);
 }
 
-static void subharmonics_of_butikov_fig_9(void **unused)
-{
+static void subharmonics_of_butikov_fig_9(void **unused) {
   (void)unused;
   for (int n = 2; n <= 6; n += 2) {
     char section[32];
@@ -87,8 +81,7 @@ static void subharmonics_of_butikov_fig_9(void **unused)
   }
 }
 
-static void floquet_angles_of_butikov_fig_10(void **unused)
-{
+static void floquet_angles_of_butikov_fig_10(void **unused) {
   (void)unused;
   const double k[] = {0, 0.74991592006338, 1.3999408919327}, beta[] = {0, 0, 0};
   const double m[] = {0.2255522566639546, 0.5235, 0.5653};
@@ -102,8 +95,7 @@ static void floquet_angles_of_butikov_fig_10(void **unused)
 }
 
 /* The boundaries of Blackburn's Fig. 4: both orientations, five dampings, with (5) and (6). */
-static void boundaries_of_blackburn_fig_4(void **unused)
-{
+static void boundaries_of_blackburn_fig_4(void **unused) {
   (void)unused;
   const int omega[] = {5, 7, 9, 11, 15, 20, 30, 50};
   const char *quality[] = {"5", "10", "20", "50", "None"};
@@ -124,8 +116,7 @@ static void boundaries_of_blackburn_fig_4(void **unused)
   CLOSE(value("exact_2", k, NAN), 0.5, 1e-9);
 }
 
-static void tongues_of_butikov_fig_11(void **unused)
-{
+static void tongues_of_butikov_fig_11(void **unused) {
   (void)unused;
   for (int tongue = 1; tongue <= 2; tongue++) {
     char section[64];
@@ -143,8 +134,7 @@ static void tongues_of_butikov_fig_11(void **unused)
   }
 }
 
-static void thresholds_of_butikov_section_6(void **unused)
-{
+static void thresholds_of_butikov_section_6(void **unused) {
   (void)unused;
   const int quality[] = {5, 10, 20, 100};
   for (int i = 0; i < 4; i++) {
@@ -165,8 +155,7 @@ static void thresholds_of_butikov_section_6(void **unused)
 }
 
 /* BSG (10)-(12) at theta = 2, epsilon = 0.3, Omega = 11, Q = 5, and the rims of its Fig. 5. */
-static void effective_potential_of_blackburn(void **unused)
-{
+static void effective_potential_of_blackburn(void **unused) {
   (void)unused;
   kz_energy energy;
   kz_potential_energy(1.0 / 121, 1.0 / 55, 0.3, 2, &energy);
@@ -181,8 +170,7 @@ static void effective_potential_of_blackburn(void **unused)
   assert_true(rim.stable_inverted);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(transition_curves_of_butikov_fig_1), cmocka_unit_test(curves_turn_back_where_published),
       cmocka_unit_test(subharmonics_of_butikov_fig_9),      cmocka_unit_test(floquet_angles_of_butikov_fig_10),

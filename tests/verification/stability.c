@@ -17,17 +17,17 @@
 #define PI 3.14159265358979323846
 enum { POINTS = 400 };
 
-static double random_between(double low, double high) { return low + (high - low) * drand48(); }
+static double random_between(double low, double high) {
+  return low + (high - low) * drand48();
+}
 
-static kz_half_period half_period(double k, double beta, double m)
-{
+static kz_half_period half_period(double k, double beta, double m) {
   kz_half_period half;
   kz_linear_half_period(1, &k, &beta, &m, &half);
   return half;
 }
 
-static double growth(double k, double beta, double m, double *angle)
-{
+static double growth(double k, double beta, double m, double *angle) {
   double log_multiplier;
   uint8_t stable;
   kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, angle, &stable);
@@ -35,8 +35,7 @@ static double growth(double k, double beta, double m, double *angle)
 }
 
 /* Without drive the solutions are known. */
-static void no_drive_is_elementary(void **unused)
-{
+static void no_drive_is_elementary(void **unused) {
   (void)unused;
   for (int i = 0; i < POINTS; i++) {
     double k = random_between(-40, 40), root = sqrt(fabs(k));
@@ -48,8 +47,7 @@ static void no_drive_is_elementary(void **unused)
 }
 
 /* Wronskian: c s' - s c' = 1. */
-static void area_is_kept(void **unused)
-{
+static void area_is_kept(void **unused) {
   (void)unused;
   for (int i = 0; i < POINTS; i++) {
     double k = random_between(-2, 20), beta = random_between(0, 1), m = random_between(-5, 5);
@@ -60,8 +58,7 @@ static void area_is_kept(void **unused)
 }
 
 /* The tangent map of the nonlinear pendulum at rest, in quad precision, is the linear equation about down. */
-static void nonlinear_tangent_map_agrees(void **unused)
-{
+static void nonlinear_tangent_map_agrees(void **unused) {
   (void)unused;
   for (int i = 0; i < 6; i++) {
     kz_pendulum pendulum = {random_between(-0.5, 1.5), random_between(0, 0.4), random_between(-1, 1)};
@@ -83,15 +80,13 @@ static void nonlinear_tangent_map_agrees(void **unused)
 }
 
 /* On an exact curve the multiplier is +1 or -1: Floquet's root lies within 1e-10. The curve's zero among c, s, c', s'. */
-static double floquet_zero(int curve, double k, double m)
-{
+static double floquet_zero(int curve, double k, double m) {
   kz_half_period half = half_period(k, 0, m);
   const double zero[] = {half.c_dot, half.s_dot, half.c, half.s, half.c_dot};
   return zero[curve - 1];
 }
 
-static void curves_are_floquet_roots(void **unused)
-{
+static void curves_are_floquet_roots(void **unused) {
   (void)unused;
   const kz_damping none = {0, NAN};
   int seen = 0;
@@ -107,8 +102,7 @@ static void curves_are_floquet_roots(void **unused)
   assert_true(seen > 200);
 }
 
-static void gsl_and_tridiagonal_agree(void **unused)
-{
+static void gsl_and_tridiagonal_agree(void **unused) {
   (void)unused;
   for (int curve = 1; curve <= 5; curve++)
     for (double m = 1e-3; m < 2500; m *= 1.3) {
@@ -118,8 +112,7 @@ static void gsl_and_tridiagonal_agree(void **unused)
 }
 
 /* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue 1) or +1 (others). */
-static void damped_edges_have_multiplier_one(void **unused)
-{
+static void damped_edges_have_multiplier_one(void **unused) {
   (void)unused;
   const char *names[] = {"damped_0", "damped_1", "damped_2"};
   int seen = 0;
@@ -142,8 +135,7 @@ static void damped_edges_have_multiplier_one(void **unused)
 }
 
 /* Between the tongues the Floquet angle makes Hill's determinant zero; the size of its terms is the measure. */
-static void angle_is_root_of_hills_determinant(void **unused)
-{
+static void angle_is_root_of_hills_determinant(void **unused) {
   (void)unused;
   int seen = 0;
   for (int i = 0; i < 2 * POINTS; i++) {
@@ -159,8 +151,7 @@ static void angle_is_root_of_hills_determinant(void **unused)
 }
 
 /* At any n, real subharmonic curves hold solutions with the angle 1/n. */
-static void subharmonics_have_their_angle(void **unused)
-{
+static void subharmonics_have_their_angle(void **unused) {
   (void)unused;
   const int32_t orders[] = {3, 5, 8, 17, 100};
   for (int j = 0; j < 5; j++)
@@ -174,8 +165,7 @@ static void subharmonics_have_their_angle(void **unused)
 }
 
 /* Closed form against quadrature at the crossing, and the energy's slope against BSG (10). */
-static void potential_is_the_integral_of_the_slow_force(void **unused)
-{
+static void potential_is_the_integral_of_the_slow_force(void **unused) {
   (void)unused;
   for (int i = 0; i < POINTS; i++) {
     double k = random_between(-0.3, 0.3), beta = random_between(0, 0.2), m = random_between(0, 1);
@@ -192,8 +182,7 @@ static void potential_is_the_integral_of_the_slow_force(void **unused)
   }
 }
 
-static void leading_terms_of_thresholds(void **unused)
-{
+static void leading_terms_of_thresholds(void **unused) {
   (void)unused;
   for (int tongue = 1; tongue <= 2; tongue++) {
     double before = INFINITY;
@@ -210,8 +199,7 @@ static void leading_terms_of_thresholds(void **unused)
   }
 }
 
-int main(void)
-{
+int main(void) {
   srand48(4);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(no_drive_is_elementary),

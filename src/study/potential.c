@@ -1,0 +1,102 @@
+/* Study `potential`. One rank does it all: at most some hundred curves in closed form. */
+#include "potential.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "kapitza/stability.h"
+
+static const double PI = 3.14159265358979323846;
+static const char *const GROUP = "potential";
+
+/* Energies are [amplitude][theta]. */
+typedef struct {
+  const kz_potential_plan *plan;
+  double *theta, *exact, *blackburn, *simple;
+  double rim[KZ_LIST_MAX], rim_exact[KZ_LIST_MAX];
+  uint8_t stable[KZ_LIST_MAX];
+} curves;
+
+bool kz_potential_wanted(const kz_scene *scene) {
+  return scene->has_potential;
+}
+
+kz_cost kz_potential_cost(const kz_scene *scene) {
+  double points = (double)scene->potential.drive_amplitudes.count * (double)scene->potential.theta_count;
+  return (kz_cost){.disk_bytes = 24 * points, .memory_bytes = 24 * points, .core_seconds = 2e-6 * points};
+}
+
+static kz_status allocate(curves *c) {
+  size_t columns = (size_t)c->plan->theta_count, points = columns * (size_t)c->plan->drive_amplitudes.count;
+  c->theta = malloc(columns * sizeof(double));
+  c->exact = malloc(points * sizeof(double));
+  c->blackburn = malloc(points * sizeof(double));
+  c->simple = malloc(points * sizeof(double));
+  if (c->theta && c->exact && c->blackburn && c->simple) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for %zu points of the potential", points);
+}
+
+static void release(curves *c) {
+  free(c->theta);
+  free(c->exact);
+  free(c->blackburn);
+  free(c->simple);
+}
+
+/* The whole circle from -pi to pi, both ends included. */
+static void model(const kz_pendulum *pendulum, curves *c) {
+  int64_t columns = c->plan->theta_count;
+  for (int64_t i = 0; i < columns; i++) c->theta[i] = PI * (double)(2 * i - (columns - 1)) / (double)(columns - 1);
+  for (int64_t j = 0; j < c->plan->drive_amplitudes.count; j++) {
+    double m = c->plan->drive_amplitudes.values[j];
+    kz_rim rim;
+    kz_potential_rim(pendulum->k, pendulum->beta, m, &rim);
+    c->rim[j] = rim.simple;
+    c->rim_exact[j] = rim.exact;
+    c->stable[j] = rim.stable_inverted;
+    for (int64_t i = 0; i < columns; i++) {
+      kz_energy energy;
+      kz_potential_energy(pendulum->k, pendulum->beta, m, c->theta[i], &energy);
+      c->exact[j * columns + i] = energy.exact;
+      c->blackburn[j * columns + i] = energy.blackburn;
+      c->simple[j * columns + i] = energy.simple;
+    }
+  }
+}
+
+static kz_status write(const curves *c, kz_store *store) {
+  const kz_reals *amplitudes = &c->plan->drive_amplitudes;
+  KZ_TRY(kz_store_dimension(store, GROUP, "theta", c->plan->theta_count, c->theta));
+  KZ_TRY(kz_store_dimension(store, GROUP, "drive_amplitude", amplitudes->count, amplitudes->values));
+  KZ_TRY(kz_store_variable(store, GROUP, "energy", c->exact));
+  KZ_TRY(kz_store_variable(store, GROUP, "energy_blackburn", c->blackburn));
+  KZ_TRY(kz_store_variable(store, GROUP, "energy_simple", c->simple));
+  KZ_TRY(kz_store_variable(store, GROUP, "rim", c->rim));
+  KZ_TRY(kz_store_variable(store, GROUP, "rim_exact", c->rim_exact));
+  return kz_store_variable(store, GROUP, "stable_inverted", c->stable);
+}
+
+static void summarise(const curves *c, FILE *summary) {
+  fprintf(summary, "potential: wells about the inverted position\n");
+  for (int64_t j = 0; j < c->plan->drive_amplitudes.count; j++) {
+    double m = c->plan->drive_amplitudes.values[j];
+    if (!c->stable[j])
+      fprintf(summary, "  m = %g: none\n", m);
+    else
+      fprintf(summary, "  m = %g: out to %.4g deg from the top (simple formula %.4g deg)\n", m,
+              180 - c->rim_exact[j] * 180 / PI, 180 - c->rim[j] * 180 / PI);
+  }
+}
+
+kz_status kz_potential_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  if (kz_team_rank(team) != 0) return KZ_OK;
+  curves c = {.plan = &scene->potential};
+  kz_status status = allocate(&c);
+  if (status == KZ_OK) {
+    model(&scene->parameters.pendulum, &c);
+    status = write(&c, store);
+    if (status == KZ_OK) summarise(&c, summary);
+  }
+  release(&c);
+  return status;
+}

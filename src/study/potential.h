@@ -1,0 +1,11 @@
+/* Study `potential`: the effective potential over theta for several drive amplitudes. */
+#ifndef KAPITZA_STUDY_POTENTIAL_H
+#define KAPITZA_STUDY_POTENTIAL_H
+
+#include "kapitza/study.h"
+
+bool kz_potential_wanted(const kz_scene *scene);
+kz_cost kz_potential_cost(const kz_scene *scene);
+kz_status kz_potential_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+
+#endif

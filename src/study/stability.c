@@ -1,0 +1,193 @@
+#include "stability.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/linear.h"
+
+/* Points of a tile of the chart, and values of k of a tile of a curve. */
+enum { POINTS = 2048, PIECE = 64 };
+
+typedef struct {
+  double log_multiplier[POINTS], angle[POINTS];
+  uint8_t stable[POINTS];
+} chart_record;
+
+typedef struct {
+  double m[2][PIECE];
+} curve_record;
+
+static int64_t tiles_of(int64_t count, int64_t size) {
+  return (count + size - 1) / size;
+}
+
+bool kz_stability_wanted(const kz_scene *scene) {
+  return scene->has_stability;
+}
+
+kz_cost kz_stability_cost(const kz_scene *scene) {
+  const kz_stability_plan *plan = &scene->stability;
+  double points = (double)plan->k.count * (double)plan->m.count;
+  double curves = (double)plan->k.count * (double)(plan->curves.count + plan->subharmonics.count);
+  double beta = isnan(plan->damping) ? 0 : plan->damping;
+  double stiffness = fmax(fabs(plan->k.min), fabs(plan->k.max)) + fmax(fabs(plan->m.min), fabs(plan->m.max));
+  return (kz_cost){.cells = (int64_t)points,
+                   .disk_bytes = 34 * points + 32 * curves,
+                   .memory_bytes = 34 * points + 32 * curves,
+                   .core_seconds = 1e-7 * (1 + sqrt(stiffness + beta * beta)) * points + 1e-4 * curves};
+}
+
+/* Values from min to max, both exactly. */
+static double *axis_values(const kz_axis *axis) {
+  double *values = malloc((size_t)axis->count * sizeof *values), last = (double)(axis->count - 1);
+  for (int64_t i = 0; values && i < axis->count; i++)
+    values[i] = last > 0 ? (axis->min * (last - (double)i) + axis->max * (double)i) / last : axis->min;
+  return values;
+}
+
+static bool contains(const kz_integers *list, int64_t count, int64_t value) {
+  for (int64_t i = 0; i < count; i++)
+    if (list->values[i] == value) return true;
+  return false;
+}
+
+/* Every curve asked for with its upper branch, in the table's order; then the subharmonic orders, each once. */
+static void make_tasks(kz_chart *chart) {
+  const kz_integers *curves = &chart->plan->curves, *orders = &chart->plan->subharmonics;
+  int64_t word = -1;
+  for (int32_t row = 0; row < kz_curve_count; row++) {
+    word += strcmp(kz_curves[row].name, kz_curves[row].asked) == 0;
+    if (contains(curves, curves->count, word)) chart->tasks[chart->n_tasks++] = (kz_curve_task){row, 0};
+  }
+  for (int64_t i = 0; i < orders->count; i++)
+    if (!contains(orders, i, orders->values[i]))
+      chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
+}
+
+static kz_status allocate(kz_chart *chart, bool here) {
+  const kz_stability_plan *plan = chart->plan;
+  size_t points = here ? (size_t)(plan->k.count * plan->m.count) : 1;
+  chart->k = axis_values(&plan->k);
+  chart->m = axis_values(&plan->m);
+  chart->tasks = malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart->tasks);
+  if (chart->tasks) make_tasks(chart);
+  chart->log_multiplier = malloc(points * sizeof *chart->log_multiplier);
+  chart->angle = malloc(points * sizeof *chart->angle);
+  chart->stable = malloc(points);
+  chart->curves = malloc(((here ? (size_t)(2 * chart->n_tasks * plan->k.count) : 0) + 1) * sizeof *chart->curves);
+  if (chart->k && chart->m && chart->tasks && chart->log_multiplier && chart->angle && chart->stable && chart->curves)
+    return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for a chart of %lld x %lld points", (long long)plan->k.count, (long long)plan->m.count);
+}
+
+static void release(kz_chart *chart) {
+  free(chart->k);
+  free(chart->m);
+  free(chart->tasks);
+  free(chart->log_multiplier);
+  free(chart->angle);
+  free(chart->stable);
+  free(chart->curves);
+}
+
+static kz_status chart_tile(void *context, int64_t tile, void *record) {
+  const kz_chart *chart = context;
+  chart_record *out = record;
+  double k[POINTS], beta[POINTS], m[POINTS];
+  int64_t first = tile * POINTS, columns = chart->plan->k.count, n = columns * chart->plan->m.count - first;
+  if (n > POINTS) n = POINTS;
+  for (int64_t i = 0; i < n; i++) {
+    k[i] = chart->k[(first + i) % columns];
+    m[i] = chart->m[(first + i) / columns];
+    beta[i] = kz_damping_at(&chart->damping, k[i]);
+  }
+  kz_linear_floquet(n, k, beta, m, out->log_multiplier, out->angle, out->stable);
+  return KZ_OK;
+}
+
+static kz_status curve_tile(void *context, int64_t tile, void *record) {
+  const kz_chart *chart = context;
+  curve_record *out = record;
+  int64_t pieces = tiles_of(chart->plan->k.count, PIECE), first = tile % pieces * PIECE, n = chart->plan->k.count - first;
+  const kz_curve_task *task = &chart->tasks[tile / pieces];
+  if (n > PIECE) n = PIECE;
+  if (task->row < 0)
+    kz_subharmonic_values(task->order, n, chart->k + first, out->m[0], out->m[1]);
+  else
+    kz_curve_values(&kz_curves[task->row], &chart->damping, n, chart->k + first, out->m[0]);
+  return KZ_OK;
+}
+
+/* Runs a stage; *records is NULL where this rank receives none. */
+static kz_status run_stage(kz_team *team, const kz_stage *stage, void **records) {
+  bool here = kz_team_rank(team) == 0;
+  *records = here ? malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
+  kz_status status = !here || *records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the records of stage %s", stage->name);
+  KZ_TRY(kz_team_agree(team, status));
+  return kz_stage_run(team, stage, *records);
+}
+
+static void unpack_chart(kz_chart *chart, const chart_record *records) {
+  int64_t points = chart->plan->k.count * chart->plan->m.count;
+  for (int64_t first = 0; first < points; first += POINTS) {
+    const chart_record *record = &records[first / POINTS];
+    size_t n = (size_t)(points - first < POINTS ? points - first : POINTS);
+    memcpy(chart->log_multiplier + first, record->log_multiplier, n * sizeof(double));
+    memcpy(chart->angle + first, record->angle, n * sizeof(double));
+    memcpy(chart->stable + first, record->stable, n);
+  }
+}
+
+static void unpack_curves(kz_chart *chart, const curve_record *records) {
+  int64_t columns = chart->plan->k.count, pieces = tiles_of(columns, PIECE);
+  for (int64_t tile = 0; tile < pieces * chart->n_tasks; tile++) {
+    int64_t first = tile % pieces * PIECE, n = columns - first < PIECE ? columns - first : PIECE;
+    for (int64_t kind = 0; kind < 2; kind++)
+      memcpy(chart->curves + (2 * (tile / pieces) + kind) * columns + first, records[tile].m[kind], (size_t)n * sizeof(double));
+  }
+}
+
+static kz_status model_chart(kz_team *team, kz_chart *chart) {
+  int64_t points = chart->plan->k.count * chart->plan->m.count;
+  const kz_stage stage = {.name = "chart",
+                          .n_tiles = tiles_of(points, POINTS),
+                          .record_bytes = sizeof(chart_record),
+                          .work = chart_tile,
+                          .context = chart,
+                          .keep = true};
+  void *records;
+  kz_status status = run_stage(team, &stage, &records);
+  if (status == KZ_OK && records) unpack_chart(chart, records);
+  free(records);
+  return status;
+}
+
+static kz_status model_curves(kz_team *team, kz_chart *chart) {
+  if (chart->n_tasks == 0) return KZ_OK;
+  const kz_stage stage = {.name = "curves",
+                          .n_tiles = chart->n_tasks * tiles_of(chart->plan->k.count, PIECE),
+                          .record_bytes = sizeof(curve_record),
+                          .work = curve_tile,
+                          .context = chart,
+                          .keep = true};
+  void *records;
+  kz_status status = run_stage(team, &stage, &records);
+  if (status == KZ_OK && records) unpack_curves(chart, records);
+  free(records);
+  return status;
+}
+
+kz_status kz_stability_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  const kz_stability_plan *plan = &scene->stability;
+  kz_chart chart = {.plan = plan, .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor}};
+  kz_status status = kz_team_agree(team, allocate(&chart, kz_team_rank(team) == 0));
+  if (status == KZ_OK) status = model_chart(team, &chart);
+  if (status == KZ_OK) status = model_curves(team, &chart);
+  if (status == KZ_OK && kz_team_rank(team) == 0) {
+    status = kz_chart_write(&chart, store);
+    kz_chart_summarise(&chart, summary);
+  }
+  release(&chart);
+  return status;
+}

@@ -1,0 +1,34 @@
+/* Study `stability`: the chart of the (damped) Mathieu equation over (k, m), and transition curves over k. */
+#ifndef KAPITZA_STUDY_STABILITY_H
+#define KAPITZA_STUDY_STABILITY_H
+
+#include "kapitza/stability.h"
+#include "kapitza/study.h"
+
+bool kz_stability_wanted(const kz_scene *scene);
+kz_cost kz_stability_cost(const kz_scene *scene);
+kz_status kz_stability_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+
+/* ---- inside the study ---- */
+
+/* A curve to follow: a row of kz_curves, or (row < 0) the two curves of a subharmonic order. */
+typedef struct {
+  int32_t row, order;
+} kz_curve_task;
+
+typedef struct {
+  const kz_stability_plan *plan;
+  kz_damping damping;
+  double *k, *m; /* the axes */
+  kz_curve_task *tasks;
+  int64_t n_tasks;
+  double *log_multiplier, *angle; /* [m][k], rank 0 alone, as the rest */
+  uint8_t *stable;
+  double *curves; /* [task][2][k]: the curve; of a subharmonic order exact and formula */
+} kz_chart;
+
+/* The groups' variables and attributes, and a few words for people. On rank 0. */
+kz_status kz_chart_write(const kz_chart *chart, kz_store *store);
+void kz_chart_summarise(const kz_chart *chart, FILE *summary);
+
+#endif

@@ -1,0 +1,67 @@
+/* The group /stability. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "stability.h"
+
+static const char *const GROUP = "stability";
+
+static kz_status write_curve(const kz_chart *chart, int64_t i, kz_store *store) {
+  const kz_curve_task *task = &chart->tasks[i];
+  const double *values = chart->curves + 2 * i * chart->plan->k.count;
+  char name[64];
+  if (task->row >= 0) return kz_store_variable(store, GROUP, kz_curves[task->row].name, values);
+  snprintf(name, sizeof name, "subharmonic_%" PRId32, task->order);
+  KZ_TRY(kz_store_variable(store, GROUP, name, values));
+  snprintf(name, sizeof name, "butikov_subharmonic_%" PRId32, task->order);
+  return kz_store_variable(store, GROUP, name, values + chart->plan->k.count);
+}
+
+/* Thresholds of the tongues, three ways: attributes such as tongue_1_lowest_m, tongue_1_lowest_m_determinant. */
+static kz_status write_thresholds(double quality_factor, kz_store *store) {
+  static const char *const ways[] = {"", "_determinant", "_asymptote"}, *const parts[] = {"lowest_k", "lowest_m", "tuned_m"};
+  for (int32_t tongue = 1; tongue <= 2; tongue++)
+    for (int32_t way = KZ_BY_FLOQUET; way <= KZ_BY_ASYMPTOTE; way++) {
+      kz_threshold t;
+      kz_tongue_threshold(tongue, quality_factor, way, &t);
+      const double values[] = {t.k_lowest, t.m_lowest, t.m_tuned};
+      for (int i = 0; i < 3; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "tongue_%" PRId32 "_%s%s", tongue, parts[i], ways[way]);
+        KZ_TRY(kz_store_real(store, GROUP, name, values[i]));
+      }
+    }
+  return KZ_OK;
+}
+
+static kz_status write_damping(const kz_damping *damping, kz_store *store) {
+  if (!(damping->quality_factor > 0)) return kz_store_real(store, GROUP, "damping", damping->beta);
+  KZ_TRY(kz_store_real(store, GROUP, "quality_factor", damping->quality_factor));
+  return write_thresholds(damping->quality_factor, store);
+}
+
+kz_status kz_chart_write(const kz_chart *chart, kz_store *store) {
+  KZ_TRY(kz_store_dimension(store, GROUP, "k", chart->plan->k.count, chart->k));
+  KZ_TRY(kz_store_dimension(store, GROUP, "m", chart->plan->m.count, chart->m));
+  KZ_TRY(kz_store_variable(store, GROUP, "log_multiplier", chart->log_multiplier));
+  KZ_TRY(kz_store_variable(store, GROUP, "angle", chart->angle));
+  KZ_TRY(kz_store_variable(store, GROUP, "stable", chart->stable));
+  for (int64_t i = 0; i < chart->n_tasks; i++) KZ_TRY(write_curve(chart, i, store));
+  return write_damping(&chart->damping, store);
+}
+
+void kz_chart_summarise(const kz_chart *chart, FILE *summary) {
+  int64_t points = chart->plan->k.count * chart->plan->m.count, stable = 0;
+  for (int64_t i = 0; i < points; i++) stable += chart->stable[i];
+  fprintf(summary, "stability: %" PRId64 " x %" PRId64 " points, %.2f %% of them stable, %" PRId64 " curve%s\n",
+          chart->plan->k.count, chart->plan->m.count, 100.0 * (double)stable / (double)points, chart->n_tasks,
+          chart->n_tasks == 1 ? "" : "s");
+  if (!(chart->damping.quality_factor > 0)) return;
+  for (int32_t tongue = 1; tongue <= 2; tongue++) {
+    kz_threshold t;
+    kz_tongue_threshold(tongue, chart->damping.quality_factor, KZ_BY_FLOQUET, &t);
+    fprintf(summary, "  tongue %" PRId32 " at Q = %g: lowest at k = %.10g, m = %.10g; m = %.10g at exact tuning\n", tongue,
+            chart->damping.quality_factor, t.k_lowest, t.m_lowest, t.m_tuned);
+  }
+}

@@ -1,0 +1,158 @@
+"""The studies stability and potential, from the scene to the file."""
+
+import json
+
+import h5py
+import numpy as np
+import pytest
+import yaml
+from conftest import ROOT, datasets
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from scipy import integrate
+from test_bad_scenes import refused
+
+REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
+PENDULUM = "pendulum: {k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}\n"
+CHART = PENDULUM + """\
+stability:
+  k: {min: -1, max: 4, count: 101}
+  m: {min: 0, max: 4, count: 81}
+"""
+
+
+def run(kapitza, folder, scene, ranks=None):
+    (folder / "chart.yaml").write_text(scene)
+    kapitza("run", "chart.yaml", "--force", folder=folder, ranks=ranks)
+    return h5py.File(folder / "chart.h5")
+
+
+def test_axes_hold_both_ends_exactly(kapitza, tmp_path):
+    with run(kapitza, tmp_path, CHART) as file:
+        k, m = file["stability/k"][:], file["stability/m"][:]
+    assert (k[0], k[20], k[-1], len(k)) == (-1, 0, 4, 101)
+    assert (m[0], m[-1], len(m)) == (0, 4, 81)
+
+
+def test_chart_and_its_curves_tell_the_same(kapitza, tmp_path):
+    """Undamped: a point is stable exactly where it lies between the curves as theory says (k < 1 here)."""
+    with run(kapitza, tmp_path, CHART + "  curves: [exact_1, exact_2, exact_3, exact_4]\n") as file:
+        chart = {name: item[:] for name, item in file["stability"].items()}
+    k, m = np.meshgrid(chart["k"], chart["m"])
+    below = np.where(k < 0, chart["exact_1"], 0)
+    first = np.where(k <= 0.25, chart["exact_2"], 0)
+    inside = (m > below) & (m < first) & (k < 0.25)
+    second = (m > np.where(k < 0.25, chart["exact_3_upper"], np.inf)) & (m < chart["exact_4"])
+    beside = (k > 0.25) & (k < 1) & (m < np.fmin(chart["exact_4"], np.where(k < 0.6304, chart["exact_3"], np.inf)))
+    upper = (k > 0.25) & (k < 0.6304) & (m > chart["exact_3_upper"]) & (m < chart["exact_4"])
+    region = (k < 1) & (m > 0) & (m < chart["exact_4"]) & (np.abs(k - 0.25) > 1e-9)
+    expected = inside | second | beside | upper
+    assert region.sum() > 2000 and (expected == (chart["stable"] == 1))[region].all()
+    stable = chart["stable"] == 1
+    assert (chart["log_multiplier"][stable] == 0).all() and (chart["log_multiplier"][~stable] >= 0).all()
+    assert ((chart["angle"] >= 0) & (chart["angle"] <= 0.5)).all()
+
+
+def test_damped_chart(kapitza, tmp_path):
+    scene = CHART + "  quality_factor: 5\n  curves: [damped_1]\n"
+    with run(kapitza, tmp_path, scene) as file:
+        group = file["stability"]
+        attributes, stable, growth = dict(group.attrs), group["stable"][:], group["log_multiplier"][:]
+    assert attributes["quality_factor"] == 5
+    published = REFERENCE["butikov_sec6_Q5"]
+    for tongue, names in ((1, ("tongue1_exact", "m_at_k0.25")), (2, ("tongue2_exact", "m_at_k1"))):
+        row = published[names[0]]
+        assert attributes[f"tongue_{tongue}_lowest_k"] == pytest.approx(float(row["k_min"]), abs=1e-9)
+        assert attributes[f"tongue_{tongue}_lowest_m"] == pytest.approx(float(row["m_min"]), abs=1e-9)
+        assert attributes[f"tongue_{tongue}_tuned_m"] == pytest.approx(float(row[names[1]]), abs=1e-9)
+    k = np.linspace(-1, 4, 101)
+    damped = k != 0  # beta = sqrt|k|/Q
+    assert (stable == (growth < 0))[:, damped].all() and (growth >= -np.pi * np.sqrt(np.abs(k)) / 5 - 1e-12).all()
+
+
+def test_curves_bring_their_upper_branch_and_subharmonics_both_kinds(kapitza, tmp_path):
+    scene = CHART + "  curves: [exact_5, butikov_5_refined, exact_5]\n  subharmonics: [6, 2, 6]\n"
+    with run(kapitza, tmp_path, scene) as file:
+        names = set(file["stability"])
+        long_name = file["stability/subharmonic_6"].attrs["long_name"]
+    assert names == {"k", "m", "log_multiplier", "angle", "stable", "exact_5", "exact_5_upper", "butikov_5_refined",
+                     "butikov_5_refined_upper", "subharmonic_6", "butikov_subharmonic_6", "subharmonic_2",
+                     "butikov_subharmonic_2"}
+    assert "repeat" in long_name
+
+
+def test_one_value(kapitza, tmp_path):
+    scene = PENDULUM + """\
+stability:
+  k: {min: -0.1, max: -0.1, count: 1}
+  m: {min: 0.5, max: 0.5, count: 1}
+  subharmonics: [6]
+"""
+    with run(kapitza, tmp_path, scene) as file:
+        value = file["stability/subharmonic_6"][0]
+    row = next(row for row in REFERENCE["butikov_fig9_n6"] if row["k"] == "-0.1")
+    assert value == pytest.approx(float(row["m_exact"]), abs=1e-9)
+
+
+def test_any_number_of_ranks_gives_the_same_bytes(kapitza, tmp_path):
+    scene = CHART + "  damping: 0.05\n  curves: [exact_1, damped_1, damped_2]\n  subharmonics: [4]\n"
+    results = []
+    for ranks in (None, 2, 3):
+        run(kapitza, tmp_path, scene, ranks).close()
+        results.append(datasets(tmp_path / "chart.h5"))
+    assert results[0] == results[1] == results[2]
+
+
+@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(k=st.floats(-3, 5), m=st.floats(-4, 4), damping=st.floats(0, 1))
+def test_chart_against_a_textbook_integration(kapitza, tmp_path, k, m, damping):
+    """Random points against scipy at its finest."""
+    scene = PENDULUM + yaml.safe_dump({"stability": {"k": {"min": k, "max": k, "count": 1},
+                                                     "m": {"min": m, "max": m, "count": 1}, "damping": damping}})
+    with run(kapitza, tmp_path, scene) as file:
+        growth = file["stability/log_multiplier"][0, 0]
+
+    def rhs(t, u):
+        return [u[1], -damping * u[1] - (k - m * np.cos(t)) * u[0]]
+
+    ends = [integrate.solve_ivp(rhs, (0, 2 * np.pi), start, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+            for start in ([1, 0], [0, 1])]
+    largest = np.abs(np.linalg.eigvals(np.transpose(ends))).max()
+    assert np.exp(growth) == pytest.approx(largest, rel=1e-4)  # near an edge multipliers are a square root
+    determinant = np.exp(-2 * np.pi * damping)
+    if largest**2 > 1.01 * determinant:
+        assert np.exp(growth) == pytest.approx(largest, rel=1e-8)
+
+
+def test_potential(kapitza, tmp_path):
+    with run(kapitza, tmp_path, PENDULUM + "potential: {drive_amplitudes: [0.05, 0.2, 0.3], theta: {count: 201}}\n") as file:
+        group = {name: item[:] for name, item in file["potential"].items()}
+    theta, exact = group["theta"], group["energy"]
+    assert exact.shape == (3, 201) and (theta[0], theta[100], theta[-1]) == (-np.pi, 0, np.pi)
+    assert (exact[:, 100] == 0).all() and np.allclose(exact, exact[:, ::-1], rtol=0, atol=1e-15)
+    assert group["stable_inverted"].tolist() == [0, 1, 1]
+    assert np.isnan(group["rim"][0]) and np.degrees(group["rim"][1:]) == pytest.approx([114.41, 100.58], abs=0.01)
+    for row in (1, 2):
+        half = theta >= 0
+        assert theta[half][exact[row][half].argmax()] == pytest.approx(group["rim_exact"][row], abs=0.02)
+    assert np.abs(group["energy_simple"] - exact).max() < 2e-3 and np.abs(group["energy_blackburn"] - exact).max() < 2e-3
+
+
+BAD = {
+    "both dampings": (CHART + "  damping: 0.1\n  quality_factor: 5\n", "stability."),
+    "unknown curve": (CHART + "  curves: [exact_6]\n", "exact_6"),
+    "order below two": (CHART + "  subharmonics: [1]\n", "stability.subharmonics"),
+    "no quality": (CHART + "  quality_factor: 0\n", "stability.quality_factor"),
+    "k upside down": (CHART.replace("max: 4, count: 101", "max: -2, count: 101"), "stability.k.max"),
+    "one value but a range": (CHART.replace("count: 81", "count: 1"), "stability.m.max"),
+    "no m": (PENDULUM + "stability: {k: {min: 0, max: 1}}\n", "stability.m"),
+    "no amplitudes": (PENDULUM + "potential: {}\n", "potential.drive_amplitudes"),
+    "one angle": (PENDULUM + "potential: {drive_amplitudes: [0.1], theta: {count: 1}}\n", "potential.theta.count"),
+}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_scenes(tmp_path, name):
+    scene, key = BAD[name]
+    (tmp_path / "scene.yaml").write_text(scene)
+    assert key in refused(tmp_path, "run", "scene.yaml")
