@@ -28,7 +28,7 @@ static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan
 
 /* A file that holds no work of this run or an earlier one is not left behind. */
 static void abandon(kz_checkpoint *checkpoint, int rank) {
-  if (rank == 0 && checkpoint->file >= 0 && checkpoint->fresh && checkpoint->n_sections == 0 &&
+  if (rank == 0 && checkpoint->file >= 0 && !kz_checkpoint_holds_work(checkpoint) &&
       kz_hold_names(checkpoint->path, checkpoint->file))
     unlink(checkpoint->path);
   kz_checkpoint_release(checkpoint);
@@ -42,7 +42,7 @@ kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan) {
   status = kz_team_agree(team, status);
   if (status == KZ_OK && team->rank != 0) status = kz_hold_join(plan->path, &checkpoint->file);
   if (status == KZ_OK) {
-    status = kz_team_broadcast(team, &checkpoint->seed, sizeof checkpoint->seed);
+    status = kz_team_broadcast(team, &checkpoint->fresh, sizeof checkpoint->fresh);
     status = kz_team_agree(team, status);
   }
   if (status != KZ_OK) abandon(checkpoint, team->rank);
@@ -64,11 +64,10 @@ static kz_status keep_file(const kz_checkpoint *checkpoint) {
 kz_status kz_checkpoint_close(kz_team *team, bool complete) {
   kz_checkpoint *checkpoint = &team->checkpoint;
   if (checkpoint->file < 0) return KZ_OK;
-  const bool holds_work = !checkpoint->fresh || checkpoint->n_sections > 0;
   kz_status status = KZ_OK;
   if (complete) {
     if (team->rank == 0) status = remove_file(checkpoint);
-  } else if (holds_work)
+  } else if (kz_checkpoint_holds_work(checkpoint))
     status = keep_file(checkpoint);
   status = kz_team_agree(team, status);
   abandon(checkpoint, team->rank);

@@ -28,6 +28,11 @@ static inline int64_t kz_whole_pages(int64_t bytes) {
   return (bytes + KZ_PAGE - 1) / KZ_PAGE * KZ_PAGE;
 }
 
+/* True where an open checkpoint holds, or may hold, records of this run or of an earlier one. */
+static inline bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint) {
+  return checkpoint->file >= 0 && (!checkpoint->fresh || checkpoint->n_sections > 0);
+}
+
 /* Closes this rank's file, which gives its locks back. The file stays. */
 void kz_checkpoint_release(kz_checkpoint *checkpoint);
 

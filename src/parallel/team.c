@@ -107,7 +107,7 @@ void kz_team_set_time_limit(kz_team *team, double seconds) {
 }
 
 kz_status kz_team_interrupted(const kz_team *team) {
-  const bool saved = team->checkpoint.file >= 0;
+  const bool saved = kz_checkpoint_holds_work(&team->checkpoint);
   const char *where = saved ? "; finished work is in " : "", *path = saved ? team->checkpoint.path : "";
   const char *signal = kz_signals_caught();
   if (signal) return kz_fail(KZ_STOPPED, "stopped by %s%s%s", signal, where, path);

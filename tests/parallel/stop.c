@@ -17,9 +17,10 @@ static kz_status fill(void *context, int64_t tile, void *bytes)
   return KZ_OK;
 }
 
-static kz_status run(int64_t *done)
+static kz_status run(int64_t *done, bool keep)
 {
-  const kz_stage stage = {.name = "cells", .n_tiles = N_TILES, .record_bytes = sizeof *records, .work = fill, .context = done, .keep = true};
+  const kz_stage stage = {
+      .name = "cells", .n_tiles = N_TILES, .record_bytes = sizeof *records, .work = fill, .context = done, .keep = keep};
   memset(records, 0, sizeof records);
   return kz_stage_run(team, &stage, records);
 }
@@ -39,15 +40,15 @@ static void the_time_limit_stops_and_resumes(void **state)
   kz_team_set_time_limit(team, 0.05);
   pause_for(0.05);
   assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
-  assert_all(run(&done) == KZ_STOPPED && done == 0);
+  assert_all(run(&done, true) == KZ_STOPPED && done == 0);
   assert_all(kz_checkpoint_close(team, false) == KZ_OK);
   kz_team_set_time_limit(team, 0);
   assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
-  assert_all(run(&more) == KZ_OK && (kz_team_rank(team) != 0 || is_right()));
+  assert_all(run(&more, true) == KZ_OK && (kz_team_rank(team) != 0 || is_right()));
   assert_all(kz_checkpoint_close(team, true) == KZ_OK);
 }
 
-/* The last of the tests: a request stays. */
+/* From here on the request stays. */
 static void a_signal_to_one_rank_stops_all(void **state)
 {
   (void)state;
@@ -56,13 +57,25 @@ static void a_signal_to_one_rank_stops_all(void **state)
   raising = 20;
   assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
   const double begun = now();
-  const kz_status status = run(&done);
+  const kz_status status = run(&done, true);
   assert_all(status == KZ_STOPPED && strstr(kz_message(), "SIGUSR1") && strstr(kz_message(), path));
   assert_all(now() - begun < 10);
   assert_all(done <= 21);
-  assert_all(run(&done) == KZ_STOPPED);
+  assert_all(run(&done, true) == KZ_STOPPED);
   assert_all(kz_checkpoint_close(team, false) == KZ_OK);
   assert_all(kz_team_rank(team) != 0 || unlink(path) == 0);
+}
+
+static void nothing_is_promised_where_nothing_was_kept(void **state)
+{
+  (void)state;
+  const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
+  int64_t done = 0;
+  assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
+  const kz_status status = run(&done, false);
+  assert_all(status == KZ_STOPPED && strstr(kz_message(), path) == NULL && done == 0);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(access(path, F_OK) != 0);
 }
 
 int main(void)
@@ -75,6 +88,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_time_limit_stops_and_resumes),
       cmocka_unit_test(a_signal_to_one_rank_stops_all),
+      cmocka_unit_test(nothing_is_promised_where_nothing_was_kept),
   };
   const int failed = cmocka_run_group_tests(tests, NULL, NULL);
   if (kz_team_rank(team) == 0) rmdir(folder);

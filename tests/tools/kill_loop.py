@@ -94,8 +94,13 @@ def datasets(path):
     import h5py
 
     found = {}
+
+    def keep(name, item):
+        if isinstance(item, h5py.Dataset):
+            found[name] = item[()].tolist() if item.dtype == object else item[()].tobytes()  # object: text
+
     with h5py.File(path, "r") as file:
-        file.visititems(lambda name, item: found.update({name: item[()].tobytes()}) if isinstance(item, h5py.Dataset) else None)
+        file.visititems(keep)
     return found
 
 
@@ -122,9 +127,13 @@ def one_round(folder, words, expected, longest, all_ranks):
     return done
 
 
+def differing(found, expected):
+    return sorted(name for name in {*found, *expected} if found.get(name) != expected.get(name))
+
+
 def check(folder, result, expected, in_flight, what):
     if datasets(result) != expected:
-        raise Failure(f"{what}: another result")
+        raise Failure(f"{what}: another result: {differing(datasets(result), expected)}")
     for _ in range(50):  # orphans that were late may still be ending
         left = [str(path) for path in folder.glob("*.checkpoint")]
         if not left:
