@@ -62,12 +62,12 @@ contains
     coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
     polish = FINE
     polish%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_dp, abs(pendulum%k) + abs(pendulum%m))))
-    d%flow = make_flow(pendulum, numerics, joined=.true.)
+    call make_flow(pendulum, numerics, .true., d%flow)
     d%search%pendulum = pendulum
     d%search%max_period = int(max_period)
-    d%search%flow = make_flow(pendulum, coarse, joined=.true.)
-    d%search%fine = make_flow(pendulum, polish, joined=.true.)
-    d%search%apart = make_flow(pendulum, polish, joined=.false.)
+    call make_flow(pendulum, coarse, .true., d%search%flow)
+    call make_flow(pendulum, polish, .true., d%search%fine)
+    call make_flow(pendulum, polish, .false., d%search%apart)
     allocate (d%attractors(0))
     handle = c_loc(d)
   end function create

@@ -33,7 +33,7 @@ contains
     type(attractor_t) :: cycle
     logical :: found
 
-    allocate (flow, source=make_flow(pendulum, numerics, joined=.true.))
+    call make_flow(pendulum, numerics, .true., flow)
     call close_cycle(flow, pendulum%beta, int(n), theta/PI, velocity, reach, cycle, found)
     period = 0
     if (.not. found) return

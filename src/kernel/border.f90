@@ -67,8 +67,8 @@ contains
     handle = c_null_ptr
     allocate (plan, stat=status)
     if (status /= 0) return
-    plan%joined = make_flow(pendulum, numerics, joined=.true.)
-    plan%apart = make_flow(pendulum, numerics, joined=.false.)
+    call make_flow(pendulum, numerics, .true., plan%joined)
+    call make_flow(pendulum, numerics, .false., plan%apart)
     handle = c_loc(plan)
   end function plan_create
 

@@ -1,7 +1,7 @@
 !> From a pendulum and its numerics to a map of the right kind. The only place that knows all kinds.
 module kz_kernel_plan
   use kz_kernel_map, only: flow_t
-  use kz_kernel_tables, only: pendulum_t, numerics_t, make_period
+  use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
   use kz_kernel_r32, only: make_tile_r32 => make_tile
   use kz_kernel_r64, only: make_tile_r64 => make_tile
   use kz_kernel_r128, only: make_tile_r128 => make_tile
@@ -17,21 +17,24 @@ module kz_kernel_plan
 
 contains
 
-  !> The map of one drive period. Steps that are joined are faster; sampling within the period needs them apart.
-  function make_flow(pendulum, numerics, joined) result(flow)
+  !> The map of one drive period. Steps that are joined are faster; sampling within the period needs them apart. (A subroutine:
+  !> gfortran 12 does not free what a polymorphic function returns.)
+  subroutine make_flow(pendulum, numerics, joined, flow)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     logical, intent(in) :: joined
-    class(flow_t), allocatable :: flow
+    class(flow_t), allocatable, intent(out) :: flow
+    type(period_t) :: period
 
+    period = make_period(pendulum, numerics, joined)
     select case (numerics%precision)
     case (SINGLE)
-      allocate (flow, source=make_tile_r32(make_period(pendulum, numerics, joined)))
+      call make_tile_r32(period, flow)
     case (DOUBLE)
-      allocate (flow, source=make_tile_r64(make_period(pendulum, numerics, joined)))
+      call make_tile_r64(period, flow)
     case default
-      allocate (flow, source=make_tile_r128(make_period(pendulum, numerics, joined)))
+      call make_tile_r128(period, flow)
     end select
-  end function make_flow
+  end subroutine make_flow
 
 end module kz_kernel_plan
