@@ -125,7 +125,7 @@ static void errors_name_place_key_and_remedy(void **state) {
   (void)state;
   expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
   expect_refused(GOOD "  method: imc\n", NULL,
-                 "s.yaml:4:11: basin.method: \"imc\" is unknown; one of icm, direct (did you mean icm?)");
+                 "s.yaml:4:11: basin.method: \"imc\" is unknown; one of icm, direct, hybrid (did you mean icm?)");
   expect_refused(GOOD "  max_periods: 1.5x\n", NULL,
                  "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; an integer from 1 to 4000000000");
   expect_refused("basin: {}\n", NULL,
@@ -144,7 +144,7 @@ static void first_error_in_document_order(void **state) {
   (void)state;
   expect_refused("basin:\n  velocity: {min: 2, max: -2}\npendulum: {k: nan}\n", NULL,
                  "s.yaml:2:27: basin.velocity.max: -2 is not above min = 2; a larger number");
-  expect_refused("basin:\n  method: xyz\n", NULL, "s.yaml:2:11: basin.method: \"xyz\" is unknown; one of icm, direct");
+  expect_refused("basin:\n  method: xyz\n", NULL, "s.yaml:2:11: basin.method: \"xyz\" is unknown; one of icm, direct, hybrid");
 }
 
 static void scalars_are_strict(void **state) {
