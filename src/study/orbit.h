@@ -1,8 +1,23 @@
-/* Study `orbit`. */
+/* Study `orbit`: its parts. */
 #ifndef KAPITZA_STUDY_ORBIT_H
 #define KAPITZA_STUDY_ORBIT_H
 
-#include "kapitza/study.h"
+#include "portrait.h"
+
+typedef struct {
+  const kz_orbit_plan *plan;
+  kz_pendulum pendulum;
+  kz_mover mover;
+  kz_cycle cycle; /* of a closed orbit; period 0 = open */
+  kz_motion motion;
+  kz_portrait portrait;
+  double lyapunov, lyapunov_error; /* per drive period, largest exponent along the record; NaN but of the pendulum */
+} kz_orbit;
+
+/* Group /orbit of the file. */
+kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store);
+/* A line for people. */
+void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
 
 bool kz_orbit_wanted(const kz_scene *scene);
 kz_cost kz_orbit_cost(const kz_scene *scene);

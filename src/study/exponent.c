@@ -1,0 +1,29 @@
+#include "exponent.h"
+
+#include <math.h>
+
+enum { BLOCKS = 10 };
+
+/* Carries a unit deviation through one period; returns the logarithm of its growth. */
+static double growth(const kz_mover *mover, kz_state *x, double *deviation) {
+  double matrix[4];
+  int64_t turns = 0;
+  kz_advance_tangent(mover->plan, 1, 1, &x->theta, &x->velocity, &turns, matrix);
+  const double a = matrix[0] * deviation[0] + matrix[1] * deviation[1];
+  const double b = matrix[2] * deviation[0] + matrix[3] * deviation[1];
+  const double length = hypot(a, b);
+  deviation[0] = a / length;
+  deviation[1] = b / length;
+  return log(length);
+}
+
+void kz_exponent_along(const kz_mover *mover, int64_t periods, kz_state start, double *mean, double *error) {
+  double deviation[2] = {1, 0}, block[BLOCKS] = {0}, total = 0, square = 0;
+  const int64_t length = periods / BLOCKS; /* what does not fill the blocks comes first and is left out */
+  for (int64_t i = 0; i < periods - BLOCKS * length; i++) growth(mover, &start, deviation);
+  for (int64_t i = 0; i < BLOCKS * length; i++) block[i / length] += growth(mover, &start, deviation) / (double)length;
+  for (int i = 0; i < BLOCKS; i++) total += block[i] / BLOCKS;
+  for (int i = 0; i < BLOCKS; i++) square += (block[i] - total) * (block[i] - total);
+  *mean = length > 0 ? total : NAN;
+  *error = length > 0 ? sqrt(square / (BLOCKS * (BLOCKS - 1))) : NAN;
+}

@@ -1,0 +1,104 @@
+/* Study `orbit`: its group in the file, its line for people. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "orbit.h"
+
+static const double PI = 3.14159265358979323846;
+static const char *const GROUP = "orbit";
+
+/* Every `stride`-th value, count of them, in a new array. NULL where memory ran out. */
+static double *every(const double *from, int64_t stride, int64_t count) {
+  double *to = malloc((size_t)count * sizeof *to + 1); /* + 1: an empty array is no lack of memory */
+  for (int64_t i = 0; to && i < count; i++) to[i] = from[i * stride];
+  return to;
+}
+
+/* unit * (0, 1, 2, ...) / parts */
+static double *ramp(double unit, int64_t parts, int64_t count) {
+  double *to = malloc((size_t)count * sizeof *to);
+  for (int64_t i = 0; to && i < count; i++) to[i] = unit * (double)i / (double)parts;
+  return to;
+}
+
+static double *pivot(double m, int64_t samples, int64_t count) {
+  double *to = malloc((size_t)count * sizeof *to);
+  for (int64_t i = 0; to && i < count; i++) to[i] = m * cos(2 * PI * (double)(i % samples) / (double)samples);
+  return to;
+}
+
+/* Writes one array and frees it. */
+static kz_status put(kz_store *store, const char *name, bool dimension, int64_t count, double *values) {
+  if (!values) return kz_fail(KZ_FAILED, "out of memory for %s of an orbit", name);
+  kz_status status =
+      dimension ? kz_store_dimension(store, GROUP, name, count, values) : kz_store_variable(store, GROUP, name, values);
+  free(values);
+  return status;
+}
+
+static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
+  const kz_motion *motion = &orbit->motion;
+  int64_t samples = orbit->plan->samples_per_period, stride = motion->samples / samples, n = motion->periods * samples + 1;
+  KZ_TRY(put(store, "time", true, n, ramp(2 * PI, samples, n)));
+  KZ_TRY(put(store, "theta", false, n, every(motion->theta, stride, n)));
+  KZ_TRY(put(store, "velocity", false, n, every(motion->velocity, stride, n)));
+  KZ_TRY(put(store, "pivot", false, n, pivot(orbit->pendulum.m, samples, n)));
+  n = motion->periods + 1;
+  KZ_TRY(put(store, "strobe_time", true, n, ramp(2 * PI, 1, n)));
+  KZ_TRY(put(store, "strobe_theta", false, n, every(motion->theta, motion->samples, n)));
+  return put(store, "strobe_velocity", false, n, every(motion->velocity, motion->samples, n));
+}
+
+static kz_status write_portrait(const kz_portrait *portrait, kz_store *store) {
+  const double *turning = &portrait->turning->time; /* pairs (time, angle) */
+  int64_t n = portrait->n_turning;
+  KZ_TRY(put(store, "maximum_time", true, n, every(turning, 2, n)));
+  KZ_TRY(put(store, "maximum_angle", false, n, every(turning + 1, 2, n)));
+  KZ_TRY(put(store, "line_frequency", true, portrait->n_lines, ramp(1, portrait->record_periods, portrait->n_lines)));
+  KZ_TRY(kz_store_variable(store, GROUP, "line_amplitude", portrait->amplitude));
+  return kz_store_variable(store, GROUP, "line_phase", portrait->phase);
+}
+
+static kz_status write_attributes(const kz_orbit *orbit, kz_store *store) {
+  static const char *const MODEL[] = {"pendulum", "mathieu", "effective"};
+  const kz_portrait *p = &orbit->portrait;
+  const struct {
+    const char *name;
+    int64_t value;
+  } integers[] = {{"period", p->period},          {"winding", p->winding}, {"centre", p->centre},
+                  {"dominant_line", p->dominant}, {"closed", p->closed},   {"symmetric", p->symmetric}};
+  for (size_t i = 0; i < sizeof integers / sizeof integers[0]; i++)
+    KZ_TRY(kz_store_integer(store, GROUP, integers[i].name, integers[i].value));
+  KZ_TRY(kz_store_text(store, GROUP, "name", p->name));
+  KZ_TRY(kz_store_text(store, GROUP, "model", MODEL[orbit->plan->model]));
+  if (orbit->plan->model != KZ_PENDULUM) return KZ_OK;
+  KZ_TRY(kz_store_real(store, GROUP, "lyapunov", orbit->lyapunov));
+  KZ_TRY(kz_store_real(store, GROUP, "lyapunov_error", orbit->lyapunov_error));
+  if (!p->closed) return KZ_OK;
+  KZ_TRY(kz_store_real(store, GROUP, "multiplier_re", orbit->cycle.re[0]));
+  return kz_store_real(store, GROUP, "multiplier_im", orbit->cycle.im[0]);
+}
+
+void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
+  const kz_portrait *p = &orbit->portrait;
+  if (p->closed)
+    fprintf(summary, "orbit: %s, closes after %" PRId64 " period%s", p->name, p->period, p->period > 1 ? "s" : "");
+  else if (p->period > 0)
+    fprintf(summary, "orbit: open record of %" PRId64 " periods; its lines tell n = %" PRId64 " (%s)", orbit->motion.periods,
+            p->period, p->name);
+  else
+    fprintf(summary, "orbit: open record of %" PRId64 " periods; its lines tell no period", orbit->motion.periods);
+  if (p->dominant > 0)
+    fprintf(summary, ", largest line %.6g rad at %" PRId64 "/%" PRId64 " of the drive", p->amplitude[p->dominant], p->dominant,
+            p->record_periods);
+  if (!p->closed && isfinite(orbit->lyapunov))
+    fprintf(summary, ", largest Lyapunov exponent %.4f +- %.4f a period", orbit->lyapunov, orbit->lyapunov_error);
+  fprintf(summary, "\n");
+}
+
+kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store) {
+  KZ_TRY(write_series(orbit, store));
+  KZ_TRY(write_portrait(&orbit->portrait, store));
+  return write_attributes(orbit, store);
+}
