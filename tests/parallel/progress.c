@@ -1,6 +1,6 @@
 /* What a person sees: a bar on a terminal, lines elsewhere, nothing where nothing is asked for. */
 #define _GNU_SOURCE
-#include <fcntl.h>
+#include <poll.h>
 #include <pty.h>
 
 #include "ranks.h"
@@ -28,9 +28,14 @@ static void show(kz_progress progress, int64_t n_tiles, int end, int file)
   dup2(before, STDERR_FILENO);
   close(before);
   assert_int_equal(status, KZ_OK);
-  fcntl(file, F_SETFL, O_NONBLOCK);
-  const ssize_t n = read(file, shown, sizeof shown - 1);
-  shown[n > 0 ? n : 0] = '\0';
+  struct pollfd waiting = {.fd = file, .events = POLLIN};
+  size_t n = 0;
+  while (poll(&waiting, 1, 300) > 0) { /* a terminal hands its bytes on in pieces */
+    const ssize_t got = read(file, shown + n, sizeof shown - 1 - n);
+    if (got <= 0) break;
+    n += (size_t)got;
+  }
+  shown[n] = '\0';
 }
 
 static void show_in_pipe(kz_progress progress, int64_t n_tiles)
