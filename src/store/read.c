@@ -24,11 +24,13 @@ kz_status kz_store_length(kz_store *store, const char *group, const char *dimens
 }
 
 static kz_status read_number(hid_t dataset, hid_t space, const int64_t *index, double *value) {
-  hsize_t place[KZ_MAX_DIMENSIONS] = {0};
-  const int rank = H5Sget_simple_extent_ndims(space);
-  for (int d = 0; d < rank && d < KZ_MAX_DIMENSIONS; d++) place[d] = (hsize_t)index[d];
+  hsize_t place[KZ_MAX_DIMENSIONS] = {0}, extent[KZ_MAX_DIMENSIONS] = {0};
+  const int rank = H5Sget_simple_extent_dims(space, extent, NULL);
+  for (int d = 0; d < rank; d++) {
+    place[d] = (hsize_t)index[d];
+    if (place[d] >= extent[d]) return kz_fail(KZ_FAILED, "a number beyond the end of a variable is asked for");
+  }
   KZ_HDF5(H5Sselect_elements(space, H5S_SELECT_SET, 1, place));
-  if (H5Sselect_valid(space) <= 0) return kz_fail(KZ_FAILED, "a number beyond the end of a variable is asked for");
   const hid_t one = H5Screate(H5S_SCALAR);
   const herr_t read = H5Dread(dataset, H5T_NATIVE_DOUBLE, one, space, H5P_DEFAULT, value);
   if (one >= 0) H5Sclose(one);
