@@ -12,6 +12,10 @@ _PHASE = ("plot_orbit.py", ["--panels", "phase,path"])
 _TIME = ("plot_orbit.py", ["--panels", "time"])
 
 FIGURES = [
+    ("blackburn-fig02", "blackburn-fig02", "plot_stability.py", ["--view", "growth"]),
+    ("blackburn-fig03", "blackburn-fig03", "plot_stability.py", []),
+    ("blackburn-fig04", "blackburn-fig04", "plot_stability.py", ["--view", "frequency"]),
+    ("blackburn-fig05", "blackburn-fig05", "plot_potential.py", []),
     ("blackburn-fig08", "blackburn-fig08", *_TIME),
     ("blackburn-fig09a", "blackburn-fig09a", *_PHASE),
     ("blackburn-fig09b", "blackburn-fig09b", *_PHASE),
@@ -27,6 +31,7 @@ FIGURES = [
     ("blackburn-fig14-flutter", "blackburn-fig14", *_FLUTTER),
     ("blackburn-fig15", "blackburn-fig15", *_BASIN),
     ("blackburn-fig15-flutter", "blackburn-fig15", *_FLUTTER),
+    ("butikov-fig01", "butikov-fig01", "plot_stability.py", []),
     ("butikov-fig02", "butikov-fig02", *_ORBIT),
     ("butikov-fig03", "butikov-fig03", *_ORBIT),
     ("butikov-fig04", "butikov-fig04", *_ORBIT),
@@ -34,9 +39,12 @@ FIGURES = [
     ("butikov-fig06", "butikov-fig06", *_ORBIT),
     ("butikov-fig07", "butikov-fig07", *_ORBIT),
     ("butikov-fig08", "butikov-fig08", *_ORBIT),
+    ("butikov-fig09", "butikov-fig09", "plot_stability.py", []),
     ("butikov-fig10a", "butikov-fig10a", *_ORBIT),
     ("butikov-fig10b", "butikov-fig10b", *_ORBIT),
     ("butikov-fig10c", "butikov-fig10c", *_ORBIT),
+    ("butikov-fig11", "butikov-fig11", "plot_stability.py", []),
     ("butikov-fig12", "butikov-fig12", *_ORBIT),
+    ("formula-errors", "formula-errors", "plot_stability.py", ["--view", "errors"]),
     ("small", "small", *_BASIN),
 ]

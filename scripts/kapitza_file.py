@@ -16,6 +16,8 @@ NEEDED = {
     "attractors": ["period", "winding", "centre", "name", "mirror", "strobe_theta", "strobe_velocity"],
     "orbit": ["time", "theta", "velocity", "pivot", "strobe_time", "strobe_theta", "strobe_velocity", "maximum_time",
               "maximum_angle", "line_frequency", "line_amplitude", "line_phase"],
+    "stability": ["k", "m", "log_multiplier", "angle", "stable"],
+    "potential": ["theta", "drive_amplitude", "energy", "energy_blackburn", "energy_simple", "rim_exact"],
     "basin": ["theta", "velocity", "attractor", "settling_time", "evidence"],
 }
 

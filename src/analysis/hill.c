@@ -43,11 +43,11 @@ double kz_hill_cut_half(double k, double beta) {
   return drive_of(1, -(2 * creal(ab) + size_b), creal(ab * conj(ab)), false);
 }
 
-/* k |a b - x|^2 = 2 x Re((a b - x) conj b). For k < 0 its smaller root continues curve 1, not tongue 2. */
+/* k |a b - x|^2 = 2 x Re((a b - x) conj b). For k <= 0 its smaller root continues curve 1, not tongue 2. */
 double kz_hill_cut_whole(double k, double beta) {
   double complex a = diagonal(k, beta, 1), b = diagonal(k, beta, 2), ab = a * b;
   double size_b = creal(b * conj(b));
-  return drive_of(k + 2 * creal(b), -2 * (k * creal(ab) + creal(a) * size_b), k * creal(ab * conj(ab)), k < 0);
+  return drive_of(k + 2 * creal(b), -2 * (k * creal(ab) + creal(a) * size_b), k * creal(ab * conj(ab)), k <= 0);
 }
 
 double kz_hill_cut_angle(double k, double nu) {

@@ -1,6 +1,8 @@
 """The studies stability and potential, from the scene to the file."""
 
 import json
+import subprocess
+import sys
 
 import h5py
 import numpy as np
@@ -9,6 +11,7 @@ import yaml
 from conftest import ROOT, datasets
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from matplotlib import image
 from scipy import integrate
 from test_bad_scenes import refused
 
@@ -136,6 +139,36 @@ def test_potential(kapitza, tmp_path):
         half = theta >= 0
         assert theta[half][exact[row][half].argmax()] == pytest.approx(group["rim_exact"][row], abs=0.02)
     assert np.abs(group["energy_simple"] - exact).max() < 2e-3 and np.abs(group["energy_blackburn"] - exact).max() < 2e-3
+
+
+VIEWS = {
+    "zones": "  curves: [exact_1, exact_2, exact_3, damped_1, butikov_3]\n  subharmonics: [2, 4]\n  quality_factor: 5\n",
+    "growth": "  curves: [exact_5]\n",
+    "frequency": "  curves: [damped_0, damped_1, blackburn_lower]\n  damping: 0.01\n",
+    "errors": "  curves: [exact_4, butikov_4, butikov_4_refined]\n  subharmonics: [3]\n",
+}
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_every_view_draws(kapitza, tmp_path, view):
+    run(kapitza, tmp_path, CHART + VIEWS[view]).close()
+    script = [sys.executable, ROOT / "scripts" / "plot_stability.py", "chart.h5", "--view", view, "--dpi", "60"]
+    subprocess.run(script, cwd=tmp_path, check=True)
+    assert image.imread(tmp_path / "chart.png")[..., :3].std() > 0.05
+
+
+def test_view_that_the_chart_cannot_give(kapitza, tmp_path):
+    run(kapitza, tmp_path, CHART).close()
+    script = [sys.executable, ROOT / "scripts" / "plot_stability.py", "chart.h5", "--view", "errors"]
+    done = subprocess.run(script, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1 and done.stderr.count("\n") == 1 and "formulas" in done.stderr
+
+
+def test_potential_draws(kapitza, tmp_path):
+    run(kapitza, tmp_path, PENDULUM + "potential: {drive_amplitudes: [0.05, 0.3], theta: {count: 101}}\n").close()
+    script = [sys.executable, ROOT / "scripts" / "plot_potential.py", "chart.h5", "-o", "potential.png", "--dpi", "60"]
+    subprocess.run(script, cwd=tmp_path, check=True)
+    assert image.imread(tmp_path / "potential.png")[..., :3].std() > 0.05
 
 
 BAD = {
