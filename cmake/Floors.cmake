@@ -7,7 +7,7 @@ set(KAPITZA_FLAGS_FORTRAN ${KAPITZA_WARNINGS} -Wimplicit-interface -fimplicit-no
 set(CMAKE_C_FLAGS_RELEASE "-O2 -g")
 set(CMAKE_Fortran_FLAGS_RELEASE "-O3 -g")
 set(CMAKE_C_FLAGS_DEBUG "-O1 -g")
-set(CMAKE_Fortran_FLAGS_DEBUG "-O1 -g -fcheck=all -fbacktrace")
+set(CMAKE_Fortran_FLAGS_DEBUG "-O1 -g -fcheck=all,no-array-temps -fbacktrace")
 
 set(KAPITZA_SANITIZERS "")
 if(KAPITZA_SANITIZE)

@@ -340,6 +340,7 @@ contains
       row = attractor_row_t(a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, a%mean_velocity, &
                             a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
       n = a%period
+      if (n == 0) return ! a chaotic attractor has no strobe points
       theta(:n) = half_open(a%u)
       velocity(:n) = a%v + 0.0_dp
     end associate
