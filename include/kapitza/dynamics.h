@@ -23,11 +23,13 @@ void kz_dynamics_free(kz_dynamics *dynamics);
 /* Starts spread evenly over the window: state [n][2]. The seed moves them. */
 void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
 
-/* The velocity that a map table of this window must reach: the window's largest and the largest change in one period. */
+/* The velocity that a map table of this window must reach: the largest within one period of its starts. */
 double kz_dynamics_reach(kz_dynamics *dynamics, const kz_window *window);
 
-/* Trapping regions from the ellipses and covers known now, on a coarse grid up to velocity `reach`: enough for a search. */
+/* A coarse open grid for trapping regions up to velocity `reach`: enough for a search. A map table brings a finer one. */
 void kz_dynamics_outline(kz_dynamics *dynamics, double reach);
+/* Draws the ellipses and covers of new attractors into the regions; over a map table's cells the regions are grown outwards. */
+void kz_dynamics_update(kz_dynamics *dynamics);
 
 /* Follows n starts (state [n][2], in and out) by direct integration until each is trapped: owner [n] = attractor, 0 where it
  * has not settled; periods [n] = first period inside a trapping region, max_periods where none. */
@@ -41,7 +43,7 @@ void kz_dynamics_follow_table(kz_dynamics *dynamics, int32_t points, int64_t n, 
 /* Looks for unknown cycles near n <= 64 states that come back to themselves within `closeness` rad; returns how many
  * attractors are known then. */
 int64_t kz_dynamics_find_cycles(kz_dynamics *dynamics, int64_t n, const double *state, double closeness);
-/* Follows a bundle of orbits from one state through 60,000 periods; a chaotic attractor joins the catalogue (and the outline)
+/* Follows a bundle of orbits from one state through 60,000 periods; a chaotic attractor joins the catalogue
  * where they diverge and are never trapped. Returns how many attractors are known then. */
 int64_t kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state);
 
@@ -60,10 +62,10 @@ int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach);
 int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics); /* doubles per row */
 void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift); /* integrates row 0 .. n_velocity - 1 */
-void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);         /* all rows, in order */
-
-/* Grows the trapping regions over the table's cells; returns the share of its cells that are trapped. */
-double kz_dynamics_grow(kz_dynamics *dynamics);
+/* Takes all rows, in order; the trapping regions are grown over its cells. */
+void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);
+/* Share of the cells of the regions' grid that are trapped. */
+double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
 
 /* Periods for which an orbit of the map table (`points` nodes an axis) can be trusted: until its interpolation error, stretched
  * period by period, has grown to a cell. Needs the table and the grown regions. */

@@ -7,9 +7,9 @@ module kz_dynamics_border
   use kz_dynamics_catalogue, only: order_of, packed, unpacked
   use kz_dynamics_chaos, only: find_chaos
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_growth, only: grow_regions
+  use kz_dynamics_growth, only: make_later, grow_regions
   use kz_dynamics_labels, only: follow
-  use kz_dynamics_regions, only: regions_t, make_regions
+  use kz_dynamics_regions, only: regions_t, make_regions, draw_attractors
   use kz_dynamics_search, only: search_t, find_cycles
   use kz_dynamics_trust, only: trust_horizon
   use kz_dynamics_tables, only: table_t, make_table, table_row, set_table_rows, table_map_t, make_table_map
@@ -25,7 +25,8 @@ module kz_dynamics_border
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table
-    real(dp) :: reach = 0
+    real(dp), allocatable :: two(:, :, :)  !< displacement of the table's nodes after two periods
+    real(dp), allocatable :: four(:, :, :) !< and after four
   end type dynamics_t
 
   type, bind(C) :: window_t
@@ -105,21 +106,20 @@ contains
     real(dp) :: top
     integer, parameter :: ROWS = 16
     type(dynamics_t), pointer :: d
-    real(dp) :: largest, change, v
+    real(dp) :: largest, v
     integer :: row, i
 
     d => of_handle(handle)
     largest = max(abs(window%velocity_min), abs(window%velocity_max))
-    change = 0
+    top = largest
     do row = -ROWS, ROWS
       v = largest*row/ROWS
       do i = 1, WIDTH
         call d%search%flow%put(i, 2*real(i, dp)/WIDTH - 1, v)
       end do
       call d%search%flow%advance(WIDTH)
-      change = max(change, maxval(abs(d%search%flow%v - v)))
+      top = max(top, maxval(abs(d%search%flow%v)))
     end do
-    top = largest + change
   end function reach
 
   subroutine outline_regions(handle, top) bind(C, name='kz_dynamics_outline')
@@ -128,9 +128,18 @@ contains
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    d%reach = top
-    d%regions = make_regions(OUTLINE, OUTLINE, top, d%attractors)
+    d%regions = make_regions(OUTLINE, OUTLINE, top)
   end subroutine outline_regions
+
+  subroutine update_regions(handle) bind(C, name='kz_dynamics_update')
+    type(c_ptr), value :: handle
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    if (d%regions%n_drawn == size(d%attractors)) return
+    call draw_attractors(d%regions, d%attractors)
+    if (allocated(d%four)) call grow_regions(d%regions, d%attractors, d%table, d%two, d%four)
+  end subroutine update_regions
 
   subroutine settle(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_settle')
     type(c_ptr), value :: handle
@@ -208,11 +217,9 @@ contains
     real(dp), intent(in) :: state(2)
     integer(c_int64_t) :: known
     type(dynamics_t), pointer :: d
-    logical :: found
 
     d => of_handle(handle)
-    call find_chaos(d%search, d%regions, state(1), state(2), d%attractors, found)
-    if (found) call outline_regions(handle, d%reach)
+    call find_chaos(d%search, d%regions, state(1), state(2), d%attractors)
     known = size(d%attractors)
   end function search_chaos
 
@@ -281,25 +288,26 @@ contains
     type(c_ptr), value :: handle
     type(c_ptr), value :: rows
     type(dynamics_t), pointer :: d
+    type(table_map_t) :: map
     real(dp), pointer :: values(:, :, :)
 
     d => of_handle(handle)
     call c_f_pointer(rows, values, [2, d%table%n_own + 1, d%table%n_velocity])
     call set_table_rows(d%table, values)
+    map = make_table_map(d%table, 6, d%search%flow)
+    call make_later(map, d%two, d%four)
+    d%regions = make_regions(d%table%n_circle, d%table%n_velocity - 1, d%table%top)
+    call update_regions(handle)
   end subroutine table_set
 
-  function grow(handle) bind(C, name='kz_dynamics_grow') result(share)
+  function trapped_share(handle) bind(C, name='kz_dynamics_trapped_share') result(share)
     type(c_ptr), value :: handle
     real(dp) :: share
     type(dynamics_t), pointer :: d
-    type(table_map_t) :: map
 
     d => of_handle(handle)
-    d%regions = make_regions(d%table%n_circle, d%table%n_velocity - 1, d%table%top, d%attractors)
-    map = make_table_map(d%table, 6, d%search%flow)
-    call grow_regions(d%regions, d%attractors, map)
     share = count(d%regions%owner > 0)/real(size(d%regions%owner), dp)
-  end function grow
+  end function trapped_share
 
   function horizon(handle, points) bind(C, name='kz_dynamics_trust_horizon') result(periods)
     type(c_ptr), value :: handle

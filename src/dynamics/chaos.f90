@@ -18,15 +18,14 @@ module kz_dynamics_chaos
 
 contains
 
-  !> Follows a bundle of orbits from (u, v). `found` where none of them is ever trapped and they diverge: then the attractor is
-  !> appended. A long chaotic transient is none: one of its orbits is trapped at last.
-  subroutine find_chaos(search, regions, u, v, attractors, found)
+  !> Follows a bundle of orbits from (u, v). Where none of them is ever trapped and they diverge, a chaotic attractor is appended.
+  !> A long chaotic transient is none: one of its orbits is trapped at last.
+  subroutine find_chaos(search, regions, u, v, attractors)
     type(search_t), intent(inout) :: search
     type(regions_t), intent(in) :: regions
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    logical, intent(out) :: found
     type(attractor_t) :: attractor
     integer, allocatable :: visits_of(:)
     integer :: captor(WIDTH), period, lane
@@ -35,7 +34,6 @@ contains
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
     end do
     allocate (visits_of(COVER**2), source=0)
-    found = .false.
     do period = 1, SETTLE + VISITS
       call search%flow%advance(WIDTH)
       call captors(regions, attractors, WIDTH, search%flow%u, search%flow%v, captor)
@@ -46,8 +44,7 @@ contains
       end do
     end do
     call exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)
-    found = attractor%lyapunov > CONFIDENCE*attractor%lyapunov_error
-    if (.not. found) return
+    if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     call set_cover(attractor, visits_of)
     call portray(search%apart, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), PORTRAIT_PERIODS)
     if (attractor%symmetric) then

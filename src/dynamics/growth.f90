@@ -13,7 +13,7 @@ module kz_dynamics_growth
   use kz_dynamics_tables, only: table_t, table_map_t, fill_ghosts
   implicit none
   private
-  public :: grow_regions
+  public :: make_later, grow_regions
 
   real(dp), parameter :: CURVATURE = 0.25_dp, SLACK = 0.02_dp
   !> Images over more cells than this are not followed.
@@ -37,20 +37,28 @@ module kz_dynamics_growth
 
 contains
 
+  !> Displacements of the nodes after 2 and 4 periods, by quintic interpolation of the table.
+  subroutine make_later(map, two, four)
+    type(table_map_t), intent(inout) :: map
+    real(dp), allocatable, intent(out) :: two(:, :, :)
+    real(dp), allocatable, intent(out) :: four(:, :, :)
+
+    call later(map, map%table%shift, 1, two)
+    call later(map, two, 2, four)
+  end subroutine make_later
+
   !> Grows over the images of 4, 2 and 1 periods in turn.
-  subroutine grow_regions(regions, attractors, map)
+  subroutine grow_regions(regions, attractors, table, two, four)
     type(regions_t), intent(inout) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    !> quintic interpolation of the table whose cells the regions have
-    type(table_map_t), intent(inout) :: map
-    real(dp), allocatable :: one(:, :, :), two(:, :, :), four(:, :, :)
+    !> the table whose cells the regions have
+    type(table_t), intent(in) :: table
+    real(dp), allocatable, intent(in) :: two(:, :, :)
+    real(dp), allocatable, intent(in) :: four(:, :, :)
 
-    allocate (one, source=map%table%shift)
-    call later(map, one, 1, two)
-    call later(map, two, 2, four)
-    call grow(regions, attractors, map%table, four)
-    call grow(regions, attractors, map%table, two)
-    call grow(regions, attractors, map%table, one)
+    call grow(regions, attractors, table, four)
+    call grow(regions, attractors, table, two)
+    call grow(regions, attractors, table, table%shift)
   end subroutine grow_regions
 
   !> Displacement of every node after `periods` more than `field` has.

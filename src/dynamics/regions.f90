@@ -6,7 +6,7 @@ module kz_dynamics_regions
   use kz_dynamics_ellipses, only: in_ellipse
   implicit none
   private
-  public :: regions_t, make_regions, captors, fold_cell, cover_cell, coverer
+  public :: regions_t, make_regions, draw_attractors, captors, fold_cell, cover_cell, coverer
 
   !> An ellipse that touches a cell, and the next one.
   type :: touch_t
@@ -23,6 +23,7 @@ module kz_dynamics_regions
     integer, allocatable :: owner(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -touch; 0 open
     type(touch_t), allocatable :: touch(:)
     integer :: n_touch = 0
+    integer :: n_drawn = 0    !< attractors that have been drawn
     integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
   end type regions_t
 
@@ -34,36 +35,42 @@ module kz_dynamics_regions
 
 contains
 
-  !> Cells owned or touched by the ellipses of all attractors.
-  function make_regions(n_circle, n_velocity, top, attractors) result(regions)
+  !> An open grid.
+  function make_regions(n_circle, n_velocity, top) result(regions)
     integer, intent(in) :: n_circle
     integer, intent(in) :: n_velocity
     real(dp), intent(in) :: top
-    type(attractor_t), intent(in) :: attractors(:)
     type(regions_t) :: regions
-    integer :: a, j, turn
 
     regions%n_circle = n_circle
     regions%n_theta = (n_circle + 1)/2
     regions%n_velocity = n_velocity
     regions%top = top
-    allocate (regions%owner(0:regions%n_theta - 1, 0:n_velocity - 1), regions%touch(64))
-    regions%owner = 0
-    do a = 1, size(attractors)
+    allocate (regions%owner(0:regions%n_theta - 1, 0:n_velocity - 1), source=0)
+    allocate (regions%touch(64), regions%covered(0))
+  end function make_regions
+
+  !> Draws the ellipses and covers of the attractors that are new since the last time.
+  subroutine draw_attractors(regions, attractors)
+    type(regions_t), intent(inout) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    integer :: a, j, turn
+
+    do a = regions%n_drawn + 1, size(attractors)
       do j = 1, attractors(a)%period
         do turn = -2, 2, 2
           call draw(regions, attractors(a), a, j, turn)
         end do
       end do
+      if (attractors(a)%period > 0) cycle
+      if (size(regions%covered) == 0) then
+        deallocate (regions%covered)
+        allocate (regions%covered(COVER**2), source=0)
+      end if
+      regions%covered(attractors(a)%cover) = a
     end do
-    allocate (regions%covered(0))
-    if (all(attractors%period > 0)) return
-    deallocate (regions%covered)
-    allocate (regions%covered(COVER**2), source=0)
-    do a = 1, size(attractors)
-      if (attractors(a)%period == 0) regions%covered(attractors(a)%cover) = a
-    end do
-  end function make_regions
+    regions%n_drawn = size(attractors)
+  end subroutine draw_attractors
 
   !> Number (from 1) of the cover's cell that holds (u, v); 0 outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
   pure function cover_cell(regions, u, v) result(cell)

@@ -40,8 +40,8 @@ static kz_status allocate(const kz_scene *scene, search *s) {
 
 static kz_status discover(kz_team *team, search *s) {
   kz_dynamics_starts(&s->window, s->plan->seed, s->plan->starts, s->state);
-  double reach = kz_dynamics_reach(s->dynamics, &s->window);
-  KZ_TRY(kz_discover(team, s->dynamics, reach, MAX_PERIODS, s->plan->starts, s->state, s->owner));
+  kz_dynamics_outline(s->dynamics, kz_dynamics_reach(s->dynamics, &s->window));
+  KZ_TRY(kz_discover(team, s->dynamics, MAX_PERIODS, s->plan->starts, s->state, s->owner));
   s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
   if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
   for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->owner[i]]++;

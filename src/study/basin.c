@@ -15,7 +15,8 @@
 enum {
   CELLS = 4096,       /* per tile */
   ROWS = 4,           /* of the map table per tile */
-  ROUNDS = 4          /* of discovery, at most */
+  SCOUTS = 512,       /* starts that find the main attractors before there is a table */
+  ROUNDS = 4          /* of discovery from unsettled cells, at most */
 };
 
 /* What a label rests on, as the file says it. */
@@ -29,7 +30,7 @@ typedef struct {
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
-  double reach, trapped_share;
+  double reach;
   int64_t total, own;       /* cells of the window; those that are labelled, the others mirror them */
   int16_t *owner;           /* [own], rank 0 */
   uint32_t *periods;        /* [own], rank 0 */
@@ -130,7 +131,7 @@ static kz_status discover(basin *b, kz_team *team, int64_t n, double *state)
 {
   int32_t *owner = malloc((size_t)n * sizeof *owner + 1);
   kz_status status = kz_team_agree(team, owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
-  if (status == KZ_OK) status = kz_discover(team, b->dynamics, b->reach, b->plan->max_periods, n, state, owner);
+  if (status == KZ_OK) status = kz_discover(team, b->dynamics, b->plan->max_periods, n, state, owner);
   if (status == KZ_OK && kz_dynamics_count(b->dynamics) > INT16_MAX)
     status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) b->reached[owner[i]]++;
@@ -138,15 +139,19 @@ static kz_status discover(basin *b, kz_team *team, int64_t n, double *state)
   return status;
 }
 
+/* A few starts find the attractors that own most of the window; with the regions grown around those the others settle soon. */
 static kz_status first_discovery(basin *b, kz_team *team, const kz_window *window)
 {
-  int64_t n = b->plan->starts;
+  int64_t n = b->plan->starts, scouts = n < SCOUTS ? n : SCOUTS;
   double *state = malloc((size_t)n * 2 * sizeof *state);
   kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   if (status == KZ_OK) {
     kz_dynamics_starts(window, b->plan->seed, n, state);
-    status = discover(b, team, n, state);
+    kz_dynamics_outline(b->dynamics, b->reach);
+    status = discover(b, team, scouts, state);
   }
+  if (status == KZ_OK) status = make_table(b, team);
+  if (status == KZ_OK && n > scouts) status = discover(b, team, n - scouts, state + 2 * scouts);
   free(state);
   return status;
 }
@@ -206,10 +211,8 @@ static kz_status discover_again(basin *b, kz_team *team)
 static kz_status model(basin *b, kz_team *team, const kz_window *window)
 {
   KZ_TRY(first_discovery(b, team, window));
-  KZ_TRY(make_table(b, team));
   b->n_open = b->own;
   for (int round = 0;; round++) {
-    b->trapped_share = kz_dynamics_grow(b->dynamics);
     KZ_TRY(label_cells(b, team, round, b->plan->method == KZ_METHOD_DIRECT));
     if (b->plan->method == KZ_METHOD_HYBRID) KZ_TRY(label_distrusted(b, team, round));
     if (round == ROUNDS - 1) return KZ_OK;
@@ -265,7 +268,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   }
   if (status == KZ_OK && kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};
-    kz_labels labels = {.trapped_share = b.trapped_share};
+    kz_labels labels = {.trapped_share = kz_dynamics_trapped_share(b.dynamics)};
     status = finish(&b, &catalogue, &labels);
     if (status == KZ_OK) status = kz_basin_write(scene, &catalogue, &labels, store, summary);
     kz_catalogue_free(&catalogue);

@@ -99,8 +99,12 @@ kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const k
   const kz_basin_plan *plan = &scene->basin;
   int64_t unsettled = count_fractions(labels, catalogue);
   kz_catalogue_print(catalogue, true, summary);
-  fprintf(summary, "%lld of %lld cells did not settle within %lld periods\n", (long long)unsettled, (long long)labels->cells,
+  fprintf(summary, "%lld of %lld cells did not settle within %lld periods", (long long)unsettled, (long long)labels->cells,
           (long long)plan->max_periods);
+  if (unsettled > 0 && catalogue->count > 0)
+    fprintf(summary, "; motions here shrink e-fold in some %.0f: basin.max_periods, or basin.attractors.max_period, may be too small",
+            1 / (M_PI * scene->parameters.pendulum.beta));
+  fprintf(summary, "\n");
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
   KZ_TRY(write_axis(&plan->theta, "theta", store));
   KZ_TRY(write_axis(&plan->velocity, "velocity", store));

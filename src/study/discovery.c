@@ -103,14 +103,14 @@ static void search_open(const following *f, double closeness)
 }
 
 /* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
-static kz_status find_chaos(kz_team *team, following *f, double reach, int64_t n, int32_t *owner)
+static kz_status find_chaos(kz_team *team, following *f, int64_t n, int32_t *owner)
 {
   for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0; attempt++) {
     int64_t known = kz_dynamics_count(f->dynamics);
     if (leads(team)) kz_dynamics_find_chaos(f->dynamics, f->state + 2 * f->open[(attempt * 7) % f->n]);
     KZ_TRY(share_catalogue(team, f->dynamics));
     if (kz_dynamics_count(f->dynamics) == known) continue;
-    kz_dynamics_outline(f->dynamics, reach);
+    kz_dynamics_update(f->dynamics);
     f->periods = CHAOS_PERIODS;
     KZ_TRY(follow_open(team, f, owner));
     f->n = list_open(n, owner, f->open);
@@ -118,11 +118,11 @@ static kz_status find_chaos(kz_team *team, following *f, double reach, int64_t n
   return KZ_OK;
 }
 
-static kz_status discover(kz_team *team, following *f, double reach, int64_t max_periods, int64_t n, int32_t *owner)
+static kz_status discover(kz_team *team, following *f, int64_t max_periods, int64_t n, int32_t *owner)
 {
   int64_t length = FIRST_LENGTH, done = 0;
   for (;;) {
-    kz_dynamics_outline(f->dynamics, reach);
+    kz_dynamics_update(f->dynamics);
     f->periods = length;
     KZ_TRY(follow_open(team, f, owner));
     done += length;
@@ -135,11 +135,10 @@ static kz_status discover(kz_team *team, following *f, double reach, int64_t max
     if (done >= max_periods) break;
     length = 2 * length;
   }
-  return find_chaos(team, f, reach, n, owner);
+  return find_chaos(team, f, n, owner);
 }
 
-kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, double reach, int64_t max_periods, int64_t n, double *state,
-                      int32_t *owner)
+kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *owner)
 {
   following f = {.dynamics = dynamics, .n = n, .state = state, .open = malloc((size_t)(n + 1) * sizeof *f.open)};
   kz_status status = f.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
@@ -147,7 +146,7 @@ kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, double reach, int64_
   if (status == KZ_OK) {
     memset(owner, 0, (size_t)n * sizeof *owner);
     list_open(n, owner, f.open);
-    status = discover(team, &f, reach, max_periods, n, owner);
+    status = discover(team, &f, max_periods, n, owner);
   }
   free(f.open);
   return status;

@@ -8,10 +8,9 @@
 #include "kapitza/parallel.h"
 
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
- * they end on; those join the catalogue of `dynamics` on every rank. owner [n] = attractor from 1, 0 where the start has not
- * settled on any. reach: see kz_dynamics_reach. Collective; team NULL = this rank alone. */
-kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, double reach, int64_t max_periods, int64_t n, double *state,
-                      int32_t *owner);
+ * they end on; those join the catalogue and the regions (outline or table) of `dynamics` on every rank. owner [n] = attractor
+ * from 1, 0 where the start has not settled on any. Collective; team NULL = this rank alone. */
+kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *owner);
 
 /* Runs a stage with the team; team NULL = this rank alone, in order. */
 kz_status kz_stage_run_with(kz_team *team, const kz_stage *stage, void *records);

@@ -24,8 +24,9 @@ static kz_dynamics *explored(double m, int64_t seed, double reach)
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
   assert_non_null(d);
   kz_dynamics_starts(&WINDOW, seed, n, state);
+  kz_dynamics_outline(d, reach);
   for (int round = 0; n > 0 && round < 12; round++) {
-    kz_dynamics_outline(d, reach);
+    kz_dynamics_update(d);
     kz_dynamics_follow(d, n, 128, state, owner, periods);
     int64_t open = 0;
     for (int64_t i = 0; i < n; i++)
@@ -131,7 +132,7 @@ static void test_mirrored_labels(void **state)
   enum { N = 3000 };
   kz_dynamics *d = explored(0.3, 1, 3);
   with_table(d, 200, 3);
-  assert_true(kz_dynamics_grow(d) > 0.3);
+  assert_true(kz_dynamics_trapped_share(d) > 0.3);
   double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
   int32_t a[N], b[N];
   int64_t pa[N], pb[N];
@@ -169,8 +170,6 @@ static void test_regions_are_right(void **state)
   for (int c = 0; c < 3; c++) {
     kz_dynamics *d = explored(drives[c], 1, 3.5), *plain = explored(drives[c], 1, 3.5);
     with_table(d, 300, 3.5);
-    kz_dynamics_grow(d);
-    kz_dynamics_outline(plain, 3.5);
     double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
     int32_t owner[N], truth[N];
     int64_t periods[N], late[N];
@@ -244,6 +243,7 @@ static void test_chaos(void **state)
   kz_dynamics_starts(&WINDOW, 1, N, x);
   kz_dynamics_outline(d, 4);
   assert_int_equal(kz_dynamics_find_chaos(d, x), 1);
+  kz_dynamics_update(d);
   kz_dynamics_attractor(d, 1, &row, NULL, NULL);
   assert_int_equal(row.period, 0);
   assert_int_equal(row.symmetric, 1);
