@@ -4,7 +4,7 @@ module kz_dynamics_cycles
   use kz_kernel_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: attractor_t, polish_cycle, close_cycle, mirror_image, apart, listed_from_lowest, eigenvalues
+  public :: attractor_t, sheared, polish_cycle, close_cycle, mirror_image, apart, listed_from_lowest, eigenvalues
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
@@ -57,6 +57,16 @@ contains
     cycle%lyapunov = log(abs(cycle%multiplier(1)))/cycle%period
     call symmetrise(cycle)
   end subroutine polish_cycle
+
+  !> The angle at mid-period of a free flight from (u, v), in half-turns, not wrapped. The map table and the regions are grids over it
+  !> and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs 2**order less.
+  elemental function sheared(u, v) result(w)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    real(dp) :: w
+
+    w = u + v
+  end function sheared
 
   !> Newton's method on the n-period map from (u, v), with a fine flow. `found` only where it converges within `reach` of the
   !> start; the cycle, attracting or not, then has its true (minimal) period.

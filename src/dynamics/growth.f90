@@ -7,7 +7,7 @@
 module kz_dynamics_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: WIDTH
-  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_cycles, only: attractor_t, sheared
   use kz_dynamics_ellipses, only: in_ellipse
   use kz_dynamics_regions, only: regions_t, fold_cell
   use kz_dynamics_tables, only: table_t, table_map_t, fill_ghosts
@@ -67,7 +67,7 @@ contains
     real(dp), allocatable, intent(in) :: field(:, :, :)
     integer, intent(in) :: periods
     real(dp), allocatable, intent(out) :: more(:, :, :)
-    real(dp) :: u, v, turns
+    real(dp) :: u, v, turns(WIDTH)
     integer :: first, n, i, j, lane, period
 
     allocate (more, source=field)
@@ -76,17 +76,18 @@ contains
         n = min(WIDTH, map%table%n_own - first + 1)
         do lane = 1, n
           i = first + lane - 1
-          u = 2*real(i, dp)/map%table%n_circle + field(1, i, j)
-          call map%put(lane, u - 2*anint(0.5_dp*u), velocity(j) + field(2, i, j))
+          v = velocity(j) + field(2, i, j)
+          u = 2*real(i, dp)/map%table%n_circle + field(1, i, j) - sheared(0.0_dp, v)
+          turns(lane) = anint(0.5_dp*u)
+          call map%put(lane, u - 2*turns(lane), v)
         end do
         do period = 1, periods
           call map%advance(n)
         end do
         do lane = 1, n
           i = first + lane - 1
-          v = 2*real(i, dp)/map%table%n_circle
-          turns = anint(0.5_dp*(v + field(1, i, j))) + map%turns(lane)
-          more(:, i, j) = [map%u(lane) + 2*turns - v, map%v(lane) - velocity(j)]
+          u = sheared(map%u(lane) + 2*(turns(lane) + map%turns(lane)), map%v(lane))
+          more(:, i, j) = [u - 2*real(i, dp)/map%table%n_circle, map%v(lane) - velocity(j)]
         end do
       end do
     end do
@@ -345,7 +346,7 @@ contains
     inside = .true.
     do b = 1, 2
       do a = 1, 2
-        inside = inside .and. in_ellipse(attractor, j, u(a), v(b))
+        inside = inside .and. in_ellipse(attractor, j, u(a) - sheared(0.0_dp, v(b)), v(b))
       end do
     end do
   end function holds

@@ -1,8 +1,8 @@
-!> Where an orbit is known to be trapped: a grid of cells over the half plane 0 <= theta <= pi, each owned by an attractor,
+!> Where an orbit is known to be trapped: a grid of cells over the half plane of sheared angles 0 .. pi, each owned by an attractor,
 !> touched by trapping ellipses, or open.
 module kz_dynamics_regions
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_cycles, only: attractor_t, apart, sheared
   use kz_dynamics_ellipses, only: in_ellipse
   implicit none
   private
@@ -106,16 +106,18 @@ contains
     integer, intent(in) :: a
     integer, intent(in) :: j
     integer, intent(in) :: turn
-    real(dp) :: form(3), half_u, half_v, per_u, per_v, u, v
+    real(dp) :: form(3), slope, half_u, half_v, per_u, per_v, u, v
     integer :: i, l
 
     form = attractor%form(:, j)
     if (form(1) <= 0) return
+    slope = sheared(0.0_dp, 1.0_dp)
+    form = [form(1), form(2) - slope*form(1), form(3) - 2*slope*form(2) + slope**2*form(1)]
     half_u = sqrt(form(3)/(form(1)*form(3) - form(2)**2))
     half_v = sqrt(form(1)/(form(1)*form(3) - form(2)**2))
     per_u = 0.5_dp*regions%n_circle
     per_v = regions%n_velocity/(2*regions%top)
-    u = attractor%u(j) + turn
+    u = apart(sheared(attractor%u(j), attractor%v(j)), 0.0_dp) + turn
     v = attractor%v(j)
     do l = max(0, floor((v - half_v + regions%top)*per_v)), &
            min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))
@@ -173,7 +175,7 @@ contains
     call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%owner, n, u, v, owner)
     do i = 1, n
       if (owner(i) < 0) owner(i) = captor(regions, attractors, owner(i), u(i), v(i))
-      if (owner(i) > 0 .and. is_mirrored(u(i), v(i))) owner(i) = attractors(owner(i))%mirror
+      if (owner(i) > 0 .and. is_mirrored(mid_angle(u(i), v(i)), v(i))) owner(i) = attractors(owner(i))%mirror
     end do
   end subroutine captors
 
@@ -188,14 +190,15 @@ contains
     real(dp), intent(in) :: u(n)
     real(dp), intent(in) :: v(n)
     integer, intent(out) :: entry(n)
-    real(dp) :: y, per_v
+    real(dp) :: w, y, per_v
     integer :: i
 
     per_v = n_velocity/(2*top)
     do i = 1, n
-      y = (merge(-v(i), v(i), is_mirrored(u(i), v(i))) + top)*per_v
+      w = mid_angle(u(i), v(i))
+      y = (merge(-v(i), v(i), is_mirrored(w, v(i))) + top)*per_v
       entry(i) = -1
-      if (y >= 0 .and. y < n_velocity) entry(i) = min(int(abs(u(i))*per_u), n_theta - 1) + n_theta*int(y)
+      if (y >= 0 .and. y < n_velocity) entry(i) = min(int(abs(w)*per_u), n_theta - 1) + n_theta*int(y)
     end do
     do i = 1, n
       if (entry(i) >= 0) then
@@ -216,13 +219,24 @@ contains
     integer :: a
     real(dp) :: fold
 
-    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(u, v))
+    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(mid_angle(u, v), v))
     if (entry == OUTSIDE) then
       a = ellipse_captor(attractors, fold*u, fold*v)
     else
       a = touch_captor(regions, attractors, -entry, fold*u, fold*v)
     end if
   end function captor
+
+  !> The sheared angle, wrapped to [-1, 1].
+  elemental function mid_angle(u, v) result(w)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    real(dp) :: w
+    real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
+
+    w = sheared(u, v)
+    w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+  end function mid_angle
 
   !> Does (u, v) lie in the half that is not stored?
   elemental function is_mirrored(u, v) result(mirrored)

@@ -1,9 +1,11 @@
 !> The map table of interpolated cell mapping: the displacement F(x) - x on a grid of nodes, and the map that interpolates it.
 !>
-!> The mirror symmetry halves the table: only angles 0 .. pi are stored; a state is folded there, and its image unfolded.
+!> Its angle is that of a free flight at mid-period (`sheared`). The mirror symmetry halves the table: only angles 0 .. pi are
+!> stored; a state is folded there, and its image unfolded.
 module kz_dynamics_tables
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, WIDTH
+  use kz_dynamics_cycles, only: sheared
   implicit none
   private
   public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map
@@ -13,12 +15,12 @@ module kz_dynamics_tables
   real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
 
   type :: table_t
-    integer :: n_circle = 0   !< nodes on the whole circle
+    integer :: n_circle = 0   !< nodes on the whole circle of sheared angles
     integer :: n_theta = 0    !< cells from angle 0 to pi (the last may reach beyond)
     integer :: n_own = 0      !< nodes from 0 to pi: 0 .. n_own
     integer :: n_velocity = 0 !< nodes of the velocity
     real(dp) :: top = 0       !< largest velocity; the smallest is -top
-    !> displacement over a period (half-turns, rad per drive radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
+    !> displacement over a period (sheared half-turns, rad per drive radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
     real(dp), allocatable :: shift(:, :, :)
   end type table_t
 
@@ -72,12 +74,12 @@ contains
     do first = 0, table%n_own, WIDTH
       n = min(WIDTH, table%n_own - first + 1)
       do i = 1, n
-        call flow%put(i, 2*real(first + i - 1, dp)/table%n_circle, v)
+        call flow%put(i, 2*real(first + i - 1, dp)/table%n_circle - sheared(0.0_dp, v), v)
       end do
       call flow%advance(n)
       do i = 1, n
         u = 2*real(first + i - 1, dp)/table%n_circle
-        shift(:, first + i - 1) = [flow%u(i) + 2*flow%turns(i) - u, flow%v(i) - v]
+        shift(:, first + i - 1) = [sheared(flow%u(i) + 2*flow%turns(i), flow%v(i)) - u, flow%v(i) - v]
       end do
     end do
   end subroutine table_row
@@ -142,7 +144,7 @@ contains
   subroutine interpolate(self, n)
     class(table_map_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(dp) :: fold(WIDTH), u(WIDTH), v(WIDTH), x(WIDTH), y(WIDTH), shift(2, WIDTH), per_u, per_v, lowest, highest
+    real(dp) :: fold(WIDTH), x(WIDTH), y(WIDTH), shift(2, WIDTH), w, per_u, per_v, lowest, highest
     integer :: i(WIDTH), j(WIDTH), outside(WIDTH), n_outside, lane
 
     per_u = 0.5_dp*self%table%n_circle
@@ -150,11 +152,11 @@ contains
     lowest = self%points/2 - 1
     highest = self%table%n_velocity - 1 - lowest
     do lane = 1, WIDTH
-      fold(lane) = merge(1.0_dp, -1.0_dp, self%u(lane) > 0 .or. (.not. self%u(lane) < 0 .and. self%v(lane) >= 0))
-      u(lane) = fold(lane)*self%u(lane)
-      v(lane) = fold(lane)*self%v(lane)
-      x(lane) = u(lane)*per_u
-      y(lane) = (v(lane) + self%table%top)*per_v
+      w = sheared(self%u(lane), self%v(lane))
+      w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+      fold(lane) = merge(1.0_dp, -1.0_dp, w > 0 .or. (.not. w < 0 .and. self%v(lane) >= 0))
+      x(lane) = abs(w)*per_u
+      y(lane) = (fold(lane)*self%v(lane) + self%table%top)*per_v
     end do
     n_outside = 0
     do lane = 1, n
@@ -178,14 +180,14 @@ contains
       call quintic_stencils(n, self%table%n_theta, self%table%shift, i, j, x, y, shift)
     end select
     do lane = 1, n
-      x(lane) = fold(lane)*(u(lane) + shift(1, lane))
-      y(lane) = fold(lane)*(v(lane) + shift(2, lane))
+      x(lane) = self%u(lane) + fold(lane)*(shift(1, lane) - sheared(0.0_dp, shift(2, lane)))
+      y(lane) = self%v(lane) + fold(lane)*shift(2, lane)
     end do
     if (n_outside > 0) call integrate(self, outside(:n_outside), x, y)
     do lane = 1, n
-      u(lane) = (0.5_dp*x(lane) + MAGIC) - MAGIC
-      self%turns(lane) = self%turns(lane) + int(u(lane), c_int64_t)
-      self%u(lane) = x(lane) - 2*u(lane)
+      w = (0.5_dp*x(lane) + MAGIC) - MAGIC
+      self%turns(lane) = self%turns(lane) + int(w, c_int64_t)
+      self%u(lane) = x(lane) - 2*w
       self%v(lane) = y(lane)
     end do
   end subroutine interpolate

@@ -72,9 +72,9 @@ contains
     model%code = code
     model%pendulum = pendulum
     if (code == EFFECTIVE) then
-      model%period = make_period(pendulum_t(1, pendulum%beta, 0), numerics, joined=.false.)
+      call make_period(pendulum_t(1, pendulum%beta, 0), numerics, .false., model%period)
     else
-      model%period = make_period(pendulum, numerics, joined=.false.)
+      call make_period(pendulum, numerics, .false., model%period)
     end if
     model%drift = real(model%period%drift, c_double)
     model%decay = real(model%period%decay, c_double)

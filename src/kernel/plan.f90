@@ -26,7 +26,7 @@ contains
     class(flow_t), allocatable, intent(out) :: flow
     type(period_t) :: period
 
-    period = make_period(pendulum, numerics, joined)
+    call make_period(pendulum, numerics, joined, period)
     select case (numerics%precision)
     case (SINGLE)
       call make_tile_r32(period, flow)

@@ -40,11 +40,11 @@ module kz_kernel_tables
 contains
 
   !> The tables of one period. `joined` merges neighbouring entries of neighbouring steps; without it every step stands alone.
-  function make_period(pendulum, numerics, joined) result(period)
+  subroutine make_period(pendulum, numerics, joined, period)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     logical, intent(in) :: joined
-    type(period_t) :: period
+    type(period_t), intent(out) :: period
 
     period%n_steps = numerics%steps_per_period
     period%beta = real(pendulum%beta, qp)
@@ -55,7 +55,7 @@ contains
     else
       call rk4_tables(period, pendulum)
     end if
-  end function make_period
+  end subroutine make_period
 
   subroutine rk4_tables(period, pendulum)
     type(period_t), intent(inout) :: period

@@ -168,8 +168,8 @@ static void test_regions_are_right(void **state)
   enum { N = 4000 };
   const double drives[] = {0.15, 0.3, 0.46};
   for (int c = 0; c < 3; c++) {
-    kz_dynamics *d = explored(drives[c], 1, 3.5), *plain = explored(drives[c], 1, 3.5);
-    with_table(d, 300, 3.5);
+    kz_dynamics *d = explored(drives[c], 1, 3.0), *plain = explored(drives[c], 1, 3.0);
+    with_table(d, 500, 3.0);
     double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
     int32_t owner[N], truth[N];
     int64_t periods[N], late[N];
