@@ -61,11 +61,14 @@ static void orbit_refuse(kz_reading *reading, const char *name, const char *why)
 }
 
 /* The keys that an attractor answers itself. */
-static void orbit_attractor_rules(kz_reading *reading, const kz_scene *scene) {
+static void orbit_attractor_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin && !scene->has_attractors)
     orbit_refuse(reading, "orbit.attractor", "has no catalogue to choose from; a basin or attractors study in the same scene");
   orbit_refuse(reading, "orbit.start", "contradicts attractor; one of them");
-  orbit_refuse(reading, "orbit.closed", "goes without saying with attractor; without it");
+  if (!scene->orbit.closed)
+    orbit_refuse(reading, "orbit.closed",
+                 "contradicts attractor, whose orbit is closed; true, or a start instead of attractor");
+  scene->orbit.closed = true;
   orbit_refuse(reading, "orbit.period", "is known with attractor; without it");
   if (scene->orbit.model != KZ_PENDULUM)
     orbit_refuse(reading, "orbit.model", "has no attractors of the catalogue; pendulum, or a start");

@@ -23,7 +23,7 @@ kz_status kz_mover_make(const kz_scene *scene, kz_mover *mover) {
   if (mover->model != KZ_PENDULUM) return KZ_OK;
   mover->numerics = scene->numerics;
   mover->numerics.steps_per_period = (int32_t)multiple(mover->samples, scene->numerics.steps_per_period);
-  if ((orbit->closed || orbit->attractor >= 0) && mover->numerics.precision == KZ_SINGLE) mover->numerics.precision = KZ_DOUBLE;
+  if (orbit->closed && mover->numerics.precision == KZ_SINGLE) mover->numerics.precision = KZ_DOUBLE;
   mover->plan = kz_plan_create(p, &mover->numerics);
   return mover->plan ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
 }

@@ -44,7 +44,7 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
 /* The motion that the scene asks for, recorded and portrayed. */
 static kz_status follow(kz_orbit *orbit, kz_store *store) {
   const kz_orbit_plan *plan = orbit->plan;
-  const bool listed = plan->attractor >= 0, closed = plan->closed || listed;
+  const bool listed = plan->attractor >= 0, closed = plan->closed;
   kz_state start = {plan->theta, plan->velocity};
   int64_t period = given(plan->period, 0);
   if (listed) KZ_TRY(recall(store, plan->attractor, &start, &period));

@@ -320,9 +320,30 @@ def test_effective_decay_rate(model):
 
 
 START = {"start": {"theta": 0, "velocity": 0}}
+RESOLVED = {
+    "listed": {"attractors": {**WINDOW, "starts": 512}, "orbit": {"attractor": 0}},
+    "linear": {"orbit": {**START, "model": "mathieu", "transient": 2, "periods": 3, "samples_per_period": 7}},
+    "closed": {"orbit": {"start": {"theta": 3, "velocity": 1.07}, "closed": True}},
+}
+
+
+@pytest.mark.parametrize("name", RESOLVED)
+def test_resolved_scene_gives_the_same(kapitza, tmp_path, name):
+    text = json.dumps({"pendulum": {**BLACKBURN, "drive_amplitude": 0.3}, **RESOLVED[name]})
+    runs = []
+    for _ in range(2):
+        (tmp_path / "s.yaml").write_text(text)
+        kapitza("run", "s.yaml", "--force", folder=tmp_path)
+        result = Result(tmp_path / "s.h5")
+        text = result.attributes["scene_resolved"]
+        runs.append([result.group(group) for group in RESOLVED[name]])
+    assert all(one.identical(other) for one, other in zip(*runs, strict=True))
+
+
 REFUSED = {
     "no start": ({}, "orbit.start: is missing"),
     "start and attractor": ({**START, "attractor": 0}, "orbit.start: contradicts attractor"),
+    "open attractor": ({"attractor": 0, "closed": False}, "orbit.closed: contradicts attractor", {"attractors": WINDOW}),
     "no catalogue": ({"attractor": 0}, "orbit.attractor: has no catalogue"),
     "about the pendulum": ({**START, "about": "down"}, "orbit.about"),
     "closed slow motion": ({**START, "model": "effective", "closed": True}, "orbit.closed"),
@@ -335,8 +356,9 @@ REFUSED = {
 
 @pytest.mark.parametrize("name", REFUSED)
 def test_contradictions_are_refused(kapitza, tmp_path, name):
-    orbit, named = REFUSED[name]
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {"k": 0, "damping": 0.05, "m": 0.3}, "orbit": orbit}))
+    orbit, named, *others = REFUSED[name]
+    scene = {"pendulum": {"k": 0, "damping": 0.05, "m": 0.3}, "orbit": orbit}
+    (tmp_path / "s.yaml").write_text(json.dumps({**scene, **dict(*others)}))
     done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
     assert named in done.stderr and done.stderr.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
