@@ -171,6 +171,14 @@ def test_potential_draws(kapitza, tmp_path):
     assert image.imread(tmp_path / "potential.png")[..., :3].std() > 0.05
 
 
+def test_benchmark_measures_speed_and_error(kapitza):
+    script = [sys.executable, ROOT / "scripts" / "benchmark_stability.py", "--json", "--count", "60", "--points", "6", "--truths", "6",
+              "--rounds", "1"]
+    figures = json.loads(subprocess.run(script, check=True, capture_output=True, text=True).stdout)
+    assert figures["largest_error"] < 1e-12 and figures["scipy_largest_error"] < 1e-8
+    assert figures["points"] == 3600 and figures["ratio"] > 1
+
+
 BAD = {
     "both dampings": (CHART + "  damping: 0.1\n  quality_factor: 5\n", "stability."),
     "unknown curve": (CHART + "  curves: [exact_6]\n", "exact_6"),
