@@ -236,6 +236,7 @@ def test_nodding_cycle_from_the_default_starts(model, key):
             assert abs(listed["line_amplitude"].values[id_, j] - amplitude) < 1e-8, line
 
 
+@pytest.mark.timeout(1800)
 @pytest.mark.parametrize("epsilon", FIGURES)
 def test_every_search_finds_the_same(model, epsilon):
     """Differently seeded searches agree; KAPITZA_EXTENSIVE=1 tries a hundred of each scene, of which 99 must."""
