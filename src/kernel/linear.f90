@@ -70,31 +70,33 @@ contains
     !> 1 = stable [n]
     integer(c_int8_t), intent(out) :: stable(n)
     type(half_period_t) :: half(WIDTH)
-    integer(c_int64_t) :: first
+    integer(c_int64_t) :: first, j
     integer :: lanes, i
 
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
       call half_tile(lanes, k(first:), beta(first:), m(first:), half)
       do i = 1, lanes
-        call verdict(half(i), beta(first + i - 1), log_multiplier(first + i - 1), angle(first + i - 1), &
-                     stable(first + i - 1))
+        j = first + i - 1
+        call verdict(half(i), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
       end do
     end do
   end subroutine floquet
 
   !> Multiplier, angle and stability of one point. With growth mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus
-  !> sinh(mu/2)**2 = s c' or -c s'; between the tongues sin(pi angle)**2 = -s c'.
-  pure subroutine verdict(half, beta, log_multiplier, angle, stable)
+  !> sinh(mu/2)**2 = s c' or -c s'; between the tongues sin(pi angle)**2 = -s c'. A product of rounding errors alone is on the
+  !> edge, as at k = n**2/4, m = 0.
+  pure subroutine verdict(half, beta, rounding, log_multiplier, angle, stable)
     type(half_period_t), intent(in) :: half
     real(rk), intent(in) :: beta
+    real(rk), intent(in) :: rounding
     real(rk), intent(out) :: log_multiplier
     real(rk), intent(out) :: angle
     integer(c_int8_t), intent(out) :: stable
     real(rk) :: plus, minus, growth
 
-    plus = half%s*half%c_dot
-    minus = -half%c*half%s_dot
+    plus = beyond(half%s*half%c_dot, rounding)
+    minus = beyond(-half%c*half%s_dot, rounding)
     if (plus >= 0) then
       growth = growth_of(plus, half%exponent)
       angle = 0
@@ -108,6 +110,25 @@ contains
     log_multiplier = growth - PI*beta
     stable = merge(1_c_int8_t, 0_c_int8_t, log_multiplier < 0 .or. (beta <= 0 .and. plus < 0 .and. minus < 0))
   end subroutine verdict
+
+  !> The size that a product of two zeros of the solutions has by rounding.
+  pure function rounding_of(k, beta, m) result(rounding)
+    real(rk), intent(in) :: k
+    real(rk), intent(in) :: beta
+    real(rk), intent(in) :: m
+    real(rk) :: rounding
+
+    rounding = (4*epsilon(1.0_rk)*(1 + abs(k) + 0.25_rk*beta**2 + abs(m)))**2
+  end function rounding_of
+
+  !> The product, or 0 where it is below its rounding error.
+  pure function beyond(product, rounding) result(sure)
+    real(rk), intent(in) :: product
+    real(rk), intent(in) :: rounding
+    real(rk) :: sure
+
+    sure = merge(product, 0.0_rk, abs(product) > rounding)
+  end function beyond
 
   !> mu with sinh(mu/2)**2 = square 4**exponent.
   pure function growth_of(square, exponent) result(growth)

@@ -31,7 +31,8 @@ kz_cost kz_stability_cost(const kz_scene *scene) {
   double points = (double)plan->k.count * (double)plan->m.count;
   double curves = (double)plan->k.count * (double)(plan->curves.count + plan->subharmonics.count);
   double beta = isnan(plan->damping) ? 0 : plan->damping;
-  double stiffness = fmax(fabs(plan->k.min), fabs(plan->k.max)) + fmax(fabs(plan->m.min), fabs(plan->m.max));
+  double highest_k = fmax(fabs(plan->k.min), fabs(plan->k.max)), highest_m = fmax(fabs(plan->m.min), fabs(plan->m.max));
+  double stiffness = highest_k + highest_m + (plan->quality_factor > 0 ? highest_k / pow(plan->quality_factor, 2) : 0);
   return (kz_cost){.cells = (int64_t)points,
                    .disk_bytes = 34 * points + 32 * curves,
                    .memory_bytes = 34 * points + 32 * curves,

@@ -41,6 +41,21 @@ static void chart_holds_numbers(void **unused) {
       }
 }
 
+/* On the axis the tongues begin at k = n^2/4: there |trace| is 2, neither below nor above. */
+static void feet_of_the_tongues_are_on_the_edge(void **unused) {
+  (void)unused;
+  const double m = 0, beta = 0;
+  for (int n = 0; n <= 40; n++) {
+    double k = 0.25 * n * n, log_multiplier, angle;
+    uint8_t stable;
+    kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, &angle, &stable);
+    assert_true(log_multiplier == 0 && stable == 0 && angle == (n % 2 ? 0.5 : 0));
+    k += 1e-9 * (1 + k);
+    kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, &angle, &stable);
+    assert_true(log_multiplier == 0 && stable == 1);
+  }
+}
+
 /* Multipliers beyond any double: the growth of u'' = 1e4 u is exp(100 t). */
 static void growth_is_a_logarithm(void **unused) {
   (void)unused;
@@ -151,10 +166,15 @@ static void potential_at_its_ends(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(chart_holds_numbers),     cmocka_unit_test(growth_is_a_logarithm),
-      cmocka_unit_test(angles_to_twelve_digits), cmocka_unit_test(curves_next_to_the_axis),
-      cmocka_unit_test(curves_far_below),        cmocka_unit_test(gsl_is_left_before_it_fails),
-      cmocka_unit_test(damping_at_its_ends),     cmocka_unit_test(potential_at_its_ends),
+      cmocka_unit_test(chart_holds_numbers),
+      cmocka_unit_test(growth_is_a_logarithm),
+      cmocka_unit_test(feet_of_the_tongues_are_on_the_edge),
+      cmocka_unit_test(angles_to_twelve_digits),
+      cmocka_unit_test(curves_next_to_the_axis),
+      cmocka_unit_test(curves_far_below),
+      cmocka_unit_test(gsl_is_left_before_it_fails),
+      cmocka_unit_test(damping_at_its_ends),
+      cmocka_unit_test(potential_at_its_ends),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
