@@ -1,21 +1,19 @@
 !> Trapping regions grown outwards over the cells of the map table: a cell joins an attractor when the image of the whole cell,
 !> after 1, 2 or 4 periods, lies in cells that have joined it before, or in one of its ellipses.
 !>
-!> The image of a cell is the convex hull of its corners' images, widened by a bound on what bilinear interpolation misses:
-!> an eighth of the second differences, taken twice, and 2 % of a cell. A cell that cannot join yet waits for one open cell
-!> of its image; the end result does not depend on the order.
+!> A cell that cannot join yet waits for one open cell of its image; the end result does not depend on the order.
 module kz_dynamics_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: WIDTH
   use kz_dynamics_cycles, only: attractor_t, sheared
   use kz_dynamics_ellipses, only: in_ellipse
   use kz_dynamics_regions, only: regions_t, fold_cell
+  use kz_dynamics_images, only: image_t, cell_image, extent
   use kz_dynamics_tables, only: table_t, table_map_t, fill_ghosts
   implicit none
   private
   public :: make_later, grow_regions
 
-  real(dp), parameter :: CURVATURE = 0.25_dp, SLACK = 0.02_dp
   !> Images over more cells than this are not followed.
   real(dp), parameter :: LARGEST_IMAGE = 2000
   integer, parameter :: NEVER = -1
@@ -26,14 +24,6 @@ module kz_dynamics_growth
     integer :: row = -huge(0)
     integer :: column = -huge(0)
   end type progress_t
-
-  !> The image of one cell, in units of cells.
-  type :: image_t
-    real(dp) :: x(4)
-    real(dp) :: y(4)
-    real(dp) :: slack_x
-    real(dp) :: slack_y
-  end type image_t
 
 contains
 
@@ -191,36 +181,6 @@ contains
     if (mirrored .and. answer > 0) answer = mirrors(answer)
   end subroutine look
 
-  !> Corners' images and slack of cell (i, l), from 0; far away at the rim, where differences are missing.
-  pure function cell_image(table, field, i, l) result(image)
-    type(table_t), intent(in) :: table
-    real(dp), allocatable, intent(in) :: field(:, :, :)
-    integer, intent(in) :: i
-    integer, intent(in) :: l
-    type(image_t) :: image
-    real(dp) :: per_u, per_v, bend(2)
-    integer :: a, b, j
-
-    per_u = 0.5_dp*table%n_circle
-    per_v = (table%n_velocity - 1)/(2*table%top)
-    image%x = huge(1.0_dp)
-    image%y = huge(1.0_dp)
-    image%slack_x = 0
-    image%slack_y = 0
-    if (l < 1 .or. l > table%n_velocity - 3) return
-    do b = 0, 1
-      do a = 0, 1
-        j = l + 1 + b
-        image%x(1 + a + 2*b) = i + a + field(1, i + a, j)*per_u
-        image%y(1 + a + 2*b) = l + b + field(2, i + a, j)*per_v
-        bend = abs(field(:, i + a + 1, j) - 2*field(:, i + a, j) + field(:, i + a - 1, j)) &
-               + abs(field(:, i + a, j + 1) - 2*field(:, i + a, j) + field(:, i + a, j - 1))
-        image%slack_x = max(image%slack_x, CURVATURE*bend(1)*per_u + SLACK)
-        image%slack_y = max(image%slack_y, CURVATURE*bend(2)*per_v + SLACK)
-      end do
-    end do
-  end function cell_image
-
   !> answer > 0: the attractor that owns the whole image. Else blocker: a stored cell that is open, or NEVER.
   subroutine ask(regions, attractors, mirrors, image, progress, answer, blocker)
     type(regions_t), intent(in) :: regions
@@ -259,35 +219,6 @@ contains
       end do
     end do
   end subroutine ask
-
-  !> Range of x of the hull of the image between y = low and y = high: all segments between corners, clipped.
-  pure subroutine extent(image, low, high, from, to)
-    type(image_t), intent(in) :: image
-    real(dp), intent(in) :: low
-    real(dp), intent(in) :: high
-    real(dp), intent(out) :: from
-    real(dp), intent(out) :: to
-    real(dp) :: s, t, slope
-    integer :: a, b
-
-    from = huge(1.0_dp)
-    to = -huge(1.0_dp)
-    do a = 1, 3
-      do b = a + 1, 4
-        s = min(max(low, min(image%y(a), image%y(b))), max(image%y(a), image%y(b)))
-        t = min(max(high, min(image%y(a), image%y(b))), max(image%y(a), image%y(b)))
-        if (s > high .or. t < low) cycle
-        if (abs(image%y(b) - image%y(a)) <= 0) then
-          from = min(from, image%x(a), image%x(b))
-          to = max(to, image%x(a), image%x(b))
-          cycle
-        end if
-        slope = (image%x(b) - image%x(a))/(image%y(b) - image%y(a))
-        from = min(from, image%x(a) + slope*(s - image%y(a)), image%x(a) + slope*(t - image%y(a)))
-        to = max(to, image%x(a) + slope*(s - image%y(a)), image%x(a) + slope*(t - image%y(a)))
-      end do
-    end do
-  end subroutine extent
 
   !> Does an ellipse touch the cell of the image's first corner?
   function touched(regions, image)
