@@ -17,29 +17,30 @@ static double root_of(double x) {
   return x < 0 && x > -1e-12 ? 0 : sqrt(x);
 }
 
-#define CURVE(name) static double name(double k, double beta, double turn)
-#define UNDAMPED (void)beta, (void)turn
+/* A curve takes what it needs of k, the damping there, and m at its turn. */
+#define UNUSED __attribute__((unused))
+#define CURVE(name) static double name(double k, double beta UNUSED, double turn UNUSED)
 
 CURVE(exact_1) {
-  return (void)beta, kz_mathieu_m(1, k, turn, 0);
+  return kz_mathieu_m(1, k, turn, 0);
 }
 CURVE(exact_2) {
-  return (void)beta, kz_mathieu_m(2, k, turn, 0);
+  return kz_mathieu_m(2, k, turn, 0);
 }
 CURVE(exact_3) {
-  return (void)beta, kz_mathieu_m(3, k, turn, 0);
+  return kz_mathieu_m(3, k, turn, 0);
 }
 CURVE(exact_3_upper) {
-  return (void)beta, kz_mathieu_m(3, k, turn, 1);
+  return kz_mathieu_m(3, k, turn, 1);
 }
 CURVE(exact_4) {
-  return (void)beta, kz_mathieu_m(4, k, turn, 0);
+  return kz_mathieu_m(4, k, turn, 0);
 }
 CURVE(exact_5) {
-  return (void)beta, kz_mathieu_m(5, k, turn, 0);
+  return kz_mathieu_m(5, k, turn, 0);
 }
 CURVE(exact_5_upper) {
-  return (void)beta, kz_mathieu_m(5, k, turn, 1);
+  return kz_mathieu_m(5, k, turn, 1);
 }
 static double turn_3(void) {
   return kz_mathieu_turn(3);
@@ -55,50 +56,50 @@ static double half_radical(double k) {
   return root_of((9 - 4 * k) * (13 - 20 * k));
 }
 CURVE(butikov_1) {
-  return UNDAMPED, within(k, -INFINITY, 0, cosine_cut(k));
+  return within(k, -INFINITY, 0, cosine_cut(k));
 }
 CURVE(butikov_2) {
-  return UNDAMPED, within(k, -INFINITY, 0.25, 0.25 * (half_radical(k) - (9 - 4 * k)));
+  return within(k, -INFINITY, 0.25, 0.25 * (half_radical(k) - (9 - 4 * k)));
 }
 CURVE(butikov_3) {
-  return UNDAMPED, within(k, 0.25, 0.65, 0.25 * (9 - 4 * k - half_radical(k)));
+  return within(k, 0.25, 0.65, 0.25 * (9 - 4 * k - half_radical(k)));
 }
 CURVE(butikov_3_upper) {
-  return UNDAMPED, within(k, -INFINITY, 0.65, 0.25 * (9 - 4 * k + half_radical(k)));
+  return within(k, -INFINITY, 0.65, 0.25 * (9 - 4 * k + half_radical(k)));
 }
 CURVE(butikov_4) {
-  return UNDAMPED, within(k, -INFINITY, 1, root_of(2 * (k - 1) * (k - 4) * (k - 9) / (k - 5)));
+  return within(k, -INFINITY, 1, root_of(2 * (k - 1) * (k - 4) * (k - 9) / (k - 5)));
 }
 CURVE(butikov_5) {
-  return UNDAMPED, within(k, 1, 8.0 / 3, cosine_cut(k));
+  return within(k, 1, 8.0 / 3, cosine_cut(k));
 }
 CURVE(butikov_4_refined) {
   double inner = root_of((((5 * k - 162) * k + 2101) * k - 12136) * k + 24592);
-  return UNDAMPED, within(k, -INFINITY, 1, root_of(2 * ((3 * k - 47) * k + 164 - inner)));
+  return within(k, -INFINITY, 1, root_of(2 * ((3 * k - 47) * k + 164 - inner)));
 }
 static double refined_5(double k, double sign) {
   double inner = root_of(648 + k * (k - 9) * (k * k - 13 * k + 68));
   return root_of(4 * k * k - 36 * k + 72 + sign * 2 * sqrt(2) * inner);
 }
 CURVE(butikov_5_refined) {
-  return UNDAMPED, within(k, 1, 4, refined_5(k, -1));
+  return within(k, 1, 4, refined_5(k, -1));
 }
 CURVE(butikov_5_refined_upper) {
-  return UNDAMPED, within(k, -INFINITY, 4, refined_5(k, 1));
+  return within(k, -INFINITY, 4, refined_5(k, 1));
 }
 
 CURVE(blackburn_lower) {
-  return UNDAMPED, within(k, -INFINITY, 0, sqrt(-2 * k));
+  return within(k, -INFINITY, 0, sqrt(-2 * k));
 }
 CURVE(blackburn_upper) {
-  return UNDAMPED, within(k, -INFINITY, 0, 0.450 - 1.799 * k);
+  return within(k, -INFINITY, 0, 0.450 - 1.799 * k);
 }
 CURVE(blackburn_down_upper) {
-  return UNDAMPED, within(k, 0, 0.25, 0.450 - 1.799 * k);
+  return within(k, 0, 0.25, 0.450 - 1.799 * k);
 }
 
 CURVE(damped_0) {
-  return (void)turn, kz_tongue_lower(k, beta);
+  return kz_tongue_lower(k, beta);
 }
 CURVE(damped_1) {
   return kz_tongue_edge(1, k, beta, turn);
@@ -107,10 +108,10 @@ CURVE(damped_2) {
   return kz_tongue_edge(2, k, beta, turn);
 }
 CURVE(butikov_damped_1) {
-  return (void)turn, within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta));
+  return within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta));
 }
 CURVE(butikov_damped_2) {
-  return (void)turn, within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
+  return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
 #define ROW(name, domain, source, turn) \

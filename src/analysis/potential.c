@@ -66,7 +66,7 @@ static double pull(double cosine, void *context) {
 void kz_potential_rim(double k, double beta, double m, kz_rim *rim) {
   hill_top top = {{k, beta}, m};
   rim->stable_inverted = pull(-1, &top) < 0;
-  double cosine = rim->stable_inverted ? kz_root(pull, &top, -1, 0) : NAN;
-  rim->exact = acos(cosine);
-  rim->simple = m * m > 2 * k && k >= 0 ? acos(-2 * k / (m * m)) : NAN;
+  double cosine = pull(1, &top) > 0 ? kz_root(pull, &top, -1, 1) : 1;
+  rim->exact = rim->stable_inverted ? acos(cosine) : NAN;
+  rim->simple = m * m > 2 * k ? acos(fmin(1, -2 * k / (m * m))) : NAN;
 }

@@ -182,6 +182,22 @@ static void potential_is_the_integral_of_the_slow_force(void **unused) {
   }
 }
 
+/* Motion by the slow equation keeps velocity^2/2 + exact potential. */
+static void slow_motion_keeps_its_energy(void **unused) {
+  (void)unused;
+  enum { PERIODS = 60, SAMPLES = 24 };
+  const kz_pendulum pendulum = {1.0 / 121, 0, 0.2};
+  static double theta[PERIODS * SAMPLES + 1], velocity[PERIODS * SAMPLES + 1];
+  kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, PI - 0.5, 0.01, theta, velocity);
+  kz_energy start, now;
+  kz_potential_energy(pendulum.k, 0, pendulum.m, theta[0], &start);
+  for (int i = 0; i <= PERIODS * SAMPLES; i++) {
+    kz_potential_energy(pendulum.k, 0, pendulum.m, theta[i], &now);
+    assert_true(fabs(0.5 * velocity[i] * velocity[i] + now.exact - 0.5 * 1e-4 - start.exact) < 1e-12);
+    assert_true(fabs(theta[i] - PI) < PI / 2);
+  }
+}
+
 static void leading_terms_of_thresholds(void **unused) {
   (void)unused;
   for (int tongue = 1; tongue <= 2; tongue++) {
@@ -211,6 +227,7 @@ int main(void) {
       cmocka_unit_test(angle_is_root_of_hills_determinant),
       cmocka_unit_test(subharmonics_have_their_angle),
       cmocka_unit_test(potential_is_the_integral_of_the_slow_force),
+      cmocka_unit_test(slow_motion_keeps_its_energy),
       cmocka_unit_test(leading_terms_of_thresholds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
