@@ -40,6 +40,11 @@ void kz_dynamics_settle(kz_dynamics *dynamics, int64_t n, int64_t max_periods, d
 void kz_dynamics_follow_table(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
                               int32_t *owner, int64_t *periods);
 
+/* The same in quad precision, by Taylor series (truth.h) of n_steps steps a period, from start [n][2] in rad and rad per drive
+ * radian, both taken as exact. */
+void kz_dynamics_follow_truth(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
+                              int32_t *owner, int64_t *periods);
+
 /* Looks for unknown cycles near n <= 64 states that come back to themselves within `closeness` rad; returns how many
  * attractors are known then. */
 int64_t kz_dynamics_find_cycles(kz_dynamics *dynamics, int64_t n, const double *state, double closeness);

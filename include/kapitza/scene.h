@@ -41,6 +41,8 @@ typedef struct {
   const char *(*words_from)(void); /* the same where another floor knows them */
   char form;                       /* keys of one mapping with different forms exclude each other; 0 = none */
   size_t offset;                   /* of the field in kz_scene */
+  const char *chosen_by;           /* path of a number instead of which the key is given; NULL = none */
+  size_t chooser;                  /* offset of that number */
   const char *help;                /* one sentence of the scene reference */
 } kz_key;
 

@@ -18,6 +18,8 @@ const char *kz_store_library(void);
 
 /* Creates PATH.part. KZ_REFUSED where the path cannot be written. */
 kz_status kz_store_create(const char *path, kz_store **store);
+/* PATH. */
+const char *kz_store_path(const kz_store *store);
 /* Flushes, closes and renames to PATH (fsync before the rename). Frees the store in every case; where it fails
  * (KZ_FAILED, as on a full disk) no PATH and no PATH.part is left. */
 kz_status kz_store_complete(kz_store *store);

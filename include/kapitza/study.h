@@ -30,6 +30,7 @@ typedef struct {
   int64_t starts;
   int64_t max_period;
   int64_t seed;
+  double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
 } kz_basin_plan;
 
 /* A list of a scene. */
@@ -75,6 +76,15 @@ typedef struct {
   int64_t theta_count;
 } kz_potential_plan;
 
+/* Study `tradeoff`: on the window of the basin. */
+typedef struct {
+  int64_t samples;      /* cells judged by quad precision */
+  kz_integers settings; /* indices in the table of settings; none = all */
+} kz_tradeoff_plan;
+
+/* The labels of the settings that a trade-off compares, joined by '|'. */
+const char *kz_tradeoff_words(void);
+
 /* The pendulum mapping as written, in one of three forms; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                               /* a: Q, Omega, epsilon */
@@ -106,6 +116,8 @@ typedef struct {
   kz_stability_plan stability;
   bool has_potential;
   kz_potential_plan potential;
+  bool has_tradeoff;
+  kz_tradeoff_plan tradeoff;
 } kz_scene;
 
 /* What a study would cost. */

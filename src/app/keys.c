@@ -10,12 +10,17 @@
 #define ROW(path_, type_, fallback_, offset_, help_, ...) \
   { .path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__ }
 #define MAPPING(path, fallback, offset, help) ROW(path, KZ_KEY_MAPPING, fallback, offset, help, .unit = "")
+/* Keys that basin.accuracy answers. */
+#define CHOSEN .chosen_by = "basin.accuracy", .chooser = AT(basin.accuracy)
 #define TEXT(path, fallback, field, help) ROW(path, KZ_KEY_TEXT, fallback, AT(field), help, .unit = "")
-#define WORD(path, words_, fallback, field, help) ROW(path, KZ_KEY_WORD, fallback, AT(field), help, .unit = "", .words = words_)
-#define INTEGER(path, low_, high_, fallback, field, help) \
-  ROW(path, KZ_KEY_INTEGER, fallback, AT(field), help, .unit = "", .low = low_, .high = high_)
-#define COUNT(path, low_, high_, fallback, field, help) \
-  ROW(path, KZ_KEY_COUNT, fallback, AT(field), help, .unit = "", .low = low_, .high = high_)
+#define WORD(path, words_, fallback, field, help, ...) \
+  ROW(path, KZ_KEY_WORD, fallback, AT(field), help, .unit = "", .words = words_, __VA_ARGS__)
+#define WORDS(path, words_, fallback, field, help) \
+  ROW(path, KZ_KEY_WORDS, fallback, AT(field), help, .unit = "", .words_from = words_)
+#define INTEGER(path, low_, high_, fallback, field, help, ...) \
+  ROW(path, KZ_KEY_INTEGER, fallback, AT(field), help, .unit = "", .low = low_, .high = high_, __VA_ARGS__)
+#define COUNT(path, low_, high_, fallback, field, help, ...) \
+  ROW(path, KZ_KEY_COUNT, fallback, AT(field), help, .unit = "", .low = low_, .high = high_, __VA_ARGS__)
 #define BOOLEAN(path, fallback, field, help) ROW(path, KZ_KEY_BOOLEAN, fallback, AT(field), help, .unit = "")
 #define REAL(path, unit_, low_, high_, fallback, field, help) \
   ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_)
@@ -60,10 +65,10 @@ const kz_key kz_keys[] = {
     MAPPING("numerics", "", KZ_NO_FIELD, "How one drive period is integrated."),
     ROW("numerics.scheme", KZ_KEY_WORD, "split6", AT(numerics.scheme),
         "Integrator; rk4 is the classical one, the split ones are exact in the damping.", .unit = "",
-        .words_from = scheme_words),
+        .words_from = scheme_words, CHOSEN),
     COUNT("numerics.steps_per_period", 1, 100000, "", numerics.steps_per_period,
-          "Whole steps of the scheme in a drive period; left out: the scheme's own number."),
-    WORD("numerics.precision", "single|double|quad", "double", numerics.precision, "Kind of the arithmetic."),
+          "Whole steps of the scheme in a drive period; left out: the scheme's own number.", CHOSEN),
+    WORD("numerics.precision", "single|double|quad", "double", numerics.precision, "Kind of the arithmetic.", CHOSEN),
 
     MAPPING("basin", "", AT(has_basin), "Study: the attractors, then a label for every cell of a window."),
     MAPPING("basin.theta", "", KZ_NO_FIELD,
@@ -77,16 +82,25 @@ const kz_key kz_keys[] = {
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", "icm|direct|hybrid", "icm", basin.method,
          "icm: interpolated cell mapping; direct: every cell is integrated; hybrid: icm, then direct where the table is not to be "
-         "trusted."),
+         "trusted.",
+         CHOSEN),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
-    INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta."),
-    INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity."),
-    WORD("basin.icm.interpolation", "linear|cubic|quintic", "quintic", basin.interpolation, "Interpolation between the nodes."),
+    INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),
+    INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity.", CHOSEN),
+    WORD("basin.icm.interpolation", "linear|cubic|quintic", "quintic", basin.interpolation, "Interpolation between the nodes.", CHOSEN),
     INTEGER("basin.max_periods", 1, 4e9, "2000", basin.max_periods, "Drive periods after which a cell counts as not settled."),
     MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
+    REAL("basin.accuracy", "", 0.5, 0.9999, "", basin.accuracy,
+         "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a sample "
+         "followed in quad precision shows to be as right (95 % bound)."),
+
+    MAPPING("tradeoff", "", AT(has_tradeoff),
+            "Study: time and wrong labels of many settings on the basin's window, judged by quad precision."),
+    INTEGER("tradeoff.samples", 10, 1e6, "4000", tradeoff.samples, "Random cells that are judged."),
+    WORDS("tradeoff.settings", kz_tradeoff_words, "", tradeoff.settings, "What is compared; left out: all of them."),
 
     MAPPING("attractors", "", AT(has_attractors), "Study: the attractors of a window of starts, without a grid."),
     MAPPING("attractors.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),

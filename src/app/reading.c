@@ -148,6 +148,13 @@ static void check_missing(kz_reading *reading, const kz_key *key) {
   kz_complain(reading, NULL, key->path, "is missing; %s", accepted);
 }
 
+/* A key beside the number that answers it. */
+static void check_chosen(kz_reading *reading, const kz_key *key) {
+  const kz_node *node = key->chosen_by ? kz_tree_find(reading->root, key->path) : NULL;
+  if (node && kz_tree_find(reading->root, key->chosen_by))
+    complain_key(reading, node, key->path, "contradicts %s, which chooses it; one of them", key->chosen_by);
+}
+
 /* A top-level mapping with a field is a study: at least one is needed. */
 static void check_studies(kz_reading *reading) {
   char names[512] = "";
@@ -188,7 +195,10 @@ kz_status kz_reading_keys(kz_reading *reading) {
     return KZ_OK;
   }
   read_mapping(reading, reading->root, "");
-  for (const kz_key *key = reading->keys; key->path; key++) check_missing(reading, key);
+  for (const kz_key *key = reading->keys; key->path; key++) {
+    check_missing(reading, key);
+    check_chosen(reading, key);
+  }
   check_studies(reading);
   return KZ_OK;
 }

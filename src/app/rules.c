@@ -108,6 +108,12 @@ static void stability_rules(kz_reading *reading, kz_scene *scene) {
   check_ends(reading, &scene->stability.m, "stability.m");
 }
 
+static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_tradeoff || scene->has_basin) return;
+  kz_complain(reading, kz_tree_child(reading->root, "tradeoff"), "tradeoff",
+              "has no window to label; a basin study in the same scene");
+}
+
 /* The scheme's own steps where the scene gives none. */
 static void numerics_rules(kz_reading *reading, kz_scene *scene) {
   (void)reading;
@@ -127,7 +133,7 @@ static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {numerics_rules, basin_rules, attractors_rules, orbit_rules, stability_rules, pendulum_rules};
+static const rule rules[] = {numerics_rules, basin_rules, attractors_rules, orbit_rules, stability_rules, tradeoff_rules, pendulum_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -126,7 +126,7 @@ static kz_status finish(job *j, kz_status status) {
   }
   j->store = NULL;
   status = kz_team_agree(j->team, status);
-  const kz_status closed = kz_checkpoint_close(j->team, status == KZ_OK);
+  const kz_status closed = kz_checkpoint_close(j->team, status == KZ_OK || status == KZ_REFUSED);
   if (status == KZ_OK) status = closed;
   if (status == KZ_OK && j->first) print_summary(j);
   return status;

@@ -1,4 +1,5 @@
 /* The table turned outwards: a scene as YAML, and the reference of all keys. */
+#include <math.h>
 #include <string.h>
 
 #include "kapitza/scene.h"
@@ -12,6 +13,11 @@ static bool is_left_out(const kz_key *keys, const kz_key *key, const void *scene
       return true;
   }
   return false;
+}
+
+/* True where another key answers this one. */
+static bool is_chosen(const kz_key *key, const void *scene) {
+  return key->chosen_by && !isnan(*(const double *)((const char *)scene + key->chooser));
 }
 
 static void indent(int depth, FILE *out) {
@@ -36,7 +42,9 @@ static void write_name(const char *path, const char *last, FILE *out) {
 void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out) {
   const char *last = "";
   for (const kz_key *key = keys; key->path; key++) {
-    if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene)) continue;
+    if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene) ||
+        is_chosen(key, scene))
+      continue;
     if (flat)
       fprintf(out, "%s: ", key->path);
     else

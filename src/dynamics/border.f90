@@ -1,14 +1,14 @@
 !> The border of dynamics to C: include/kapitza/dynamics.h.
 module kz_dynamics_border
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
-  use kz_kernel_map, only: flow_t, map_t, WIDTH, PI
+  use kz_kernel_map, only: WIDTH, PI
   use kz_kernel_plan, only: make_flow, FINE, DOUBLE
   use kz_kernel_tables, only: pendulum_t, numerics_t
   use kz_dynamics_catalogue, only: order_of, packed, unpacked
   use kz_dynamics_chaos, only: find_chaos
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_growth, only: make_later, grow_regions
-  use kz_dynamics_labels, only: follow
+  use kz_dynamics_handle, only: dynamics_t, of_handle
   use kz_dynamics_regions, only: regions_t, make_regions, draw_attractors
   use kz_dynamics_search, only: search_t, find_cycles
   use kz_dynamics_trust, only: trust_horizon
@@ -18,16 +18,6 @@ module kz_dynamics_border
 
   !> Cells of the outline's grid along an axis.
   integer, parameter :: OUTLINE = 256
-
-  type :: dynamics_t
-    type(search_t) :: search
-    class(flow_t), allocatable :: flow !< the scene's map in the scene's precision
-    type(attractor_t), allocatable :: attractors(:)
-    type(regions_t) :: regions
-    type(table_t) :: table
-    real(dp), allocatable :: two(:, :, :)  !< displacement of the table's nodes after two periods
-    real(dp), allocatable :: four(:, :, :) !< and after four
-  end type dynamics_t
 
   type, bind(C) :: window_t
     real(dp) :: theta_min, theta_max, velocity_min, velocity_max
@@ -39,13 +29,6 @@ module kz_dynamics_border
   end type attractor_row_t
 
 contains
-
-  function of_handle(handle) result(d)
-    type(c_ptr), intent(in) :: handle
-    type(dynamics_t), pointer :: d
-
-    call c_f_pointer(handle, d)
-  end function of_handle
 
   function create(pendulum, numerics, max_period) bind(C, name='kz_dynamics_create') result(handle)
     type(pendulum_t), intent(in) :: pendulum
@@ -140,64 +123,6 @@ contains
     call draw_attractors(d%regions, d%attractors)
     if (allocated(d%four)) call grow_regions(d%regions, d%attractors, d%table, d%two, d%four)
   end subroutine update_regions
-
-  subroutine settle(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_settle')
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: max_periods
-    real(dp), intent(inout) :: state(2, n)
-    integer(c_int32_t), intent(out) :: owner(n)
-    integer(c_int64_t), intent(out) :: periods(n)
-    type(dynamics_t), pointer :: d
-
-    d => of_handle(handle)
-    call follow_with(d%search%flow, d, max_periods, state, owner, periods)
-  end subroutine settle
-
-  subroutine follow_directly(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow')
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: max_periods
-    real(dp), intent(inout) :: state(2, n)
-    integer(c_int32_t), intent(out) :: owner(n)
-    integer(c_int64_t), intent(out) :: periods(n)
-    type(dynamics_t), pointer :: d
-
-    d => of_handle(handle)
-    call follow_with(d%flow, d, max_periods, state, owner, periods)
-  end subroutine follow_directly
-
-  subroutine follow_table(handle, points, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow_table')
-    type(c_ptr), value :: handle
-    integer(c_int32_t), value :: points
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: max_periods
-    real(dp), intent(inout) :: state(2, n)
-    integer(c_int32_t), intent(out) :: owner(n)
-    integer(c_int64_t), intent(out) :: periods(n)
-    type(dynamics_t), pointer :: d
-    type(table_map_t) :: map
-
-    d => of_handle(handle)
-    map = make_table_map(d%table, int(points), d%search%flow)
-    call follow_with(map, d, max_periods, state, owner, periods)
-  end subroutine follow_table
-
-  subroutine follow_with(map, d, max_periods, state, owner, periods)
-    class(map_t), intent(inout) :: map
-    type(dynamics_t), intent(in) :: d
-    integer(c_int64_t), intent(in) :: max_periods
-    real(dp), intent(inout) :: state(:, :)
-    integer(c_int32_t), intent(out) :: owner(:)
-    integer(c_int64_t), intent(out) :: periods(:)
-    real(dp), allocatable :: u(:), v(:)
-
-    allocate (u, source=state(1, :))
-    allocate (v, source=state(2, :))
-    call follow(map, d%regions, d%attractors, max_periods, u, v, owner, periods)
-    state(1, :) = u
-    state(2, :) = v
-  end subroutine follow_with
 
   function search_cycles(handle, n, state, closeness) bind(C, name='kz_dynamics_find_cycles') result(known)
     type(c_ptr), value :: handle

@@ -49,6 +49,10 @@ kz_status kz_store_create(const char *path, kz_store **store) {
   return status;
 }
 
+const char *kz_store_path(const kz_store *store) {
+  return store->path;
+}
+
 static void release(kz_store *store) {
   if (store->file >= 0) H5Fclose(store->file);
   if (store->disk >= 0) close(store->disk);

@@ -9,12 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "accuracy.h"
 #include "catalogue.h"
 #include "discovery.h"
+#include "map_table.h"
 
 enum {
   CELLS = 4096,       /* per tile */
-  ROWS = 4,           /* of the map table per tile */
   SCOUTS = 512,       /* starts that find the main attractors before there is a table */
   ROUNDS = 4          /* of discovery from unsettled cells, at most */
 };
@@ -43,22 +44,26 @@ typedef struct {
 
 bool kz_axis_is_symmetric(const kz_axis *axis) { return axis->min == -axis->max; }
 
+int64_t kz_own_cells(const kz_basin_plan *plan)
+{
+  int64_t total = plan->theta.count * plan->velocity.count;
+  return kz_axis_is_symmetric(&plan->theta) && kz_axis_is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
+}
+
 double kz_axis_centre(const kz_axis *axis, int64_t i)
 {
   return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
          (axis->min + axis->max) / 2;
 }
 
-/* State of cell f: half-turns in [-1, 1] and velocity. */
-static void cell_state(const kz_basin_plan *plan, int64_t f, double state[2])
+void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2])
 {
   double half_turns = kz_axis_centre(&plan->theta, f % plan->theta.count) / M_PI;
   state[0] = half_turns - 2 * rint(half_turns / 2);
   state[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
 }
 
-/* Nodes an axis of the stencil. */
-static const int32_t points[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
+const int32_t kz_stencil[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
 
 static kz_status label_tile(void *context, int64_t tile, void *record)
 {
@@ -67,40 +72,16 @@ static kz_status label_tile(void *context, int64_t tile, void *record)
   double state[2 * CELLS];
   int32_t owner[CELLS];
   int64_t periods[CELLS], first = tile * CELLS, n = b->n_open - first < CELLS ? b->n_open - first : CELLS;
-  for (int64_t i = 0; i < n; i++) cell_state(b->plan, b->open ? b->open[first + i] : first + i, state + 2 * i);
+  for (int64_t i = 0; i < n; i++) kz_cell_state(b->plan, b->open ? b->open[first + i] : first + i, state + 2 * i);
   if (b->directly)
     kz_dynamics_follow(b->dynamics, n, b->plan->max_periods, state, owner, periods);
   else
-    kz_dynamics_follow_table(b->dynamics, points[b->plan->interpolation], n, b->plan->max_periods, state, owner, periods);
+    kz_dynamics_follow_table(b->dynamics, kz_stencil[b->plan->interpolation], n, b->plan->max_periods, state, owner, periods);
   for (int64_t i = 0; i < n; i++) {
     out->owner[i] = (int16_t)owner[i];
     out->periods[i] = (uint32_t)periods[i];
   }
   return KZ_OK;
-}
-
-static kz_status table_tile(void *context, int64_t tile, void *record)
-{
-  const basin *b = context;
-  int64_t size = kz_dynamics_table_row_size(b->dynamics);
-  for (int64_t row = tile * ROWS; row < (tile + 1) * ROWS && row < b->plan->table_velocity; row++)
-    kz_dynamics_table_row(b->dynamics, row, (double *)record + (row - tile * ROWS) * size);
-  return KZ_OK;
-}
-
-/* Builds the map table, shared out over the ranks. */
-static kz_status make_table(basin *b, kz_team *team)
-{
-  kz_dynamics_table_create(b->dynamics, b->plan->table_theta, b->plan->table_velocity, b->reach);
-  kz_stage stage = {.name = "map table", .n_tiles = (b->plan->table_velocity + ROWS - 1) / ROWS,
-                    .record_bytes = ROWS * (size_t)kz_dynamics_table_row_size(b->dynamics) * sizeof(double),
-                    .work = table_tile, .context = b, .everywhere = true};
-  double *rows = malloc((size_t)stage.n_tiles * stage.record_bytes);
-  kz_status status = kz_team_agree(team, rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table"));
-  if (status == KZ_OK) status = kz_stage_run(team, &stage, rows);
-  if (status == KZ_OK) kz_dynamics_table_set(b->dynamics, rows);
-  free(rows);
-  return status;
 }
 
 /* Labels the open cells; on rank 0 they go to their places. */
@@ -150,7 +131,7 @@ static kz_status first_discovery(basin *b, kz_team *team, const kz_window *windo
     kz_dynamics_outline(b->dynamics, b->reach);
     status = discover(b, team, scouts, state);
   }
-  if (status == KZ_OK) status = make_table(b, team);
+  if (status == KZ_OK) status = kz_map_table_make(team, b->dynamics, b->plan->table_theta, b->plan->table_velocity, b->reach);
   if (status == KZ_OK && n > scouts) status = discover(b, team, n - scouts, state + 2 * scouts);
   free(state);
   return status;
@@ -182,7 +163,7 @@ static kz_status open_unsettled(basin *b, kz_team *team)
 static kz_status label_distrusted(basin *b, kz_team *team, int round)
 {
   kz_grid grid = {b->plan, b->dynamics, b->total, b->own, b->owner, b->periods};
-  double horizon = kz_dynamics_trust_horizon(b->dynamics, points[b->plan->interpolation]);
+  double horizon = kz_dynamics_trust_horizon(b->dynamics, kz_stencil[b->plan->interpolation]);
   kz_status status = KZ_OK;
   if (kz_team_rank(team) == 0) {
     memset(b->mark, 0, (size_t)b->own);
@@ -201,7 +182,7 @@ static kz_status discover_again(basin *b, kz_team *team)
   int64_t n = b->n_open < b->plan->starts ? b->n_open : b->plan->starts;
   double *state = malloc((size_t)n * 2 * sizeof *state);
   kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) cell_state(b->plan, b->open[i * b->n_open / n], state + 2 * i);
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) kz_cell_state(b->plan, b->open[i * b->n_open / n], state + 2 * i);
   if (status == KZ_OK) status = discover(b, team, n, state);
   free(state);
   return status;
@@ -257,8 +238,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   const kz_basin_plan *plan = &scene->basin;
   basin b = {.plan = plan, .total = plan->theta.count * plan->velocity.count};
   kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
-  bool symmetric = kz_axis_is_symmetric(&plan->theta) && kz_axis_is_symmetric(&plan->velocity);
-  b.own = symmetric ? (b.total + 1) / 2 : b.total;
+  b.own = kz_own_cells(plan);
   b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_team_agree(team, status);
@@ -306,9 +286,21 @@ static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *st
   return kz_team_agree(team, status);
 }
 
+/* With basin.accuracy: the scene with what the program chose. */
+static kz_status run_accurate(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
+{
+  kz_choice choice;
+  kz_scene chosen = *scene;
+  KZ_TRY(kz_accuracy_choose(scene, team, store, summary, &choice));
+  kz_setting_apply(choice.setting, &chosen);
+  KZ_TRY(run_damped(&chosen, team, store, summary));
+  return kz_team_agree(team, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
+}
+
 kz_status kz_basin_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
 {
-  return (scene->parameters.pendulum.beta > 0 ? run_damped : run_undamped)(scene, team, store, summary);
+  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, team, store, summary);
+  return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, team, store, summary);
 }
 
 bool kz_basin_wanted(const kz_scene *scene) { return scene->has_basin; }
@@ -325,8 +317,10 @@ kz_cost kz_basin_cost(const kz_scene *scene)
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
   double cell_period = plan->method == KZ_METHOD_ICM ? 3e-8 : period;
-  return (kz_cost){.cells = plan->theta.count * plan->velocity.count,
+  kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
                    .disk_bytes = 14 * cells,
                    .memory_bytes = 5e7 + 27 * cells + 100 * nodes,
                    .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) + cells * 10 * cell_period};
+  if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
+  return cost;
 }

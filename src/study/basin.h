@@ -26,13 +26,23 @@ typedef struct {
   const uint32_t *periods;
 } kz_grid;
 
-/* mark [own]: of the marked cells those stay marked whose label the map table does not back: they have not started inside a
- * trapping region, and took longer than `horizon` periods, or have not settled, or differ from a neighbour. */
+/* Whether the map table does not back a label: the cell has not started inside a trapping region, and took longer than `horizon`
+ * periods, or has not settled (owner 0), or differs from a neighbour. */
+bool kz_distrusted(int32_t owner, int64_t periods, double horizon, bool differs);
+
+/* mark [own]: of the marked cells those stay marked whose label is distrusted. */
 kz_status kz_grid_distrust(const kz_grid *grid, double horizon, uint8_t *mark);
 
 /* Centre of cell i; exactly mirrored in a symmetric window. */
 double kz_axis_centre(const kz_axis *axis, int64_t i);
 bool kz_axis_is_symmetric(const kz_axis *axis);
+/* Cells that are labelled; the others of a window that is its own mirror image mirror them. */
+int64_t kz_own_cells(const kz_basin_plan *plan);
+/* State of cell f, velocity-major: half-turns in [-1, 1] and velocity. */
+void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
+
+/* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */
+extern const int32_t kz_stencil[];
 
 /* Measures, groups /attractors and /basin, and the summary. Fractions of the catalogue are filled in. */
 kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,

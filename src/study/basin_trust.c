@@ -22,6 +22,11 @@ static bool differs_from_neighbour(const kz_grid *grid, const int32_t *mirror, i
          owner_of(grid, mirror, above) != own;
 }
 
+bool kz_distrusted(int32_t owner, int64_t periods, double horizon, bool differs)
+{
+  return owner == 0 || (periods > 0 && ((double)periods > horizon || differs));
+}
+
 kz_status kz_grid_distrust(const kz_grid *grid, double horizon, uint8_t *mark)
 {
   int64_t known = kz_dynamics_count(grid->dynamics);
@@ -34,8 +39,7 @@ kz_status kz_grid_distrust(const kz_grid *grid, double horizon, uint8_t *mark)
     mirror[number] = row.mirror;
   }
   for (int64_t f = 0; status == KZ_OK && f < grid->own; f++)
-    mark[f] = mark[f] && (grid->owner[f] == 0 || (grid->periods[f] > 0 && (grid->periods[f] > horizon ||
-                                                                            differs_from_neighbour(grid, mirror, f))));
+    mark[f] = mark[f] && kz_distrusted(grid->owner[f], grid->periods[f], horizon, differs_from_neighbour(grid, mirror, f));
   free(mirror);
   free(points);
   return status;

@@ -1,0 +1,91 @@
+!> The border of dynamics to C: starts followed until they are trapped (include/kapitza/dynamics.h).
+module kz_dynamics_border_follow
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
+  use kz_kernel_map, only: map_t
+  use kz_dynamics_handle, only: dynamics_t, of_handle
+  use kz_dynamics_labels, only: follow
+  use kz_dynamics_tables, only: table_map_t, make_table_map
+  use kz_dynamics_truths, only: truth_map_t, make_truth_map
+  implicit none
+  private
+
+contains
+
+  subroutine settle(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_settle')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    call follow_with(d%search%flow, d, max_periods, state, owner, periods)
+  end subroutine settle
+
+  subroutine follow_directly(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    call follow_with(d%flow, d, max_periods, state, owner, periods)
+  end subroutine follow_directly
+
+  subroutine follow_table(handle, points, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow_table')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: points
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+    type(table_map_t) :: map
+
+    d => of_handle(handle)
+    map = make_table_map(d%table, int(points), d%search%flow)
+    call follow_with(map, d, max_periods, state, owner, periods)
+  end subroutine follow_table
+
+  subroutine follow_truth(handle, n_steps, n, max_periods, start, owner, periods) bind(C, name='kz_dynamics_follow_truth')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: n_steps
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(in) :: start(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+    type(truth_map_t), allocatable :: map
+    real(dp), allocatable :: u(:), v(:)
+
+    d => of_handle(handle)
+    allocate (map, u(n))
+    allocate (v, source=start(2, :))
+    call make_truth_map(map, d%search%pendulum, int(n_steps), start, u)
+    call follow(map, d%regions, d%attractors, max_periods, u, v, owner, periods)
+  end subroutine follow_truth
+
+  subroutine follow_with(map, d, max_periods, state, owner, periods)
+    class(map_t), intent(inout) :: map
+    type(dynamics_t), intent(in) :: d
+    integer(c_int64_t), intent(in) :: max_periods
+    real(dp), intent(inout) :: state(:, :)
+    integer(c_int32_t), intent(out) :: owner(:)
+    integer(c_int64_t), intent(out) :: periods(:)
+    real(dp), allocatable :: u(:), v(:)
+
+    allocate (u, source=state(1, :))
+    allocate (v, source=state(2, :))
+    call follow(map, d%regions, d%attractors, max_periods, u, v, owner, periods)
+    state(1, :) = u
+    state(2, :) = v
+  end subroutine follow_with
+
+end module kz_dynamics_border_follow

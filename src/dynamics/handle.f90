@@ -1,0 +1,32 @@
+!> What a handle of include/kapitza/dynamics.h points at.
+module kz_dynamics_handle
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
+  use kz_kernel_map, only: flow_t
+  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_regions, only: regions_t
+  use kz_dynamics_search, only: search_t
+  use kz_dynamics_tables, only: table_t
+  implicit none
+  private
+  public :: dynamics_t, of_handle
+
+  type :: dynamics_t
+    type(search_t) :: search
+    class(flow_t), allocatable :: flow !< the scene's map in the scene's precision
+    type(attractor_t), allocatable :: attractors(:)
+    type(regions_t) :: regions
+    type(table_t) :: table
+    real(dp), allocatable :: two(:, :, :)  !< displacement of the table's nodes after two periods
+    real(dp), allocatable :: four(:, :, :) !< and after four
+  end type dynamics_t
+
+contains
+
+  function of_handle(handle) result(d)
+    type(c_ptr), intent(in) :: handle
+    type(dynamics_t), pointer :: d
+
+    call c_f_pointer(handle, d)
+  end function of_handle
+
+end module kz_dynamics_handle

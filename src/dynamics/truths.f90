@@ -1,0 +1,90 @@
+!> The truth as a stroboscopic map: states in quad precision, seen by the trapping regions as doubles.
+module kz_dynamics_truths
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_kernel_map, only: map_t, WIDTH, PI
+  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
+  implicit none
+  private
+  public :: truth_map_t, make_truth_map
+
+  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
+
+  type, extends(map_t) :: truth_map_t
+    private
+    type(drive_t) :: drive
+    real(qp) :: theta(WIDTH) = 0    !< rad
+    real(qp) :: velocity(WIDTH) = 0 !< rad per drive radian
+    real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
+    real(dp), allocatable :: start_u(:)   !< their half-turns as doubles
+    integer :: last = 0 !< the start that was put last
+  contains
+    procedure :: put
+    procedure :: move
+    procedure :: advance
+  end type truth_map_t
+
+contains
+
+  !> A map of starts given in rad: they are put in their order, each by its half-turns u, and moved as exact numbers.
+  subroutine make_truth_map(map, pendulum, n_steps, start, u)
+    type(truth_map_t), intent(out) :: map
+    type(pendulum_t), intent(in) :: pendulum
+    !> Steps a period where the motion is gentle.
+    integer, intent(in) :: n_steps
+    !> (2, n): rad, rad per drive radian.
+    real(dp), intent(in) :: start(:, :)
+    !> [n] half-turns in [-1, 1].
+    real(dp), intent(out) :: u(:)
+
+    call make_drive(map%drive, pendulum%k, pendulum%beta, pendulum%m, n_steps)
+    allocate (map%start, source=start)
+    u = start(1, :)/PI
+    u = u - 2*anint(0.5_dp*u)
+    allocate (map%start_u, source=u)
+  end subroutine make_truth_map
+
+  !> Puts the next start that looks like (u, v).
+  subroutine put(self, lane, u, v)
+    class(truth_map_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+
+    do
+      self%last = self%last + 1
+      if (.not. (self%start_u(self%last) < u .or. self%start_u(self%last) > u .or. &
+                 self%start(2, self%last) < v .or. self%start(2, self%last) > v)) exit
+    end do
+    self%u(lane) = u
+    self%v(lane) = v
+    self%turns(lane) = 0
+    self%theta(lane) = real(self%start(1, self%last), qp)
+    self%velocity(lane) = real(self%start(2, self%last), qp)
+  end subroutine put
+
+  subroutine move(self, from, to)
+    class(truth_map_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    self%u(to) = self%u(from)
+    self%v(to) = self%v(from)
+    self%turns(to) = self%turns(from)
+    self%theta(to) = self%theta(from)
+    self%velocity(to) = self%velocity(from)
+  end subroutine move
+
+  subroutine advance(self, n)
+    class(truth_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer(c_int64_t) :: turns(WIDTH)
+
+    turns = 0
+    call advance_period(self%drive, self%theta(:n), self%velocity(:n), turns(:n))
+    self%turns(:n) = self%turns(:n) + turns(:n)
+    self%u(:n) = real(self%theta(:n)/PI_QUAD, dp)
+    self%v(:n) = real(self%velocity(:n), dp)
+  end subroutine advance
+
+end module kz_dynamics_truths

@@ -1,0 +1,26 @@
+/* basin.accuracy: the program chooses method, table and numerics. */
+#ifndef KAPITZA_STUDY_ACCURACY_H
+#define KAPITZA_STUDY_ACCURACY_H
+
+#include "setting.h"
+
+/* What was chosen and why. */
+typedef struct {
+  const kz_setting *setting;
+  int64_t samples, wrong, flipped, tried;
+} kz_choice;
+
+/* The cheapest setting by kz_setting_cost whose share of wrong labels of the judge's sample is at most 1 - accuracy at the upper
+ * end of its 95 % interval. KZ_REFUSED tells the best share reached and the floor. Collective. */
+kz_status kz_accuracy_choose(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary, kz_choice *choice);
+
+/* The choice as attributes of /basin. Rank 0. */
+kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store);
+
+/* Cells that are judged for an accuracy. */
+int64_t kz_accuracy_samples(double accuracy);
+
+/* Adds to `cost` what the choice takes, before the labels themselves. */
+void kz_accuracy_cost(double accuracy, kz_cost *cost);
+
+#endif

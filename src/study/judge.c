@@ -1,0 +1,213 @@
+#include "judge.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "basin.h"
+#include "discovery.h"
+#include "kapitza/truth.h"
+#include "map_table.h"
+#include "share.h"
+
+enum {
+  NODES = 1000,           /* of the map table, an axis */
+  STEPS = 48,             /* of split6 a period, for a gentle drive */
+  SCOUTS = 512,           /* starts before there is a table */
+  PROBES = 8192,          /* cells that must settle on known attractors before the truth is asked */
+  ROUNDS = 4,             /* of discovery */
+  TILE = 32,              /* cells */
+  OTHER_STEPS = KZ_TRUTH_STEPS + 6, /* the other number of steps of the series */
+  ASKED = 8               /* every so many cells the other number of steps is tried */
+};
+
+int64_t kz_judge_cell(const kz_judge *judge, int64_t i) { return kz_shuffled(i, judge->total, judge->plan->seed); }
+
+static kz_dynamics *make_dynamics(const kz_judge *judge) {
+  const double stiffness = fmax(1, fabs(judge->pendulum.k) + fabs(judge->pendulum.m));
+  kz_numerics numerics = {.scheme = 2, .steps_per_period = STEPS * (int32_t)ceil(sqrt(stiffness)), .precision = KZ_DOUBLE};
+  return kz_dynamics_create(&judge->pendulum, &numerics, judge->plan->max_period);
+}
+
+/* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. */
+typedef struct {
+  double *state;    /* [2 * most] */
+  int32_t *owner;   /* [most] */
+  int64_t *periods; /* [most] */
+  int64_t most;
+} probes;
+
+/* The states of probes that do not settle, packed to the front; returns how many. */
+static int64_t unsettled(const kz_judge *judge, kz_dynamics *dynamics, probes *p) {
+  int64_t n = judge->total < PROBES ? judge->total : PROBES, open = 0;
+  for (int64_t i = 0; i < n; i++) kz_cell_state(judge->plan, kz_judge_cell(judge, i), p->state + 2 * i);
+  kz_dynamics_follow(dynamics, n, judge->plan->max_periods, p->state, p->owner, p->periods);
+  for (int64_t i = 0; i < n; i++)
+    if (p->owner[i] == 0) memcpy(p->state + 2 * open++, p->state + 2 * i, 2 * sizeof(double));
+  return open;
+}
+
+static kz_status find_attractors(const kz_judge *judge, kz_team *team, kz_dynamics *dynamics, probes *p) {
+  const kz_basin_plan *plan = judge->plan;
+  kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
+  const int64_t scouts = plan->starts < SCOUTS ? plan->starts : SCOUTS, rest = plan->starts - scouts;
+  kz_dynamics_starts(&window, plan->seed, plan->starts, p->state);
+  kz_dynamics_outline(dynamics, judge->reach);
+  KZ_TRY(kz_discover(team, dynamics, plan->max_periods, scouts, p->state, p->owner));
+  KZ_TRY(kz_map_table_make(team, dynamics, NODES, NODES, judge->reach));
+  if (rest > 0) KZ_TRY(kz_discover(team, dynamics, plan->max_periods, rest, p->state + 2 * scouts, p->owner));
+  for (int round = 0; round < ROUNDS; round++) {
+    const int64_t known = kz_dynamics_count(dynamics), n = unsettled(judge, dynamics, p);
+    if (n == 0) break;
+    KZ_TRY(kz_discover(team, dynamics, plan->max_periods, n, p->state, p->owner));
+    if (kz_dynamics_count(dynamics) == known) break;
+  }
+  kz_dynamics_update(dynamics);
+  return kz_dynamics_count(dynamics) <= INT16_MAX ? KZ_OK : kz_fail(KZ_FAILED, "more than %d attractors", INT16_MAX);
+}
+
+static kz_status prepare(kz_judge *judge, kz_team *team, kz_dynamics *dynamics) {
+  const kz_basin_plan *plan = judge->plan;
+  probes p = {.most = plan->starts > PROBES ? plan->starts : PROBES};
+  kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
+  p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
+  p.owner = malloc((size_t)p.most * sizeof *p.owner);
+  p.periods = malloc((size_t)p.most * sizeof *p.periods);
+  kz_status status = p.state && p.owner && p.periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
+  status = kz_team_agree(team, status);
+  judge->reach = kz_dynamics_reach(dynamics, &window);
+  if (status == KZ_OK) status = find_attractors(judge, team, dynamics, &p);
+  free(p.state);
+  free(p.owner);
+  free(p.periods);
+  KZ_TRY(kz_team_agree(team, status));
+  judge->packed_size = kz_dynamics_packed_size(dynamics);
+  judge->packed = malloc((size_t)judge->packed_size * sizeof(double) + 1);
+  judge->verdicts = calloc((size_t)judge->samples + 1, sizeof *judge->verdicts);
+  if (judge->packed) kz_dynamics_pack(dynamics, judge->packed_size, judge->packed);
+  return kz_team_agree(team, judge->packed && judge->verdicts ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
+}
+
+typedef struct {
+  const kz_judge *judge;
+  kz_dynamics *dynamics;
+  int64_t known; /* verdicts that the cache held */
+} hearing;
+
+/* How far from each of n cells a label differs, along the axes, in double precision. */
+static void find_distances(const hearing *h, int64_t n, const int64_t *cell, kz_verdict *verdicts) {
+  const kz_basin_plan *plan = h->judge->plan;
+  double state[8 * TILE];
+  int32_t owner[4 * TILE];
+  int64_t periods[4 * TILE];
+  for (int64_t i = 0; i < n; i++) verdicts[i].distance = KZ_JUDGE_FAR;
+  for (int distance = KZ_JUDGE_FAR / 2; distance > 0; distance /= 2) {
+    const int64_t aside[4][2] = {{-distance, 0}, {distance, 0}, {0, -distance}, {0, distance}};
+    for (int64_t i = 0; i < 4 * n; i++) {
+      const int64_t *by = aside[i % 4], f = cell[i / 4];
+      const double half_turns = kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]) / M_PI;
+      state[2 * i] = half_turns - 2 * rint(half_turns / 2);
+      state[2 * i + 1] = kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]);
+    }
+    kz_dynamics_follow(h->dynamics, 4 * n, plan->max_periods, state, owner, periods);
+    for (int64_t i = 0; i < 4 * n; i++)
+      if (owner[i] != verdicts[i / 4].label) verdicts[i / 4].distance = (uint8_t)distance;
+  }
+}
+
+static void follow(const hearing *h, int32_t steps, int64_t n, const double *start, int32_t *owner, int64_t *periods) {
+  kz_dynamics_follow_truth(h->dynamics, steps, n, h->judge->plan->max_periods, start, owner, periods);
+}
+
+/* Does every ASKED-th cell come out the same with another number of steps? */
+static void compare_steps(const hearing *h, int64_t first, int64_t n, const double *start, kz_verdict *verdicts) {
+  double asked[2 * TILE];
+  int32_t owner[TILE];
+  int64_t periods[TILE], place[TILE], n_asked = 0;
+  for (int64_t i = 0; i < n; i++) {
+    verdicts[i].agrees = 2;
+    if ((first + i) % ASKED != 0) continue;
+    memcpy(asked + 2 * n_asked, start + 2 * i, 2 * sizeof(double));
+    place[n_asked++] = i;
+  }
+  follow(h, OTHER_STEPS, n_asked, asked, owner, periods);
+  for (int64_t i = 0; i < n_asked; i++) verdicts[place[i]].agrees = owner[i] == verdicts[place[i]].label;
+}
+
+static kz_status judge_tile(void *context, int64_t tile, void *record) {
+  const hearing *h = context;
+  const kz_basin_plan *plan = h->judge->plan;
+  kz_verdict *verdicts = record;
+  double start[2 * TILE] = {0};
+  int32_t owner[TILE];
+  int64_t cell[TILE], periods[TILE], first = tile * TILE;
+  int64_t n = h->judge->samples - first < TILE ? h->judge->samples - first : TILE;
+  memcpy(verdicts, h->judge->verdicts + first, (size_t)n * sizeof *verdicts);
+  if (first + n <= h->known) return KZ_OK;
+  for (int64_t i = 0; i < n; i++) {
+    cell[i] = kz_judge_cell(h->judge, first + i);
+    start[2 * i] = kz_axis_centre(&plan->theta, cell[i] % plan->theta.count);
+    start[2 * i + 1] = kz_axis_centre(&plan->velocity, cell[i] / plan->theta.count);
+  }
+  follow(h, KZ_TRUTH_STEPS, n, start, owner, periods);
+  for (int64_t i = 0; i < n; i++) {
+    verdicts[i].label = (int16_t)owner[i];
+    verdicts[i].periods = (uint32_t)periods[i];
+  }
+  compare_steps(h, first, n, start, verdicts);
+  find_distances(h, n, cell, verdicts);
+  for (int64_t i = 0; i < 2 * n; i++) start[i] = nextafter(start[i], copysign(INFINITY, start[i]));
+  follow(h, KZ_TRUTH_STEPS, n, start, owner, periods);
+  for (int64_t i = 0; i < n; i++) verdicts[i].flipped = (int16_t)owner[i];
+  return KZ_OK;
+}
+
+/* What rank 0 found in the cache, on every rank. */
+static kz_status share_known(kz_team *team, const char *path, kz_judge *judge, int64_t *known) {
+  *known = kz_team_rank(team) == 0 && path ? kz_judge_recall(path, judge) : 0;
+  KZ_TRY(kz_team_broadcast(team, known, sizeof *known));
+  return kz_team_broadcast(team, judge->verdicts, (size_t)*known * sizeof *judge->verdicts);
+}
+
+static kz_status hear(kz_judge *judge, kz_team *team, const char *path, kz_dynamics *dynamics) {
+  hearing h = {.judge = judge, .dynamics = dynamics};
+  KZ_TRY(share_known(team, path, judge, &h.known));
+  kz_stage stage = {.name = "truth", .n_tiles = (judge->samples + TILE - 1) / TILE, .record_bytes = TILE * sizeof(kz_verdict),
+                    .work = judge_tile, .context = &h, .keep = true, .everywhere = true};
+  kz_verdict *records = malloc((size_t)stage.n_tiles * stage.record_bytes);
+  kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
+  if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
+  if (status == KZ_OK) memcpy(judge->verdicts, records, (size_t)judge->samples * sizeof *records);
+  free(records);
+  return status;
+}
+
+kz_status kz_judge_make(const kz_scene *scene, kz_team *team, int64_t samples, const char *path, kz_judge *judge) {
+  const kz_basin_plan *plan = &scene->basin;
+  *judge = (kz_judge){.plan = plan, .pendulum = scene->parameters.pendulum, .total = plan->theta.count * plan->velocity.count};
+  judge->samples = samples < judge->total ? samples : judge->total;
+  kz_dynamics *dynamics = make_dynamics(judge);
+  kz_status status = kz_team_agree(team, dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics"));
+  if (status == KZ_OK) status = prepare(judge, team, dynamics);
+  if (status == KZ_OK) status = hear(judge, team, path, dynamics);
+  if (dynamics) kz_dynamics_free(dynamics);
+  return status;
+}
+
+void kz_judge_free(kz_judge *judge) {
+  free(judge->packed);
+  free(judge->verdicts);
+  *judge = (kz_judge){0};
+}
+
+kz_judge_summary kz_judge_sum(const kz_judge *judge) {
+  kz_judge_summary sum = {0};
+  for (int64_t i = 0; i < judge->samples; i++) {
+    const kz_verdict *v = judge->verdicts + i;
+    sum.flipped += v->flipped != v->label;
+    sum.disagree += v->agrees == 0;
+    sum.asked += v->agrees != 2;
+    sum.mean_periods += (double)v->periods / (double)judge->samples;
+  }
+  return sum;
+}

@@ -1,0 +1,13 @@
+/* The map table of one dynamics, its rows shared out. */
+#ifndef KAPITZA_STUDY_MAP_TABLE_H
+#define KAPITZA_STUDY_MAP_TABLE_H
+
+#include <stdint.h>
+
+#include "kapitza/dynamics.h"
+#include "kapitza/parallel.h"
+
+/* Builds the table of n_theta x n_velocity nodes up to velocity `reach` on every rank. Collective; team NULL = this rank alone. */
+kz_status kz_map_table_make(kz_team *team, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach);
+
+#endif

@@ -1,0 +1,86 @@
+/* The table of settings. */
+#include <math.h>
+#include <string.h>
+
+#include "setting.h"
+
+#define DIRECT(label, scheme, steps, precision, candidate) \
+  {label, KZ_METHOD_DIRECT, scheme, steps, precision, KZ_QUINTIC, 1000, candidate}
+#define ICM(label, interpolation, nodes) \
+  {label, KZ_METHOD_ICM, "split6", 24, KZ_DOUBLE, interpolation, nodes, interpolation == KZ_QUINTIC}
+#define HYBRID(label, nodes) {label, KZ_METHOD_HYBRID, "split6", 24, KZ_DOUBLE, KZ_QUINTIC, nodes, true}
+
+const kz_setting kz_settings[] = {
+    DIRECT("direct-rk4-100-1992", "rk4", 100, KZ_DOUBLE, false),
+    DIRECT("direct-rk4-400", "rk4", 400, KZ_DOUBLE, false),
+    DIRECT("direct-split4-24", "split4", 24, KZ_DOUBLE, false),
+    DIRECT("direct-6", "split6", 6, KZ_DOUBLE, true),
+    DIRECT("direct-8", "split6", 8, KZ_DOUBLE, true),
+    DIRECT("direct-12", "split6", 12, KZ_DOUBLE, true),
+    DIRECT("direct-16", "split6", 16, KZ_DOUBLE, true),
+    DIRECT("direct-24", "split6", 24, KZ_DOUBLE, true),
+    DIRECT("direct-48", "split6", 48, KZ_DOUBLE, true),
+    DIRECT("direct-96", "split6", 96, KZ_DOUBLE, true),
+    DIRECT("direct-single-8", "split6", 8, KZ_SINGLE, false),
+    DIRECT("direct-single-16", "split6", 16, KZ_SINGLE, false),
+    {"icm-linear-500-1992", KZ_METHOD_ICM, "rk4", 100, KZ_DOUBLE, KZ_LINEAR, 500, false},
+    ICM("icm-linear-1000", KZ_LINEAR, 1000),
+    ICM("icm-linear-2000", KZ_LINEAR, 2000),
+    ICM("icm-cubic-500", KZ_CUBIC, 500),
+    ICM("icm-cubic-1000", KZ_CUBIC, 1000),
+    ICM("icm-cubic-2000", KZ_CUBIC, 2000),
+    ICM("icm-250", KZ_QUINTIC, 250),
+    ICM("icm-500", KZ_QUINTIC, 500),
+    ICM("icm-1000", KZ_QUINTIC, 1000),
+    ICM("icm-2000", KZ_QUINTIC, 2000),
+    {"icm-single-500", KZ_METHOD_ICM, "split6", 8, KZ_SINGLE, KZ_QUINTIC, 500, false},
+    HYBRID("hybrid-250", 250),
+    HYBRID("hybrid-500", 500),
+    HYBRID("hybrid-1000", 1000),
+};
+const int kz_setting_count = sizeof kz_settings / sizeof kz_settings[0];
+
+const char *kz_tradeoff_words(void) {
+  static char words[1024];
+  words[0] = '\0';
+  for (int i = 0; i < kz_setting_count; i++) {
+    if (i > 0) strncat(words, "|", sizeof words - strlen(words) - 1);
+    strncat(words, kz_settings[i].label, sizeof words - strlen(words) - 1);
+  }
+  return words;
+}
+
+static int32_t scheme_row(const char *name) {
+  kz_scheme scheme;
+  int32_t row = 0;
+  for (; row < kz_scheme_count(); row++) {
+    kz_scheme_row(row, &scheme);
+    if (strcmp(scheme.name, name) == 0) break;
+  }
+  return row;
+}
+
+kz_numerics kz_setting_numerics(const kz_setting *setting) {
+  return (kz_numerics){scheme_row(setting->scheme), setting->steps, setting->precision};
+}
+
+void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
+  scene->numerics = kz_setting_numerics(setting);
+  scene->basin.method = setting->method;
+  scene->basin.interpolation = setting->interpolation;
+  scene->basin.table_theta = scene->basin.table_velocity = setting->nodes;
+}
+
+double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods) {
+  /* Measured weights, in kicks in double precision: a look-up in the table with its captor, the growth of a node's region.
+   * Hybrid integrates the cells that take longest, nearly all periods. Coarse cells trap less: periods go as nodes^-0.4. */
+  static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1},
+                      look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, growth = 700;
+  kz_scheme scheme;
+  kz_scheme_row(scheme_row(setting->scheme), &scheme);
+  const double nodes = (double)setting->nodes, period = kind[setting->precision] * scheme.kicks * setting->steps;
+  double cell = 0;
+  if (setting->method != KZ_METHOD_ICM) cell += period;
+  if (setting->method != KZ_METHOD_DIRECT) cell += look_up[setting->interpolation];
+  return 0.5 * nodes * nodes * (period + growth) + cells * mean_periods * pow(1000 / nodes, 0.4) * cell;
+}

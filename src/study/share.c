@@ -1,0 +1,64 @@
+#include "share.h"
+
+#include <math.h>
+
+static const double Z = 1.959963984540054; /* 97.5 % of the normal distribution lie below */
+
+kz_share kz_share_of(int64_t hits, int64_t n) {
+  if (n == 0) return (kz_share){NAN, 0, 1};
+  const double k = (double)hits, of = (double)n;
+  const double centre = (k + Z * Z / 2) / (of + Z * Z);
+  const double half = Z / (of + Z * Z) * sqrt(k * (of - k) / of + Z * Z / 4);
+  return (kz_share){k / of, hits == 0 ? 0 : fmax(0, centre - half), hits == n ? 1 : fmin(1, centre + half)};
+}
+
+int64_t kz_share_sample(double share) {
+  int64_t n = (int64_t)ceil(Z * Z * (1 / share - 1));
+  while (kz_share_of(0, n).high > share) n++;
+  return n;
+}
+
+void kz_pareto(int64_t n, const double *seconds, const double *wrong, int8_t *front) {
+  for (int64_t i = 0; i < n; i++) {
+    front[i] = 1;
+    for (int64_t j = 0; j < n; j++)
+      if (seconds[j] <= seconds[i] && wrong[j] <= wrong[i] && (seconds[j] < seconds[i] || wrong[j] < wrong[i])) front[i] = 0;
+  }
+}
+
+void kz_cost_order(int64_t n, const double *cost, int64_t *rank) {
+  for (int64_t i = 0; i < n; i++) {
+    int64_t place = i;
+    for (; place > 0 && cost[rank[place - 1]] > cost[i]; place--) rank[place] = rank[place - 1];
+    rank[place] = i;
+  }
+}
+
+/* A mixer of 64 bits (SplitMix64; Steele, Lea & Flood, OOPSLA 2014). */
+static uint64_t mix(uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/* One pass of a Feistel network over 2 * bits bits: a permutation. */
+static uint64_t feistel(uint64_t x, int bits, uint64_t key) {
+  const uint64_t mask = ((uint64_t)1 << bits) - 1;
+  uint64_t left = x >> bits, right = x & mask;
+  for (uint64_t round = 0; round < 6; round++) {
+    const uint64_t next = left ^ (mix(right ^ mix(key + round)) & mask);
+    left = right;
+    right = next;
+  }
+  return left << bits | right;
+}
+
+int64_t kz_shuffled(int64_t i, int64_t total, int64_t seed) {
+  int bits = 1;
+  while ((int64_t)1 << (2 * bits) < total) bits++;
+  uint64_t x = (uint64_t)i;
+  do x = feistel(x, bits, mix((uint64_t)seed));
+  while (x >= (uint64_t)total);
+  return (int64_t)x;
+}

@@ -1,0 +1,25 @@
+/* Shares seen in a sample, and settings that no other beats. Pure arithmetic. */
+#ifndef KAPITZA_STUDY_SHARE_H
+#define KAPITZA_STUDY_SHARE_H
+
+#include <stdint.h>
+
+/* The 95 % interval of a share seen `hits` times in n (Wilson, J. Am. Stat. Assoc. 22 (1927) 209); [0, 1] for n = 0. */
+typedef struct {
+  double share, low, high;
+} kz_share;
+kz_share kz_share_of(int64_t hits, int64_t n);
+
+/* The smallest sample whose upper bound is at most `share` where no hit is seen. */
+int64_t kz_share_sample(double share);
+
+/* front [n] = 1 where no other entry is at most as dear and at most as wrong, and better in one of the two; else 0. */
+void kz_pareto(int64_t n, const double *seconds, const double *wrong, int8_t *front);
+
+/* rank [n]: the indices of `cost` from the lowest to the highest; equal costs keep their order. */
+void kz_cost_order(int64_t n, const double *cost, int64_t *rank);
+
+/* Cell i of an order of the cells 0 .. total - 1 that looks random: a permutation, chosen by the seed. */
+int64_t kz_shuffled(int64_t i, int64_t total, int64_t seed);
+
+#endif

@@ -1,0 +1,115 @@
+/* Study `tradeoff`: many settings on the cells of one basin, each with its time and its share of wrong labels.
+ *
+ * judge (attractors, true labels of a sample) -> one tile per setting, done by one rank alone -> table, file. */
+#include "tradeoff.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "basin.h"
+
+enum { TIMED = 16384 }; /* cells that a clock needs */
+
+typedef struct {
+  const kz_judge *judge;
+  const kz_trade *trade;
+} measuring;
+
+bool kz_tradeoff_wanted(const kz_scene *scene) { return scene->has_tradeoff; }
+
+static int64_t count_settings(const kz_tradeoff_plan *plan) {
+  return plan->settings.count > 0 ? plan->settings.count : kz_setting_count;
+}
+
+static const kz_setting *setting_at(const kz_tradeoff_plan *plan, int64_t i) {
+  return kz_settings + (plan->settings.count > 0 ? plan->settings.values[i] : i);
+}
+
+kz_cost kz_tradeoff_cost(const kz_scene *scene) {
+  static const double kick_seconds = 1e-9, mean_periods = 30, truth_seconds = 3e-4;
+  double kicks = 0, nodes = 0;
+  for (int64_t i = 0; i < count_settings(&scene->tradeoff); i++) {
+    const kz_setting *setting = setting_at(&scene->tradeoff, i);
+    kicks += kz_setting_cost(setting, TIMED, mean_periods);
+    nodes = fmax(nodes, (double)setting->nodes * (double)setting->nodes);
+  }
+  return (kz_cost){.disk_bytes = 1e6, .memory_bytes = 5e7 + 120 * nodes,
+                   .core_seconds = kicks * kick_seconds + truth_seconds * mean_periods * (double)scene->tradeoff.samples};
+}
+
+char *kz_truth_path(const kz_store *store) {
+  static const char ending[] = ".truth";
+  if (!store) return NULL;
+  const char *path = kz_store_path(store);
+  char *name = malloc(strlen(path) + sizeof ending);
+  if (name) strcat(strcpy(name, path), ending);
+  return name;
+}
+
+static kz_status measure_tile(void *context, int64_t tile, void *record) {
+  const measuring *m = context;
+  return kz_setting_measure(m->trade->settings[tile], m->judge, TIMED, record);
+}
+
+static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
+  const size_t n = (size_t)count_settings(plan);
+  *trade = (kz_trade){.count = (int64_t)n, .settings = calloc(n, sizeof *trade->settings),
+                      .measured = calloc(n, sizeof *trade->measured), .seconds = calloc(n, sizeof(double)),
+                      .wrong = calloc(n, sizeof(double)), .pareto = calloc(n, sizeof(int8_t))};
+  if (!trade->settings || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
+    return kz_fail(KZ_FAILED, "no memory for %lld settings", (long long)n);
+  for (int64_t i = 0; i < trade->count; i++) trade->settings[i] = setting_at(plan, i);
+  return KZ_OK;
+}
+
+static void free_trade(kz_trade *trade) {
+  free(trade->settings);
+  free(trade->measured);
+  free(trade->seconds);
+  free(trade->wrong);
+  free(trade->pareto);
+}
+
+/* What follows from the counts and the clocks. */
+static void rate(const kz_judge *judge, kz_trade *trade) {
+  const double cells = (double)kz_own_cells(judge->plan);
+  trade->best_wrong = NAN;
+  for (int64_t i = 0; i < trade->count; i++) {
+    const kz_measured *m = trade->measured + i;
+    trade->wrong[i] = kz_share_of(m->wrong, judge->samples).share;
+    trade->seconds[i] = m->set_up + m->cell * cells;
+    if (trade->settings[i]->precision == KZ_DOUBLE) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
+  }
+  kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
+}
+
+static kz_status run_settings(const kz_judge *judge, kz_trade *trade, kz_team *team) {
+  measuring m = {judge, trade};
+  kz_stage stage = {.name = "settings", .n_tiles = trade->count, .record_bytes = sizeof(kz_measured), .work = measure_tile,
+                    .context = &m, .keep = true, .everywhere = true};
+  KZ_TRY(kz_stage_run(team, &stage, trade->measured));
+  rate(judge, trade);
+  return KZ_OK;
+}
+
+static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  kz_judge judge = {0};
+  kz_trade trade = {0};
+  char *path = kz_truth_path(store);
+  kz_status status = kz_team_agree(team, allocate(&scene->tradeoff, &trade));
+  if (status == KZ_OK) status = kz_judge_make(scene, team, scene->tradeoff.samples, path, &judge);
+  if (status == KZ_OK) status = kz_team_agree(team, path ? kz_judge_save(&judge, path) : KZ_OK);
+  if (status == KZ_OK) status = run_settings(&judge, &trade, team);
+  if (status == KZ_OK && store) status = kz_tradeoff_write(&judge, &trade, store, summary);
+  kz_judge_free(&judge);
+  free_trade(&trade);
+  free(path);
+  return kz_team_agree(team, status);
+}
+
+kz_status kz_tradeoff_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta > 0) return run_damped(scene, team, store, summary);
+  if (summary) fprintf(summary, "tradeoff: without damping nothing attracts, and no label can be wrong\n");
+  return KZ_OK;
+}

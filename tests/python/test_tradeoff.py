@@ -1,0 +1,107 @@
+"""The trade between speed and accuracy: the study, the cache of true labels, and basin.accuracy."""
+
+import h5py
+import numpy as np
+import pytest
+from conftest import ROOT, datasets
+
+SMALL = ROOT / "scenes" / "small.yaml"
+SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, hybrid-250]}"
+TIMING = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells", "tradeoff/pareto"}
+WINDOW = ("--set", "basin={theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, accuracy: %s, "
+                   "attractors: {starts: 2048}}")
+
+
+def untimed(path):
+    return {name: data for name, data in datasets(path).items() if name not in TIMING}
+
+
+def trade(kapitza, folder, name, *options, ranks=None, amplitude=0.46, status=0):
+    kapitza("run", SMALL, "-o", name, "--set", f"pendulum.drive_amplitude={amplitude}", "--set", SETTINGS, *options,
+            ranks=ranks, folder=folder, status=status)
+    return folder / name
+
+
+@pytest.fixture(scope="module")
+def reference(kapitza, tmp_path_factory):
+    return trade(kapitza, tmp_path_factory.mktemp("trade"), "one.h5")
+
+
+def test_group_holds_what_the_contract_says(reference):
+    with h5py.File(reference) as file:
+        group = file["tradeoff"]
+        assert group["label"].asstr()[:].tolist() == ["direct-24", "icm-500", "hybrid-250"]
+        wrong, low, high = (group[name][:] for name in ("wrong", "wrong_low", "wrong_high"))
+        assert np.all(low <= wrong) and np.all(wrong <= high) and np.all(high < 0.5) and np.all(high > 0)
+        assert np.all(group["fraction_error"][:] <= wrong) and np.all(group["wrong_inside"][:] <= wrong)
+        assert np.all(group["seconds"][:] > 0) and group["pareto"][:].any()
+        assert group.attrs["samples"] == 60 and 0 <= group.attrs["floor"] < 0.2
+        assert group.attrs["best_wrong"] == wrong.min()
+        assert np.all(np.isnan(group["wrong_distance"][:]) == (wrong == 0))
+
+
+@pytest.mark.parametrize("ranks", [2, 3])
+def test_any_number_of_ranks_gives_the_same(kapitza, tmp_path, reference, ranks):
+    assert untimed(trade(kapitza, tmp_path, "some.h5", ranks=ranks)) == untimed(reference)
+
+
+def test_a_stopped_study_is_resumed(kapitza, tmp_path, reference):
+    trade(kapitza, tmp_path, "two.h5", "--time-limit", "1", ranks=2, status=75)
+    assert not (tmp_path / "two.h5").exists()
+    assert untimed(trade(kapitza, tmp_path, "two.h5", "--resume", ranks=3)) == untimed(reference)
+
+
+def test_the_cache_is_used_extended_and_not_trusted_blindly(kapitza, tmp_path, reference):
+    path = trade(kapitza, tmp_path, "cached.h5", "--set", "tradeoff.samples=40")
+    cache = path.with_name("cached.h5.truth")
+    short = cache.read_text().splitlines()
+    assert len(short) == 42
+    assert untimed(trade(kapitza, tmp_path, "cached.h5", "--force")) == untimed(reference)
+    assert cache.read_text() == reference.with_name("one.h5.truth").read_text()
+    assert cache.read_text().splitlines()[:41] == short[:41]
+    lines = cache.read_text().splitlines(keepends=True)
+    label, rest = lines[1].split(" ", 1)
+    cache.write_text("".join([lines[0], f"{int(label) + 1} {rest}", *lines[2:]]))
+    assert untimed(trade(kapitza, tmp_path, "cached.h5", "--force")) == untimed(reference)
+
+
+def test_an_accuracy_within_reach_is_met(kapitza, tmp_path):
+    done = kapitza("run", SMALL, "-o", "met.h5", "--set", "pendulum.drive_amplitude=0.150", *without_method(0.995),
+                   folder=tmp_path, ranks=2)
+    assert "accuracy 0.995: icm-" in done.stdout
+    with h5py.File(tmp_path / "met.h5") as file:
+        basin = file["basin"].attrs
+        assert basin["wrong_high"] <= 0.005 and basin["setting"] in done.stdout
+        scene = file.attrs["scene_resolved"]
+    assert "accuracy: 0.995" in scene and "method" not in scene and "scheme" not in scene
+    (tmp_path / "again.yaml").write_text(scene)
+    kapitza("run", "again.yaml", folder=tmp_path)
+    assert datasets(tmp_path / "again.h5") == datasets(tmp_path / "met.h5")
+
+
+def without_method(accuracy):
+    return WINDOW[0], WINDOW[1] % accuracy
+
+
+def test_an_accuracy_out_of_reach_is_refused(kapitza, tmp_path):
+    done = kapitza("run", SMALL, "-o", "no.h5", "--set", "pendulum.drive_amplitude=0.460", *without_method(0.999),
+                   folder=tmp_path, status=2)
+    assert "basin.accuracy: 0.999 is out of reach" in done.stderr and "flips" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("key", ["basin.method=icm", "basin.icm.theta=500", "numerics.scheme=rk4"])
+def test_accuracy_excludes_what_it_chooses(kapitza, tmp_path, key):
+    done = kapitza("check", SMALL, *without_method(0.995), "--set", key, folder=tmp_path, status=2)
+    assert f"{key.split('=')[0]}: contradicts basin.accuracy" in done.stderr
+
+
+def test_a_trade_needs_a_basin(kapitza, tmp_path):
+    (tmp_path / "scene.yaml").write_text("pendulum: {k: 0, damping: 0.05, m: 0.5}\ntradeoff: {samples: 50}\n")
+    assert "tradeoff: has no window" in kapitza("check", "scene.yaml", folder=tmp_path, status=2).stderr
+
+
+def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):
+    (tmp_path / "scene.yaml").write_text("pendulum: {k: 0, damping: 0, m: 0.5}\ntradeoff: {samples: 50}\n"
+                                         "basin: {theta: {count: 8}, velocity: {min: -1, max: 1, count: 8}}\n")
+    assert "without damping" in kapitza("run", "scene.yaml", folder=tmp_path).stdout

@@ -1,0 +1,117 @@
+/* Shares and their intervals, Pareto fronts, orders of cost, the order of sampled cells; the table of settings. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "../../src/study/setting.h"
+#include "../../src/study/share.h"
+
+/* Wilson's limits solve (share - p)^2 = z^2 p (1 - p)/n. */
+static void test_wilson_solves_its_equation(void **state) {
+  (void)state;
+  const int64_t cases[][2] = {{0, 10}, {1, 10}, {5, 10}, {10, 10}, {3, 4000}, {123, 456}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    const double n = (double)cases[i][1], z = 1.959963984540054;
+    const kz_share s = kz_share_of(cases[i][0], cases[i][1]);
+    assert_true(s.share == (double)cases[i][0] / n && s.low <= s.share && s.share <= s.high);
+    const double ends[] = {s.low, s.high};
+    for (int e = 0; e < 2; e++) {
+      if ((e == 0 && s.share == 0) || (e == 1 && s.share == 1)) continue;
+      const double p = ends[e];
+      assert_true(fabs((s.share - p) * (s.share - p) - z * z * p * (1 - p) / n) < 1e-12);
+    }
+  }
+  assert_true(kz_share_of(0, 0).low == 0 && kz_share_of(0, 0).high == 1);
+}
+
+static void test_smallest_sample_proves_its_share(void **state) {
+  (void)state;
+  assert_int_equal(kz_share_sample(0.001), 3838);
+  for (double share = 0.5; share > 1e-4; share /= 3) {
+    const int64_t n = kz_share_sample(share);
+    assert_true(kz_share_of(0, n).high <= share);
+    assert_true(kz_share_of(0, n - 1).high > share);
+  }
+}
+
+static void test_pareto_front(void **state) {
+  (void)state;
+  const double seconds[] = {1, 2, 3, 2, 4, 1}, wrong[] = {0.5, 0.2, 0.2, 0.3, 0.1, 0.5};
+  const int8_t expected[] = {1, 1, 0, 0, 1, 1};
+  int8_t front[6];
+  kz_pareto(6, seconds, wrong, front);
+  assert_memory_equal(front, expected, sizeof expected);
+}
+
+static void test_cost_order_is_stable(void **state) {
+  (void)state;
+  const double cost[] = {3, 1, 2, 1, 0};
+  const int64_t expected[] = {4, 1, 3, 2, 0};
+  int64_t rank[5];
+  kz_cost_order(5, cost, rank);
+  assert_memory_equal(rank, expected, sizeof expected);
+}
+
+static void test_shuffled_cells_are_a_permutation(void **state) {
+  (void)state;
+  const int64_t totals[] = {1, 2, 3, 5, 16, 17, 1000, 10007};
+  for (size_t t = 0; t < sizeof totals / sizeof *totals; t++) {
+    char *seen = calloc((size_t)totals[t], 1);
+    assert_non_null(seen);
+    for (int64_t i = 0; i < totals[t]; i++) {
+      const int64_t cell = kz_shuffled(i, totals[t], 7);
+      assert_in_range(cell, 0, totals[t] - 1);
+      assert_int_equal(seen[cell], 0);
+      seen[cell] = 1;
+    }
+    free(seen);
+  }
+}
+
+/* A sample looks random: every quarter of the cells gets its share, and another seed chooses others. */
+static void test_shuffled_cells_spread(void **state) {
+  (void)state;
+  int quarter[4] = {0}, same = 0;
+  for (int64_t i = 0; i < 4000; i++) {
+    quarter[4 * kz_shuffled(i, 1000000, 1) / 1000000]++;
+    same += kz_shuffled(i, 1000000, 1) == kz_shuffled(i, 1000000, 2);
+  }
+  for (int q = 0; q < 4; q++) assert_in_range(quarter[q], 880, 1120);
+  assert_in_range(same, 0, 3);
+}
+
+static void test_settings_differ_and_exist(void **state) {
+  (void)state;
+  for (int i = 0; i < kz_setting_count; i++) {
+    assert_true(kz_setting_numerics(kz_settings + i).scheme < kz_scheme_count());
+    assert_non_null(strstr(kz_tradeoff_words(), kz_settings[i].label));
+    for (int j = 0; j < i; j++) assert_string_not_equal(kz_settings[i].label, kz_settings[j].label);
+  }
+}
+
+/* More cells, more periods, more steps and more nodes never cost less. */
+static void test_cost_grows(void **state) {
+  (void)state;
+  for (int i = 0; i < kz_setting_count; i++) {
+    kz_setting more = kz_settings[i];
+    const double cost = kz_setting_cost(&more, 1e6, 10);
+    assert_true(kz_setting_cost(&more, 2e6, 10) > cost && kz_setting_cost(&more, 1e6, 20) > cost);
+    more.steps *= 2;
+    assert_true(kz_setting_cost(&more, 1e6, 10) > cost);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_wilson_solves_its_equation), cmocka_unit_test(test_smallest_sample_proves_its_share),
+      cmocka_unit_test(test_pareto_front),               cmocka_unit_test(test_cost_order_is_stable),
+      cmocka_unit_test(test_shuffled_cells_are_a_permutation), cmocka_unit_test(test_shuffled_cells_spread),
+      cmocka_unit_test(test_settings_differ_and_exist),  cmocka_unit_test(test_cost_grows),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
