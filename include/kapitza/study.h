@@ -120,6 +120,10 @@ typedef struct {
   kz_tradeoff_plan tradeoff;
 } kz_scene;
 
+/* Steps a period of the study `orbit`: those of the scene, or more where a fast motion needs them; a multiple of the samples. */
+enum { KZ_MOST_ORBIT_STEPS = 200000 };
+double kz_orbit_steps(const kz_scene *scene);
+
 /* What a study would cost. */
 typedef struct {
   int64_t cells;

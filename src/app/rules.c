@@ -132,8 +132,22 @@ static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
   kz_complain(reading, kz_tree_child(reading->root, "pendulum"), "pendulum", "%s", wrong);
 }
 
+/* What the resolved pendulum does not allow an orbit. */
+static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_orbit || reading->message[0]) return;
+  const double steps = kz_orbit_steps(scene), k = scene->parameters.pendulum.k;
+  if (steps > KZ_MOST_ORBIT_STEPS)
+    kz_complain(reading, kz_tree_find(reading->root, "orbit"), "orbit",
+                "needs %.3g steps a period for a motion this fast; at most %d: a slower start or weaker forces", steps,
+                KZ_MOST_ORBIT_STEPS);
+  if (scene->orbit.model == KZ_EFFECTIVE && fabs(k) >= 1)
+    kz_complain(reading, kz_tree_find(reading->root, "orbit.model"), "orbit.model",
+                "effective averages over a fast drive, abs(k) < 1, but k = %.9g; another model or a faster drive", k);
+}
+
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {numerics_rules, basin_rules, attractors_rules, orbit_rules, stability_rules, tradeoff_rules, pendulum_rules};
+static const rule rules[] = {numerics_rules,  basin_rules,    attractors_rules, orbit_rules,
+                             stability_rules, tradeoff_rules, pendulum_rules,   orbit_range_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

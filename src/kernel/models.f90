@@ -46,7 +46,7 @@ contains
     integer(c_int64_t) :: s
     integer :: stride, part
 
-    call make_model(code, pendulum, int(samples), model)
+    call make_model(code, pendulum, int(samples), velocity, model)
     stride = model%period%n_steps/int(samples)
     x = [theta, velocity]
     theta_out(0) = x(1)
@@ -59,16 +59,20 @@ contains
     end do
   end subroutine sample_model
 
-  !> The tables: fine steps, a multiple of the samples. The slow equation knows no drive: its force is 1.
-  subroutine make_model(code, pendulum, samples, model)
+  !> The tables: fine steps, more for fast motions, a multiple of the samples. The slow equation knows no drive: its force is 1.
+  subroutine make_model(code, pendulum, samples, velocity, model)
     integer(c_int32_t), intent(in) :: code
     type(pendulum_t), intent(in) :: pendulum
     integer, intent(in) :: samples
+    real(c_double), intent(in) :: velocity
     type(model_t), intent(out) :: model
     type(numerics_t) :: numerics
+    real(c_double) :: speed
 
+    speed = sqrt(abs(pendulum%k) + abs(pendulum%m))
+    if (code == EFFECTIVE) speed = sqrt(abs(pendulum%k) + pendulum%m**2) + abs(velocity)
     numerics = FINE
-    numerics%steps_per_period = samples*((FINE%steps_per_period + samples - 1)/samples)
+    numerics%steps_per_period = samples*ceiling(FINE%steps_per_period*max(1.0_c_double, speed)/samples)
     model%code = code
     model%pendulum = pendulum
     if (code == EFFECTIVE) then

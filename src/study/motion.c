@@ -9,20 +9,37 @@ static const double PI = 3.14159265358979323846;
 /* Samples a period that turning points and spectra need, whatever the scene wants to see. */
 enum { LEAST_SAMPLES = 96 };
 
-static int64_t multiple(int64_t unit, int64_t least) {
-  return unit * ((least + unit - 1) / unit);
+static double multiple(double unit, double least) {
+  return unit * ceil(least / unit);
+}
+
+/* Rad per drive radian: the fastest swing about an equilibrium. */
+static double swing(const kz_pendulum *p) {
+  return sqrt(fabs(p->k) + fabs(p->m));
+}
+
+static double samples_of(const kz_scene *scene) {
+  return multiple((double)scene->orbit.samples_per_period, LEAST_SAMPLES * fmax(1, swing(&scene->parameters.pendulum)));
+}
+
+double kz_orbit_steps(const kz_scene *scene) {
+  const double start = isfinite(scene->orbit.velocity) ? fabs(scene->orbit.velocity) : 0;
+  const double speed = 1 + 2 * swing(&scene->parameters.pendulum) + start;
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  return multiple(samples_of(scene), fmax(scene->numerics.steps_per_period, scheme.default_steps * speed / 2));
 }
 
 kz_status kz_mover_make(const kz_scene *scene, kz_mover *mover) {
   const kz_orbit_plan *orbit = &scene->orbit;
   const kz_pendulum *p = &scene->parameters.pendulum;
   bool inverted = orbit->model == KZ_MATHIEU && orbit->about == KZ_ABOUT_INVERTED;
-  *mover = (kz_mover){.model = orbit->model, .pendulum = *p, .samples = multiple(orbit->samples_per_period, LEAST_SAMPLES)};
+  *mover = (kz_mover){.model = orbit->model, .pendulum = *p, .samples = (int64_t)samples_of(scene)};
   if (inverted) mover->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
   if (inverted) mover->origin = PI;
   if (mover->model != KZ_PENDULUM) return KZ_OK;
   mover->numerics = scene->numerics;
-  mover->numerics.steps_per_period = (int32_t)multiple(mover->samples, scene->numerics.steps_per_period);
+  mover->numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);
   if (orbit->closed && mover->numerics.precision == KZ_SINGLE) mover->numerics.precision = KZ_DOUBLE;
   mover->plan = kz_plan_create(p, &mover->numerics);
   return mover->plan ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");

@@ -8,6 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+from kapitza_file import Result
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
@@ -146,3 +147,21 @@ def datasets(path):
     with h5py.File(path) as file:
         file.visititems(visit)
     return contents
+
+
+@pytest.fixture(scope="session")
+def model(kapitza, tmp_path_factory):
+    """model(pendulum, orbit={...} or attractors={...}) -> Result."""
+    folder = tmp_path_factory.mktemp("orbits")
+    made = {}
+
+    def call(pendulum, **studies):
+        text = json.dumps({"pendulum": pendulum, **studies})
+        if text not in made:
+            scene = folder / f"{len(made)}.yaml"
+            scene.write_text(text)
+            kapitza("run", scene, "-o", scene.with_suffix(".h5"))
+            made[text] = Result(scene.with_suffix(".h5"))
+        return made[text]
+
+    return call

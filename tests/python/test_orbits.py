@@ -1,37 +1,13 @@
-"""Orbits, cycles and their lines against the literature (reference.json), and what must hold for every orbit."""
+"""Orbits, cycles and their lines against the literature (reference.json)."""
 
-import json
 import os
-from math import exp, log, pi, sqrt
+from math import log, pi
 
 import numpy as np
 import pytest
 from conftest import ROOT
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from kapitza_file import Result
-
-REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
-NODDING = REFERENCE["multiple_nodding_cycles"]
-TURN = 2 * pi
-
-
-@pytest.fixture(scope="session")
-def model(kapitza, tmp_path_factory):
-    """model(pendulum, orbit={...} or attractors={...}) -> Result."""
-    folder = tmp_path_factory.mktemp("orbits")
-    made = {}
-
-    def call(pendulum, **studies):
-        text = json.dumps({"pendulum": pendulum, **studies})
-        if text not in made:
-            scene = folder / f"{len(made)}.yaml"
-            scene.write_text(text)
-            kapitza("run", scene, "-o", scene.with_suffix(".h5"))
-            made[text] = Result(scene.with_suffix(".h5"))
-        return made[text]
-
-    return call
+from orbit_scenes import BLACKBURN, FIGURES, NODDING, REFERENCE, WINDOW, closed, near, parameters
 
 
 @pytest.fixture(scope="session")
@@ -47,19 +23,6 @@ def drawn(kapitza, tmp_path_factory):
         return made[name]
 
     return call
-
-
-def closed(theta, velocity, **more):
-    return {"start": {"theta": theta, "velocity": velocity}, "closed": True, **more}
-
-
-def parameters(cycle):
-    return {"k": cycle["k"], "damping": float(cycle["beta"]), "m": cycle["m"]}
-
-
-def near(angle, other=0.0):
-    """The difference of two angles around the circle."""
-    return abs((angle - other + pi) % TURN - pi)
 
 
 def expected_name(cycle):
@@ -192,9 +155,6 @@ def test_butikov_fig12(drawn):
         assert j == 0 or abs(sine - wanted[f"S{j}"]) < 1e-7
 
 
-BLACKBURN = {"quality_factor": 5, "drive_frequency": 11}
-FIGURES = REFERENCE["blackburn_fig11_15_attractors_Q5_Omega11"]
-WINDOW = {"velocity": {"min": -1.5, "max": 1.5}}
 
 
 @pytest.mark.parametrize("epsilon", FIGURES)
@@ -248,137 +208,3 @@ def test_every_search_finds_the_same(model, epsilon):
     most = max(set(lists), key=lists.count)
     assert len(most) >= len(FIGURES[epsilon]["attractors"])
     assert lists.count(most) >= 0.99 * len(lists)
-
-
-def test_listed_orbit_equals_its_lines(model):
-    """The orbit of a listed attractor has the lines of the catalogue."""
-    pendulum = {**BLACKBURN, "drive_amplitude": 0.3}
-    listed = model(pendulum, attractors=WINDOW).group("attractors")
-    for id_ in range(listed.sizes["attractor"]):
-        orbit = model(pendulum, attractors=WINDOW, orbit={"attractor": id_}).group("orbit")
-        assert orbit.attrs["name"] == str(listed["name"].values[id_])
-        assert orbit.attrs["dominant_line"] == listed["dominant_line"].values[id_]
-        count = orbit.sizes["line_frequency"]
-        assert np.abs(orbit["line_amplitude"].values - listed["line_amplitude"].values[id_, :count]).max() < 1e-11
-
-
-def test_open_record_tells_the_period(model):
-    """The settled motion, not closed by Newton: its windowed lines tell n and the winding of the cycle that attracts it."""
-    cycle = NODDING["n4_bottom_k0.02_m0.307_Q8"]
-    theta, velocity = map(float, cycle["strobe_theta_v_at_t0"][0])
-    start = {"theta": theta + 0.01, "velocity": velocity}
-    orbit = model(parameters(cycle), orbit={"start": start, "transient": 800, "periods": 200}).group("orbit")
-    assert (orbit.attrs["closed"], orbit.attrs["period"], orbit.attrs["winding"]) == (0, 4, 0)
-    spin = FIGURES["0.300"]["attractors"][4]
-    start = dict(zip(("theta", "velocity"), map(float, spin["strobe_points"][0]), strict=True))
-    orbit = model({**BLACKBURN, "drive_amplitude": 0.3}, orbit={"start": start, "periods": 300}).group("orbit")
-    assert (orbit.attrs["closed"], orbit.attrs["period"], orbit.attrs["winding"]) == (0, 6, 2)
-
-
-def test_chaos_is_never_a_long_period(model):
-    pendulum = {"k": 0.25, "damping": 0.05, "m": 0.5}
-    listed = model(pendulum, attractors={"velocity": {"min": -2, "max": 2}}).group("attractors")
-    assert [str(name) for name in listed["name"].values] == ["chaotic"]
-    assert listed["lyapunov"].values[0] > 5 * listed["lyapunov_error"].values[0] > 0
-    orbit = model(pendulum, orbit={"start": {"theta": 1, "velocity": 0.2}, "transient": 1000, "periods": 400}).group("orbit")
-    assert orbit.attrs["period"] == 0
-    assert orbit.attrs["lyapunov"] > 5 * orbit.attrs["lyapunov_error"] > 0
-    assert abs(orbit.attrs["lyapunov"] - listed["lyapunov"].values[0]) < 6 * orbit.attrs["lyapunov_error"]
-
-
-@settings(max_examples=8, deadline=None)
-@given(st.sampled_from(sorted(NODDING)))
-def test_mirror_orbit_has_mirrored_lines(model, key):
-    cycle = NODDING[key]
-    theta, velocity = map(float, cycle["strobe_theta_v_at_t0"][0])
-    one, other = (model(parameters(cycle), orbit=closed(sign * theta, sign * velocity)).group("orbit") for sign in (1, -1))
-    assert np.abs(one["line_amplitude"].values - other["line_amplitude"].values).max() < 1e-12
-    strong = one["line_amplitude"].values > 1e-6
-    assert near(one["line_phase"].values[strong], other["line_phase"].values[strong] + pi).max() < 1e-6
-
-
-def test_effective_model_follows_the_mean(model):
-    """The slow equation near the top of the well: close to the mean of the full motion, to the order of the fast swing."""
-    pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.2}
-    start = {"theta": pi - 0.1, "velocity": 0}
-    full, slow = (model(pendulum, orbit={"start": start, "periods": 40, "model": name}).group("orbit")
-                  for name in ("pendulum", "effective"))
-    assert np.abs(full["strobe_theta"].values - slow["strobe_theta"].values).max() < 0.2 * 0.2
-    assert slow.attrs["centre"] == 1
-
-
-def test_effective_decay_rate(model):
-    """About the top the slow motion is a damped oscillator: its turning points shrink by exp(-beta t/2)."""
-    omega, quality, m = 11, 5, 0.2
-    k, beta = omega**-2, 1 / (omega * quality)
-    orbit = model({"quality_factor": quality, "drive_frequency": omega, "drive_amplitude": m},
-                  orbit={"start": {"theta": pi - 1e-4, "velocity": 0}, "model": "effective", "periods": 100}).group("orbit")
-    stiffness = -(k - 0.5 * m**2 * (1 + k) / ((1 + k) ** 2 + beta**2))
-    half_swing = pi / sqrt(stiffness - beta**2 / 4)
-    assert np.abs(np.diff(orbit["maximum_time"].values) - half_swing).max() < 1e-5
-    angle = orbit["maximum_angle"].values
-    assert np.abs(angle[1:] / angle[:-1] + exp(-beta * half_swing / 2)).max() < 1e-6
-
-
-START = {"start": {"theta": 0, "velocity": 0}}
-RESOLVED = {
-    "listed": {"attractors": {**WINDOW, "starts": 512}, "orbit": {"attractor": 0}},
-    "linear": {"orbit": {**START, "model": "mathieu", "transient": 2, "periods": 3, "samples_per_period": 7}},
-    "closed": {"orbit": {"start": {"theta": 3, "velocity": 1.07}, "closed": True}},
-}
-
-
-@pytest.mark.parametrize("name", RESOLVED)
-def test_resolved_scene_gives_the_same(kapitza, tmp_path, name):
-    text = json.dumps({"pendulum": {**BLACKBURN, "drive_amplitude": 0.3}, **RESOLVED[name]})
-    runs = []
-    for _ in range(2):
-        (tmp_path / "s.yaml").write_text(text)
-        kapitza("run", "s.yaml", "--force", folder=tmp_path)
-        result = Result(tmp_path / "s.h5")
-        text = result.attributes["scene_resolved"]
-        runs.append([result.group(group) for group in RESOLVED[name]])
-    assert all(one.identical(other) for one, other in zip(*runs, strict=True))
-
-
-REFUSED = {
-    "no start": ({}, "orbit.start: is missing"),
-    "start and attractor": ({**START, "attractor": 0}, "orbit.start: contradicts attractor"),
-    "open attractor": ({"attractor": 0, "closed": False}, "orbit.closed: contradicts attractor", {"attractors": WINDOW}),
-    "no catalogue": ({"attractor": 0}, "orbit.attractor: has no catalogue"),
-    "about the pendulum": ({**START, "about": "down"}, "orbit.about"),
-    "closed slow motion": ({**START, "model": "effective", "closed": True}, "orbit.closed"),
-    "period of an open orbit": ({**START, "period": 3}, "orbit.period"),
-    "closed linear motion of any period": ({**START, "model": "mathieu", "closed": True}, "orbit.period"),
-    "half a start": ({"start": {"theta": 0}}, "orbit.start.velocity: is missing"),
-    "no samples": ({**START, "samples_per_period": 0}, "orbit.samples_per_period"),
-}
-
-
-@pytest.mark.parametrize("name", REFUSED)
-def test_contradictions_are_refused(kapitza, tmp_path, name):
-    orbit, named, *others = REFUSED[name]
-    scene = {"pendulum": {"k": 0, "damping": 0.05, "m": 0.3}, "orbit": orbit}
-    (tmp_path / "s.yaml").write_text(json.dumps({**scene, **dict(*others)}))
-    done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
-    assert named in done.stderr and done.stderr.count("\n") == 1
-    assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
-
-
-FAILING = {
-    "another period": (closed(0.0767, 0.2707, period=8), "closes after 4"),
-    "no such cycle": (closed(1.5, 1.5, period=3), "no cycle of 3 periods"),
-    "overflow": ({"start": {"theta": 0.1, "velocity": 0}, "model": "mathieu", "about": "inverted", "periods": 10000},
-                 "range of numbers"),
-}
-
-
-@pytest.mark.parametrize("name", FAILING)
-def test_what_cannot_be_modelled_fails(kapitza, tmp_path, name):
-    orbit, named = FAILING[name]
-    drive = 0.05 if name == "overflow" else 0.307
-    pendulum = {"quality_factor": 8, "drive_frequency": 7.0710678118654755, "drive_amplitude": drive}
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "orbit": orbit}))
-    done = kapitza("run", "s.yaml", folder=tmp_path, status=1)
-    assert named in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
