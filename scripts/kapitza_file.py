@@ -19,6 +19,7 @@ NEEDED = {
     "stability": ["k", "m", "log_multiplier", "angle", "stable"],
     "potential": ["theta", "drive_amplitude", "energy", "energy_blackburn", "energy_simple", "rim_exact"],
     "basin": ["theta", "velocity", "attractor", "settling_time", "evidence"],
+    "sweep": ["value"],
 }
 
 

@@ -4,6 +4,7 @@
 #define KAPITZA_STUDY_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -85,6 +86,27 @@ typedef struct {
 /* The labels of the settings that a trade-off compares, joined by '|'. */
 const char *kz_tradeoff_words(void);
 
+/* What a sweep measures, and which key of the pendulum mapping it walks along: indices of the words of the scene. */
+enum {
+  KZ_SWEEP_ATTRACTORS,
+  KZ_SWEEP_BASIN_FRACTIONS,
+  KZ_SWEEP_FLUTTER_AMPLITUDE,
+  KZ_SWEEP_FLUTTER_ZONE,
+  KZ_SWEEP_RELEASE_ANGLE,
+  KZ_SWEEP_STROBE
+};
+
+/* Study `sweep`. */
+typedef struct {
+  int32_t parameter;      /* row of kz_sweep_parameters */
+  kz_axis values;         /* both ends included */
+  kz_integers measure;
+  kz_axis theta, velocity; /* window of starts; the axes' counts are of no meaning */
+  int64_t starts, max_period, seed;
+  double start_theta, start_velocity; /* of the bifurcation diagram */
+  int64_t transient, samples;         /* drive periods at each value before the record, and of it */
+} kz_sweep_plan;
+
 /* The pendulum mapping as written, in one of three forms; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                               /* a: Q, Omega, epsilon */
@@ -118,11 +140,24 @@ typedef struct {
   kz_potential_plan potential;
   bool has_tradeoff;
   kz_tradeoff_plan tradeoff;
+  bool has_sweep;
+  kz_sweep_plan sweep;
 } kz_scene;
 
 /* Steps a period of the study `orbit`: those of the scene, or more where a fast motion needs them; a multiple of the samples. */
 enum { KZ_MOST_ORBIT_STEPS = 200000 };
 double kz_orbit_steps(const kz_scene *scene);
+
+/* The keys of the pendulum mapping that a sweep can walk along, in the order of the words of the scene. */
+typedef struct {
+  const char *name, *unit;
+  size_t offset; /* in kz_pendulum_keys */
+} kz_sweep_parameter;
+enum { KZ_SWEEP_PARAMETERS = 13 };
+extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
+
+/* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping). */
+bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
 
 /* What a study would cost. */
 typedef struct {

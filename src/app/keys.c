@@ -161,5 +161,33 @@ const kz_key kz_keys[] = {
     MAPPING("potential.theta", "", KZ_NO_FIELD, "Angles from -pi to pi, both ends included."),
     INTEGER("potential.theta.count", 2, 1e6, "721", potential.theta_count, "Number of angles."),
 
+    MAPPING("sweep", "", AT(has_sweep), "Study: quantities along one key of the pendulum mapping."),
+    WORD("sweep.parameter",
+         "quality_factor|drive_frequency|drive_amplitude|k|damping|m|mass|radius|inertia|friction|gravity|pivot_amplitude|"
+         "pivot_frequency",
+         NULL, sweep.parameter, "Key of the pendulum mapping, as written there, that takes the values."),
+    REAL("sweep.min", "", -DBL_MAX, DBL_MAX, NULL, sweep.values.min, "First value."),
+    REAL("sweep.max", "", -DBL_MAX, DBL_MAX, NULL, sweep.values.max, "Last value."),
+    INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Values, both ends included."),
+    ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(sweep.measure),
+          "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
+          "of the starts; flutter_amplitude: of the period-2 cycle about inverted; flutter_zone: how far flutter reaches when "
+          "m is raised; release_angle: from rest; strobe: a bifurcation diagram.",
+        .unit = "", .words = "attractors|basin_fractions|flutter_amplitude|flutter_zone|release_angle|strobe"),
+    MAPPING("sweep.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
+    REAL("sweep.theta.min", "rad", -1e6, 1e6, "", sweep.theta.min, "Lower edge of the window."),
+    REAL("sweep.theta.max", "rad", -1e6, 1e6, "", sweep.theta.max, "Upper edge of the window."),
+    MAPPING("sweep.velocity", "", KZ_NO_FIELD, "Velocities of the starts; a grid of basin has its own window."),
+    REAL("sweep.velocity.min", "rad per drive radian", -1e9, 1e9, "-2", sweep.velocity.min, "Lower edge of the window."),
+    REAL("sweep.velocity.max", "rad per drive radian", -1e9, 1e9, "2", sweep.velocity.max, "Upper edge of the window."),
+    INTEGER("sweep.starts", 1, 1e7, "2048", sweep.starts, "Starts of the search at each value."),
+    INTEGER("sweep.max_period", 1, 512, "48", sweep.max_period, "Longest period that is looked for."),
+    INTEGER("sweep.seed", 0, 9007199254740992.0, "1", sweep.seed, "Chooses the starts."),
+    MAPPING("sweep.start", "", KZ_NO_FIELD, "Where both walks of strobe start."),
+    REAL("sweep.start.theta", "rad", -1e6, 1e6, "3.1", sweep.start_theta, "Angle from down."),
+    REAL("sweep.start.velocity", "rad per drive radian", -1e9, 1e9, "0", sweep.start_velocity, "Velocity."),
+    INTEGER("sweep.transient", 0, 1e7, "400", sweep.transient, "Drive periods of strobe at each value before the record."),
+    INTEGER("sweep.samples", 1, 1e5, "64", sweep.samples, "Strobe points of each walk at each value."),
+
     {.path = NULL},
 };

@@ -114,6 +114,41 @@ static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
               "has no window to label; a basin study in the same scene");
 }
 
+/* One value of the swept key: in the range of the key itself, and a pendulum. */
+static void sweep_value(kz_reading *reading, const kz_scene *scene, const char *path, double value) {
+  char key[64];
+  kz_pendulum pendulum;
+  const kz_node *node = kz_tree_find(reading->root, path);
+  snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[scene->sweep.parameter].name);
+  const double low = kz_key_find(reading->keys, key)->low;
+  if (isnan(value)) return;
+  if (value < low)
+    kz_complain(reading, node, path, "%.17g is below what %s takes; %s%g", value, key, low > 0 && low < 1e-300 ? "above " : "at least ",
+                low > 0 && low < 1e-300 ? 0.0 : low);
+  else if (!reading->message[0] && !kz_sweep_pendulum(scene, value, &pendulum))
+    kz_complain(reading, node, path, "%.17g gives no finite k, beta >= 0 and m; a less extreme value", value);
+}
+
+static void sweep_rules(kz_reading *reading, kz_scene *scene) {
+  kz_sweep_plan *sweep = &scene->sweep;
+  char key[64];
+  if (!scene->has_sweep) return;
+  theta_window(reading, &sweep->theta, "sweep.theta");
+  check_axis(reading, &sweep->velocity, "sweep.velocity");
+  check_axis(reading, &sweep->values, "sweep");
+  if (scene->has_basin && !isnan(scene->basin.accuracy))
+    kz_complain(reading, kz_tree_find(reading->root, "basin.accuracy"), "basin.accuracy",
+                "is chosen for one pendulum, a sweep has many; method, icm and numerics instead");
+  if (sweep->parameter == KZ_UNSET_WORD) return;
+  const kz_node *node = kz_tree_find(reading->root, "sweep.parameter");
+  snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[sweep->parameter].name);
+  if (!kz_tree_find(reading->root, key))
+    kz_complain(reading, node, "sweep.parameter", "%s is not given in the pendulum mapping; a key that is written there",
+                kz_sweep_parameters[sweep->parameter].name);
+  sweep_value(reading, scene, "sweep.min", sweep->values.min);
+  sweep_value(reading, scene, "sweep.max", sweep->values.max);
+}
+
 /* The scheme's own steps where the scene gives none. */
 static void numerics_rules(kz_reading *reading, kz_scene *scene) {
   (void)reading;
@@ -146,8 +181,8 @@ static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {numerics_rules,  basin_rules,    attractors_rules, orbit_rules,
-                             stability_rules, tradeoff_rules, pendulum_rules,   orbit_range_rules};
+static const rule rules[] = {numerics_rules,  basin_rules,    attractors_rules, orbit_rules,       stability_rules,
+                             tradeoff_rules, pendulum_rules, orbit_range_rules, sweep_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

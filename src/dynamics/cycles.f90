@@ -5,6 +5,7 @@ module kz_dynamics_cycles
   implicit none
   private
   public :: attractor_t, sheared, polish_cycle, close_cycle, mirror_image, apart, listed_from_lowest, eigenvalues
+  public :: n_periods, solved, minimal_period, orbit_of
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t

@@ -116,11 +116,22 @@ contains
   !> Turns the drift times into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
   subroutine damp(period)
     type(period_t), intent(inout) :: period
-    integer :: i
+    !> drifts repeat from step to step
+    integer, parameter :: BACK = 20
+    real(qp) :: time(size(period%drift))
+    integer :: i, like
 
-    period%decay = exp(-period%beta*period%drift)
-    do i = 1, size(period%drift)
-      period%drift(i) = period%drift(i)*mean_decay(period%beta*period%drift(i))
+    time = period%drift
+    allocate (period%decay(size(time)))
+    do i = 1, size(time)
+      like = findloc(time(max(1, i - BACK):i), time(i), dim=1) + max(0, i - BACK - 1)
+      if (like < i) then
+        period%decay(i) = period%decay(like)
+        period%drift(i) = period%drift(like)
+      else
+        period%decay(i) = exp(-period%beta*time(i))
+        period%drift(i) = time(i)*mean_decay(period%beta*time(i))
+      end if
     end do
   end subroutine damp
 

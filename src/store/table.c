@@ -15,6 +15,8 @@
       0                                                   \
     }                                                     \
   }
+#define OWN "as the attribute parameter_units of the group" /* of a swept key */
+#define END_KINDS "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"
 
 const kz_variable kz_variables[] = {
     /* group, name, kind, dimensions, units, long name, flag meanings */
@@ -225,6 +227,46 @@ const kz_variable kz_variables[] = {
     {"tradeoff", "seconds", KZ_REAL, {"setting"}, "s", "processor time of one core for the map table and all cells of the basin", {0}},
     {"tradeoff", "seconds_per_million_cells", KZ_REAL, {"setting"}, "s", "processor time of one core to label a million cells", {0}},
     {"tradeoff", "pareto", KZ_INT8, {"setting"}, NONE, "whether no other setting is as quick and as right", {"no", "yes"}},
+
+    {"sweep", "value", KZ_REAL, {"value"}, OWN, "value of the swept key of the pendulum", {0}},
+    {"sweep", "branch", KZ_INT32, {"branch"}, NONE, "number of the branch", {0}},
+    {"sweep", "branch_name", KZ_TEXT, {"branch"}, NONE, "name of the attractor where the branch begins", {0}},
+    {"sweep", "branch_period", KZ_INT32, {"branch"}, PERIODS, "period of the orbit; 0 = aperiodic (chaotic)", {0}},
+    {"sweep", "branch_winding", KZ_INT32, {"branch"}, NONE, "net turns in one period of the orbit, + counterclockwise", {0}},
+    {"sweep",
+     "branch_centre",
+     KZ_INT8,
+     {"branch"},
+     NONE,
+     "what the orbit moves about where the branch begins",
+     {"down", "inverted", "rotating", "none"}},
+    {"sweep", "branch_symmetric", KZ_INT8, {"branch"}, NONE, "whether the orbit is its own mirror image", {"no", "yes"}},
+    {"sweep", "branch_mirror", KZ_INT32, {"branch"}, NONE, "number of the branch of mirror images; -1 = not seen", {0}},
+    {"sweep", "branch_start", KZ_REAL, {"branch"}, OWN, "lowest value at which the branch exists and attracts", {0}},
+    {"sweep", "branch_end", KZ_REAL, {"branch"}, OWN, "highest value at which the branch exists and attracts", {0}},
+    {"sweep", "branch_start_kind", KZ_INT8, {"branch"}, NONE, "how the branch begins", {END_KINDS}},
+    {"sweep", "branch_end_kind", KZ_INT8, {"branch"}, NONE, "how the branch ends", {END_KINDS}},
+    {"sweep", "branch_amplitude", KZ_REAL, {"value", "branch"}, ANGLE, "largest angle from the centre; NaN = not there", {0}},
+    {"sweep", "branch_multiplier", KZ_REAL, {"value", "branch"}, NONE, "modulus of the largest Floquet multiplier", {0}},
+    {"sweep", "branch_theta", KZ_REAL, {"value", "branch"}, ANGLE, "angle of one strobe point from down", {0}},
+    {"sweep", "branch_velocity", KZ_REAL, {"value", "branch"}, VELOCITY, "angular velocity of the same strobe point", {0}},
+    {"sweep", "fraction", KZ_REAL, {"value", "branch"}, NONE, "share of the cells or starts; NaN = not there", {0}},
+    {"sweep", "fraction_low", KZ_REAL, {"value", "branch"}, NONE, "lower end of the 95 % interval of the share (Wilson)", {0}},
+    {"sweep", "fraction_high", KZ_REAL, {"value", "branch"}, NONE, "upper end of the 95 % interval of the share (Wilson)", {0}},
+    {"sweep", "flutter_amplitude", KZ_REAL, {"value"}, ANGLE, "largest angle from inverted of the attracting flutter", {0}},
+    {"sweep", "flutter_onset", KZ_REAL, {"value"}, NONE, "drive m at which the inverted state gives way to flutter", {0}},
+    {"sweep", "flutter_asymmetry", KZ_REAL, {"value"}, NONE, "drive m at which flutter loses its mirror symmetry", {0}},
+    {"sweep", "flutter_end", KZ_REAL, {"value"}, NONE, "drive m at which the cycles that follow double their period", {0}},
+    {"sweep", "flutter_release_end", KZ_REAL, {"value"}, NONE, "lowest drive m at which a release of 1 degree fails", {0}},
+    {"sweep", "release_angle", KZ_REAL, {"value"}, ANGLE, "angle from inverted at which a release from rest first fails", {0}},
+    {"sweep", "release_angle_scan", KZ_REAL, {"value"}, ANGLE, "the same by a scan in whole degrees, refined by bisection", {0}},
+    {"sweep", "release_angle_largest", KZ_REAL, {"value"}, ANGLE, "end of the last interval of releases that stay", {0}},
+    {"sweep", "release", KZ_REAL, {"release"}, ANGLE, "angle from inverted of a release from rest", {0}},
+    {"sweep", "release_stays", KZ_UINT8, {"value", "release"}, NONE, "whether the release stays about inverted", {"no", "yes"}},
+    {"sweep", "sample", KZ_INT32, {"sample"}, PERIODS, "strobe points of the walk up, then of the walk down", {0}},
+    {"sweep", "sample_walk", KZ_INT8, {"sample"}, NONE, "direction of the walk along the values", {"up", "down"}},
+    {"sweep", "strobe_theta", KZ_REAL, {"value", "sample"}, ANGLE, "angle of the strobe point from down", {0}},
+    {"sweep", "strobe_velocity", KZ_REAL, {"value", "sample"}, VELOCITY, "angular velocity of the strobe point", {0}},
 };
 const size_t kz_variable_count = sizeof kz_variables / sizeof *kz_variables;
 

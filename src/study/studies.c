@@ -5,6 +5,7 @@
 #include "orbit.h"
 #include "potential.h"
 #include "stability.h"
+#include "sweep.h"
 #include "tradeoff.h"
 
 const kz_study kz_studies[] = {
@@ -13,6 +14,7 @@ const kz_study kz_studies[] = {
     {"orbit", kz_orbit_wanted, kz_orbit_cost, kz_orbit_run},
     {"stability", kz_stability_wanted, kz_stability_cost, kz_stability_run},
     {"potential", kz_potential_wanted, kz_potential_cost, kz_potential_run},
+    {"sweep", kz_sweep_wanted, kz_sweep_cost, kz_sweep_run},
     {"tradeoff", kz_tradeoff_wanted, kz_tradeoff_cost, kz_tradeoff_run},
 };
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];

@@ -1,3 +1,4 @@
+kapitza_test(branches LABEL unit FLOOR dynamics)
 kapitza_test(dynamics LABEL unit FLOOR dynamics TIMEOUT 600)
 kapitza_test(kernel LABEL unit FLOOR kernel)
 kapitza_test(models LABEL unit FLOOR kernel)

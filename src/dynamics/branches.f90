@@ -1,0 +1,212 @@
+!> One cycle carried from parameters to parameters: include/kapitza/branches.h.
+module kz_dynamics_branches
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
+  use kz_kernel_map, only: flow_t, PI
+  use kz_kernel_plan, only: make_flow, FINE
+  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_dynamics_cycles, only: attractor_t, apart, eigenvalues, n_periods, solved, minimal_period, orbit_of
+  use kz_dynamics_portraits, only: portray
+  implicit none
+  private
+
+  type, bind(C) :: branch_point_t
+    real(dp) :: theta, velocity, amplitude, multiplier_re(2), multiplier_im(2), half_re(2), half_im(2)
+    real(dp) :: halves_apart, mirror_apart
+    integer(c_int32_t) :: period, winding, centre, symmetric
+  end type branch_point_t
+
+  !> A cycle nearer than this to its mirror image, or to one of half its period, is that one.
+  real(dp), parameter :: MERGED = 1e-7_dp
+  !> One cycle has one multiplier: two that differ by more belong to two.
+  real(dp), parameter :: ALIKE = 1e-2_dp
+  integer, parameter :: NEWTON_STEPS = 30
+
+contains
+
+  function continue_cycle(pendulum, from, reach, to) bind(C, name='kz_branch_continue') result(found)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> the cycle at other parameters
+    type(branch_point_t), intent(in) :: from
+    !> farthest that the new strobe point may lie from the old one, rad
+    real(dp), value :: reach
+    !> the cycle at these
+    type(branch_point_t), intent(inout) :: to
+    integer(c_int32_t) :: found
+    class(flow_t), allocatable :: flow
+    type(branch_point_t) :: point
+    real(dp) :: x(2)
+
+    found = 0
+    call make_flow(pendulum, numerics_of(pendulum), .true., flow)
+    x = [from%theta/PI, from%velocity]
+    if (.not. solves(flow, from, reach, x)) return
+    if (minimal_period(flow, int(from%period), x) /= from%period) return
+    point = from
+    call describe(flow, pendulum, x, point)
+    if (point%winding /= from%winding) return
+    if (from%symmetric == 0 .and. point%mirror_apart < MERGED) return
+    if (point%halves_apart < MERGED) return
+    found = 1
+    to = point
+  end function continue_cycle
+
+  function same_cycle(pendulum, a, b) bind(C, name='kz_branch_same') result(same)
+    !> k, beta, m of both
+    type(pendulum_t), intent(in) :: pendulum
+    !> a cycle
+    type(branch_point_t), intent(in) :: a
+    !> and perhaps the same
+    type(branch_point_t), intent(in) :: b
+    integer(c_int32_t) :: same
+    class(flow_t), allocatable :: flow
+    integer :: i
+
+    same = 0
+    if (a%period /= b%period .or. a%winding /= b%winding .or. a%symmetric /= b%symmetric) return
+    if (hypot(a%multiplier_re(1) - b%multiplier_re(1), abs(a%multiplier_im(1)) - abs(b%multiplier_im(1))) > ALIKE) return
+    if (distance([a%theta/PI, a%velocity], [b%theta/PI, b%velocity]) < MERGED) same = 1
+    if (same == 1 .or. a%period == 1) return
+    call make_flow(pendulum, numerics_of(pendulum), .true., flow)
+    call flow%put(1, a%theta/PI, a%velocity)
+    do i = 1, a%period - 1
+      call flow%advance(1)
+      if (distance([flow%u(1), flow%v(1)], [b%theta/PI, b%velocity]) < MERGED) same = 1
+    end do
+  end function same_cycle
+
+  !> The steps of published values: more where the torque is large.
+  pure function numerics_of(pendulum) result(numerics)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t) :: numerics
+
+    numerics = FINE
+    numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_dp, abs(pendulum%k) + abs(pendulum%m))))
+  end function numerics_of
+
+  !> Periods of the map that a cycle is a fixed point of.
+  pure function map_periods(cycle) result(n)
+    type(branch_point_t), intent(in) :: cycle
+    integer :: n
+
+    n = cycle%period
+    if (cycle%symmetric == 1) n = max(1, n/2)
+  end function map_periods
+
+  !> x becomes the fixed point near it; true where the steps shrink by half at least until rounding.
+  function solves(flow, cycle, reach, x) result(converged)
+    class(flow_t), intent(inout) :: flow
+    type(branch_point_t), intent(in) :: cycle
+    real(dp), intent(in) :: reach
+    real(dp), intent(inout) :: x(2)
+    logical :: converged
+    real(dp), parameter :: FLOOR = 1e-13_dp, ENOUGH = 1e-7_dp
+    real(dp) :: start(2), residual(2), matrix(2, 2), step(2), length, before
+    integer :: i
+
+    start = x
+    before = 2*reach
+    converged = .false.
+    do i = 1, NEWTON_STEPS
+      call defect(flow, cycle, x, residual, matrix)
+      step = solved(matrix, residual)
+      if (.not. all(abs(step) < huge(1.0_dp))) return
+      length = norm2(step)
+      converged = length < ENOUGH
+      if (length > 0.5_dp*before) exit
+      x = x - [step(1)/PI, step(2)]
+      before = length
+      if (length < FLOOR) exit
+    end do
+    x(1) = apart(x(1), 0.0_dp)
+    converged = converged .and. distance(x, start) <= reach
+  end function solves
+
+  !> residual = G(x) - x (rad) and G's derivative, G = F^n, or of symmetric cycles -F^(n/2).
+  subroutine defect(flow, cycle, x, residual, matrix)
+    class(flow_t), intent(inout) :: flow
+    type(branch_point_t), intent(in) :: cycle
+    real(dp), intent(in) :: x(2)
+    real(dp), intent(out) :: residual(2)
+    real(dp), intent(out) :: matrix(2, 2)
+
+    call n_periods(flow, map_periods(cycle), x, residual, matrix)
+    if (cycle%symmetric == 0) return
+    residual = [PI*apart(-flow%u(1), x(1)), -flow%v(1) - x(2)]
+    matrix = -matrix
+  end subroutine defect
+
+  !> Everything about the cycle through x but its period and symmetry, which `point` holds.
+  subroutine describe(flow, pendulum, x, point)
+    class(flow_t), intent(inout) :: flow
+    type(pendulum_t), intent(in) :: pendulum
+    real(dp), intent(in) :: x(2)
+    type(branch_point_t), intent(inout) :: point
+    class(flow_t), allocatable :: sampled
+    type(attractor_t) :: cycle
+    real(dp) :: residual(2), matrix(2, 2)
+    integer :: n
+
+    n = point%period
+    point%theta = PI*x(1)
+    point%velocity = x(2)
+    call orbit_of(flow, n, x, cycle, matrix)
+    call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*n)), point%multiplier_re, point%multiplier_im)
+    call defect(flow, point, x, residual, matrix)
+    call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*map_periods(point))), point%half_re, point%half_im)
+    call make_flow(pendulum, numerics_of(pendulum), .false., sampled)
+    call portray(sampled, pendulum, cycle, x(1), x(2), n)
+    point%winding = cycle%winding
+    point%centre = cycle%centre
+    point%amplitude = cycle%amplitude
+    point%halves_apart = halves_apart(cycle)
+    point%mirror_apart = 0
+    if (point%symmetric == 0) point%mirror_apart = nearest_point(cycle, -x)
+  end subroutine describe
+
+  subroutine set_pair(values, re, im)
+    complex(dp), intent(in) :: values(2)
+    real(dp), intent(out) :: re(2)
+    real(dp), intent(out) :: im(2)
+
+    re = real(values, dp)
+    im = aimag(values)
+  end subroutine set_pair
+
+  !> The strobe points of a cycle of even period that are half a period apart: how near the nearest such pair is, rad.
+  function halves_apart(cycle) result(least)
+    type(attractor_t), intent(in) :: cycle
+    real(dp) :: least
+    integer :: j, half
+
+    least = huge(1.0_dp)
+    half = cycle%period/2
+    if (2*half /= cycle%period) return
+    do j = 1, half
+      least = min(least, distance([cycle%u(j), cycle%v(j)], [cycle%u(j + half), cycle%v(j + half)]))
+    end do
+  end function halves_apart
+
+  !> From a state to the nearest strobe point, rad.
+  function nearest_point(cycle, x) result(least)
+    type(attractor_t), intent(in) :: cycle
+    real(dp), intent(in) :: x(2)
+    real(dp) :: least
+    integer :: j
+
+    least = huge(1.0_dp)
+    do j = 1, cycle%period
+      least = min(least, distance([cycle%u(j), cycle%v(j)], x))
+    end do
+  end function nearest_point
+
+  !> Of two states, rad.
+  pure function distance(a, b) result(d)
+    real(dp), intent(in) :: a(2)
+    real(dp), intent(in) :: b(2)
+    real(dp) :: d
+
+    d = hypot(PI*apart(a(1), b(1)), a(2) - b(2))
+  end function distance
+
+end module kz_dynamics_branches

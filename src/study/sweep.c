@@ -1,0 +1,104 @@
+/* Study `sweep`: quantities along one key of the pendulum mapping. */
+#include "sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
+const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
+    KEY(quality_factor, "1"), KEY(drive_frequency, "1"), KEY(drive_amplitude, "1"),      KEY(k, "1"),
+    KEY(damping, "1"),        KEY(m, "1"),               KEY(mass, "kg"),                KEY(radius, "m"),
+    KEY(inertia, "kg m2"),    KEY(friction, "kg m2 s-1"), KEY(gravity, "m s-2"),         KEY(pivot_amplitude, "m"),
+    KEY(pivot_frequency, "rad s-1"),
+};
+
+bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum) {
+  kz_parameters parameters = scene->parameters;
+  *(double *)((char *)&parameters.written + kz_sweep_parameters[scene->sweep.parameter].offset) = value;
+  if (kz_parameters_resolve(&parameters) != KZ_OK) {
+    kz_message_clear();
+    return false;
+  }
+  *pendulum = parameters.pendulum;
+  return pendulum->beta >= 0;
+}
+
+bool kz_sweep_wanted(const kz_scene *scene) {
+  return scene->has_sweep;
+}
+
+/* Rough seconds of one value on one core. */
+static double value_seconds(const kz_scene *scene) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  const double period = 1e-9 * (double)scheme.kicks * scene->numerics.steps_per_period;
+  const bool fractions = kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS);
+  double seconds = 0;
+  if (fractions || kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS)) seconds += 200 * period * (double)plan->starts + 0.1;
+  if (fractions && scene->has_basin)
+    seconds += (double)(scene->basin.table_theta * scene->basin.table_velocity) / 2 * (period + 1e-6) +
+               3e-7 * (double)(scene->basin.theta.count * scene->basin.velocity.count);
+  if (kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE)) seconds += 0.3;
+  if (kz_sweep_measures(plan, KZ_SWEEP_FLUTTER_ZONE)) seconds += 0.5;
+  if (kz_sweep_measures(plan, KZ_SWEEP_STROBE)) seconds += 2 * 4 * period * (double)(plan->transient + plan->samples);
+  return seconds;
+}
+
+kz_cost kz_sweep_cost(const kz_scene *scene) {
+  const double values = (double)scene->sweep.values.count;
+  const bool grid = kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS) && scene->has_basin;
+  const double nodes = grid ? (double)scene->basin.table_theta * (double)scene->basin.table_velocity : 0;
+  const double cells = grid ? (double)scene->basin.theta.count * (double)scene->basin.velocity.count : 0;
+  return (kz_cost){.cells = (int64_t)(cells * values),
+                   .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
+                   .memory_bytes = 5e7 + 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells,
+                   .core_seconds = values * value_seconds(scene)};
+}
+
+/* The catalogues and what joins them. */
+static kz_status run_branches(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  if (!kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS) && !kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) return KZ_OK;
+  kz_sweep_branches branches = {0};
+  kz_sweep_catalogue *catalogue = malloc((size_t)plan->values.count * sizeof *catalogue);
+  kz_status status = catalogue ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld catalogues", (long long)plan->values.count);
+  status = kz_team_agree(team, status);
+  if (status == KZ_OK) status = kz_sweep_catalogues(scene, team, catalogue);
+  if (status == KZ_OK) status = kz_sweep_branches_make(scene, team, catalogue, &branches);
+  if (status == KZ_OK && kz_team_rank(team) == 0)
+    status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
+  kz_sweep_branches_free(&branches);
+  free(catalogue);
+  return kz_team_agree(team, status);
+}
+
+static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_sweep_parameter *parameter = kz_sweep_parameters + plan->parameter;
+  double *values = malloc((size_t)plan->values.count * sizeof *values);
+  if (!values) return kz_fail(KZ_FAILED, "no memory for the values of the sweep");
+  for (int64_t i = 0; i < plan->values.count; i++) values[i] = kz_sweep_value(plan, i);
+  const kz_status status = kz_store_dimension(store, "sweep", "value", plan->values.count, values);
+  free(values);
+  KZ_TRY(status);
+  fprintf(summary, "sweep of %s, %lld values from %.10g to %.10g\n", parameter->name, (long long)plan->values.count,
+          plan->values.min, plan->values.max);
+  KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
+  return kz_store_text(store, "sweep", "parameter_units", parameter->unit);
+}
+
+kz_status kz_sweep_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  static const struct {
+    int64_t measure;
+    kz_status (*run)(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+  } parts[] = {{KZ_SWEEP_FLUTTER_AMPLITUDE, kz_sweep_flutter},
+               {KZ_SWEEP_FLUTTER_ZONE, kz_sweep_zone},
+               {KZ_SWEEP_RELEASE_ANGLE, kz_sweep_release},
+               {KZ_SWEEP_STROBE, kz_sweep_strobe}};
+  KZ_TRY(kz_team_agree(team, kz_team_rank(team) == 0 ? write_values(scene, store, summary) : KZ_OK));
+  KZ_TRY(run_branches(scene, team, store, summary));
+  for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
+    if (kz_sweep_measures(&scene->sweep, parts[i].measure)) KZ_TRY(parts[i].run(scene, team, store, summary));
+  return KZ_OK;
+}

@@ -1,0 +1,110 @@
+/* Inside of the study `sweep`: its parts. Values are those of the swept key of the pendulum mapping. */
+#ifndef KAPITZA_SWEEP_H
+#define KAPITZA_SWEEP_H
+
+#include "kapitza/branches.h"
+#include "kapitza/study.h"
+
+/* Value i of the sweep, both ends exact. */
+double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
+bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
+
+/* ---- walks: one cycle from value to value ---- */
+
+/* How a branch ends; the codes of the file. */
+enum {
+  KZ_END_OF_RANGE,
+  KZ_END_FOLD,
+  KZ_END_PERIOD_DOUBLING,
+  KZ_END_NEIMARK_SACKER,
+  KZ_END_SYMMETRY_BREAKING,
+  KZ_END_NOT_LOCATED
+};
+
+/* A pendulum for every value of one parameter: what a walk goes along. False where there is none. */
+typedef bool (*kz_pendulum_fn)(const void *context, double value, kz_pendulum *pendulum);
+typedef struct {
+  kz_pendulum_fn pendulum;
+  const void *context;
+} kz_path;
+
+/* The path of the sweep itself; `scene` must outlive it. */
+kz_path kz_sweep_path(const kz_scene *scene);
+
+/* Carries an attracting cycle from value `from` towards `to` in steps that shrink where it changes fast. Returns the last value
+ * where it exists and attracts: `to`, or its end to 1e-10 relative. *point comes back as the cycle there. */
+double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point);
+
+/* The kind of end that the multipliers of a cycle at its very end tell. */
+int kz_end_kind(const kz_branch_point *end);
+
+/* The state at rest, down (theta = 0) or inverted (pi), as a cycle to begin with. */
+kz_branch_point kz_rest(double theta);
+
+/* The attracting symmetric period-2 cycle about inverted (flutter) near the inverted state of a pendulum that has lost its
+ * stability by multiplier -1: the first that a ladder of amplitudes along the eigenvector leads to. */
+bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter);
+
+/* The value between low and high where a multiplier of the inverted state passes -1, to rounding: where 1 + trace + det of its
+ * one-period map changes sign. NaN where it does not. */
+double kz_flutter_critical(const kz_path *path, double low, double high);
+
+/* ---- catalogues: what attracts at each value ---- */
+
+enum { KZ_SWEEP_MOST = 128 }; /* attractors at one value */
+
+typedef struct {
+  kz_branch_point point; /* period 0 = chaotic: theta, velocity are its mean angle and mean velocity */
+  int64_t hits;          /* starts or cells that ended on it */
+} kz_sweep_entry;
+
+typedef struct {
+  int64_t count, samples; /* attractors; starts or cells that were followed */
+  kz_sweep_entry entries[KZ_SWEEP_MOST];
+} kz_sweep_catalogue;
+
+/* Fills catalogue [values.count] on every rank. Collective. */
+kz_status kz_sweep_catalogues(const kz_scene *scene, kz_team *team, kz_sweep_catalogue *catalogue);
+
+/* ---- branches: the same attractor along the values ---- */
+
+/* An attractor at one value, joined to its neighbours of the same branch. */
+typedef struct {
+  kz_sweep_entry entry;
+  int64_t value;            /* index */
+  int64_t previous, next;   /* nodes; -1 = none */
+  double first, last;       /* where the branch begins before or ends after this node, if it does */
+  int32_t first_kind, last_kind;
+} kz_sweep_node;
+
+typedef struct {
+  int64_t n_nodes, room;
+  kz_sweep_node *nodes;
+  int64_t n_branches, *first_node; /* [n_branches] in the order of the file */
+} kz_sweep_branches;
+
+/* Joins the catalogues by continuation. *branches is the same on every rank; freed by kz_sweep_branches_free. Collective. */
+kz_status kz_sweep_branches_make(const kz_scene *scene, kz_team *team, const kz_sweep_catalogue *catalogue,
+                                 kz_sweep_branches *branches);
+void kz_sweep_branches_free(kz_sweep_branches *branches);
+
+/* Everything about branches into the file and the summary. Rank 0. */
+kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue, const kz_sweep_branches *branches,
+                                  kz_store *store, FILE *summary);
+
+/* ---- the other measures: each runs its stage and, on rank 0, writes its variables. Collective. ---- */
+
+kz_status kz_sweep_flutter(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+kz_status kz_sweep_zone(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+kz_status kz_sweep_release(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+kz_status kz_sweep_strobe(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+
+/* Releases from rest at t = 0, `angle` [n] rad from inverted: stays [n] = 1 where the motion stays within half a turn of it. */
+kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays);
+
+/* One row of kz_studies. */
+bool kz_sweep_wanted(const kz_scene *scene);
+kz_cost kz_sweep_cost(const kz_scene *scene);
+kz_status kz_sweep_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+
+#endif

@@ -1,0 +1,236 @@
+/* Catalogues of neighbouring values joined into branches. Every attractor of a value is carried to the next one by continuation;
+ * where it arrives, it is the same branch, whether the search there had found it or not. What no lower value leads to is
+ * carried back to where it began. Rounds of walks, spread over the ranks, until nothing is left to walk. */
+#include "sweep.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* A walk from a node to its neighbour value, and how it went. */
+typedef struct {
+  int64_t node;
+  int32_t forward;
+} task;
+
+typedef struct {
+  double last; /* value reached */
+  int32_t arrived, kind;
+  kz_branch_point point;
+} outcome;
+
+typedef struct {
+  const kz_scene *scene;
+  kz_sweep_branches *branches;
+  const task *tasks;
+} walking;
+
+void kz_sweep_branches_free(kz_sweep_branches *branches) {
+  free(branches->nodes);
+  free(branches->first_node);
+  *branches = (kz_sweep_branches){0};
+}
+
+static kz_status add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value) {
+  if (branches->n_nodes == branches->room) {
+    const int64_t room = 2 * branches->room + 64;
+    kz_sweep_node *longer = realloc(branches->nodes, (size_t)room * sizeof *longer);
+    if (!longer) return kz_fail(KZ_FAILED, "no memory for the branches of a sweep");
+    branches->nodes = longer;
+    branches->room = room;
+  }
+  branches->nodes[branches->n_nodes++] = (kz_sweep_node){
+      .entry = *entry, .value = value, .previous = -1, .next = -1, .first = NAN, .last = NAN,
+      .first_kind = KZ_END_NOT_LOCATED, .last_kind = KZ_END_NOT_LOCATED};
+  return KZ_OK;
+}
+
+static kz_status walk_tile(void *context, int64_t tile, void *record) {
+  const walking *w = context;
+  const task *t = w->tasks + tile;
+  const kz_sweep_node *node = w->branches->nodes + t->node;
+  const kz_sweep_plan *plan = &w->scene->sweep;
+  const kz_path path = kz_sweep_path(w->scene);
+  outcome *out = record;
+  const double to = kz_sweep_value(plan, node->value + (t->forward ? 1 : -1));
+  out->point = node->entry.point;
+  out->last = kz_walk(&path, kz_sweep_value(plan, node->value), to, &out->point);
+  out->arrived = out->last == to;
+  if (!out->arrived) out->kind = kz_end_kind(&out->point);
+  return KZ_OK;
+}
+
+/* The node of a value that is this very cycle; -1 where there is none. */
+static int64_t find_node(const walking *w, int64_t value, const kz_branch_point *point) {
+  kz_pendulum pendulum;
+  if (!kz_sweep_pendulum(w->scene, kz_sweep_value(&w->scene->sweep, value), &pendulum)) return -1;
+  for (int64_t i = 0; i < w->branches->n_nodes; i++) {
+    const kz_sweep_node *node = w->branches->nodes + i;
+    if (node->value == value && node->entry.point.period > 0 && kz_branch_same(&pendulum, &node->entry.point, point)) return i;
+  }
+  return -1;
+}
+
+static void set_end(kz_sweep_node *node, bool forward, double last, int32_t kind) {
+  if (forward) {
+    node->last = last;
+    node->last_kind = kind;
+  } else {
+    node->first = last;
+    node->first_kind = kind;
+  }
+}
+
+/* Joins the node of a walk to where it arrived; *added = the node made there, -1 = none. */
+static kz_status join(const walking *w, const task *t, const outcome *out, int64_t *added) {
+  kz_sweep_branches *b = w->branches;
+  *added = -1;
+  if (!out->arrived) {
+    set_end(b->nodes + t->node, t->forward, out->last, out->kind);
+    return KZ_OK;
+  }
+  int64_t there = find_node(w, b->nodes[t->node].value + (t->forward ? 1 : -1), &out->point);
+  if (there < 0) {
+    KZ_TRY(add_node(b, &(kz_sweep_entry){.point = out->point}, b->nodes[t->node].value + (t->forward ? 1 : -1)));
+    there = *added = b->n_nodes - 1;
+  }
+  int64_t *back = t->forward ? &b->nodes[there].previous : &b->nodes[there].next;
+  if (*back >= 0) return KZ_OK; /* another cycle came first: this one ends without a place */
+  *back = t->node;
+  *(t->forward ? &b->nodes[t->node].next : &b->nodes[t->node].previous) = there;
+  return KZ_OK;
+}
+
+/* One round of walks; the nodes it added take the places of the tasks. */
+static kz_status walk_round(walking *w, kz_team *team, task *tasks, int64_t *n) {
+  outcome *outcomes = malloc((size_t)*n * sizeof *outcomes);
+  kz_status status = kz_team_agree(team, outcomes ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
+  w->tasks = tasks;
+  const kz_stage stage = {.name = "sweep branches",
+                          .n_tiles = *n,
+                          .record_bytes = sizeof *outcomes,
+                          .work = walk_tile,
+                          .context = w,
+                          .everywhere = true};
+  if (status == KZ_OK) status = kz_stage_run(team, &stage, outcomes);
+  int64_t left = 0, added;
+  for (int64_t i = 0; status == KZ_OK && i < *n; i++) {
+    status = join(w, tasks + i, outcomes + i, &added);
+    if (added >= 0) tasks[left++] = (task){added, tasks[i].forward};
+  }
+  free(outcomes);
+  *n = left;
+  return kz_team_agree(team, status);
+}
+
+/* Cycles without a neighbour in that direction, the ends of the range left out. */
+static int64_t list_tasks(const walking *w, bool forward, task *tasks) {
+  const kz_sweep_branches *b = w->branches;
+  const int64_t edge = forward ? w->scene->sweep.values.count - 1 : 0;
+  int64_t n = 0;
+  for (int64_t i = 0; i < b->n_nodes; i++) {
+    const kz_sweep_node *node = b->nodes + i;
+    if (node->entry.point.period == 0 || node->value == edge || (forward ? node->next : node->previous) >= 0) continue;
+    tasks[n++] = (task){i, forward};
+  }
+  return n;
+}
+
+/* Tasks whose node has come to the edge of the range are done. */
+static int64_t drop_edge(const walking *w, task *tasks, int64_t n) {
+  int64_t left = 0;
+  for (int64_t i = 0; i < n; i++) {
+    const int64_t edge = tasks[i].forward ? w->scene->sweep.values.count - 1 : 0;
+    if (w->branches->nodes[tasks[i].node].value != edge) tasks[left++] = tasks[i];
+  }
+  return left;
+}
+
+static kz_status walk_all(walking *w, kz_team *team, bool forward) {
+  task *tasks = malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
+  kz_status status = kz_team_agree(team, tasks ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
+  int64_t n = status == KZ_OK ? list_tasks(w, forward, tasks) : 0;
+  while (status == KZ_OK && n > 0) {
+    status = walk_round(w, team, tasks, &n);
+    n = drop_edge(w, tasks, n);
+  }
+  free(tasks);
+  return status;
+}
+
+/* How unlike two chaotic attractors are: their mean angles and velocities (point.theta, point.velocity). */
+static double unlike(const kz_branch_point *a, const kz_branch_point *b) {
+  return fabs(remainder(a->theta - b->theta, 2 * PI)) + fabs(a->velocity - b->velocity);
+}
+
+/* Chaotic attractors have no cycle to carry: each joins the one of the next value that is most like it. */
+static void join_chaotic(kz_sweep_branches *b) {
+  for (int64_t i = 0; i < b->n_nodes; i++) {
+    int64_t best = -1;
+    for (int64_t j = 0; b->nodes[i].entry.point.period == 0 && j < b->n_nodes; j++) {
+      const kz_sweep_node *other = b->nodes + j;
+      if (other->entry.point.period != 0 || other->value != b->nodes[i].value + 1 || other->previous >= 0) continue;
+      if (best < 0 || unlike(&b->nodes[i].entry.point, &other->entry.point) <
+                          unlike(&b->nodes[i].entry.point, &b->nodes[best].entry.point))
+        best = j;
+    }
+    if (best < 0) continue;
+    b->nodes[i].next = best;
+    b->nodes[best].previous = i;
+  }
+}
+
+/* By centre, period (chaotic last), |winding|/period, + first, the value where it begins, first strobe velocity and angle. */
+static bool before(const kz_sweep_node *a, const kz_sweep_node *b) {
+  const kz_branch_point *p = &a->entry.point, *q = &b->entry.point;
+  const double keys[][2] = {{p->centre, q->centre},
+                            {p->period > 0 ? p->period : INFINITY, q->period > 0 ? q->period : INFINITY},
+                            {abs(p->winding) / fmax(p->period, 1), abs(q->winding) / fmax(q->period, 1)},
+                            {-p->winding, -q->winding},
+                            {(double)a->value, (double)b->value},
+                            {p->velocity, q->velocity},
+                            {p->theta, q->theta}};
+  for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+    if (keys[i][0] != keys[i][1]) return keys[i][0] < keys[i][1];
+  return false;
+}
+
+static kz_status list_branches(kz_sweep_branches *b) {
+  b->first_node = malloc((size_t)(b->n_nodes + 1) * sizeof *b->first_node);
+  if (!b->first_node) return kz_fail(KZ_FAILED, "no memory for the branches of a sweep");
+  for (int64_t i = 0; i < b->n_nodes; i++) {
+    if (b->nodes[i].previous >= 0) continue;
+    int64_t j = b->n_branches++;
+    for (; j > 0 && before(b->nodes + i, b->nodes + b->first_node[j - 1]); j--) b->first_node[j] = b->first_node[j - 1];
+    b->first_node[j] = i;
+  }
+  return KZ_OK;
+}
+
+/* Until walks say otherwise a branch begins and ends at the values where it is seen; at the edges it leaves the range. */
+static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
+  for (int64_t i = 0; i < b->n_nodes; i++) {
+    kz_sweep_node *node = b->nodes + i;
+    const double value = kz_sweep_value(&scene->sweep, node->value);
+    if (node->value == 0) set_end(node, false, value, KZ_END_OF_RANGE);
+    else if (isnan(node->first)) node->first = value;
+    if (node->value == scene->sweep.values.count - 1) set_end(node, true, value, KZ_END_OF_RANGE);
+    else if (isnan(node->last)) node->last = value;
+  }
+}
+
+kz_status kz_sweep_branches_make(const kz_scene *scene, kz_team *team, const kz_sweep_catalogue *catalogue,
+                                 kz_sweep_branches *branches) {
+  walking w = {.scene = scene, .branches = branches};
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i < scene->sweep.values.count; i++)
+    for (int64_t j = 0; status == KZ_OK && j < catalogue[i].count; j++)
+      status = add_node(branches, catalogue[i].entries + j, i);
+  KZ_TRY(kz_team_agree(team, status));
+  KZ_TRY(walk_all(&w, team, true));
+  KZ_TRY(walk_all(&w, team, false));
+  join_chaotic(branches);
+  set_known_ends(scene, branches);
+  return kz_team_agree(team, list_branches(branches));
+}

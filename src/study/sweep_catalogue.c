@@ -1,0 +1,218 @@
+/* What attracts at each value of a sweep, and how much of the starts or of the cells each attractor takes: one tile a value. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "basin.h"
+#include "discovery.h"
+#include "sweep.h"
+
+enum {
+  MAX_PERIODS = 2000, /* drive periods after which a start counts as not settled; of the cells the basin's own number */
+  CHUNK = 4096,       /* cells followed at once */
+  SCOUTS = 512,       /* starts that find the main attractors before there is a table */
+  ROUNDS = 3          /* of discovery among cells that end nowhere known, at most */
+};
+
+/* One value at work. */
+typedef struct {
+  const kz_scene *scene;
+  kz_dynamics *dynamics;
+  double reach; /* of the map table */
+  int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
+  bool mirrored;             /* the grid is its own mirror image: cells followed are the first half of it */
+  double *state;             /* [starts or cells][2] */
+  int32_t *owner, *cell;     /* [starts]; [cells] number of kz_dynamics, 0 = not settled */
+  int64_t *hits;             /* [numbers from 1] */
+} searching;
+
+static bool on_grid(const kz_scene *scene) {
+  return scene->has_basin && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
+}
+
+static kz_window window_of(const kz_scene *scene) {
+  const kz_axis *theta = on_grid(scene) ? &scene->basin.theta : &scene->sweep.theta;
+  const kz_axis *velocity = on_grid(scene) ? &scene->basin.velocity : &scene->sweep.velocity;
+  return (kz_window){theta->min, theta->max, velocity->min, velocity->max};
+}
+
+static kz_status begin(const kz_pendulum *pendulum, searching *s) {
+  const kz_scene *scene = s->scene;
+  const kz_basin_plan *basin = &scene->basin;
+  s->n_starts = scene->sweep.starts;
+  if (on_grid(scene)) {
+    const int64_t total = basin->theta.count * basin->velocity.count;
+    s->mirrored = kz_axis_is_symmetric(&basin->theta) && kz_axis_is_symmetric(&basin->velocity);
+    s->n_cells = s->mirrored ? (total + 1) / 2 : total;
+  }
+  const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
+  s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
+  s->state = malloc(2 * most * sizeof *s->state);
+  s->owner = malloc(most * sizeof *s->owner);
+  s->cell = calloc((size_t)s->n_cells + 1, sizeof *s->cell);
+  if (s->dynamics && s->state && s->owner && s->cell) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for the starts of a sweep");
+}
+
+static void end(searching *s) {
+  if (s->dynamics) kz_dynamics_free(s->dynamics);
+  free(s->state);
+  free(s->owner);
+  free(s->cell);
+  free(s->hits);
+}
+
+static kz_status make_table(const searching *s) {
+  const kz_basin_plan *basin = &s->scene->basin;
+  kz_dynamics_table_create(s->dynamics, basin->table_theta, basin->table_velocity, s->reach);
+  const int64_t size = kz_dynamics_table_row_size(s->dynamics);
+  double *rows = malloc((size_t)(basin->table_velocity * size) * sizeof *rows);
+  if (!rows) return kz_fail(KZ_FAILED, "no memory for the map table");
+  for (int64_t row = 0; row < basin->table_velocity; row++) kz_dynamics_table_row(s->dynamics, row, rows + row * size);
+  kz_dynamics_table_set(s->dynamics, rows);
+  free(rows);
+  return KZ_OK;
+}
+
+static void cell_state(const kz_basin_plan *basin, int64_t cell, double state[2]) {
+  const double half_turns = kz_axis_centre(&basin->theta, cell % basin->theta.count) / M_PI;
+  state[0] = half_turns - 2 * rint(half_turns / 2);
+  state[1] = kz_axis_centre(&basin->velocity, cell / basin->theta.count);
+}
+
+/* The next cells from *cell on that have not settled: their states and places; returns how many. */
+static int64_t next_cells(const searching *s, int64_t most, int64_t *cell, int64_t *place) {
+  int64_t n = 0;
+  for (; *cell < s->n_cells && n < most; ++*cell)
+    if (s->cell[*cell] == 0) {
+      place[n] = *cell;
+      cell_state(&s->scene->basin, *cell, s->state + 2 * n++);
+    }
+  return n;
+}
+
+static void follow_cells(searching *s) {
+  static const int32_t points[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
+  const kz_basin_plan *basin = &s->scene->basin;
+  int64_t place[CHUNK], periods[CHUNK], cell = 0, n;
+  while ((n = next_cells(s, CHUNK, &cell, place)) > 0) {
+    if (basin->method != KZ_METHOD_ICM)
+      kz_dynamics_follow(s->dynamics, n, basin->max_periods, s->state, s->owner, periods);
+    else
+      kz_dynamics_follow_table(s->dynamics, points[basin->interpolation], n, basin->max_periods, s->state, s->owner, periods);
+    for (int64_t i = 0; i < n; i++) s->cell[place[i]] = s->owner[i];
+  }
+}
+
+/* Labels the grid; cells that end nowhere known are searched and labelled once more. (Method hybrid integrates every cell.) */
+static kz_status label_grid(searching *s) {
+  const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
+  int64_t *place = malloc(most * sizeof *place);
+  kz_status status = place ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep");
+  for (int round = 0; status == KZ_OK; round++) {
+    int64_t cell = 0, n, known = kz_dynamics_count(s->dynamics);
+    follow_cells(s);
+    if (round == ROUNDS - 1 || (n = next_cells(s, s->n_starts, &cell, place)) == 0) break;
+    status = kz_discover(NULL, s->dynamics, s->scene->basin.max_periods, n, s->state, s->owner);
+    if (kz_dynamics_count(s->dynamics) == known) break;
+  }
+  free(place);
+  return status;
+}
+
+/* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
+static int64_t count_hits(const searching *s) {
+  kz_attractor row;
+  double *points = s->state; /* room for strobe points: at least CHUNK pairs */
+  const int64_t total = s->scene->basin.theta.count * s->scene->basin.velocity.count;
+  for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->owner[i]]++;
+  if (s->n_cells == 0) return s->n_starts;
+  for (int64_t i = 0; i < s->n_cells; i++) {
+    s->hits[s->cell[i]]++;
+    if (!s->mirrored || total - 1 - i < s->n_cells || s->cell[i] == 0) continue;
+    kz_dynamics_attractor(s->dynamics, s->cell[i], &row, points, points + CHUNK);
+    s->hits[row.mirror]++;
+  }
+  return s->mirrored ? total : s->n_cells;
+}
+
+static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirror) {
+  kz_attractor row;
+  double *theta = s->state, *velocity = s->state + CHUNK;
+  kz_dynamics_attractor(s->dynamics, number, &row, theta, velocity);
+  *mirror = row.mirror;
+  kz_sweep_entry entry = {.hits = s->hits[number],
+                          .point = {.amplitude = row.amplitude,
+                                    .period = row.period,
+                                    .winding = row.winding,
+                                    .centre = row.centre,
+                                    .symmetric = row.symmetric}};
+  entry.point.theta = row.period > 0 ? theta[0] : row.mean;
+  entry.point.velocity = row.period > 0 ? velocity[0] : row.mean_velocity;
+  memcpy(entry.point.multiplier_re, row.multiplier_re, sizeof row.multiplier_re);
+  memcpy(entry.point.multiplier_im, row.multiplier_im, sizeof row.multiplier_im);
+  return entry;
+}
+
+/* The attractors that something ended on, and their mirror images, in the order of the file. */
+static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
+  const int64_t known = kz_dynamics_count(s->dynamics);
+  int64_t *order = malloc((size_t)(known + 1) * sizeof *order);
+  if (!order) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  kz_dynamics_order(s->dynamics, order);
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i < known && status == KZ_OK; i++) {
+    int32_t mirror;
+    const kz_sweep_entry entry = entry_of(s, order[i], &mirror);
+    if (s->hits[order[i]] + s->hits[mirror] == 0) continue;
+    if (catalogue->count == KZ_SWEEP_MOST)
+      status = kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; more damping, or a smaller window", KZ_SWEEP_MOST);
+    else
+      catalogue->entries[catalogue->count++] = entry;
+  }
+  free(order);
+  return status;
+}
+
+/* Finds the attractors; where a grid follows, the first starts are scouts, and the map table helps the others. */
+static kz_status discover(searching *s) {
+  const kz_window window = window_of(s->scene);
+  const int64_t scouts = s->n_cells > 0 && s->n_starts > SCOUTS ? SCOUTS : s->n_starts;
+  s->reach = kz_dynamics_reach(s->dynamics, &window);
+  kz_dynamics_starts(&window, s->scene->sweep.seed, s->n_starts, s->state);
+  kz_dynamics_outline(s->dynamics, s->reach);
+  KZ_TRY(kz_discover(NULL, s->dynamics, MAX_PERIODS, scouts, s->state, s->owner));
+  if (s->n_cells > 0) KZ_TRY(make_table(s));
+  if (scouts == s->n_starts) return KZ_OK;
+  return kz_discover(NULL, s->dynamics, MAX_PERIODS, s->n_starts - scouts, s->state + 2 * scouts, s->owner + scouts);
+}
+
+static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
+  KZ_TRY(discover(s));
+  if (s->n_cells > 0) KZ_TRY(label_grid(s));
+  s->hits = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
+  if (!s->hits) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  catalogue->samples = count_hits(s);
+  return collect(s, catalogue);
+}
+
+static kz_status work(void *context, int64_t tile, void *record) {
+  searching s = {.scene = context};
+  kz_pendulum pendulum;
+  if (!kz_sweep_pendulum(s.scene, kz_sweep_value(&s.scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
+  kz_status status = begin(&pendulum, &s);
+  if (status == KZ_OK) status = search(&s, record);
+  end(&s);
+  return status;
+}
+
+kz_status kz_sweep_catalogues(const kz_scene *scene, kz_team *team, kz_sweep_catalogue *catalogue) {
+  const kz_stage stage = {.name = "sweep attractors",
+                          .n_tiles = scene->sweep.values.count,
+                          .record_bytes = sizeof *catalogue,
+                          .work = work,
+                          .context = (void *)scene,
+                          .keep = true,
+                          .everywhere = true};
+  return kz_stage_run(team, &stage, catalogue);
+}

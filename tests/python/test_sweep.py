@@ -1,0 +1,257 @@
+"""The study sweep against the literature (tests/literature/reference.json), and its promises: ranks, resuming, agreement."""
+
+import json
+
+import h5py
+import numpy as np
+import pytest
+from conftest import ROOT, datasets
+
+REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
+KINDS = ["left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"]
+SCENE = """\
+pendulum: {{quality_factor: {q}, drive_frequency: {omega}, drive_amplitude: 0.3}}
+sweep: {{parameter: {parameter}, min: {low}, max: {high}, count: {count}, measure: [{measure}]{more}}}
+"""
+
+
+@pytest.fixture(scope="session")
+def sweep(kapitza, tmp_path_factory):
+    """Runs a sweep and gives its group as (arrays, attributes)."""
+
+    def run(measure, low, high, count, parameter="drive_amplitude", q=5, omega=11, more="", ranks=2):
+        folder = tmp_path_factory.mktemp("sweep")
+        text = SCENE.format(measure=measure, low=low, high=high, count=count, parameter=parameter, q=q, omega=omega, more=more)
+        (folder / "sweep.yaml").write_text(text)
+        kapitza("run", "sweep.yaml", ranks=ranks, folder=folder)
+        with h5py.File(folder / "sweep.h5") as file:
+            group = file["sweep"]
+            arrays = {name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[()] for name, item in group.items()}
+            return arrays, dict(group.attrs)
+
+    return run
+
+
+def ends(branches, name, count=1):
+    """(start, kind, end, kind) of the branch of that name; `count` branches must have it, mirror images alike."""
+    rows = [index for index, found in enumerate(branches["branch_name"]) if found == name]
+    assert len(rows) == count, list(branches["branch_name"])
+    table = [(branches["branch_start"][row], KINDS[branches["branch_start_kind"][row]], branches["branch_end"][row],
+              KINDS[branches["branch_end_kind"][row]]) for row in rows]
+    for row in table[1:]:
+        assert row == (pytest.approx(table[0][0], abs=1e-8), table[0][1], pytest.approx(table[0][2], abs=1e-8), table[0][3])
+    return table[0]
+
+
+def near(value):
+    return pytest.approx(value, abs=1e-6)
+
+
+RANGES = REFERENCE["attractor_existence_ranges_Q5_Omega11"]
+
+
+def test_inverted_gives_way_to_flutter(sweep):
+    branches, _ = sweep("attractors", 0.46, 0.475, 16, more=", starts: 4096")
+    critical = REFERENCE["blackburn_fig4_upper_flutter"]["Omega11_Q5"]["eps_c"]
+    assert ends(branches, "inverted")[2:] == (near(critical), "period_doubling")
+    assert ends(branches, "flutter")[:2] == (near(critical), "period_doubling")
+    for name, key in (("inverted 3-nodding", "period3_top"), ("inverted 9-nodding", "period9_top")):
+        assert ends(branches, name, 2) == (near(RANGES[key]["low"]["eps"]), "fold",
+                                           near(RANGES[key]["high"]["eps"]), "period_doubling")
+    names, mirrors = branches["branch_name"], branches["branch_mirror"]
+    for row, mirror in enumerate(mirrors):
+        assert mirrors[mirror] == row and names[mirror].replace("-1/", "+1/") == names[row].replace("-1/", "+1/")
+        assert (mirror == row) == bool(branches["branch_symmetric"][row])
+
+
+def test_short_lived_pair(sweep):
+    branches, _ = sweep("attractors", 0.5195, 0.5235, 5, more=", starts: 2048")
+    low, high = (RANGES["period4_top"][key]["eps"] for key in ("low", "high"))
+    assert ends(branches, "inverted 4-nodding", 2) == (near(low), "fold", near(high), "period_doubling")
+
+
+def test_hanging_state_and_its_doubling(sweep):
+    branches, _ = sweep("attractors", 0.43, 0.55, 9, more=", starts: 512")
+    low, high = (RANGES["period2_bottom"][key]["eps"] for key in ("low", "high"))
+    assert ends(branches, "down")[2:] == (near(low), "period_doubling")
+    assert ends(branches, "down 2-nodding") == (near(low), "period_doubling", near(high), "symmetry_breaking")
+
+
+def test_rotation_is_born_in_a_fold(sweep):
+    branches, _ = sweep("attractors", 0.02, 0.06, 5, more=", starts: 512")
+    low = RANGES["spin_+1/1"]["low"]["eps"]
+    assert ends(branches, "rotation +1/1") == (near(low), "fold", 0.06, "left_the_range")
+    assert ends(branches, "rotation -1/1") == (near(low), "fold", 0.06, "left_the_range")
+
+
+def test_lower_end_of_the_inverted_state(sweep):
+    branches, _ = sweep("attractors", 0.12, 0.14, 3, more=", starts: 512")
+    assert ends(branches, "inverted") == (near(0.129049561), "symmetry_breaking", 0.14, "left_the_range")
+
+
+def test_flutter_loses_its_symmetry_then_doubles(sweep):
+    branches, _ = sweep("attractors", 0.555, 0.5715, 12, more=", starts: 8192")
+    rows = np.flatnonzero(branches["branch_name"] == "flutter")
+    broken = float(REFERENCE["blackburn_flutter_loss_Q5_Omega11"]["eps_symmetry_breaking"])
+    symmetric = [row for row in rows if branches["branch_symmetric"][row]]
+    assert len(symmetric) == 1 and branches["branch_end"][symmetric[0]] == near(broken)
+    assert KINDS[branches["branch_end_kind"][symmetric[0]]] == "symmetry_breaking"
+    for row in set(rows) - set(symmetric):
+        assert branches["branch_start"][row] == near(broken)
+        assert KINDS[branches["branch_start_kind"][row]] == "symmetry_breaking"
+
+
+def test_without_damping_multipliers_are_on_the_unit_circle(kapitza, tmp_path):
+    (tmp_path / "damping.yaml").write_text("""\
+pendulum: {k: 0.008264462809917356, damping: 0.02, m: 0.3}
+sweep: {parameter: damping, min: 0, max: 0.02, count: 3, measure: [attractors], starts: 256}
+""")
+    kapitza("run", "damping.yaml", folder=tmp_path)
+    with h5py.File(tmp_path / "damping.h5") as file:
+        group = file["sweep"]
+        names = group["branch_name"].asstr()[:]
+        row = list(names).index("inverted")
+        assert KINDS[group["branch_start_kind"][row]] == "neimark_sacker" and abs(group["branch_start"][row]) < 1e-9
+        assert np.isnan(group["branch_amplitude"][0]).all() and group["branch_amplitude"][1, row] == 0
+
+
+def test_flutter_amplitudes(sweep):
+    arrays, attributes = sweep("flutter_amplitude", 0.47, 0.56, 19, ranks=None)
+    known = {round(float(row["eps"]), 6): row["amp_rad"] for row in REFERENCE["blackburn_fig9_10_flutter_Q5_Omega11"]}
+    compared = [(amplitude, known[round(value, 6)]) for value, amplitude in
+                zip(arrays["value"], arrays["flutter_amplitude"], strict=True) if round(value, 6) in known]
+    assert len(compared) >= 15
+    assert all(ours == pytest.approx(theirs, abs=1e-8) for ours, theirs in compared)
+    assert attributes["critical_value"] == pytest.approx(0.46819030239029, abs=1e-12)
+
+
+def test_flutter_grows_with_the_square_root(sweep):
+    arrays, attributes = sweep("flutter_amplitude", 0.4683, 0.473, 48, ranks=None)
+    assert abs(attributes["fit_exponent"] - 0.5) < attributes["fit_exponent_error"] < 1e-3
+    assert attributes["fit_slope"] == pytest.approx(3.7902**2, rel=1e-2)
+    distance = arrays["value"] - attributes["critical_value"]
+    slope, intercept = np.polyfit(distance, arrays["flutter_amplitude"] ** 2, 1)
+    assert attributes["fit_slope"] == pytest.approx(slope, rel=1e-9) and abs(intercept) < 2e-4
+    assert 0 < attributes["fit_slope_stderr"] < 1e-2
+
+
+def test_no_flutter_where_there_is_none(sweep):
+    arrays, attributes = sweep("flutter_amplitude", 0.2, 0.25, 5, ranks=None)
+    assert np.isnan(arrays["flutter_amplitude"]).all() and np.isnan(attributes["fit_slope"])
+
+
+def test_flutter_zone_over_the_frequency(sweep):
+    arrays, _ = sweep("flutter_zone", 5, 15, 6, parameter="drive_frequency")
+    for row, omega in enumerate(arrays["value"]):
+        known = REFERENCE["blackburn_fig4_upper_flutter"][f"Omega{round(omega)}_Q5"]
+        assert arrays["flutter_onset"][row] == pytest.approx(known["eps_c"], abs=1e-9)
+        assert arrays["flutter_asymmetry"][row] == near(known["eps_symmetry_breaking"])
+        assert known["eps_c"] < arrays["flutter_release_end"][row] <= known["first_eps_1deg_release_fails"] + 1e-6
+    doubling = float(REFERENCE["blackburn_flutter_cascade_Q5_Omega11"]["eps_period_doubling_of_asymmetric_flutter"])
+    assert arrays["flutter_end"][list(arrays["value"]).index(11)] == near(doubling)
+
+
+@pytest.mark.parametrize(("q", "omega", "low", "high", "count"), [(20, 11, 0.13, 0.25, 13), (20, 11, 0.3, 0.5, 5),
+                                                                  (20, 30, 0.05, 0.2, 4), (5, 11, 0.15, 0.2, 2)])
+def test_releases_from_rest(sweep, q, omega, low, high, count):
+    arrays, _ = sweep("release_angle", low, high, count, q=q, omega=omega)
+    compared = 0
+    for row, value in enumerate(arrays["value"]):
+        known = REFERENCE["blackburn_fig6_7_release"].get(f"{omega}_{q}_{round(value, 6):g}")
+        if known is None:
+            continue
+        compared += 1
+        stays = np.flatnonzero(arrays["release_stays"][row][1::2]) + 1  # of whole degrees
+        scan, first, largest = (np.degrees(arrays[name][row]) for name in
+                                ("release_angle_scan", "release_angle", "release_angle_largest"))
+        assert scan == pytest.approx(known["first_fail_deg"], abs=2e-5 if value < 0.3 else 1e-3)  # above: fractal edges
+        assert first <= scan + 1e-6 <= largest + 2e-6
+        assert stays.max() == round(known["last_ok_deg"]) and abs(len(stays) - known["n_ok"]) <= 1
+    assert compared >= 2
+
+
+def test_edges_of_the_releases_are_edges(sweep):
+    arrays, _ = sweep("release_angle", 0.15, 0.2, 2, q=20)
+    angles, stays = arrays["release"], arrays["release_stays"]
+    for row, edge in enumerate(arrays["release_angle"]):
+        assert stays[row][angles < edge].all() and not stays[row][angles > arrays["release_angle_largest"][row]].any()
+    assert np.diff(arrays["release_angle"])[0] > 0.4
+
+
+def test_strobe_points_walk_up_and_down(sweep):
+    arrays, _ = sweep("strobe", 0.46, 0.48, 5, more=", transient: 2000, samples: 8, start: {theta: 3.1, velocity: 0}")
+    theta, walk = arrays["strobe_theta"], arrays["sample_walk"]
+    deflection = np.abs(np.abs(theta) - np.pi)
+    assert np.all(deflection[0] < 1e-9)  # at rest below the critical value
+    for name, direction in (("up", 0), ("down", 1)):
+        points = deflection[-1][walk == direction]
+        assert np.allclose(points, 0.4083406284436, atol=1e-8), name
+    assert theta.min() >= -np.pi and theta.max() < np.pi
+
+
+def test_grid_and_starts_agree(kapitza, tmp_path):
+    scene = """\
+pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}
+sweep: {parameter: drive_amplitude, min: 0.25, max: 0.3, count: 2, measure: [basin_fractions], starts: 4096}
+"""
+    grid = """\
+basin:
+  theta: {count: 100}
+  velocity: {min: -2, max: 2, count: 100}
+  icm: {theta: 300, velocity: 300}
+"""
+    shares = []
+    for name, text in (("starts", scene), ("grid", scene + grid)):
+        (tmp_path / f"{name}.yaml").write_text(text)
+        kapitza("run", f"{name}.yaml", ranks=2, folder=tmp_path)
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            group = file["sweep"]
+            shares.append({(row, label): group["fraction"][row, column] for column, label in
+                           enumerate(group["branch_name"].asstr()[:]) for row in range(2)})
+            low, share, high = (group[key][:] for key in ("fraction_low", "fraction", "fraction_high"))
+            there = np.isfinite(share)
+            assert np.all((low[there] <= share[there]) & (share[there] <= high[there]))
+            assert np.nansum(share, axis=1) == pytest.approx([1, 1], abs=1e-3)
+            if name == "grid":
+                basin, ids = file["basin/attractor"][:], file["attractors/name"].asstr()[:]
+                own = np.mean(np.isin(basin, np.flatnonzero(ids == "inverted")))
+                assert shares[1][1, "inverted"] == pytest.approx(own, abs=1e-12)
+    for key in ((row, name) for row in range(2) for name in ("down", "inverted", "rotation +1/1", "rotation -1/1")):
+        assert shares[0][key] == pytest.approx(shares[1][key], abs=0.02), key
+
+
+ALL = "attractors, basin_fractions, flutter_amplitude, release_angle, strobe"
+
+
+def test_same_bytes_on_any_number_of_ranks_and_resumed(kapitza, tmp_path):
+    text = SCENE.format(measure=ALL, low=0.46, high=0.48, count=5, parameter="drive_amplitude", q=5, omega=11,
+                        more=", starts: 256, transient: 100, samples: 16")
+    (tmp_path / "sweep.yaml").write_text(text)
+    for ranks in (1, 2, 3):
+        kapitza("run", "sweep.yaml", "-o", f"{ranks}.h5", ranks=ranks, folder=tmp_path)
+    one = datasets(tmp_path / "1.h5")
+    assert datasets(tmp_path / "2.h5") == one and datasets(tmp_path / "3.h5") == one
+    stopped = kapitza("run", "sweep.yaml", "-o", "resumed.h5", "--time-limit", "0.3", ranks=2, folder=tmp_path, status=None)
+    assert stopped.returncode == 75, stopped.stderr
+    kapitza("run", "sweep.yaml", "-o", "resumed.h5", "--resume", ranks=3, folder=tmp_path)
+    assert datasets(tmp_path / "resumed.h5") == one
+
+
+def test_other_forms_of_the_pendulum(kapitza, tmp_path):
+    """The same walk written three ways: Omega as such, and as the pivot's frequency of a pendulum in SI units."""
+    forms = {
+        "a": ("{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}", "quality_factor", 5, 20),
+        "c": ("{mass: 1, radius: 1, inertia: 1, friction: 0.2, gravity: 1, pivot_amplitude: 0.3, pivot_frequency: 11}",
+              "friction", 0.2, 0.05),
+    }
+    angles = {}
+    for name, (pendulum, parameter, first, last) in forms.items():
+        (tmp_path / f"{name}.yaml").write_text(
+            f"pendulum: {pendulum}\nsweep: {{parameter: {parameter}, min: {min(first, last)}, max: {max(first, last)}, "
+            "count: 2, measure: [release_angle]}\n")
+        kapitza("run", f"{name}.yaml", folder=tmp_path)
+        with h5py.File(tmp_path / f"{name}.h5") as file:
+            values = list(file["sweep/value"][:])
+            angles[name] = [file["sweep/release_angle_scan"][values.index(value)] for value in (first, last)]
+            assert file["sweep"].attrs["parameter"] == parameter
+    assert angles["a"] == pytest.approx(angles["c"], abs=1e-6)
