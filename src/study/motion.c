@@ -8,6 +8,8 @@ static const double PI = 3.14159265358979323846;
 
 /* Samples a period that turning points and spectra need, whatever the scene wants to see. */
 enum { LEAST_SAMPLES = 96 };
+/* Periods of a simpler model that are skipped at once. */
+enum { CHUNK = 1024 };
 
 static double multiple(double unit, double least) {
   return unit * ceil(least / unit);
@@ -50,14 +52,18 @@ void kz_mover_free(kz_mover *mover) {
   mover->plan = NULL;
 }
 
+/* Up to CHUNK periods of a simpler model. */
+static void skip_chunk(const kz_mover *mover, int64_t periods, kz_state *state) {
+  double theta[CHUNK + 1], velocity[CHUNK + 1];
+  kz_sample_model(mover->model, &mover->pendulum, periods, 1, state->theta - mover->origin, state->velocity, theta, velocity);
+  *state = (kz_state){theta[periods] + mover->origin, velocity[periods]};
+}
+
 void kz_mover_skip(const kz_mover *mover, int64_t periods, kz_state *state) {
   int64_t turns = 0;
   if (mover->plan) kz_advance(mover->plan, 1, periods, &state->theta, &state->velocity, &turns);
-  for (int64_t i = 0; !mover->plan && i < periods; i++) {
-    double theta[2], velocity[2];
-    kz_sample_model(mover->model, &mover->pendulum, 1, 1, state->theta - mover->origin, state->velocity, theta, velocity);
-    *state = (kz_state){theta[1] + mover->origin, velocity[1]};
-  }
+  for (int64_t done = 0; !mover->plan && done < periods; done += CHUNK)
+    skip_chunk(mover, periods - done < CHUNK ? periods - done : CHUNK, state);
 }
 
 static kz_status check_range(const kz_motion *motion) {
