@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "kapitza/app.h"
+#include "kapitza/steps.h"
 #include "kapitza/version.h"
 
 static char *write_scene(const kz_scene *scene, bool flat) {
@@ -62,6 +63,7 @@ kz_status kz_app_check(const kz_options *options) {
   char *resolved = kz_scene_resolved(&scene);
   const kz_cost cost = kz_cost_of(&scene);
   status = resolved ? kz_cost_check(&cost) : kz_fail(KZ_FAILED, "out of memory");
+  if (status == KZ_OK) status = kz_steps_check(&scene);
   if (status == KZ_OK && options->speaks) print_check(options, &scene, resolved);
   free(resolved);
   kz_scene_free(&scene);

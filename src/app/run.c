@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "kapitza/app.h"
+#include "kapitza/steps.h"
 #include "kapitza/version.h"
 
 typedef struct {
@@ -51,7 +52,8 @@ static kz_status prepare(job *j, bool *complete) {
   KZ_TRY(kz_team_agree(j->team, status));
   KZ_TRY(kz_team_broadcast(j->team, complete, sizeof *complete));
   const kz_cost cost = kz_cost_of(&j->scene);
-  return kz_team_agree(j->team, kz_cost_check(&cost));
+  KZ_TRY(kz_team_agree(j->team, kz_cost_check(&cost)));
+  return kz_team_agree(j->team, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK);
 }
 
 static kz_status write_root(job *j) {

@@ -11,6 +11,7 @@ module kz_dynamics_border
   use kz_dynamics_handle, only: dynamics_t, of_handle
   use kz_dynamics_regions, only: regions_t, make_regions, draw_attractors
   use kz_dynamics_search, only: search_t, find_cycles
+  use kz_dynamics_trial, only: table_defect
   use kz_dynamics_trust, only: trust_horizon
   use kz_dynamics_tables, only: table_t, make_table, table_row, set_table_rows, table_map_t, make_table_map
   implicit none
@@ -249,6 +250,25 @@ contains
     map = make_table_map(d%table, int(points), d%search%flow)
     periods = trust_horizon(d%search%flow, map, d%regions, d%attractors, state)
   end function horizon
+
+  !> Sampled over the speeds of the window and what one period adds, without the table's margin.
+  function defect(handle, points) bind(C, name='kz_dynamics_table_defect') result(largest)
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: points
+    real(dp) :: largest
+    integer(c_int64_t), parameter :: SAMPLES = 16*WIDTH
+    type(dynamics_t), pointer :: d
+    type(table_map_t) :: map
+    real(dp), allocatable :: state(:, :)
+    real(dp) :: top
+
+    d => of_handle(handle)
+    allocate (state(2, SAMPLES))
+    top = d%table%top*(d%table%n_velocity - 5)/(d%table%n_velocity - 1)
+    call starts(window_t(-PI, PI, -top, top), 2_c_int64_t, SAMPLES, state)
+    map = make_table_map(d%table, int(points), d%search%flow)
+    largest = table_defect(d%search%flow, map, state)
+  end function defect
 
   function attractor_count(handle) bind(C, name='kz_dynamics_count') result(n)
     type(c_ptr), value :: handle

@@ -2,7 +2,7 @@
 !> cells that long orbits on them visit.
 module kz_dynamics_chaos
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, WIDTH
+  use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_portraits, only: portray
   use kz_dynamics_regions, only: regions_t, captors, cover_cell, COVER
@@ -15,11 +15,14 @@ module kz_dynamics_chaos
   integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, PORTRAIT_PERIODS = 500
   !> A positive exponent is believed from so many standard errors on.
   real(dp), parameter :: CONFIDENCE = 5
+  !> Damping has done its work once it has shrunk areas by exp(-SHRUNK); before, conservative chaos looks the same.
+  real(dp), parameter :: SHRUNK = 30
 
 contains
 
   !> Follows a bundle of orbits from (u, v). Where none of them is ever trapped and they diverge, a chaotic attractor is appended.
-  !> A long chaotic transient is none: one of its orbits is trapped at last.
+  !> A long chaotic transient is none: one of its orbits is trapped at last. Where damping is so weak that areas hardly shrink
+  !> meanwhile, nothing can be told.
   subroutine find_chaos(search, regions, u, v, attractors)
     type(search_t), intent(inout) :: search
     type(regions_t), intent(in) :: regions
@@ -30,6 +33,7 @@ contains
     integer, allocatable :: visits_of(:)
     integer :: captor(WIDTH), period, lane
 
+    if (2*PI*search%pendulum%beta*(SETTLE + VISITS) < SHRUNK) return
     do lane = 1, WIDTH
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
     end do

@@ -83,7 +83,7 @@ contains
     fold = merge(-1.0_dp, 1.0_dp, is_mirrored(u, v))
     cell = 0
     y = (fold*v/regions%top + 1)*(COVER/2)
-    if (.not. (y >= 0 .and. y < COVER)) return
+    if (.not. (y >= 0 .and. y < COVER .and. abs(u) <= 1)) return
     cell = 1 + min(int((fold*u + 1)*(COVER/2)), COVER - 1) + COVER*int(y)
     if (fold < 0) cell = COVER**2 + 1 - cell
   end function cover_cell
@@ -198,7 +198,7 @@ contains
       w = mid_angle(u(i), v(i))
       y = (merge(-v(i), v(i), is_mirrored(w, v(i))) + top)*per_v
       entry(i) = -1
-      if (y >= 0 .and. y < n_velocity) entry(i) = min(int(abs(w)*per_u), n_theta - 1) + n_theta*int(y)
+      if (y >= 0 .and. y < n_velocity .and. abs(w) <= 1) entry(i) = min(int(abs(w)*per_u), n_theta - 1) + n_theta*int(y)
     end do
     do i = 1, n
       if (entry(i) >= 0) then

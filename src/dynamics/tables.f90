@@ -160,9 +160,10 @@ contains
     end do
     n_outside = 0
     do lane = 1, n
-      if (y(lane) >= lowest .and. y(lane) < highest) cycle
+      if (y(lane) >= lowest .and. y(lane) < highest .and. u(lane) <= 1) cycle
       n_outside = n_outside + 1
       outside(n_outside) = lane
+      x(lane) = 0
       y(lane) = lowest
     end do
     do lane = 1, n

@@ -12,6 +12,8 @@
 #include "accuracy.h"
 #include "catalogue.h"
 #include "discovery.h"
+#include "kapitza/steps.h"
+#include "kapitza/trial.h"
 #include "map_table.h"
 
 enum {
@@ -233,6 +235,17 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels)
   return status;
 }
 
+/* What the labels stand on, in numbers and as warnings. */
+static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary)
+{
+  const kz_axis *velocity = &scene->basin.velocity;
+  labels->step_error = kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), scene->basin.max_periods, summary);
+  labels->table_error = NAN;
+  if (scene->basin.method == KZ_METHOD_DIRECT) return;
+  labels->table_error = kz_dynamics_table_defect(b->dynamics, points[scene->basin.interpolation]);
+  kz_steps_warn_table(labels->table_error, summary);
+}
+
 static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
 {
   const kz_basin_plan *plan = &scene->basin;
@@ -249,6 +262,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   if (status == KZ_OK && kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};
     kz_labels labels = {.trapped_share = kz_dynamics_trapped_share(b.dynamics)};
+    judge_numerics(scene, &b, &labels, summary);
     status = finish(&b, &catalogue, &labels);
     if (status == KZ_OK) status = kz_basin_write(scene, &catalogue, &labels, store, summary);
     kz_catalogue_free(&catalogue);
@@ -270,7 +284,7 @@ static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *st
   kz_status status = KZ_OK;
   if (kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};
-    kz_labels labels = {0};
+    kz_labels labels = {.step_error = NAN, .table_error = NAN};
     int64_t total = scene->basin.theta.count * scene->basin.velocity.count;
     status = kz_labels_allocate(total, &labels);
     for (int64_t f = 0; status == KZ_OK && f < total; f++) {

@@ -12,6 +12,8 @@ typedef struct {
   uint32_t *settling_time;
   uint8_t *evidence;
   double trapped_share; /* of the map table's cells */
+  double step_error;    /* rad, the largest of one drive period in a sample */
+  double table_error;   /* the same of the map table; NaN where labels do not come from it */
 } kz_labels;
 
 kz_status kz_labels_allocate(int64_t cells, kz_labels *labels);

@@ -56,6 +56,8 @@ static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labe
   kz_basin_entropy(plan->theta.count, plan->velocity.count, labels->attractor, &entropy, &boundary_entropy);
   kz_line line = uncertainty(plan, labels);
   KZ_TRY(kz_store_real(store, "basin", "trapped_share", labels->trapped_share));
+  KZ_TRY(kz_store_real(store, "basin", "step_error", labels->step_error));
+  KZ_TRY(kz_store_real(store, "basin", "table_error", labels->table_error));
   KZ_TRY(kz_store_real(store, "basin", "basin_entropy", entropy));
   KZ_TRY(kz_store_real(store, "basin", "boundary_basin_entropy", boundary_entropy));
   KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent", line.slope));

@@ -1,0 +1,103 @@
+!> A trial of the numerics before anything is labelled: the error of one drive period by step doubling, for each class of
+!> speeds, and the interpolation error of the map table.
+module kz_dynamics_trial
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+  use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
+  use kz_kernel_plan, only: make_flow, DOUBLE
+  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_dynamics_cycles, only: apart
+  implicit none
+  private
+  public :: table_defect
+
+contains
+
+  !> error(c) = the largest error of one period among WIDTH states with speeds from speed(c) to speed(c + 1), in rad (velocity and
+  !> angle together); huge where a state is lost: not finite, or faster than friction and drive can make it.
+  subroutine step_errors(pendulum, numerics, n, speed, error) bind(C, name='kz_trial_step_errors')
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    integer(c_int64_t), value :: n
+    real(dp), intent(in) :: speed(n + 1)
+    real(dp), intent(out) :: error(n)
+    type(numerics_t) :: coarse, halved
+    class(flow_t), allocatable :: flow, finer
+    integer(c_int64_t) :: c
+
+    coarse = numerics
+    coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
+    halved = coarse
+    halved%steps_per_period = 2*coarse%steps_per_period
+    call make_flow(pendulum, coarse, .true., flow)
+    call make_flow(pendulum, halved, .true., finer)
+    do c = 1, n
+      call put_class(flow, speed(c), speed(c + 1))
+      call put_class(finer, speed(c), speed(c + 1))
+      call flow%advance(WIDTH)
+      call finer%advance(WIDTH)
+      error(c) = difference(flow, finer, speed(c + 1) + 2*PI*(abs(pendulum%k) + abs(pendulum%m)))
+    end do
+  end subroutine step_errors
+
+  !> States over the whole circle; the others are their mirror images.
+  subroutine put_class(map, slowest, fastest)
+    class(map_t), intent(inout) :: map
+    real(dp), intent(in) :: slowest
+    real(dp), intent(in) :: fastest
+    real(dp), parameter :: GOLDEN = 0.61803398874989484820_dp
+    integer :: lane
+
+    do lane = 1, WIDTH
+      call map%put(lane, 2*modulo(lane*GOLDEN, 1.0_dp) - 1, slowest + (fastest - slowest)*(lane - 0.5_dp)/WIDTH)
+    end do
+  end subroutine put_class
+
+  !> The largest distance of two maps' states, rad. `limit` bounds the speed of a true motion: |v'| <= |k| + |m| besides friction.
+  function difference(map, other, limit) result(largest)
+    class(map_t), intent(in) :: map
+    class(map_t), intent(in) :: other
+    real(dp), intent(in) :: limit
+    real(dp) :: largest
+    integer :: lane
+
+    largest = 0
+    do lane = 1, WIDTH
+      if (is_lost(map, lane, limit) .or. is_lost(other, lane, limit)) then
+        largest = huge(largest)
+      else
+        largest = max(largest, hypot(PI*apart(map%u(lane), other%u(lane)), map%v(lane) - other%v(lane)))
+      end if
+    end do
+  end function difference
+
+  pure function is_lost(map, lane, limit) result(lost)
+    class(map_t), intent(in) :: map
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: limit
+    logical :: lost
+
+    lost = .not. (ieee_is_finite(map%u(lane)) .and. abs(map%v(lane)) <= 1.01_dp*limit)
+  end function is_lost
+
+  !> The largest error of one period of the map table among states [2][n*WIDTH] within it, rad.
+  function table_defect(flow, table_map, state) result(defect)
+    class(flow_t), intent(inout) :: flow
+    class(map_t), intent(inout) :: table_map
+    real(dp), intent(in) :: state(:, :)
+    real(dp) :: defect
+    integer :: first, lane
+
+    defect = 0
+    do first = 1, size(state, 2), WIDTH
+      do lane = 1, WIDTH
+        call flow%put(lane, state(1, first + lane - 1), state(2, first + lane - 1))
+        call table_map%put(lane, state(1, first + lane - 1), state(2, first + lane - 1))
+      end do
+      call flow%advance(WIDTH)
+      call table_map%advance(WIDTH)
+      defect = max(defect, difference(flow, table_map, huge(1.0_dp)/2))
+    end do
+  end function table_defect
+
+end module kz_dynamics_trial
