@@ -160,7 +160,7 @@ contains
     end do
     n_outside = 0
     do lane = 1, n
-      if (y(lane) >= lowest .and. y(lane) < highest .and. u(lane) <= 1) cycle
+      if (y(lane) >= lowest .and. y(lane) < highest .and. x(lane) <= per_u) cycle
       n_outside = n_outside + 1
       outside(n_outside) = lane
       x(lane) = 0
