@@ -242,7 +242,7 @@ static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *lab
   labels->step_error = kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), scene->basin.max_periods, summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
-  labels->table_error = kz_dynamics_table_defect(b->dynamics, points[scene->basin.interpolation]);
+  labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil[scene->basin.interpolation]);
   kz_steps_warn_table(labels->table_error, summary);
 }
 

@@ -49,11 +49,11 @@ static int worst_class(const kz_step_trial *trial)
   return worst;
 }
 
-/* The fastest start of the scene's studies that label or search; negative where it has none. */
+/* The fastest start of the scene's studies that label or search with the scene's numerics; negative where it has none. */
 static double fastest_start(const kz_scene *scene)
 {
   double fastest = -1;
-  if (scene->has_basin) fastest = fmax(fabs(scene->basin.velocity.min), fabs(scene->basin.velocity.max));
+  if (scene->has_basin && isnan(scene->basin.accuracy)) fastest = fmax(fabs(scene->basin.velocity.min), fabs(scene->basin.velocity.max));
   if (scene->has_attractors)
     fastest = fmax(fastest, fmax(fabs(scene->attractors.velocity.min), fabs(scene->attractors.velocity.max)));
   return fastest;

@@ -1,0 +1,225 @@
+"""Numbers at the extremes: right, or refused with the way out, never silently wrong (docs/extremes.md)."""
+
+import math
+
+import h5py
+import numpy as np
+import pytest
+from conftest import ROOT, datasets
+
+SMALL = ROOT / "scenes" / "small.yaml"
+GRID = ["basin.theta.count=16", "basin.velocity.count=16", "basin.attractors.starts=256", "basin.method=direct",
+        "basin.icm={theta: 32, velocity: 32}"]
+FIG12 = (1 / 121, 1 / 55, 0.3)  # k, beta, m of the small scene
+
+
+def pendulum(k=0.01, beta=0.05, m=0.3):
+    return f"pendulum={{k: {k!r}, damping: {beta!r}, m: {m!r}}}"
+
+
+def window(theta=None, velocity=None):
+    rows = [("theta", theta), ("velocity", velocity)]
+    return [f"basin.{name}={{min: {row[0]!r}, max: {row[1]!r}, count: {row[2]}}}" for name, row in rows if row]
+
+
+@pytest.fixture
+def model(kapitza, tmp_path):
+    """model(settings...) -> (labels, names of their attractors, standard output, attributes of /basin)."""
+
+    def call(*settings, status=0):
+        words = [word for setting in [*GRID, *settings] for word in ("--set", setting)]
+        done = kapitza("run", SMALL, "-o", "x.h5", "--force", *words, folder=tmp_path, status=status)
+        if status != 0:
+            assert not list(tmp_path.iterdir()) and done.stderr.count("\n") == 1, done.stderr
+            return done.stderr
+        with h5py.File(tmp_path / "x.h5") as file:
+            names = list(file["attractors/name"].asstr()[:])
+            return file["basin/attractor"][:], names, done.stdout, dict(file["basin"].attrs)
+
+    return call
+
+
+def ends(labels, names):
+    """The names that own cells; None = not settled."""
+    return {names[label] if label >= 0 else None for label in np.unique(labels)}
+
+
+# What cannot be carried is refused before modelling, with a number of steps that would do, and that number does.
+REFUSED = {
+    "speed 1e3": [*window(velocity=(-1e3, 1e3, 16))],
+    "m = 100": [pendulum(m=100.0)],
+    "k = 1e4": [pendulum(k=1e4)],
+    "k = -1e4": [pendulum(k=-1e4)],
+    "Omega = 1e-3": ["pendulum={quality_factor: 5, drive_frequency: 1e-3, drive_amplitude: 0.3}"],
+    "beta = 50 with rk4": [pendulum(beta=50.0), "numerics={scheme: rk4}"],
+    "beta = 1e3 with rk4": [pendulum(beta=1e3), "numerics={scheme: rk4}"],
+    "beta = 1e4": [pendulum(beta=1e4)],
+    "one step of split6": ["numerics.steps_per_period=1"],
+    "one step of split4": ["numerics={scheme: split4, steps_per_period: 1}"],
+    "one step of split6-11 at m = 1": [pendulum(m=1.0), "numerics={scheme: split6-11, steps_per_period: 1}"],
+    "one step of rk4": ["numerics={scheme: rk4, steps_per_period: 1}"],
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_refused_with_the_steps_that_would_do(kapitza, model, name, tmp_path):
+    message = model(*REFUSED[name], status=2)
+    assert "numerics.steps_per_period" in message and ("rad after one drive period" in message or "diverge" in message)
+    enough = int(message.rsplit(";", 1)[1].split()[0])
+    scheme = [setting for setting in REFUSED[name] if "scheme" in setting]
+    words = [word for setting in [*GRID, *REFUSED[name]] if setting not in scheme for word in ("--set", setting)]
+    names = {"numerics": scheme[0].split("scheme: ")[1].split(",")[0].rstrip("}") if scheme else "split6"}
+    kapitza("check", SMALL, *words, "--set", f"numerics={{scheme: {names['numerics']}, steps_per_period: {enough}}}", folder=tmp_path)
+
+
+HOPELESS = {
+    "speed 1e6": window(velocity=(-1e6, 1e6, 16)),
+    "speed 1e9": window(velocity=(-1e9, 1e9, 16)),
+    "m = 1e4": [pendulum(m=1e4)],
+    "m = 1e300": [pendulum(m=1e300)],
+    "m = 1e300, one number": [pendulum(m=-1e300, k=1e300)],
+    "beta = 1e300": [pendulum(beta=1e300)],
+}
+
+
+@pytest.mark.parametrize("name", HOPELESS)
+def test_refused_where_no_steps_help(model, name):
+    message = model(*HOPELESS[name], status=2)
+    assert "not even" in message and "slower starts" in message
+
+
+# Scenes whose end is known from theory: every settled cell ends on `down`, or where the settings say.
+KNOWN = {
+    "m = 0": ([pendulum(m=0.0)], {"down"}),
+    "m = 1e-300": ([pendulum(m=1e-300)], {"down"}),
+    "m = -1e-300": ([pendulum(m=-1e-300)], {"down"}),
+    "m = 1e-8": ([pendulum(m=1e-8)], {"down"}),
+    "m = 0, gravity upward": ([pendulum(k=-0.01, m=0.0)], {"inverted"}),
+    "denormal m": ([pendulum(m=5e-324)], {"down"}),
+    "denormal k": ([pendulum(k=5e-324), "basin.max_periods=50"], {"rotation +1/1", "rotation -1/1", None, "down", "inverted"}),
+    "beta = 40": ([pendulum(beta=40.0), "basin.max_periods=20000"], {"down"}),
+    "beta = 40 with rk4": ([pendulum(beta=40.0), "basin.max_periods=20000", "numerics={scheme: rk4}"], {"down"}),
+    "beta = 1": ([pendulum(k=0.1, beta=1.0), "basin.max_periods=5000"], {"down"}),
+    "Omega = 1e4, Q = 20": (["pendulum={quality_factor: 20, drive_frequency: 1e4, drive_amplitude: 2.8e-4}",
+                             "basin.max_periods=300"], {None}),
+    "Omega = 1e8": (["pendulum={quality_factor: 5, drive_frequency: 1e8, drive_amplitude: 2.8e-8}",
+                     "basin.max_periods=300"], {None}),
+    "k = 0, m = 0": ([pendulum(k=0.0, m=0.0), "basin.max_periods=100", "basin.attractors.starts=16"], {None}),
+    "starts at rest below": ([*window((-1e-9, 1e-9, 4), (-1e-9, 1e-9, 4))], {"down"}),
+    "velocities of 1e-300": ([*window((-0.1, 0.1, 4), (-1e-300, 1e-300, 4))], {"down"}),
+    "denormal velocities": ([*window((-0.1, 0.1, 4), (-1e-320, 1e-320, 4))], {"down"}),
+    "one cell": (["basin.theta.count=1", "basin.velocity.count=1"], {"down"}),
+    "a window far from every attractor": ([*window((0.5, 0.6, 8), (1.9, 1.95, 8))],
+                                          {"down", "inverted", "rotation +1/1", "rotation -1/1", "rotation +2/6", "rotation -2/6",
+                                           "down 6-nodding"}),
+}
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_ends_as_theory_says(model, name):
+    settings, allowed = KNOWN[name]
+    labels, names, text, attributes = model(*settings)
+    assert ends(labels, names) <= allowed
+    assert attributes["step_error"] < 1e-4 and "warning: at speeds" not in text
+
+
+@pytest.mark.parametrize("settings", [[pendulum(beta=1e-12)], [pendulum(beta=1e-300)],
+                                      ["pendulum={quality_factor: 5, drive_frequency: 1e8, drive_amplitude: 2.8e-8}"]])
+def test_damping_too_weak_to_settle_is_said(model, settings):
+    labels, names, text, _ = model(*settings, "basin.max_periods=100", "basin.attractors.starts=8")
+    assert "warning: damping" in text and "chaotic" not in names
+    assert (labels == -1).all()
+
+
+def test_no_damping_is_no_attractor(model):
+    labels, names, text, attributes = model(pendulum(beta=0.0))
+    assert (labels == -1).all() and names == [] and "without damping nothing attracts" in text
+    assert math.isnan(attributes["step_error"])
+
+
+def test_fast_starts_are_warned_of_by_their_class(model):
+    _, _, text, attributes = model(*window(velocity=(-50, 50, 16)))
+    assert "warning: at speeds from 25 to 50" in text and "48 steps or more" in text
+    assert 1e-3 < attributes["step_error"] < 0.1
+    labels, names, text, attributes = model(*window(velocity=(-50, 50, 16)), "numerics.steps_per_period=48")
+    assert "warning: at speeds" not in text and attributes["step_error"] < 1e-4
+
+
+def test_coarse_tables_are_warned_of(model):
+    _, _, text, attributes = model("basin.method=icm", "basin.icm={theta: 250, velocity: 250, interpolation: linear}")
+    assert "warning: one drive period of the map table" in text and 1e-4 < attributes["table_error"] < 0.1
+    _, _, text, attributes = model("basin.method=icm", "basin.icm={theta: 250, velocity: 250}")
+    assert "warning" not in text and attributes["table_error"] < 1e-4
+
+
+@pytest.mark.parametrize("method", ["icm", "direct", "hybrid"])
+def test_starts_on_the_seam_and_on_unstable_points(model, method):
+    """Rows at theta = pi (inverted does not attract at m = 0.05) and one cell beside: all labelled, mirrored, and down."""
+    settings = [pendulum(m=0.05), f"basin.method={method}", "basin.icm={theta: 200, velocity: 200}", "basin.max_periods=5000"]
+    labels, names, _, _ = model(*settings, *window((-math.pi, math.pi, 15), (-1e-3, 1e-3, 15)))
+    assert ends(labels, names) <= {"down", None}
+    assert (labels == -1).sum() <= 1  # rest at the centre may stay where it is
+    assert (labels == labels[::-1, ::-1]).all()
+
+
+def test_a_cell_at_the_unstable_equilibrium_is_not_called_attracted(model):
+    """theta = pi exactly, inverted unstable: nothing may be called inverted."""
+    labels, names, _, _ = model(pendulum(m=0.05), *window((math.pi - 1e-9, math.pi + 1e-9, 3), (-1e-9, 1e-9, 3)))
+    assert "inverted" not in names and ends(labels, names) <= {"down", None}
+
+
+@pytest.mark.parametrize("theta, velocity", [((-math.pi, math.pi, 1), (-2, 2, 20000)), ((-math.pi, math.pi, 20000), (-2, 2, 1))])
+def test_lines_of_cells(model, theta, velocity):
+    labels, names, _, attributes = model(*window(theta, velocity))
+    assert labels.shape == (velocity[2], theta[2]) and (labels >= 0).mean() > 0.99
+    assert math.isfinite(attributes["basin_entropy"])
+
+
+def test_a_window_wider_than_every_orbit(model):
+    labels, names, _, _ = model(*window(velocity=(-20, 20, 24)))
+    assert {"rotation +1/1", "rotation -1/1", "down", "inverted"} <= set(names) and (labels >= 0).all()
+
+
+def test_periods_beyond_max_period_stay_unsettled(model):
+    """The two 6-cycles are not looked for: their cells are unsettled, nothing else changes its name."""
+    grid = ["basin.theta.count=40", "basin.velocity.count=40", "basin.max_periods=500"]
+    few, names, _, _ = model("basin.attractors.max_period=5", *grid)
+    every, known, _, _ = model(*grid)
+    assert not any("6" in name for name in names) and any("6" in name for name in known)
+    for row in range(40):
+        for a, b in zip(few[row], every[row], strict=True):
+            assert (names[a] == known[b]) if a >= 0 else b < 0 or "6" in known[b]
+
+
+def test_close_to_the_loss_of_stability(model):
+    """Just below epsilon_c = 0.4681903 the multiplier of inverted is close to -1: it is found, and flutter is not made up."""
+    labels, names, _, _ = model("pendulum.drive_amplitude=0.46819", "basin.max_periods=3000")
+    assert "inverted" in names and "flutter" not in names and (labels >= 0).mean() > 0.95
+
+
+def test_two_attractors_close_together(model):
+    """Just beyond epsilon_c flutter stands beside the inverted point that it grew from: one name, one attractor."""
+    _, names, _, _ = model("pendulum.drive_amplitude=0.4682", "basin.max_periods=3000",
+                           *window((math.pi - 0.05, math.pi + 0.05, 8), (-0.05, 0.05, 8)))
+    assert names.count("flutter") == 1 and "inverted" not in names
+
+
+@pytest.mark.parametrize("precision", ["single", "double", "quad"])
+def test_every_precision_agrees_where_basins_are_smooth(model, precision):
+    settings = ["pendulum.drive_amplitude=0.150", "basin.theta.count=6", "basin.velocity.count=6", "basin.attractors.starts=128"]
+    labels, names, _, _ = model(*settings, f"numerics.precision={precision}")
+    expected, known, _, _ = model(*settings)
+    assert names == known and (labels == expected).all()
+
+
+@pytest.mark.parametrize("beta", [0.0, 1e-12])
+def test_attractors_alone_without_damping(kapitza, tmp_path, beta):
+    (tmp_path / "a.yaml").write_text(f"pendulum: {{k: 0.01, damping: {beta}, m: 0.3}}\n"
+                                     "attractors: {velocity: {min: -1, max: 1}, starts: 8}\n")
+    kapitza("run", "a.yaml", folder=tmp_path)
+    assert datasets(tmp_path / "a.h5")["attractors/period"][1] == (0,)
+
+
+def test_one_period_and_one_start(model):
+    labels, _, text, _ = model("basin.max_periods=1", "basin.attractors.starts=1")
+    assert "warning: damping" in text and (labels >= -1).all()
