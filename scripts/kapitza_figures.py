@@ -10,6 +10,7 @@ _FLUTTER = ("plot_basin.py", ["--centre", "inverted", "--attractor", "flutter"])
 _ORBIT = ("plot_orbit.py", [])
 _PHASE = ("plot_orbit.py", ["--panels", "phase,path"])
 _TIME = ("plot_orbit.py", ["--panels", "time"])
+_TRADE = ("plot_tradeoff.py", [])
 
 FIGURES = [
     ("blackburn-fig02", "blackburn-fig02", "plot_stability.py", ["--view", "growth"]),
@@ -47,4 +48,12 @@ FIGURES = [
     ("butikov-fig12", "butikov-fig12", *_ORBIT),
     ("formula-errors", "formula-errors", "plot_stability.py", ["--view", "errors"]),
     ("small", "small", *_BASIN),
+    ("tradeoff-fig11", "tradeoff-fig11", *_TRADE),
+    ("tradeoff-fig12", "tradeoff-fig12", *_TRADE),
+    ("tradeoff-fig13", "tradeoff-fig13", *_TRADE),
+    ("tradeoff-fig14", "tradeoff-fig14", *_TRADE),
+    ("tradeoff-fig15", "tradeoff-fig15", *_TRADE),
+    ("tradeoff-strong-drive", "tradeoff-strong-drive", *_TRADE),
+    ("tradeoff-weak-damping", "tradeoff-weak-damping", *_TRADE),
+    ("tradeoff-zero-gravity", "tradeoff-zero-gravity", *_TRADE),
 ]

@@ -18,6 +18,8 @@ NEEDED = {
               "maximum_angle", "line_frequency", "line_amplitude", "line_phase"],
     "stability": ["k", "m", "log_multiplier", "angle", "stable"],
     "potential": ["theta", "drive_amplitude", "energy", "energy_blackburn", "energy_simple", "rim_exact"],
+    "tradeoff": ["label", "method", "precision", "scheme", "interpolation", "wrong", "wrong_low", "wrong_high", "seconds",
+                 "seconds_per_million_cells", "pareto"],
     "basin": ["theta", "velocity", "attractor", "settling_time", "evidence"],
     "sweep": ["value"],
 }

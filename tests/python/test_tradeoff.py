@@ -1,9 +1,18 @@
 """The trade between speed and accuracy: the study, the cache of true labels, and basin.accuracy."""
 
+import subprocess
+import sys
+from collections import Counter
+
 import h5py
+import matplotlib.image
 import numpy as np
 import pytest
 from conftest import ROOT, datasets
+from kapitza_file import Result
+
+sys.path.insert(0, str(ROOT / "tests" / "tools"))
+from truth_check import Catalogue, truth_labels  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"
 SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, hybrid-250]}"
@@ -105,3 +114,25 @@ def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):
     (tmp_path / "scene.yaml").write_text("pendulum: {k: 0, damping: 0, m: 0.5}\ntradeoff: {samples: 50}\n"
                                          "basin: {theta: {count: 8}, velocity: {min: -1, max: 1, count: 8}}\n")
     assert "without damping" in kapitza("run", "scene.yaml", folder=tmp_path).stdout
+
+
+@pytest.mark.parametrize("amplitude", [0.3, 0.46])
+def test_true_labels_agree_with_the_independent_judge(kapitza, tmp_path, amplitude):
+    """Every cell of a small grid: truth stopped by trapping regions against truth followed into small circles."""
+    trade(kapitza, tmp_path, "all.h5", "--set", "basin={theta: {count: 16}, velocity: {min: -2, max: 2, count: 16}}",
+          "--set", "tradeoff={samples: 256, settings: [direct-24]}", amplitude=amplitude)
+    lines = (tmp_path / "all.h5.truth").read_text().splitlines()[1:-1]
+    result = Result(tmp_path / "all.h5")
+    basin = result.group("basin")
+    theta, velocity = np.meshgrid(basin["theta"].values, basin["velocity"].values)
+    truth = truth_labels(Catalogue(result), theta.ravel(), velocity.ravel())
+    assert len(lines) == 256
+    assert sorted(Counter(line.split()[0] for line in lines).values()) == sorted(Counter(truth.tolist()).values())
+
+
+def test_the_picture(reference, tmp_path):
+    for options in ([], ["--per-cell"]):
+        done = subprocess.run([sys.executable, ROOT / "scripts" / "plot_tradeoff.py", reference, "-o", "trade.png", *options],
+                              cwd=tmp_path, capture_output=True, text=True, timeout=120)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "trade.png\n", "")
+        assert matplotlib.image.imread(tmp_path / "trade.png")[..., :3].std() > 0.05

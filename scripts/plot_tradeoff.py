@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Draws the trade between speed and accuracy from a result file of kapitza: share of wrong labels against time, log-log.
+
+    scripts/plot_tradeoff.py tradeoff-fig13.h5
+    scripts/plot_tradeoff.py tradeoff-fig13.h5 --per-cell -o cells.svg       time for the labels alone
+
+A line is one way to label, its points are steps or table nodes; bars are 95 % intervals; a ring marks what nothing beats. A setting
+without a wrong label stands at the upper end of its interval, as an open triangle. Dashed: the share that one unit in the last place
+of the start flips.
+"""
+
+import argparse
+from pathlib import Path
+
+import kapitza_style as style
+import matplotlib.pyplot as plt
+import numpy as np
+from kapitza_file import Result, run
+from matplotlib.ticker import LogLocator, NullFormatter
+
+FORMATS = ("png", "svg", "pdf")
+METHODS, PRECISIONS, INTERPOLATIONS = ("icm", "direct", "hybrid"), ("single", "double", "quad"), ("linear", "cubic", "quintic")
+# Way to label -> colour and marker.
+WAYS = {
+    "direct, split6": ("#2f6db3", "o"),
+    "direct, rk4": ("#7a4fa3", "s"),
+    "direct, split4": ("#12806a", "v"),
+    "direct, single": ("#8fb4dc", "o"),
+    "table, linear": ("#c2452f", "D"),
+    "table, cubic": ("#e08a3c", "^"),
+    "table, quintic": ("#f2b233", "P"),
+    "table, single": ("#a8935a", "P"),
+    "hybrid": ("#3b3f45", "X"),
+}
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", help="result file that holds a trade-off")
+    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser.add_argument("--per-cell", action="store_true", help="time of the labels alone, without table and trapping regions")
+    parser.add_argument("--dpi", type=int, default=200)
+    arguments = parser.parse_args()
+    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
+    if arguments.output.suffix[1:].lower() not in FORMATS:
+        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
+    return arguments
+
+
+def way(method, precision, scheme, interpolation):
+    """A key of WAYS."""
+    method, precision = METHODS[method], PRECISIONS[precision]
+    if method == "hybrid":
+        return "hybrid"
+    name = "direct" if method == "direct" else "table"
+    if precision == "single":
+        return f"{name}, single"
+    return f"{name}, {scheme if name == 'direct' else INTERPOLATIONS[interpolation]}"
+
+
+def grouped(trade):
+    """Way to label -> indices of its settings, from the quickest."""
+    groups = {}
+    rows = zip(trade["method"].values, trade["precision"].values, trade["scheme"].values, trade["interpolation"].values, strict=True)
+    for index, row in enumerate(rows):
+        groups.setdefault(way(*row), []).append(index)
+    return groups
+
+
+def draw_way(axes, name, index, x, trade):
+    colour, marker = WAYS.get(name, (style.FAINT, "o"))
+    index = np.array(sorted(index, key=lambda i: x[i]))
+    wrong, low, high = (100 * trade[key].values[index] for key in ("wrong", "wrong_low", "wrong_high"))
+    seen = wrong > 0
+    height = np.where(seen, wrong, high)
+    axes.plot(x[index], height, color=colour, lw=1.2, zorder=2)
+    axes.errorbar(x[index][seen], wrong[seen], [(wrong - low)[seen], (high - wrong)[seen]], fmt=marker, color=colour, ms=5, lw=0.8,
+                  label=name, zorder=3)
+    axes.plot(x[index][~seen], height[~seen], "v", mfc="white", mec=colour, ms=5, zorder=3)
+    best = trade["pareto"].values[index] == 1
+    axes.plot(x[index][best], height[best], "o", mfc="none", mec=style.INK, ms=11, mew=0.9, zorder=4)
+
+
+def mark_1992(axes, x, trade):
+    for i, label in enumerate(trade["label"].values):
+        if label.endswith("-1992"):
+            height = 100 * max(trade["wrong"].values[i], 0) or 100 * trade["wrong_high"].values[i]
+            axes.annotate("1992", (x[i], height), xytext=(7, 7), textcoords="offset points", fontsize=8, fontweight="bold")
+
+
+def draw(trade, per_cell):
+    figure, axes = plt.subplots(figsize=(7.2, 4.8), layout="constrained")
+    x = trade["seconds_per_million_cells" if per_cell else "seconds"].values
+    for name, index in grouped(trade).items():
+        draw_way(axes, name, index, x, trade)
+    mark_1992(axes, x, trade)
+    floor = 100 * float(trade.attrs["floor"])
+    if floor > 0:
+        axes.axhline(floor, color=style.INK, lw=1, ls="--", zorder=1)
+        axes.annotate("last place of the start", (1, floor), xycoords=("axes fraction", "data"), xytext=(-4, 3),
+                      textcoords="offset points", ha="right", fontsize=8)
+    axes.set(xscale="log", yscale="log", ylabel="wrong labels / %",
+             xlabel="processor seconds per million cells" if per_cell else "processor seconds for the map of this scene")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(NullFormatter())
+    axes.grid(which="both", color="#e3e7eb", lw=0.6)
+    axes.set_axisbelow(True)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper", fontsize=8, frameon=False)
+    return figure
+
+
+def main():
+    arguments = parse_arguments()
+    style.use()
+    result = Result(arguments.file)
+    trade = result.group("tradeoff")
+    figure = draw(trade, arguments.per_cell)
+    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    figure.text(0.01, -0.01, f"k = {result.pendulum['k']:.6g},  β = {result.pendulum['beta']:.6g},  m = {result.pendulum['m']:.6g};  "
+                f"{int(trade.attrs['samples'])} cells judged by quad precision", ha="left", va="top", fontsize=8, color=style.FAINT)
+    style.save(figure, arguments.output, arguments.dpi)
+
+
+if __name__ == "__main__":
+    run(main)
