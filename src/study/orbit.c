@@ -1,12 +1,16 @@
-/* Study `orbit`: one motion, its strobe points, turning points and lines. One rank does it all: it is one motion. */
+/* Study `orbit`: one motion, its strobe points, turning points and lines. One motion has no parallel parts: rank 0 records it. */
 #include "orbit.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 #include "exponent.h"
 
 /* Periods of an open record that the scene does not bound. */
 enum { OPEN_PERIODS = 100 };
+/* Periods of the transient between two looks at stop requests: a few seconds. */
+enum { STRETCH = 100000 };
 
 bool kz_orbit_wanted(const kz_scene *scene) {
   return scene->has_orbit;
@@ -41,17 +45,57 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
   return kz_fail(KZ_FAILED, "orbit.attractor: %lld is chaotic and never closes; another id, or a start", (long long)id);
 }
 
-/* The motion that the scene asks for, recorded and portrayed. */
-static kz_status follow(kz_orbit *orbit, kz_store *store) {
+/* Where the motion starts, on every rank; `period` of a listed attractor. Collective. */
+static kz_status start(kz_orbit *orbit, kz_team *team, kz_store *store) {
   const kz_orbit_plan *plan = orbit->plan;
-  const bool listed = plan->attractor >= 0, closed = plan->closed;
-  kz_state start = {plan->theta, plan->velocity};
-  int64_t period = given(plan->period, 0);
-  if (listed) KZ_TRY(recall(store, plan->attractor, &start, &period));
-  if (plan->transient > 0) kz_mover_skip(&orbit->mover, plan->transient, &start);
-  orbit->cycle = (kz_cycle){.state = start};
-  if (closed) KZ_TRY(kz_cycle_close(&orbit->mover, period, start, &orbit->cycle));
-  int64_t periods = given(plan->periods, closed ? orbit->cycle.period : OPEN_PERIODS);
+  orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
+  const bool recalls = plan->attractor >= 0 && kz_team_rank(team) == 0;
+  KZ_TRY(kz_team_agree(team, recalls ? recall(store, plan->attractor, &orbit->cycle.state, &orbit->cycle.period) : KZ_OK));
+  return kz_team_broadcast(team, &orbit->cycle, sizeof orbit->cycle);
+}
+
+typedef struct {
+  const kz_mover *mover;
+  int64_t periods;
+  kz_state state;
+} kz_stretch;
+
+static kz_status skip_stretch(void *context, int64_t tile, void *record) {
+  const kz_stretch *stretch = context;
+  kz_state state = stretch->state;
+  (void)tile;
+  kz_mover_skip(stretch->mover, stretch->periods, &state);
+  memcpy(record, &state, sizeof state);
+  return KZ_OK;
+}
+
+/* The transient in stretches, so that a stop request is heard and what is done is kept. Collective. */
+static kz_status skip_transient(kz_orbit *orbit, kz_team *team) {
+  const int64_t transient = orbit->plan->transient;
+  for (int64_t done = 0; done < transient; done += STRETCH) {
+    char name[32];
+    snprintf(name, sizeof name, "transient %" PRId64, done / STRETCH + 1);
+    const int64_t periods = transient - done < STRETCH ? transient - done : STRETCH;
+    kz_stretch stretch = {&orbit->mover, periods, orbit->cycle.state};
+    const kz_stage stage = {.name = name,
+                            .n_tiles = 1,
+                            .record_bytes = sizeof(kz_state),
+                            .work = skip_stretch,
+                            .context = &stretch,
+                            .keep = true,
+                            .everywhere = true};
+    KZ_TRY(kz_stage_run(team, &stage, &orbit->cycle.state));
+  }
+  return KZ_OK;
+}
+
+/* The motion after the transient, recorded and portrayed. */
+static kz_status follow(kz_orbit *orbit) {
+  const bool closed = orbit->plan->closed;
+  const kz_state from = orbit->cycle.state;
+  const int64_t period = orbit->cycle.period;
+  if (closed) KZ_TRY(kz_cycle_close(&orbit->mover, period, from, &orbit->cycle));
+  int64_t periods = given(orbit->plan->periods, closed ? orbit->cycle.period : OPEN_PERIODS);
   if (periods < orbit->cycle.period) periods = orbit->cycle.period;
   KZ_TRY(kz_mover_record(&orbit->mover, periods, orbit->cycle.state, &orbit->motion));
   if (orbit->mover.plan)
@@ -63,18 +107,23 @@ static kz_status follow(kz_orbit *orbit, kz_store *store) {
   return kz_portrait_make(&orbit->motion, orbit->cycle.period, &orbit->portrait);
 }
 
-static kz_status model(kz_orbit *orbit, const kz_scene *scene, kz_store *store, FILE *summary) {
-  KZ_TRY(kz_mover_make(scene, &orbit->mover));
-  KZ_TRY(follow(orbit, store));
+static kz_status portray(kz_orbit *orbit, kz_store *store, FILE *summary) {
+  KZ_TRY(follow(orbit));
   KZ_TRY(kz_orbit_write(orbit, store));
   kz_orbit_print(orbit, summary);
   return KZ_OK;
 }
 
+static kz_status model(kz_orbit *orbit, const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+  KZ_TRY(kz_team_agree(team, kz_mover_make(scene, &orbit->mover)));
+  KZ_TRY(start(orbit, team, store));
+  KZ_TRY(skip_transient(orbit, team));
+  return kz_team_rank(team) == 0 ? portray(orbit, store, summary) : KZ_OK;
+}
+
 kz_status kz_orbit_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  if (kz_team_rank(team) != 0) return KZ_OK;
   kz_orbit orbit = {.plan = &scene->orbit, .pendulum = scene->parameters.pendulum, .lyapunov = NAN, .lyapunov_error = NAN};
-  kz_status status = model(&orbit, scene, store, summary);
+  kz_status status = model(&orbit, scene, team, store, summary);
   kz_portrait_free(&orbit.portrait);
   kz_motion_free(&orbit.motion);
   kz_mover_free(&orbit.mover);

@@ -5,6 +5,7 @@ from math import exp, pi, sqrt
 
 import numpy as np
 import pytest
+from conftest import datasets
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kapitza_file import Result
@@ -124,6 +125,17 @@ def test_contradictions_are_refused(kapitza, tmp_path, name):
     done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
     assert named in done.stderr and done.stderr.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
+
+
+def test_a_long_transient_stops_and_goes_on(kapitza, tmp_path):
+    """Stopped by the clock in its transient, resumed on two ranks: the same motion."""
+    orbit = {"start": {"theta": 1, "velocity": 0.2}, "transient": 300000, "periods": 5}
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {"k": 0.25, "damping": 0.05, "m": 0.5}, "orbit": orbit}))
+    kapitza("run", "s.yaml", "-o", "whole.h5", folder=tmp_path)
+    stopped = kapitza("run", "s.yaml", "-o", "parts.h5", "--time-limit", "0.5", folder=tmp_path, status=None)
+    assert stopped.returncode == 75, stopped.stderr
+    kapitza("run", "s.yaml", "-o", "parts.h5", "--resume", folder=tmp_path, ranks=2)
+    assert datasets(tmp_path / "whole.h5") == datasets(tmp_path / "parts.h5")
 
 
 OUT_OF_RANGE = {

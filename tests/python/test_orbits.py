@@ -198,13 +198,19 @@ def test_nodding_cycle_from_the_default_starts(model, key):
 
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize("epsilon", FIGURES)
-def test_every_search_finds_the_same(model, epsilon):
-    """Differently seeded searches agree; KAPITZA_EXTENSIVE=1 tries a hundred of each scene, of which 99 must."""
+def test_every_search_finds_small_basins(model, epsilon):
+    """Attractors that own 0.1 % of the window are in the catalogue of any seed; KAPITZA_EXTENSIVE=1 tries a hundred."""
+    pendulum = {**BLACKBURN, "drive_amplitude": float(epsilon)}
+    grid = {"theta": {"count": 200}, "velocity": {**WINDOW["velocity"], "count": 200}, "icm": {"theta": 400, "velocity": 400}}
+    owners = model(pendulum, basin=grid).group("attractors")
+    large = np.flatnonzero(owners["fraction"].values >= 1e-3)
+    assert len(large) >= 4
+    found = 0
     seeds = range(1, 101 if os.environ.get("KAPITZA_EXTENSIVE") else 4)
-    found = [model({**BLACKBURN, "drive_amplitude": float(epsilon)}, attractors={**WINDOW, "seed": seed}).group("attractors")
-             for seed in seeds]
-    lists = [tuple(zip(map(str, one["name"].values), np.round(one["strobe_velocity"].values[:, 0], 9), strict=True))
-             for one in found]
-    most = max(set(lists), key=lists.count)
-    assert len(most) >= len(FIGURES[epsilon]["attractors"])
-    assert lists.count(most) >= 0.99 * len(lists)
+    for seed in seeds:
+        listed = model(pendulum, attractors={**WINDOW, "seed": seed}).group("attractors")
+        gaps = [near(listed["strobe_theta"].values, owners["strobe_theta"].values[id_, 0]) +
+                np.abs(listed["strobe_velocity"].values - owners["strobe_velocity"].values[id_, 0]) for id_ in large]
+        found += all(np.nanmin(gap) < 1e-9 for gap in gaps)
+    assert found >= 0.99 * len(seeds)
+
