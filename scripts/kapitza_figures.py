@@ -10,18 +10,26 @@ _FLUTTER = ("plot_basin.py", ["--centre", "inverted", "--attractor", "flutter"])
 _ORBIT = ("plot_orbit.py", [])
 _PHASE = ("plot_orbit.py", ["--panels", "phase,path"])
 _TIME = ("plot_orbit.py", ["--panels", "time"])
+_SWEEP = ("plot_sweep.py", [])
 _TRADE = ("plot_tradeoff.py", [])
 
 FIGURES = [
+    ("bifurcation", "bifurcation", *_SWEEP),
     ("blackburn-fig02", "blackburn-fig02", "plot_stability.py", ["--view", "growth"]),
     ("blackburn-fig03", "blackburn-fig03", "plot_stability.py", []),
     ("blackburn-fig04", "blackburn-fig04", "plot_stability.py", ["--view", "frequency"]),
+    ("blackburn-fig04-dots", "blackburn-fig04-dots", *_SWEEP),
     ("blackburn-fig05", "blackburn-fig05", "plot_potential.py", []),
+    ("blackburn-fig06-omega11", "blackburn-fig06-omega11", *_SWEEP),
+    ("blackburn-fig06-omega30", "blackburn-fig06-omega30", *_SWEEP),
+    ("blackburn-fig07", "blackburn-fig07", *_SWEEP),
+    ("blackburn-fig07b", "blackburn-fig07b", *_SWEEP),
     ("blackburn-fig08", "blackburn-fig08", *_TIME),
     ("blackburn-fig09a", "blackburn-fig09a", *_PHASE),
     ("blackburn-fig09b", "blackburn-fig09b", *_PHASE),
     ("blackburn-fig09c", "blackburn-fig09c", *_PHASE),
     ("blackburn-fig09d", "blackburn-fig09d", *_PHASE),
+    ("blackburn-fig10", "blackburn-fig10", *_SWEEP),
     ("blackburn-fig11", "blackburn-fig11", *_BASIN),
     ("blackburn-fig11-inverted", "blackburn-fig11", *_INVERTED),
     ("blackburn-fig12", "blackburn-fig12", *_BASIN),
@@ -32,6 +40,8 @@ FIGURES = [
     ("blackburn-fig14-flutter", "blackburn-fig14", *_FLUTTER),
     ("blackburn-fig15", "blackburn-fig15", *_BASIN),
     ("blackburn-fig15-flutter", "blackburn-fig15", *_FLUTTER),
+    ("blackburn-walk", "blackburn-walk", *_SWEEP),
+    ("blackburn-walk-branches", "blackburn-walk", "plot_sweep.py", ["--view", "branches"]),
     ("butikov-fig01", "butikov-fig01", "plot_stability.py", []),
     ("butikov-fig02", "butikov-fig02", *_ORBIT),
     ("butikov-fig03", "butikov-fig03", *_ORBIT),
