@@ -56,7 +56,7 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
 
 /* The sum of what the wanted studies cost; the memory is that of the most demanding one. */
 kz_cost kz_cost_of(const kz_scene *scene);
-/* KZ_REFUSED where the ranks of this node need more memory than it has. */
+/* KZ_REFUSED where the ranks of this node need more memory than it has, or this process may not have its share. */
 kz_status kz_cost_check(const kz_cost *cost);
 /* "12.3 MB" in text [32]. */
 void kz_cost_print_bytes(double bytes, char *text);

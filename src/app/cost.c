@@ -54,12 +54,22 @@ void kz_cost_print_bytes(double bytes, char *text) {
   snprintf(text, 32, i == 0 ? "%.0f %s" : "%.1f %s", bytes, units[i]);
 }
 
+/* Asks for the memory at once and gives it back: limits of this process (ulimit, batch systems) answer before modelling. */
+static bool may_have(double bytes) {
+  void *volatile memory = malloc((size_t)bytes);
+  free(memory);
+  return memory != NULL;
+}
+
 kz_status kz_cost_check(const kz_cost *cost) {
   const int ranks = local_ranks();
   const double memory = node_memory();
-  if (cost->memory_bytes * ranks <= memory) return KZ_OK;
   char needed[32], there[32];
   kz_cost_print_bytes(cost->memory_bytes, needed);
+  if (cost->memory_bytes * ranks <= memory) {
+    if (may_have(cost->memory_bytes)) return KZ_OK;
+    return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; smaller counts", needed);
+  }
   kz_cost_print_bytes(memory, there);
   return kz_fail(KZ_REFUSED,
                  "scene: needs %s of memory in each of %d ranks on this node, which has %s; smaller counts or fewer ranks",
