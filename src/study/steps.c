@@ -77,9 +77,8 @@ static void describe_error(double error, size_t bytes, char *text)
     snprintf(text, bytes, "diverge");
 }
 
-kz_status kz_steps_check(const kz_scene *scene)
+static kz_status check_pendulum(const kz_scene *scene, double fastest)
 {
-  double fastest = fastest_start(scene);
   if (fastest < 0 || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   kz_step_trial trial = kz_steps_try(&scene->parameters.pendulum, &scene->numerics, fastest);
   int worst = worst_class(&trial);
@@ -91,6 +90,25 @@ kz_status kz_steps_check(const kz_scene *scene)
   advice(scene, fastest, sizeof help, help);
   return kz_fail(KZ_REFUSED, "numerics.steps_per_period: with %d steps of %s, motions at speeds from %.3g to %.3g %s; %s",
                  (int)scene->numerics.steps_per_period, scheme.name, trial.speed[worst], trial.speed[worst + 1], what, help);
+}
+
+/* A sweep at both ends of its values. */
+static kz_status check_sweep(const kz_scene *scene)
+{
+  const kz_axis *velocity = &scene->sweep.velocity;
+  const double ends[] = {scene->sweep.values.min, scene->sweep.values.max};
+  for (int i = 0; i < 2; i++) {
+    kz_scene at = *scene;
+    if (kz_sweep_pendulum(scene, ends[i], &at.parameters.pendulum))
+      KZ_TRY(check_pendulum(&at, fmax(fabs(velocity->min), fabs(velocity->max))));
+  }
+  return KZ_OK;
+}
+
+kz_status kz_steps_check(const kz_scene *scene)
+{
+  KZ_TRY(check_pendulum(scene, fastest_start(scene)));
+  return scene->has_sweep ? check_sweep(scene) : KZ_OK;
 }
 
 static void warn_steps(const kz_scene *scene, double fastest, const kz_step_trial *trial, FILE *summary)

@@ -115,6 +115,33 @@ sweep: {parameter: damping, min: 0, max: 0.02, count: 3, measure: [attractors], 
         assert np.isnan(group["branch_amplitude"][0]).all() and group["branch_amplitude"][1, row] == 0
 
 
+def test_chaos_is_one_branch(kapitza, tmp_path):
+    (tmp_path / "chaos.yaml").write_text("""\
+pendulum: {k: 0.25, damping: 0.05, m: 0.5}
+sweep: {parameter: m, min: 0.45, max: 0.5, count: 3, measure: [basin_fractions], starts: 64, velocity: {min: -1, max: 1}}
+""")
+    kapitza("run", "chaos.yaml", ranks=2, folder=tmp_path)
+    with h5py.File(tmp_path / "chaos.h5") as file:
+        group = file["sweep"]
+        names = list(group["branch_name"].asstr()[:])
+        row = names.index("chaotic")
+        assert names.count("rotation +8/8") == names.count("rotation -8/8") == names.count("chaotic") == 1
+        assert group["branch_period"][row] == 0 and group["branch_mirror"][row] == row
+        assert (group["branch_start"][row], KINDS[group["branch_start_kind"][row]]) == (0.475, "not_located")
+        assert KINDS[group["branch_end_kind"][row]] == "left_the_range" and group["fraction"][2, row] == 1
+        rotation = names.index("rotation +8/8")
+        assert KINDS[group["branch_end_kind"][rotation]] == "period_doubling" and 0.45 < group["branch_end"][rotation] < 0.475
+
+
+def test_steps_that_lose_a_period_are_refused(kapitza, tmp_path):
+    (tmp_path / "wild.yaml").write_text("""\
+pendulum: {k: 0.01, damping: 0.05, m: 0.5}
+sweep: {parameter: m, min: 0.5, max: 2000, count: 3, measure: [strobe]}
+""")
+    done = kapitza("run", "wild.yaml", folder=tmp_path, status=2)
+    assert "numerics.steps_per_period" in done.stderr and not (tmp_path / "wild.h5").exists()
+
+
 def test_flutter_amplitudes(sweep):
     arrays, attributes = sweep("flutter_amplitude", 0.47, 0.56, 19, ranks=None)
     known = {round(float(row["eps"]), 6): row["amp_rad"] for row in REFERENCE["blackburn_fig9_10_flutter_Q5_Omega11"]}
