@@ -73,7 +73,7 @@ def draw_way(axes, name, index, x, trade):
     wrong, low, high = (100 * trade[key].values[index] for key in ("wrong", "wrong_low", "wrong_high"))
     seen = wrong > 0
     height = np.where(seen, wrong, high)
-    axes.plot(x[index], height, color=colour, lw=1.2, zorder=2)
+    axes.plot(x[index][seen], height[seen], color=colour, lw=1.2, zorder=2)
     axes.errorbar(x[index][seen], wrong[seen], [(wrong - low)[seen], (high - wrong)[seen]], fmt=marker, color=colour, ms=5, lw=0.8,
                   label=name, zorder=3)
     axes.plot(x[index][~seen], height[~seen], "v", mfc="white", mec=colour, ms=5, zorder=3)
