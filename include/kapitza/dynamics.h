@@ -60,12 +60,12 @@ void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 /* The cycle near a state, by Newton's method on the strobe map of `numerics`: n = a period that closes it; returns its smallest
  * period, 0 where none lies within `reach` (rad). theta, velocity become its point there; re, im [2] its Floquet multipliers
  * over the smallest period, larger modulus first, + imaginary first. It need not attract. */
-int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double reach, double *theta,
-                                double *velocity, double *re, double *im);
+int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double reach,
+                                double *theta, double *velocity, double *re, double *im);
 
 /* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `reach`. */
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach);
-int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics); /* doubles per row */
+int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics);               /* doubles per row */
 void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift); /* integrates row 0 .. n_velocity - 1 */
 /* Takes all rows, in order; the trapping regions are grown over its cells. */
 void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);

@@ -45,7 +45,7 @@ void kz_team_set_time_limit(kz_team *team, double seconds);
  * text (scene, version, numerics: one "name: value" a line) that a resumed run must match; a difference is refused naming
  * the first line that differs. Collective. */
 typedef struct {
-  const char *path;        /* of the checkpoint itself */
+  const char *path; /* of the checkpoint itself */
   const char *fingerprint;
   bool resume; /* go on from an existing file */
   bool force;  /* discard an existing file */
@@ -58,13 +58,13 @@ kz_status kz_checkpoint_close(kz_team *team, bool complete);
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
 
 typedef struct {
-  const char *name;    /* short, for the progress line and the checkpoint: "table", "cells" */
+  const char *name; /* short, for the progress line and the checkpoint: "table", "cells" */
   int64_t n_tiles;
   size_t record_bytes;
   kz_tile_fn work;
   void *context;
-  bool keep;           /* records go to the checkpoint as they finish, and are not done again on resume */
-  bool everywhere;     /* all ranks receive all records; else only rank 0 */
+  bool keep;       /* records go to the checkpoint as they finish, and are not done again on resume */
+  bool everywhere; /* all ranks receive all records; else only rank 0 */
 } kz_stage;
 
 /* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless

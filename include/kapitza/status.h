@@ -6,10 +6,10 @@
 #define KAPITZA_STATUS_H
 
 /* code, exit status of the program, meaning */
-#define KZ_STATUS_LIST(X)                                                       \
-  X(KZ_OK, 0, "done")                                                           \
-  X(KZ_FAILED, 1, "failed while running")                                       \
-  X(KZ_REFUSED, 2, "the command line, the scene or a path is wrong")            \
+#define KZ_STATUS_LIST(X)                                            \
+  X(KZ_OK, 0, "done")                                                \
+  X(KZ_FAILED, 1, "failed while running")                            \
+  X(KZ_REFUSED, 2, "the command line, the scene or a path is wrong") \
   X(KZ_STOPPED, 75, "stopped early on request, all finished work is saved")
 
 #define KZ_STATUS_ENUM(code, exit_status, meaning) code = exit_status,
@@ -27,9 +27,9 @@ void kz_message_clear(void);
 /* The text of the list above. */
 const char *kz_status_meaning(kz_status status);
 
-#define KZ_TRY(call)                             \
-  do {                                           \
-    kz_status kz_try_status = (call);            \
+#define KZ_TRY(call)                                  \
+  do {                                                \
+    kz_status kz_try_status = (call);                 \
     if (kz_try_status != KZ_OK) return kz_try_status; \
   } while (0)
 

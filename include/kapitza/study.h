@@ -61,7 +61,7 @@ typedef struct {
   int64_t periods;        /* of the record */
   int64_t samples_per_period;
   bool closed;
-  int64_t period;         /* of a closed orbit; unset = found */
+  int64_t period; /* of a closed orbit; unset = found */
 } kz_orbit_plan;
 
 /* Study `stability`; damping and quality factor NaN = not given, curves: places among kz_curve_names(). */
@@ -98,8 +98,8 @@ enum {
 
 /* Study `sweep`. */
 typedef struct {
-  int32_t parameter;      /* row of kz_sweep_parameters */
-  kz_axis values;         /* both ends included */
+  int32_t parameter; /* row of kz_sweep_parameters */
+  kz_axis values;    /* both ends included */
   kz_integers measure;
   kz_axis theta, velocity; /* window of starts; the axes' counts are of no meaning */
   int64_t starts, max_period, seed;
@@ -109,9 +109,9 @@ typedef struct {
 
 /* The pendulum mapping as written, in one of three forms; NaN = key not given. */
 typedef struct {
-  double quality_factor, drive_frequency, drive_amplitude;                               /* a: Q, Omega, epsilon */
-  double k, damping, m;                                                                  /* b: k, beta, m */
-  double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency;    /* c: SI, BSG Eq. (1) */
+  double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
+  double k, damping, m;                                                              /* b: k, beta, m */
+  double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
 } kz_pendulum_keys;
 
 /* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */
@@ -162,9 +162,9 @@ bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulu
 /* What a study would cost. */
 typedef struct {
   int64_t cells;
-  double disk_bytes;     /* result file and checkpoint */
-  double memory_bytes;   /* of the largest rank */
-  double core_seconds;   /* rough, on one core */
+  double disk_bytes;   /* result file and checkpoint */
+  double memory_bytes; /* of the largest rank */
+  double core_seconds; /* rough, on one core */
 } kz_cost;
 
 /* One row per study. `summary` is a stream for people on rank 0, NULL elsewhere; so is `store`. All ranks call run. */

@@ -4,8 +4,7 @@
 
 #include "kapitza/analysis.h"
 
-kz_line kz_fit_line(int64_t n, const double *x, const double *y)
-{
+kz_line kz_fit_line(int64_t n, const double *x, const double *y) {
   kz_line line = {NAN, NAN, NAN};
   double c00, c01, c11, residual;
   if (n < 3) return line;

@@ -68,7 +68,8 @@ kz_status kz_cost_check(const kz_cost *cost) {
   kz_cost_print_bytes(cost->memory_bytes, needed);
   if (cost->memory_bytes * ranks <= memory) {
     if (may_have(cost->memory_bytes)) return KZ_OK;
-    return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; smaller counts", needed);
+    return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; smaller counts",
+                   needed);
   }
   kz_cost_print_bytes(memory, there);
   return kz_fail(KZ_REFUSED,

@@ -81,20 +81,23 @@ const kz_key kz_keys[] = {
     REAL("basin.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.max, "Upper edge of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", "icm|direct|hybrid", "icm", basin.method,
-         "icm: interpolated cell mapping; direct: every cell is integrated; hybrid: icm, then direct where the table is not to be "
+         "icm: interpolated cell mapping; direct: every cell is integrated; hybrid: icm, then direct where the table is not to "
+         "be "
          "trusted.",
          CHOSEN),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),
     INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity.", CHOSEN),
-    WORD("basin.icm.interpolation", "linear|cubic|quintic", "quintic", basin.interpolation, "Interpolation between the nodes.", CHOSEN),
+    WORD("basin.icm.interpolation", "linear|cubic|quintic", "quintic", basin.interpolation, "Interpolation between the nodes.",
+         CHOSEN),
     INTEGER("basin.max_periods", 1, 4e9, "2000", basin.max_periods, "Drive periods after which a cell counts as not settled."),
     MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
     REAL("basin.accuracy", "", 0.5, 0.9999, "", basin.accuracy,
-         "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a sample "
+         "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a "
+         "sample "
          "followed in quad precision shows to be as right (95 % bound)."),
 
     MAPPING("tradeoff", "", AT(has_tradeoff),
@@ -170,9 +173,9 @@ const kz_key kz_keys[] = {
     REAL("sweep.max", "", -DBL_MAX, DBL_MAX, NULL, sweep.values.max, "Last value."),
     INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Values, both ends included."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(sweep.measure),
-          "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
-          "of the starts; flutter_amplitude: of the period-2 cycle about inverted; flutter_zone: how far flutter reaches when "
-          "m is raised; release_angle: from rest; strobe: a bifurcation diagram.",
+        "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
+        "of the starts; flutter_amplitude: of the period-2 cycle about inverted; flutter_zone: how far flutter reaches when "
+        "m is raised; release_angle: from rest; strobe: a bifurcation diagram.",
         .unit = "", .words = "attractors|basin_fractions|flutter_amplitude|flutter_zone|release_angle|strobe"),
     MAPPING("sweep.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
     REAL("sweep.theta.min", "rad", -1e6, 1e6, "", sweep.theta.min, "Lower edge of the window."),

@@ -123,8 +123,8 @@ static void sweep_value(kz_reading *reading, const kz_scene *scene, const char *
   const double low = kz_key_find(reading->keys, key)->low;
   if (isnan(value)) return;
   if (value < low)
-    kz_complain(reading, node, path, "%.17g is below what %s takes; %s%g", value, key, low > 0 && low < 1e-300 ? "above " : "at least ",
-                low > 0 && low < 1e-300 ? 0.0 : low);
+    kz_complain(reading, node, path, "%.17g is below what %s takes; %s%g", value, key,
+                low > 0 && low < 1e-300 ? "above " : "at least ", low > 0 && low < 1e-300 ? 0.0 : low);
   else if (!reading->message[0] && !kz_sweep_pendulum(scene, value, &pendulum))
     kz_complain(reading, node, path, "%.17g gives no finite k, beta >= 0 and m; a less extreme value", value);
 }
@@ -181,7 +181,7 @@ static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {numerics_rules,  basin_rules,    attractors_rules, orbit_rules,       stability_rules,
+static const rule rules[] = {numerics_rules, basin_rules,    attractors_rules,  orbit_rules, stability_rules,
                              tradeoff_rules, pendulum_rules, orbit_range_rules, sweep_rules};
 
 void kz_reading_rules(kz_reading *reading) {

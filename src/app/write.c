@@ -42,8 +42,7 @@ static void write_name(const char *path, const char *last, FILE *out) {
 void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out) {
   const char *last = "";
   for (const kz_key *key = keys; key->path; key++) {
-    if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene) ||
-        is_chosen(key, scene))
+    if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene) || is_chosen(key, scene))
       continue;
     if (flat)
       fprintf(out, "%s: ", key->path);

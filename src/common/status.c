@@ -5,8 +5,7 @@
 
 static char message[2048];
 
-kz_status kz_fail(kz_status status, const char *format, ...)
-{
+kz_status kz_fail(kz_status status, const char *format, ...) {
   if (message[0] == '\0') {
     va_list arguments;
     va_start(arguments, format);
@@ -16,12 +15,15 @@ kz_status kz_fail(kz_status status, const char *format, ...)
   return status;
 }
 
-const char *kz_message(void) { return message; }
+const char *kz_message(void) {
+  return message;
+}
 
-void kz_message_clear(void) { message[0] = '\0'; }
+void kz_message_clear(void) {
+  message[0] = '\0';
+}
 
-const char *kz_status_meaning(kz_status status)
-{
+const char *kz_status_meaning(kz_status status) {
   switch (status) {
 #define KZ_STATUS_CASE(code, exit_status, meaning) \
   case code:                                       \

@@ -56,15 +56,19 @@ static kz_status climb(walk *w, kz_team *team, double accuracy, kz_choice *choic
   *best = w->judge->samples;
   for (w->first = 0; w->first < w->count && !choice->setting; w->first += step) {
     const int64_t left = w->count - w->first;
-    kz_stage stage = {.name = "settings", .n_tiles = left < step ? left : step, .record_bytes = sizeof *measured,
-                      .work = try_setting, .context = w, .keep = true, .everywhere = true};
+    kz_stage stage = {.name = "settings",
+                      .n_tiles = left < step ? left : step,
+                      .record_bytes = sizeof *measured,
+                      .work = try_setting,
+                      .context = w,
+                      .keep = true,
+                      .everywhere = true};
     KZ_TRY(kz_stage_run(team, &stage, measured));
     for (int64_t i = 0; i < stage.n_tiles && !choice->setting; i++) {
       choice->tried++;
       choice->wrong = measured[i].wrong;
       if (measured[i].wrong < *best) *best = measured[i].wrong;
-      if (kz_share_of(measured[i].wrong, w->judge->samples).high <= 1 - accuracy)
-        choice->setting = w->ladder[w->first + i];
+      if (kz_share_of(measured[i].wrong, w->judge->samples).high <= 1 - accuracy) choice->setting = w->ladder[w->first + i];
     }
   }
   return KZ_OK;
@@ -72,11 +76,12 @@ static kz_status climb(walk *w, kz_team *team, double accuracy, kz_choice *choic
 
 static kz_status refuse(double accuracy, const kz_choice *choice, int64_t best) {
   const kz_share reached = kz_share_of(best, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
-  return kz_fail(KZ_REFUSED,
-                 "basin.accuracy: %.10g is out of reach: of %lld cells followed in quad precision the best setting labels %.3f %% "
-                 "wrongly, %.3f %% at the end of the 95 %% interval, and the last place of the start alone flips %.3f %%; at most %.4f",
-                 accuracy, (long long)choice->samples, 100 * reached.share, 100 * reached.high, 100 * flips.share,
-                 floor(1e4 * (1 - reached.high)) / 1e4);
+  return kz_fail(
+      KZ_REFUSED,
+      "basin.accuracy: %.10g is out of reach: of %lld cells followed in quad precision the best setting labels %.3f %% "
+      "wrongly, %.3f %% at the end of the 95 %% interval, and the last place of the start alone flips %.3f %%; at most %.4f",
+      accuracy, (long long)choice->samples, 100 * reached.share, 100 * reached.high, 100 * flips.share,
+      floor(1e4 * (1 - reached.high)) / 1e4);
 }
 
 static void tell(const kz_choice *choice, double accuracy, FILE *summary) {

@@ -17,9 +17,9 @@
 #include "map_table.h"
 
 enum {
-  CELLS = 4096,       /* per tile */
-  SCOUTS = 512,       /* starts that find the main attractors before there is a table */
-  ROUNDS = 4          /* of discovery from unsettled cells, at most */
+  CELLS = 4096, /* per tile */
+  SCOUTS = 512, /* starts that find the main attractors before there is a table */
+  ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
 
 /* What a label rests on, as the file says it. */
@@ -34,32 +34,31 @@ typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
   double reach;
-  int64_t total, own;       /* cells of the window; those that are labelled, the others mirror them */
-  int16_t *owner;           /* [own], rank 0 */
-  uint32_t *periods;        /* [own], rank 0 */
-  int64_t n_open, *open;    /* cells of the present stage; NULL = all own ones */
-  bool directly;            /* the present stage integrates them */
-  uint8_t *again;           /* [own], rank 0: integrated because the table was not trusted */
-  uint8_t *mark;            /* [own], rank 0: scratch */
-  int64_t *reached;         /* [INT16_MAX + 1] starts and cells that ended on each attractor */
+  int64_t total, own;    /* cells of the window; those that are labelled, the others mirror them */
+  int16_t *owner;        /* [own], rank 0 */
+  uint32_t *periods;     /* [own], rank 0 */
+  int64_t n_open, *open; /* cells of the present stage; NULL = all own ones */
+  bool directly;         /* the present stage integrates them */
+  uint8_t *again;        /* [own], rank 0: integrated because the table was not trusted */
+  uint8_t *mark;         /* [own], rank 0: scratch */
+  int64_t *reached;      /* [INT16_MAX + 1] starts and cells that ended on each attractor */
 } basin;
 
-bool kz_axis_is_symmetric(const kz_axis *axis) { return axis->min == -axis->max; }
+bool kz_axis_is_symmetric(const kz_axis *axis) {
+  return axis->min == -axis->max;
+}
 
-int64_t kz_own_cells(const kz_basin_plan *plan)
-{
+int64_t kz_own_cells(const kz_basin_plan *plan) {
   int64_t total = plan->theta.count * plan->velocity.count;
   return kz_axis_is_symmetric(&plan->theta) && kz_axis_is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
 }
 
-double kz_axis_centre(const kz_axis *axis, int64_t i)
-{
+double kz_axis_centre(const kz_axis *axis, int64_t i) {
   return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
          (axis->min + axis->max) / 2;
 }
 
-void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2])
-{
+void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
   double half_turns = kz_axis_centre(&plan->theta, f % plan->theta.count) / M_PI;
   state[0] = half_turns - 2 * rint(half_turns / 2);
   state[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
@@ -67,8 +66,7 @@ void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2])
 
 const int32_t kz_stencil[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
 
-static kz_status label_tile(void *context, int64_t tile, void *record)
-{
+static kz_status label_tile(void *context, int64_t tile, void *record) {
   const basin *b = context;
   labelled *out = record;
   double state[2 * CELLS];
@@ -87,13 +85,16 @@ static kz_status label_tile(void *context, int64_t tile, void *record)
 }
 
 /* Labels the open cells; on rank 0 they go to their places. */
-static kz_status label_cells(basin *b, kz_team *team, int round, bool directly)
-{
+static kz_status label_cells(basin *b, kz_team *team, int round, bool directly) {
   char name[32];
   snprintf(name, sizeof name, "cells %d%s", round + 1, directly ? " directly" : "");
   b->directly = directly;
-  kz_stage stage = {.name = name, .n_tiles = (b->n_open + CELLS - 1) / CELLS, .record_bytes = sizeof(labelled),
-                    .work = label_tile, .context = b, .keep = true};
+  kz_stage stage = {.name = name,
+                    .n_tiles = (b->n_open + CELLS - 1) / CELLS,
+                    .record_bytes = sizeof(labelled),
+                    .work = label_tile,
+                    .context = b,
+                    .keep = true};
   labelled *records = NULL;
   if (kz_team_rank(team) == 0) records = malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status = KZ_OK;
@@ -110,8 +111,7 @@ static kz_status label_cells(basin *b, kz_team *team, int round, bool directly)
 }
 
 /* Discovery from n states; what they reach is counted. */
-static kz_status discover(basin *b, kz_team *team, int64_t n, double *state)
-{
+static kz_status discover(basin *b, kz_team *team, int64_t n, double *state) {
   int32_t *owner = malloc((size_t)n * sizeof *owner + 1);
   kz_status status = kz_team_agree(team, owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   if (status == KZ_OK) status = kz_discover(team, b->dynamics, b->plan->max_periods, n, state, owner);
@@ -123,8 +123,7 @@ static kz_status discover(basin *b, kz_team *team, int64_t n, double *state)
 }
 
 /* A few starts find the attractors that own most of the window; with the regions grown around those the others settle soon. */
-static kz_status first_discovery(basin *b, kz_team *team, const kz_window *window)
-{
+static kz_status first_discovery(basin *b, kz_team *team, const kz_window *window) {
   int64_t n = b->plan->starts, scouts = n < SCOUTS ? n : SCOUTS;
   double *state = malloc((size_t)n * 2 * sizeof *state);
   kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
@@ -140,8 +139,7 @@ static kz_status first_discovery(basin *b, kz_team *team, const kz_window *windo
 }
 
 /* The cells that are marked on rank 0, as the open ones of every rank. */
-static kz_status open_marked(basin *b, kz_team *team, const uint8_t *mark)
-{
+static kz_status open_marked(basin *b, kz_team *team, const uint8_t *mark) {
   int64_t n = 0;
   for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += mark[f];
   KZ_TRY(kz_team_broadcast(team, &n, sizeof n));
@@ -155,15 +153,13 @@ static kz_status open_marked(basin *b, kz_team *team, const uint8_t *mark)
   return kz_team_broadcast(team, b->open, (size_t)b->n_open * sizeof *b->open);
 }
 
-static kz_status open_unsettled(basin *b, kz_team *team)
-{
+static kz_status open_unsettled(basin *b, kz_team *team) {
   for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) b->mark[f] = b->owner[f] == 0;
   return open_marked(b, team, b->mark);
 }
 
 /* Hybrid: integrates those open cells whose label the table does not back. */
-static kz_status label_distrusted(basin *b, kz_team *team, int round)
-{
+static kz_status label_distrusted(basin *b, kz_team *team, int round) {
   kz_grid grid = {b->plan, b->dynamics, b->total, b->own, b->owner, b->periods};
   double horizon = kz_dynamics_trust_horizon(b->dynamics, kz_stencil[b->plan->interpolation]);
   kz_status status = KZ_OK;
@@ -179,8 +175,7 @@ static kz_status label_distrusted(basin *b, kz_team *team, int round)
 }
 
 /* Unsettled cells, evenly chosen, as starts of another discovery. */
-static kz_status discover_again(basin *b, kz_team *team)
-{
+static kz_status discover_again(basin *b, kz_team *team) {
   int64_t n = b->n_open < b->plan->starts ? b->n_open : b->plan->starts;
   double *state = malloc((size_t)n * 2 * sizeof *state);
   kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
@@ -191,8 +186,7 @@ static kz_status discover_again(basin *b, kz_team *team)
 }
 
 /* Everything up to the labels. */
-static kz_status model(basin *b, kz_team *team, const kz_window *window)
-{
+static kz_status model(basin *b, kz_team *team, const kz_window *window) {
   KZ_TRY(first_discovery(b, team, window));
   b->n_open = b->own;
   for (int round = 0;; round++) {
@@ -207,8 +201,7 @@ static kz_status model(basin *b, kz_team *team, const kz_window *window)
   }
 }
 
-static kz_status allocate(basin *b, bool leads)
-{
+static kz_status allocate(basin *b, bool leads) {
   b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
   b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
   b->periods = leads ? calloc((size_t)b->own, sizeof *b->periods) : NULL;
@@ -219,8 +212,7 @@ static kz_status allocate(basin *b, bool leads)
 }
 
 /* From numbers of own cells to ids of all cells. */
-static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels)
-{
+static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
   KZ_TRY(kz_labels_allocate(b->total, labels));
   for (int64_t f = 0; f < b->own; f++) b->reached[b->owner[f]]++;
   kz_status status = kz_catalogue_make(b->dynamics, b->reached, catalogue);
@@ -236,8 +228,7 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels)
 }
 
 /* What the labels stand on, in numbers and as warnings. */
-static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary)
-{
+static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
   const kz_axis *velocity = &scene->basin.velocity;
   labels->step_error = kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), scene->basin.max_periods, summary);
   labels->table_error = NAN;
@@ -246,8 +237,7 @@ static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *lab
   kz_steps_warn_table(labels->table_error, summary);
 }
 
-static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
-{
+static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   basin b = {.plan = plan, .total = plan->theta.count * plan->velocity.count};
   kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
@@ -279,8 +269,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
 }
 
 /* Without damping areas are conserved and nothing attracts. */
-static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
-{
+static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   kz_status status = KZ_OK;
   if (kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};
@@ -301,8 +290,7 @@ static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *st
 }
 
 /* With basin.accuracy: the scene with what the program chose. */
-static kz_status run_accurate(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
-{
+static kz_status run_accurate(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   kz_choice choice;
   kz_scene chosen = *scene;
   KZ_TRY(kz_accuracy_choose(scene, team, store, summary, &choice));
@@ -311,16 +299,16 @@ static kz_status run_accurate(const kz_scene *scene, kz_team *team, kz_store *st
   return kz_team_agree(team, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
 }
 
-kz_status kz_basin_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary)
-{
+kz_status kz_basin_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, team, store, summary);
   return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, team, store, summary);
 }
 
-bool kz_basin_wanted(const kz_scene *scene) { return scene->has_basin; }
+bool kz_basin_wanted(const kz_scene *scene) {
+  return scene->has_basin;
+}
 
-kz_cost kz_basin_cost(const kz_scene *scene)
-{
+kz_cost kz_basin_cost(const kz_scene *scene) {
   const kz_basin_plan *plan = &scene->basin;
   double cells = (double)plan->theta.count * (double)plan->velocity.count;
   double nodes = (double)plan->table_theta * (double)plan->table_velocity;
@@ -331,10 +319,11 @@ kz_cost kz_basin_cost(const kz_scene *scene)
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
   double cell_period = plan->method == KZ_METHOD_ICM ? 3e-8 : period;
-  kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
-                   .disk_bytes = 14 * cells,
-                   .memory_bytes = 5e7 + 27 * cells + 100 * nodes,
-                   .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) + cells * 10 * cell_period};
+  kz_cost cost = {
+      .cells = plan->theta.count * plan->velocity.count,
+      .disk_bytes = 14 * cells,
+      .memory_bytes = 5e7 + 27 * cells + 100 * nodes,
+      .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) + cells * 10 * cell_period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

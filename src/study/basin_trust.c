@@ -5,13 +5,11 @@
 #include "basin.h"
 
 /* Number of the attractor of any cell of the window; cells beyond the own ones mirror them. */
-static int32_t owner_of(const kz_grid *grid, const int32_t *mirror, int64_t f)
-{
+static int32_t owner_of(const kz_grid *grid, const int32_t *mirror, int64_t f) {
   return f < grid->own ? grid->owner[f] : mirror[grid->owner[grid->total - 1 - f]];
 }
 
-static bool differs_from_neighbour(const kz_grid *grid, const int32_t *mirror, int64_t f)
-{
+static bool differs_from_neighbour(const kz_grid *grid, const int32_t *mirror, int64_t f) {
   int64_t width = grid->plan->theta.count, column = f % width;
   bool circle = grid->plan->theta.max - grid->plan->theta.min == 2 * M_PI;
   int64_t left = column > 0 ? f - 1 : circle ? f + width - 1 : f;
@@ -22,13 +20,11 @@ static bool differs_from_neighbour(const kz_grid *grid, const int32_t *mirror, i
          owner_of(grid, mirror, above) != own;
 }
 
-bool kz_distrusted(int32_t owner, int64_t periods, double horizon, bool differs)
-{
+bool kz_distrusted(int32_t owner, int64_t periods, double horizon, bool differs) {
   return owner == 0 || (periods > 0 && ((double)periods > horizon || differs));
 }
 
-kz_status kz_grid_distrust(const kz_grid *grid, double horizon, uint8_t *mark)
-{
+kz_status kz_grid_distrust(const kz_grid *grid, double horizon, uint8_t *mark) {
   int64_t known = kz_dynamics_count(grid->dynamics);
   int32_t *mirror = calloc((size_t)known + 1, sizeof *mirror);
   double *points = calloc(2 * (size_t)kz_dynamics_packed_size(grid->dynamics), sizeof *points);

@@ -6,8 +6,7 @@
 
 enum { DISTANCES = 8 };
 
-kz_status kz_labels_allocate(int64_t cells, kz_labels *labels)
-{
+kz_status kz_labels_allocate(int64_t cells, kz_labels *labels) {
   labels->cells = cells;
   labels->attractor = calloc((size_t)cells, sizeof *labels->attractor);
   labels->settling_time = calloc((size_t)cells, sizeof *labels->settling_time);
@@ -16,29 +15,28 @@ kz_status kz_labels_allocate(int64_t cells, kz_labels *labels)
   return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)cells);
 }
 
-void kz_labels_free(kz_labels *labels)
-{
+void kz_labels_free(kz_labels *labels) {
   free(labels->attractor);
   free(labels->settling_time);
   free(labels->evidence);
 }
 
 /* Share of the cells of each attractor; returns the number of unsettled cells. */
-static int64_t count_fractions(const kz_labels *labels, kz_catalogue *catalogue)
-{
+static int64_t count_fractions(const kz_labels *labels, kz_catalogue *catalogue) {
   int64_t unsettled = 0;
   for (int64_t i = 0; i < catalogue->count; i++) catalogue->entries[i].fraction = 0;
   for (int64_t f = 0; f < labels->cells; f++) {
-    if (labels->attractor[f] < 0) unsettled++;
-    else catalogue->entries[labels->attractor[f]].fraction++;
+    if (labels->attractor[f] < 0)
+      unsettled++;
+    else
+      catalogue->entries[labels->attractor[f]].fraction++;
   }
   for (int64_t i = 0; i < catalogue->count; i++) catalogue->entries[i].fraction /= (double)labels->cells;
   return unsettled;
 }
 
 /* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
-static kz_line uncertainty(const kz_basin_plan *plan, const kz_labels *labels)
-{
+static kz_line uncertainty(const kz_basin_plan *plan, const kz_labels *labels) {
   double x[DISTANCES], y[DISTANCES], share;
   int64_t n = 0, circle = plan->theta.max - plan->theta.min == 2 * M_PI;
   for (int64_t distance = 1; n < DISTANCES && 16 * distance <= plan->theta.count; distance *= 2) {
@@ -50,8 +48,7 @@ static kz_line uncertainty(const kz_basin_plan *plan, const kz_labels *labels)
   return kz_fit_line(n, x, y);
 }
 
-static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, kz_store *store, FILE *summary)
-{
+static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, kz_store *store, FILE *summary) {
   double entropy, boundary_entropy;
   kz_basin_entropy(plan->theta.count, plan->velocity.count, labels->attractor, &entropy, &boundary_entropy);
   kz_line line = uncertainty(plan, labels);
@@ -68,10 +65,9 @@ static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labe
   return KZ_OK;
 }
 
-static kz_status write_numerics(const kz_scene *scene, kz_store *store)
-{
+static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   static const char *const methods[] = {"icm", "direct", "hybrid"}, *const precisions[] = {"single", "double", "quad"},
-                    *const interpolations[] = {"linear", "cubic", "quintic"};
+                           *const interpolations[] = {"linear", "cubic", "quintic"};
   const kz_basin_plan *plan = &scene->basin;
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
@@ -85,8 +81,7 @@ static kz_status write_numerics(const kz_scene *scene, kz_store *store)
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
 }
 
-static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store)
-{
+static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {
   double *centres = malloc((size_t)axis->count * sizeof *centres);
   if (!centres) return kz_fail(KZ_FAILED, "no memory for the axis %s", name);
   for (int64_t i = 0; i < axis->count; i++) centres[i] = kz_axis_centre(axis, i);
@@ -96,15 +91,15 @@ static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *sto
 }
 
 kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
-                         FILE *summary)
-{
+                         FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   int64_t unsettled = count_fractions(labels, catalogue);
   kz_catalogue_print(catalogue, true, summary);
   fprintf(summary, "%lld of %lld cells did not settle within %lld periods", (long long)unsettled, (long long)labels->cells,
           (long long)plan->max_periods);
   if (unsettled > 0 && catalogue->count > 0)
-    fprintf(summary, "; motions here shrink e-fold in some %.0f: basin.max_periods, or basin.attractors.max_period, may be too small",
+    fprintf(summary,
+            "; motions here shrink e-fold in some %.0f: basin.max_periods, or basin.attractors.max_period, may be too small",
             1 / (M_PI * scene->parameters.pendulum.beta));
   fprintf(summary, "\n");
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));

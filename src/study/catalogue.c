@@ -6,8 +6,7 @@
 
 enum { SAMPLES = 96, LINES_PER_PERIOD = 8 };
 
-void kz_catalogue_free(kz_catalogue *catalogue)
-{
+void kz_catalogue_free(kz_catalogue *catalogue) {
   for (int64_t i = 0; i < catalogue->count; i++) {
     free(catalogue->entries[i].theta);
     free(catalogue->entries[i].velocity);
@@ -17,8 +16,7 @@ void kz_catalogue_free(kz_catalogue *catalogue)
   *catalogue = (kz_catalogue){0};
 }
 
-static kz_status fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number)
-{
+static kz_status fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
   size_t most = (size_t)kz_dynamics_packed_size(dynamics);
   entry->theta = calloc(most, sizeof(double));
   entry->velocity = calloc(most, sizeof(double));
@@ -29,8 +27,7 @@ static kz_status fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t numb
   return KZ_OK;
 }
 
-kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue)
-{
+kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue) {
   int64_t known = kz_dynamics_count(dynamics);
   int64_t *order = calloc((size_t)known + 1, sizeof *order);
   *catalogue = (kz_catalogue){.entries = calloc((size_t)known + 1, sizeof(kz_entry)),
@@ -59,8 +56,7 @@ kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached,
   return status;
 }
 
-static int64_t longest(const kz_catalogue *catalogue)
-{
+static int64_t longest(const kz_catalogue *catalogue) {
   int64_t most = 1;
   for (int64_t i = 0; i < catalogue->count; i++)
     if (catalogue->entries[i].row.period > most) most = catalogue->entries[i].row.period;
@@ -68,21 +64,20 @@ static int64_t longest(const kz_catalogue *catalogue)
 }
 
 /* One value of each entry, as the store takes it. */
-#define COLUMN(type, name, expression)                                                     \
-  do {                                                                                     \
-    type *column = calloc((size_t)catalogue->count + 1, sizeof *column);                   \
-    if (!column) return kz_fail(KZ_FAILED, "no memory for /attractors/" name);             \
-    for (int64_t i = 0; i < catalogue->count; i++) {                                       \
-      const kz_entry *e = catalogue->entries + i;                                          \
-      column[i] = (expression);                                                            \
-    }                                                                                      \
-    kz_status column_status = kz_store_variable(store, "attractors", name, column);        \
-    free(column);                                                                          \
-    KZ_TRY(column_status);                                                                 \
+#define COLUMN(type, name, expression)                                              \
+  do {                                                                              \
+    type *column = calloc((size_t)catalogue->count + 1, sizeof *column);            \
+    if (!column) return kz_fail(KZ_FAILED, "no memory for /attractors/" name);      \
+    for (int64_t i = 0; i < catalogue->count; i++) {                                \
+      const kz_entry *e = catalogue->entries + i;                                   \
+      column[i] = (expression);                                                     \
+    }                                                                               \
+    kz_status column_status = kz_store_variable(store, "attractors", name, column); \
+    free(column);                                                                   \
+    KZ_TRY(column_status);                                                          \
   } while (0)
 
-static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction, kz_store *store)
-{
+static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction, kz_store *store) {
   COLUMN(int32_t, "period", e->row.period);
   COLUMN(int32_t, "winding", e->row.winding);
   COLUMN(int8_t, "centre", (int8_t)e->row.centre);
@@ -102,8 +97,7 @@ typedef struct {
   int32_t *dominant;
 } matrices;
 
-static double *nan_filled(int64_t n)
-{
+static double *nan_filled(int64_t n) {
   double *values = malloc((size_t)(n + 1) * sizeof *values);
   for (int64_t i = 0; values && i < n; i++) values[i] = NAN;
   return values;
@@ -111,14 +105,16 @@ static double *nan_filled(int64_t n)
 
 /* Lines of one closed orbit, from its first listed strobe point; those beyond what the samples carry stay NaN. */
 static kz_status lines_of(const kz_entry *entry, const kz_plan *plan, int64_t lines, double *amplitude, double *phase,
-                          int32_t *dominant)
-{
+                          int32_t *dominant) {
   int64_t n = entry->row.period, samples = n * SAMPLES, most = samples / 2 < lines ? samples / 2 : lines;
   double *theta = malloc((size_t)(samples + 1) * sizeof *theta), *velocity = malloc((size_t)(samples + 1) * sizeof *velocity);
   kz_status status = theta && velocity ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a spectrum");
   if (status == KZ_OK) {
-    kz_record record = {.periods = n, .samples_per_period = SAMPLES, .rotation = (double)entry->row.winding / (double)n,
-                        .centre = entry->row.centre == KZ_ABOUT_INVERTED ? M_PI : 0.0, .closed = true};
+    kz_record record = {.periods = n,
+                        .samples_per_period = SAMPLES,
+                        .rotation = (double)entry->row.winding / (double)n,
+                        .centre = entry->row.centre == KZ_ABOUT_INVERTED ? M_PI : 0.0,
+                        .closed = true};
     kz_sample(plan, n, SAMPLES, entry->theta[0], entry->velocity[0], theta, velocity);
     status = kz_spectrum_lines(&record, theta, most, amplitude, phase);
     *dominant = (int32_t)kz_spectrum_dominant(most, amplitude);
@@ -128,8 +124,7 @@ static kz_status lines_of(const kz_entry *entry, const kz_plan *plan, int64_t li
   return status;
 }
 
-static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_plan *plan, matrices *x)
-{
+static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_plan *plan, matrices *x) {
   for (int64_t i = 0; i < catalogue->count; i++) {
     const kz_entry *e = catalogue->entries + i;
     if (e->row.period == 0) continue;
@@ -142,8 +137,7 @@ static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_plan *pla
   return KZ_OK;
 }
 
-static kz_status write_matrices(const matrices *x, kz_store *store)
-{
+static kz_status write_matrices(const matrices *x, kz_store *store) {
   KZ_TRY(kz_store_variable(store, "attractors", "strobe_theta", x->theta));
   KZ_TRY(kz_store_variable(store, "attractors", "strobe_velocity", x->velocity));
   KZ_TRY(kz_store_variable(store, "attractors", "multiplier_re", x->re));
@@ -153,8 +147,7 @@ static kz_status write_matrices(const matrices *x, kz_store *store)
   return kz_store_variable(store, "attractors", "dominant_line", x->dominant);
 }
 
-static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *pendulum, matrices *x, kz_store *store)
-{
+static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *pendulum, matrices *x, kz_store *store) {
   int64_t n = catalogue->count;
   kz_numerics fine = {.scheme = 2, .steps_per_period = SAMPLES, .precision = KZ_DOUBLE};
   fine.steps_per_period *= (int32_t)ceil(sqrt(fmax(1, fabs(pendulum->k) + fabs(pendulum->m))));
@@ -175,8 +168,7 @@ static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *
   return status;
 }
 
-kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store)
-{
+kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store) {
   matrices x = {.phases = longest(catalogue)};
   x.lines = LINES_PER_PERIOD * x.phases + 1;
   KZ_TRY(kz_store_dimension(store, "attractors", "attractor", catalogue->count, NULL));
@@ -195,17 +187,20 @@ kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *p
   return status;
 }
 
-void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary)
-{
+void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary) {
   fprintf(summary, "  id  name                   period  winding  amplitude  multiplier  exponent%s\n",
           with_fraction ? "    share" : "");
   for (int64_t i = 0; i < catalogue->count; i++) {
     const kz_entry *e = catalogue->entries + i;
     fprintf(summary, "%4lld  %-21s  %6d  %7d", (long long)i, e->name, e->row.period, e->row.winding);
-    if (isnan(e->row.amplitude)) fprintf(summary, "          -");
-    else fprintf(summary, "  %5.2f deg", e->row.amplitude * 180 / M_PI);
-    if (e->row.period == 0) fprintf(summary, "           -");
-    else fprintf(summary, "  %10.6f", hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
+    if (isnan(e->row.amplitude))
+      fprintf(summary, "          -");
+    else
+      fprintf(summary, "  %5.2f deg", e->row.amplitude * 180 / M_PI);
+    if (e->row.period == 0)
+      fprintf(summary, "           -");
+    else
+      fprintf(summary, "  %10.6f", hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
     fprintf(summary, "  %8.5f", e->row.lyapunov);
     if (with_fraction) fprintf(summary, "  %6.3f %%", 100 * e->fraction);
     fprintf(summary, "\n");

@@ -12,8 +12,8 @@
 typedef struct {
   kz_attractor row;
   char name[KZ_NAME_LENGTH];
-  int32_t mirror;   /* id of the mirror image */
-  double fraction;  /* of the grid's cells; NaN without a grid */
+  int32_t mirror;           /* id of the mirror image */
+  double fraction;          /* of the grid's cells; NaN without a grid */
   double *theta, *velocity; /* [period] strobe points */
 } kz_entry;
 
@@ -29,8 +29,7 @@ kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached,
 void kz_catalogue_free(kz_catalogue *catalogue);
 
 /* Writes group /attractors, with the lines of every closed orbit; `fraction` only `with_fraction`. */
-kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction,
-                             kz_store *store);
+kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store);
 
 /* The table for people. */
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);

@@ -28,8 +28,7 @@ typedef struct {
   int32_t owner[TILE];
 } followed;
 
-kz_status kz_stage_run_with(kz_team *team, const kz_stage *stage, void *records)
-{
+kz_status kz_stage_run_with(kz_team *team, const kz_stage *stage, void *records) {
   if (team != NULL) return kz_stage_run(team, stage, records);
   memset(records, 0, (size_t)stage->n_tiles * stage->record_bytes);
   for (int64_t tile = 0; tile < stage->n_tiles; tile++)
@@ -37,8 +36,7 @@ kz_status kz_stage_run_with(kz_team *team, const kz_stage *stage, void *records)
   return KZ_OK;
 }
 
-static kz_status follow_tile(void *context, int64_t tile, void *record)
-{
+static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const following *f = context;
   followed *out = record;
   int64_t periods[TILE];
@@ -49,8 +47,7 @@ static kz_status follow_tile(void *context, int64_t tile, void *record)
 }
 
 /* The starts without owner, into open [n]; returns how many. */
-static int64_t list_open(int64_t n, const int32_t *owner, int64_t *open)
-{
+static int64_t list_open(int64_t n, const int32_t *owner, int64_t *open) {
   int64_t n_open = 0;
   for (int64_t i = 0; i < n; i++)
     if (owner[i] == 0) open[n_open++] = i;
@@ -58,10 +55,13 @@ static int64_t list_open(int64_t n, const int32_t *owner, int64_t *open)
 }
 
 /* Follows the open starts for some periods; those that are trapped get their owner. */
-static kz_status follow_open(kz_team *team, following *f, int32_t *owner)
-{
-  kz_stage stage = {.name = "attractors", .n_tiles = (f->n + TILE - 1) / TILE, .record_bytes = sizeof(followed),
-                    .work = follow_tile, .context = f, .everywhere = true};
+static kz_status follow_open(kz_team *team, following *f, int32_t *owner) {
+  kz_stage stage = {.name = "attractors",
+                    .n_tiles = (f->n + TILE - 1) / TILE,
+                    .record_bytes = sizeof(followed),
+                    .work = follow_tile,
+                    .context = f,
+                    .everywhere = true};
   followed *records = malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
   kz_status status = records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n);
   if (team != NULL) status = kz_team_agree(team, status);
@@ -76,8 +76,7 @@ static kz_status follow_open(kz_team *team, following *f, int32_t *owner)
 }
 
 /* The catalogue of rank 0 on every rank. */
-static kz_status share_catalogue(kz_team *team, kz_dynamics *dynamics)
-{
+static kz_status share_catalogue(kz_team *team, kz_dynamics *dynamics) {
   if (team == NULL) return KZ_OK;
   int64_t size = kz_dynamics_packed_size(dynamics);
   KZ_TRY(kz_team_broadcast(team, &size, sizeof size));
@@ -90,10 +89,11 @@ static kz_status share_catalogue(kz_team *team, kz_dynamics *dynamics)
   return status;
 }
 
-static bool leads(const kz_team *team) { return team == NULL || kz_team_rank(team) == 0; }
+static bool leads(const kz_team *team) {
+  return team == NULL || kz_team_rank(team) == 0;
+}
 
-static void search_open(const following *f, double closeness)
-{
+static void search_open(const following *f, double closeness) {
   double state[2 * CHUNK];
   for (int64_t first = 0; first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
     int64_t n = f->n - first < CHUNK ? f->n - first : CHUNK;
@@ -103,8 +103,7 @@ static void search_open(const following *f, double closeness)
 }
 
 /* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
-static kz_status find_chaos(kz_team *team, following *f, int64_t n, int32_t *owner)
-{
+static kz_status find_chaos(kz_team *team, following *f, int64_t n, int32_t *owner) {
   for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0; attempt++) {
     int64_t known = kz_dynamics_count(f->dynamics);
     if (leads(team)) kz_dynamics_find_chaos(f->dynamics, f->state + 2 * f->open[(attempt * 7) % f->n]);
@@ -118,8 +117,7 @@ static kz_status find_chaos(kz_team *team, following *f, int64_t n, int32_t *own
   return KZ_OK;
 }
 
-static kz_status discover(kz_team *team, following *f, int64_t max_periods, int64_t n, int32_t *owner)
-{
+static kz_status discover(kz_team *team, following *f, int64_t max_periods, int64_t n, int32_t *owner) {
   int64_t length = FIRST_LENGTH, done = 0;
   for (;;) {
     kz_dynamics_update(f->dynamics);
@@ -138,8 +136,7 @@ static kz_status discover(kz_team *team, following *f, int64_t max_periods, int6
   return find_chaos(team, f, n, owner);
 }
 
-kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *owner)
-{
+kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *owner) {
   following f = {.dynamics = dynamics, .n = n, .state = state, .open = malloc((size_t)(n + 1) * sizeof *f.open)};
   kz_status status = f.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
   if (team != NULL) status = kz_team_agree(team, status);

@@ -11,17 +11,19 @@
 #include "share.h"
 
 enum {
-  NODES = 1000,           /* of the map table, an axis */
-  STEPS = 48,             /* of split6 a period, for a gentle drive */
-  SCOUTS = 512,           /* starts before there is a table */
-  PROBES = 8192,          /* cells that must settle on known attractors before the truth is asked */
-  ROUNDS = 4,             /* of discovery */
-  TILE = 32,              /* cells */
+  NODES = 1000,                     /* of the map table, an axis */
+  STEPS = 48,                       /* of split6 a period, for a gentle drive */
+  SCOUTS = 512,                     /* starts before there is a table */
+  PROBES = 8192,                    /* cells that must settle on known attractors before the truth is asked */
+  ROUNDS = 4,                       /* of discovery */
+  TILE = 32,                        /* cells */
   OTHER_STEPS = KZ_TRUTH_STEPS + 6, /* the other number of steps of the series */
-  ASKED = 8               /* every so many cells the other number of steps is tried */
+  ASKED = 8                         /* every so many cells the other number of steps is tried */
 };
 
-int64_t kz_judge_cell(const kz_judge *judge, int64_t i) { return kz_shuffled(i, judge->total, judge->plan->seed); }
+int64_t kz_judge_cell(const kz_judge *judge, int64_t i) {
+  return kz_shuffled(i, judge->total, judge->plan->seed);
+}
 
 static kz_dynamics *make_dynamics(const kz_judge *judge) {
   const double stiffness = fmax(1, fabs(judge->pendulum.k) + fabs(judge->pendulum.m));
@@ -73,7 +75,8 @@ static kz_status prepare(kz_judge *judge, kz_team *team, kz_dynamics *dynamics) 
   p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
   p.owner = malloc((size_t)p.most * sizeof *p.owner);
   p.periods = malloc((size_t)p.most * sizeof *p.periods);
-  kz_status status = p.state && p.owner && p.periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
+  kz_status status =
+      p.state && p.owner && p.periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
   status = kz_team_agree(team, status);
   judge->reach = kz_dynamics_reach(dynamics, &window);
   if (status == KZ_OK) status = find_attractors(judge, team, dynamics, &p);
@@ -172,8 +175,13 @@ static kz_status share_known(kz_team *team, const char *path, kz_judge *judge, i
 static kz_status hear(kz_judge *judge, kz_team *team, const char *path, kz_dynamics *dynamics) {
   hearing h = {.judge = judge, .dynamics = dynamics};
   KZ_TRY(share_known(team, path, judge, &h.known));
-  kz_stage stage = {.name = "truth", .n_tiles = (judge->samples + TILE - 1) / TILE, .record_bytes = TILE * sizeof(kz_verdict),
-                    .work = judge_tile, .context = &h, .keep = true, .everywhere = true};
+  kz_stage stage = {.name = "truth",
+                    .n_tiles = (judge->samples + TILE - 1) / TILE,
+                    .record_bytes = TILE * sizeof(kz_verdict),
+                    .work = judge_tile,
+                    .context = &h,
+                    .keep = true,
+                    .everywhere = true};
   kz_verdict *records = malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
   if (status == KZ_OK) status = kz_stage_run(team, &stage, records);

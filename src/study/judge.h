@@ -22,12 +22,12 @@ typedef struct {
 typedef struct {
   const kz_basin_plan *plan;
   kz_pendulum pendulum;
-  int64_t total;         /* cells of the window */
-  int64_t samples;       /* cells with a verdict: the first of kz_shuffled */
-  double reach;          /* of kz_dynamics_reach */
+  int64_t total;   /* cells of the window */
+  int64_t samples; /* cells with a verdict: the first of kz_shuffled */
+  double reach;    /* of kz_dynamics_reach */
   int64_t packed_size;
-  double *packed;        /* the attractors, for kz_dynamics_unpack */
-  kz_verdict *verdicts;  /* [samples] */
+  double *packed;       /* the attractors, for kz_dynamics_unpack */
+  kz_verdict *verdicts; /* [samples] */
 } kz_judge;
 
 /* Makes the judge of a damped scene's basin from at most `samples` cells, on every rank. `path` (rank 0; NULL = none) names the

@@ -68,7 +68,9 @@ static int64_t count_held(const char *path, const char *key) {
   return n - (n > 0); /* the checksum's own line */
 }
 
-static kz_status cannot_write(const char *path) { return kz_fail(KZ_FAILED, "%s: cannot be written", path); }
+static kz_status cannot_write(const char *path) {
+  return kz_fail(KZ_FAILED, "%s: cannot be written", path);
+}
 
 /* Writes `text` beside `path` and renames it. */
 static kz_status write_all(const char *path, const char *text) {

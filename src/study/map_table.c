@@ -22,9 +22,12 @@ static kz_status table_tile(void *context, int64_t tile, void *record) {
 kz_status kz_map_table_make(kz_team *team, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach) {
   table t = {dynamics, n_velocity};
   kz_dynamics_table_create(dynamics, n_theta, n_velocity, reach);
-  kz_stage stage = {.name = "map table", .n_tiles = (n_velocity + ROWS - 1) / ROWS,
+  kz_stage stage = {.name = "map table",
+                    .n_tiles = (n_velocity + ROWS - 1) / ROWS,
                     .record_bytes = ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double),
-                    .work = table_tile, .context = &t, .everywhere = true};
+                    .work = table_tile,
+                    .context = &t,
+                    .everywhere = true};
   double *rows = malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table");
   if (team) status = kz_team_agree(team, status);

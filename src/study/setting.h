@@ -29,12 +29,12 @@ double kz_setting_cost(const kz_setting *setting, double cells, double mean_peri
 
 /* One setting on the cells of a judge. */
 typedef struct {
-  int64_t wrong;         /* sampled cells labelled unlike the truth */
-  int64_t inside;        /* of these, those without another label next to them */
-  int64_t distance;      /* median distance of the wrong ones from another label, cells; 0 where none is wrong */
-  int64_t astray;        /* the largest surplus or lack of cells of one attractor */
-  double set_up;         /* processor seconds for map table and trapping regions */
-  double cell;           /* processor seconds a cell */
+  int64_t wrong;    /* sampled cells labelled unlike the truth */
+  int64_t inside;   /* of these, those without another label next to them */
+  int64_t distance; /* median distance of the wrong ones from another label, cells; 0 where none is wrong */
+  int64_t astray;   /* the largest surplus or lack of cells of one attractor */
+  double set_up;    /* processor seconds for map table and trapping regions */
+  double cell;      /* processor seconds a cell */
 } kz_measured;
 
 /* Labels the judge's sample, and of the cells that follow it as many as a clock needs (`timed`), on this rank alone. */

@@ -4,11 +4,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
+#define KEY(name_, unit_) \
+  { #name_, unit_, offsetof(kz_pendulum_keys, name_) }
 const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
-    KEY(quality_factor, "1"), KEY(drive_frequency, "1"), KEY(drive_amplitude, "1"),      KEY(k, "1"),
-    KEY(damping, "1"),        KEY(m, "1"),               KEY(mass, "kg"),                KEY(radius, "m"),
-    KEY(inertia, "kg m2"),    KEY(friction, "kg m2 s-1"), KEY(gravity, "m s-2"),         KEY(pivot_amplitude, "m"),
+    KEY(quality_factor, "1"),
+    KEY(drive_frequency, "1"),
+    KEY(drive_amplitude, "1"),
+    KEY(k, "1"),
+    KEY(damping, "1"),
+    KEY(m, "1"),
+    KEY(mass, "kg"),
+    KEY(radius, "m"),
+    KEY(inertia, "kg m2"),
+    KEY(friction, "kg m2 s-1"),
+    KEY(gravity, "m s-2"),
+    KEY(pivot_amplitude, "m"),
     KEY(pivot_frequency, "rad s-1"),
 };
 
@@ -66,8 +76,7 @@ static kz_status run_branches(const kz_scene *scene, kz_team *team, kz_store *st
   status = kz_team_agree(team, status);
   if (status == KZ_OK) status = kz_sweep_catalogues(scene, team, catalogue);
   if (status == KZ_OK) status = kz_sweep_branches_make(scene, team, catalogue, &branches);
-  if (status == KZ_OK && kz_team_rank(team) == 0)
-    status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
+  if (status == KZ_OK && kz_team_rank(team) == 0) status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
   kz_sweep_branches_free(&branches);
   free(catalogue);
   return kz_team_agree(team, status);

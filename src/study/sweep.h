@@ -71,9 +71,9 @@ kz_status kz_sweep_catalogues(const kz_scene *scene, kz_team *team, kz_sweep_cat
 /* An attractor at one value, joined to its neighbours of the same branch. */
 typedef struct {
   kz_sweep_entry entry;
-  int64_t value;            /* index */
-  int64_t previous, next;   /* nodes; -1 = none */
-  double first, last;       /* where the branch begins before or ends after this node, if it does */
+  int64_t value;          /* index */
+  int64_t previous, next; /* nodes; -1 = none */
+  double first, last;     /* where the branch begins before or ends after this node, if it does */
   int32_t first_kind, last_kind;
 } kz_sweep_node;
 

@@ -1,10 +1,10 @@
 /* Catalogues of neighbouring values joined into branches. Every attractor of a value is carried to the next one by continuation;
  * where it arrives, it is the same branch, whether the search there had found it or not. What no lower value leads to is
  * carried back to where it began. Rounds of walks, spread over the ranks, until nothing is left to walk. */
-#include "sweep.h"
-
 #include <math.h>
 #include <stdlib.h>
+
+#include "sweep.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -40,9 +40,14 @@ static kz_status add_node(kz_sweep_branches *branches, const kz_sweep_entry *ent
     branches->nodes = longer;
     branches->room = room;
   }
-  branches->nodes[branches->n_nodes++] = (kz_sweep_node){
-      .entry = *entry, .value = value, .previous = -1, .next = -1, .first = NAN, .last = NAN,
-      .first_kind = KZ_END_NOT_LOCATED, .last_kind = KZ_END_NOT_LOCATED};
+  branches->nodes[branches->n_nodes++] = (kz_sweep_node){.entry = *entry,
+                                                         .value = value,
+                                                         .previous = -1,
+                                                         .next = -1,
+                                                         .first = NAN,
+                                                         .last = NAN,
+                                                         .first_kind = KZ_END_NOT_LOCATED,
+                                                         .last_kind = KZ_END_NOT_LOCATED};
   return KZ_OK;
 }
 
@@ -171,8 +176,8 @@ static void join_chaotic(kz_sweep_branches *b) {
     for (int64_t j = 0; b->nodes[i].entry.point.period == 0 && j < b->n_nodes; j++) {
       const kz_sweep_node *other = b->nodes + j;
       if (other->entry.point.period != 0 || other->value != b->nodes[i].value + 1 || other->previous >= 0) continue;
-      if (best < 0 || unlike(&b->nodes[i].entry.point, &other->entry.point) <
-                          unlike(&b->nodes[i].entry.point, &b->nodes[best].entry.point))
+      if (best < 0 ||
+          unlike(&b->nodes[i].entry.point, &other->entry.point) < unlike(&b->nodes[i].entry.point, &b->nodes[best].entry.point))
         best = j;
     }
     if (best < 0) continue;
@@ -213,10 +218,14 @@ static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     kz_sweep_node *node = b->nodes + i;
     const double value = kz_sweep_value(&scene->sweep, node->value);
-    if (node->value == 0) set_end(node, false, value, KZ_END_OF_RANGE);
-    else if (isnan(node->first)) node->first = value;
-    if (node->value == scene->sweep.values.count - 1) set_end(node, true, value, KZ_END_OF_RANGE);
-    else if (isnan(node->last)) node->last = value;
+    if (node->value == 0)
+      set_end(node, false, value, KZ_END_OF_RANGE);
+    else if (isnan(node->first))
+      node->first = value;
+    if (node->value == scene->sweep.values.count - 1)
+      set_end(node, true, value, KZ_END_OF_RANGE);
+    else if (isnan(node->last))
+      node->last = value;
   }
 }
 

@@ -6,7 +6,8 @@
 #include "share.h"
 #include "sweep.h"
 
-static const char *const END_NAMES[] = {"end of range", "fold", "period doubling", "Neimark-Sacker", "symmetry breaking", "not located"};
+static const char *const END_NAMES[] = {"end of range",      "fold",       "period doubling", "Neimark-Sacker",
+                                        "symmetry breaking", "not located"};
 
 typedef struct {
   const kz_scene *scene;
@@ -56,18 +57,18 @@ static int32_t mirror_of(const writing *w, int64_t branch) {
 }
 
 /* One value of each branch, as the store takes it; `expression` sees branch, first, last. */
-#define COLUMN(type, name, expression)                                                  \
-  do {                                                                                  \
-    type *column = calloc((size_t)b->n_branches + 1, sizeof *column);                   \
-    if (!column) return kz_fail(KZ_FAILED, "no memory for /sweep/" name);               \
-    for (int64_t branch = 0; branch < b->n_branches; branch++) {                        \
-      const kz_sweep_node *first = first_of(b, branch), *last = last_of(b, branch);     \
-      (void)first, (void)last;                                                          \
-      column[branch] = (type)(expression);                                              \
-    }                                                                                   \
-    kz_status column_status = kz_store_variable(w->store, "sweep", name, column);       \
-    free(column);                                                                       \
-    KZ_TRY(column_status);                                                              \
+#define COLUMN(type, name, expression)                                              \
+  do {                                                                              \
+    type *column = calloc((size_t)b->n_branches + 1, sizeof *column);               \
+    if (!column) return kz_fail(KZ_FAILED, "no memory for /sweep/" name);           \
+    for (int64_t branch = 0; branch < b->n_branches; branch++) {                    \
+      const kz_sweep_node *first = first_of(b, branch), *last = last_of(b, branch); \
+      (void)first, (void)last;                                                      \
+      column[branch] = (type)(expression);                                          \
+    }                                                                               \
+    kz_status column_status = kz_store_variable(w->store, "sweep", name, column);   \
+    free(column);                                                                   \
+    KZ_TRY(column_status);                                                          \
   } while (0)
 
 static kz_status write_columns(const writing *w) {
@@ -156,12 +157,9 @@ static kz_status write_matrices(const writing *w) {
     const char *name;
     cell_fn cell;
     bool fraction;
-  } matrices[] = {{"branch_amplitude", amplitude_of, false},
-                  {"branch_multiplier", multiplier_of, false},
-                  {"branch_theta", theta_of, false},
-                  {"branch_velocity", velocity_of, false},
-                  {"fraction", fraction_of, true},
-                  {"fraction_low", low_of, true},
+  } matrices[] = {{"branch_amplitude", amplitude_of, false}, {"branch_multiplier", multiplier_of, false},
+                  {"branch_theta", theta_of, false},         {"branch_velocity", velocity_of, false},
+                  {"fraction", fraction_of, true},           {"fraction_low", low_of, true},
                   {"fraction_high", high_of, true}};
   const bool fractions = kz_sweep_measures(&w->scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
   for (size_t i = 0; i < sizeof matrices / sizeof matrices[0]; i++)

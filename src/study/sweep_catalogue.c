@@ -18,7 +18,7 @@ enum {
 typedef struct {
   const kz_scene *scene;
   kz_dynamics *dynamics;
-  double reach; /* of the map table */
+  double reach;              /* of the map table */
   int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
   bool mirrored;             /* the grid is its own mirror image: cells followed are the first half of it */
   double *state;             /* [starts or cells][2] */
@@ -166,7 +166,8 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
     const kz_sweep_entry entry = entry_of(s, order[i], &mirror);
     if (s->hits[order[i]] + s->hits[mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
-      status = kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; more damping, or a smaller window", KZ_SWEEP_MOST);
+      status =
+          kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; more damping, or a smaller window", KZ_SWEEP_MOST);
     else
       catalogue->entries[catalogue->count++] = entry;
   }

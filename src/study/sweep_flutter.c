@@ -130,8 +130,10 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
   if (!x) return kz_fail(KZ_FAILED, "no memory for the fit of a sweep");
   const power_law law = fit(gather(f, x, x + n), x, x + n, x + 2 * n);
   free(x);
-  fprintf(summary, "flutter begins at %.12g (multiplier -1); amplitude^2 = (%.6g +- %.2g) rad^2 times the distance; exponent %.5f +- %.5f\n",
-          f->critical, law.line.slope, law.line.slope_stderr, law.exponent, law.exponent_error);
+  fprintf(
+      summary,
+      "flutter begins at %.12g (multiplier -1); amplitude^2 = (%.6g +- %.2g) rad^2 times the distance; exponent %.5f +- %.5f\n",
+      f->critical, law.line.slope, law.line.slope_stderr, law.exponent, law.exponent_error);
   KZ_TRY(kz_store_real(store, "sweep", "critical_value", f->critical));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope", law.line.slope));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope_stderr", law.line.slope_stderr));
@@ -142,7 +144,8 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
 kz_status kz_sweep_flutter(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   if (kz_team_rank(team) != 0) return kz_team_agree(team, KZ_OK);
   const int64_t n = scene->sweep.values.count;
-  fluttering f = {.scene = scene, .path = kz_sweep_path(scene), .critical = NAN, .amplitude = malloc((size_t)n * sizeof(double))};
+  fluttering f = {
+      .scene = scene, .path = kz_sweep_path(scene), .critical = NAN, .amplitude = malloc((size_t)n * sizeof(double))};
   kz_status status = f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep");
   for (int64_t i = 0; status == KZ_OK && i < n; i++) f.amplitude[i] = NAN;
   if (status == KZ_OK) {

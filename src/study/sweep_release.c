@@ -8,11 +8,12 @@
 static const double PI = 3.14159265358979323846;
 
 enum {
-  SHORTEST = 300, LONGEST = 2000, /* drive periods that a release is followed */
-  HALF_DEGREES = 359,             /* releases of the whole set: 0.5, 1.0, ... 179.5 degrees */
-  FINER = 4,                      /* how much denser an earlier gap is looked for */
-  DEPTH = 3,                      /* times, at most */
-  BRACKET = 63                    /* angles between the ends of a bracket when an edge is located */
+  SHORTEST = 300,
+  LONGEST = 2000,     /* drive periods that a release is followed */
+  HALF_DEGREES = 359, /* releases of the whole set: 0.5, 1.0, ... 179.5 degrees */
+  FINER = 4,          /* how much denser an earlier gap is looked for */
+  DEPTH = 3,          /* times, at most */
+  BRACKET = 63        /* angles between the ends of a bracket when an edge is located */
 };
 /* Transients have shrunk to exp(-this) after the periods that a release is followed. */
 static const double SHRUNK = 6;
@@ -147,7 +148,8 @@ static kz_status work(void *context, int64_t tile, void *record) {
 }
 
 /* One number of every value: `offset` is its place in a record. */
-static kz_status write_column(const kz_scene *scene, const released *records, const char *name, size_t offset, kz_store *store) {
+static kz_status write_column(const kz_scene *scene, const released *records, const char *name, size_t offset,
+                              kz_store *store) {
   const int64_t n = scene->sweep.values.count;
   double *column = malloc((size_t)n * sizeof *column);
   if (!column) return kz_fail(KZ_FAILED, "no memory for the releases of a sweep");

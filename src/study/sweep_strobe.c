@@ -63,12 +63,8 @@ kz_status kz_sweep_strobe(const kz_scene *scene, kz_team *team, kz_store *store,
   const size_t bytes = (size_t)(scene->sweep.values.count * 2 * scene->sweep.samples) * sizeof(double);
   double *records = malloc(WALKS * bytes);
   kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
-  const kz_stage stage = {.name = "sweep strobe",
-                          .n_tiles = WALKS,
-                          .record_bytes = bytes,
-                          .work = work,
-                          .context = (void *)scene,
-                          .keep = true};
+  const kz_stage stage = {
+      .name = "sweep strobe", .n_tiles = WALKS, .record_bytes = bytes, .work = work, .context = (void *)scene, .keep = true};
   if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
   if (status == KZ_OK && kz_team_rank(team) == 0) {
     status = write_strobe(scene, records, store);

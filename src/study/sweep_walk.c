@@ -91,8 +91,10 @@ double kz_flutter_critical(const kz_path *path, double low, double high) {
     const double middle = low + (high - low) / 2, at_middle = flip_test(path, middle);
     if (middle == low || middle == high || at_middle == 0) return middle;
     if (!isfinite(at_middle)) return NAN;
-    if ((at_middle > 0) == (at_low > 0)) low = middle;
-    else high = middle;
+    if ((at_middle > 0) == (at_low > 0))
+      low = middle;
+    else
+      high = middle;
   }
 }
 
@@ -117,10 +119,8 @@ bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter) {
   double direction[2];
   if (!leaving_direction(pendulum, direction)) return false;
   for (double size = 1e-3; size < 1.5; size *= 1.2) {
-    const kz_branch_point guess = {.theta = remainder(PI + size * direction[0], 2 * PI),
-                                   .velocity = size * direction[1],
-                                   .period = 2,
-                                   .symmetric = 1};
+    const kz_branch_point guess = {
+        .theta = remainder(PI + size * direction[0], 2 * PI), .velocity = size * direction[1], .period = 2, .symmetric = 1};
     if (kz_branch_continue(pendulum, &guess, size / 2, flutter) && flutter->centre == 1 && attracts(flutter)) return true;
   }
   return false;

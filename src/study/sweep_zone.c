@@ -41,7 +41,8 @@ static bool find_flutter(const kz_path *path, double onset, double *m, kz_branch
 }
 
 /* One of the two asymmetric cycles that a symmetric one gives way to just above m: displaced both ways by a ladder of sizes. */
-static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point *symmetric, double *at, kz_branch_point *found) {
+static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point *symmetric, double *at,
+                            kz_branch_point *found) {
   kz_pendulum pendulum;
   for (double above = 1e-5; above < 5e-3; above *= 2)
     for (double size = 1e-3; size < 0.3; size *= 1.3)

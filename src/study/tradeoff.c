@@ -16,7 +16,9 @@ typedef struct {
   const kz_trade *trade;
 } measuring;
 
-bool kz_tradeoff_wanted(const kz_scene *scene) { return scene->has_tradeoff; }
+bool kz_tradeoff_wanted(const kz_scene *scene) {
+  return scene->has_tradeoff;
+}
 
 static int64_t count_settings(const kz_tradeoff_plan *plan) {
   return plan->settings.count > 0 ? plan->settings.count : kz_setting_count;
@@ -34,7 +36,8 @@ kz_cost kz_tradeoff_cost(const kz_scene *scene) {
     kicks += kz_setting_cost(setting, TIMED, mean_periods);
     nodes = fmax(nodes, (double)setting->nodes * (double)setting->nodes);
   }
-  return (kz_cost){.disk_bytes = 1e6, .memory_bytes = 5e7 + 120 * nodes,
+  return (kz_cost){.disk_bytes = 1e6,
+                   .memory_bytes = 5e7 + 120 * nodes,
                    .core_seconds = kicks * kick_seconds + truth_seconds * mean_periods * (double)scene->tradeoff.samples};
 }
 
@@ -54,9 +57,12 @@ static kz_status measure_tile(void *context, int64_t tile, void *record) {
 
 static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
   const size_t n = (size_t)count_settings(plan);
-  *trade = (kz_trade){.count = (int64_t)n, .settings = calloc(n, sizeof *trade->settings),
-                      .measured = calloc(n, sizeof *trade->measured), .seconds = calloc(n, sizeof(double)),
-                      .wrong = calloc(n, sizeof(double)), .pareto = calloc(n, sizeof(int8_t))};
+  *trade = (kz_trade){.count = (int64_t)n,
+                      .settings = calloc(n, sizeof *trade->settings),
+                      .measured = calloc(n, sizeof *trade->measured),
+                      .seconds = calloc(n, sizeof(double)),
+                      .wrong = calloc(n, sizeof(double)),
+                      .pareto = calloc(n, sizeof(int8_t))};
   if (!trade->settings || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
     return kz_fail(KZ_FAILED, "no memory for %lld settings", (long long)n);
   for (int64_t i = 0; i < trade->count; i++) trade->settings[i] = setting_at(plan, i);
@@ -86,8 +92,13 @@ static void rate(const kz_judge *judge, kz_trade *trade) {
 
 static kz_status run_settings(const kz_judge *judge, kz_trade *trade, kz_team *team) {
   measuring m = {judge, trade};
-  kz_stage stage = {.name = "settings", .n_tiles = trade->count, .record_bytes = sizeof(kz_measured), .work = measure_tile,
-                    .context = &m, .keep = true, .everywhere = true};
+  kz_stage stage = {.name = "settings",
+                    .n_tiles = trade->count,
+                    .record_bytes = sizeof(kz_measured),
+                    .work = measure_tile,
+                    .context = &m,
+                    .keep = true,
+                    .everywhere = true};
   KZ_TRY(kz_stage_run(team, &stage, trade->measured));
   rate(judge, trade);
   return KZ_OK;

@@ -6,22 +6,22 @@
 #include "tradeoff.h"
 
 static const char *const methods[] = {"icm", "direct", "hybrid"}, *const precisions[] = {"single", "double", "quad"},
-                  *const interpolations[] = {"linear", "cubic", "quintic"};
+                         *const interpolations[] = {"linear", "cubic", "quintic"};
 
 /* One value of each setting, as the store takes it. */
-#define COLUMN(type, name, expression)                                               \
-  do {                                                                               \
-    type *column = calloc((size_t)trade->count + 1, sizeof *column);                 \
-    if (!column) return kz_fail(KZ_FAILED, "no memory for /tradeoff/" name);         \
-    for (int64_t i = 0; i < trade->count; i++) {                                     \
-      const kz_setting *s = trade->settings[i];                                      \
-      const kz_measured *m = trade->measured + i;                                    \
-      (void)s, (void)m;                                                              \
-      column[i] = (type)(expression);                                                \
-    }                                                                                \
-    kz_status column_status = kz_store_variable(store, "tradeoff", name, column);    \
-    free(column);                                                                    \
-    KZ_TRY(column_status);                                                           \
+#define COLUMN(type, name, expression)                                            \
+  do {                                                                            \
+    type *column = calloc((size_t)trade->count + 1, sizeof *column);              \
+    if (!column) return kz_fail(KZ_FAILED, "no memory for /tradeoff/" name);      \
+    for (int64_t i = 0; i < trade->count; i++) {                                  \
+      const kz_setting *s = trade->settings[i];                                   \
+      const kz_measured *m = trade->measured + i;                                 \
+      (void)s, (void)m;                                                           \
+      column[i] = (type)(expression);                                             \
+    }                                                                             \
+    kz_status column_status = kz_store_variable(store, "tradeoff", name, column); \
+    free(column);                                                                 \
+    KZ_TRY(column_status);                                                        \
   } while (0)
 
 static kz_status write_settings(const kz_trade *trade, kz_store *store) {
@@ -52,9 +52,10 @@ static kz_status write_measures(const kz_judge *judge, const kz_trade *trade, kz
 static kz_status write_attributes(const kz_judge *judge, const kz_trade *trade, kz_store *store) {
   const kz_judge_summary sum = kz_judge_sum(judge);
   char reference[200];
-  snprintf(reference, sizeof reference,
-           "quad precision, Taylor series in %d steps a period or more; more steps give the same label in %lld of %lld cells asked",
-           KZ_TRUTH_STEPS, (long long)(sum.asked - sum.disagree), (long long)sum.asked);
+  snprintf(
+      reference, sizeof reference,
+      "quad precision, Taylor series in %d steps a period or more; more steps give the same label in %lld of %lld cells asked",
+      KZ_TRUTH_STEPS, (long long)(sum.asked - sum.disagree), (long long)sum.asked);
   KZ_TRY(kz_store_text(store, "tradeoff", "reference", reference));
   KZ_TRY(kz_store_integer(store, "tradeoff", "samples", judge->samples));
   KZ_TRY(kz_store_real(store, "tradeoff", "floor", kz_share_of(sum.flipped, judge->samples).share));
@@ -69,23 +70,27 @@ static void print_row(const kz_judge *judge, const kz_trade *trade, int64_t i, F
   fprintf(summary, "%c %-20s %-7s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
           trade->pareto[i] ? '*' : ' ', s->label, methods[s->method], precisions[s->precision], s->scheme, s->steps,
           s->method == KZ_METHOD_DIRECT ? "-" : interpolations[s->interpolation], (long long)s->nodes, 100 * wrong.share,
-          100 * wrong.low, 100 * wrong.high, 100 * (double)m->astray / (double)judge->samples, trade->seconds[i], 1e6 * m->cell);
+          100 * wrong.low, 100 * wrong.high, 100 * (double)m->astray / (double)judge->samples, trade->seconds[i],
+          1e6 * m->cell);
 }
 
 static void print(const kz_judge *judge, const kz_trade *trade, FILE *summary) {
   const kz_judge_summary sum = kz_judge_sum(judge);
   const kz_share flips = kz_share_of(sum.flipped, judge->samples);
   fprintf(summary,
-          "tradeoff: wrong labels among %lld cells followed in quad precision, %.1f periods each; * = nothing is as quick and as right\n"
-          "  setting              method  kind       integrator   table    nodes  wrong %%    95 %% interval    area %%    seconds  "
+          "tradeoff: wrong labels among %lld cells followed in quad precision, %.1f periods each; * = nothing is as quick and "
+          "as right\n"
+          "  setting              method  kind       integrator   table    nodes  wrong %%    95 %% interval    area %%    "
+          "seconds  "
           "s/1e6 cells\n",
           (long long)judge->samples, sum.mean_periods);
   for (int64_t i = 0; i < trade->count; i++) print_row(judge, trade, i, summary);
-  fprintf(summary,
-          "one unit in the last place of the start flips %.3f %% (%.3f .. %.3f); the best in double precision is wrong in %.3f %%; "
-          "another number of steps changed %lld of %lld true labels\n",
-          100 * flips.share, 100 * flips.low, 100 * flips.high, 100 * trade->best_wrong, (long long)sum.disagree,
-          (long long)sum.asked);
+  fprintf(
+      summary,
+      "one unit in the last place of the start flips %.3f %% (%.3f .. %.3f); the best in double precision is wrong in %.3f %%; "
+      "another number of steps changed %lld of %lld true labels\n",
+      100 * flips.share, 100 * flips.low, 100 * flips.high, 100 * trade->best_wrong, (long long)sum.disagree,
+      (long long)sum.asked);
 }
 
 kz_status kz_tradeoff_write(const kz_judge *judge, const kz_trade *trade, kz_store *store, FILE *summary) {
