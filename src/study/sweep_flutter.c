@@ -130,10 +130,13 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
   if (!x) return kz_fail(KZ_FAILED, "no memory for the fit of a sweep");
   const power_law law = fit(gather(f, x, x + n), x, x + n, x + 2 * n);
   free(x);
-  fprintf(
-      summary,
-      "flutter begins at %.12g (multiplier -1); amplitude^2 = (%.6g +- %.2g) rad^2 times the distance; exponent %.5f +- %.5f\n",
-      f->critical, law.line.slope, law.line.slope_stderr, law.exponent, law.exponent_error);
+  if (isnan(f->critical))
+    fprintf(summary, "no flutter begins in the range or near it\n");
+  else
+    fprintf(summary, "flutter begins at %.12g (multiplier -1)\n", f->critical);
+  if (!isnan(law.line.slope))
+    fprintf(summary, "amplitude^2 = (%.6g +- %.2g) rad^2 times the distance; exponent %.5f +- %.5f\n", law.line.slope,
+            law.line.slope_stderr, law.exponent, law.exponent_error);
   KZ_TRY(kz_store_real(store, "sweep", "critical_value", f->critical));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope", law.line.slope));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope_stderr", law.line.slope_stderr));

@@ -115,6 +115,25 @@ sweep: {parameter: damping, min: 0, max: 0.02, count: 3, measure: [attractors], 
         assert np.isnan(group["branch_amplitude"][0]).all() and group["branch_amplitude"][1, row] == 0
 
 
+def test_gravity_upside_down(kapitza, tmp_path):
+    """k -> -k turns the pendulum over and shifts the drive by half a period: branches are mirrored, down becomes inverted."""
+    (tmp_path / "turned.yaml").write_text("""\
+pendulum: {k: 0.1, damping: 0.05, m: 0.4}
+sweep: {parameter: k, min: -0.1, max: 0.1, count: 5, measure: [attractors], starts: 256}
+""")
+    kapitza("run", "turned.yaml", ranks=2, folder=tmp_path)
+    turned = {"down": "inverted", "inverted": "down", "flutter": "down 2-nodding", "down 2-nodding": "flutter"}
+    with h5py.File(tmp_path / "turned.h5") as file:
+        group = file["sweep"]
+        lives = {name: (group["branch_start"][row], group["branch_start_kind"][row], group["branch_end"][row],
+                        group["branch_end_kind"][row]) for row, name in enumerate(group["branch_name"].asstr()[:])}
+    assert turned.keys() <= lives.keys()
+    for name, other in turned.items():
+        start, start_kind, end, end_kind = lives[name]
+        assert lives[other] == (pytest.approx(-end, abs=1e-6), end_kind, pytest.approx(-start, abs=1e-6), start_kind)
+    assert lives["inverted"][2] == pytest.approx(0.0749420725, abs=1e-8)
+
+
 def test_chaos_is_one_branch(kapitza, tmp_path):
     (tmp_path / "chaos.yaml").write_text("""\
 pendulum: {k: 0.25, damping: 0.05, m: 0.5}
