@@ -7,7 +7,6 @@
 """
 
 import argparse
-import warnings
 from pathlib import Path
 
 import kapitza_style as style
@@ -229,15 +228,7 @@ def draw(arguments):
     write_titles(axes, result, basin)
     if entries and not arguments.no_legend:
         write_legend(axes, entries)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")  # a missing glyph or a failed layout is a fault, not a footnote
-        figure.savefig(arguments.output, dpi=arguments.dpi, bbox_inches="tight", metadata=_no_clock(arguments.output))
-    print(arguments.output)
-
-
-def _no_clock(output):
-    """The same file gives the same picture, byte for byte."""
-    return {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(output.suffix.lower(), {})
+    style.save(figure, arguments.output, arguments.dpi)
 
 
 def main():
