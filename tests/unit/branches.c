@@ -1,11 +1,11 @@
 /* One cycle carried from parameters to parameters, against physics known to many digits (Q = 5, Omega = 11). */
+#include "kapitza/branches.h"
+
+#include <cmocka.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <cmocka.h>
-#include <math.h>
-
-#include "kapitza/branches.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -30,10 +30,10 @@ static kz_branch_point flutter(double m) {
 /* The published strobe points, amplitudes and multipliers of the half map. */
 static void test_flutter(void **state) {
   (void)state;
-  static const double known[][6] = {/* m, phi, phi', amplitude, half map */
-                                    {0.47, 0.161076997267223124, -0.002241504186408954, 0.16111093243808042, 0.9147951308392979,
-                                     0.23493391956730758},
-                                    {0.5, 0.6602414615359, -0.0088710808640, 0, 0.3676, 0.8700}};
+  static const double known[][6] = {
+      /* m, phi, phi', amplitude, half map */
+      {0.47, 0.161076997267223124, -0.002241504186408954, 0.16111093243808042, 0.9147951308392979, 0.23493391956730758},
+      {0.5, 0.6602414615359, -0.0088710808640, 0, 0.3676, 0.8700}};
   for (int i = 0; i < 2; i++) {
     const kz_branch_point point = flutter(known[i][0]);
     const double turned = fabs(remainder(point.theta - PI, 2 * PI)) - known[i][1];
@@ -111,8 +111,12 @@ static void test_refusals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_flutter),  cmocka_unit_test(test_half_map),           cmocka_unit_test(test_symmetry_breaking),
-      cmocka_unit_test(test_rotation), cmocka_unit_test(test_same_from_any_point), cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_flutter),
+      cmocka_unit_test(test_half_map),
+      cmocka_unit_test(test_symmetry_breaking),
+      cmocka_unit_test(test_rotation),
+      cmocka_unit_test(test_same_from_any_point),
+      cmocka_unit_test(test_refusals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
