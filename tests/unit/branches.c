@@ -1,11 +1,12 @@
 /* One cycle carried from parameters to parameters, against physics known to many digits (Q = 5, Omega = 11). */
-#include "kapitza/branches.h"
-
-#include <cmocka.h>
-#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "kapitza/branches.h"
 
 static const double PI = 3.14159265358979323846;
 
