@@ -6,6 +6,7 @@
 
 #include "basin.h"
 #include "discovery.h"
+#include "kapitza/steps.h"
 #include "kapitza/truth.h"
 #include "map_table.h"
 #include "share.h"
@@ -13,6 +14,7 @@
 enum {
   NODES = 1000,                     /* of the map table, an axis */
   STEPS = 48,                       /* of split6 a period, for a gentle drive */
+  DOUBLINGS = 6,                    /* of STEPS, at most */
   SCOUTS = 512,                     /* starts before there is a table */
   PROBES = 8192,                    /* cells that must settle on known attractors before the truth is asked */
   ROUNDS = 4,                       /* of discovery */
@@ -21,14 +23,27 @@ enum {
   ASKED = 8                         /* every so many cells the other number of steps is tried */
 };
 
+static const double FINE = 1e-8; /* rad: error of one period of the judge's dynamics */
+
 int64_t kz_judge_cell(const kz_judge *judge, int64_t i) {
   return kz_shuffled(i, judge->total, judge->plan->seed);
 }
 
-static kz_dynamics *make_dynamics(const kz_judge *judge) {
+/* Steps are doubled until a period is right to FINE at every speed of the window. KZ_REFUSED where that is not to be had. */
+static kz_status make_dynamics(const kz_judge *judge, kz_dynamics **dynamics) {
+  const kz_axis *velocity = &judge->plan->velocity;
   const double stiffness = fmax(1, fabs(judge->pendulum.k) + fabs(judge->pendulum.m));
+  const double fastest = fmax(fabs(velocity->min), fabs(velocity->max));
   kz_numerics numerics = {.scheme = 2, .steps_per_period = STEPS * (int32_t)ceil(sqrt(stiffness)), .precision = KZ_DOUBLE};
-  return kz_dynamics_create(&judge->pendulum, &numerics, judge->plan->max_period);
+  for (int doublings = 0;; doublings++, numerics.steps_per_period *= 2) {
+    const kz_step_trial trial = kz_steps_try(&judge->pendulum, &numerics, fastest);
+    if (kz_steps_worst(&trial) <= FINE) break;
+    if (doublings == DOUBLINGS)
+      return kz_fail(KZ_REFUSED, "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough to judge labels",
+                     (int)numerics.steps_per_period, fastest);
+  }
+  *dynamics = kz_dynamics_create(&judge->pendulum, &numerics, judge->plan->max_period);
+  return *dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics");
 }
 
 /* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. */
@@ -194,8 +209,8 @@ kz_status kz_judge_make(const kz_scene *scene, kz_team *team, int64_t samples, c
   const kz_basin_plan *plan = &scene->basin;
   *judge = (kz_judge){.plan = plan, .pendulum = scene->parameters.pendulum, .total = plan->theta.count * plan->velocity.count};
   judge->samples = samples < judge->total ? samples : judge->total;
-  kz_dynamics *dynamics = make_dynamics(judge);
-  kz_status status = kz_team_agree(team, dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics"));
+  kz_dynamics *dynamics = NULL;
+  kz_status status = kz_team_agree(team, make_dynamics(judge, &dynamics));
   if (status == KZ_OK) status = prepare(judge, team, dynamics);
   if (status == KZ_OK) status = hear(judge, team, path, dynamics);
   if (dynamics) kz_dynamics_free(dynamics);
