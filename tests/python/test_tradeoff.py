@@ -105,6 +105,12 @@ def test_an_accuracy_out_of_reach_is_refused(kapitza, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):
+    done = kapitza("run", SMALL, "-o", "no.h5", *without_method(0.9), "--set", "basin.velocity.max=1e6", folder=tmp_path, status=2)
+    assert "basin.velocity: 3072 steps a period do not carry starts of speed 1e+06" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize("key", ["basin.method=icm", "basin.icm.theta=500", "numerics.scheme=rk4"])
 def test_accuracy_excludes_what_it_chooses(kapitza, tmp_path, key):
     done = kapitza("check", SMALL, *without_method(0.995), "--set", key, folder=tmp_path, status=2)
