@@ -1,1 +1,2 @@
 kapitza_test(stability LABEL extremes FLOOR analysis)
+kapitza_test(numbers LABEL extremes FLOOR dynamics)

@@ -1,0 +1,147 @@
+/* One drive period at the extremes, judged by the quad-precision truth and by theory; and what is lost is shown as lost. */
+/* cmocka.h needs the three before it: */
+/* clang-format off */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+/* clang-format on */
+
+#include <float.h>
+#include <math.h>
+
+#include "kapitza/trial.h"
+#include "kapitza/truth.h"
+
+enum { SPLIT6 = 2, RK4 = 0, N = 8 };
+
+static const kz_numerics fine = {SPLIT6, 24, KZ_DOUBLE};
+
+static void advance(const kz_pendulum *pendulum, const kz_numerics *numerics, double *theta, double *velocity)
+{
+  int64_t turns[N] = {0};
+  kz_plan *plan = kz_plan_create(pendulum, numerics);
+  assert_non_null(plan);
+  kz_advance(plan, N, 1, theta, velocity, turns);
+  kz_plan_free(plan);
+}
+
+/* N starts: the seam, one step beside it, the rest positions, and between. */
+static void put_starts(double speed, double *theta, double *velocity)
+{
+  const double angles[N] = {M_PI, nextafter(M_PI, 0), -M_PI, 0, 5e-324, 1e-8, 1, -2.5};
+  for (int i = 0; i < N; i++) {
+    theta[i] = angles[i];
+    velocity[i] = i % 2 ? -speed : speed;
+  }
+}
+
+/* The largest error of one period, rad. */
+static double true_error(const kz_pendulum *pendulum, const kz_numerics *numerics, double speed)
+{
+  double theta[N], velocity[N], theta_true[N], velocity_true[N], largest = 0;
+  kz_truth_state states[N];
+  int64_t turns[N] = {0};
+  put_starts(speed, theta, velocity);
+  kz_truth_start(N, theta, velocity, states);
+  kz_truth_advance(pendulum, KZ_TRUTH_STEPS, N, 1, states);
+  kz_truth_read(N, states, theta_true, velocity_true, turns);
+  advance(pendulum, numerics, theta, velocity);
+  for (int i = 0; i < N; i++)
+    largest = fmax(largest, hypot(remainder(theta[i] - theta_true[i], 2 * M_PI), velocity[i] - velocity_true[i]));
+  return largest;
+}
+
+/* Within 1e-4 rad, from which on the program warns. */
+static void a_period_is_right_at_the_extremes(void **unused)
+{
+  (void)unused;
+  const double ms[] = {0, 1e-300, 5e-324, 1e-8, -0.3, 1}, betas[] = {0, 5e-324, 1e-12, 1, 40}, ks[] = {0, -0.1, 1e-16, 0.25},
+               speeds[] = {0, 1e-300, 1e-320, 1e-8, 2};
+  for (int a = 0; a < 6; a++)
+    for (int b = 0; b < 5; b++)
+      for (int c = 0; c < 4; c++)
+        for (int d = 0; d < 5; d++) {
+          const kz_pendulum pendulum = {ks[c], betas[b], ms[a]};
+          const double error = true_error(&pendulum, &fine, speeds[d]);
+          if (!(error < 1e-4)) fail_msg("k %g beta %g m %g speed %g: %g", ks[c], betas[b], ms[a], speeds[d], error);
+        }
+}
+
+static void the_trial_tells_the_true_error(void **unused)
+{
+  (void)unused;
+  const struct {
+    kz_pendulum pendulum;
+    kz_numerics numerics;
+    double speed;
+  } cases[] = {{{0.01, 0.05, 0.3}, {RK4, 100, KZ_DOUBLE}, 20}, {{0.01, 0.05, 0.3}, {RK4, 100, KZ_DOUBLE}, 200},
+               {{0.01, 0.05, 20}, {RK4, 100, KZ_DOUBLE}, 1},   {{0.01, 0.05, 0.3}, {SPLIT6, 24, KZ_DOUBLE}, 50},
+               {{0.01, 0.05, 0.3}, {SPLIT6, 1, KZ_DOUBLE}, 2}, {{0.01, 0.05, 1}, {SPLIT6, 4, KZ_DOUBLE}, 5}};
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    const double truth = true_error(&cases[i].pendulum, &cases[i].numerics, cases[i].speed);
+    const double speed[] = {cases[i].speed * 0.9, cases[i].speed * 1.1};
+    double estimate;
+    kz_trial_step_errors(&cases[i].pendulum, &cases[i].numerics, 1, speed, &estimate);
+    if (!(estimate > truth / 5)) fail_msg("case %zu: estimate %g of a true error of %g", i, estimate, truth);
+  }
+}
+
+static void what_diverges_is_told(void **unused)
+{
+  (void)unused;
+  const struct {
+    kz_pendulum pendulum;
+    kz_numerics numerics;
+  } cases[] = {{{0.01, 50, 0.3}, {RK4, 100, KZ_DOUBLE}},    {{0.01, 1e3, 0.3}, {RK4, 100, KZ_DOUBLE}},
+               {{0.01, 1e4, 0.3}, {SPLIT6, 24, KZ_DOUBLE}}, {{0.01, 1e300, 0.3}, {SPLIT6, 24, KZ_DOUBLE}},
+               {{0.01, 1e4, 0.3}, {SPLIT6, 24, KZ_SINGLE}}};
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    const double speed[] = {0, 2};
+    double error;
+    kz_trial_step_errors(&cases[i].pendulum, &cases[i].numerics, 1, speed, &error);
+    assert_true(error == DBL_MAX);
+  }
+}
+
+/* Angles without a fraction are not angles: the state is NaN, in every kind. */
+static void lost_angles_are_not_numbers(void **unused)
+{
+  (void)unused;
+  const kz_pendulum pendulum = {0, 0, 0};
+  const double too_fast[] = {[KZ_SINGLE] = 1e9, [KZ_DOUBLE] = 1e17, [KZ_QUAD] = 1e17};
+  for (int32_t precision = KZ_SINGLE; precision <= KZ_QUAD; precision++) {
+    const kz_numerics numerics = {SPLIT6, 24, precision};
+    double theta[N], velocity[N];
+    put_starts(too_fast[precision], theta, velocity);
+    advance(&pendulum, &numerics, theta, velocity);
+    for (int i = 0; i < N; i++) assert_true(isnan(theta[i]));
+  }
+}
+
+/* Without damping areas stay: the product of 1e5 one-period determinants is 1 to 1e-12. */
+static void areas_are_conserved(void **unused)
+{
+  (void)unused;
+  const kz_pendulum pendulum = {0.01, 0, 0.3};
+  kz_plan *plan = kz_plan_create(&pendulum, &fine);
+  assert_non_null(plan);
+  double theta = 0.4, velocity = 0.1, matrix[4], growth = 0;
+  int64_t turns = 0;
+  for (int period = 0; period < 100000; period++) {
+    kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
+    growth += log(matrix[0] * matrix[3] - matrix[1] * matrix[2]);
+  }
+  kz_plan_free(plan);
+  if (!(fabs(growth) < 1e-12)) fail_msg("areas grew by %g", growth);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(a_period_is_right_at_the_extremes), cmocka_unit_test(the_trial_tells_the_true_error),
+      cmocka_unit_test(what_diverges_is_told),             cmocka_unit_test(lost_angles_are_not_numbers),
+      cmocka_unit_test(areas_are_conserved),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
