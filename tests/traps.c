@@ -3,4 +3,6 @@
 #define _GNU_SOURCE /* feenableexcept */
 #include <fenv.h>
 
-__attribute__((constructor)) static void trap_exceptions(void) { feenableexcept(FE_DIVBYZERO | FE_OVERFLOW | FE_INVALID); }
+__attribute__((constructor)) static void trap_exceptions(void) {
+  feenableexcept(FE_DIVBYZERO | FE_OVERFLOW | FE_INVALID);
+}

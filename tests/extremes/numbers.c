@@ -17,8 +17,7 @@ enum { SPLIT6 = 2, RK4 = 0, N = 8 };
 
 static const kz_numerics fine = {SPLIT6, 24, KZ_DOUBLE};
 
-static void advance(const kz_pendulum *pendulum, const kz_numerics *numerics, double *theta, double *velocity)
-{
+static void advance(const kz_pendulum *pendulum, const kz_numerics *numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
   kz_plan *plan = kz_plan_create(pendulum, numerics);
   assert_non_null(plan);
@@ -27,8 +26,7 @@ static void advance(const kz_pendulum *pendulum, const kz_numerics *numerics, do
 }
 
 /* N starts: the seam, one step beside it, the rest positions, and between. */
-static void put_starts(double speed, double *theta, double *velocity)
-{
+static void put_starts(double speed, double *theta, double *velocity) {
   const double angles[N] = {M_PI, nextafter(M_PI, 0), -M_PI, 0, 5e-324, 1e-8, 1, -2.5};
   for (int i = 0; i < N; i++) {
     theta[i] = angles[i];
@@ -37,8 +35,7 @@ static void put_starts(double speed, double *theta, double *velocity)
 }
 
 /* The largest error of one period, rad. */
-static double true_error(const kz_pendulum *pendulum, const kz_numerics *numerics, double speed)
-{
+static double true_error(const kz_pendulum *pendulum, const kz_numerics *numerics, double speed) {
   double theta[N], velocity[N], theta_true[N], velocity_true[N], largest = 0;
   kz_truth_state states[N];
   int64_t turns[N] = {0};
@@ -53,8 +50,7 @@ static double true_error(const kz_pendulum *pendulum, const kz_numerics *numeric
 }
 
 /* Within 1e-4 rad, from which on the program warns. */
-static void a_period_is_right_at_the_extremes(void **unused)
-{
+static void a_period_is_right_at_the_extremes(void **unused) {
   (void)unused;
   const double ms[] = {0, 1e-300, 5e-324, 1e-8, -0.3, 1}, betas[] = {0, 5e-324, 1e-12, 1, 40}, ks[] = {0, -0.1, 1e-16, 0.25},
                speeds[] = {0, 1e-300, 1e-320, 1e-8, 2};
@@ -68,8 +64,7 @@ static void a_period_is_right_at_the_extremes(void **unused)
         }
 }
 
-static void the_trial_tells_the_true_error(void **unused)
-{
+static void the_trial_tells_the_true_error(void **unused) {
   (void)unused;
   const struct {
     kz_pendulum pendulum;
@@ -87,14 +82,15 @@ static void the_trial_tells_the_true_error(void **unused)
   }
 }
 
-static void what_diverges_is_told(void **unused)
-{
+static void what_diverges_is_told(void **unused) {
   (void)unused;
   const struct {
     kz_pendulum pendulum;
     kz_numerics numerics;
-  } cases[] = {{{0.01, 50, 0.3}, {RK4, 100, KZ_DOUBLE}},    {{0.01, 1e3, 0.3}, {RK4, 100, KZ_DOUBLE}},
-               {{0.01, 1e4, 0.3}, {SPLIT6, 24, KZ_DOUBLE}}, {{0.01, 1e300, 0.3}, {SPLIT6, 24, KZ_DOUBLE}},
+  } cases[] = {{{0.01, 50, 0.3}, {RK4, 100, KZ_DOUBLE}},
+               {{0.01, 1e3, 0.3}, {RK4, 100, KZ_DOUBLE}},
+               {{0.01, 1e4, 0.3}, {SPLIT6, 24, KZ_DOUBLE}},
+               {{0.01, 1e300, 0.3}, {SPLIT6, 24, KZ_DOUBLE}},
                {{0.01, 1e4, 0.3}, {SPLIT6, 24, KZ_SINGLE}}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     const double speed[] = {0, 2};
@@ -105,8 +101,7 @@ static void what_diverges_is_told(void **unused)
 }
 
 /* Angles without a fraction are not angles: the state is NaN, in every kind. */
-static void lost_angles_are_not_numbers(void **unused)
-{
+static void lost_angles_are_not_numbers(void **unused) {
   (void)unused;
   const kz_pendulum pendulum = {0, 0, 0};
   const double too_fast[] = {[KZ_SINGLE] = 1e9, [KZ_DOUBLE] = 1e17, [KZ_QUAD] = 1e17};
@@ -120,8 +115,7 @@ static void lost_angles_are_not_numbers(void **unused)
 }
 
 /* Without damping areas stay: the product of 1e5 one-period determinants is 1 to 1e-12. */
-static void areas_are_conserved(void **unused)
-{
+static void areas_are_conserved(void **unused) {
   (void)unused;
   const kz_pendulum pendulum = {0.01, 0, 0.3};
   kz_plan *plan = kz_plan_create(&pendulum, &fine);
@@ -136,11 +130,12 @@ static void areas_are_conserved(void **unused)
   if (!(fabs(growth) < 1e-12)) fail_msg("areas grew by %g", growth);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_period_is_right_at_the_extremes), cmocka_unit_test(the_trial_tells_the_true_error),
-      cmocka_unit_test(what_diverges_is_told),             cmocka_unit_test(lost_angles_are_not_numbers),
+      cmocka_unit_test(a_period_is_right_at_the_extremes),
+      cmocka_unit_test(the_trial_tells_the_true_error),
+      cmocka_unit_test(what_diverges_is_told),
+      cmocka_unit_test(lost_angles_are_not_numbers),
       cmocka_unit_test(areas_are_conserved),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,14 +1,13 @@
 /* The scene parser under libFuzzer (tests/fuzz/run): any bytes are read or refused, and what is read comes back from its own text. */
+#include "kapitza/scene.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
-
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-static char *resolve(const kz_scene *scene)
-{
+static char *resolve(const kz_scene *scene) {
   char *text = NULL;
   size_t size = 0;
   FILE *out = open_memstream(&text, &size);
@@ -19,8 +18,7 @@ static char *resolve(const kz_scene *scene)
 }
 
 /* What is read from the resolved text has the same resolved text. */
-static void check_fixed_point(kz_scene *scene)
-{
+static void check_fixed_point(kz_scene *scene) {
   kz_scene again;
   char *once = resolve(scene);
   if (kz_scene_read(once, strlen(once), "resolved.yaml", 0, NULL, &again) != KZ_OK) abort();
@@ -32,14 +30,12 @@ static void check_fixed_point(kz_scene *scene)
 }
 
 /* The message names the file and says what would be accepted (the program's entry prints it as one line). */
-static void check_refusal(void)
-{
+static void check_refusal(void) {
   const char *message = kz_message();
   if (strncmp(message, "scene.yaml:", 11) != 0 || !strchr(message, ';')) abort();
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   kz_scene scene;
   char *text = malloc(size + 1); /* as kz_scene_load gives it */
   if (!text) abort();
