@@ -4,7 +4,7 @@
 
 A word OUT stands for the result file. Printed: seconds on N - 1 ranks, on N, and on N with the slow one, the median of T runs.
 Tiles are drawn, not dealt: the slow rank should cost no more than its own work, so the last figure should lie between the others.
-Example: slow_rank.py /tmp/slow build/kapitza run scenes/small.yaml --set basin.method=direct -o OUT.h5 --force
+Example: slow_rank.py FOLDER build/kapitza run scenes/small.yaml --set basin.method=direct -o OUT.h5 --force
 """
 
 import argparse
@@ -39,7 +39,8 @@ def nap(rank, share):
 def seconds(words, ranks, share=None):
     """Wall time of a run, with the last rank slowed down to `share` of the time."""
     begun = time.monotonic()
-    process = subprocess.Popen(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), *words], stdout=subprocess.DEVNULL)
+    launcher = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)]
+    process = subprocess.Popen([*launcher, *words], stdout=subprocess.DEVNULL)
     while share is not None and len(found := ranks_of(process, words[0])) < ranks and process.poll() is None:
         time.sleep(0.01)
     while share is not None and process.poll() is None and nap(found[-1], share):
