@@ -47,10 +47,11 @@ static void show_in_pipe(kz_progress progress, int64_t n_tiles)
   close(ends[1]);
 }
 
+/* Skips the test on a machine without pseudo-terminals: a bare chroot has none. */
 static void show_on_terminal(kz_progress progress, int64_t n_tiles)
 {
   int here, there;
-  assert_int_equal(openpty(&here, &there, NULL, NULL, NULL), 0);
+  if (openpty(&here, &there, NULL, NULL, NULL) != 0) skip();
   show(progress, n_tiles, there, here);
   close(here);
   close(there);
@@ -79,11 +80,16 @@ static void nothing_is_nothing(void **state)
   (void)state;
   show_in_pipe(KZ_PROGRESS_AUTO, 60); /* over before the first line is due */
   assert_string_equal(shown, "");
+  show_in_pipe(KZ_PROGRESS_ALWAYS, 1);
+  assert_string_equal(shown, "");
+}
+
+static void a_terminal_is_left_alone_too(void **state)
+{
+  (void)state;
   show_on_terminal(KZ_PROGRESS_NEVER, 60);
   assert_string_equal(shown, "");
   show_on_terminal(KZ_PROGRESS_AUTO, 5);
-  assert_string_equal(shown, "");
-  show_in_pipe(KZ_PROGRESS_ALWAYS, 1);
   assert_string_equal(shown, "");
 }
 
@@ -93,6 +99,7 @@ int main(void)
       cmocka_unit_test(a_terminal_gets_a_bar),
       cmocka_unit_test(a_file_gets_lines),
       cmocka_unit_test(nothing_is_nothing),
+      cmocka_unit_test(a_terminal_is_left_alone_too),
   };
   if (unsetenv("OMPI_COMM_WORLD_RANK") != 0) return 1;
   return run_ranks(tests, sizeof tests / sizeof *tests);
