@@ -20,12 +20,6 @@ function(kapitza_floor name)
   cmake_parse_arguments(arg "" "" "FLOORS;LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90 src/${name}/*.F90)
   list(FILTER sources EXCLUDE REGEX "/main\\.c$")
-  if(NOT sources) # a floor that nobody has built yet
-    add_library(kapitza_${name} INTERFACE)
-    list(TRANSFORM arg_FLOORS PREPEND kapitza_)
-    target_link_libraries(kapitza_${name} INTERFACE ${arg_FLOORS})
-    return()
-  endif()
   add_library(kapitza_${name} STATIC ${sources})
   target_include_directories(kapitza_${name} PUBLIC include ${PROJECT_BINARY_DIR}/include PRIVATE src/${name})
   set_target_properties(kapitza_${name} PROPERTIES Fortran_MODULE_DIRECTORY ${PROJECT_BINARY_DIR}/modules

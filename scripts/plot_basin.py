@@ -6,37 +6,28 @@
     scripts/plot_basin.py blackburn-fig12.h5 --quantity settling_time     how long every start takes to settle
 """
 
-import argparse
-from pathlib import Path
-
 import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from kapitza_file import BadFile, Result, run
+from kapitza_plot import argument_parser, parsed
 from matplotlib.colors import LogNorm, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b"]
-FORMATS = ("png", "svg", "pdf")
 PLANE_WIDTH = 5.6  # inches, the same in every figure
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", help="result file that holds a basin")
-    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser = argument_parser(__doc__, "a basin")
     parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence"], default="attractor")
     parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
     parser.add_argument("--centre", choices=["down", "inverted"], default="down",
                         help="state in the middle of a whole-circle picture (default: down)")
     parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
     parser.add_argument("--no-legend", action="store_true")
-    parser.add_argument("--dpi", type=int, default=200)
-    arguments = parser.parse_args()
-    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
-    if arguments.output.suffix[1:].lower() not in FORMATS:
-        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
+    arguments = parsed(parser)
     if arguments.attractor and (arguments.quantity != "attractor" or arguments.shade):
         parser.error("--attractor goes with neither --quantity nor --shade")
     return arguments

@@ -6,32 +6,23 @@
     scripts/plot_orbit.py blackburn-fig09-050.h5 --panels phase,path
 """
 
-import argparse
-from pathlib import Path
-
 import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from kapitza_file import BadFile, Result, run
+from kapitza_plot import argument_parser, entitle, parsed
 from matplotlib.ticker import MaxNLocator
 
-FORMATS = ("png", "svg", "pdf")
 PANELS = ("time", "path", "phase", "spectrum")
 HARMONICS = ["#d1602f", "#12806a", "#8a5fb8", "#b08a1e"]  # the strongest lines, in this order
 TURN = 2 * np.pi
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", help="result file that holds an orbit")
-    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser = argument_parser(__doc__, "an orbit")
     parser.add_argument("--panels", default=",".join(PANELS), help=f"some of {','.join(PANELS)} (default: all)")
     parser.add_argument("--harmonics", type=int, default=3, choices=range(5), help="lines drawn into the time graph (default: 3)")
-    parser.add_argument("--dpi", type=int, default=200)
-    arguments = parser.parse_args()
-    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
-    if arguments.output.suffix[1:].lower() not in FORMATS:
-        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
+    arguments = parsed(parser)
     arguments.panels = arguments.panels.split(",")
     if not set(arguments.panels) <= set(PANELS):
         parser.error(f"--panels takes some of {','.join(PANELS)}")
@@ -236,8 +227,7 @@ def write_title(figure, result, orbit):
         str(orbit.attributes.get("model")), "")
     name = style.name_text(orbit.attributes.get("name", "")) if orbit.closed else "open record"
     parts = [style.parameters_text(result.pendulum), words, name, f"period {orbit.period}" if orbit.closed else ""]
-    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    figure.text(0.01, -0.01, "   |   ".join(part for part in parts if part), ha="left", va="top", fontsize=8, color=style.FAINT)
+    entitle(figure, result, *parts)
 
 
 def draw(arguments):

@@ -4,29 +4,14 @@
     scripts/plot_potential.py blackburn-fig05.h5
 """
 
-import argparse
-from pathlib import Path
-
 import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from kapitza_file import Result, run
+from kapitza_plot import argument_parser, entitle, parsed
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
-FORMATS = ("png", "svg", "pdf")
 COLOURS = ["#6b747e", "#2f6db3", "#12806a", "#c2452f", "#5b2a7a", "#b08a1e"]
-
-
-def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", help="result file that holds a potential")
-    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
-    parser.add_argument("--dpi", type=int, default=200)
-    arguments = parser.parse_args()
-    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
-    if arguments.output.suffix[1:].lower() not in FORMATS:
-        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
-    return arguments
 
 
 def full_circle(theta, values):
@@ -63,13 +48,11 @@ def draw(potential):
 
 
 def main():
-    arguments = parse_arguments()
+    arguments = parsed(argument_parser(__doc__, "a potential"))
     style.use()
     result = Result(arguments.file)
     figure = draw(result.group("potential"))
-    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    figure.text(0.01, -0.01, f"k = {result.pendulum['k']:.6g},  β = {result.pendulum['beta']:.6g}", ha="left", va="top",
-                fontsize=8, color=style.FAINT)
+    entitle(figure, result, f"k = {result.pendulum['k']:.6g},  β = {result.pendulum['beta']:.6g}")
     style.save(figure, arguments.output, arguments.dpi)
 
 

@@ -7,19 +7,17 @@
     scripts/plot_stability.py formula-errors.h5 --view errors       every formula against its exact curve
 """
 
-import argparse
 import re
-from pathlib import Path
 
 import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from kapitza_file import BadFile, Result, run
+from kapitza_plot import argument_parser, entitle, parsed
 from matplotlib.collections import LineCollection
 from matplotlib.colors import ListedColormap, LogNorm
 from matplotlib.patches import Patch
 
-FORMATS = ("png", "svg", "pdf")
 VIEWS = ("zones", "growth", "frequency", "errors")
 STABLE = "#e4e9ee"
 BOTH = "#a9c8a4"
@@ -40,16 +38,9 @@ LABELS = {
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", help="result file that holds a stability chart")
-    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser = argument_parser(__doc__, "a stability chart")
     parser.add_argument("--view", choices=VIEWS, default="zones")
-    parser.add_argument("--dpi", type=int, default=200)
-    arguments = parser.parse_args()
-    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
-    if arguments.output.suffix[1:].lower() not in FORMATS:
-        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
-    return arguments
+    return parsed(parser)
 
 
 def curve_names(chart):
@@ -245,9 +236,7 @@ def main():
     if chart.sizes["k"] < 2 or chart.sizes["m"] < 2:
         raise BadFile(f"{result.path}: the chart has no area")
     figure = DRAW[arguments.view](chart)
-    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    figure.text(0.01, -0.01, f"{chart.sizes['k']} x {chart.sizes['m']} points   |   {damping_text(chart)}", ha="left", va="top",
-                fontsize=8, color=style.FAINT)
+    entitle(figure, result, f"{chart.sizes['k']} x {chart.sizes['m']} points", damping_text(chart))
     style.save(figure, arguments.output, arguments.dpi)
 
 

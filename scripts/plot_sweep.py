@@ -9,17 +9,14 @@
     scripts/plot_sweep.py FILE --view branches                    one view of a file that holds several
 """
 
-import argparse
-from pathlib import Path
-
 import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from kapitza_file import BadFile, Result, run
+from kapitza_plot import argument_parser, entitle, parsed
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-FORMATS = ("png", "svg", "pdf")
 SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$", "damping": r"$\beta$"}
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
@@ -27,16 +24,9 @@ NAMED = 0.004  # branches with a larger share somewhere are named in the legend
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", help="result file that holds a sweep")
-    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser = argument_parser(__doc__, "a sweep")
     parser.add_argument("--view", choices=[name for name, _, _ in VIEWS], help="default: the first that the file has")
-    parser.add_argument("--dpi", type=int, default=200)
-    arguments = parser.parse_args()
-    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
-    if arguments.output.suffix[1:].lower() not in FORMATS:
-        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
-    return arguments
+    return parsed(parser)
 
 
 def parameter_text(sweep):
@@ -229,9 +219,7 @@ def main():
     result = Result(arguments.file)
     sweep = result.group("sweep")
     figure = chosen_view(result, sweep, arguments.view)(sweep)
-    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    figure.text(0.01, -0.01, f"{sweep.sizes['value']} values   |   {fixed_text(result, sweep)}", ha="left", va="top", fontsize=8,
-                color=style.FAINT)
+    entitle(figure, result, f"{sweep.sizes['value']} values", fixed_text(result, sweep))
     style.save(figure, arguments.output, arguments.dpi)
 
 

@@ -9,16 +9,13 @@ without a wrong label stands at the upper end of its interval, as an open triang
 of the start flips.
 """
 
-import argparse
-from pathlib import Path
-
 import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from kapitza_file import Result, run
+from kapitza_plot import argument_parser, entitle, parsed
 from matplotlib.ticker import LogLocator, NullFormatter
 
-FORMATS = ("png", "svg", "pdf")
 METHODS, PRECISIONS, INTERPOLATIONS = ("icm", "direct", "hybrid"), ("single", "double", "quad"), ("linear", "cubic", "quintic")
 # Way to label -> colour and marker.
 WAYS = {
@@ -35,16 +32,9 @@ WAYS = {
 
 
 def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("file", help="result file that holds a trade-off")
-    parser.add_argument("-o", "--output", help="picture; .png, .svg or .pdf (default: beside FILE, .png)")
+    parser = argument_parser(__doc__, "a trade-off")
     parser.add_argument("--per-cell", action="store_true", help="time of the labels alone, without table and trapping regions")
-    parser.add_argument("--dpi", type=int, default=200)
-    arguments = parser.parse_args()
-    arguments.output = Path(arguments.output or Path(arguments.file).with_suffix(".png").name)
-    if arguments.output.suffix[1:].lower() not in FORMATS:
-        parser.error(f"{arguments.output}: the name must end in {', '.join('.' + name for name in FORMATS)}")
-    return arguments
+    return parsed(parser)
 
 
 def way(method, precision, scheme, interpolation):
@@ -117,9 +107,8 @@ def main():
     result = Result(arguments.file)
     trade = result.group("tradeoff")
     figure = draw(trade, arguments.per_cell)
-    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
-    figure.text(0.01, -0.01, f"k = {result.pendulum['k']:.6g},  β = {result.pendulum['beta']:.6g},  m = {result.pendulum['m']:.6g};  "
-                f"{int(trade.attrs['samples'])} cells judged by quad precision", ha="left", va="top", fontsize=8, color=style.FAINT)
+    parameters = [f"{symbol} = {result.pendulum[name]:.6g}" for symbol, name in (("k", "k"), ("β", "beta"), ("m", "m"))]
+    entitle(figure, result, ",  ".join(parameters), f"{int(trade.attrs['samples'])} cells judged by quad precision")
     style.save(figure, arguments.output, arguments.dpi)
 
 

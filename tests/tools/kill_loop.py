@@ -83,7 +83,7 @@ def finish(process, what):
 def outputs(folder, words):
     """The words of the command with OUT replaced, and the result file."""
     named = [word.replace("OUT", str(folder / "out")) for word in words]
-    result = next(Path(word) for word, raw in zip(named, words) if "OUT" in raw)
+    result = next(Path(word) for word, raw in zip(named, words, strict=True) if "OUT" in raw)
     return named, result
 
 

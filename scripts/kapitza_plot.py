@@ -1,0 +1,32 @@
+"""What the plotting scripts share: their arguments, and how a figure is entitled."""
+
+import argparse
+from pathlib import Path
+
+import kapitza_style as style
+
+FORMATS = (".png", ".svg", ".pdf")
+
+
+def argument_parser(description, study):
+    """A parser of what every script takes; `study`: what its file must hold, for the help."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("file", help=f"result file that holds {study}")
+    parser.add_argument("-o", "--output", type=Path, help="picture; .png, .svg or .pdf (default: FILE's name with .png, here)")
+    parser.add_argument("--dpi", type=int, default=200)
+    return parser
+
+
+def parsed(parser):
+    """The arguments, with the picture's name."""
+    arguments = parser.parse_args()
+    arguments.output = arguments.output or Path(Path(arguments.file).with_suffix(".png").name)
+    if arguments.output.suffix.lower() not in FORMATS:
+        parser.error(f"{arguments.output}: the name must end in {', '.join(FORMATS)}")
+    return arguments
+
+
+def entitle(figure, result, *parts):
+    """The scene's title above the figure, the parts that are not empty below it."""
+    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    figure.text(0.01, -0.01, "   |   ".join(filter(None, parts)), ha="left", va="top", fontsize=8, color=style.FAINT)
