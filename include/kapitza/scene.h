@@ -123,6 +123,9 @@ void kz_reading_rules(kz_reading *reading);
 /* Text of a scene, and of --set options ("KEY=VALUE"), into a scene that the caller frees. KZ_REFUSED names the first error. */
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene);
 void kz_scene_free(kz_scene *scene);
+/* A refusal "KEY|KEY: what is wrong" that another floor made gets the place of the first of its keys that was given (else of the
+ * last one's mapping); others stay as they are. Returns `status`. */
+kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets);
 /* YAML with every default; reading it gives the same scene. `flat` = one "path: value" a line instead. */
 void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out);
 /* The scene reference (docs/scene.md). */

@@ -52,21 +52,28 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   puts(" on one core, divided by the number of ranks");
 }
 
+static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
+  char *resolved = kz_scene_resolved(scene);
+  const kz_cost cost = kz_cost_of(scene);
+  kz_status status = resolved ? kz_cost_check(&cost) : kz_fail(KZ_FAILED, "out of memory");
+  if (status == KZ_OK) status = kz_steps_check(scene);
+  if (status == KZ_OK && options->speaks) print_check(options, scene, resolved);
+  free(resolved);
+  return status;
+}
+
 kz_status kz_app_check(const kz_options *options) {
   char *text;
   size_t length;
   kz_scene scene;
   KZ_TRY(kz_scene_load(options->scene, &text, &length));
   kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
+  if (status == KZ_OK) {
+    status = check_scene(options, &scene);
+    status = kz_scene_locate(status, text, length, options->scene, options->n_sets, options->sets);
+    kz_scene_free(&scene);
+  }
   free(text);
-  KZ_TRY(status);
-  char *resolved = kz_scene_resolved(&scene);
-  const kz_cost cost = kz_cost_of(&scene);
-  status = resolved ? kz_cost_check(&cost) : kz_fail(KZ_FAILED, "out of memory");
-  if (status == KZ_OK) status = kz_steps_check(&scene);
-  if (status == KZ_OK && options->speaks) print_check(options, &scene, resolved);
-  free(resolved);
-  kz_scene_free(&scene);
   return status;
 }
 

@@ -2,6 +2,7 @@
 #include "kapitza/scene.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -75,31 +76,85 @@ static void print_label(const char *option, char *label) {
   snprintf(label, sizeof(option_label), "--set %.*s%s", whole ? 100 : 96, option, whole ? "" : "...");
 }
 
-static kz_status read_tree(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
-                           const option_label *labels, kz_scene *scene) {
+/* The tree of a text and of its options, whose labels it refers to. */
+typedef struct {
   kz_node *root;
-  KZ_TRY(kz_tree_read(text, length, file, false, &root));
-  kz_status status = KZ_OK;
-  if (root->kind == KZ_MAPPING)
-    for (int i = 0; status == KZ_OK && i < n_sets; i++) status = apply_set(kz_keys, root, sets[i], labels[i]);
+  option_label *labels;
+} grown;
+
+static kz_status grow(const char *text, size_t length, const char *file, int n_sets, char *const *sets, grown *tree) {
+  *tree = (grown){.labels = calloc((size_t)n_sets + 1, sizeof(option_label))};
+  if (!tree->labels) return kz_fail(KZ_FAILED, "out of memory while reading the command line");
+  KZ_TRY(kz_tree_read(text, length, file, false, &tree->root));
+  for (int i = 0; tree->root->kind == KZ_MAPPING && i < n_sets; i++) {
+    print_label(sets[i], tree->labels[i]);
+    KZ_TRY(apply_set(kz_keys, tree->root, sets[i], tree->labels[i]));
+  }
+  return KZ_OK;
+}
+
+static void fell(grown *tree) {
+  kz_tree_free(tree->root);
+  free(tree->labels);
+}
+
+static kz_status read_tree(kz_node *root, const char *file, kz_scene *scene) {
   kz_reading reading = {.keys = kz_keys, .root = root, .scene = scene, .file = file};
-  if (status == KZ_OK) status = kz_reading_keys(&reading);
-  if (status == KZ_OK && root->kind == KZ_MAPPING) kz_reading_rules(&reading);
-  if (status == KZ_OK && reading.message[0]) status = kz_fail(KZ_REFUSED, "%s", reading.message);
-  kz_tree_free(root);
-  return status;
+  KZ_TRY(kz_reading_keys(&reading));
+  if (root->kind == KZ_MAPPING) kz_reading_rules(&reading);
+  return reading.message[0] ? kz_fail(KZ_REFUSED, "%s", reading.message) : KZ_OK;
 }
 
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene) {
+  grown tree;
   memset(scene, 0, sizeof *scene);
-  option_label *labels = calloc((size_t)n_sets + 1, sizeof *labels);
-  if (!labels) return kz_fail(KZ_FAILED, "out of memory while reading the command line");
-  for (int i = 0; i < n_sets; i++) print_label(sets[i], labels[i]);
-  kz_status status = read_tree(text, length, file, n_sets, sets, labels, scene);
-  free(labels);
+  kz_status status = grow(text, length, file, n_sets, sets, &tree);
+  if (status == KZ_OK) status = read_tree(tree.root, file, scene);
+  fell(&tree);
   if (status == KZ_OK && !scene->title) scene->title = strdup("");
   if (status == KZ_OK && !scene->title) status = kz_fail(KZ_FAILED, "out of memory while reading %s", file);
   if (status != KZ_OK) kz_scene_free(scene);
+  return status;
+}
+
+/* Complains about the first of `keys` ("KEY|KEY") that the tree holds, or at the mapping that the last of them misses from. */
+static void complain_first(kz_reading *reading, char *keys, const char *wrong) {
+  char *rest = keys;
+  for (char *key; (key = strsep(&rest, "|"));) {
+    const kz_node *node = kz_tree_find(reading->root, key);
+    if (!node && rest) continue;
+    kz_complain(reading, node, key, "%s", wrong);
+    return;
+  }
+}
+
+/* Whether `keys` are keys of a scene, or the scene itself. */
+static bool are_keys(const char *keys) {
+  char key[256];
+  for (size_t n; *keys; keys += n + (keys[n] == '|')) {
+    n = strcspn(keys, "|");
+    snprintf(key, sizeof key, "%.*s", (int)n, keys);
+    if (!kz_key_find(kz_keys, key) && strcmp(key, "scene") != 0) return false;
+  }
+  return true;
+}
+
+kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets) {
+  char message[2048];
+  snprintf(message, sizeof message, "%s", kz_message());
+  char *end = strstr(message, ": ");
+  if (status != KZ_REFUSED || !end) return status;
+  *end = '\0';
+  if (!are_keys(message)) return status;
+  grown tree;
+  kz_reading reading = {.keys = kz_keys, .file = file, .first = INT_MAX};
+  if (grow(text, length, file, n_sets, sets, &tree) == KZ_OK) {
+    reading.root = tree.root;
+    complain_first(&reading, message, end + 2);
+    kz_message_clear();
+    kz_fail(status, "%s", reading.message);
+  }
+  fell(&tree);
   return status;
 }
 

@@ -1,10 +1,12 @@
 /* Study `attractors`: the catalogue of a window of starts, without a grid. */
 #include "attractors.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "catalogue.h"
 #include "discovery.h"
+#include "kapitza/steps.h"
 
 /* Drive periods after which a start counts as not settled. */
 enum { MAX_PERIODS = 2000 };
@@ -49,8 +51,13 @@ static kz_status discover(kz_team *team, search *s) {
 }
 
 static kz_status publish(const kz_scene *scene, const search *s, kz_store *store, FILE *summary) {
+  const kz_axis *velocity = &scene->attractors.velocity;
   kz_catalogue catalogue = {0};
   kz_status status = KZ_OK;
+  if (s->dynamics) {
+    kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), summary);
+    kz_steps_warn_damping(&scene->parameters.pendulum, MAX_PERIODS, "more damping", summary);
+  }
   if (s->dynamics) status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
   if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
   if (status == KZ_OK && s->dynamics) {

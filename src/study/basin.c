@@ -230,7 +230,8 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
 /* What the labels stand on, in numbers and as warnings. */
 static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
   const kz_axis *velocity = &scene->basin.velocity;
-  labels->step_error = kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), scene->basin.max_periods, summary);
+  labels->step_error = kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), summary);
+  kz_steps_warn_damping(&scene->parameters.pendulum, scene->basin.max_periods, "more max_periods or more damping", summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
   labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil[scene->basin.interpolation]);

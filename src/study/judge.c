@@ -15,6 +15,7 @@ enum {
   NODES = 1000,                     /* of the map table, an axis */
   STEPS = 48,                       /* of split6 a period, for a gentle drive */
   DOUBLINGS = 6,                    /* of STEPS, at most */
+  MOST_STEPS = 20000,
   SCOUTS = 512,                     /* starts before there is a table */
   PROBES = 8192,                    /* cells that must settle on known attractors before the truth is asked */
   ROUNDS = 4,                       /* of discovery */
@@ -29,19 +30,20 @@ int64_t kz_judge_cell(const kz_judge *judge, int64_t i) {
   return kz_shuffled(i, judge->total, judge->plan->seed);
 }
 
-/* Steps are doubled until a period is right to FINE at every speed of the window. KZ_REFUSED where that is not to be had. */
+kz_status kz_judge_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics) {
+  const double stiffness = fmax(1, fabs(pendulum->k) + fabs(pendulum->m));
+  const double fastest = fmax(fabs(plan->velocity.min), fabs(plan->velocity.max));
+  const double steps = STEPS * ceil(sqrt(stiffness)), most = fmin(ldexp(steps, DOUBLINGS), MOST_STEPS);
+  *numerics = (kz_numerics){.scheme = 2, .steps_per_period = (int32_t)fmin(steps, most), .precision = KZ_DOUBLE};
+  if (steps <= most && kz_steps_enough(pendulum, fastest, FINE, (int32_t)most, numerics)) return KZ_OK;
+  return kz_fail(KZ_REFUSED,
+                 "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough to judge labels; slower starts",
+                 (int)numerics->steps_per_period, fastest);
+}
+
 static kz_status make_dynamics(const kz_judge *judge, kz_dynamics **dynamics) {
-  const kz_axis *velocity = &judge->plan->velocity;
-  const double stiffness = fmax(1, fabs(judge->pendulum.k) + fabs(judge->pendulum.m));
-  const double fastest = fmax(fabs(velocity->min), fabs(velocity->max));
-  kz_numerics numerics = {.scheme = 2, .steps_per_period = STEPS * (int32_t)ceil(sqrt(stiffness)), .precision = KZ_DOUBLE};
-  for (int doublings = 0;; doublings++, numerics.steps_per_period *= 2) {
-    const kz_step_trial trial = kz_steps_try(&judge->pendulum, &numerics, fastest);
-    if (kz_steps_worst(&trial) <= FINE) break;
-    if (doublings == DOUBLINGS)
-      return kz_fail(KZ_REFUSED, "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough to judge labels",
-                     (int)numerics.steps_per_period, fastest);
-  }
+  kz_numerics numerics;
+  KZ_TRY(kz_judge_numerics(judge->plan, &judge->pendulum, &numerics));
   *dynamics = kz_dynamics_create(&judge->pendulum, &numerics, judge->plan->max_period);
   return *dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics");
 }

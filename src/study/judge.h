@@ -41,6 +41,9 @@ void kz_judge_free(kz_judge *judge);
  * most judge->samples, into judge->verdicts; returns how many. A missing, damaged or foreign cache gives 0. */
 int64_t kz_judge_recall(const char *path, kz_judge *judge);
 
+/* Steps that carry every speed of the window well enough to judge labels. KZ_REFUSED where they are not to be had. */
+kz_status kz_judge_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics);
+
 /* Cell i of the judge's order. */
 int64_t kz_judge_cell(const kz_judge *judge, int64_t i);
 

@@ -4,9 +4,16 @@
 #include <float.h>
 #include <math.h>
 
+#include "judge.h"
 #include "kapitza/trial.h"
+#include "sweep.h"
 
-enum { DOUBLINGS = 8 }; /* of the scene's steps that are tried as advice */
+enum {
+  DOUBLINGS = 8,       /* of the steps that are tried as advice */
+  MOST_STEPS = 100000, /* that a scene can ask for */
+  SWEEP_VALUES = 17,   /* of a sweep that are tried, fewer where they take many steps */
+  SWEEP_STEPS = 20000  /* that those trials take together */
+};
 
 /* rad, of one drive period: from LOOSE on a user is warned, from LOST on labels would be chance. */
 static const double LOOSE = 1e-4, LOST = 0.1;
@@ -19,25 +26,6 @@ kz_step_trial kz_steps_try(const kz_pendulum *pendulum, const kz_numerics *numer
   return trial;
 }
 
-double kz_steps_worst(const kz_step_trial *trial) {
-  double worst = 0;
-  for (int c = 0; c < KZ_SPEED_CLASSES; c++) worst = fmax(worst, trial->error[c]);
-  return worst;
-}
-
-/* Doubles the steps until every class is under LOOSE; false where that does not help, *steps: the last number tried. */
-static bool enough_steps(const kz_scene *scene, double fastest, int32_t *steps) {
-  kz_numerics numerics = scene->numerics;
-  for (int i = 0; i < DOUBLINGS && numerics.steps_per_period <= INT32_MAX / 4; i++) {
-    numerics.steps_per_period *= 2;
-    *steps = numerics.steps_per_period;
-    kz_step_trial trial = kz_steps_try(&scene->parameters.pendulum, &numerics, fastest);
-    if (kz_steps_worst(&trial) <= LOOSE) return true;
-  }
-  return false;
-}
-
-/* The worst class. */
 static int worst_class(const kz_step_trial *trial) {
   int worst = 0;
   for (int c = 1; c < KZ_SPEED_CLASSES; c++)
@@ -45,23 +33,54 @@ static int worst_class(const kz_step_trial *trial) {
   return worst;
 }
 
-/* The fastest start of the scene's studies that label or search with the scene's numerics; negative where it has none. */
-static double fastest_start(const kz_scene *scene) {
-  double fastest = -1;
-  if (scene->has_basin && isnan(scene->basin.accuracy))
-    fastest = fmax(fabs(scene->basin.velocity.min), fabs(scene->basin.velocity.max));
-  if (scene->has_attractors)
-    fastest = fmax(fastest, fmax(fabs(scene->attractors.velocity.min), fabs(scene->attractors.velocity.max)));
-  return fastest;
+static double worst_error(const kz_step_trial *trial) {
+  return trial->error[worst_class(trial)];
+}
+
+bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
+  kz_step_trial trial = kz_steps_try(pendulum, numerics, fastest);
+  for (int worst; worst = worst_class(&trial), trial.error[worst] > tolerance;) {
+    do { /* the worst class alone: where nothing helps, that is soon known */
+      if (numerics->steps_per_period > most / 2) return false;
+      numerics->steps_per_period *= 2;
+      kz_trial_step_errors(pendulum, numerics, 1, trial.speed + worst, trial.error + worst);
+    } while (trial.error[worst] > tolerance);
+    trial = kz_steps_try(pendulum, numerics, fastest);
+  }
+  return true;
+}
+
+bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
+  const kz_step_trial trial = kz_steps_try(pendulum, numerics, fastest);
+  return worst_error(&trial) <= LOST;
+}
+
+/* Motions of one study: what they are tried with, and the keys that a user could change. */
+typedef struct {
+  kz_pendulum pendulum;
+  kz_numerics numerics;
+  double fastest;   /* start, rad per drive radian */
+  const char *keys; /* "KEY|KEY" */
+  char where[96];   /* "at m = 0.3, ", or "" */
+} motions;
+
+static double fastest_of(const kz_axis *velocity) {
+  return fmax(fabs(velocity->min), fabs(velocity->max));
+}
+
+static motions motions_of(const kz_scene *scene, double fastest, const char *keys) {
+  return (motions){scene->parameters.pendulum, scene->numerics, fastest, keys, ""};
 }
 
 /* What would help, as the end of a message. */
-static void advice(const kz_scene *scene, double fastest, size_t bytes, char *text) {
-  int32_t steps = scene->numerics.steps_per_period;
-  if (enough_steps(scene, fastest, &steps))
-    snprintf(text, bytes, "%d steps or more", (int)steps);
+static void advice(const motions *m, size_t bytes, char *text) {
+  kz_numerics numerics = m->numerics;
+  const int32_t most = (int32_t)fmin(MOST_STEPS, ldexp(numerics.steps_per_period, DOUBLINGS));
+  if (kz_steps_enough(&m->pendulum, m->fastest, LOOSE, most, &numerics))
+    snprintf(text, bytes, "%d steps or more", (int)numerics.steps_per_period);
   else
-    snprintf(text, bytes, "not even %d steps are enough: slower starts, or weaker damping and drive", (int)steps);
+    snprintf(text, bytes, "not even %d steps are enough: slower starts, or weaker damping and drive",
+             (int)numerics.steps_per_period);
 }
 
 static void describe_error(double error, size_t bytes, char *text) {
@@ -71,62 +90,119 @@ static void describe_error(double error, size_t bytes, char *text) {
     snprintf(text, bytes, "diverge");
 }
 
-static kz_status check_pendulum(const kz_scene *scene, double fastest) {
-  if (fastest < 0 || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
-  kz_step_trial trial = kz_steps_try(&scene->parameters.pendulum, &scene->numerics, fastest);
-  int worst = worst_class(&trial);
+static kz_status check(const motions *m) {
+  const kz_step_trial trial = kz_steps_try(&m->pendulum, &m->numerics, m->fastest);
+  const int worst = worst_class(&trial);
   if (trial.error[worst] <= LOST) return KZ_OK;
   char what[80], help[160];
   kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
+  kz_scheme_row(m->numerics.scheme, &scheme);
   describe_error(trial.error[worst], sizeof what, what);
-  advice(scene, fastest, sizeof help, help);
-  return kz_fail(KZ_REFUSED, "numerics.steps_per_period: with %d steps of %s, motions at speeds from %.3g to %.3g %s; %s",
-                 (int)scene->numerics.steps_per_period, scheme.name, trial.speed[worst], trial.speed[worst + 1], what, help);
+  advice(m, sizeof help, help);
+  return kz_fail(KZ_REFUSED, "%s: %swith numerics.steps_per_period = %d of %s, motions at speeds from %.3g to %.3g %s; %s",
+                 m->keys, m->where, (int)m->numerics.steps_per_period, scheme.name, trial.speed[worst], trial.speed[worst + 1],
+                 what, help);
 }
 
-/* A sweep at both ends of its values. */
+/* Without damping nothing is labelled. */
+static kz_status check_basin(const kz_scene *scene) {
+  const motions m = motions_of(scene, fastest_of(&scene->basin.velocity), "numerics.steps_per_period|basin.velocity");
+  kz_numerics fine;
+  if (!scene->has_basin || !(m.pendulum.beta > 0)) return KZ_OK;
+  if (isnan(scene->basin.accuracy)) KZ_TRY(check(&m));
+  return scene->has_tradeoff || !isnan(scene->basin.accuracy) ? kz_judge_numerics(&scene->basin, &m.pendulum, &fine) : KZ_OK;
+}
+
+static kz_status check_attractors(const kz_scene *scene) {
+  const motions m = motions_of(scene, fastest_of(&scene->attractors.velocity), "numerics.steps_per_period|attractors.velocity");
+  return scene->has_attractors && m.pendulum.beta > 0 ? check(&m) : KZ_OK;
+}
+
+static kz_status check_orbit(const kz_scene *scene) {
+  const double start = scene->orbit.velocity;
+  motions m = motions_of(scene, isfinite(start) ? fabs(start) : 0, "numerics.steps_per_period|orbit.start|orbit");
+  if (!scene->has_orbit || scene->orbit.model != KZ_PENDULUM) return KZ_OK;
+  m.numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);
+  return check(&m);
+}
+
+/* The fastest start at any value of a sweep. */
+static double fastest_of_sweep(const kz_scene *scene) {
+  const double fastest = fmax(fastest_of(&scene->sweep.velocity), fabs(scene->sweep.start_velocity));
+  return scene->has_basin ? fmax(fastest, fastest_of(&scene->basin.velocity)) : fastest;
+}
+
+static int64_t tried_values(const kz_scene *scene) {
+  const int64_t affordable = SWEEP_STEPS / scene->numerics.steps_per_period;
+  const int64_t n = affordable < 2 ? 2 : affordable < SWEEP_VALUES ? affordable : SWEEP_VALUES;
+  return n < scene->sweep.values.count ? n : scene->sweep.values.count;
+}
+
+/* Motions at tried value i of n; false where that is no pendulum, or nothing is followed without damping. */
+static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, motions *m) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
+  *m = motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
+  snprintf(m->where, sizeof m->where, "at %s = %.6g, ", kz_sweep_parameters[plan->parameter].name, value);
+  const bool damped_alone = !kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE) && !kz_sweep_measures(plan, KZ_SWEEP_STROBE);
+  return kz_sweep_pendulum(scene, value, &m->pendulum) && (m->pendulum.beta > 0 || !damped_alone);
+}
+
 static kz_status check_sweep(const kz_scene *scene) {
-  const kz_axis *velocity = &scene->sweep.velocity;
-  const double ends[] = {scene->sweep.values.min, scene->sweep.values.max};
-  for (int i = 0; i < 2; i++) {
-    kz_scene at = *scene;
-    if (kz_sweep_pendulum(scene, ends[i], &at.parameters.pendulum))
-      KZ_TRY(check_pendulum(&at, fmax(fabs(velocity->min), fabs(velocity->max))));
-  }
+  motions m;
+  if (!scene->has_sweep) return KZ_OK;
+  const int64_t n = tried_values(scene);
+  for (int64_t i = 0; i < n; i++) /* the ends first: one of them is hardest as a rule */
+    if (motions_at(scene, (n - i) % n, n, &m)) KZ_TRY(check(&m));
   return KZ_OK;
 }
 
 kz_status kz_steps_check(const kz_scene *scene) {
-  KZ_TRY(check_pendulum(scene, fastest_start(scene)));
-  return scene->has_sweep ? check_sweep(scene) : KZ_OK;
+  KZ_TRY(check_basin(scene));
+  KZ_TRY(check_attractors(scene));
+  KZ_TRY(check_orbit(scene));
+  return check_sweep(scene);
 }
 
-static void warn_steps(const kz_scene *scene, double fastest, const kz_step_trial *trial, FILE *summary) {
+static double warn(const motions *m, FILE *summary) {
+  const kz_step_trial trial = kz_steps_try(&m->pendulum, &m->numerics, m->fastest);
+  const double worst = worst_error(&trial);
   char help[160];
-  bool loose = false;
-  for (int c = 0; c < KZ_SPEED_CLASSES; c++) {
-    if (trial->error[c] <= LOOSE) continue;
-    loose = true;
-    fprintf(summary, "warning: at speeds from %.3g to %.3g one drive period is off by %.2g rad\n", trial->speed[c],
-            trial->speed[c + 1], trial->error[c]);
-  }
-  if (!loose) return;
-  advice(scene, fastest, sizeof help, help);
+  for (int c = 0; c < KZ_SPEED_CLASSES; c++)
+    if (trial.error[c] > LOOSE)
+      fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by %.2g rad\n", m->where, trial.speed[c],
+              trial.speed[c + 1], trial.error[c]);
+  if (worst <= LOOSE) return worst;
+  advice(m, sizeof help, help);
   fprintf(summary, "warning: to get below %g rad per period at every speed: numerics.steps_per_period: %s\n", LOOSE, help);
+  return worst;
 }
 
-double kz_steps_warn(const kz_scene *scene, double fastest, int64_t max_periods, FILE *summary) {
-  const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  kz_step_trial trial = kz_steps_try(pendulum, &scene->numerics, fastest);
-  warn_steps(scene, fastest, &trial, summary);
-  double lifetime = 1 / (2 * M_PI * pendulum->beta); /* periods in which areas shrink by e */
-  if ((double)max_periods < lifetime)
-    fprintf(summary,
-            "warning: damping %g needs %.3g drive periods to shrink areas by e: hardly anything settles within %lld; more "
-            "max_periods or more damping\n",
-            pendulum->beta, lifetime, (long long)max_periods);
-  return kz_steps_worst(&trial);
+double kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary) {
+  const motions m = motions_of(scene, fastest, "");
+  return warn(&m, summary);
+}
+
+void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary) {
+  const int64_t n = tried_values(scene);
+  double largest = LOOSE;
+  motions m, worst;
+  for (int64_t i = 0; i < n; i++) {
+    if (!motions_at(scene, i, n, &m)) continue;
+    const kz_step_trial trial = kz_steps_try(&m.pendulum, &m.numerics, m.fastest);
+    if (worst_error(&trial) <= largest) continue;
+    largest = worst_error(&trial);
+    worst = m;
+  }
+  if (largest > LOOSE) warn(&worst, summary);
+}
+
+void kz_steps_warn_damping(const kz_pendulum *pendulum, int64_t max_periods, const char *remedy, FILE *summary) {
+  const double lifetime = 1 / (2 * M_PI * pendulum->beta); /* periods in which areas shrink by e */
+  if ((double)max_periods >= lifetime) return;
+  fprintf(summary,
+          "warning: damping %g needs %.3g drive periods to shrink areas by e: hardly anything settles within %lld; %s\n",
+          pendulum->beta, lifetime, (long long)max_periods, remedy);
 }
 
 void kz_steps_warn_table(double defect, FILE *summary) {

@@ -1,4 +1,5 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
+#include "kapitza/steps.h"
 #include "sweep.h"
 
 #include <math.h>
@@ -93,6 +94,7 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
   KZ_TRY(status);
   fprintf(summary, "sweep of %s, %lld values from %.10g to %.10g\n", parameter->name, (long long)plan->values.count,
           plan->values.min, plan->values.max);
+  kz_steps_warn_sweep(scene, summary);
   KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
   return kz_store_text(store, "sweep", "parameter_units", parameter->unit);
 }

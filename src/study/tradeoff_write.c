@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "kapitza/steps.h"
 #include "kapitza/truth.h"
 #include "tradeoff.h"
 
@@ -74,6 +75,20 @@ static void print_row(const kz_judge *judge, const kz_trade *trade, int64_t i, F
           1e6 * m->cell);
 }
 
+/* Settings whose labels are chance here. */
+static void warn(const kz_judge *judge, const kz_trade *trade, FILE *summary) {
+  const kz_axis *velocity = &judge->plan->velocity;
+  const double fastest = fmax(fabs(velocity->min), fabs(velocity->max));
+  const char *before = "warning: steps that do not carry the motions of this window: ";
+  for (int64_t i = 0; i < trade->count; i++) {
+    const kz_numerics numerics = kz_setting_numerics(trade->settings[i]);
+    if (kz_steps_carry(&judge->pendulum, &numerics, fastest)) continue;
+    fprintf(summary, "%s%s", before, trade->settings[i]->label);
+    before = ", ";
+  }
+  if (before[0] == ',') fprintf(summary, "\n");
+}
+
 static void print(const kz_judge *judge, const kz_trade *trade, FILE *summary) {
   const kz_judge_summary sum = kz_judge_sum(judge);
   const kz_share flips = kz_share_of(sum.flipped, judge->samples);
@@ -99,5 +114,6 @@ kz_status kz_tradeoff_write(const kz_judge *judge, const kz_trade *trade, kz_sto
   KZ_TRY(write_measures(judge, trade, store));
   KZ_TRY(write_attributes(judge, trade, store));
   print(judge, trade, summary);
+  warn(judge, trade, summary);
   return KZ_OK;
 }

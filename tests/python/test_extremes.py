@@ -131,6 +131,66 @@ def test_damping_too_weak_to_settle_is_said(model, settings):
     assert (labels == -1).all()
 
 
+# Other studies are tried with their own numerics and speeds, too: scene; key that the message stands at; what it says.
+SPRING = "pendulum: {k: 0.01, damping: 0.05, m: 0.3}\n"
+TRIED = {
+    "attractors": (SPRING + "attractors: {velocity: {min: -1e3, max: 1}}\n", "2:24: attractors.velocity", "steps or more"),
+    "steps of the scene": ("numerics: {steps_per_period: 1}\n" + SPRING + "attractors: {velocity: {min: -1, max: 1}}\n",
+                           "1:30: numerics.steps_per_period", "steps or more"),
+    "orbit": ("numerics: {scheme: rk4}\npendulum: {k: 0, damping: 1e3, m: 0}\norbit: {start: {theta: 1, velocity: 0}}\n",
+              "3:16: orbit.start", "diverge"),
+    "last value of a sweep": (SPRING + "sweep: {parameter: m, min: 0.1, max: 100, count: 3, measure: [attractors]}\n",
+                              "2:8: sweep", "at m = 100, with"),
+    "releases without damping": ("pendulum: {k: 0.01, damping: 0, m: 100}\nsweep: {parameter: m, min: 1, max: 100, count: 3, "
+                                 "measure: [release_angle]}\n", "2:8: sweep", "at m = 100, with"),
+    "first value of a sweep": ("pendulum: {quality_factor: 5, drive_frequency: 1, drive_amplitude: 0}\nsweep: {parameter: "
+                               "drive_frequency, min: 1e-3, max: 10, count: 99, measure: [attractors]}\n", "2:8: sweep",
+                               "at drive_frequency = 0.001, with"),
+    "judge of a trade-off": ("numerics: {steps_per_period: 9000}\n" + SPRING + "basin: {velocity: {min: -1e4, max: 1e4}}\n"
+                             "tradeoff: {samples: 10}\n", "3:19: basin.velocity", "to judge labels"),
+    "judge of an accuracy": (SPRING + "basin: {velocity: {min: -1e6, max: 1}, accuracy: 0.9}\n", "2:19: basin.velocity",
+                             "to judge labels"),
+    "judge without end": ("pendulum: {k: 1e300, damping: 0.05, m: 0.3}\nbasin: {velocity: {min: -1, max: 1}, accuracy: 0.9}\n",
+                          "2:19: basin.velocity", "to judge labels"),
+}
+
+
+@pytest.mark.parametrize("name", TRIED)
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_every_study_is_tried_beforehand(kapitza, tmp_path, command, name):
+    text, place, said = TRIED[name]
+    (tmp_path / "x.yaml").write_text(text)
+    done = kapitza(command, "x.yaml", folder=tmp_path, status=2)
+    assert done.stderr.startswith(f"kapitza: error: x.yaml:{place}: ") and said in done.stderr, done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["x.yaml"]
+
+
+def test_an_option_at_fault_is_named(kapitza, tmp_path):
+    done = kapitza("check", SMALL, "--set", "numerics.steps_per_period=1", folder=tmp_path, status=2)
+    assert done.stderr.startswith("kapitza: error: --set numerics.steps_per_period=1: numerics.steps_per_period: with")
+
+
+def test_attractors_and_sweeps_warn_of_loose_steps(kapitza, tmp_path):
+    studies = {"at speeds from 25 to 50": "attractors: {velocity: {min: -50, max: 50}, starts: 8}\n",
+               "at m = 8, at speeds from": "sweep: {parameter: m, min: 0.1, max: 8, count: 2, measure: [strobe], transient: 1}\n"}
+    for number, (said, study) in enumerate(studies.items()):
+        (tmp_path / f"{number}.yaml").write_text(SPRING + study)
+        done = kapitza("run", f"{number}.yaml", folder=tmp_path)
+        assert f"warning: {said}" in done.stdout and "steps or more" in done.stdout, done.stdout
+
+
+def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
+    """Their labels are chance: measured as wrong, and named."""
+    (tmp_path / "x.yaml").write_text("numerics: {steps_per_period: 96}\n" + SPRING + "basin: {theta: {count: 8}, velocity: {min: -100, "
+                                     "max: 100, count: 8}, icm: {theta: 32, velocity: 32}, attractors: {starts: 16}}\n"
+                                     "tradeoff: {samples: 64, settings: [direct-6, direct-96]}\n")
+    done = kapitza("run", "x.yaml", folder=tmp_path)
+    assert "warning: steps that do not carry the motions of this window: direct-6\n" in done.stdout
+    with h5py.File(tmp_path / "x.h5") as file:
+        wrong = dict(zip(file["tradeoff/label"].asstr()[:], file["tradeoff/wrong"][:], strict=True))
+    assert wrong["direct-6"] > 0.2 > wrong["direct-96"]
+
+
 def test_no_damping_is_no_attractor(model):
     labels, names, text, attributes = model(pendulum(beta=0.0))
     assert (labels == -1).all() and names == [] and "without damping nothing attracts" in text
