@@ -33,6 +33,11 @@ function(kapitza_floor name)
     target_link_libraries(kapitza_${name} PUBLIC kapitza_${floor})
   endforeach()
   target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} gfortran m)
+  list(FILTER sources INCLUDE REGEX "\\.[fF]90$")
+  if(sources) # gfortran does not look whether malloc gave memory: include/kapitza/memory.h
+    add_custom_command(TARGET kapitza_${name} POST_BUILD COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=kz_malloc
+                       --redefine-sym calloc=kz_calloc --redefine-sym realloc=kz_realloc $<TARGET_FILE:kapitza_${name}>)
+  endif()
 endfunction()
 
 # The program: only its entry (the instruction-set check) is compiled for plain x86-64.

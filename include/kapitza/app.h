@@ -54,6 +54,12 @@ kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);
 /* Everything about FILE that can be known before modelling. *complete: it holds this very scene already (with --resume). */
 kz_status kz_output_check(const kz_options *options, const char *path, const char *fingerprint, bool *complete);
 
+/* A rank that cannot go on ends all ranks with one line and status 1 (75 where a stop was asked), from here to disarming. */
+void kz_abandon_arm(void);
+void kz_abandon_disarm(void);
+/* The team that it ends (NULL: none), and the result whose half file it removes (NULL: there is none). */
+void kz_abandon_team(kz_team *team, const char *path);
+
 /* The sum of what the wanted studies cost; the memory is that of the most demanding one. */
 kz_cost kz_cost_of(const kz_scene *scene);
 /* KZ_REFUSED where the ranks of this node need more memory than it has, or this process may not have its share. */

@@ -20,17 +20,27 @@ const char *kz_parallel_library(void);
 
 typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;
 
-/* Starts MPI (signal handlers first: SIGUSR1, SIGTERM and SIGINT ask for a stop) and makes the team of all ranks. `team`
+/* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and makes the team of all ranks. `team`
  * is NULL or must be ended also where this fails. Collective. */
 kz_status kz_team_start(int *argc, char ***argv, kz_team **team);
 /* Frees the team (NULL too), its hold on the checkpoint, and leaves through MPI_Finalize. Collective. */
 void kz_team_end(kz_team *team);
+
+/* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `team` may be NULL. */
+void kz_team_abandon(const kz_team *team, kz_status status) __attribute__((noreturn));
+/* The path of the checkpoint where it holds finished work, else NULL. */
+const char *kz_team_saved(const kz_team *team);
+/* Removes a checkpoint that holds none. */
+void kz_team_forget(const kz_team *team);
 
 int kz_team_rank(const kz_team *team);
 int kz_team_size(const kz_team *team);
 
 /* The worst status of all ranks (failed, refused, stopped, done), with that rank's message on every rank. Collective. */
 kz_status kz_team_agree(kz_team *team, kz_status mine);
+
+/* KZ_REFUSED on every rank where one has another text than rank 0; `what` is said to differ. Collective. */
+kz_status kz_team_compare(kz_team *team, const char *text, const char *what);
 
 /* Bytes of rank 0 to every rank. Collective. */
 kz_status kz_team_broadcast(kz_team *team, void *data, size_t bytes);
@@ -40,6 +50,10 @@ kz_status kz_team_broadcast(kz_team *team, void *data, size_t bytes);
 void kz_team_set_progress(kz_team *team, kz_progress progress);
 /* Stop (KZ_STOPPED) once `seconds` have passed since kz_team_start; 0 = no limit. */
 void kz_team_set_time_limit(kz_team *team, double seconds);
+
+/* Between two tiles a stop request is heard. Where that takes more than 6 s, `leave` must end the process; it is called by a signal
+ * handler, with "stopped by SIGUSR1" or the like. NULL: no longer. After kz_team_set_time_limit. */
+void kz_team_set_overdue(kz_team *team, void (*leave)(const char *reason));
 
 /* Checkpoint of a run: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is
  * text (scene, version, numerics: one "name: value" a line) that a resumed run must match; a difference is refused naming

@@ -1,5 +1,7 @@
 /* The entry, compiled for plain x86-64: it looks at the CPU before anything that was built for a newer one runs. */
+#include <fcntl.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include "kapitza/app.h"
 
@@ -13,6 +15,13 @@ static const char *missing_instruction(void) {
   return NULL;
 }
 
+/* A file that is opened in the place of a closed standard stream would get what the program prints. What stands there instead fails. */
+static void fill_streams(void) {
+  static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
+  for (int stream = 0; stream < 3; stream++)
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", modes[stream]) == -1) _exit(KZ_FAILED);
+}
+
 /* One line whatever the message holds: control characters become '?'. */
 static void print_message(kz_status status) {
   fputs(status == KZ_STOPPED ? "kapitza: " : "kapitza: error: ", stderr);
@@ -21,13 +30,16 @@ static void print_message(kz_status status) {
 }
 
 int main(int argc, char **argv) {
+  fill_streams();
   const char *missing = missing_instruction();
   if (missing) {
     fprintf(stderr, "kapitza: error: this program was built for %s, which this CPU lacks; a build with -DKAPITZA_ARCH=x86-64\n",
             missing);
     return KZ_REFUSED;
   }
+  kz_abandon_arm();
   kz_status status = kz_app(argc, argv);
+  kz_abandon_disarm();
   if (fflush(stdout) != 0 && status == KZ_OK) status = kz_fail(KZ_FAILED, "standard output cannot be written");
   if (status != KZ_OK && kz_message()[0]) print_message(status);
   return status;

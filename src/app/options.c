@@ -225,6 +225,6 @@ kz_status kz_app(int argc, char **argv) {
   kz_status status = options.line && options.sets ? dispatch(argc, argv, &options) : kz_fail(KZ_FAILED, "out of memory");
   free(options.line);
   free(options.sets);
-  if (!speaks) kz_message_clear();
+  if (!speaks && status != KZ_FAILED) kz_message_clear();
   return status;
 }

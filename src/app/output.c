@@ -35,18 +35,25 @@ static kz_status check_folder(const char *path) {
   return KZ_OK;
 }
 
-/* What stands under FILE, FILE.part and FILE.checkpoint may only be regular files. *exists: FILE itself is there. */
-static kz_status check_names(const char *path, struct stat *file, bool *exists) {
-  static const char *const suffixes[] = {".checkpoint", ".part", ""};
+static bool is_same_file(const struct stat *file, const char *path) {
+  struct stat other;
+  return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
+}
+
+/* What stands under FILE and its companions may only be regular files, and none of them the scene. *exists: FILE itself is there. */
+static kz_status check_names(const char *path, const char *scene, bool *exists) {
+  static const char *const suffixes[] = {".checkpoint", ".part", ".truth", ""};
   *exists = false;
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < 4; i++) {
     char name[PATH_MAX + 16];
+    struct stat file;
     snprintf(name, sizeof name, "%s%s", path, suffixes[i]);
-    if (stat(name, file) == 0) {
-      *exists = i == 2;
-      if (!S_ISREG(file->st_mode))
+    if (stat(name, &file) == 0) {
+      *exists = i == 3;
+      if (!S_ISREG(file.st_mode))
         return kz_fail(KZ_REFUSED, "%s: is %s; the name of a file", name,
-                       S_ISDIR(file->st_mode) ? "a folder" : "not a regular file");
+                       S_ISDIR(file.st_mode) ? "a folder" : "not a regular file");
+      if (is_same_file(&file, scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; another name", name);
     } else if (errno != ENOENT) {
       return kz_fail(KZ_REFUSED, "%s: cannot be used: %s; another name", name, strerror(errno));
     }
@@ -65,19 +72,12 @@ static kz_status try_folder(const char *path) {
   return KZ_OK;
 }
 
-static bool is_same_file(const struct stat *file, const char *path) {
-  struct stat other;
-  return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
-}
-
 kz_status kz_output_check(const kz_options *options, const char *path, const char *fingerprint, bool *complete) {
-  struct stat file;
   bool exists;
   *complete = false;
   KZ_TRY(check_folder(path));
-  KZ_TRY(check_names(path, &file, &exists));
+  KZ_TRY(check_names(path, options->scene, &exists));
   if (!exists) return try_folder(path);
-  if (is_same_file(&file, options->scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; another name", path);
   if (options->force) return try_folder(path);
   *complete = options->resume && kz_store_is_complete(path, fingerprint);
   if (*complete) return KZ_OK;

@@ -43,17 +43,41 @@ static kz_status read_scene(job *j) {
   return j->resolved && j->fingerprint ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", o->scene);
 }
 
-/* All that can be refused before modelling. *complete: there is nothing left to do. */
-static kz_status prepare(job *j, bool *complete) {
+/* One scene, one program, one name of the result: whatever command line each rank was given. */
+static kz_status agree_on_scene(job *j) {
   KZ_TRY(share_text(j));
   KZ_TRY(kz_team_agree(j->team, read_scene(j)));
-  kz_status status = kz_output_name(j->options, j->path, sizeof j->path);
-  if (status == KZ_OK && j->first) status = kz_output_check(j->options, j->path, j->fingerprint, complete);
-  KZ_TRY(kz_team_agree(j->team, status));
-  KZ_TRY(kz_team_broadcast(j->team, complete, sizeof *complete));
+  KZ_TRY(kz_team_compare(j->team, j->fingerprint, "scene or program"));
+  KZ_TRY(kz_team_agree(j->team, kz_output_name(j->options, j->path, sizeof j->path)));
+  return kz_team_compare(j->team, j->path, "name of the result");
+}
+
+/* *complete: there is nothing left to do. */
+static kz_status check_output(job *j, bool *complete) {
+  KZ_TRY(kz_team_agree(j->team, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
+  return kz_team_broadcast(j->team, complete, sizeof *complete);
+}
+
+/* All that can be refused before modelling. */
+static kz_status prepare(job *j, bool *complete) {
+  KZ_TRY(agree_on_scene(j));
+  KZ_TRY(check_output(j, complete));
   const kz_cost cost = kz_cost_of(&j->scene);
   KZ_TRY(kz_team_agree(j->team, kz_cost_check(&cost)));
   return kz_team_agree(j->team, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK);
+}
+
+/* Opens the checkpoint. The run that held it until now may have written the result: it is looked for once more. */
+static kz_status open_checkpoint(job *j, bool *complete) {
+  char name[PATH_MAX + 16];
+  const kz_options *o = j->options;
+  snprintf(name, sizeof name, "%s.checkpoint", j->path);
+  KZ_TRY(kz_checkpoint_open(
+      j->team, &(kz_checkpoint_plan){.path = name, .fingerprint = j->fingerprint, .resume = o->resume, .force = o->force}));
+  const kz_status status = check_output(j, complete);
+  if (status == KZ_OK && !*complete) return KZ_OK;
+  kz_checkpoint_close(j->team, false);
+  return status;
 }
 
 static kz_status write_root(job *j) {
@@ -105,6 +129,7 @@ static kz_status open_outputs(job *j) {
 
 static kz_status run_studies(job *j) {
   KZ_TRY(kz_team_agree(j->team, j->first ? open_outputs(j) : KZ_OK));
+  kz_abandon_team(j->team, j->path);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(&j->scene))
       KZ_TRY(kz_team_agree(j->team, kz_studies[i].run(&j->scene, j->team, j->store, j->summary)));
@@ -119,15 +144,22 @@ static void print_summary(job *j) {
   printf("k = %.10g, beta = %.10g, m = %.10g\n%swritten to %s\n", p->k, p->beta, p->m, j->words, j->path);
 }
 
-/* The file appears under its name, or not at all. */
+/* The file appears under its name, or not at all; one that somebody else has put there meanwhile stays. */
+static kz_status complete_store(job *j) {
+  if (j->options->force || access(j->path, F_OK) != 0) return kz_store_complete(j->store);
+  kz_store_discard(j->store);
+  return kz_fail(KZ_FAILED, "%s: another file of that name appeared during the run; move it away and --resume", j->path);
+}
+
 static kz_status finish(job *j, kz_status status) {
   if (j->store && status == KZ_OK) {
-    status = kz_store_complete(j->store);
+    status = complete_store(j);
   } else if (j->store) {
     kz_store_discard(j->store);
   }
   j->store = NULL;
   status = kz_team_agree(j->team, status);
+  kz_abandon_team(j->team, NULL);
   const kz_status closed = kz_checkpoint_close(j->team, status == KZ_OK || status == KZ_REFUSED);
   if (status == KZ_OK) status = closed;
   if (status == KZ_OK && j->first) print_summary(j);
@@ -149,13 +181,8 @@ static kz_status carry_out(job *j) {
   kz_team_set_progress(j->team, j->options->progress);
   kz_team_set_time_limit(j->team, j->options->time_limit);
   KZ_TRY(prepare(j, &complete));
-  if (complete) return leave_complete(j);
-  char name[PATH_MAX + 16];
-  snprintf(name, sizeof name, "%s.checkpoint", j->path);
-  KZ_TRY(kz_checkpoint_open(
-      j->team, &(kz_checkpoint_plan){
-                   .path = name, .fingerprint = j->fingerprint, .resume = j->options->resume, .force = j->options->force}));
-  return finish(j, run_studies(j));
+  if (!complete) KZ_TRY(open_checkpoint(j, &complete));
+  return complete ? leave_complete(j) : finish(j, run_studies(j));
 }
 
 static void free_job(job *j) {
@@ -171,9 +198,13 @@ kz_status kz_app_run(const kz_options *options) {
   job j = {.options = options};
   kz_status status = kz_team_start(NULL, NULL, &j.team);
   if (status == KZ_OK) {
+    kz_abandon_team(j.team, NULL);
     j.first = kz_team_rank(j.team) == 0;
     status = carry_out(&j);
+    status = kz_scene_locate(status, j.text, j.length, options->scene, options->n_sets, options->sets);
+    if (!j.first) kz_message_clear(); /* all have agreed on it: rank 0 speaks */
   }
+  kz_abandon_team(NULL, NULL);
   kz_team_end(j.team);
   free_job(&j);
   return status;

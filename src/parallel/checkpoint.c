@@ -40,11 +40,11 @@ kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan) {
   kz_status status = checkpoint->path ? KZ_OK : kz_fail(KZ_FAILED, "%s: out of memory", plan->path);
   if (status == KZ_OK && team->rank == 0) status = begin(checkpoint, plan);
   status = kz_team_agree(team, status);
-  if (status == KZ_OK && team->rank != 0) status = kz_hold_join(plan->path, &checkpoint->file);
   if (status == KZ_OK) {
-    status = kz_team_broadcast(team, &checkpoint->fresh, sizeof checkpoint->fresh);
+    status = team->rank != 0 ? kz_hold_join(plan->path, &checkpoint->file) : KZ_OK;
     status = kz_team_agree(team, status);
   }
+  if (status == KZ_OK) status = kz_team_broadcast(team, &checkpoint->fresh, sizeof checkpoint->fresh);
   if (status != KZ_OK) abandon(checkpoint, team->rank);
   return status;
 }

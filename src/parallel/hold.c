@@ -83,5 +83,6 @@ kz_status kz_hold_join(const char *path, int *file) {
   const int error = errno;
   if (*file >= 0) close(*file);
   *file = -1;
-  return kz_fail(KZ_FAILED, "%s: cannot be joined by every rank: %s", path, strerror(error));
+  return kz_fail(KZ_REFUSED, "%s: cannot be joined by every rank: %s; a folder that all ranks see under that name", path,
+                 strerror(error));
 }

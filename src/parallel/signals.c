@@ -1,31 +1,71 @@
-/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. */
+/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. Work that asks for too long is left
+ * by a clock. */
 #include <signal.h>
+#include <unistd.h>
 
 #include "team.h"
 
 static const struct {
   int number;
-  const char *name;
-} STOP_SIGNALS[] = {{SIGUSR1, "SIGUSR1"}, {SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}};
+  const char *name, *reason;
+} STOP_SIGNALS[] = {
+    {SIGUSR1, "SIGUSR1", "stopped by SIGUSR1"}, {SIGUSR2, "SIGUSR2", "stopped by SIGUSR2"},
+    {SIGXCPU, "SIGXCPU", "stopped by SIGXCPU"}, {SIGTERM, "SIGTERM", "stopped by SIGTERM"},
+    {SIGINT, "SIGINT", "stopped by SIGINT"},
+};
 enum { N_STOP_SIGNALS = sizeof STOP_SIGNALS / sizeof *STOP_SIGNALS };
 
+enum { GRACE = 6, LONGEST = 1 << 30 }; /* s */
+
 static volatile sig_atomic_t caught;
+static void (*volatile overdue)(const char *reason);
+
+/* The place of the signal in the table; -1 where none came. */
+static int place(void) {
+  const int number = caught;
+  for (int i = 0; i < N_STOP_SIGNALS; ++i)
+    if (STOP_SIGNALS[i].number == number) return i;
+  return -1;
+}
+
+/* The clock rings after so many seconds, unless it was to ring earlier. */
+static void wind(unsigned seconds) {
+  const unsigned left = alarm(seconds);
+  if (left > 0 && left < seconds) alarm(left);
+}
 
 static void note(int number) {
   caught = number;
+  if (overdue) wind(GRACE);
+}
+
+static void ring(int number) {
+  (void)number;
+  const int i = place();
+  if (overdue) overdue(i < 0 ? "stopped by the time limit" : STOP_SIGNALS[i].reason);
+}
+
+static void handle(int number, void (*handler)(int)) {
+  struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
+  sigemptyset(&action.sa_mask);
+  sigaction(number, &action, NULL);
 }
 
 void kz_signals_catch(void) {
-  struct sigaction action = {.sa_handler = note, .sa_flags = SA_RESTART};
-  sigemptyset(&action.sa_mask);
-  for (int i = 0; i < N_STOP_SIGNALS; ++i) sigaction(STOP_SIGNALS[i].number, &action, NULL);
-  action.sa_handler = SIG_IGN; /* a write beyond the size limit shall return EFBIG */
-  sigaction(SIGXFSZ, &action, NULL);
+  for (int i = 0; i < N_STOP_SIGNALS; ++i) handle(STOP_SIGNALS[i].number, note);
+  handle(SIGALRM, ring);
+  handle(SIGXFSZ, SIG_IGN); /* a write beyond the size limit shall return EFBIG */
+  handle(SIGPIPE, SIG_IGN); /* nobody reads the progress any more: no reason to stop */
 }
 
 const char *kz_signals_caught(void) {
-  const int number = caught;
-  for (int i = 0; i < N_STOP_SIGNALS; ++i)
-    if (STOP_SIGNALS[i].number == number) return STOP_SIGNALS[i].name;
-  return NULL;
+  const int i = place();
+  return i < 0 ? NULL : STOP_SIGNALS[i].name;
+}
+
+void kz_team_set_overdue(kz_team *team, void (*leave)(const char *reason)) {
+  overdue = leave;
+  if (!leave) alarm(0);
+  if (leave && caught) wind(GRACE);
+  if (leave && team->limit > 0) wind((unsigned)(team->limit < LONGEST ? team->limit + 1 : LONGEST) + GRACE);
 }

@@ -1,11 +1,15 @@
 /* The team of all ranks: start, end, agreement, broadcast. */
 #include "team.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
-enum { MESSAGE_BYTES = 2048 };
+#include "bytes.h"
+
+enum { MESSAGE_BYTES = 2048, ABANDON_SECONDS = 5 };
 static const size_t CHUNK_BYTES = (size_t)1 << 30; /* MPI counts are int */
 
 double kz_clock(void) {
@@ -33,15 +37,15 @@ static kz_status connect_ranks(kz_team *team) {
 
 kz_status kz_team_start(int *argc, char ***argv, kz_team **team) {
   kz_signals_catch();
-  KZ_MPI(MPI_Init(argc, argv));
-  kz_signals_catch();
-  kz_team *started = calloc(1, sizeof *started);
+  kz_team *started = calloc(1, sizeof *started); /* before MPI: a rank that never joins keeps nobody waiting */
   if (!started) return kz_fail(KZ_FAILED, "out of memory while starting");
-  started->start = kz_clock();
   started->comm = MPI_COMM_NULL;
   started->counter = MPI_WIN_NULL;
   started->checkpoint.file = -1;
   *team = started;
+  KZ_MPI(MPI_Init(argc, argv));
+  kz_signals_catch();
+  started->start = kz_clock();
   return connect_ranks(started);
 }
 
@@ -57,6 +61,29 @@ void kz_team_end(kz_team *team) {
   MPI_Initialized(&begun);
   MPI_Finalized(&ended);
   if (begun && !ended) MPI_Finalize();
+}
+
+static void give_up(int number) {
+  (void)number;
+  _exit(KZ_FAILED);
+}
+
+void kz_team_abandon(const kz_team *team, kz_status status) {
+  int ended = 1;
+  if (team && MPI_Finalized(&ended) == MPI_SUCCESS && !ended && team->size > 1) {
+    signal(SIGALRM, give_up); /* MPI may lack what this rank lacks */
+    alarm(ABANDON_SECONDS);
+    MPI_Abort(MPI_COMM_WORLD, status);
+  }
+  _exit(status);
+}
+
+const char *kz_team_saved(const kz_team *team) {
+  return kz_checkpoint_holds_work(&team->checkpoint) ? team->checkpoint.path : NULL;
+}
+
+void kz_team_forget(const kz_team *team) {
+  if (team->checkpoint.file >= 0 && !kz_checkpoint_holds_work(&team->checkpoint)) unlink(team->checkpoint.path);
 }
 
 int kz_team_rank(const kz_team *team) {
@@ -90,6 +117,15 @@ kz_status kz_team_agree(kz_team *team, kz_status mine) {
   return kz_fail(told.status, "%s", told.message);
 }
 
+kz_status kz_team_compare(kz_team *team, const char *text, const char *what) {
+  const uint64_t own = kz_bytes_checksum(0, text, strlen(text));
+  uint64_t first = own;
+  KZ_TRY(kz_team_broadcast(team, &first, sizeof first));
+  return kz_team_agree(team, own == first ? KZ_OK
+                                          : kz_fail(KZ_REFUSED, "rank %d has another %s than rank 0; the same for every rank",
+                                                    team->rank, what));
+}
+
 kz_status kz_team_broadcast(kz_team *team, void *data, size_t bytes) {
   for (size_t sent = 0; sent < bytes; sent += CHUNK_BYTES) {
     const size_t left = bytes - sent;
@@ -107,8 +143,7 @@ void kz_team_set_time_limit(kz_team *team, double seconds) {
 }
 
 kz_status kz_team_interrupted(const kz_team *team) {
-  const bool saved = kz_checkpoint_holds_work(&team->checkpoint);
-  const char *where = saved ? "; finished work is in " : "", *path = saved ? team->checkpoint.path : "";
+  const char *saved = kz_team_saved(team), *where = saved ? "; finished work is in " : "", *path = saved ? saved : "";
   const char *signal = kz_signals_caught();
   if (signal) return kz_fail(KZ_STOPPED, "stopped by %s%s%s", signal, where, path);
   if (team->limit > 0 && kz_clock() - team->start >= team->limit)

@@ -19,6 +19,7 @@ kz_status kz_hdf5_fail(const char *file, int line) {
   return kz_fail(KZ_FAILED, "HDF5: %s (%s:%d)", text, base ? base + 1 : file, line);
 }
 
-void kz_hdf5_silence(void) {
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+kz_status kz_hdf5_start(void) {
+  if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0) return KZ_OK;
+  return kz_fail(KZ_FAILED, "HDF5 cannot be started, as for lack of memory");
 }

@@ -8,8 +8,8 @@
 
 /* The failed HDF5 call as a status; `file` and `line` are where it was made. */
 kz_status kz_hdf5_fail(const char *file, int line);
-/* HDF5 shall not print by itself. */
-void kz_hdf5_silence(void);
+/* Starts HDF5, which then prints nothing by itself. */
+kz_status kz_hdf5_start(void);
 
 /* Carries a failed call up. */
 #define KZ_HDF5(call)                                        \

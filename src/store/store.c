@@ -30,13 +30,15 @@ static kz_status create_on_disk(kz_store *store, const char *path) {
   const size_t room = strlen(path) + sizeof ".part";
   if (!(store->path = strdup(path)) || !(store->part = malloc(room))) return kz_fail(KZ_FAILED, "%s: out of memory", path);
   snprintf(store->part, room, "%s.part", path);
-  store->disk = open(store->part, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  unlink(store->part); /* of a killed run; a link there must not lead elsewhere */
+  store->disk = open(store->part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (store->disk < 0) return kz_fail(KZ_REFUSED, "%s: cannot be created: %s", store->part, strerror(errno));
   return KZ_OK;
 }
 
 kz_status kz_store_create(const char *path, kz_store **store) {
-  kz_hdf5_silence();
+  *store = NULL;
+  KZ_TRY(kz_hdf5_start());
   *store = calloc(1, sizeof **store);
   if (!*store) return kz_fail(KZ_FAILED, "%s: out of memory", path);
   (*store)->disk = -1;
@@ -121,7 +123,7 @@ kz_status kz_store_complete(kz_store *store) {
 }
 
 bool kz_store_is_complete(const char *path, const char *fingerprint) {
-  kz_hdf5_silence();
+  if (kz_hdf5_start() != KZ_OK) return false;
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) return false;
   char *found = kz_attribute_read_text(file, "fingerprint");

@@ -5,6 +5,7 @@
 
 #include "store.h"
 
+static const size_t SPARE_BYTES = (size_t)1 << 24; /* what HDF5 may need besides the data */
 static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20; /* smaller arrays stay whole; larger ones are packed */
 enum { DEFLATE = 4 };
 
@@ -65,14 +66,22 @@ static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type,
   return status;
 }
 
+/* HDF5 1.10 spoils the heap where memory runs out: it is asked for beforehand. */
+static kz_status check_memory(const char *name, size_t bytes) {
+  void *volatile memory = malloc(2 * bytes + SPARE_BYTES);
+  free(memory);
+  return memory ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the variable %s", name);
+}
+
 /* The variable with data and description; open, to be closed by the caller. */
 static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, const hsize_t *lengths, const void *data,
                                hid_t *dataset) {
   hid_t type;
-  KZ_HDF5(type = memory_type(row->kind));
-  kz_status status = create_dataset(group, row, type, rank, lengths, dataset);
   hsize_t n = 1;
   for (int d = 0; d < rank; ++d) n *= lengths[d];
+  KZ_HDF5(type = memory_type(row->kind));
+  kz_status status = check_memory(row->name, n * H5Tget_size(type));
+  if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, dataset);
   if (status == KZ_OK && n > 0 && H5Dwrite(*dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     status = kz_hdf5_fail(__FILE__, __LINE__);
   if (status == KZ_OK) status = describe(*dataset, row, type);

@@ -3,18 +3,21 @@ outnumber their tiles, kills. docs/reliability.md says what is promised; tests/t
 
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import h5py
 import pytest
 from conftest import PROGRAM, ROOT, datasets
 
 SMALL = ROOT / "scenes" / "small.yaml"
 SLOW = ["--set", "basin.method=direct", "--set", "basin.theta.count=200", "--set", "basin.velocity.count=200",
         "--set", "numerics.steps_per_period=96", "--set", "basin.attractors.starts=64"]
+FEW = ["--set", "basin.theta.count=9", "--set", "basin.velocity.count=9", "--set", "basin.attractors.starts=64"]
 PLOTS = sorted(path.name for path in (ROOT / "scripts").glob("plot_*.py"))
 
 
@@ -159,6 +162,132 @@ def test_memory_that_one_rank_may_not_have_ends_all(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+LONG = "orbit={start: {theta: 0.5, velocity: 0}, periods: 300000, samples_per_period: 32}"  # a minute in one piece
+
+
+def test_work_in_one_piece_is_left_where_a_stop_is_asked(tmp_path):
+    """No tile ends for a minute: the run is left by the clock, what was finished before stays."""
+    reasons = {"SIGUSR1": [], "the time limit": ["--time-limit", "2"]}
+    runs = []
+    for number, (reason, words) in enumerate(reasons.items()):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        runs.append((folder, reason, start("run", SMALL, "--set", LONG, *words, folder=folder)))
+    wait_for(lambda: grown(tmp_path / "0" / "small.h5.checkpoint"))
+    time.sleep(2)
+    runs[0][2].send_signal(signal.SIGUSR1)
+    for folder, reason, process in runs:
+        _, errors = process.communicate(timeout=60)
+        assert process.returncode == 75 and errors.count("\n") == 1 and f"stopped by {reason}" in errors, errors
+        assert [path.name for path in folder.iterdir()] == ["small.h5.checkpoint"]
+
+
+@pytest.mark.parametrize("name", ["SIGUSR2", "SIGXCPU"])
+def test_what_batch_systems_send_asks_for_a_stop(tmp_path, name):
+    process = start("run", SMALL, *SLOW, folder=tmp_path, ranks=None)
+    wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
+    process.send_signal(getattr(signal, name))
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 75 and f"stopped by {name}" in errors
+
+
+@pytest.mark.parametrize("suffix", [".part", ".checkpoint", ".truth", ""])
+@pytest.mark.parametrize("what", ["a folder", "the scene itself"])
+def test_names_beside_the_result_that_are_taken(kapitza, tmp_path, suffix, what):
+    """Nothing is touched, with --force neither."""
+    taken = tmp_path / f"x.h5{suffix}"
+    if what == "a folder":
+        taken.mkdir()
+    else:
+        taken.write_text(SMALL.read_text())
+    done = kapitza("run", SMALL if what == "a folder" else taken, "-o", "x.h5", "--force", folder=tmp_path, status=2)
+    assert f"{taken.name}: is {what}" in done.stderr and [path.name for path in tmp_path.iterdir()] == [taken.name]
+    assert taken.is_dir() or taken.read_text() == SMALL.read_text()
+
+
+def test_a_link_in_the_place_of_the_half_file_leads_nowhere(kapitza, tmp_path):
+    (tmp_path / "precious").write_text("mine")
+    (tmp_path / "small.h5.part").symlink_to("precious")
+    kapitza("run", SMALL, *FEW, folder=tmp_path)
+    assert (tmp_path / "precious").read_text() == "mine" and not (tmp_path / "small.h5").is_symlink()
+
+
+@pytest.mark.parametrize("differs, said", [(["--set", "basin.theta.count=50"], "another scene or program"), (["-o", "y.h5"], "another name")])
+def test_ranks_that_were_told_different_things(tmp_path, differs, said):
+    words = ["mpirun", "-n", "1", PROGRAM, "run", SMALL, ":", "-n", "1", PROGRAM, "run", SMALL, *differs]
+    done = subprocess.run(list(map(str, words)), cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_ranks_in_different_folders(tmp_path):
+    for name in "ab":
+        (tmp_path / name).mkdir()
+    words = ["mpirun", "-n", "1", "-wdir", tmp_path / "a", PROGRAM, "run", SMALL, ":", "-n", "1", "-wdir", tmp_path / "b", PROGRAM, "run", SMALL]
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and "cannot be joined by every rank" in done.stderr, done.stderr
+    assert not list(tmp_path.glob("*/*"))
+
+
+@pytest.mark.parametrize("how", ["a file appears", "the folder is removed", "the folder is renamed"])
+def test_the_folder_changes_under_the_run(tmp_path, how):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    process = start("run", SMALL, *SLOW, "-o", "folder/small.h5", folder=tmp_path)
+    wait_for(lambda: grown(folder / "small.h5.checkpoint"))
+    if how == "a file appears":
+        (folder / "small.h5").write_text("mine")
+    elif how == "the folder is removed":
+        shutil.rmtree(folder)
+    else:
+        folder.rename(tmp_path / "elsewhere")
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 1 and errors.startswith("kapitza: error: folder/small.h5") and errors.count("\n") == 1, errors
+    if how == "a file appears":
+        assert (folder / "small.h5").read_text() == "mine" and (folder / "small.h5.checkpoint").exists()
+    elif how == "the folder is renamed":
+        assert (tmp_path / "elsewhere" / "small.h5.checkpoint").exists() and not list(tmp_path.rglob("small.h5"))
+
+
+def test_two_runs_into_one_file(tmp_path, undisturbed):
+    """The second waits for the first, and overwrites nothing: the same scene is done already, another one is refused."""
+    first = start("run", SMALL, *SLOW, folder=tmp_path)
+    wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
+    same = start("run", SMALL, *SLOW, "--resume", folder=tmp_path, ranks=None)
+    other = start("run", SMALL, *FEW, "--resume", folder=tmp_path, ranks=None)
+    (said, _), (_, errors) = same.communicate(timeout=120), other.communicate(timeout=120)
+    assert first.wait(timeout=120) == 0 and same.returncode == 0 and "already complete" in said
+    assert other.returncode == 2 and errors.count("\n") == 1, errors
+    assert datasets(tmp_path / "small.h5") == undisturbed
+
+
+@pytest.mark.parametrize("closed, status", [(">&-", 1), ("2>&-", 0), ("<&- >&- 2>&-", 1), (">/dev/full", 1), ("2>&1 | true", 0)])
+def test_streams_that_are_closed_or_full(kapitza, tmp_path, undisturbed, closed, status):
+    """What is printed never lands in a file of the run, and nobody who reads the progress is no reason to stop."""
+    words = " ".join(map(repr, map(str, [PROGRAM, "run", SMALL, "--progress", "always", *SLOW])))
+    done = subprocess.run(["bash", "-c", f"{words} {closed}"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == status, done.stderr
+    assert datasets(tmp_path / "small.h5") == undisturbed and [path.name for path in tmp_path.iterdir()] == ["small.h5"]
+
+
+def test_the_environment_changes_no_byte(tmp_path, undisturbed):
+    """Memory filled with noise, a decimal comma, other people's settings."""
+    noise = {"MALLOC_PERTURB_": "170", "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8", "TZ": "Asia/Kolkata", "OMP_NUM_THREADS": "7",
+             "GFORTRAN_UNBUFFERED_ALL": "1", "HDF5_USE_FILE_LOCKING": "FALSE", "POSIXLY_CORRECT": "1"}
+    words = [str(PROGRAM), "run", *SLOW, str(SMALL)]
+    done = subprocess.run(words, cwd=tmp_path, env=os.environ | noise, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0 and datasets(tmp_path / "small.h5") == undisturbed, done.stderr
+
+
+def test_a_reader_of_the_old_result_is_not_disturbed(kapitza, tmp_path):
+    kapitza("run", SMALL, *FEW, folder=tmp_path)
+    with h5py.File(tmp_path / "small.h5") as old:
+        kapitza("run", SMALL, *FEW, "--force", "--set", "basin.theta.count=7", folder=tmp_path)
+        assert old["basin/attractor"].shape == (9, 9)
+    with h5py.File(tmp_path / "small.h5") as new:
+        assert new["basin/attractor"].shape == (9, 7)
+
+
 @pytest.mark.parametrize("ranks", [5, 7])
 def test_odd_counts_of_ranks_and_more_ranks_than_tiles(kapitza, tmp_path, undisturbed, ranks):
     kapitza("run", SMALL, *SLOW, ranks=ranks, folder=tmp_path)
@@ -197,8 +326,6 @@ def test_plots_answer_bad_files_with_one_line(small_result, tmp_path, script, ho
     data = small_result.read_bytes()
     path.write_bytes({"empty": b"", "foreign text": b"a,b\n1,2\n" * 99, "half": data[: len(data) // 2]}.get(how, data))
     if how == "no groups":
-        import h5py
-
         with h5py.File(path, "r+") as file:
             for group in set(file) - {"pendulum"}:
                 del file[group]

@@ -3,3 +3,9 @@ add_executable(truth_label tools/truth_label.c tools/catalogue.c)
 target_compile_options(truth_label PRIVATE ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
 target_link_libraries(truth_label PRIVATE kapitza_kernel)
 set_target_properties(truth_label PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+
+# A malloc that fails on purpose, for tests/python/test_memory.py.
+add_library(failing_memory MODULE tools/failing_memory.c)
+target_compile_options(failing_memory PRIVATE ${KAPITZA_FLAGS_C} -fno-builtin)
+target_link_libraries(failing_memory PRIVATE ${CMAKE_DL_LIBS})
+set_target_properties(failing_memory PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

@@ -1,0 +1,88 @@
+/* The end of a rank that cannot go on to the next agreement with the others: memory that ran out in a Fortran floor, a library
+ * that aborts or exits, a stop request amid work that takes too long. It says so in one line, removes the half file and ends all
+ * ranks. */
+#include <errno.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "kapitza/app.h"
+#include "kapitza/memory.h"
+
+static struct {
+  bool armed;
+  kz_team *team;
+  char part[PATH_MAX + 16]; /* the half file; "" = there is none yet */
+} here;
+
+/* The half file is removed by one rank alone: that one speaks. */
+static bool speaks(void) {
+  return !here.part[0] || unlink(here.part) == 0 || errno != ENOENT;
+}
+
+/* "kapitza: WHAT; finished work is in ..." without a stream: there may be no memory for one. */
+static void say(const char *what) {
+  char line[PATH_MAX + 256];
+  const char *saved = here.team ? kz_team_saved(here.team) : NULL;
+  here.armed = false;
+  if (here.team) kz_team_forget(here.team);
+  snprintf(line, sizeof line, "kapitza: %s%s%s%s\n", what, saved ? "; finished work is in " : "", saved ? saved : "",
+           saved ? ", --resume goes on from it" : "");
+  if (speaks() && write(STDERR_FILENO, line, strlen(line)) < 0) return; /* nobody listens */
+}
+
+static void say_error(const char *what) {
+  char text[128];
+  const int rank = kz_launch_rank();
+  snprintf(text, sizeof text, "error: %s on rank %d", what, rank > 0 ? rank : 0);
+  say(text);
+}
+
+static void leave(const char *what) {
+  say_error(what);
+  kz_team_abandon(here.team, KZ_FAILED);
+}
+
+static void without_memory(void) {
+  leave("memory ran out");
+}
+
+/* Libraries print their own words, then exit (gfortran's) or abort (FFTW). */
+static const char GAVE_UP[] = "a library gave up, as for lack of memory,";
+
+static void at_exit(void) {
+  if (here.armed) leave(GAVE_UP);
+}
+
+/* MPI could wait for the allocator that has just aborted: the launcher ends the other ranks. */
+static void at_abort(int number) {
+  (void)number;
+  if (here.armed) say_error(GAVE_UP);
+  _exit(KZ_FAILED);
+}
+
+/* All ranks have had the request, or the launcher ends those that have not. */
+static void overdue(const char *reason) {
+  say(reason);
+  _exit(KZ_STOPPED);
+}
+
+void kz_abandon_arm(void) {
+  here.armed = true;
+  kz_memory_on_failure(without_memory);
+  atexit(at_exit);
+  signal(SIGABRT, at_abort);
+}
+
+void kz_abandon_team(kz_team *team, const char *path) {
+  here.team = team;
+  here.part[0] = '\0';
+  if (path) snprintf(here.part, sizeof here.part, "%s.part", path);
+  if (team) kz_team_set_overdue(team, path ? overdue : NULL);
+}
+
+void kz_abandon_disarm(void) {
+  here.armed = false;
+}
