@@ -40,7 +40,14 @@ void kz_dynamics_settle(kz_dynamics *dynamics, int64_t n, int64_t max_periods, d
 void kz_dynamics_follow_table(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
                               int32_t *owner, int64_t *periods);
 
-/* The same in quad precision, by Taylor series (truth.h) of n_steps steps a period, from start [n][2] in rad and rad per drive
+/* The same by interpolated cell mapping as far as the table's error, carried along with the orbit, is bearable, by integration
+ * beyond: integrated [n] = periods that were integrated. */
+void kz_dynamics_follow_hybrid(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
+                               int32_t *owner, int64_t *periods, int64_t *integrated);
+/* What that needs and does itself, once: the error of the map table all over. */
+void kz_dynamics_measure_table(kz_dynamics *dynamics, int32_t points);
+
+/* kz_dynamics_follow in quad precision, by Taylor series (truth.h) of n_steps steps a period, from start [n][2] in rad and rad per drive
  * radian, both taken as exact. */
 void kz_dynamics_follow_truth(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                               int32_t *owner, int64_t *periods);
@@ -71,10 +78,6 @@ void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift); /
 void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);
 /* Share of the cells of the regions' grid that are trapped. */
 double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
-
-/* Periods for which an orbit of the map table (`points` nodes an axis) can be trusted: until its interpolation error, stretched
- * period by period, has grown to a cell. Needs the table and the grown regions. */
-double kz_dynamics_trust_horizon(kz_dynamics *dynamics, int32_t points);
 
 typedef struct {
   int32_t period, winding, centre, symmetric, mirror;

@@ -12,7 +12,6 @@ module kz_dynamics_border
   use kz_dynamics_regions, only: regions_t, make_regions, draw_attractors
   use kz_dynamics_search, only: search_t, find_cycles
   use kz_dynamics_trial, only: table_defect
-  use kz_dynamics_trust, only: trust_horizon
   use kz_dynamics_tables, only: table_t, make_table, table_row, set_table_rows, table_map_t, make_table_map
   implicit none
   private
@@ -187,6 +186,7 @@ contains
 
     d => of_handle(handle)
     d%table = make_table(int(n_theta), int(n_velocity), top)
+    if (allocated(d%defect)) deallocate (d%defect)
   end subroutine table_create
 
   function table_row_size(handle) bind(C, name='kz_dynamics_table_row_size') result(n)
@@ -234,22 +234,6 @@ contains
     d => of_handle(handle)
     share = count(d%regions%owner > 0)/real(size(d%regions%owner), dp)
   end function trapped_share
-
-  function horizon(handle, points) bind(C, name='kz_dynamics_trust_horizon') result(periods)
-    type(c_ptr), value :: handle
-    integer(c_int32_t), value :: points
-    real(dp) :: periods
-    integer(c_int64_t), parameter :: SAMPLES = 16*WIDTH
-    type(dynamics_t), pointer :: d
-    type(table_map_t) :: map
-    real(dp), allocatable :: state(:, :)
-
-    d => of_handle(handle)
-    allocate (state(2, SAMPLES))
-    call starts(window_t(-PI, PI, -d%table%top, d%table%top), 1_c_int64_t, SAMPLES, state)
-    map = make_table_map(d%table, int(points), d%search%flow)
-    periods = trust_horizon(d%search%flow, map, d%regions, d%attractors, state)
-  end function horizon
 
   !> Sampled over the speeds of the window and what one period adds, without the table's margin.
   function defect(handle, points) bind(C, name='kz_dynamics_table_defect') result(largest)

@@ -5,6 +5,7 @@ module kz_dynamics_border_follow
   use kz_dynamics_handle, only: dynamics_t, of_handle
   use kz_dynamics_labels, only: follow
   use kz_dynamics_tables, only: table_map_t, make_table_map
+  use kz_dynamics_trust, only: tracked_map_t, measure_defects, make_tracked_map, follow_trusted
   use kz_dynamics_truths, only: truth_map_t, make_truth_map
   implicit none
   private
@@ -53,6 +54,42 @@ contains
     call follow_with(map, d, max_periods, state, owner, periods)
   end subroutine follow_table
 
+  subroutine measure_table(handle, points) bind(C, name='kz_dynamics_measure_table')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: points
+    type(dynamics_t), pointer :: d
+    type(table_map_t) :: map
+
+    d => of_handle(handle)
+    if (allocated(d%defect)) return
+    map = make_table_map(d%table, int(points), d%search%flow)
+    call measure_defects(map, d%defect)
+  end subroutine measure_table
+
+  subroutine follow_hybrid(handle, points, n, max_periods, state, owner, periods, integrated) &
+    bind(C, name='kz_dynamics_follow_hybrid')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: points
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    integer(c_int64_t), intent(out) :: integrated(n)
+    type(dynamics_t), pointer :: d
+    type(tracked_map_t) :: map
+    real(dp), allocatable :: u(:), v(:)
+
+    d => of_handle(handle)
+    call measure_table(handle, points)
+    call make_tracked_map(d%table, int(points), d%search%flow, d%defect, map)
+    allocate (u, source=state(1, :))
+    allocate (v, source=state(2, :))
+    call follow_trusted(map, d%flow, d%regions, d%attractors, max_periods, u, v, owner, periods, integrated)
+    state(1, :) = u
+    state(2, :) = v
+  end subroutine follow_hybrid
+
   subroutine follow_truth(handle, n_steps, n, max_periods, start, owner, periods) bind(C, name='kz_dynamics_follow_truth')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: n_steps
@@ -69,7 +106,8 @@ contains
     allocate (map, u(n))
     allocate (v, source=start(2, :))
     call make_truth_map(map, d%search%pendulum, int(n_steps), start, u)
-    call follow(map, d%regions, d%attractors, max_periods, u, v, owner, periods)
+    periods = max_periods
+    call follow(map, d%regions, d%attractors, u, v, owner, periods)
   end subroutine follow_truth
 
   subroutine follow_with(map, d, max_periods, state, owner, periods)
@@ -83,7 +121,8 @@ contains
 
     allocate (u, source=state(1, :))
     allocate (v, source=state(2, :))
-    call follow(map, d%regions, d%attractors, max_periods, u, v, owner, periods)
+    periods = max_periods
+    call follow(map, d%regions, d%attractors, u, v, owner, periods)
     state(1, :) = u
     state(2, :) = v
   end subroutine follow_with

@@ -18,6 +18,7 @@ module kz_dynamics_handle
     type(table_t) :: table
     real(dp), allocatable :: two(:, :, :)  !< displacement of the table's nodes after two periods
     real(dp), allocatable :: four(:, :, :) !< and after four
+    real(dp), allocatable :: defect(:, :, :) !< of the table, once measured
   end type dynamics_t
 
 contains

@@ -6,8 +6,10 @@ module kz_dynamics_labels
   use kz_dynamics_regions, only: regions_t, captors, coverer
   implicit none
   private
-  public :: follow
+  public :: follow, DOUBTFUL
 
+  !> Owner of a start that the map gave up as doubtful.
+  integer, parameter :: DOUBTFUL = -1
   !> An orbit belongs to a chaotic attractor once it has stayed in its cover for so many periods.
   integer, parameter :: STAY = 64
 
@@ -20,23 +22,23 @@ module kz_dynamics_labels
 
 contains
 
-  !> owner(i) = attractor (from 1) that start i ends on, 0 where it has not settled within max_periods; periods(i) = its first
-  !> period inside a trapping region (max_periods where none); (u, v) become the states where the orbits were left.
-  subroutine follow(map, regions, attractors, max_periods, u, v, owner, periods)
+  !> Follows start i for periods(i) at most. owner(i) = attractor (from 1) that it ends on, 0 where it has not settled, DOUBTFUL;
+  !> periods(i) becomes its first period inside a trapping region, or the periods followed; (u, v) become the states where the
+  !> orbits were left.
+  subroutine follow(map, regions, attractors, u, v, owner, periods)
     class(map_t), intent(inout) :: map
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    integer(c_int64_t), intent(in) :: max_periods
     real(dp), intent(inout) :: u(:)
     real(dp), intent(inout) :: v(:)
     integer(c_int32_t), intent(out) :: owner(:)
-    integer(c_int64_t), intent(out) :: periods(:)
+    integer(c_int64_t), intent(inout) :: periods(:)
     type(lane_t) :: lanes(WIDTH)
     integer(c_int64_t) :: next
     integer :: captor(WIDTH), active, lane
 
     call captors(regions, attractors, size(u), u, v, owner)
-    periods = 0
+    where (owner > 0) periods = 0
     active = 0
     next = 1
     do
@@ -54,7 +56,8 @@ contains
       do lane = active, 1, -1
         lanes(lane)%age = lanes(lane)%age + 1
         if (captor(lane) == 0 .and. size(regions%covered) > 0) call visit(lanes(lane), lane)
-        if (captor(lane) == 0 .and. lanes(lane)%age < max_periods) cycle
+        if (map%doubtful(lane) .and. lanes(lane)%guest_of == 0) captor(lane) = DOUBTFUL
+        if (captor(lane) == 0 .and. lanes(lane)%age < periods(lanes(lane)%start)) cycle
         call leave(lanes(lane), lane)
         call map%move(active, lane)
         lanes(lane) = lanes(active)

@@ -8,7 +8,8 @@ module kz_dynamics_tables
   use kz_dynamics_cycles, only: sheared
   implicit none
   private
-  public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map
+  public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map, &
+            place_t, locate, displace, GHOSTS
 
   integer, parameter :: GHOSTS = 2
   !> Adding it rounds to an integer.
@@ -23,6 +24,17 @@ module kz_dynamics_tables
     !> displacement over a period (sheared half-turns, rad per drive radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
     real(dp), allocatable :: shift(:, :, :)
   end type table_t
+
+  !> Where lanes lie in the table.
+  type :: place_t
+    real(dp) :: fold(WIDTH)   !< -1 where the mirror image is stored
+    integer :: i(WIDTH)       !< cell of the angle, from 0
+    integer :: j(WIDTH)       !< cell of the velocity, from 0
+    real(dp) :: x(WIDTH)      !< within the cell, [0, 1)
+    real(dp) :: y(WIDTH)
+    integer :: outside(WIDTH) !< the lanes that have no stencil; their cell is any
+    integer :: n_outside
+  end type place_t
 
   type, extends(map_t) :: table_map_t
     type(table_t), pointer :: table => null()
@@ -140,12 +152,22 @@ contains
     self%turns(to) = self%turns(from)
   end subroutine move
 
-  !> One period of n lanes by Lagrange interpolation over the nodes around each state.
+  !> One period of n lanes.
   subroutine interpolate(self, n)
     class(table_map_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(dp) :: fold(WIDTH), x(WIDTH), y(WIDTH), shift(2, WIDTH), w, per_u, per_v, lowest, highest
-    integer :: i(WIDTH), j(WIDTH), outside(WIDTH), n_outside, lane
+    type(place_t) :: place
+
+    call locate(self, n, place)
+    call displace(self, n, place)
+  end subroutine interpolate
+
+  subroutine locate(self, n, place)
+    class(table_map_t), intent(in) :: self
+    integer, intent(in) :: n
+    type(place_t), intent(out) :: place
+    real(dp) :: x(WIDTH), y(WIDTH), w, per_u, per_v, lowest, highest
+    integer :: lane
 
     per_u = 0.5_dp*self%table%n_circle
     per_v = (self%table%n_velocity - 1)/(2*self%table%top)
@@ -154,44 +176,56 @@ contains
     do lane = 1, WIDTH
       w = sheared(self%u(lane), self%v(lane))
       w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
-      fold(lane) = merge(1.0_dp, -1.0_dp, w > 0 .or. (.not. w < 0 .and. self%v(lane) >= 0))
+      place%fold(lane) = merge(1.0_dp, -1.0_dp, w > 0 .or. (.not. w < 0 .and. self%v(lane) >= 0))
       x(lane) = abs(w)*per_u
-      y(lane) = (fold(lane)*self%v(lane) + self%table%top)*per_v
+      y(lane) = (place%fold(lane)*self%v(lane) + self%table%top)*per_v
     end do
-    n_outside = 0
+    place%n_outside = 0
     do lane = 1, n
       if (y(lane) >= lowest .and. y(lane) < highest .and. x(lane) <= per_u) cycle
-      n_outside = n_outside + 1
-      outside(n_outside) = lane
+      place%n_outside = place%n_outside + 1
+      place%outside(place%n_outside) = lane
       x(lane) = 0
       y(lane) = lowest
     end do
     do lane = 1, n
-      i(lane) = min(int(x(lane)), self%table%n_theta - 1)
-      j(lane) = int(y(lane))
-      x(lane) = x(lane) - i(lane)
-      y(lane) = y(lane) - j(lane)
+      place%i(lane) = min(int(x(lane)), self%table%n_theta - 1)
+      place%j(lane) = int(y(lane))
+      place%x(lane) = x(lane) - place%i(lane)
+      place%y(lane) = y(lane) - place%j(lane)
     end do
-    select case (self%points)
-    case (2)
-      call linear_stencils(n, self%table%n_theta, self%table%shift, i, j, x, y, shift)
-    case (4)
-      call cubic_stencils(n, self%table%n_theta, self%table%shift, i, j, x, y, shift)
-    case default
-      call quintic_stencils(n, self%table%n_theta, self%table%shift, i, j, x, y, shift)
-    end select
-    do lane = 1, n
-      x(lane) = self%u(lane) + fold(lane)*(shift(1, lane) - sheared(0.0_dp, shift(2, lane)))
-      y(lane) = self%v(lane) + fold(lane)*shift(2, lane)
-    end do
-    if (n_outside > 0) call integrate(self, outside(:n_outside), x, y)
+  end subroutine locate
+
+  !> Moves n lanes from their places by Lagrange interpolation over the nodes around each state.
+  subroutine displace(self, n, place)
+    class(table_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    type(place_t), intent(in) :: place
+    real(dp) :: x(WIDTH), y(WIDTH), shift(2, WIDTH), w
+    integer :: lane
+
+    associate (table => self%table, p => place)
+      select case (self%points)
+      case (2)
+        call linear_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
+      case (4)
+        call cubic_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
+      case default
+        call quintic_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
+      end select
+      do lane = 1, n
+        x(lane) = self%u(lane) + p%fold(lane)*(shift(1, lane) - sheared(0.0_dp, shift(2, lane)))
+        y(lane) = self%v(lane) + p%fold(lane)*shift(2, lane)
+      end do
+    end associate
+    if (place%n_outside > 0) call integrate(self, place%outside(:place%n_outside), x, y)
     do lane = 1, n
       w = (0.5_dp*x(lane) + MAGIC) - MAGIC
       self%turns(lane) = self%turns(lane) + int(w, c_int64_t)
       self%u(lane) = x(lane) - 2*w
       self%v(lane) = y(lane)
     end do
-  end subroutine interpolate
+  end subroutine displace
 
   ! One text for the three stencils: the constant lets the compiler unroll it.
   subroutine linear_stencils(n, n_theta, field, i, j, x, y, shift)

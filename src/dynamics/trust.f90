@@ -1,59 +1,199 @@
-!> How long an orbit of the map table can be trusted: until the table's interpolation error, stretched period by period, has grown
-!> to the size of a cell.
+!> Orbits on the map table as far as it can be trusted. The error that interpolation leaves in every period is carried along with
+!> the orbit and stretched by the tangent map. Where it has outgrown what a label can bear, the orbit goes back to where it came
+!> upon the table, is integrated up to here, and goes on with the table and no error.
 module kz_dynamics_trust
-  use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_dynamics_cycles, only: attractor_t, apart
-  use kz_dynamics_regions, only: regions_t, captors
-  use kz_dynamics_tables, only: table_map_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
+  use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
+  use kz_dynamics_cycles, only: attractor_t, apart, sheared
+  use kz_dynamics_labels, only: follow, DOUBTFUL
+  use kz_dynamics_regions, only: regions_t
+  use kz_dynamics_tables, only: table_t, table_map_t, make_table_map, place_t, locate, displace, GHOSTS
   implicit none
   private
-  public :: trust_horizon
+  public :: measure_defects, tracked_map_t, make_tracked_map, follow_trusted
 
-  !> Tiles of sampled states.
-  integer, parameter :: TILES = 16
+  !> Cells along an axis that share one defect: an even number, for a block's middle is that of a cell.
+  integer, parameter :: BLOCK = 4
+  !> rad: the error of a state that a label can bear.
+  real(dp), parameter :: BEARABLE = 0.1_dp
+
+  type, extends(table_map_t) :: tracked_map_t
+    real(dp), pointer :: defect(:, :, :) => null() !< of measure_defects
+    real(dp) :: error(WIDTH, 2) = 0 !< of the state since the lane was put: sheared half-turns, rad per drive radian
+  contains
+    procedure :: put
+    procedure :: move
+    procedure :: advance
+  end type tracked_map_t
 
 contains
 
-  !> Periods after which a label is no longer backed: ln(cell/defect)/ln(stretch), at least 1. The defect is the largest error of one
-  !> period among states outside all trapping regions, the stretch the geometric mean of the tangent map's norm there.
-  function trust_horizon(flow, map, regions, attractors, state) result(periods)
-    class(flow_t), intent(inout) :: flow
+  !> defect(:, i, j) = the error of one period from the middle cell of block (i, j), from 0: sheared half-turns, rad per drive radian.
+  subroutine measure_defects(map, defect)
     type(table_map_t), intent(inout) :: map
-    type(regions_t), intent(in) :: regions
-    type(attractor_t), intent(in) :: attractors(:)
-    !> states spread over the table, (2, TILES*WIDTH)
-    real(dp), intent(in) :: state(2, TILES*WIDTH)
-    real(dp) :: periods
-    real(dp) :: tangent(2, 2, WIDTH), defect, stretch, cell
-    integer :: owner(WIDTH), tile, lane, n
+    real(dp), allocatable, intent(out) :: defect(:, :, :)
+    class(flow_t), allocatable :: flow
+    real(dp) :: u, v
+    integer :: n_blocks(2), first, n, lane, j
 
-    defect = 0
-    stretch = 0
-    n = 0
-    do tile = 1, TILES
-      associate (s => state(:, (tile - 1)*WIDTH + 1:tile*WIDTH))
-        call captors(regions, attractors, WIDTH, s(1, :), s(2, :), owner)
-        tangent = 0
-        do lane = 1, WIDTH
-          call flow%put(lane, s(1, lane), s(2, lane))
-          call map%put(lane, s(1, lane), s(2, lane))
-          tangent(1, 1, lane) = 1
-          tangent(2, 2, lane) = 1
+    allocate (flow, source=map%flow)
+    n_blocks = [map%table%n_theta, map%table%n_velocity - 1]/BLOCK + 1
+    allocate (defect(2, 0:n_blocks(1) - 1, 0:n_blocks(2) - 1))
+    do j = 0, n_blocks(2) - 1
+      v = (2*middle(j)/(map%table%n_velocity - 1) - 1)*map%table%top
+      do first = 0, n_blocks(1) - 1, WIDTH
+        n = min(WIDTH, n_blocks(1) - first)
+        do lane = 1, n
+          u = apart(2*middle(first + lane - 1)/map%table%n_circle, sheared(0.0_dp, v))
+          call flow%put(lane, u, v)
+          call map%put(lane, u, v)
         end do
-      end associate
-      call flow%advance_tangent(WIDTH, tangent)
-      call map%advance(WIDTH)
-      do lane = 1, WIDTH
-        if (owner(lane) > 0) cycle
-        n = n + 1
-        defect = max(defect, hypot(PI*apart(map%u(lane), flow%u(lane)), map%v(lane) - flow%v(lane)))
-        stretch = stretch + log(norm2(tangent(:, :, lane)))
+        call flow%advance(n)
+        call map%advance(n)
+        do lane = 1, n
+          defect(2, first + lane - 1, j) = map%v(lane) - flow%v(lane)
+          defect(1, first + lane - 1, j) = sheared(apart(map%u(lane), flow%u(lane)), defect(2, first + lane - 1, j))
+        end do
       end do
     end do
-    cell = 2*map%table%top/map%table%n_velocity
-    periods = huge(1.0_dp)
-    if (n > 0) periods = max(1.0_dp, log(cell/max(defect, epsilon(1.0_dp)))/max(stretch/n, epsilon(1.0_dp)))
-  end function trust_horizon
+  contains
+    !> In cells.
+    pure function middle(b) result(x)
+      integer, intent(in) :: b
+      real(dp) :: x
+
+      x = BLOCK*b + 0.5_dp*(BLOCK + 1)
+    end function middle
+  end subroutine measure_defects
+
+  subroutine make_tracked_map(table, points, flow, defect, map)
+    type(table_t), target, intent(in) :: table
+    integer, intent(in) :: points
+    class(flow_t), intent(in) :: flow
+    real(dp), target, intent(in) :: defect(:, 0:, 0:)
+    type(tracked_map_t), intent(out) :: map
+
+    map%table_map_t = make_table_map(table, points, flow)
+    map%defect(1:, 0:, 0:) => defect
+  end subroutine make_tracked_map
+
+  subroutine put(self, lane, u, v)
+    class(tracked_map_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+
+    call self%table_map_t%put(lane, u, v)
+    self%error(lane, :) = 0
+    self%doubtful(lane) = .false.
+  end subroutine put
+
+  subroutine move(self, from, to)
+    class(tracked_map_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    call self%table_map_t%move(from, to)
+    self%error(to, :) = self%error(from, :)
+    self%doubtful(to) = self%doubtful(from)
+  end subroutine move
+
+  !> One period of n lanes and of their errors; a doubtful lane carries none any more.
+  subroutine advance(self, n)
+    class(tracked_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    type(place_t) :: place
+    integer :: lane
+
+    call locate(self, n, place)
+    call displace(self, n, place)
+    call stretch(n, place, self%table%n_circle, self%table%n_theta, self%table%n_velocity, self%table%top, self%table%shift, &
+                 size(self%defect, 2), self%defect, self%error)
+    do lane = 1, n
+      if ((PI*self%error(lane, 1))**2 + self%error(lane, 2)**2 <= BEARABLE**2) cycle
+      self%doubtful(lane) = .true.
+      self%error(lane, :) = 0
+    end do
+  end subroutine advance
+
+  !> The tangent map, by differences of the nodes around each state, and the defect of its block. Errors of mirror images are
+  !> mirror images.
+  pure subroutine stretch(n, place, n_circle, n_theta, n_velocity, top, shift, n_blocks, defect, error)
+    integer, intent(in) :: n
+    type(place_t), intent(in) :: place
+    integer, intent(in) :: n_circle
+    integer, intent(in) :: n_theta
+    integer, intent(in) :: n_velocity
+    real(dp), intent(in) :: top
+    real(dp), intent(in) :: shift(2, -GHOSTS:n_theta + GHOSTS, 0:n_velocity - 1)
+    integer, intent(in) :: n_blocks
+    real(dp), intent(in) :: defect(2, 0:n_blocks - 1, 0:*)
+    real(dp), intent(inout) :: error(WIDTH, 2)
+    real(dp) :: along(2, WIDTH), across(2, WIDTH), fresh(2, WIDTH), x, y
+    integer :: i, j, lane
+
+    do lane = 1, n
+      i = place%i(lane)
+      j = place%j(lane)
+      along(:, lane) = shift(:, i + 1, j) - shift(:, i, j)
+      across(:, lane) = shift(:, i, j + 1) - shift(:, i, j)
+      fresh(:, lane) = place%fold(lane)*defect(:, i/BLOCK, j/BLOCK)
+    end do
+    do lane = 1, n
+      x = error(lane, 1)*(0.5_dp*n_circle)
+      y = error(lane, 2)*((n_velocity - 1)/(2*top))
+      error(lane, 1) = error(lane, 1) + along(1, lane)*x + across(1, lane)*y + fresh(1, lane)
+      error(lane, 2) = error(lane, 2) + along(2, lane)*x + across(2, lane)*y + fresh(2, lane)
+    end do
+  end subroutine stretch
+
+  !> As `follow`, for max_periods at most: with the table as far as it can be trusted. integrated(i) = periods of start i that
+  !> were integrated because it could not.
+  subroutine follow_trusted(map, flow, regions, attractors, max_periods, u, v, owner, periods, integrated)
+    type(tracked_map_t), intent(inout) :: map
+    class(flow_t), intent(inout) :: flow
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    integer(c_int64_t), intent(in) :: max_periods
+    real(dp), intent(inout) :: u(:)
+    real(dp), intent(inout) :: v(:)
+    integer(c_int32_t), intent(out) :: owner(:)
+    integer(c_int64_t), intent(out) :: periods(:)
+    integer(c_int64_t), intent(out) :: integrated(:)
+    integer(c_int64_t), allocatable :: spent(:)
+    integer, allocatable :: open(:)
+    integer :: i
+
+    owner = 0
+    periods = 0
+    integrated = 0
+    allocate (open, source=[(i, i=1, size(u))])
+    do while (size(open) > 0)
+      spent = max_periods - periods(open)
+      call go_on(map)
+      spent = pack(spent, owner(open) == DOUBTFUL)
+      open = pack(open, owner(open) == DOUBTFUL)
+      call go_on(flow)
+      integrated(open) = integrated(open) + spent
+      open = pack(open, owner(open) == 0 .and. periods(open) < max_periods)
+    end do
+  contains
+    !> The open starts for `spent` periods at most; a doubtful one stays where it was.
+    subroutine go_on(with)
+      class(map_t), intent(inout) :: with
+      real(dp) :: x(size(open)), y(size(open))
+      integer(c_int32_t) :: to(size(open))
+      logical :: sure(size(open))
+
+      x = u(open)
+      y = v(open)
+      call follow(with, regions, attractors, x, y, to, spent)
+      sure = to /= DOUBTFUL
+      owner(open) = to
+      u(open) = merge(x, u(open), sure)
+      v(open) = merge(y, v(open), sure)
+      periods(open) = periods(open) + merge(spent, 0_c_int64_t, sure)
+    end subroutine go_on
+  end subroutine follow_trusted
 
 end module kz_dynamics_trust

@@ -20,6 +20,8 @@ module kz_kernel_map
     real(c_double) :: v(WIDTH) = 0
     !> net turns, counterclockwise +
     integer(c_int64_t) :: turns(WIDTH) = 0
+    !> has a label ceased to follow from the state? Integrated ones never do
+    logical :: doubtful(WIDTH) = .false.
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure(put_i), deferred :: put

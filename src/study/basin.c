@@ -1,7 +1,6 @@
 /* Study `basin`: the attractors of a window, then a label for every cell.
  *
- * scene -> discovery -> map table -> trapping regions -> tiles of cells -> (hybrid: cells that the table does not back are integrated)
- * -> (cells that ended nowhere known feed another round) ->
+ * scene -> discovery -> map table -> trapping regions -> tiles of cells -> (cells that ended nowhere known feed another round) ->
  * measures -> file. A window that is its own mirror image needs half the cells: cell f mirrors cell n - 1 - f. */
 #include "basin.h"
 
@@ -17,7 +16,8 @@
 #include "map_table.h"
 
 enum {
-  CELLS = 4096, /* per tile */
+  CELLS = 4096, /* per part of a tile */
+  PARTS = 4,    /* of a tile of hybrid: the few orbits that it integrates must fill vectors */
   SCOUTS = 512, /* starts that find the main attractors before there is a table */
   ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
@@ -28,19 +28,19 @@ enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3 };
 typedef struct {
   int16_t owner[CELLS]; /* number of kz_dynamics, 0 = not settled */
   uint32_t periods[CELLS];
+  uint8_t integrated[CELLS]; /* some periods were, because the table was not trusted */
 } labelled;
 
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
   double reach;
+  int64_t tile;          /* cells of a tile */
   int64_t total, own;    /* cells of the window; those that are labelled, the others mirror them */
   int16_t *owner;        /* [own], rank 0 */
   uint32_t *periods;     /* [own], rank 0 */
   int64_t n_open, *open; /* cells of the present stage; NULL = all own ones */
-  bool directly;         /* the present stage integrates them */
-  uint8_t *again;        /* [own], rank 0: integrated because the table was not trusted */
-  uint8_t *mark;         /* [own], rank 0: scratch */
+  uint8_t *integrated;   /* [own], rank 0: in part, because the table was not trusted */
   int64_t *reached;      /* [INT16_MAX + 1] starts and cells that ended on each attractor */
 } basin;
 
@@ -66,37 +66,48 @@ void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
 
 const int32_t kz_stencil[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
 
+void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
+               int32_t *owner, int64_t *periods, int64_t *integrated) {
+  const int32_t points = kz_stencil[interpolation];
+  memset(integrated, 0, (size_t)n * sizeof *integrated);
+  if (method == KZ_METHOD_DIRECT)
+    kz_dynamics_follow(dynamics, n, max_periods, state, owner, periods);
+  else if (method == KZ_METHOD_ICM)
+    kz_dynamics_follow_table(dynamics, points, n, max_periods, state, owner, periods);
+  else
+    kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, owner, periods, integrated);
+}
+
 static kz_status label_tile(void *context, int64_t tile, void *record) {
   const basin *b = context;
+  const kz_basin_plan *plan = b->plan;
   labelled *out = record;
-  double state[2 * CELLS];
-  int32_t owner[CELLS];
-  int64_t periods[CELLS], first = tile * CELLS, n = b->n_open - first < CELLS ? b->n_open - first : CELLS;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(b->plan, b->open ? b->open[first + i] : first + i, state + 2 * i);
-  if (b->directly)
-    kz_dynamics_follow(b->dynamics, n, b->plan->max_periods, state, owner, periods);
-  else
-    kz_dynamics_follow_table(b->dynamics, kz_stencil[b->plan->interpolation], n, b->plan->max_periods, state, owner, periods);
+  double state[2 * PARTS * CELLS];
+  int32_t owner[PARTS * CELLS];
+  int64_t periods[PARTS * CELLS], integrated[PARTS * CELLS];
+  const int64_t first = tile * b->tile, left = b->n_open - first, n = left < b->tile ? left : b->tile;
+  for (int64_t i = 0; i < n; i++) kz_cell_state(plan, b->open ? b->open[first + i] : first + i, state + 2 * i);
+  kz_follow(b->dynamics, plan->method, plan->interpolation, n, plan->max_periods, state, owner, periods, integrated);
   for (int64_t i = 0; i < n; i++) {
-    out->owner[i] = (int16_t)owner[i];
-    out->periods[i] = (uint32_t)periods[i];
+    out[i / CELLS].owner[i % CELLS] = (int16_t)owner[i];
+    out[i / CELLS].periods[i % CELLS] = (uint32_t)periods[i];
+    out[i / CELLS].integrated[i % CELLS] = integrated[i] > 0;
   }
   return KZ_OK;
 }
 
 /* Labels the open cells; on rank 0 they go to their places. */
-static kz_status label_cells(basin *b, kz_team *team, int round, bool directly) {
+static kz_status label_cells(basin *b, kz_team *team, int round) {
   char name[32];
-  snprintf(name, sizeof name, "cells %d%s", round + 1, directly ? " directly" : "");
-  b->directly = directly;
+  snprintf(name, sizeof name, "cells %d", round + 1);
   kz_stage stage = {.name = name,
-                    .n_tiles = (b->n_open + CELLS - 1) / CELLS,
-                    .record_bytes = sizeof(labelled),
+                    .n_tiles = (b->n_open + b->tile - 1) / b->tile,
+                    .record_bytes = (size_t)(b->tile / CELLS) * sizeof(labelled),
                     .work = label_tile,
                     .context = b,
                     .keep = true};
   labelled *records = NULL;
-  if (kz_team_rank(team) == 0) records = malloc((size_t)stage.n_tiles * sizeof *records);
+  if (kz_team_rank(team) == 0) records = malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = KZ_OK;
   if (kz_team_rank(team) == 0 && !records) status = kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->n_open);
   status = kz_team_agree(team, status);
@@ -105,6 +116,7 @@ static kz_status label_cells(basin *b, kz_team *team, int round, bool directly) 
     int64_t f = b->open ? b->open[i] : i;
     b->owner[f] = records[i / CELLS].owner[i % CELLS];
     b->periods[f] = records[i / CELLS].periods[i % CELLS];
+    b->integrated[f] = records[i / CELLS].integrated[i % CELLS];
   }
   free(records);
   return status;
@@ -138,10 +150,10 @@ static kz_status first_discovery(basin *b, kz_team *team, const kz_window *windo
   return status;
 }
 
-/* The cells that are marked on rank 0, as the open ones of every rank. */
-static kz_status open_marked(basin *b, kz_team *team, const uint8_t *mark) {
+/* The cells that have not settled, as the open ones of every rank. */
+static kz_status open_unsettled(basin *b, kz_team *team) {
   int64_t n = 0;
-  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += mark[f];
+  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += b->owner[f] == 0;
   KZ_TRY(kz_team_broadcast(team, &n, sizeof n));
   free(b->open);
   b->open = malloc((size_t)n * sizeof *b->open + 1);
@@ -149,29 +161,8 @@ static kz_status open_marked(basin *b, kz_team *team, const uint8_t *mark) {
   KZ_TRY(kz_team_agree(team, b->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)n)));
   n = 0;
   for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++)
-    if (mark[f]) b->open[n++] = f;
+    if (b->owner[f] == 0) b->open[n++] = f;
   return kz_team_broadcast(team, b->open, (size_t)b->n_open * sizeof *b->open);
-}
-
-static kz_status open_unsettled(basin *b, kz_team *team) {
-  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) b->mark[f] = b->owner[f] == 0;
-  return open_marked(b, team, b->mark);
-}
-
-/* Hybrid: integrates those open cells whose label the table does not back. */
-static kz_status label_distrusted(basin *b, kz_team *team, int round) {
-  kz_grid grid = {b->plan, b->dynamics, b->total, b->own, b->owner, b->periods};
-  double horizon = kz_dynamics_trust_horizon(b->dynamics, kz_stencil[b->plan->interpolation]);
-  kz_status status = KZ_OK;
-  if (kz_team_rank(team) == 0) {
-    memset(b->mark, 0, (size_t)b->own);
-    for (int64_t i = 0; i < b->n_open; i++) b->mark[b->open ? b->open[i] : i] = 1;
-    status = kz_grid_distrust(&grid, horizon, b->mark);
-    for (int64_t f = 0; f < b->own; f++) b->again[f] |= b->mark[f];
-  }
-  KZ_TRY(kz_team_agree(team, status));
-  KZ_TRY(open_marked(b, team, b->mark));
-  return label_cells(b, team, round, true);
 }
 
 /* Unsettled cells, evenly chosen, as starts of another discovery. */
@@ -190,8 +181,7 @@ static kz_status model(basin *b, kz_team *team, const kz_window *window) {
   KZ_TRY(first_discovery(b, team, window));
   b->n_open = b->own;
   for (int round = 0;; round++) {
-    KZ_TRY(label_cells(b, team, round, b->plan->method == KZ_METHOD_DIRECT));
-    if (b->plan->method == KZ_METHOD_HYBRID) KZ_TRY(label_distrusted(b, team, round));
+    KZ_TRY(label_cells(b, team, round));
     if (round == ROUNDS - 1) return KZ_OK;
     KZ_TRY(open_unsettled(b, team));
     if (b->n_open == 0) return KZ_OK;
@@ -205,9 +195,8 @@ static kz_status allocate(basin *b, bool leads) {
   b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
   b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
   b->periods = leads ? calloc((size_t)b->own, sizeof *b->periods) : NULL;
-  b->again = leads ? calloc((size_t)b->own, sizeof *b->again) : NULL;
-  b->mark = leads ? calloc((size_t)b->own, sizeof *b->mark) : NULL;
-  if (b->reached && (!leads || (b->owner && b->periods && b->again && b->mark))) return KZ_OK;
+  b->integrated = leads ? calloc((size_t)b->own, sizeof *b->integrated) : NULL;
+  if (b->reached && (!leads || (b->owner && b->periods && b->integrated))) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->own);
 }
 
@@ -222,7 +211,7 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
     int32_t id = b->owner[own] > 0 ? catalogue->id_of[b->owner[own]] : -1;
     labels->attractor[f] = (int16_t)(mirrored && id >= 0 ? catalogue->entries[id].mirror : id);
     labels->settling_time[f] = b->periods[own];
-    labels->evidence[f] = id < 0 ? UNSETTLED : b->periods[own] == 0 ? INSIDE : b->again[own] ? INTEGRATED : FOLLOWED;
+    labels->evidence[f] = id < 0 ? UNSETTLED : b->periods[own] == 0 ? INSIDE : b->integrated[own] ? INTEGRATED : FOLLOWED;
   }
   return status;
 }
@@ -243,6 +232,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   basin b = {.plan = plan, .total = plan->theta.count * plan->velocity.count};
   kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
   b.own = kz_own_cells(plan);
+  b.tile = plan->method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD ? PARTS * CELLS : CELLS;
   b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_team_agree(team, status);
@@ -262,8 +252,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   if (b.dynamics) kz_dynamics_free(b.dynamics);
   free(b.owner);
   free(b.periods);
-  free(b.again);
-  free(b.mark);
+  free(b.integrated);
   free(b.open);
   free(b.reached);
   return kz_team_agree(team, status);
@@ -319,7 +308,8 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
-  double cell_period = plan->method == KZ_METHOD_ICM ? 3e-8 : period;
+  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_HYBRID] = 0.15};
+  double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 3e-8);
   kz_cost cost = {
       .cells = plan->theta.count * plan->velocity.count,
       .disk_bytes = 14 * cells,

@@ -19,22 +19,6 @@ typedef struct {
 kz_status kz_labels_allocate(int64_t cells, kz_labels *labels);
 void kz_labels_free(kz_labels *labels);
 
-/* The own cells of a window as they are labelled so far, on rank 0. */
-typedef struct {
-  const kz_basin_plan *plan;
-  const kz_dynamics *dynamics;
-  int64_t total, own;
-  const int16_t *owner;
-  const uint32_t *periods;
-} kz_grid;
-
-/* Whether the map table does not back a label: the cell has not started inside a trapping region, and took longer than `horizon`
- * periods, or has not settled (owner 0), or differs from a neighbour. */
-bool kz_distrusted(int32_t owner, int64_t periods, double horizon, bool differs);
-
-/* mark [own]: of the marked cells those stay marked whose label is distrusted. */
-kz_status kz_grid_distrust(const kz_grid *grid, double horizon, uint8_t *mark);
-
 /* Centre of cell i; exactly mirrored in a symmetric window. */
 double kz_axis_centre(const kz_axis *axis, int64_t i);
 bool kz_axis_is_symmetric(const kz_axis *axis);
@@ -45,6 +29,10 @@ void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
 
 /* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */
 extern const int32_t kz_stencil[];
+
+/* kz_dynamics_follow by a method (KZ_METHOD_ICM, ...); integrated [n]: periods for which hybrid left the table. */
+void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
+               int32_t *owner, int64_t *periods, int64_t *integrated);
 
 /* Measures, groups /attractors and /basin, and the summary. Fractions of the catalogue are filled in. */
 kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,

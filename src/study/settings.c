@@ -8,8 +8,8 @@
   { label, KZ_METHOD_DIRECT, scheme, steps, precision, KZ_QUINTIC, 1000, candidate }
 #define ICM(label, interpolation, nodes) \
   { label, KZ_METHOD_ICM, "split6", 24, KZ_DOUBLE, interpolation, nodes, interpolation == KZ_QUINTIC }
-#define HYBRID(label, nodes) \
-  { label, KZ_METHOD_HYBRID, "split6", 24, KZ_DOUBLE, KZ_QUINTIC, nodes, false }
+#define HYBRID(label, nodes, steps) \
+  { label, KZ_METHOD_HYBRID, "split6", steps, KZ_DOUBLE, KZ_QUINTIC, nodes, true }
 
 const kz_setting kz_settings[] = {
     DIRECT("direct-rk4-100-1992", "rk4", 100, KZ_DOUBLE, false),
@@ -35,9 +35,12 @@ const kz_setting kz_settings[] = {
     ICM("icm-1000", KZ_QUINTIC, 1000),
     ICM("icm-2000", KZ_QUINTIC, 2000),
     {"icm-single-500", KZ_METHOD_ICM, "split6", 8, KZ_SINGLE, KZ_QUINTIC, 500, false},
-    HYBRID("hybrid-250", 250),
-    HYBRID("hybrid-500", 500),
-    HYBRID("hybrid-1000", 1000),
+    HYBRID("hybrid-250", 250, 24),
+    HYBRID("hybrid-500", 500, 24),
+    HYBRID("hybrid-1000", 1000, 24),
+    HYBRID("hybrid-500-48", 500, 48),
+    HYBRID("hybrid-1000-48", 1000, 48),
+    HYBRID("hybrid-1000-96", 1000, 96),
 };
 const int kz_setting_count = sizeof kz_settings / sizeof kz_settings[0];
 
@@ -73,15 +76,18 @@ void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
 }
 
 double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods) {
-  /* Measured weights, in kicks in double precision: a look-up in the table with its captor, the growth of a node's region.
-   * Hybrid integrates the cells that take longest, nearly all periods. Coarse cells trap less: periods go as nodes^-0.4. */
+  /* Measured weights, in kicks in double precision: a look-up in the table with its captor, what it takes to track its error, the
+   * share of the periods that hybrid integrates (0 to 0.35), the growth of a node's region. Coarse cells trap less: periods go as
+   * nodes^-0.4. */
   static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1},
-                      look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, growth = 700;
+                      look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, tracking = 15, integrated = 0.15,
+                      growth = 700;
   kz_scheme scheme;
   kz_scheme_row(scheme_row(setting->scheme), &scheme);
   const double nodes = (double)setting->nodes, period = kind[setting->precision] * scheme.kicks * setting->steps;
-  double cell = 0;
-  if (setting->method != KZ_METHOD_ICM) cell += period;
-  if (setting->method != KZ_METHOD_DIRECT) cell += look_up[setting->interpolation];
+  const double mapped = look_up[setting->interpolation];
+  const double cell = setting->method == KZ_METHOD_DIRECT ? period
+                      : setting->method == KZ_METHOD_ICM  ? mapped
+                                                          : mapped + tracking + integrated * period;
   return 0.5 * nodes * nodes * (period + growth) + cells * mean_periods * pow(1000 / nodes, 0.4) * cell;
 }

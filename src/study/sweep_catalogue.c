@@ -92,19 +92,15 @@ static int64_t next_cells(const searching *s, int64_t most, int64_t *cell, int64
 }
 
 static void follow_cells(searching *s) {
-  static const int32_t points[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
   const kz_basin_plan *basin = &s->scene->basin;
-  int64_t place[CHUNK], periods[CHUNK], cell = 0, n;
+  int64_t place[CHUNK], periods[CHUNK], integrated[CHUNK], cell = 0, n;
   while ((n = next_cells(s, CHUNK, &cell, place)) > 0) {
-    if (basin->method != KZ_METHOD_ICM)
-      kz_dynamics_follow(s->dynamics, n, basin->max_periods, s->state, s->owner, periods);
-    else
-      kz_dynamics_follow_table(s->dynamics, points[basin->interpolation], n, basin->max_periods, s->state, s->owner, periods);
+    kz_follow(s->dynamics, basin->method, basin->interpolation, n, basin->max_periods, s->state, s->owner, periods, integrated);
     for (int64_t i = 0; i < n; i++) s->cell[place[i]] = s->owner[i];
   }
 }
 
-/* Labels the grid; cells that end nowhere known are searched and labelled once more. (Method hybrid integrates every cell.) */
+/* Labels the grid; cells that end nowhere known are searched and labelled once more. */
 static kz_status label_grid(searching *s) {
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   int64_t *place = malloc(most * sizeof *place);

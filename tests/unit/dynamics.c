@@ -135,14 +135,17 @@ static void test_mirrored_labels(void **state)
   assert_true(kz_dynamics_trapped_share(d) > 0.2);
   double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
   int32_t a[N], b[N];
-  int64_t pa[N], pb[N];
-  for (int points = 0; points <= 6; points += 2) {
+  int64_t pa[N], pb[N], integrated[N];
+  for (int points = 0; points <= 8; points += 2) {
     kz_window wide = {-M_PI, M_PI, -6, 6};
     kz_dynamics_starts(&wide, 5, N, x);
     for (int i = 0; i < 2 * N; i++) y[i] = -x[i];
     if (points == 0) {
       kz_dynamics_follow(d, N, 2000, x, a, pa);
       kz_dynamics_follow(d, N, 2000, y, b, pb);
+    } else if (points == 8) {
+      kz_dynamics_follow_hybrid(d, 6, N, 2000, x, a, pa, integrated);
+      kz_dynamics_follow_hybrid(d, 6, N, 2000, y, b, pb, integrated);
     } else {
       kz_dynamics_follow_table(d, points, N, 2000, x, a, pa);
       kz_dynamics_follow_table(d, points, N, 2000, y, b, pb);
@@ -159,6 +162,42 @@ static void test_mirrored_labels(void **state)
   free(x);
   free(y);
   kz_dynamics_free(d);
+}
+
+/* A coarse table, whatever its interpolation: the hybrid labels nearly all starts as integration does where the table fails, does not
+ * integrate what it need not, and says what it did. */
+static void test_hybrid(void **state)
+{
+  (void)state;
+  enum { N = 4096 };
+  static double x[2 * N], y[2 * N], z[2 * N];
+  static int32_t direct[N], table[N], hybrid[N];
+  static int64_t p[N], q[N], r[N], integrated[N];
+  for (int points = 2; points <= 6; points += 2) {
+    kz_dynamics *d = explored(0.46, 1, 3);
+    with_table(d, 250, 3);
+    int64_t wrong = 0, unlike = 0, all = 0, some = 0;
+    kz_dynamics_starts(&WINDOW, 7, N, x);
+    memcpy(y, x, sizeof x);
+    memcpy(z, x, sizeof x);
+    kz_dynamics_follow(d, N, 2000, x, direct, p);
+    kz_dynamics_follow_table(d, points, N, 2000, y, table, q);
+    kz_dynamics_follow_hybrid(d, points, N, 2000, z, hybrid, r, integrated);
+    for (int i = 0; i < N; i++) {
+      wrong += table[i] != direct[i];
+      unlike += hybrid[i] != direct[i];
+      all += r[i];
+      some += integrated[i];
+      assert_true(integrated[i] >= 0 && integrated[i] <= r[i]);
+      if (integrated[i] > 0) continue;
+      assert_int_equal(hybrid[i], table[i]);
+      assert_int_equal(r[i], q[i]);
+    }
+    print_message("%d nodes: %lld of %d labels unlike integration, %lld with hybrid, %.0f %% of the periods integrated\n", points,
+                  (long long)wrong, N, (long long)unlike, 100.0 * (double)some / (double)all);
+    assert_true(wrong > N / 50 && unlike < N / 200 && some < 7 * all / 10);
+    kz_dynamics_free(d);
+  }
 }
 
 /* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search. */
@@ -238,10 +277,10 @@ static void test_chaos(void **state)
   kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 48);
   double x[2 * N];
   int32_t owner[N];
-  int64_t periods[N];
+  int64_t periods[N], integrated[N];
   kz_attractor row;
   kz_dynamics_starts(&WINDOW, 1, N, x);
-  kz_dynamics_outline(d, 4);
+  kz_dynamics_outline(d, 4.0 * 199 / 195); /* the top of a table of 200 nodes that reaches 4 */
   assert_int_equal(kz_dynamics_find_chaos(d, x), 1);
   kz_dynamics_update(d);
   kz_dynamics_attractor(d, 1, &row, NULL, NULL);
@@ -250,6 +289,10 @@ static void test_chaos(void **state)
   assert_true(row.lyapunov > 0.8 && row.lyapunov < 0.9 && row.lyapunov_error < 0.02);
   kz_dynamics_follow(d, N, 2000, x, owner, periods);
   for (int i = 0; i < N; i++) assert_int_equal(owner[i], 1);
+  with_table(d, 200, 4);
+  kz_dynamics_starts(&WINDOW, 1, N, x);
+  kz_dynamics_follow_hybrid(d, 6, N, 2000, x, owner, periods, integrated);
+  for (int i = 0; i < N; i++) assert_int_equal(owner[i], 1);
   kz_dynamics_free(d);
 }
 
@@ -257,8 +300,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_catalogue), cmocka_unit_test(test_interpolation), cmocka_unit_test(test_mirrored_labels),
-    cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_measures), cmocka_unit_test(test_packing),
-    cmocka_unit_test(test_chaos),
+    cmocka_unit_test(test_hybrid), cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_measures),
+    cmocka_unit_test(test_packing), cmocka_unit_test(test_chaos),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
