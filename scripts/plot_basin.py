@@ -15,7 +15,7 @@ from matplotlib.colors import LogNorm, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b"]
+EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b", "#8c1d18"]
 PLANE_WIDTH = 5.6  # inches, the same in every figure
 
 

@@ -31,6 +31,7 @@ typedef struct {
   int64_t starts;
   int64_t max_period;
   int64_t seed;
+  bool flag_undecided; /* ask every integrated cell whether the last place of its start changes the label */
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
 } kz_basin_plan;
 

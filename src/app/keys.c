@@ -95,6 +95,9 @@ const kz_key kz_keys[] = {
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
+    BOOLEAN("basin.flag_undecided", "false", basin.flag_undecided,
+            "Follow integrated cells once more from one unit in the last place beside: where the label differs, double "
+            "precision cannot decide it, and `evidence` says so. Methods direct and hybrid."),
     REAL("basin.accuracy", "", 0.5, 0.9999, "", basin.accuracy,
          "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a "
          "sample "

@@ -43,6 +43,9 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin) return;
   theta_window(reading, &scene->basin.theta, "basin.theta");
   check_axis(reading, &scene->basin.velocity, "basin.velocity");
+  if (scene->basin.flag_undecided && (scene->basin.method == KZ_METHOD_ICM || !isnan(scene->basin.accuracy)))
+    kz_complain(reading, kz_tree_find(reading->root, "basin.flag_undecided"), "basin.flag_undecided",
+                "asks about cells that are integrated; basin.method direct or hybrid");
 }
 
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {

@@ -23,12 +23,12 @@ enum {
 };
 
 /* What a label rests on, as the file says it. */
-enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3 };
+enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3, UNDECIDED = 4 };
 
 typedef struct {
   int16_t owner[CELLS]; /* number of kz_dynamics, 0 = not settled */
   uint32_t periods[CELLS];
-  uint8_t integrated[CELLS]; /* some periods were, because the table was not trusted */
+  uint8_t evidence[CELLS]; /* FOLLOWED; INTEGRATED in part, because the table was not trusted; UNDECIDED */
 } labelled;
 
 typedef struct {
@@ -40,7 +40,7 @@ typedef struct {
   int16_t *owner;        /* [own], rank 0 */
   uint32_t *periods;     /* [own], rank 0 */
   int64_t n_open, *open; /* cells of the present stage; NULL = all own ones */
-  uint8_t *integrated;   /* [own], rank 0: in part, because the table was not trusted */
+  uint8_t *evidence;     /* [own], rank 0, as in labelled */
   int64_t *reached;      /* [INT16_MAX + 1] starts and cells that ended on each attractor */
 } basin;
 
@@ -78,20 +78,41 @@ void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int
     kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, owner, periods, integrated);
 }
 
+/* Integrates the marked ones of n starts from one unit in the last place beside; marked: those that end elsewhere then. */
+static void find_undecided(const basin *b, int64_t n, const double *start, const int32_t *owner, bool *marked) {
+  double state[2 * PARTS * CELLS];
+  int32_t to[PARTS * CELLS];
+  int64_t place[PARTS * CELLS], periods[PARTS * CELLS], asked = 0;
+  for (int64_t i = 0; i < n; i++) {
+    if (!marked[i]) continue;
+    for (int c = 0; c < 2; c++) state[2 * asked + c] = nextafter(start[2 * i + c], copysign(INFINITY, start[2 * i + c]));
+    place[asked++] = i;
+  }
+  kz_dynamics_follow(b->dynamics, asked, b->plan->max_periods, state, to, periods);
+  for (int64_t i = 0; i < asked; i++) marked[place[i]] = to[i] != owner[place[i]];
+}
+
 static kz_status label_tile(void *context, int64_t tile, void *record) {
   const basin *b = context;
   const kz_basin_plan *plan = b->plan;
   labelled *out = record;
-  double state[2 * PARTS * CELLS];
+  double start[2 * PARTS * CELLS], state[2 * PARTS * CELLS];
   int32_t owner[PARTS * CELLS];
   int64_t periods[PARTS * CELLS], integrated[PARTS * CELLS];
+  bool undecided[PARTS * CELLS] = {false};
   const int64_t first = tile * b->tile, left = b->n_open - first, n = left < b->tile ? left : b->tile;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(plan, b->open ? b->open[first + i] : first + i, state + 2 * i);
+  for (int64_t i = 0; i < n; i++) kz_cell_state(plan, b->open ? b->open[first + i] : first + i, start + 2 * i);
+  memcpy(state, start, 2 * (size_t)n * sizeof *state);
   kz_follow(b->dynamics, plan->method, plan->interpolation, n, plan->max_periods, state, owner, periods, integrated);
+  if (plan->flag_undecided) {
+    for (int64_t i = 0; i < n; i++)
+      undecided[i] = owner[i] > 0 && periods[i] > 0 && (integrated[i] > 0 || plan->method == KZ_METHOD_DIRECT);
+    find_undecided(b, n, start, owner, undecided);
+  }
   for (int64_t i = 0; i < n; i++) {
     out[i / CELLS].owner[i % CELLS] = (int16_t)owner[i];
     out[i / CELLS].periods[i % CELLS] = (uint32_t)periods[i];
-    out[i / CELLS].integrated[i % CELLS] = integrated[i] > 0;
+    out[i / CELLS].evidence[i % CELLS] = undecided[i] ? UNDECIDED : integrated[i] > 0 ? INTEGRATED : FOLLOWED;
   }
   return KZ_OK;
 }
@@ -116,7 +137,7 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
     int64_t f = b->open ? b->open[i] : i;
     b->owner[f] = records[i / CELLS].owner[i % CELLS];
     b->periods[f] = records[i / CELLS].periods[i % CELLS];
-    b->integrated[f] = records[i / CELLS].integrated[i % CELLS];
+    b->evidence[f] = records[i / CELLS].evidence[i % CELLS];
   }
   free(records);
   return status;
@@ -195,8 +216,8 @@ static kz_status allocate(basin *b, bool leads) {
   b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
   b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
   b->periods = leads ? calloc((size_t)b->own, sizeof *b->periods) : NULL;
-  b->integrated = leads ? calloc((size_t)b->own, sizeof *b->integrated) : NULL;
-  if (b->reached && (!leads || (b->owner && b->periods && b->integrated))) return KZ_OK;
+  b->evidence = leads ? calloc((size_t)b->own, sizeof *b->evidence) : NULL;
+  if (b->reached && (!leads || (b->owner && b->periods && b->evidence))) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->own);
 }
 
@@ -211,7 +232,8 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
     int32_t id = b->owner[own] > 0 ? catalogue->id_of[b->owner[own]] : -1;
     labels->attractor[f] = (int16_t)(mirrored && id >= 0 ? catalogue->entries[id].mirror : id);
     labels->settling_time[f] = b->periods[own];
-    labels->evidence[f] = id < 0 ? UNSETTLED : b->periods[own] == 0 ? INSIDE : b->integrated[own] ? INTEGRATED : FOLLOWED;
+    labels->evidence[f] = id < 0 ? UNSETTLED : b->periods[own] == 0 ? INSIDE : b->evidence[own];
+    labels->undecided += labels->evidence[f] == UNDECIDED;
   }
   return status;
 }
@@ -252,7 +274,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   if (b.dynamics) kz_dynamics_free(b.dynamics);
   free(b.owner);
   free(b.periods);
-  free(b.integrated);
+  free(b.evidence);
   free(b.open);
   free(b.reached);
   return kz_team_agree(team, status);

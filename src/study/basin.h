@@ -11,6 +11,7 @@ typedef struct {
   int16_t *attractor;
   uint32_t *settling_time;
   uint8_t *evidence;
+  int64_t undecided;    /* cells whose label the last place of the start changes, where that was asked */
   double trapped_share; /* of the map table's cells */
   double step_error;    /* rad, the largest of one drive period in a sample */
   double table_error;   /* the same of the map table; NaN where labels do not come from it */

@@ -102,6 +102,10 @@ kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const k
             "; motions here shrink e-fold in some %.0f: basin.max_periods, or basin.attractors.max_period, may be too small",
             1 / (M_PI * scene->parameters.pendulum.beta));
   fprintf(summary, "\n");
+  if (plan->flag_undecided) {
+    fprintf(summary, "%lld cells are undecided: the last place of the start changes their label\n", (long long)labels->undecided);
+    KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->undecided));
+  }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
   KZ_TRY(write_axis(&plan->theta, "theta", store));
   KZ_TRY(write_axis(&plan->velocity, "velocity", store));

@@ -56,3 +56,28 @@ def test_tiles_and_ranks_do_not_matter(kapitza, tmp_path):
         labelled(kapitza, tmp_path, "hybrid", 0.46, *grid, ranks=ranks)
         assert datasets(tmp_path / "hybrid.h5") == alone
     assert np.array_equal(one["evidence"], one["evidence"][::-1, ::-1])
+
+
+FLAGGED = ("--set", "basin.flag_undecided=true", "--set", "basin.theta.count=200", "--set", "basin.velocity.count=200")
+
+
+def test_cells_that_double_precision_cannot_decide_are_flagged(kapitza, tmp_path):
+    """Few of them, known to both methods, about as many as the judge's floor of 0.85 %; no label changes for being asked."""
+    hybrid, direct = (labelled(kapitza, tmp_path, method, 0.46, *FLAGGED) for method in ("hybrid", "direct"))
+    for method, cells in (("hybrid", hybrid), ("direct", direct)):
+        flagged = cells["evidence"] == 4
+        assert 0.005 < flagged.mean() < 0.012
+        assert np.array_equal(flagged, flagged[::-1, ::-1])
+        with h5py.File(tmp_path / f"{method}.h5") as file:
+            assert file["basin"].attrs["undecided"] == np.count_nonzero(flagged)
+    assert (hybrid["attractor"] != direct["attractor"])[hybrid["evidence"] < 4].mean() < 0.001
+    silent = labelled(kapitza, tmp_path, "hybrid", 0.46, *FLAGGED[2:])
+    assert np.array_equal(silent["attractor"], hybrid["attractor"]) and silent["evidence"].max() == 3
+    assert set(hybrid["evidence"][silent["evidence"] != hybrid["evidence"]]) == {4}
+
+
+@pytest.mark.parametrize("options", [["basin.method=icm"], ["basin={velocity: {min: -2, max: 2}, accuracy: 0.99}"]])
+def test_a_map_table_is_not_asked_about_the_last_place(kapitza, tmp_path, options):
+    words = [word for option in [*options, "basin.flag_undecided=true"] for word in ("--set", option)]
+    done = kapitza("check", SMALL, *words, folder=tmp_path, status=2)
+    assert "basin.flag_undecided" in done.stderr and done.stderr.count("\n") == 1
