@@ -55,8 +55,8 @@ void kz_dynamics_follow_truth(kz_dynamics *dynamics, int32_t n_steps, int64_t n,
 /* Looks for unknown cycles near n <= 64 states that come back to themselves within `closeness` rad; returns how many
  * attractors are known then. */
 int64_t kz_dynamics_find_cycles(kz_dynamics *dynamics, int64_t n, const double *state, double closeness);
-/* Follows a bundle of orbits from one state through 60,000 periods; a chaotic attractor joins the catalogue
- * where they diverge and are never trapped. Returns how many attractors are known then. */
+/* Follows a bundle of orbits from one state through 60,000 periods, where neighbours part in its first 2000; a chaotic attractor
+ * joins the catalogue where they diverge and are never trapped. Returns how many attractors are known then. */
 int64_t kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state);
 
 /* The catalogue as doubles, to travel between ranks. */

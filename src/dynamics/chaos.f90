@@ -13,6 +13,9 @@ module kz_dynamics_chaos
 
   !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
   integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, PORTRAIT_PERIODS = 500
+  !> Before all that: neighbours of a chaotic orbit part so much within so many periods. Where they do not, an orbit is only slow.
+  integer, parameter :: PARTING_PERIODS = 2000
+  real(dp), parameter :: PARTED = 100
   !> A positive exponent is believed from so many standard errors on.
   real(dp), parameter :: CONFIDENCE = 5
   !> Damping has done its work once it has shrunk areas by exp(-SHRUNK); before, conservative chaos looks the same.
@@ -34,6 +37,7 @@ contains
     integer :: captor(WIDTH), period, lane
 
     if (2*PI*search%pendulum%beta*(SETTLE + VISITS) < SHRUNK) return
+    if (.not. neighbours_part(search%flow, u, v)) return
     do lane = 1, WIDTH
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
     end do
@@ -47,7 +51,7 @@ contains
         call visit(search%flow%u(lane), search%flow%v(lane))
       end do
     end do
-    call exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)
+    call exponent(search%flow, WIDTH, EXPONENT_PERIODS, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     call set_cover(attractor, visits_of)
     call portray(search%apart, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), PORTRAIT_PERIODS)
@@ -68,6 +72,19 @@ contains
     end subroutine visit
   end subroutine find_chaos
 
+  !> Do neighbours of the orbit from (u, v) part?
+  function neighbours_part(flow, u, v) result(part)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    logical :: part
+    real(dp) :: mean, error
+
+    call flow%put(1, u, v)
+    call exponent(flow, 1, PARTING_PERIODS, mean, error)
+    part = PARTING_PERIODS*mean > log(PARTED)
+  end function neighbours_part
+
   !> The cover: all visited cells. An attractor whose cover meets its own mirror image in most cells is that image.
   subroutine set_cover(attractor, visits_of)
     type(attractor_t), intent(inout) :: attractor
@@ -81,9 +98,11 @@ contains
     attractor%cover = pack([(cell, cell=1, COVER**2)], visited)
   end subroutine set_cover
 
-  !> Largest Lyapunov exponent per period with its standard error over the lanes' orbits.
-  subroutine exponent(flow, mean, error)
+  !> Largest Lyapunov exponent per period of the orbits in the lanes 1 .. n, with its standard error over them.
+  subroutine exponent(flow, n, periods, mean, error)
     class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: n
+    integer, intent(in) :: periods
     real(dp), intent(out) :: mean
     real(dp), intent(out) :: error
     real(dp) :: tangent(2, 2, WIDTH), growth(WIDTH), length
@@ -92,18 +111,18 @@ contains
     tangent = 0
     tangent(1, 1, :) = 1
     growth = 0
-    do period = 1, EXPONENT_PERIODS
-      call flow%advance_tangent(WIDTH, tangent)
-      do lane = 1, WIDTH
+    do period = 1, periods
+      call flow%advance_tangent(n, tangent)
+      do lane = 1, n
         length = norm2(tangent(:, 1, lane))
         growth(lane) = growth(lane) + log(length)
         tangent(:, 1, lane) = tangent(:, 1, lane)/length
         tangent(:, 2, lane) = 0
       end do
     end do
-    growth = growth/EXPONENT_PERIODS
-    mean = sum(growth)/WIDTH
-    error = sqrt(sum((growth - mean)**2)/(WIDTH*(WIDTH - 1.0_dp)))
+    growth = growth/periods
+    mean = sum(growth(:n))/n
+    error = sqrt(sum((growth(:n) - mean)**2)/(n*max(n - 1.0_dp, 1.0_dp)))
   end subroutine exponent
 
 end module kz_dynamics_chaos

@@ -31,10 +31,10 @@ contains
     integer(c_int64_t) :: period
     class(flow_t), allocatable :: flow
     type(attractor_t) :: cycle
-    logical :: found
+    logical :: found, blurred
 
     call make_flow(pendulum, numerics, .true., flow)
-    call close_cycle(flow, pendulum%beta, int(n), theta/PI, velocity, reach, cycle, found)
+    call close_cycle(flow, pendulum%beta, int(n), theta/PI, velocity, reach, cycle, found, blurred)
     period = 0
     if (.not. found) return
     period = cycle%period

@@ -5,7 +5,12 @@ module kz_dynamics_cycles
   implicit none
   private
   public :: attractor_t, sheared, polish_cycle, close_cycle, mirror_image, apart, listed_from_lowest, eigenvalues
-  public :: n_periods, solved, minimal_period, orbit_of
+  public :: n_periods, solved, minimal_period, orbit_of, same_state
+
+  !> States nearer than this are one: half-turns and rad per drive radian together.
+  real(dp), parameter :: SAME = 1e-7_dp
+  !> So a cycle must be placed better, rad.
+  real(dp), parameter :: PLACED = 1e-8_dp
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
@@ -40,8 +45,19 @@ contains
     d = d - 2*anint(0.5_dp*d)
   end function apart
 
+  !> Are (u1, v1) and (u2, v2) one state?
+  elemental function same_state(u1, v1, u2, v2) result(one)
+    real(dp), intent(in) :: u1
+    real(dp), intent(in) :: v1
+    real(dp), intent(in) :: u2
+    real(dp), intent(in) :: v2
+    logical :: one
+
+    one = abs(apart(u1, u2)) + abs(v1 - v2) < SAME
+  end function same_state
+
   !> close_cycle, `found` only where the cycle attracts.
-  subroutine polish_cycle(flow, beta, n, u, v, reach, cycle, found)
+  subroutine polish_cycle(flow, beta, n, u, v, reach, cycle, found, blurred)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: beta
     integer, intent(in) :: n
@@ -50,8 +66,9 @@ contains
     real(dp), intent(in) :: reach
     type(attractor_t), intent(out) :: cycle
     logical, intent(out) :: found
+    logical, intent(out) :: blurred
 
-    call close_cycle(flow, beta, n, u, v, reach, cycle, found)
+    call close_cycle(flow, beta, n, u, v, reach, cycle, found, blurred)
     if (.not. found) return
     found = abs(cycle%multiplier(1)) < 1
     if (.not. found) return
@@ -70,8 +87,9 @@ contains
   end function sheared
 
   !> Newton's method on the n-period map from (u, v), with a fine flow. `found` only where it converges within `reach` of the
-  !> start; the cycle, attracting or not, then has its true (minimal) period.
-  subroutine close_cycle(flow, beta, n, u, v, reach, cycle, found)
+  !> start; the cycle, attracting or not, then has its true (minimal) period. `blurred` where it converges, but rounding leaves
+  !> open where to: too near a bifurcation.
+  subroutine close_cycle(flow, beta, n, u, v, reach, cycle, found, blurred)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: beta
     integer, intent(in) :: n
@@ -80,46 +98,86 @@ contains
     real(dp), intent(in) :: reach
     type(attractor_t), intent(out) :: cycle
     logical, intent(out) :: found
+    logical, intent(out) :: blurred
     real(dp) :: x(2), matrix(2, 2)
     integer :: period
 
     x = [u, v]
-    call newton(flow, n, reach, x, found)
+    call newton(flow, n, reach, x, found, blurred)
     if (.not. found) return
     period = minimal_period(flow, n, x)
-    if (period < n) call newton(flow, period, reach, x, found)
+    if (period < n) call newton(flow, period, reach, x, found, blurred)
     if (.not. found) return
     call orbit_of(flow, period, x, cycle, matrix)
     cycle%multiplier = eigenvalues(matrix, exp(-2*PI*beta*period))
   end subroutine close_cycle
 
-  !> x = (half-turns, velocity) becomes the fixed point of the n-period map near it.
-  subroutine newton(flow, n, reach, x, found)
+  !> x = (half-turns, velocity) becomes the fixed point of the n-period map near it: `found` where it is placed well enough,
+  !> `blurred` where the steps end at more than that.
+  subroutine newton(flow, n, reach, x, found, blurred)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: n
     real(dp), intent(in) :: reach
     real(dp), intent(inout) :: x(2)
     logical, intent(out) :: found
+    logical, intent(out) :: blurred
+    !> Steps below SMALL that shrink no more are due to rounding, if there are several.
+    real(dp), parameter :: SMALL = 1e-5_dp
+    integer, parameter :: MOST_STALLS = 3
     real(dp) :: start(2), residual(2), step(2), matrix(2, 2), size_now, size_before
-    integer :: iteration
+    integer :: iteration, stalls
 
     start = x
+    stalls = 0
     size_before = huge(1.0_dp)
     found = .false.
+    blurred = .false.
     do iteration = 1, 40
       call n_periods(flow, n, x, residual, matrix)
       step = solved(matrix, residual)
       if (.not. all(abs(step) < huge(1.0_dp))) return
       size_now = norm2(step)
       if (size_now < 1e-9_dp .and. size_now >= 0.5_dp*size_before) exit
+      if (size_now < SMALL .and. size_now >= 0.9_dp*size_before) stalls = stalls + 1
+      if (stalls > MOST_STALLS) exit
       x = x - [step(1)/PI, step(2)]
       if (norm2([PI, 1.0_dp]*(x - start)) > reach) return
       if (size_now < 1e-15_dp) exit
       size_before = size_now
     end do
-    found = size_now < 1e-9_dp
     x(1) = apart(x(1), 0.0_dp)
+    if (size_now >= SMALL) return
+    blurred = max(size_now, uncertainty(flow, n, x, matrix)) >= PLACED
+    found = .not. blurred
   end subroutine newton
+
+  !> How far x may lie from the fixed point of the n-period map, rad: so far from x ends Newton's method that starts a few
+  !> roundings beside it. Near a bifurcation, where matrix - 1 is nearly singular, the rounding of F^n is amplified by the inverse,
+  !> and by chance any state there comes back to the last bit: Newton's own last step says nothing.
+  function uncertainty(flow, n, x, matrix) result(farthest)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(2)
+    real(dp), intent(in) :: matrix(2, 2)
+    real(dp) :: farthest
+    real(dp), parameter :: ROUNDING = 1e-15_dp
+    integer, parameter :: BESIDE = 8
+    real(dp) :: start(2, BESIDE), residual(2)
+    integer :: i
+
+    do i = 1, BESIDE
+      start(:, i) = x + ROUNDING*(i - BESIDE/2)*[1, -1]
+      call flow%put(i, start(1, i), start(2, i))
+    end do
+    do i = 1, n
+      call flow%advance(BESIDE)
+    end do
+    farthest = 0
+    do i = 1, BESIDE
+      residual = [PI*apart(flow%u(i), start(1, i)), flow%v(i) - start(2, i)]
+      farthest = max(farthest, norm2([PI, 1.0_dp]*(start(:, i) - x) - solved(matrix, residual)))
+    end do
+  end function uncertainty
 
   !> residual = F^n(x) - x with whole turns taken out (rad), matrix = its derivative + 1.
   subroutine n_periods(flow, n, x, residual, matrix)
@@ -165,7 +223,7 @@ contains
     do period = 1, n - 1
       call flow%advance(1)
       if (mod(n, period) /= 0) cycle
-      if (abs(apart(flow%u(1), x(1))) + abs(flow%v(1) - x(2)) < 1e-7_dp) return
+      if (same_state(flow%u(1), flow%v(1), x(1), x(2))) return
     end do
     period = n
   end function minimal_period
@@ -213,7 +271,8 @@ contains
     end if
   end function eigenvalues
 
-  !> A cycle that is its own mirror image is made so to the bit: x(j + n/2) = -x(j), or exactly down or inverted.
+  !> A cycle that is its own mirror image, x(1 + n/2) = -x(1), is made so to the bit: x(j + n/2) = -x(j), or exactly down or
+  !> inverted.
   subroutine symmetrise(cycle)
     type(attractor_t), intent(inout) :: cycle
     integer :: n, half
@@ -221,7 +280,7 @@ contains
     n = cycle%period
     if (cycle%winding /= 0) return
     if (n == 1) then
-      cycle%symmetric = abs(cycle%v(1)) < 1e-8_dp .and. abs(apart(cycle%u(1), -cycle%u(1))) < 1e-8_dp
+      cycle%symmetric = same_state(cycle%u(1), cycle%v(1), -cycle%u(1), -cycle%v(1))
       if (cycle%symmetric) then
         cycle%u = anint(abs(cycle%u))
         cycle%v = 0
@@ -230,8 +289,7 @@ contains
     end if
     if (mod(n, 2) /= 0) return
     half = n/2
-    cycle%symmetric = all(abs(apart(cycle%u(:half), -cycle%u(half + 1:))) < 1e-8_dp) .and. &
-                      all(abs(cycle%v(:half) + cycle%v(half + 1:)) < 1e-8_dp)
+    cycle%symmetric = same_state(cycle%u(1), cycle%v(1), -cycle%u(half + 1), -cycle%v(half + 1))
     if (.not. cycle%symmetric) return
     cycle%u(:half) = apart(cycle%u(:half) - 0.5_dp*apart(cycle%u(:half), -cycle%u(half + 1:)), 0.0_dp)
     cycle%v(:half) = 0.5_dp*(cycle%v(:half) - cycle%v(half + 1:))

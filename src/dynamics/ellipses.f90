@@ -9,9 +9,11 @@ module kz_dynamics_ellipses
   use kz_dynamics_cycles, only: attractor_t, apart
   implicit none
   private
-  public :: find_ellipses, in_ellipse
+  public :: find_ellipses, drop_shared, in_ellipse
 
   real(dp), parameter :: SMALLEST = 1e-7_dp, LARGEST = 2.0_dp, GROWTH = 2.0_dp
+  !> What rounding does to a ring, as a share of the states on it: it must shrink by more to be seen to shrink.
+  real(dp), parameter :: ROUNDING = 4e-15_dp
   !> Rings tried between the centre and the final boundary.
   integer, parameter :: N_RINGS = 16
 
@@ -34,6 +36,19 @@ contains
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
   end subroutine find_ellipses
 
+  !> An ellipse that holds a strobe point of another attractor is none: the scene's map has another motion there than the fine one.
+  pure subroutine drop_shared(attractor, other)
+    type(attractor_t), intent(inout) :: attractor
+    type(attractor_t), intent(in) :: other
+    integer :: i, j
+
+    do i = 1, other%period
+      do j = 1, attractor%period
+        if (in_ellipse(attractor, j, other%u(i), other%v(i))) attractor%form(:, j) = 0
+      end do
+    end do
+  end subroutine drop_shared
+
   pure function in_ellipse(attractor, j, u, v) result(inside)
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
@@ -55,34 +70,37 @@ contains
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
     real(dp) :: form(3)
-    real(dp) :: basis(2, 2), inverse(2, 2), radius, trapped
+    real(dp) :: basis(2, 2), inverse(2, 2), first, radius, trapped
     logical :: good
 
     form = 0
     call eigenbasis(monodromy(fine, attractor, j), attractor%multiplier, basis, inverse)
     trapped = 0
-    radius = SMALLEST
+    first = ROUNDING*maxval(hypot(PI*attractor%u, attractor%v))*norm2(inverse)/(1 - abs(attractor%multiplier(1)))
+    first = max(first, SMALLEST)
+    radius = first
     do while (radius < LARGEST)
       good = carried_inside(flow, attractor, j, basis, inverse, radius)
       if (trapped > 0 .and. .not. good) exit
-      if (trapped <= 0 .and. radius > 1e-2_dp) return
+      if (trapped <= 0 .and. radius > 1e-2_dp) exit
       if (good) trapped = radius
       radius = radius*GROWTH
     end do
+    if (trapped > 0) trapped = refined(flow, attractor, j, basis, inverse, first, trapped)
     if (trapped <= 0) return
-    trapped = refined(flow, attractor, j, basis, inverse, trapped)
     form = [PI**2*(inverse(1, 1)**2 + inverse(2, 1)**2), &
             PI*(inverse(1, 1)*inverse(1, 2) + inverse(2, 1)*inverse(2, 2)), &
             inverse(1, 2)**2 + inverse(2, 2)**2]/trapped**2
   end function ellipse
 
-  !> Largest good radius between `radius` and the next tried one, with all rings below it good too.
-  function refined(flow, attractor, j, basis, inverse, radius) result(best)
+  !> Largest good radius between `radius` and the next tried one, with all rings from `first` on good too; 0 where there is none.
+  function refined(flow, attractor, j, basis, inverse, first, radius) result(best)
     class(flow_t), intent(inout) :: flow
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
     real(dp), intent(in) :: basis(2, 2)
     real(dp), intent(in) :: inverse(2, 2)
+    real(dp), intent(in) :: first
     real(dp), intent(in) :: radius
     real(dp) :: best, tried
     integer :: i
@@ -94,8 +112,9 @@ contains
     end do
     do i = 1, N_RINGS - 1
       tried = best*i/N_RINGS
+      if (tried < first) cycle
       if (carried_inside(flow, attractor, j, basis, inverse, tried)) cycle
-      best = 0.9_dp*best*max(i - 1, 1)/N_RINGS
+      best = 0.9_dp*best*(i - 1)/N_RINGS
       exit
     end do
   end function refined

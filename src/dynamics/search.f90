@@ -3,8 +3,8 @@ module kz_dynamics_search
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_kernel_tables, only: pendulum_t
-  use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, apart, listed_from_lowest
-  use kz_dynamics_ellipses, only: find_ellipses, in_ellipse
+  use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, apart, listed_from_lowest, same_state
+  use kz_dynamics_ellipses, only: find_ellipses, drop_shared, in_ellipse
   use kz_dynamics_portraits, only: portray
   implicit none
   private
@@ -19,8 +19,10 @@ module kz_dynamics_search
     class(flow_t), allocatable :: apart !< the same with its steps apart
   end type search_t
 
-  !> Newton is tried for so many recurrences of a state, the closest first.
+  !> Newton is tried for so many recurrences of a state, the closest first,
   integer, parameter :: TRIES = 4
+  !> and for one period from so many states, where a bifurcation blurs the cycle.
+  integer, parameter :: BLURRED_TRIES = 4
 
 contains
 
@@ -34,7 +36,7 @@ contains
     real(dp), intent(in) :: closeness
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     real(dp) :: orbit_u(size(u), 0:search%max_period), orbit_v(size(u), 0:search%max_period)
-    integer :: lane, n
+    integer :: n_blurred(search%max_period), lane, n
 
     do lane = 1, size(u)
       call search%flow%put(lane, u(lane), v(lane))
@@ -46,21 +48,24 @@ contains
       orbit_u(:, n) = search%flow%u(:size(u))
       orbit_v(:, n) = search%flow%v(:size(u))
     end do
+    n_blurred = 0
     do lane = 1, size(u)
-      call try_recurrences(search, orbit_u(lane, :), orbit_v(lane, :), closeness, attractors)
+      call try_recurrences(search, orbit_u(lane, :), orbit_v(lane, :), closeness, n_blurred, attractors)
     end do
   end subroutine find_cycles
 
   !> Polishes the closest recurrences of one orbit until one gives an attracting cycle.
-  subroutine try_recurrences(search, u, v, closeness, attractors)
+  subroutine try_recurrences(search, u, v, closeness, n_blurred, attractors)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: u(0:)
     real(dp), intent(in) :: v(0:)
     real(dp), intent(in) :: closeness
+    !> for every period: how often its cycle has been found blurred
+    integer, intent(inout) :: n_blurred(:)
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     real(dp) :: distance(ubound(u, 1))
     type(attractor_t) :: candidate
-    logical :: found
+    logical :: found, blurred
     integer :: try, n
 
     n = ubound(u, 1)
@@ -69,10 +74,13 @@ contains
     do try = 1, TRIES
       n = first_of_the_closest(distance)
       if (.not. distance(n) < closeness) return
-      call polish_cycle(search%fine, search%pendulum%beta, n, u(0), v(0), max(0.1_dp, 20*distance(n)), candidate, found)
-      if (found) then
-        if (.not. known(attractors, candidate)) call add_with_mirror(search, candidate, attractors)
-        return
+      if (n_blurred(n) < BLURRED_TRIES) then
+        call polish_cycle(search%fine, search%pendulum%beta, n, u(0), v(0), max(0.1_dp, 20*distance(n)), candidate, found, blurred)
+        if (found) then
+          if (.not. known(attractors, candidate)) call add_with_mirror(search, candidate, attractors)
+          return
+        end if
+        if (blurred) n_blurred(n) = n_blurred(n) + 1
       end if
       distance(n::n) = huge(1.0_dp) ! its multiples lead to the same cycle
     end do
@@ -109,12 +117,14 @@ contains
     type(attractor_t), intent(in) :: attractors(:)
     type(attractor_t), intent(in) :: candidate
     logical :: known
-    integer :: a
+    integer :: a, j
 
     known = .true.
     do a = 1, size(attractors)
       if (attractors(a)%period /= candidate%period) cycle
-      if (any(abs(apart(attractors(a)%u, candidate%u(1))) + abs(attractors(a)%v - candidate%v(1)) < 1e-7_dp)) return
+      do j = 1, candidate%period
+        if (any(same_state(attractors(a)%u, attractors(a)%v, candidate%u(j), candidate%v(j)))) return
+      end do
     end do
     known = .false.
   end function known
@@ -124,9 +134,14 @@ contains
     type(search_t), intent(inout) :: search
     type(attractor_t), intent(inout) :: attractor
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    integer :: a
 
     if (attractor%period > 0) then
       call find_ellipses(search%flow, search%fine, attractor)
+      do a = 1, size(attractors)
+        call drop_shared(attractor, attractors(a))
+      end do
+      if (.not. attractor%symmetric) call drop_shared(attractor, mirror_image(attractor))
       call portray(search%apart, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if
     attractor%mirror = size(attractors) + 1
