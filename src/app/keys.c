@@ -81,9 +81,8 @@ const kz_key kz_keys[] = {
     REAL("basin.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.max, "Upper edge of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", "icm|direct|hybrid", "icm", basin.method,
-         "icm: interpolated cell mapping; direct: every cell is integrated; hybrid: icm, then direct where the table is not to "
-         "be "
-         "trusted.",
+         "icm: interpolated cell mapping; direct: every cell is integrated; hybrid: icm, and direct where the table's error, "
+         "carried along the orbit, outgrows what a label can bear.",
          CHOSEN),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),

@@ -9,7 +9,7 @@ module kz_dynamics_tables
   implicit none
   private
   public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map, &
-            place_t, locate, displace, GHOSTS
+            place_t, locate, displace
 
   integer, parameter :: GHOSTS = 2
   !> Adding it rounds to an integer.

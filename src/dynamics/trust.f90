@@ -7,7 +7,7 @@ module kz_dynamics_trust
   use kz_dynamics_cycles, only: attractor_t, apart, sheared
   use kz_dynamics_labels, only: follow, DOUBTFUL
   use kz_dynamics_regions, only: regions_t
-  use kz_dynamics_tables, only: table_t, table_map_t, make_table_map, place_t, locate, displace, GHOSTS
+  use kz_dynamics_tables, only: table_t, table_map_t, make_table_map, place_t, locate, displace
   implicit none
   private
   public :: measure_defects, tracked_map_t, make_tracked_map, follow_trusted
@@ -19,7 +19,7 @@ module kz_dynamics_trust
 
   type, extends(table_map_t) :: tracked_map_t
     real(dp), pointer :: defect(:, :, :) => null() !< of measure_defects
-    real(dp) :: error(WIDTH, 2) = 0 !< of the state since the lane was put: sheared half-turns, rad per drive radian
+    real(dp) :: error(2, WIDTH) = 0 !< of the state since the lane was put: sheared half-turns, rad per drive radian
   contains
     procedure :: put
     procedure :: move
@@ -84,7 +84,7 @@ contains
     real(dp), intent(in) :: v
 
     call self%table_map_t%put(lane, u, v)
-    self%error(lane, :) = 0
+    self%error(:, lane) = 0
     self%doubtful(lane) = .false.
   end subroutine put
 
@@ -94,58 +94,37 @@ contains
     integer, intent(in) :: to
 
     call self%table_map_t%move(from, to)
-    self%error(to, :) = self%error(from, :)
+    self%error(:, to) = self%error(:, from)
     self%doubtful(to) = self%doubtful(from)
   end subroutine move
 
-  !> One period of n lanes and of their errors; a doubtful lane carries none any more.
+  !> One period of n lanes and of their errors: the tangent map, by differences of the nodes around each state, and the defect.
+  !> Errors of mirror images are mirror images. A doubtful lane carries none any more.
   subroutine advance(self, n)
     class(tracked_map_t), intent(inout) :: self
     integer, intent(in) :: n
     type(place_t) :: place
-    integer :: lane
+    real(dp) :: along(2), across(2), error(2)
+    integer :: lane, i, j
 
     call locate(self, n, place)
     call displace(self, n, place)
-    call stretch(n, place, self%table%n_circle, self%table%n_theta, self%table%n_velocity, self%table%top, self%table%shift, &
-                 size(self%defect, 2), self%defect, self%error)
-    do lane = 1, n
-      if ((PI*self%error(lane, 1))**2 + self%error(lane, 2)**2 <= BEARABLE**2) cycle
-      self%doubtful(lane) = .true.
-      self%error(lane, :) = 0
-    end do
+    associate (table => self%table, shift => self%table%shift)
+      do lane = 1, n
+        i = place%i(lane)
+        j = place%j(lane) + 1
+        along = (shift(:, i + 1, j) - shift(:, i, j))*(0.5_dp*table%n_circle)
+        across = (shift(:, i, j + 1) - shift(:, i, j))*((table%n_velocity - 1)/(2*table%top))
+        error = self%error(:, lane)
+        error = error + along*error(1) + across*error(2) + place%fold(lane)*self%defect(:, i/BLOCK, (j - 1)/BLOCK)
+        if ((PI*error(1))**2 + error(2)**2 > BEARABLE**2) then
+          self%doubtful(lane) = .true.
+          error = 0
+        end if
+        self%error(:, lane) = error
+      end do
+    end associate
   end subroutine advance
-
-  !> The tangent map, by differences of the nodes around each state, and the defect of its block. Errors of mirror images are
-  !> mirror images.
-  pure subroutine stretch(n, place, n_circle, n_theta, n_velocity, top, shift, n_blocks, defect, error)
-    integer, intent(in) :: n
-    type(place_t), intent(in) :: place
-    integer, intent(in) :: n_circle
-    integer, intent(in) :: n_theta
-    integer, intent(in) :: n_velocity
-    real(dp), intent(in) :: top
-    real(dp), intent(in) :: shift(2, -GHOSTS:n_theta + GHOSTS, 0:n_velocity - 1)
-    integer, intent(in) :: n_blocks
-    real(dp), intent(in) :: defect(2, 0:n_blocks - 1, 0:*)
-    real(dp), intent(inout) :: error(WIDTH, 2)
-    real(dp) :: along(2, WIDTH), across(2, WIDTH), fresh(2, WIDTH), x, y
-    integer :: i, j, lane
-
-    do lane = 1, n
-      i = place%i(lane)
-      j = place%j(lane)
-      along(:, lane) = shift(:, i + 1, j) - shift(:, i, j)
-      across(:, lane) = shift(:, i, j + 1) - shift(:, i, j)
-      fresh(:, lane) = place%fold(lane)*defect(:, i/BLOCK, j/BLOCK)
-    end do
-    do lane = 1, n
-      x = error(lane, 1)*(0.5_dp*n_circle)
-      y = error(lane, 2)*((n_velocity - 1)/(2*top))
-      error(lane, 1) = error(lane, 1) + along(1, lane)*x + across(1, lane)*y + fresh(1, lane)
-      error(lane, 2) = error(lane, 2) + along(2, lane)*x + across(2, lane)*y + fresh(2, lane)
-    end do
-  end subroutine stretch
 
   !> As `follow`, for max_periods at most: with the table as far as it can be trusted. integrated(i) = periods of start i that
   !> were integrated because it could not.
