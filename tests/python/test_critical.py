@@ -113,7 +113,8 @@ def test_mirror_images_close_together(basin, apart, steps):
 METHODS = ["direct", "icm", "hybrid"]
 VELOCITY = around(0.5, 0.125, 1)
 ACROSS = {0.150: {"down", "inverted"},
-          0.300: {"down", "inverted", "down 6-nodding", *(f"rotation {turns}" for turns in ("+1/1", "-1/1", "+1/2", "-1/2", "+2/6", "-2/6"))}}
+          0.300: {"down", "inverted", "down 6-nodding", "rotation +1/1", "rotation -1/1", "rotation +1/2",
+                  "rotation -1/2", "rotation +2/6", "rotation -2/6"}}
 
 
 def image(name):

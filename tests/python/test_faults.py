@@ -212,7 +212,8 @@ def test_a_link_in_the_place_of_the_half_file_leads_nowhere(kapitza, tmp_path):
     assert (tmp_path / "precious").read_text() == "mine" and not (tmp_path / "small.h5").is_symlink()
 
 
-@pytest.mark.parametrize("differs, said", [(["--set", "basin.theta.count=50"], "another scene or program"), (["-o", "y.h5"], "another name")])
+@pytest.mark.parametrize("differs, said", [(["--set", "basin.theta.count=50"], "another scene or program"),
+                                           (["-o", "y.h5"], "another name")])
 def test_ranks_that_were_told_different_things(tmp_path, differs, said):
     words = ["mpirun", "-n", "1", PROGRAM, "run", SMALL, ":", "-n", "1", PROGRAM, "run", SMALL, *differs]
     done = subprocess.run(list(map(str, words)), cwd=tmp_path, capture_output=True, text=True, timeout=60)
@@ -223,7 +224,8 @@ def test_ranks_that_were_told_different_things(tmp_path, differs, said):
 def test_ranks_in_different_folders(tmp_path):
     for name in "ab":
         (tmp_path / name).mkdir()
-    words = ["mpirun", "-n", "1", "-wdir", tmp_path / "a", PROGRAM, "run", SMALL, ":", "-n", "1", "-wdir", tmp_path / "b", PROGRAM, "run", SMALL]
+    one, other = (["-n", "1", "-wdir", tmp_path / name, PROGRAM, "run", SMALL] for name in "ab")
+    words = ["mpirun", *one, ":", *other]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=60)
     assert done.returncode == 2 and "cannot be joined by every rank" in done.stderr, done.stderr
     assert not list(tmp_path.glob("*/*"))

@@ -1,14 +1,19 @@
 """The trade between speed and accuracy: the study, the cache of true labels, and basin.accuracy."""
 
+import json
+import os
+import signal
 import subprocess
 import sys
+import time
 from collections import Counter
 
 import h5py
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import ROOT, datasets
+import truth_coverage
+from conftest import PROGRAM, ROOT, datasets
 from kapitza_file import Result
 
 sys.path.insert(0, str(ROOT / "tests" / "tools"))
@@ -16,6 +21,7 @@ from truth_check import Catalogue, truth_labels  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"
 SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, hybrid-250]}"
+COVERAGE = ROOT / "tests" / "tools" / "truth_coverage.py"
 TIMING = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells", "tradeoff/pareto"}
 WINDOW = ("--set", "basin={theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, accuracy: %s, "
                    "attractors: {starts: 2048}}")
@@ -63,6 +69,30 @@ def test_a_stopped_study_is_resumed(kapitza, tmp_path, reference):
         statuses.append(done.returncode)
         limit *= 1.6
     assert statuses[-1] == 0 and 75 in statuses
+    assert untimed(tmp_path / "two.h5") == untimed(reference)
+
+
+def grown(process, checkpoint, size):
+    """Waits until the checkpoint is larger than `size` or the process has ended; does it still run?"""
+    while process.poll() is None:
+        if checkpoint.exists() and checkpoint.stat().st_size > size:
+            return True
+        time.sleep(0.01)
+    return False
+
+
+def test_a_killed_study_is_resumed(tmp_path, reference):
+    """Killed whenever a few tiles more are saved, on one rank, until it gets through."""
+    command = [PROGRAM, "run", SMALL, "-o", "two.h5", "--set", "pendulum.drive_amplitude=0.46", "--set", SETTINGS, "--resume"]
+    checkpoint, kills, size = tmp_path / "two.h5.checkpoint", 0, 0
+    while True:
+        process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL)
+        if kills == 2 or not grown(process, checkpoint, size):
+            break
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        kills, size = kills + 1, checkpoint.stat().st_size
+    assert process.wait() == 0 and kills == 2
     assert untimed(tmp_path / "two.h5") == untimed(reference)
 
 
@@ -148,3 +178,38 @@ def test_the_picture(reference, tmp_path):
                               cwd=tmp_path, capture_output=True, text=True, timeout=120)
         assert (done.returncode, done.stdout, done.stderr) == (0, "trade.png\n", "")
         assert matplotlib.image.imread(tmp_path / "trade.png")[..., :3].std() > 0.05
+
+
+def covered(real, chosen_real=0.02):
+    """A row of truth_coverage: stated 1 .. 3 % for the setting and for the chosen one, of which at most 4 % was asked."""
+    stated = [0.02, 0.01, 0.03]
+    return {"stated": {"direct-24": stated}, "real": {"direct-24": real, "icm-500": chosen_real},
+            "chosen": {"setting": "icm-500", "asked": 0.04, "samples": 1000, "stated": stated}}
+
+
+def test_coverage_counts_what_holds():
+    rows = [covered(0.02), covered(0.009), covered(0.031, 0.005), covered(0.01, 0.035), covered(0.03, 0.05)]
+    counts = {name: sum(hits) for name, hits in truth_coverage.tallies(rows).items()}
+    assert counts == {"direct-24": 3, "all of these": 3, "chosen by accuracy: in its interval": 2,
+                      "chosen by accuracy: below its bound": 3, "chosen by accuracy: as right as asked": 4}
+
+
+def test_coverage_of_a_small_window(tmp_path):
+    """The tool at work; what is measured once is not measured again."""
+    command = [sys.executable, COVERAGE, "--pendulums", "1", "--samples", "60", "--truth", "200", "--cells", "60",
+               "--settings", "direct-24", "--seed", "12345", "--rows", "rows"]
+    done = [subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=250) for _ in range(2)]
+    assert done[0].stdout == done[1].stdout and [run.stderr for run in done] == ["", ""]
+    (row,) = (json.loads(path.read_text()) for path in (tmp_path / "rows").iterdir())
+    assert row["way"] == {"samples": 60, "truth": 200, "cells": 60, "settings": ["direct-24"]}
+    assert row["chosen"]["stated"][2] <= row["chosen"]["asked"]
+    hits = truth_coverage.tallies([row])
+    assert [run.returncode for run in done] == [int(not all(map(all, hits.values())))] * 2
+    assert all(f"{name:38} {sum(hit):4} of 1\n" in done[0].stdout for name, hit in hits.items())
+
+
+@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes an hour; KAPITZA_EXTENSIVE=1 runs it")
+@pytest.mark.timeout(0)
+def test_intervals_hold_on_pendulums_of_no_scene():
+    done = subprocess.run([sys.executable, COVERAGE], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
