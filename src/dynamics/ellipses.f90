@@ -9,45 +9,35 @@ module kz_dynamics_ellipses
   use kz_dynamics_cycles, only: attractor_t, apart
   implicit none
   private
-  public :: find_ellipses, drop_shared, in_ellipse
+  public :: find_ellipses, in_ellipse
 
-  real(dp), parameter :: SMALLEST = 1e-7_dp, LARGEST = 2.0_dp, GROWTH = 2.0_dp
-  !> What rounding does to a ring, as a share of the states on it: it must shrink by more to be seen to shrink.
-  real(dp), parameter :: ROUNDING = 4e-15_dp
+  !> Radii of rings, rad; where none up to LATEST is carried inside, none is looked for beyond.
+  real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 2.0_dp, GROWTH = 2.0_dp
+  !> What rounding does to a ring, in units of the map's: it must shrink by more to be seen to shrink.
+  real(dp), parameter :: ROUNDING = 18
   !> Rings tried between the centre and the final boundary.
   integer, parameter :: N_RINGS = 16
 
 contains
 
   !> Fills attractor%form. Half of the points of a symmetric cycle follow from the other half.
-  subroutine find_ellipses(flow, fine, attractor)
+  subroutine find_ellipses(flow, fine, attractor, others)
     !> the map whose orbits are to be trapped
     class(flow_t), intent(inout) :: flow
     !> the map of the published strobe points
     class(flow_t), intent(inout) :: fine
     type(attractor_t), intent(inout) :: attractor
+    !> attractors that no ellipse may take anything from
+    type(attractor_t), intent(in) :: others(:)
     integer :: j, n_own
 
     n_own = attractor%period
     if (attractor%symmetric .and. n_own > 1) n_own = n_own/2
     do j = 1, n_own
-      attractor%form(:, j) = ellipse(flow, fine, attractor, j)
+      attractor%form(:, j) = ellipse(flow, fine, attractor, j, others)
     end do
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
   end subroutine find_ellipses
-
-  !> An ellipse that holds a strobe point of another attractor is none: the scene's map has another motion there than the fine one.
-  pure subroutine drop_shared(attractor, other)
-    type(attractor_t), intent(inout) :: attractor
-    type(attractor_t), intent(in) :: other
-    integer :: i, j
-
-    do i = 1, other%period
-      do j = 1, attractor%period
-        if (in_ellipse(attractor, j, other%u(i), other%v(i))) attractor%form(:, j) = 0
-      end do
-    end do
-  end subroutine drop_shared
 
   pure function in_ellipse(attractor, j, u, v) result(inside)
     type(attractor_t), intent(in) :: attractor
@@ -63,58 +53,96 @@ contains
              .and. attractor%form(1, j) > 0
   end function in_ellipse
 
-  !> The form of the largest trapping ellipse of strobe point j; 0 where none was found.
-  function ellipse(flow, fine, attractor, j) result(form)
+  !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking shows
+  !> above rounding and above the distance by which the map's own cycle misses the fine one.
+  function ellipse(flow, fine, attractor, j, others) result(form)
     class(flow_t), intent(inout) :: flow
     class(flow_t), intent(inout) :: fine
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
+    type(attractor_t), intent(in) :: others(:)
     real(dp) :: form(3)
-    real(dp) :: basis(2, 2), inverse(2, 2), first, radius, trapped
-    logical :: good
+    real(dp) :: basis(2, 2), inverse(2, 2), radius, first, last
 
     form = 0
     call eigenbasis(monodromy(fine, attractor, j), attractor%multiplier, basis, inverse)
-    trapped = 0
-    first = ROUNDING*maxval(hypot(PI*attractor%u, attractor%v))*norm2(inverse)/(1 - abs(attractor%multiplier(1)))
-    first = max(first, SMALLEST)
-    radius = first
+    radius = ROUNDING*max(flow%rounding, epsilon(1.0_dp))*maxval(hypot(PI*attractor%u, attractor%v)) &
+             *norm2(inverse)/(1 - abs(attractor%multiplier(1)))
+    radius = max(radius, SMALLEST)
+    first = 0
+    last = 0
     do while (radius < LARGEST)
-      good = carried_inside(flow, attractor, j, basis, inverse, radius)
-      if (trapped > 0 .and. .not. good) exit
-      if (trapped <= 0 .and. radius > 1e-2_dp) exit
-      if (good) trapped = radius
+      if (carried_inside(flow, attractor, j, basis, inverse, radius)) then
+        if (first <= 0) first = radius
+        last = radius
+      else if (first > 0 .or. radius > LATEST) then
+        exit
+      end if
       radius = radius*GROWTH
     end do
-    if (trapped > 0) trapped = refined(flow, attractor, j, basis, inverse, first, trapped)
-    if (trapped <= 0) return
+    if (first <= 0) return
+    last = refined(flow, attractor, j, basis, inverse, first, last)
+    if (clearance(attractor, j, inverse, others) < max(last, 4*first)) return
     form = [PI**2*(inverse(1, 1)**2 + inverse(2, 1)**2), &
             PI*(inverse(1, 1)*inverse(1, 2) + inverse(2, 1)*inverse(2, 2)), &
-            inverse(1, 2)**2 + inverse(2, 2)**2]/trapped**2
+            inverse(1, 2)**2 + inverse(2, 2)**2]/last**2
   end function ellipse
 
-  !> Largest good radius between `radius` and the next tried one, with all rings from `first` on good too; 0 where there is none.
-  function refined(flow, attractor, j, basis, inverse, first, radius) result(best)
+  !> Distance, in the norm of the ellipse, from strobe point j to the nearest one of another attractor, its mirror image included.
+  !> An ellipse that reaches so far is none: the scene's map has another motion there than the fine one. Nor is one whose first ring
+  !> is not small against it: which of the two an orbit ends at would be open.
+  pure function clearance(attractor, j, inverse, others) result(distance)
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    real(dp), intent(in) :: inverse(2, 2)
+    type(attractor_t), intent(in) :: others(:)
+    real(dp) :: distance
+    integer :: a
+
+    distance = huge(1.0_dp)
+    if (.not. attractor%symmetric) distance = to_points(-attractor%u, -attractor%v) ! the mirror image's
+    do a = 1, size(others)
+      if (others(a)%period > 0) distance = min(distance, to_points(others(a)%u, others(a)%v))
+    end do
+
+  contains
+
+    pure function to_points(u, v) result(shortest)
+      real(dp), intent(in) :: u(:)
+      real(dp), intent(in) :: v(:)
+      real(dp) :: shortest
+      integer :: i
+
+      shortest = huge(1.0_dp)
+      do i = 1, size(u)
+        shortest = min(shortest, norm2(matmul(inverse, [PI*apart(u(i), attractor%u(j)), v(i) - attractor%v(j)])))
+      end do
+    end function to_points
+
+  end function clearance
+
+  !> Largest good radius between `last` and the next tried one, with rings from `first` on good too.
+  function refined(flow, attractor, j, basis, inverse, first, last) result(best)
     class(flow_t), intent(inout) :: flow
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
     real(dp), intent(in) :: basis(2, 2)
     real(dp), intent(in) :: inverse(2, 2)
     real(dp), intent(in) :: first
-    real(dp), intent(in) :: radius
+    real(dp), intent(in) :: last
     real(dp) :: best, tried
     integer :: i
 
-    best = radius
+    best = last
     do i = 1, 5
-      tried = best + (GROWTH - 1)*radius*0.5_dp**i
+      tried = best + (GROWTH - 1)*last*0.5_dp**i
       if (carried_inside(flow, attractor, j, basis, inverse, tried)) best = tried
     end do
     do i = 1, N_RINGS - 1
       tried = best*i/N_RINGS
       if (tried < first) cycle
       if (carried_inside(flow, attractor, j, basis, inverse, tried)) cycle
-      best = 0.9_dp*best*(i - 1)/N_RINGS
+      best = max(first, 0.9_dp*best*(i - 1)/N_RINGS)
       exit
     end do
   end function refined

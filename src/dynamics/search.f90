@@ -4,7 +4,7 @@ module kz_dynamics_search
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_kernel_tables, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, apart, listed_from_lowest, same_state
-  use kz_dynamics_ellipses, only: find_ellipses, drop_shared, in_ellipse
+  use kz_dynamics_ellipses, only: find_ellipses, in_ellipse
   use kz_dynamics_portraits, only: portray
   implicit none
   private
@@ -134,14 +134,9 @@ contains
     type(search_t), intent(inout) :: search
     type(attractor_t), intent(inout) :: attractor
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    integer :: a
 
     if (attractor%period > 0) then
-      call find_ellipses(search%flow, search%fine, attractor)
-      do a = 1, size(attractors)
-        call drop_shared(attractor, attractors(a))
-      end do
-      if (.not. attractor%symmetric) call drop_shared(attractor, mirror_image(attractor))
+      call find_ellipses(search%flow, search%fine, attractor, attractors)
       call portray(search%apart, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if
     attractor%mirror = size(attractors) + 1

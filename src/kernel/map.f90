@@ -33,6 +33,8 @@ module kz_kernel_map
 
   !> A map that is integrated: it also knows its derivative and what happens within the period.
   type, abstract, extends(map_t) :: flow_t
+    !> distance from 1 to the next number of its kind
+    real(c_double) :: rounding = epsilon(1.0_c_double)
   contains
     !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.
     procedure(advance_tangent_i), deferred :: advance_tangent
