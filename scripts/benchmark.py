@@ -121,7 +121,8 @@ def rounds_of(arguments, ours, catalogue, states):
 def measure(arguments, folder):
     """One row per contestant: time a cell, ratio to the twin, wrong labels."""
     ours = [Ours(setting, arguments.scene, folder) for setting in OURS + arguments.try_]
-    ours[0].seconds_per_cell(arguments.core)
+    for setting in ours:  # once unmeasured: files come into memory, `accuracy` hears its truth
+        setting.seconds_per_cell(arguments.core)
     result = Result(ours[0].file)
     basin, catalogue = result.group("basin"), truth_check.Catalogue(result)
 
