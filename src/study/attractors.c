@@ -28,7 +28,7 @@ kz_cost kz_attractors_cost(const kz_scene *scene) {
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
   double starts = (double)scene->attractors.starts, kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
-  return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 5e7 + 100 * starts, .core_seconds = 1e-9 * 200 * kicks * starts};
+  return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * starts, .core_seconds = 1e-9 * 200 * kicks * starts};
 }
 
 static kz_status allocate(const kz_scene *scene, search *s) {

@@ -335,7 +335,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   kz_cost cost = {
       .cells = plan->theta.count * plan->velocity.count,
       .disk_bytes = 14 * cells,
-      .memory_bytes = 5e7 + 27 * cells + 100 * nodes,
+      .memory_bytes = 27 * cells + 100 * nodes,
       .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) + cells * 10 * cell_period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;

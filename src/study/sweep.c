@@ -63,7 +63,7 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
   const double cells = grid ? (double)scene->basin.theta.count * (double)scene->basin.velocity.count : 0;
   return (kz_cost){.cells = (int64_t)(cells * values),
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
-                   .memory_bytes = 5e7 + 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells,
+                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells,
                    .core_seconds = values * value_seconds(scene)};
 }
 

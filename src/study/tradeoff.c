@@ -37,7 +37,7 @@ kz_cost kz_tradeoff_cost(const kz_scene *scene) {
     nodes = fmax(nodes, (double)setting->nodes * (double)setting->nodes);
   }
   return (kz_cost){.disk_bytes = 1e6,
-                   .memory_bytes = 5e7 + 120 * nodes,
+                   .memory_bytes = 120 * nodes,
                    .core_seconds = kicks * kick_seconds + truth_seconds * mean_periods * (double)scene->tradeoff.samples};
 }
 
