@@ -41,8 +41,6 @@ module kz_dynamics_tables
     integer :: points = 6     !< of the stencil along an axis: 2, 4, 6
     class(flow_t), allocatable :: flow !< integrates the periods that begin outside the table
   contains
-    procedure :: put
-    procedure :: move
     procedure :: advance => interpolate
   end type table_map_t
 
@@ -130,27 +128,6 @@ contains
     map%points = points
     allocate (map%flow, source=flow)
   end function make_table_map
-
-  subroutine put(self, lane, u, v)
-    class(table_map_t), intent(inout) :: self
-    integer, intent(in) :: lane
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-
-    self%u(lane) = u
-    self%v(lane) = v
-    self%turns(lane) = 0
-  end subroutine put
-
-  subroutine move(self, from, to)
-    class(table_map_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
-
-    self%u(to) = self%u(from)
-    self%v(to) = self%v(from)
-    self%turns(to) = self%turns(from)
-  end subroutine move
 
   !> One period of n lanes.
   subroutine interpolate(self, n)

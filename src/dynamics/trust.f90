@@ -3,7 +3,7 @@
 !> upon the table, is integrated up to here, and goes on with the table and no error.
 module kz_dynamics_trust
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
+  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t, apart, sheared
   use kz_dynamics_labels, only: follow, DOUBTFUL
   use kz_dynamics_regions, only: regions_t
@@ -83,9 +83,8 @@ contains
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
 
-    call self%table_map_t%put(lane, u, v)
+    call put_state(self, lane, u, v)
     self%error(:, lane) = 0
-    self%doubtful(lane) = .false.
   end subroutine put
 
   subroutine move(self, from, to)
@@ -93,9 +92,8 @@ contains
     integer, intent(in) :: from
     integer, intent(in) :: to
 
-    call self%table_map_t%move(from, to)
+    call move_state(self, from, to)
     self%error(:, to) = self%error(:, from)
-    self%doubtful(to) = self%doubtful(from)
   end subroutine move
 
   !> One period of n lanes and of their errors: the tangent map, by differences of the nodes around each state, and the defect.

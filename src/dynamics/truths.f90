@@ -1,7 +1,7 @@
 !> The truth as a stroboscopic map: states in quad precision, seen by the trapping regions as doubles.
 module kz_dynamics_truths
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_kernel_map, only: map_t, WIDTH, PI
+  use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_kernel_tables, only: pendulum_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
@@ -56,9 +56,7 @@ contains
       if (.not. (self%start_u(self%last) < u .or. self%start_u(self%last) > u .or. &
                  self%start(2, self%last) < v .or. self%start(2, self%last) > v)) exit
     end do
-    self%u(lane) = u
-    self%v(lane) = v
-    self%turns(lane) = 0
+    call put_state(self, lane, u, v)
     self%theta(lane) = real(self%start(1, self%last), qp)
     self%velocity(lane) = real(self%start(2, self%last), qp)
   end subroutine put
@@ -68,9 +66,7 @@ contains
     integer, intent(in) :: from
     integer, intent(in) :: to
 
-    self%u(to) = self%u(from)
-    self%v(to) = self%v(from)
-    self%turns(to) = self%turns(from)
+    call move_state(self, from, to)
     self%theta(to) = self%theta(from)
     self%velocity(to) = self%velocity(from)
   end subroutine move

@@ -7,7 +7,7 @@ module kz_kernel_map
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   implicit none
   private
-  public :: map_t, flow_t, WIDTH, PI
+  public :: map_t, flow_t, put_state, move_state, WIDTH, PI
 
   !> Trajectories per tile; a multiple of every vector width.
   integer, parameter :: WIDTH = 64
@@ -24,9 +24,9 @@ module kz_kernel_map
     logical :: doubtful(WIDTH) = .false.
   contains
     !> Puts a state into a lane and sets its turns to 0.
-    procedure(put_i), deferred :: put
+    procedure :: put => put_state
     !> Copies lane `from` over lane `to`.
-    procedure(move_i), deferred :: move
+    procedure :: move => move_state
     !> Advances the lanes 1 .. n (or all) by one period.
     procedure(advance_i), deferred :: advance
   end type map_t
@@ -43,21 +43,6 @@ module kz_kernel_map
   end type flow_t
 
   abstract interface
-    subroutine put_i(self, lane, u, v)
-      import :: map_t, c_double
-      class(map_t), intent(inout) :: self
-      integer, intent(in) :: lane
-      real(c_double), intent(in) :: u
-      real(c_double), intent(in) :: v
-    end subroutine put_i
-
-    subroutine move_i(self, from, to)
-      import :: map_t
-      class(map_t), intent(inout) :: self
-      integer, intent(in) :: from
-      integer, intent(in) :: to
-    end subroutine move_i
-
     subroutine advance_i(self, n)
       import :: map_t
       class(map_t), intent(inout) :: self
@@ -79,5 +64,30 @@ module kz_kernel_map
       real(c_double), intent(out) :: v(n)
     end subroutine sample_i
   end interface
+
+contains
+
+  subroutine put_state(self, lane, u, v)
+    class(map_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(c_double), intent(in) :: u
+    real(c_double), intent(in) :: v
+
+    self%u(lane) = u
+    self%v(lane) = v
+    self%turns(lane) = 0
+    self%doubtful(lane) = .false.
+  end subroutine put_state
+
+  subroutine move_state(self, from, to)
+    class(map_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    self%u(to) = self%u(from)
+    self%v(to) = self%v(from)
+    self%turns(to) = self%turns(from)
+    self%doubtful(to) = self%doubtful(from)
+  end subroutine move_state
 
 end module kz_kernel_map

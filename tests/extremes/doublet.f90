@@ -1,6 +1,6 @@
 !> A made-up map with two attracting fixed points, mirror images so far apart, and a saddle between them: dynamics on it for tests.
 module kz_test_doublet
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_loc, c_int64_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_loc
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_kernel_tables, only: pendulum_t
   use kz_dynamics_handle, only: dynamics_t
@@ -11,8 +11,6 @@ module kz_test_doublet
   type, extends(flow_t) :: doublet_t
     real(dp) :: half = 0
   contains
-    procedure :: put
-    procedure :: move
     procedure :: advance
     procedure :: advance_tangent
     procedure :: sample
@@ -36,27 +34,6 @@ contains
     allocate (d%attractors(0))
     handle = c_loc(d)
   end function create
-
-  subroutine put(self, lane, u, v)
-    class(doublet_t), intent(inout) :: self
-    integer, intent(in) :: lane
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-
-    self%u(lane) = u
-    self%v(lane) = v
-    self%turns(lane) = 0
-  end subroutine put
-
-  subroutine move(self, from, to)
-    class(doublet_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
-
-    self%u(to) = self%u(from)
-    self%v(to) = self%v(from)
-    self%turns(to) = self%turns(from)
-  end subroutine move
 
   subroutine advance(self, n)
     class(doublet_t), intent(inout) :: self
