@@ -2,17 +2,16 @@
 module kz_dynamics_border
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_kernel_map, only: WIDTH, PI
-  use kz_kernel_plan, only: make_flow, FINE, DOUBLE
+  use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
   use kz_kernel_tables, only: pendulum_t, numerics_t
   use kz_dynamics_catalogue, only: order_of, packed, unpacked
   use kz_dynamics_chaos, only: find_chaos
-  use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_growth, only: make_later, grow_regions
   use kz_dynamics_handle, only: dynamics_t, of_handle
-  use kz_dynamics_regions, only: regions_t, make_regions, draw_attractors
-  use kz_dynamics_search, only: search_t, find_cycles
+  use kz_dynamics_regions, only: make_regions, draw_attractors
+  use kz_dynamics_search, only: find_cycles
+  use kz_dynamics_tables, only: make_table, table_row, set_table_rows, table_map_t, make_table_map
   use kz_dynamics_trial, only: table_defect
-  use kz_dynamics_tables, only: table_t, make_table, table_row, set_table_rows, table_map_t, make_table_map
   implicit none
   private
 
@@ -36,7 +35,7 @@ contains
     integer(c_int64_t), value :: max_period
     type(c_ptr) :: handle
     type(dynamics_t), pointer :: d
-    type(numerics_t) :: coarse, polish
+    type(numerics_t) :: coarse
     integer :: status
 
     handle = c_null_ptr
@@ -44,14 +43,12 @@ contains
     if (status /= 0) return
     coarse = numerics
     coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
-    polish = FINE
-    polish%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_dp, abs(pendulum%k) + abs(pendulum%m))))
     call make_flow(pendulum, numerics, .true., d%flow)
     d%search%pendulum = pendulum
     d%search%max_period = int(max_period)
     call make_flow(pendulum, coarse, .true., d%search%flow)
-    call make_flow(pendulum, polish, .true., d%search%fine)
-    call make_flow(pendulum, polish, .false., d%search%apart)
+    call make_flow(pendulum, fine_numerics(pendulum), .true., d%search%fine)
+    call make_flow(pendulum, fine_numerics(pendulum), .false., d%search%apart)
     allocate (d%attractors(0))
     handle = c_loc(d)
   end function create

@@ -2,10 +2,12 @@
 module kz_dynamics_branches
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_kernel_map, only: flow_t, PI
-  use kz_kernel_plan, only: make_flow, FINE
-  use kz_kernel_tables, only: pendulum_t, numerics_t
-  use kz_dynamics_cycles, only: attractor_t, apart, eigenvalues, n_periods, solved, minimal_period, orbit_of
+  use kz_kernel_plan, only: make_flow, fine_numerics
+  use kz_kernel_tables, only: pendulum_t
+  use kz_dynamics_cycles, only: attractor_t, orbit_of
+  use kz_dynamics_newton, only: eigenvalues, n_periods, solved, minimal_period
   use kz_dynamics_portraits, only: portray
+  use kz_dynamics_states, only: apart
   implicit none
   private
 
@@ -38,7 +40,7 @@ contains
     real(dp) :: x(2)
 
     found = 0
-    call make_flow(pendulum, numerics_of(pendulum), .true., flow)
+    call make_flow(pendulum, fine_numerics(pendulum), .true., flow)
     x = [from%theta/PI, from%velocity]
     if (.not. solves(flow, from, reach, x)) return
     if (minimal_period(flow, int(from%period), x) /= from%period) return
@@ -67,22 +69,13 @@ contains
     if (hypot(a%multiplier_re(1) - b%multiplier_re(1), abs(a%multiplier_im(1)) - abs(b%multiplier_im(1))) > ALIKE) return
     if (distance([a%theta/PI, a%velocity], [b%theta/PI, b%velocity]) < MERGED) same = 1
     if (same == 1 .or. a%period == 1) return
-    call make_flow(pendulum, numerics_of(pendulum), .true., flow)
+    call make_flow(pendulum, fine_numerics(pendulum), .true., flow)
     call flow%put(1, a%theta/PI, a%velocity)
     do i = 1, a%period - 1
       call flow%advance(1)
       if (distance([flow%u(1), flow%v(1)], [b%theta/PI, b%velocity]) < MERGED) same = 1
     end do
   end function same_cycle
-
-  !> The steps of published values: more where the torque is large.
-  pure function numerics_of(pendulum) result(numerics)
-    type(pendulum_t), intent(in) :: pendulum
-    type(numerics_t) :: numerics
-
-    numerics = FINE
-    numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_dp, abs(pendulum%k) + abs(pendulum%m))))
-  end function numerics_of
 
   !> Periods of the map that a cycle is a fixed point of.
   pure function map_periods(cycle) result(n)
@@ -154,7 +147,7 @@ contains
     call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*n)), point%multiplier_re, point%multiplier_im)
     call defect(flow, point, x, residual, matrix)
     call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*map_periods(point))), point%half_re, point%half_im)
-    call make_flow(pendulum, numerics_of(pendulum), .false., sampled)
+    call make_flow(pendulum, fine_numerics(pendulum), .false., sampled)
     call portray(sampled, pendulum, cycle, x(1), x(2), n)
     point%winding = cycle%winding
     point%centre = cycle%centre

@@ -3,6 +3,7 @@ module kz_dynamics_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: PI
   use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_states, only: rounded
   implicit none
   private
   public :: order_of, packed, unpacked
@@ -58,13 +59,6 @@ contains
       key = [real(a%centre, dp), huge(1.0_dp), 0.0_dp, 0.0_dp, rounded(-a%mean_velocity), rounded(PI*a%mean)]
     end if
   end function key
-
-  elemental function rounded(x) result(n)
-    real(dp), intent(in) :: x
-    real(dp) :: n
-
-    n = anint(x*1e9_dp)
-  end function rounded
 
   !> The whole catalogue as doubles; integers are exact in them.
   function packed(attractors) result(flat)

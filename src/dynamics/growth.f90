@@ -5,10 +5,11 @@
 module kz_dynamics_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: WIDTH
-  use kz_dynamics_cycles, only: attractor_t, sheared
+  use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_ellipses, only: in_ellipse
-  use kz_dynamics_regions, only: regions_t, fold_cell
   use kz_dynamics_images, only: image_t, cell_image, extent
+  use kz_dynamics_regions, only: regions_t, fold_cell
+  use kz_dynamics_states, only: sheared
   use kz_dynamics_tables, only: table_t, table_map_t, fill_ghosts
   implicit none
   private

@@ -4,7 +4,6 @@ module kz_dynamics_measures
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int16_t, c_int64_t
   implicit none
   private
-  public :: basin_entropy, uncertain_share
 
   integer, parameter :: BOX = 5
 

@@ -3,7 +3,8 @@ module kz_dynamics_portraits
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_tables, only: pendulum_t
-  use kz_dynamics_cycles, only: attractor_t, apart
+  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_states, only: apart
   implicit none
   private
   public :: portray, SAMPLES

@@ -2,8 +2,9 @@
 !> touched by trapping ellipses, or open.
 module kz_dynamics_regions
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_dynamics_cycles, only: attractor_t, apart, sheared
+  use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_ellipses, only: in_ellipse
+  use kz_dynamics_states, only: apart, sheared
   implicit none
   private
   public :: regions_t, make_regions, draw_attractors, captors, fold_cell, cover_cell, coverer

@@ -1,11 +1,12 @@
 !> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
 module kz_dynamics_search
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_kernel_tables, only: pendulum_t
-  use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, apart, listed_from_lowest, same_state
+  use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
   use kz_dynamics_ellipses, only: find_ellipses, in_ellipse
   use kz_dynamics_portraits, only: portray
+  use kz_dynamics_states, only: apart, same_state
   implicit none
   private
   public :: search_t, find_cycles, add_with_mirror

@@ -5,7 +5,7 @@
 module kz_dynamics_tables
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, WIDTH
-  use kz_dynamics_cycles, only: sheared
+  use kz_dynamics_states, only: sheared
   implicit none
   private
   public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map, &

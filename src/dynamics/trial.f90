@@ -6,7 +6,7 @@ module kz_dynamics_trial
   use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_tables, only: pendulum_t, numerics_t
-  use kz_dynamics_cycles, only: apart
+  use kz_dynamics_states, only: apart
   implicit none
   private
   public :: table_defect

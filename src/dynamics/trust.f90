@@ -4,9 +4,10 @@
 module kz_dynamics_trust
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
-  use kz_dynamics_cycles, only: attractor_t, apart, sheared
+  use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_labels, only: follow, DOUBTFUL
   use kz_dynamics_regions, only: regions_t
+  use kz_dynamics_states, only: apart, sheared
   use kz_dynamics_tables, only: table_t, table_map_t, make_table_map, place_t, locate, displace
   implicit none
   private

@@ -6,7 +6,6 @@ module kz_kernel_models
   use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
   implicit none
   private
-  public :: sample_model
 
   !> The codes of kernel.h.
   integer(c_int32_t), parameter :: MATHIEU = 1, EFFECTIVE = 2

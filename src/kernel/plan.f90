@@ -1,5 +1,6 @@
 !> From a pendulum and its numerics to a map of the right kind. The only place that knows all kinds.
 module kz_kernel_plan
+  use, intrinsic :: iso_c_binding, only: c_double
   use kz_kernel_map, only: flow_t
   use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
   use kz_kernel_r32, only: make_tile_r32 => make_tile
@@ -7,7 +8,7 @@ module kz_kernel_plan
   use kz_kernel_r128, only: make_tile_r128 => make_tile
   implicit none
   private
-  public :: make_flow, FINE
+  public :: make_flow, fine_numerics, FINE
 
   !> The codes of numerics_t%precision.
   integer, parameter, public :: SINGLE = 0, DOUBLE = 1, QUAD = 2
@@ -16,6 +17,15 @@ module kz_kernel_plan
   type(numerics_t), parameter :: FINE = numerics_t(2, 96, DOUBLE)
 
 contains
+
+  !> FINE, with more steps where the torque is large.
+  pure function fine_numerics(pendulum) result(numerics)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t) :: numerics
+
+    numerics = FINE
+    numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_c_double, abs(pendulum%k) + abs(pendulum%m))))
+  end function fine_numerics
 
   !> The map of one drive period. Steps that are joined are faster; sampling within the period needs them apart. (A subroutine:
   !> gfortran 12 does not free what a polymorphic function returns.)

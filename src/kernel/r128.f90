@@ -1,7 +1,7 @@
 !> The tile in quad precision.
 module kz_kernel_r128
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
-  use, intrinsic :: iso_fortran_env, only: rk => real128, real128
+  use, intrinsic :: iso_fortran_env, only: rk => real128
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH
   use kz_kernel_tables, only: period_t, INVERSE_PI_QUAD

@@ -1,7 +1,7 @@
 !> The tile in single precision.
 module kz_kernel_r32
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
-  use, intrinsic :: iso_fortran_env, only: rk => real32, ik => int32, real128
+  use, intrinsic :: iso_fortran_env, only: rk => real32, ik => int32
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH
   use kz_kernel_tables, only: period_t, INVERSE_PI_QUAD

@@ -1,7 +1,7 @@
 !> The tile in double precision.
 module kz_kernel_r64
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
-  use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64, real128
+  use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH
   use kz_kernel_tables, only: period_t, INVERSE_PI_QUAD

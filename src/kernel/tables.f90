@@ -2,7 +2,7 @@
 module kz_kernel_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
-  use kz_kernel_schemes, only: scheme_t, stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
+  use kz_kernel_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
   implicit none
   private
   public :: pendulum_t, numerics_t, period_t, make_period, INVERSE_PI_QUAD

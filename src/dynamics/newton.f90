@@ -1,0 +1,150 @@
+!> Newton's method on the n-period stroboscopic map, and how well it places a fixed point.
+module kz_dynamics_newton
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_dynamics_states, only: apart, same_state
+  implicit none
+  private
+  public :: newton, n_periods, solved, minimal_period, eigenvalues
+
+  !> rad: a fixed point must be placed better than states are told apart.
+  real(dp), parameter :: PLACED = 1e-8_dp
+
+contains
+
+  !> x = (half-turns, velocity) becomes the fixed point of the n-period map near it: `found` where it is placed well enough,
+  !> `blurred` where the steps end at more than that.
+  subroutine newton(flow, n, reach, x, found, blurred)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: n
+    real(dp), intent(in) :: reach
+    real(dp), intent(inout) :: x(2)
+    logical, intent(out) :: found
+    logical, intent(out) :: blurred
+    !> Steps below SMALL that shrink no more are due to rounding, if there are several.
+    real(dp), parameter :: SMALL = 1e-5_dp
+    integer, parameter :: MOST_STALLS = 3
+    real(dp) :: start(2), residual(2), step(2), matrix(2, 2), size_now, size_before
+    integer :: iteration, stalls
+
+    start = x
+    stalls = 0
+    size_before = huge(1.0_dp)
+    found = .false.
+    blurred = .false.
+    do iteration = 1, 40
+      call n_periods(flow, n, x, residual, matrix)
+      step = solved(matrix, residual)
+      if (.not. all(abs(step) < huge(1.0_dp))) return
+      size_now = norm2(step)
+      if (size_now < 1e-9_dp .and. size_now >= 0.5_dp*size_before) exit
+      if (size_now < SMALL .and. size_now >= 0.9_dp*size_before) stalls = stalls + 1
+      if (stalls > MOST_STALLS) exit
+      x = x - [step(1)/PI, step(2)]
+      if (norm2([PI, 1.0_dp]*(x - start)) > reach) return
+      if (size_now < 1e-15_dp) exit
+      size_before = size_now
+    end do
+    x(1) = apart(x(1), 0.0_dp)
+    if (size_now >= SMALL) return
+    blurred = max(size_now, uncertainty(flow, n, x, matrix)) >= PLACED
+    found = .not. blurred
+  end subroutine newton
+
+  !> How far x may lie from the fixed point of the n-period map, rad: so far from x ends Newton's method that starts a few
+  !> roundings beside it. Near a bifurcation, where matrix - 1 is nearly singular, the rounding of F^n is amplified by the inverse,
+  !> and by chance any state there comes back to the last bit: Newton's own last step says nothing.
+  function uncertainty(flow, n, x, matrix) result(farthest)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(2)
+    real(dp), intent(in) :: matrix(2, 2)
+    real(dp) :: farthest
+    real(dp), parameter :: ROUNDING = 1e-15_dp
+    integer, parameter :: BESIDE = 8
+    real(dp) :: start(2, BESIDE), residual(2)
+    integer :: i
+
+    do i = 1, BESIDE
+      start(:, i) = x + ROUNDING*(i - BESIDE/2)*[1, -1]
+      call flow%put(i, start(1, i), start(2, i))
+    end do
+    do i = 1, n
+      call flow%advance(BESIDE)
+    end do
+    farthest = 0
+    do i = 1, BESIDE
+      residual = [PI*apart(flow%u(i), start(1, i)), flow%v(i) - start(2, i)]
+      farthest = max(farthest, norm2([PI, 1.0_dp]*(start(:, i) - x) - solved(matrix, residual)))
+    end do
+  end function uncertainty
+
+  !> residual = F^n(x) - x with whole turns taken out (rad), matrix = its derivative + 1.
+  subroutine n_periods(flow, n, x, residual, matrix)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(2)
+    real(dp), intent(out) :: residual(2)
+    real(dp), intent(out) :: matrix(2, 2)
+    real(dp) :: tangent(2, 2, WIDTH)
+    integer :: i
+
+    call flow%put(1, x(1), x(2))
+    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    do i = 1, n
+      call flow%advance_tangent(1, tangent)
+    end do
+    residual = [PI*apart(flow%u(1), x(1)), flow%v(1) - x(2)]
+    matrix = tangent(:, :, 1)
+  end subroutine n_periods
+
+  !> Solves (matrix - 1) step = residual.
+  pure function solved(matrix, residual) result(step)
+    real(dp), intent(in) :: matrix(2, 2)
+    real(dp), intent(in) :: residual(2)
+    real(dp) :: step(2)
+    real(dp) :: a, b, c, d
+
+    a = matrix(1, 1) - 1
+    b = matrix(1, 2)
+    c = matrix(2, 1)
+    d = matrix(2, 2) - 1
+    step = [d*residual(1) - b*residual(2), a*residual(2) - c*residual(1)]/(a*d - b*c)
+  end function solved
+
+  !> The smallest divisor of n after which the orbit of x is back.
+  function minimal_period(flow, n, x) result(period)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: n
+    real(dp), intent(in) :: x(2)
+    integer :: period
+
+    call flow%put(1, x(1), x(2))
+    do period = 1, n - 1
+      call flow%advance(1)
+      if (mod(n, period) /= 0) cycle
+      if (same_state(flow%u(1), flow%v(1), x(1), x(2))) return
+    end do
+    period = n
+  end function minimal_period
+
+  !> Eigenvalues of a 2 x 2 matrix of known determinant: larger modulus first, then + imaginary first.
+  pure function eigenvalues(matrix, determinant) result(values)
+    real(dp), intent(in) :: matrix(2, 2)
+    real(dp), intent(in) :: determinant
+    complex(dp) :: values(2)
+    real(dp) :: half, root
+
+    half = 0.5_dp*(matrix(1, 1) + matrix(2, 2))
+    root = half**2 - determinant
+    if (root < 0) then
+      values = [cmplx(half, sqrt(-root), dp), cmplx(half, -sqrt(-root), dp)]
+    else
+      half = half + sign(sqrt(root), half)
+      values(1) = half
+      values(2) = 0
+      if (abs(half) > 0) values(2) = determinant/half
+    end if
+  end function eigenvalues
+
+end module kz_dynamics_newton

@@ -1,0 +1,52 @@
+!> States of the stroboscopic map, (half-turns, rad per drive radian): how far they are apart, when two are one.
+module kz_dynamics_states
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  implicit none
+  private
+  public :: apart, same_state, sheared, rounded
+
+  !> States nearer than this are one: half-turns and rad per drive radian together.
+  real(dp), parameter :: SAME = 1e-7_dp
+
+contains
+
+  !> Shortest difference of two angles in half-turns, in [-1, 1].
+  elemental function apart(a, b) result(d)
+    real(dp), intent(in) :: a
+    real(dp), intent(in) :: b
+    real(dp) :: d
+
+    d = a - b
+    d = d - 2*anint(0.5_dp*d)
+  end function apart
+
+  !> Are (u1, v1) and (u2, v2) one state?
+  elemental function same_state(u1, v1, u2, v2) result(one)
+    real(dp), intent(in) :: u1
+    real(dp), intent(in) :: v1
+    real(dp), intent(in) :: u2
+    real(dp), intent(in) :: v2
+    logical :: one
+
+    one = abs(apart(u1, u2)) + abs(v1 - v2) < SAME
+  end function same_state
+
+  !> The angle at mid-period of a free flight from (u, v), in half-turns, not wrapped. The map table and the regions are grids over it
+  !> and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs 2**order less.
+  elemental function sheared(u, v) result(w)
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    real(dp) :: w
+
+    w = u + v
+  end function sheared
+
+  !> As numbers are compared where an order depends on them: to 1e-9.
+  elemental function rounded(x) result(n)
+    real(dp), intent(in) :: x
+    real(dp) :: n
+
+    n = anint(x*1e9_dp)
+  end function rounded
+
+end module kz_dynamics_states
