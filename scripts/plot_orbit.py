@@ -3,7 +3,7 @@
 
     scripts/plot_orbit.py butikov-fig07.h5                               all four panels
     scripts/plot_orbit.py blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
-    scripts/plot_orbit.py blackburn-fig09-050.h5 --panels phase,path
+    scripts/plot_orbit.py blackburn-fig09c.h5 --panels phase,path
 """
 
 import kapitza_style as style

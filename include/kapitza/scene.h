@@ -57,6 +57,8 @@ const kz_key *kz_key_find(const kz_key *keys, const char *path);
 bool kz_key_is_child(const char *path, const char *parent);
 /* The names of the keys of mapping `parent`, joined by '|', written to `text` [bytes]. */
 void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes);
+/* The words "a|b|c" as "a, b, c", written to `text` [bytes]. */
+void kz_key_list(const char *words, char *text, size_t bytes);
 /* "an integer from 1 to 512": what the key takes, written to `text` [bytes]. */
 void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes);
 /* The word nearest to `word` among `words` ("a|b|c"), copied to `nearest` [bytes]; false where none is near. */
@@ -123,8 +125,8 @@ void kz_reading_rules(kz_reading *reading);
 /* Text of a scene, and of --set options ("KEY=VALUE"), into a scene that the caller frees. KZ_REFUSED names the first error. */
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene);
 void kz_scene_free(kz_scene *scene);
-/* A refusal "KEY|KEY: what is wrong" that another floor made gets the place of the first of its keys that was given (else of the
- * last one's mapping); others stay as they are. Returns `status`. */
+/* A refusal or failure "KEY|KEY: what is wrong" that another floor made gets the place of the first of its keys that was given
+ * (else of the last one's mapping); others stay as they are. Returns `status`. */
 kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets);
 /* YAML with every default; reading it gives the same scene. `flat` = one "path: value" a line instead. */
 void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out);

@@ -40,8 +40,7 @@ static void print_range(const kz_key *key, char *text, size_t bytes) {
     snprintf(text, bytes, " of at least %s", low);
 }
 
-/* Writes the words of "a|b|c" as "a, b, c". */
-static void print_words(const char *words, char *text, size_t bytes) {
+void kz_key_list(const char *words, char *text, size_t bytes) {
   size_t at = 0;
   for (; *words && at + 3 < bytes; words++) {
     text[at++] = *words == '|' ? ',' : *words;
@@ -70,7 +69,7 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
     kz_key_children(keys, key->path, names, sizeof names);
   else
     snprintf(names, sizeof names, "%s", kz_key_words(key));
-  print_words(names, detail, sizeof detail);
+  kz_key_list(names, detail, sizeof detail);
   if (key->high > key->low) print_range(key, detail, sizeof detail);
   snprintf(text, bytes, "%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit);
 }

@@ -128,7 +128,8 @@ static void describe(const command_row *command, struct option *longs, char *sho
 static kz_status refuse_option(const command_row *command, const char *typed, bool lacks_argument) {
   char names[256] = "", nearest[64];
   const size_t length = strcspn(typed, "=");
-  if (lacks_argument) return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza %s --help", typed, command->name);
+  const char *space = command->name[0] ? " " : "";
+  if (lacks_argument) return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza%s%s --help", typed, space, command->name);
   for (int i = 0; i < N_ROWS; i++)
     if (rows[i].commands & command->bit)
       snprintf(names + strlen(names), sizeof names - strlen(names), "%s--%s", names[0] ? "|" : "", rows[i].name);
@@ -136,8 +137,8 @@ static kz_status refuse_option(const command_row *command, const char *typed, bo
   snprintf(name, sizeof name, "%.*s", (int)length, typed);
   if (kz_key_suggest(name, names, nearest, sizeof nearest) && strcmp(nearest, name) != 0)
     return kz_fail(KZ_REFUSED, "%.80s: unknown option; did you mean %s?", typed, nearest);
-  return kz_fail(KZ_REFUSED, "%.80s: %s; kapitza %s --help lists the options", typed,
-                 typed[length] && strstr(names, name) ? "takes no value" : "unknown option", command->name);
+  return kz_fail(KZ_REFUSED, "%.80s: %s; kapitza%s%s --help lists the options", typed,
+                 typed[length] && strstr(names, name) ? "takes no value" : "unknown option", space, command->name);
 }
 
 static kz_status read_options(const command_row *command, int argc, char **argv, kz_options *options, bool *helped) {

@@ -63,7 +63,7 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
   char accepted[700], nearest[64], hint[96] = "";
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
   if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
-    snprintf(hint, sizeof hint, " (did you mean %s?)", nearest);
+    snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);
   if (node->kind == KZ_SCALAR && node->text[0])
     kz_complain(reading, node, key->path, "\"%.60s\" %s; %s%s", node->text, wrong, accepted, hint);
   else
@@ -71,15 +71,14 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
 }
 
 static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path) {
-  char names[1024], nearest[64];
+  char names[1024], list[1024], nearest[64];
   kz_key_children(reading->keys, parent, names, sizeof names);
   if (kz_key_suggest(node->name, names, nearest, sizeof nearest)) {
     complain_key(reading, node, path, "unknown key; did you mean %s?", nearest);
     return;
   }
-  for (char *c = names; *c; c++)
-    if (*c == '|') *c = ' ';
-  complain_key(reading, node, path, "unknown key; one of: %s", names);
+  kz_key_list(names, list, sizeof list);
+  complain_key(reading, node, path, "unknown key; one of %s", list);
 }
 
 static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent);

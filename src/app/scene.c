@@ -42,7 +42,7 @@ kz_status kz_scene_load(const char *path, char **text, size_t *length) {
 
 /* Refuses an option whose key is not in the table, naming the nearest one of its mapping. */
 static kz_status refuse_key(const kz_key *keys, const char *label, const char *path) {
-  char names[1024], parent[256], nearest[64];
+  char names[1024], list[1024], parent[256], nearest[64];
   const char *dot = strrchr(path, '.');
   snprintf(parent, sizeof parent, "%.*s", dot ? (int)(dot - path) : 0, path);
   const kz_key *holder = kz_key_find(keys, parent);
@@ -50,9 +50,8 @@ static kz_status refuse_key(const kz_key *keys, const char *label, const char *p
   kz_key_children(keys, parent, names, sizeof names);
   if (kz_key_suggest(dot ? dot + 1 : path, names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%s: %s: unknown key; did you mean %s%s%s?", label, path, parent, dot ? "." : "", nearest);
-  for (char *c = names; *c; c++)
-    if (*c == '|') *c = ' ';
-  return kz_fail(KZ_REFUSED, "%s: %s: unknown key; one of: %s", label, path, names);
+  kz_key_list(names, list, sizeof list);
+  return kz_fail(KZ_REFUSED, "%s: %s: unknown key; one of %s", label, path, list);
 }
 
 /* One option, "KEY=VALUE"; label = the source that its errors name. */
@@ -143,7 +142,7 @@ kz_status kz_scene_locate(kz_status status, const char *text, size_t length, con
   char message[2048];
   snprintf(message, sizeof message, "%s", kz_message());
   char *end = strstr(message, ": ");
-  if (status != KZ_REFUSED || !end) return status;
+  if ((status != KZ_REFUSED && status != KZ_FAILED) || !end) return status;
   *end = '\0';
   if (!are_keys(message)) return status;
   grown tree;

@@ -188,6 +188,7 @@ kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *p
 }
 
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary) {
+  if (catalogue->count == 0) return;
   fprintf(summary, "  id  name                   period  winding  amplitude  multiplier  exponent%s\n",
           with_fraction ? "    share" : "");
   for (int64_t i = 0; i < catalogue->count; i++) {

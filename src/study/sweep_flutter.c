@@ -134,9 +134,11 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
     fprintf(summary, "no flutter begins in the range or near it\n");
   else
     fprintf(summary, "flutter begins at %.12g (multiplier -1)\n", f->critical);
-  if (!isnan(law.line.slope))
-    fprintf(summary, "amplitude^2 = (%.6g +- %.2g) rad^2 times the distance; exponent %.5f +- %.5f\n", law.line.slope,
-            law.line.slope_stderr, law.exponent, law.exponent_error);
+  if (!isnan(law.line.slope)) {
+    fprintf(summary, "amplitude^2 = (%.6g +- %.2g) rad^2 times the distance", law.line.slope, law.line.slope_stderr);
+    if (!isnan(law.exponent)) fprintf(summary, "; exponent %.5f +- %.5f", law.exponent, law.exponent_error);
+    fputc('\n', summary);
+  }
   KZ_TRY(kz_store_real(store, "sweep", "critical_value", f->critical));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope", law.line.slope));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope_stderr", law.line.slope_stderr));

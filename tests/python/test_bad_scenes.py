@@ -48,7 +48,8 @@ def replaced(old, new):
 # text of the scene; where the error stands; what the line must name
 SCENES = {
     "unknown key": (GOOD + "colour: red\n", "9:1", "colour: unknown key"),
-    "unknown nested key": (GOOD + "  colour: red\n", "9:3", "basin.colour: unknown key"),
+    "unknown nested key": (GOOD + "  colour: red\n", "9:3",
+        "basin.colour: unknown key; one of theta, velocity, method"),
     "sweep of a key of another form": (GOOD + "sweep: {parameter: m, min: 0, max: 1, count: 3, measure: [strobe]}\n",
         "9:20", "sweep.parameter: m is not given in the pendulum mapping"),
     "sweep out of the key's range": (GOOD + "sweep: {parameter: drive_frequency, min: -1, max: 1, count: 3, measure: [strobe]}\n",
@@ -59,6 +60,8 @@ SCENES = {
         "9:74", "sweep.measure"),
     "sweep with an unknown measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: [angle]}\n",
         "9:75", "sweep.measure"),
+    "sweep with a measure that is no list": (
+        GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: strobe}\n", "9:74", "(did you mean [strobe]?)"),
     "sweep of one value": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 1, measure: [strobe]}\n",
         "9:62", "sweep.count"),
     "typo at the top": (replaced("pendulum", "pendulm"), "2:1", "pendulm: unknown key; did you mean pendulum?"),
@@ -170,6 +173,7 @@ SCENES = {
 # arguments after `kapitza`; what the line must name
 COMMAND_LINES = {
     "nothing": ([], "no command"),
+    "unknown option of the program": (["--colour"], "--colour: unknown option; kapitza --help lists"),
     "unknown command": (["modl", "scene.yaml"], "modl"),
     "typo in a command": (["chekc", "scene.yaml"], "did you mean check?"),
     "no scene": (["run"], "names no scene"),

@@ -1,6 +1,7 @@
 """The studies orbit and attractors: what must hold for every orbit, models, chaos, refusals."""
 
 import json
+import re
 from math import exp, pi, sqrt
 
 import numpy as np
@@ -177,5 +178,15 @@ def test_what_cannot_be_modelled_fails(kapitza, tmp_path, name):
     pendulum = {"quality_factor": 8, "drive_frequency": 7.0710678118654755, "drive_amplitude": drive}
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "orbit": orbit}))
     done = kapitza("run", "s.yaml", folder=tmp_path, status=1)
-    assert named in done.stderr
+    assert named in done.stderr and re.match(r"kapitza: error: s\.yaml:1:\d+: orbit", done.stderr)
+    assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
+
+
+@pytest.mark.parametrize("ranks", [None, 2])
+def test_an_attractor_that_is_not_there_is_refused(kapitza, tmp_path, ranks):
+    scene = {"pendulum": {"k": 0.1, "damping": 0.3, "m": 0}, "attractors": {**WINDOW, "starts": 16}, "orbit": {"attractor": 7}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    line = kapitza("run", "s.yaml", folder=tmp_path, ranks=ranks, status=2).stderr
+    place = f"s.yaml:1:{json.dumps(scene).index('7}') + 1}"
+    assert line == f"kapitza: error: {place}: orbit.attractor: 7 is not in the catalogue, which has 1; an id below that\n"
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]

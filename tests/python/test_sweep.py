@@ -181,6 +181,16 @@ def test_flutter_grows_with_the_square_root(sweep):
     assert 0 < attributes["fit_slope_stderr"] < 1e-2
 
 
+def test_a_summary_says_only_what_is_known(kapitza, tmp_path):
+    """Too few values with flutter for an exponent: the summary leaves it out."""
+    (tmp_path / "s.yaml").write_text("""\
+pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.5}
+sweep: {parameter: drive_amplitude, min: 0.46, max: 0.475, count: 7, measure: [flutter_amplitude]}
+""")
+    said = kapitza("run", "s.yaml", folder=tmp_path).stdout
+    assert "times the distance\n" in said and "nan" not in said
+
+
 def test_no_flutter_where_there_is_none(sweep):
     arrays, attributes = sweep("flutter_amplitude", 0.2, 0.25, 5, ranks=None)
     assert np.isnan(arrays["flutter_amplitude"]).all() and np.isnan(attributes["fit_slope"])
