@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A film of basins along one key of a scene: a run and a picture for every value, and an MP4 where ffmpeg is there.
 
+    source scripts/setup
     scripts/film_basin.py scenes/small.yaml pendulum.drive_amplitude 0.12 0.58 --count 116
     scripts/film_basin.py scenes/blackburn-fig12.yaml pendulum.drive_amplitude 0.12 0.58 --folder film --ranks 2
 

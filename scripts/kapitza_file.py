@@ -38,7 +38,7 @@ class Result:
 
     def _open(self):
         if not self.path.is_file():
-            raise BadFile(f"{self.path}: no such file")
+            raise BadFile(f"{self.path}: {'not a file' if self.path.exists() else 'no such file'}")
         try:
             with h5py.File(self.path, "r") as file:
                 groups = [name for name, item in file.items() if isinstance(item, h5py.Group)]
@@ -82,9 +82,14 @@ def _plain(value):
 
 
 def run(main):
-    """Calls main() and ends the script: one line and status 1 for a file that cannot be used."""
+    """Calls main() and ends the script: one line and status 1 for a file that cannot be used, or a picture that cannot be written."""
     try:
         main()
-    except BadFile as error:
-        print(f"error: {error}", file=sys.stderr)
+    except (BadFile, OSError) as error:
+        print(f"error: {_words(error)}", file=sys.stderr)
         sys.exit(1)
+
+
+def _words(error):
+    named = isinstance(error, OSError) and error.filename
+    return f"{error.filename}: {error.strerror}" if named else error

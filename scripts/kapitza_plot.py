@@ -13,14 +13,21 @@ def argument_parser(description, study):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", help=f"result file that holds {study}")
     parser.add_argument("-o", "--output", type=Path, help="picture; .png, .svg or .pdf (default: FILE's name with .png, here)")
-    parser.add_argument("--dpi", type=int, default=200)
+    parser.add_argument("--dpi", type=resolution, default=200)
     return parser
+
+
+def resolution(text):
+    """Dots per inch that a picture can have."""
+    if not 10 <= int(text) <= 2400:
+        raise argparse.ArgumentTypeError(f"{text} is out of range; from 10 to 2400")
+    return int(text)
 
 
 def parsed(parser):
     """The arguments, with the picture's name."""
     arguments = parser.parse_args()
-    arguments.output = arguments.output or Path(Path(arguments.file).with_suffix(".png").name)
+    arguments.output = arguments.output or Path(f"{Path(arguments.file).stem or 'picture'}.png")
     if arguments.output.suffix.lower() not in FORMATS:
         parser.error(f"{arguments.output}: the name must end in {', '.join(FORMATS)}")
     return arguments

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Draws the basins of attraction in a result file of kapitza.
 
-    scripts/plot_basin.py blackburn-fig12.h5                              every basin in its colour
-    scripts/plot_basin.py blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
-    scripts/plot_basin.py blackburn-fig12.h5 --quantity settling_time     how long every start takes to settle
+    .venv/bin/python scripts/plot_basin.py blackburn-fig12.h5                              every basin in its colour
+    .venv/bin/python scripts/plot_basin.py blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
+    .venv/bin/python scripts/plot_basin.py blackburn-fig12.h5 --quantity settling_time     how long every start takes to settle
 """
 
 import kapitza_style as style

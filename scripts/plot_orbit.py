@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Draws one orbit from a result file of kapitza: time graph with harmonics, bob path, phase portrait, line spectrum.
 
-    scripts/plot_orbit.py butikov-fig07.h5                               all four panels
-    scripts/plot_orbit.py blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
-    scripts/plot_orbit.py blackburn-fig09c.h5 --panels phase,path
+    .venv/bin/python scripts/plot_orbit.py butikov-fig07.h5                               all four panels
+    .venv/bin/python scripts/plot_orbit.py blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
+    .venv/bin/python scripts/plot_orbit.py blackburn-fig09c.h5 --panels phase,path
 """
 
 import kapitza_style as style

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws the effective potential from a result file of kapitza: exact, and by the two formulas of Blackburn et al. (1992).
 
-    scripts/plot_potential.py blackburn-fig05.h5
+    .venv/bin/python scripts/plot_potential.py blackburn-fig05.h5
 """
 
 import kapitza_style as style

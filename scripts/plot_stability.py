@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Draws a stability chart of kapitza: zones, transition curves, and by how much the papers' formulas are off.
 
-    scripts/plot_stability.py butikov-fig01.h5                      zones and curves over (k, m)
-    scripts/plot_stability.py blackburn-fig02.h5 --view growth      the growth rate in the tongues
-    scripts/plot_stability.py blackburn-fig04.h5 --view frequency   hanging and inverted over the drive frequency
-    scripts/plot_stability.py formula-errors.h5 --view errors       every formula against its exact curve
+    .venv/bin/python scripts/plot_stability.py butikov-fig01.h5                      zones and curves over (k, m)
+    .venv/bin/python scripts/plot_stability.py blackburn-fig02.h5 --view growth      the growth rate in the tongues
+    .venv/bin/python scripts/plot_stability.py blackburn-fig04.h5 --view frequency   hanging and inverted over the drive frequency
+    .venv/bin/python scripts/plot_stability.py formula-errors.h5 --view errors       every formula against its exact curve
 """
 
 import re

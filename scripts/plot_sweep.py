@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Draws a sweep of kapitza: quantities along one parameter of the pendulum.
 
-    scripts/plot_sweep.py blackburn-walk.h5                       basins along the parameter, branches under them
-    scripts/plot_sweep.py blackburn-fig10.h5                      amplitude of the flutter, and its square
-    scripts/plot_sweep.py blackburn-fig06-omega11.h5              releases from rest that stay
-    scripts/plot_sweep.py blackburn-fig04-dots.h5                 where flutter ends
-    scripts/plot_sweep.py bifurcation.h5                          strobe points, up and down
-    scripts/plot_sweep.py FILE --view branches                    one view of a file that holds several
+    .venv/bin/python scripts/plot_sweep.py blackburn-walk.h5                       basins along the parameter, branches under them
+    .venv/bin/python scripts/plot_sweep.py blackburn-fig10.h5                      amplitude of the flutter, and its square
+    .venv/bin/python scripts/plot_sweep.py blackburn-fig06-omega11.h5              releases from rest that stay
+    .venv/bin/python scripts/plot_sweep.py blackburn-fig04-dots.h5                 where flutter ends
+    .venv/bin/python scripts/plot_sweep.py bifurcation.h5                          strobe points, up and down
+    .venv/bin/python scripts/plot_sweep.py FILE --view branches                    one view of a file that holds several
 """
 
 import kapitza_style as style

@@ -94,6 +94,9 @@ def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
     (["--attractor", "nobody"], "has no attractor nobody"),
     (["-o", "out.gif"], "must end in"),
     (["--attractor", "0", "--shade"], "goes with neither"),
+    (["--dpi", "0"], "0 is out of range"),
+    (["--dpi", "fine"], "invalid resolution"),
+    (["-o", "absent/out.png"], "error: absent/out.png: No such file or directory"),
 ])
 def test_wrong_requests_are_refused(made_file, arguments, words):
     done = plot(made_file, *arguments)
@@ -103,6 +106,9 @@ def test_wrong_requests_are_refused(made_file, arguments, words):
 def damage(path, how):
     if how == "missing":
         path.unlink()
+    elif how == "folder":
+        path.unlink()
+        path.mkdir()
     elif how == "empty":
         path.write_bytes(b"")
     elif how == "text":
@@ -123,6 +129,7 @@ def damage(path, how):
 
 @pytest.mark.parametrize("how, words", [
     ("missing", "no such file"),
+    ("folder", "not a file"),
     ("empty", "not an HDF5 file"),
     ("text", "not an HDF5 file"),
     ("truncated", "truncated"),

@@ -1,5 +1,6 @@
 """The scripts of the set-up: what they say of themselves, and that a shell which sources them stays as it was."""
 
+import re
 import subprocess
 
 import pytest
@@ -36,3 +37,11 @@ def test_what_fails_in_the_set_up_ends_the_script_that_needs_it(tmp_path):
     done = shell("bash", "-c", f"set -eu; source {tmp_path}/scripts/setup; echo reached")
     assert done.returncode == 3 and "reached" not in done.stdout
     assert not (tmp_path / ".venv" / "requirements.done").exists() and not (tmp_path / "build").exists()
+
+
+def test_commands_of_the_docs_name_the_python_that_has_the_packages():
+    """The system's python3 lacks them: a plotting script is called by .venv's, or after `source scripts/setup`."""
+    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "scenes").glob("*.yaml"), *(ROOT / "scripts").glob("*.py")]
+    calls = [(page.name, line) for page in pages for line in page.read_text().splitlines() if re.search(r"scripts/\w+\.py [-\w./*]+", line)]
+    assert len(calls) > 50
+    assert not [call for call in calls if ".venv/bin/python scripts/" not in call[1] and "film_basin" not in call[1]]
