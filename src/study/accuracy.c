@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "basin.h"
+#include "cells.h"
 #include "share.h"
 #include "tradeoff.h"
 

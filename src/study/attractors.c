@@ -1,10 +1,10 @@
 /* Study `attractors`: the catalogue of a window of starts, without a grid. */
 #include "attractors.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "catalogue.h"
+#include "cells.h"
 #include "discovery.h"
 #include "kapitza/steps.h"
 
@@ -13,12 +13,11 @@ enum { MAX_PERIODS = 2000 };
 
 typedef struct {
   const kz_attractors_plan *plan;
-  kz_window window;
   kz_dynamics *dynamics;
   double *state;    /* [starts][2] */
   int32_t *owner;   /* [starts] */
   int64_t *reached; /* [numbers from 1] */
-} search;
+} finding;
 
 bool kz_attractors_wanted(const kz_scene *scene) {
   return scene->has_attractors;
@@ -31,7 +30,7 @@ kz_cost kz_attractors_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * starts, .core_seconds = 1e-9 * 200 * kicks * starts};
 }
 
-static kz_status allocate(const kz_scene *scene, search *s) {
+static kz_status allocate(const kz_scene *scene, finding *s) {
   size_t n = (size_t)scene->attractors.starts;
   s->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
   s->state = malloc(2 * n * sizeof *s->state);
@@ -40,22 +39,24 @@ static kz_status allocate(const kz_scene *scene, search *s) {
   return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
 }
 
-static kz_status discover(kz_team *team, search *s) {
-  kz_dynamics_starts(&s->window, s->plan->seed, s->plan->starts, s->state);
-  kz_dynamics_outline(s->dynamics, kz_dynamics_reach(s->dynamics, &s->window));
-  KZ_TRY(kz_discover(team, s->dynamics, MAX_PERIODS, s->plan->starts, s->state, s->owner));
+static kz_status discover(kz_team *team, finding *s) {
+  kz_search search = {.window = kz_window_of(&s->plan->theta, &s->plan->velocity),
+                      .starts = s->plan->starts,
+                      .seed = s->plan->seed,
+                      .max_periods = MAX_PERIODS};
+  search.reach = kz_dynamics_reach(s->dynamics, &search.window);
+  KZ_TRY(kz_search_window(team, s->dynamics, &search, s->state, s->owner));
   s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
   if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
   for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->owner[i]]++;
   return KZ_OK;
 }
 
-static kz_status publish(const kz_scene *scene, const search *s, kz_store *store, FILE *summary) {
-  const kz_axis *velocity = &scene->attractors.velocity;
+static kz_status publish(const kz_scene *scene, const finding *s, kz_store *store, FILE *summary) {
   kz_catalogue catalogue = {0};
   kz_status status = KZ_OK;
   if (s->dynamics) {
-    kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), summary);
+    kz_steps_warn(scene, kz_axis_fastest(&scene->attractors.velocity), summary);
     kz_steps_warn_damping(&scene->parameters.pendulum, MAX_PERIODS, "more damping", summary);
   }
   if (s->dynamics) status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
@@ -73,13 +74,12 @@ static kz_status publish(const kz_scene *scene, const search *s, kz_store *store
 static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   if (kz_team_rank(team) != 0) return KZ_OK;
   fprintf(summary, "attractors: without damping nothing attracts\n");
-  return publish(scene, &(search){0}, store, summary);
+  return publish(scene, &(finding){0}, store, summary);
 }
 
 kz_status kz_attractors_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, team, store, summary);
-  const kz_attractors_plan *plan = &scene->attractors;
-  search s = {.plan = plan, .window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max}};
+  finding s = {.plan = &scene->attractors};
   kz_status status = kz_team_agree(team, allocate(scene, &s));
   if (status == KZ_OK) status = kz_team_agree(team, discover(team, &s));
   if (status == KZ_OK && kz_team_rank(team) == 0) status = publish(scene, &s, store, summary);

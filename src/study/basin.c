@@ -13,12 +13,10 @@
 #include "discovery.h"
 #include "kapitza/steps.h"
 #include "kapitza/trial.h"
-#include "map_table.h"
 
 enum {
   CELLS = 4096, /* per part of a tile */
   PARTS = 4,    /* of a tile of hybrid: the few orbits that it integrates must fill vectors */
-  SCOUTS = 512, /* starts that find the main attractors before there is a table */
   ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
 
@@ -34,7 +32,7 @@ typedef struct {
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
-  double reach;
+  kz_search search;      /* of the starts */
   int64_t tile;          /* cells of a tile */
   int64_t total, own;    /* cells of the window; those that are labelled, the others mirror them */
   int16_t *owner;        /* [own], rank 0 */
@@ -43,40 +41,6 @@ typedef struct {
   uint8_t *evidence;     /* [own], rank 0, as in labelled */
   int64_t *reached;      /* [INT16_MAX + 1] starts and cells that ended on each attractor */
 } basin;
-
-bool kz_axis_is_symmetric(const kz_axis *axis) {
-  return axis->min == -axis->max;
-}
-
-int64_t kz_own_cells(const kz_basin_plan *plan) {
-  int64_t total = plan->theta.count * plan->velocity.count;
-  return kz_axis_is_symmetric(&plan->theta) && kz_axis_is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
-}
-
-double kz_axis_centre(const kz_axis *axis, int64_t i) {
-  return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
-         (axis->min + axis->max) / 2;
-}
-
-void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
-  double half_turns = kz_axis_centre(&plan->theta, f % plan->theta.count) / M_PI;
-  state[0] = half_turns - 2 * rint(half_turns / 2);
-  state[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
-}
-
-const int32_t kz_stencil[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
-
-void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
-               int32_t *owner, int64_t *periods, int64_t *integrated) {
-  const int32_t points = kz_stencil[interpolation];
-  memset(integrated, 0, (size_t)n * sizeof *integrated);
-  if (method == KZ_METHOD_DIRECT)
-    kz_dynamics_follow(dynamics, n, max_periods, state, owner, periods);
-  else if (method == KZ_METHOD_ICM)
-    kz_dynamics_follow_table(dynamics, points, n, max_periods, state, owner, periods);
-  else
-    kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, owner, periods, integrated);
-}
 
 /* Integrates the marked ones of n starts from one unit in the last place beside; marked: those that end elsewhere then. */
 static void find_undecided(const basin *b, int64_t n, const double *start, const int32_t *owner, bool *marked) {
@@ -143,34 +107,6 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
   return status;
 }
 
-/* Discovery from n states; what they reach is counted. */
-static kz_status discover(basin *b, kz_team *team, int64_t n, double *state) {
-  int32_t *owner = malloc((size_t)n * sizeof *owner + 1);
-  kz_status status = kz_team_agree(team, owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
-  if (status == KZ_OK) status = kz_discover(team, b->dynamics, b->plan->max_periods, n, state, owner);
-  if (status == KZ_OK && kz_dynamics_count(b->dynamics) > INT16_MAX)
-    status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) b->reached[owner[i]]++;
-  free(owner);
-  return status;
-}
-
-/* A few starts find the attractors that own most of the window; with the regions grown around those the others settle soon. */
-static kz_status first_discovery(basin *b, kz_team *team, const kz_window *window) {
-  int64_t n = b->plan->starts, scouts = n < SCOUTS ? n : SCOUTS;
-  double *state = malloc((size_t)n * 2 * sizeof *state);
-  kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
-  if (status == KZ_OK) {
-    kz_dynamics_starts(window, b->plan->seed, n, state);
-    kz_dynamics_outline(b->dynamics, b->reach);
-    status = discover(b, team, scouts, state);
-  }
-  if (status == KZ_OK) status = kz_map_table_make(team, b->dynamics, b->plan->table_theta, b->plan->table_velocity, b->reach);
-  if (status == KZ_OK && n > scouts) status = discover(b, team, n - scouts, state + 2 * scouts);
-  free(state);
-  return status;
-}
-
 /* The cells that have not settled, as the open ones of every rank. */
 static kz_status open_unsettled(basin *b, kz_team *team) {
   int64_t n = 0;
@@ -186,20 +122,29 @@ static kz_status open_unsettled(basin *b, kz_team *team) {
   return kz_team_broadcast(team, b->open, (size_t)b->n_open * sizeof *b->open);
 }
 
-/* Unsettled cells, evenly chosen, as starts of another discovery. */
-static kz_status discover_again(basin *b, kz_team *team) {
-  int64_t n = b->n_open < b->plan->starts ? b->n_open : b->plan->starts;
+/* The attractors that starts over the window end on, or `again` unsettled cells, evenly chosen; what they reach is counted. */
+static kz_status discover(basin *b, kz_team *team, bool again) {
+  const kz_basin_plan *plan = b->plan;
+  const int64_t n = again && b->n_open < plan->starts ? b->n_open : plan->starts;
   double *state = malloc((size_t)n * 2 * sizeof *state);
-  kz_status status = kz_team_agree(team, state ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) kz_cell_state(b->plan, b->open[i * b->n_open / n], state + 2 * i);
-  if (status == KZ_OK) status = discover(b, team, n, state);
+  int32_t *owner = malloc((size_t)n * sizeof *owner);
+  kz_status status =
+      kz_team_agree(team, state && owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+  for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cell_state(plan, b->open[i * b->n_open / n], state + 2 * i);
+  if (status == KZ_OK)
+    status = again ? kz_discover(team, b->dynamics, plan->max_periods, n, state, owner)
+                   : kz_search_window(team, b->dynamics, &b->search, state, owner);
+  if (status == KZ_OK && kz_dynamics_count(b->dynamics) > INT16_MAX)
+    status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) b->reached[owner[i]]++;
   free(state);
+  free(owner);
   return status;
 }
 
 /* Everything up to the labels. */
-static kz_status model(basin *b, kz_team *team, const kz_window *window) {
-  KZ_TRY(first_discovery(b, team, window));
+static kz_status model(basin *b, kz_team *team) {
+  KZ_TRY(discover(b, team, false));
   b->n_open = b->own;
   for (int round = 0;; round++) {
     KZ_TRY(label_cells(b, team, round));
@@ -207,7 +152,7 @@ static kz_status model(basin *b, kz_team *team, const kz_window *window) {
     KZ_TRY(open_unsettled(b, team));
     if (b->n_open == 0) return KZ_OK;
     int64_t known = kz_dynamics_count(b->dynamics);
-    KZ_TRY(discover_again(b, team));
+    KZ_TRY(discover(b, team, true));
     if (kz_dynamics_count(b->dynamics) == known) return KZ_OK;
   }
 }
@@ -240,8 +185,7 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
 
 /* What the labels stand on, in numbers and as warnings. */
 static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
-  const kz_axis *velocity = &scene->basin.velocity;
-  labels->step_error = kz_steps_warn(scene, fmax(fabs(velocity->min), fabs(velocity->max)), summary);
+  labels->step_error = kz_steps_warn(scene, kz_axis_fastest(&scene->basin.velocity), summary);
   kz_steps_warn_damping(&scene->parameters.pendulum, scene->basin.max_periods, "more max_periods or more damping", summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
@@ -251,16 +195,22 @@ static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *lab
 
 static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
-  basin b = {.plan = plan, .total = plan->theta.count * plan->velocity.count};
-  kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
+  basin b = {.plan = plan,
+             .search = {.window = kz_window_of(&plan->theta, &plan->velocity),
+                        .starts = plan->starts,
+                        .seed = plan->seed,
+                        .max_periods = plan->max_periods,
+                        .table_theta = plan->table_theta,
+                        .table_velocity = plan->table_velocity},
+             .total = plan->theta.count * plan->velocity.count};
   b.own = kz_own_cells(plan);
   b.tile = plan->method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD ? PARTS * CELLS : CELLS;
   b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_team_agree(team, status);
   if (status == KZ_OK) {
-    b.reach = kz_dynamics_reach(b.dynamics, &window);
-    status = model(&b, team, &window);
+    b.search.reach = kz_dynamics_reach(b.dynamics, &b.search.window);
+    status = model(&b, team);
   }
   if (status == KZ_OK && kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};

@@ -3,7 +3,7 @@
 #define KAPITZA_BASIN_H
 
 #include "catalogue.h"
-#include "kapitza/study.h"
+#include "cells.h"
 
 /* Labels of all cells, velocity-major, on rank 0. */
 typedef struct {
@@ -19,21 +19,6 @@ typedef struct {
 
 kz_status kz_labels_allocate(int64_t cells, kz_labels *labels);
 void kz_labels_free(kz_labels *labels);
-
-/* Centre of cell i; exactly mirrored in a symmetric window. */
-double kz_axis_centre(const kz_axis *axis, int64_t i);
-bool kz_axis_is_symmetric(const kz_axis *axis);
-/* Cells that are labelled; the others of a window that is its own mirror image mirror them. */
-int64_t kz_own_cells(const kz_basin_plan *plan);
-/* State of cell f, velocity-major: half-turns in [-1, 1] and velocity. */
-void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
-
-/* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */
-extern const int32_t kz_stencil[];
-
-/* kz_dynamics_follow by a method (KZ_METHOD_ICM, ...); integrated [n]: periods for which hybrid left the table. */
-void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
-               int32_t *owner, int64_t *periods, int64_t *integrated);
 
 /* Measures, groups /attractors and /basin, and the summary. Fractions of the catalogue are filled in. */
 kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,

@@ -66,17 +66,15 @@ static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labe
 }
 
 static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
-  static const char *const methods[] = {"icm", "direct", "hybrid"}, *const precisions[] = {"single", "double", "quad"},
-                           *const interpolations[] = {"linear", "cubic", "quintic"};
   const kz_basin_plan *plan = &scene->basin;
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
-  KZ_TRY(kz_store_text(store, "basin", "method", methods[plan->method]));
+  KZ_TRY(kz_store_text(store, "basin", "method", kz_method_names[plan->method]));
   KZ_TRY(kz_store_integer(store, "basin", "max_periods", plan->max_periods));
   KZ_TRY(kz_store_text(store, "basin", "scheme", scheme.name));
   KZ_TRY(kz_store_integer(store, "basin", "steps_per_period", scene->numerics.steps_per_period));
-  KZ_TRY(kz_store_text(store, "basin", "precision", precisions[scene->numerics.precision]));
-  KZ_TRY(kz_store_text(store, "basin", "interpolation", interpolations[plan->interpolation]));
+  KZ_TRY(kz_store_text(store, "basin", "precision", kz_precision_names[scene->numerics.precision]));
+  KZ_TRY(kz_store_text(store, "basin", "interpolation", kz_interpolation_names[plan->interpolation]));
   KZ_TRY(kz_store_integer(store, "basin", "table_theta", plan->table_theta));
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
 }
@@ -103,7 +101,8 @@ kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const k
             1 / (M_PI * scene->parameters.pendulum.beta));
   fprintf(summary, "\n");
   if (plan->flag_undecided) {
-    fprintf(summary, "%lld cells are undecided: the last place of the start changes their label\n", (long long)labels->undecided);
+    fprintf(summary, "%lld cells are undecided: the last place of the start changes their label\n",
+            (long long)labels->undecided);
     KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->undecided));
   }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));

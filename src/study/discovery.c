@@ -5,11 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "map_table.h"
+
 enum {
   FIRST_LENGTH = 128, /* periods of the first round; a round that finds nothing doubles it */
   TILE = 256,         /* starts per tile */
   CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycles takes */
   CHUNKS = 16,        /* searches per round */
+  SCOUTS = 512,       /* starts that are followed before there is a table */
   CHAOS_TRIES = 4,
   CHAOS_PERIODS = 512 /* to see which open starts a chaotic attractor's cover captures */
 };
@@ -147,4 +150,14 @@ kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods,
   }
   free(f.open);
   return status;
+}
+
+kz_status kz_search_window(kz_team *team, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *owner) {
+  const bool table = search->table_theta > 0;
+  const int64_t scouts = table && search->starts > SCOUTS ? SCOUTS : search->starts, rest = search->starts - scouts;
+  kz_dynamics_starts(&search->window, search->seed, search->starts, state);
+  kz_dynamics_outline(dynamics, search->reach);
+  KZ_TRY(kz_discover(team, dynamics, search->max_periods, scouts, state, owner));
+  if (table) KZ_TRY(kz_map_table_make(team, dynamics, search->table_theta, search->table_velocity, search->reach));
+  return rest > 0 ? kz_discover(team, dynamics, search->max_periods, rest, state + 2 * scouts, owner + scouts) : KZ_OK;
 }

@@ -7,6 +7,18 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/parallel.h"
 
+/* Starts spread over a window, and the map table of its dynamics. */
+typedef struct {
+  kz_window window;
+  int64_t starts, seed, max_periods;
+  int64_t table_theta, table_velocity; /* nodes; 0 = no table is made */
+  double reach;                        /* of kz_dynamics_reach */
+} kz_search;
+
+/* Finds the attractors that the starts end on. With a table the first starts are scouts: around the attractors that own most of
+ * the window its regions grow, and the other starts settle soon. state [starts][2], owner [starts] as of kz_discover. */
+kz_status kz_search_window(kz_team *team, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *owner);
+
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
  * they end on; those join the catalogue and the regions (outline or table) of `dynamics` on every rank. owner [n] = attractor
  * from 1, 0 where the start has not settled on any. Collective; team NULL = this rank alone. */

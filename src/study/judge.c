@@ -4,19 +4,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "basin.h"
+#include "cells.h"
 #include "discovery.h"
 #include "kapitza/steps.h"
 #include "kapitza/truth.h"
-#include "map_table.h"
 #include "share.h"
 
 enum {
-  NODES = 1000,                     /* of the map table, an axis */
-  STEPS = 48,                       /* of split6 a period, for a gentle drive */
-  DOUBLINGS = 6,                    /* of STEPS, at most */
+  NODES = 1000,  /* of the map table, an axis */
+  STEPS = 48,    /* of split6 a period, for a gentle drive */
+  DOUBLINGS = 6, /* of STEPS, at most */
   MOST_STEPS = 20000,
-  SCOUTS = 512,                     /* starts before there is a table */
   PROBES = 8192,                    /* cells that must settle on known attractors before the truth is asked */
   ROUNDS = 4,                       /* of discovery */
   TILE = 32,                        /* cells */
@@ -32,13 +30,14 @@ int64_t kz_judge_cell(const kz_judge *judge, int64_t i) {
 
 kz_status kz_judge_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics) {
   const double stiffness = fmax(1, fabs(pendulum->k) + fabs(pendulum->m));
-  const double fastest = fmax(fabs(plan->velocity.min), fabs(plan->velocity.max));
+  const double fastest = kz_axis_fastest(&plan->velocity);
   const double steps = STEPS * ceil(sqrt(stiffness)), most = fmin(ldexp(steps, DOUBLINGS), MOST_STEPS);
   *numerics = (kz_numerics){.scheme = 2, .steps_per_period = (int32_t)fmin(steps, most), .precision = KZ_DOUBLE};
   if (steps <= most && kz_steps_enough(pendulum, fastest, FINE, (int32_t)most, numerics)) return KZ_OK;
-  return kz_fail(KZ_REFUSED,
-                 "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough to judge labels; slower starts",
-                 (int)numerics->steps_per_period, fastest);
+  return kz_fail(
+      KZ_REFUSED,
+      "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough to judge labels; slower starts",
+      (int)numerics->steps_per_period, fastest);
 }
 
 static kz_status make_dynamics(const kz_judge *judge, kz_dynamics **dynamics) {
@@ -68,13 +67,14 @@ static int64_t unsettled(const kz_judge *judge, kz_dynamics *dynamics, probes *p
 
 static kz_status find_attractors(const kz_judge *judge, kz_team *team, kz_dynamics *dynamics, probes *p) {
   const kz_basin_plan *plan = judge->plan;
-  kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
-  const int64_t scouts = plan->starts < SCOUTS ? plan->starts : SCOUTS, rest = plan->starts - scouts;
-  kz_dynamics_starts(&window, plan->seed, plan->starts, p->state);
-  kz_dynamics_outline(dynamics, judge->reach);
-  KZ_TRY(kz_discover(team, dynamics, plan->max_periods, scouts, p->state, p->owner));
-  KZ_TRY(kz_map_table_make(team, dynamics, NODES, NODES, judge->reach));
-  if (rest > 0) KZ_TRY(kz_discover(team, dynamics, plan->max_periods, rest, p->state + 2 * scouts, p->owner));
+  const kz_search search = {.window = kz_window_of(&plan->theta, &plan->velocity),
+                            .starts = plan->starts,
+                            .seed = plan->seed,
+                            .max_periods = plan->max_periods,
+                            .table_theta = NODES,
+                            .table_velocity = NODES,
+                            .reach = judge->reach};
+  KZ_TRY(kz_search_window(team, dynamics, &search, p->state, p->owner));
   for (int round = 0; round < ROUNDS; round++) {
     const int64_t known = kz_dynamics_count(dynamics), n = unsettled(judge, dynamics, p);
     if (n == 0) break;
@@ -88,7 +88,7 @@ static kz_status find_attractors(const kz_judge *judge, kz_team *team, kz_dynami
 static kz_status prepare(kz_judge *judge, kz_team *team, kz_dynamics *dynamics) {
   const kz_basin_plan *plan = judge->plan;
   probes p = {.most = plan->starts > PROBES ? plan->starts : PROBES};
-  kz_window window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
+  const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
   p.owner = malloc((size_t)p.most * sizeof *p.owner);
   p.periods = malloc((size_t)p.most * sizeof *p.periods);
@@ -125,9 +125,8 @@ static void find_distances(const hearing *h, int64_t n, const int64_t *cell, kz_
     const int64_t aside[4][2] = {{-distance, 0}, {distance, 0}, {0, -distance}, {0, distance}};
     for (int64_t i = 0; i < 4 * n; i++) {
       const int64_t *by = aside[i % 4], f = cell[i / 4];
-      const double half_turns = kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]) / M_PI;
-      state[2 * i] = half_turns - 2 * rint(half_turns / 2);
-      state[2 * i + 1] = kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]);
+      kz_start_state(kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]),
+                     kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]), state + 2 * i);
     }
     kz_dynamics_follow(h->dynamics, 4 * n, plan->max_periods, state, owner, periods);
     for (int64_t i = 0; i < 4 * n; i++)

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "basin.h"
+#include "cells.h"
 #include "map_table.h"
 
 enum { CHUNK = 16384 }; /* cells labelled at a time */
@@ -31,7 +31,8 @@ static void label(const gauge *g, int64_t n, int32_t *owner) {
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
     for (int64_t i = 0; i < some; i++) kz_cell_state(g->judge->plan, kz_judge_cell(g->judge, first + i), state + 2 * i);
-    kz_follow(g->dynamics, s->method, s->interpolation, some, g->judge->plan->max_periods, state, owner + first, periods, integrated);
+    kz_follow(g->dynamics, s->method, s->interpolation, some, g->judge->plan->max_periods, state, owner + first, periods,
+              integrated);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "cells.h"
 #include "judge.h"
 #include "kapitza/trial.h"
 #include "sweep.h"
@@ -64,10 +65,6 @@ typedef struct {
   char where[96];   /* "at m = 0.3, ", or "" */
 } motions;
 
-static double fastest_of(const kz_axis *velocity) {
-  return fmax(fabs(velocity->min), fabs(velocity->max));
-}
-
 static motions motions_of(const kz_scene *scene, double fastest, const char *keys) {
   return (motions){scene->parameters.pendulum, scene->numerics, fastest, keys, ""};
 }
@@ -106,7 +103,7 @@ static kz_status check(const motions *m) {
 
 /* Without damping nothing is labelled. */
 static kz_status check_basin(const kz_scene *scene) {
-  const motions m = motions_of(scene, fastest_of(&scene->basin.velocity), "numerics.steps_per_period|basin.velocity");
+  const motions m = motions_of(scene, kz_axis_fastest(&scene->basin.velocity), "numerics.steps_per_period|basin.velocity");
   kz_numerics fine;
   if (!scene->has_basin || !(m.pendulum.beta > 0)) return KZ_OK;
   if (isnan(scene->basin.accuracy)) KZ_TRY(check(&m));
@@ -114,7 +111,8 @@ static kz_status check_basin(const kz_scene *scene) {
 }
 
 static kz_status check_attractors(const kz_scene *scene) {
-  const motions m = motions_of(scene, fastest_of(&scene->attractors.velocity), "numerics.steps_per_period|attractors.velocity");
+  const motions m =
+      motions_of(scene, kz_axis_fastest(&scene->attractors.velocity), "numerics.steps_per_period|attractors.velocity");
   return scene->has_attractors && m.pendulum.beta > 0 ? check(&m) : KZ_OK;
 }
 
@@ -128,8 +126,8 @@ static kz_status check_orbit(const kz_scene *scene) {
 
 /* The fastest start at any value of a sweep. */
 static double fastest_of_sweep(const kz_scene *scene) {
-  const double fastest = fmax(fastest_of(&scene->sweep.velocity), fabs(scene->sweep.start_velocity));
-  return scene->has_basin ? fmax(fastest, fastest_of(&scene->basin.velocity)) : fastest;
+  const double fastest = fmax(kz_axis_fastest(&scene->sweep.velocity), fabs(scene->sweep.start_velocity));
+  return scene->has_basin ? fmax(fastest, kz_axis_fastest(&scene->basin.velocity)) : fastest;
 }
 
 static int64_t tried_values(const kz_scene *scene) {

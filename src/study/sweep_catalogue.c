@@ -3,14 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "basin.h"
+#include "cells.h"
 #include "discovery.h"
 #include "sweep.h"
 
 enum {
   MAX_PERIODS = 2000, /* drive periods after which a start counts as not settled; of the cells the basin's own number */
   CHUNK = 4096,       /* cells followed at once */
-  SCOUTS = 512,       /* starts that find the main attractors before there is a table */
   ROUNDS = 3          /* of discovery among cells that end nowhere known, at most */
 };
 
@@ -18,9 +17,7 @@ enum {
 typedef struct {
   const kz_scene *scene;
   kz_dynamics *dynamics;
-  double reach;              /* of the map table */
   int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
-  bool mirrored;             /* the grid is its own mirror image: cells followed are the first half of it */
   double *state;             /* [starts or cells][2] */
   int32_t *owner, *cell;     /* [starts]; [cells] number of kz_dynamics, 0 = not settled */
   int64_t *hits;             /* [numbers from 1] */
@@ -30,21 +27,10 @@ static bool on_grid(const kz_scene *scene) {
   return scene->has_basin && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
 }
 
-static kz_window window_of(const kz_scene *scene) {
-  const kz_axis *theta = on_grid(scene) ? &scene->basin.theta : &scene->sweep.theta;
-  const kz_axis *velocity = on_grid(scene) ? &scene->basin.velocity : &scene->sweep.velocity;
-  return (kz_window){theta->min, theta->max, velocity->min, velocity->max};
-}
-
 static kz_status begin(const kz_pendulum *pendulum, searching *s) {
   const kz_scene *scene = s->scene;
-  const kz_basin_plan *basin = &scene->basin;
   s->n_starts = scene->sweep.starts;
-  if (on_grid(scene)) {
-    const int64_t total = basin->theta.count * basin->velocity.count;
-    s->mirrored = kz_axis_is_symmetric(&basin->theta) && kz_axis_is_symmetric(&basin->velocity);
-    s->n_cells = s->mirrored ? (total + 1) / 2 : total;
-  }
+  if (on_grid(scene)) s->n_cells = kz_own_cells(&scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
   s->state = malloc(2 * most * sizeof *s->state);
@@ -62,31 +48,13 @@ static void end(searching *s) {
   free(s->hits);
 }
 
-static kz_status make_table(const searching *s) {
-  const kz_basin_plan *basin = &s->scene->basin;
-  kz_dynamics_table_create(s->dynamics, basin->table_theta, basin->table_velocity, s->reach);
-  const int64_t size = kz_dynamics_table_row_size(s->dynamics);
-  double *rows = malloc((size_t)(basin->table_velocity * size) * sizeof *rows);
-  if (!rows) return kz_fail(KZ_FAILED, "no memory for the map table");
-  for (int64_t row = 0; row < basin->table_velocity; row++) kz_dynamics_table_row(s->dynamics, row, rows + row * size);
-  kz_dynamics_table_set(s->dynamics, rows);
-  free(rows);
-  return KZ_OK;
-}
-
-static void cell_state(const kz_basin_plan *basin, int64_t cell, double state[2]) {
-  const double half_turns = kz_axis_centre(&basin->theta, cell % basin->theta.count) / M_PI;
-  state[0] = half_turns - 2 * rint(half_turns / 2);
-  state[1] = kz_axis_centre(&basin->velocity, cell / basin->theta.count);
-}
-
 /* The next cells from *cell on that have not settled: their states and places; returns how many. */
 static int64_t next_cells(const searching *s, int64_t most, int64_t *cell, int64_t *place) {
   int64_t n = 0;
   for (; *cell < s->n_cells && n < most; ++*cell)
     if (s->cell[*cell] == 0) {
       place[n] = *cell;
-      cell_state(&s->scene->basin, *cell, s->state + 2 * n++);
+      kz_cell_state(&s->scene->basin, *cell, s->state + 2 * n++);
     }
   return n;
 }
@@ -125,11 +93,11 @@ static int64_t count_hits(const searching *s) {
   if (s->n_cells == 0) return s->n_starts;
   for (int64_t i = 0; i < s->n_cells; i++) {
     s->hits[s->cell[i]]++;
-    if (!s->mirrored || total - 1 - i < s->n_cells || s->cell[i] == 0) continue;
+    if (total - 1 - i < s->n_cells || s->cell[i] == 0) continue;
     kz_dynamics_attractor(s->dynamics, s->cell[i], &row, points, points + CHUNK);
     s->hits[row.mirror]++;
   }
-  return s->mirrored ? total : s->n_cells;
+  return total;
 }
 
 static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirror) {
@@ -171,17 +139,19 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   return status;
 }
 
-/* Finds the attractors; where a grid follows, the first starts are scouts, and the map table helps the others. */
+/* The attractors of the window of the grid, or without one of the sweep's own. */
 static kz_status discover(searching *s) {
-  const kz_window window = window_of(s->scene);
-  const int64_t scouts = s->n_cells > 0 && s->n_starts > SCOUTS ? SCOUTS : s->n_starts;
-  s->reach = kz_dynamics_reach(s->dynamics, &window);
-  kz_dynamics_starts(&window, s->scene->sweep.seed, s->n_starts, s->state);
-  kz_dynamics_outline(s->dynamics, s->reach);
-  KZ_TRY(kz_discover(NULL, s->dynamics, MAX_PERIODS, scouts, s->state, s->owner));
-  if (s->n_cells > 0) KZ_TRY(make_table(s));
-  if (scouts == s->n_starts) return KZ_OK;
-  return kz_discover(NULL, s->dynamics, MAX_PERIODS, s->n_starts - scouts, s->state + 2 * scouts, s->owner + scouts);
+  const kz_sweep_plan *sweep = &s->scene->sweep;
+  const kz_basin_plan *basin = s->n_cells > 0 ? &s->scene->basin : NULL;
+  kz_search search = {
+      .window = basin ? kz_window_of(&basin->theta, &basin->velocity) : kz_window_of(&sweep->theta, &sweep->velocity),
+      .starts = s->n_starts,
+      .seed = sweep->seed,
+      .max_periods = MAX_PERIODS,
+      .table_theta = basin ? basin->table_theta : 0,
+      .table_velocity = basin ? basin->table_velocity : 0};
+  search.reach = kz_dynamics_reach(s->dynamics, &search.window);
+  return kz_search_window(NULL, s->dynamics, &search, s->state, s->owner);
 }
 
 static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {

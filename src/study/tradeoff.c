@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "basin.h"
+#include "cells.h"
 
 enum { TIMED = 16384 }; /* cells that a clock needs */
 

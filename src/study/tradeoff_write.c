@@ -2,12 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "cells.h"
 #include "kapitza/steps.h"
 #include "kapitza/truth.h"
 #include "tradeoff.h"
-
-static const char *const methods[] = {"icm", "direct", "hybrid"}, *const precisions[] = {"single", "double", "quad"},
-                         *const interpolations[] = {"linear", "cubic", "quintic"};
 
 /* One value of each setting, as the store takes it. */
 #define COLUMN(type, name, expression)                                            \
@@ -69,16 +67,15 @@ static void print_row(const kz_judge *judge, const kz_trade *trade, int64_t i, F
   const kz_measured *m = trade->measured + i;
   const kz_share wrong = kz_share_of(m->wrong, judge->samples);
   fprintf(summary, "%c %-20s %-7s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
-          trade->pareto[i] ? '*' : ' ', s->label, methods[s->method], precisions[s->precision], s->scheme, s->steps,
-          s->method == KZ_METHOD_DIRECT ? "-" : interpolations[s->interpolation], (long long)s->nodes, 100 * wrong.share,
-          100 * wrong.low, 100 * wrong.high, 100 * (double)m->astray / (double)judge->samples, trade->seconds[i],
-          1e6 * m->cell);
+          trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], kz_precision_names[s->precision], s->scheme,
+          s->steps, s->method == KZ_METHOD_DIRECT ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes,
+          100 * wrong.share, 100 * wrong.low, 100 * wrong.high, 100 * (double)m->astray / (double)judge->samples,
+          trade->seconds[i], 1e6 * m->cell);
 }
 
 /* Settings whose labels are chance here. */
 static void warn(const kz_judge *judge, const kz_trade *trade, FILE *summary) {
-  const kz_axis *velocity = &judge->plan->velocity;
-  const double fastest = fmax(fabs(velocity->min), fabs(velocity->max));
+  const double fastest = kz_axis_fastest(&judge->plan->velocity);
   const char *before = "warning: steps that do not carry the motions of this window: ";
   for (int64_t i = 0; i < trade->count; i++) {
     const kz_numerics numerics = kz_setting_numerics(trade->settings[i]);

@@ -1,0 +1,55 @@
+#include "cells.h"
+
+#include <math.h>
+#include <string.h>
+
+double kz_axis_centre(const kz_axis *axis, int64_t i) {
+  return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
+         (axis->min + axis->max) / 2;
+}
+
+double kz_axis_fastest(const kz_axis *velocity) {
+  return fmax(fabs(velocity->min), fabs(velocity->max));
+}
+
+kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity) {
+  return (kz_window){theta->min, theta->max, velocity->min, velocity->max};
+}
+
+static bool is_symmetric(const kz_axis *axis) {
+  return axis->min == -axis->max;
+}
+
+int64_t kz_own_cells(const kz_basin_plan *plan) {
+  const int64_t total = plan->theta.count * plan->velocity.count;
+  return is_symmetric(&plan->theta) && is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
+}
+
+void kz_start_state(double theta, double velocity, double state[2]) {
+  const double half_turns = theta / M_PI;
+  state[0] = half_turns - 2 * rint(half_turns / 2);
+  state[1] = velocity;
+}
+
+void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
+  kz_start_state(kz_axis_centre(&plan->theta, f % plan->theta.count), kz_axis_centre(&plan->velocity, f / plan->theta.count),
+                 state);
+}
+
+const int32_t kz_stencil[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
+
+const char *const kz_method_names[] = {[KZ_METHOD_ICM] = "icm", [KZ_METHOD_DIRECT] = "direct", [KZ_METHOD_HYBRID] = "hybrid"};
+const char *const kz_interpolation_names[] = {[KZ_LINEAR] = "linear", [KZ_CUBIC] = "cubic", [KZ_QUINTIC] = "quintic"};
+const char *const kz_precision_names[] = {[KZ_SINGLE] = "single", [KZ_DOUBLE] = "double", [KZ_QUAD] = "quad"};
+
+void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
+               int32_t *owner, int64_t *periods, int64_t *integrated) {
+  const int32_t points = kz_stencil[interpolation];
+  memset(integrated, 0, (size_t)n * sizeof *integrated);
+  if (method == KZ_METHOD_DIRECT)
+    kz_dynamics_follow(dynamics, n, max_periods, state, owner, periods);
+  else if (method == KZ_METHOD_ICM)
+    kz_dynamics_follow_table(dynamics, points, n, max_periods, state, owner, periods);
+  else
+    kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, owner, periods, integrated);
+}

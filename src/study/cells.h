@@ -1,0 +1,33 @@
+/* Cells of a window of starts: where they lie, which of them are labelled, how starts are followed. */
+#ifndef KAPITZA_STUDY_CELLS_H
+#define KAPITZA_STUDY_CELLS_H
+
+#include "kapitza/dynamics.h"
+#include "kapitza/study.h"
+
+/* Centre of cell i; exactly mirrored in a symmetric window. */
+double kz_axis_centre(const kz_axis *axis, int64_t i);
+/* The largest speed on an axis of velocities. */
+double kz_axis_fastest(const kz_axis *velocity);
+
+kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
+
+/* Cells that are labelled; the others of a window that is its own mirror image mirror them: cell f mirrors cell total - 1 - f. */
+int64_t kz_own_cells(const kz_basin_plan *plan);
+
+/* The state of a start in rad and rad per drive radian: half-turns in [-1, 1] and velocity. */
+void kz_start_state(double theta, double velocity, double state[2]);
+/* State of cell f, velocity-major. */
+void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
+
+/* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */
+extern const int32_t kz_stencil[];
+
+/* The words of the file for KZ_METHOD_ICM, ..., KZ_LINEAR, ... and KZ_SINGLE, ... */
+extern const char *const kz_method_names[], *const kz_interpolation_names[], *const kz_precision_names[];
+
+/* kz_dynamics_follow by a method (KZ_METHOD_ICM, ...); integrated [n]: periods for which hybrid left the table. */
+void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
+               int32_t *owner, int64_t *periods, int64_t *integrated);
+
+#endif
