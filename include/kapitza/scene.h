@@ -53,8 +53,6 @@ extern const kz_key kz_keys[];
 const char *kz_key_words(const kz_key *key);
 /* The row of `path`, or NULL. */
 const kz_key *kz_key_find(const kz_key *keys, const char *path);
-/* True where `path` is a key of the mapping `parent` ("" = the scene itself), not deeper. */
-bool kz_key_is_child(const char *path, const char *parent);
 /* The names of the keys of mapping `parent`, joined by '|', written to `text` [bytes]. */
 void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes);
 /* The words "a|b|c" as "a, b, c", written to `text` [bytes]. */

@@ -5,16 +5,13 @@
 #ifndef KAPITZA_STATUS_H
 #define KAPITZA_STATUS_H
 
-/* code, exit status of the program, meaning */
-#define KZ_STATUS_LIST(X)                                            \
-  X(KZ_OK, 0, "done")                                                \
-  X(KZ_FAILED, 1, "failed while running")                            \
-  X(KZ_REFUSED, 2, "the command line, the scene or a path is wrong") \
-  X(KZ_STOPPED, 75, "stopped early on request, all finished work is saved")
-
-#define KZ_STATUS_ENUM(code, exit_status, meaning) code = exit_status,
-typedef enum { KZ_STATUS_LIST(KZ_STATUS_ENUM) } kz_status;
-#undef KZ_STATUS_ENUM
+/* The value is the exit status of the program. */
+typedef enum {
+  KZ_OK = 0,       /* done */
+  KZ_FAILED = 1,   /* failed while running */
+  KZ_REFUSED = 2,  /* the command line, the scene or a path is wrong */
+  KZ_STOPPED = 75, /* stopped early on request, all finished work is saved */
+} kz_status;
 
 /* Sets the message (printf format, without "kapitza: error:") and returns `status`. The first message stays: later ones
  * are consequences. */
@@ -23,9 +20,6 @@ kz_status kz_fail(kz_status status, const char *format, ...) __attribute__((form
 /* The message set by the first kz_fail since the last kz_message_clear; "" if none. */
 const char *kz_message(void);
 void kz_message_clear(void);
-
-/* The text of the list above. */
-const char *kz_status_meaning(kz_status status);
 
 #define KZ_TRY(call)                                  \
   do {                                                \

@@ -4,17 +4,6 @@
 
 #include "kapitza/study.h"
 
-/* Classes of speeds: the fastest half of all speeds, half of those, and so on; class 0 is what is left. */
-enum { KZ_SPEED_CLASSES = 8 };
-
-typedef struct {
-  double speed[KZ_SPEED_CLASSES + 1]; /* rad per drive radian, from 0 */
-  double error[KZ_SPEED_CLASSES];     /* rad, of one drive period; DBL_MAX = diverges */
-} kz_step_trial;
-
-/* Step doubling on a sample of the speeds up to `fastest`, and those that rotation and fall bring. */
-kz_step_trial kz_steps_try(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
-
 /* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
  * `most` steps: then the last number tried. */
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);

@@ -18,7 +18,8 @@ const kz_key *kz_key_find(const kz_key *keys, const char *path) {
   return NULL;
 }
 
-bool kz_key_is_child(const char *path, const char *parent) {
+/* True where `path` is a key of the mapping `parent` ("" = the scene itself), not deeper. */
+static bool is_child(const char *path, const char *parent) {
   const size_t length = strlen(parent);
   if (length == 0) return strchr(path, '.') == NULL;
   return strncmp(path, parent, length) == 0 && path[length] == '.' && strchr(path + length + 1, '.') == NULL;
@@ -53,7 +54,7 @@ void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t 
   const size_t skip = parent[0] ? strlen(parent) + 1 : 0;
   text[0] = '\0';
   for (; keys->path; keys++)
-    if (kz_key_is_child(keys->path, parent))
+    if (is_child(keys->path, parent))
       snprintf(text + strlen(text), bytes - strlen(text), "%s%s", text[0] ? "|" : "", keys->path + skip);
 }
 

@@ -4,8 +4,6 @@
 
 #include "kapitza/scene.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* min < max, and cells that double precision can tell apart. `path` names the mapping of the axis. */
 static void check_axis(kz_reading *reading, const kz_axis *axis, const char *path) {
   char name[128];
@@ -30,11 +28,11 @@ static void theta_window(kz_reading *reading, kz_axis *theta, const char *path) 
   if (min_node && !max_node) kz_complain(reading, NULL, max, "is missing beside min; both or neither");
   if (max_node && !min_node) kz_complain(reading, NULL, min, "is missing beside max; both or neither");
   if (!min_node && !max_node) {
-    theta->min = -PI;
-    theta->max = PI;
+    theta->min = -M_PI;
+    theta->max = M_PI;
   }
   check_axis(reading, theta, path);
-  if (theta->max - theta->min > 2.0 * PI)
+  if (theta->max - theta->min > 2.0 * M_PI)
     kz_complain(reading, max_node, max, "%.17g makes the window %.17g rad wide; at most 2 pi", theta->max,
                 theta->max - theta->min);
 }
@@ -127,7 +125,7 @@ static void sweep_value(kz_reading *reading, const kz_scene *scene, const char *
   if (isnan(value)) return;
   if (value < low)
     kz_complain(reading, node, path, "%.17g is below what %s takes; %s%g", value, key,
-                low > 0 && low < 1e-300 ? "above " : "at least ", low > 0 && low < 1e-300 ? 0.0 : low);
+                low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
   else if (!reading->message[0] && !kz_sweep_pendulum(scene, value, &pendulum))
     kz_complain(reading, node, path, "%.17g gives no finite k, beta >= 0 and m; a less extreme value", value);
 }

@@ -22,14 +22,3 @@ const char *kz_message(void) {
 void kz_message_clear(void) {
   message[0] = '\0';
 }
-
-const char *kz_status_meaning(kz_status status) {
-  switch (status) {
-#define KZ_STATUS_CASE(code, exit_status, meaning) \
-  case code:                                       \
-    return meaning;
-    KZ_STATUS_LIST(KZ_STATUS_CASE)
-#undef KZ_STATUS_CASE
-  }
-  return "unknown status";
-}

@@ -9,16 +9,11 @@
 #define TIME "drive radians"
 #define NONE "1"
 #define ENERGY "I omega^2"
-#define CURVE(name, long_name)                            \
-  {                                                       \
-    "stability", name, KZ_REAL, {"k"}, NONE, long_name, { \
-      0                                                   \
-    }                                                     \
-  }
+#define CURVE(name, long_name) {"stability", name, KZ_REAL, {"k"}, NONE, long_name, {0}}
 #define OWN "as the attribute parameter_units of the group" /* of a swept key */
 #define END_KINDS "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"
 
-const kz_variable kz_variables[] = {
+static const kz_variable variables[] = {
     /* group, name, kind, dimensions, units, long name, flag meanings */
     {"attractors", "attractor", KZ_INT32, {"attractor"}, NONE, "id of the attractor", {0}},
     {"attractors", "phase", KZ_INT32, {"phase"}, NONE, "place of the strobe point along the orbit", {0}},
@@ -287,7 +282,6 @@ const kz_variable kz_variables[] = {
     {"sweep", "strobe_theta", KZ_REAL, {"value", "sample"}, ANGLE, "angle of the strobe point from down", {0}},
     {"sweep", "strobe_velocity", KZ_REAL, {"value", "sample"}, VELOCITY, "angular velocity of the strobe point", {0}},
 };
-const size_t kz_variable_count = sizeof kz_variables / sizeof *kz_variables;
 
 /* The same name; "#" at the end of a row's name stands for a number. */
 static bool is_name(const char *row, const char *name) {
@@ -297,7 +291,7 @@ static bool is_name(const char *row, const char *name) {
 }
 
 const kz_variable *kz_variable_find(const char *group, const char *name) {
-  for (size_t i = 0; i < kz_variable_count; ++i)
-    if (strcmp(kz_variables[i].group, group) == 0 && is_name(kz_variables[i].name, name)) return &kz_variables[i];
+  for (size_t i = 0; i < sizeof variables / sizeof *variables; ++i)
+    if (strcmp(variables[i].group, group) == 0 && is_name(variables[i].name, name)) return &variables[i];
   return NULL;
 }

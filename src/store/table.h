@@ -2,8 +2,6 @@
 #ifndef KAPITZA_STORE_TABLE_H
 #define KAPITZA_STORE_TABLE_H
 
-#include <stddef.h>
-
 enum { KZ_MAX_DIMENSIONS = 2, KZ_MAX_FLAGS = 6 };
 
 typedef enum { KZ_REAL, KZ_INT8, KZ_UINT8, KZ_INT16, KZ_INT32, KZ_UINT32, KZ_TEXT } kz_kind;
@@ -15,9 +13,6 @@ typedef struct {
   const char *units, *long_name;
   const char *flags[KZ_MAX_FLAGS + 1]; /* meanings of 0, 1, 2, ...; NULL-ended */
 } kz_variable;
-
-extern const kz_variable kz_variables[];
-extern const size_t kz_variable_count;
 
 /* The row of a variable; NULL where the table has none. */
 const kz_variable *kz_variable_find(const char *group, const char *name);

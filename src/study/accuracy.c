@@ -10,14 +10,15 @@
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double ROOM = 3;
 
-int64_t kz_accuracy_samples(double accuracy) {
+/* Cells that are judged for an accuracy. */
+static int64_t samples_for(double accuracy) {
   const double n = ROOM * (double)kz_share_sample(1 - accuracy);
   return (int64_t)fmax(1000, ceil(n));
 }
 
 void kz_accuracy_cost(double accuracy, kz_cost *cost) {
   static const double mean_periods = 30, period_seconds = 2e-4, setting_seconds = 0.5;
-  cost->core_seconds += (double)kz_accuracy_samples(accuracy) * mean_periods * period_seconds + 10 * setting_seconds;
+  cost->core_seconds += (double)samples_for(accuracy) * mean_periods * period_seconds + 10 * setting_seconds;
 }
 
 enum { MOST = 32 }; /* candidates */
@@ -106,7 +107,7 @@ kz_status kz_accuracy_choose(const kz_scene *scene, kz_team *team, kz_store *sto
   const double accuracy = scene->basin.accuracy;
   kz_judge judge = {0};
   char *path = kz_truth_path(store);
-  kz_status status = kz_judge_make(scene, team, kz_accuracy_samples(accuracy), path, &judge);
+  kz_status status = kz_judge_make(scene, team, samples_for(accuracy), path, &judge);
   if (status == KZ_OK) status = choose(&judge, team, accuracy, choice);
   if (status == KZ_OK && path) status = kz_judge_save(&judge, path);
   if (status == KZ_OK && summary) tell(choice, accuracy, summary);

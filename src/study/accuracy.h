@@ -17,9 +17,6 @@ kz_status kz_accuracy_choose(const kz_scene *scene, kz_team *team, kz_store *sto
 /* The choice as attributes of /basin. Rank 0. */
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store);
 
-/* Cells that are judged for an accuracy. */
-int64_t kz_accuracy_samples(double accuracy);
-
 /* Adds to `cost` what the choice takes, before the labels themselves. */
 void kz_accuracy_cost(double accuracy, kz_cost *cost);
 

@@ -16,43 +16,52 @@ enum {
   SWEEP_STEPS = 20000  /* that those trials take together */
 };
 
+/* Classes of speeds: the fastest half of all speeds, half of those, and so on; class 0 is what is left. */
+enum { CLASSES = 8 };
+
+typedef struct {
+  double speed[CLASSES + 1]; /* rad per drive radian, from 0 */
+  double error[CLASSES];     /* rad, of one drive period; DBL_MAX = diverges */
+} step_trial;
+
 /* rad, of one drive period: from LOOSE on a user is warned, from LOST on labels would be chance. */
 static const double LOOSE = 1e-4, LOST = 0.1;
 
-kz_step_trial kz_steps_try(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
-  kz_step_trial trial = {{0}, {0}};
+/* Step doubling on a sample of the speeds up to `fastest`, and those that rotation and fall bring. */
+static step_trial try_steps(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
+  step_trial trial = {{0}, {0}};
   double top = fmax(fmax(fastest, 1.5), 2 * sqrt(fabs(pendulum->k) + fabs(pendulum->m)));
-  for (int c = 1; c <= KZ_SPEED_CLASSES; c++) trial.speed[c] = ldexp(top, c - KZ_SPEED_CLASSES);
-  kz_trial_step_errors(pendulum, numerics, KZ_SPEED_CLASSES, trial.speed, trial.error);
+  for (int c = 1; c <= CLASSES; c++) trial.speed[c] = ldexp(top, c - CLASSES);
+  kz_trial_step_errors(pendulum, numerics, CLASSES, trial.speed, trial.error);
   return trial;
 }
 
-static int worst_class(const kz_step_trial *trial) {
+static int worst_class(const step_trial *trial) {
   int worst = 0;
-  for (int c = 1; c < KZ_SPEED_CLASSES; c++)
+  for (int c = 1; c < CLASSES; c++)
     if (trial->error[c] > trial->error[worst]) worst = c;
   return worst;
 }
 
-static double worst_error(const kz_step_trial *trial) {
+static double worst_error(const step_trial *trial) {
   return trial->error[worst_class(trial)];
 }
 
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
-  kz_step_trial trial = kz_steps_try(pendulum, numerics, fastest);
+  step_trial trial = try_steps(pendulum, numerics, fastest);
   for (int worst; worst = worst_class(&trial), trial.error[worst] > tolerance;) {
     do { /* the worst class alone: where nothing helps, that is soon known */
       if (numerics->steps_per_period > most / 2) return false;
       numerics->steps_per_period *= 2;
       kz_trial_step_errors(pendulum, numerics, 1, trial.speed + worst, trial.error + worst);
     } while (trial.error[worst] > tolerance);
-    trial = kz_steps_try(pendulum, numerics, fastest);
+    trial = try_steps(pendulum, numerics, fastest);
   }
   return true;
 }
 
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
-  const kz_step_trial trial = kz_steps_try(pendulum, numerics, fastest);
+  const step_trial trial = try_steps(pendulum, numerics, fastest);
   return worst_error(&trial) <= LOST;
 }
 
@@ -88,7 +97,7 @@ static void describe_error(double error, size_t bytes, char *text) {
 }
 
 static kz_status check(const motions *m) {
-  const kz_step_trial trial = kz_steps_try(&m->pendulum, &m->numerics, m->fastest);
+  const step_trial trial = try_steps(&m->pendulum, &m->numerics, m->fastest);
   const int worst = worst_class(&trial);
   if (trial.error[worst] <= LOST) return KZ_OK;
   char what[80], help[160];
@@ -163,10 +172,10 @@ kz_status kz_steps_check(const kz_scene *scene) {
 }
 
 static double warn(const motions *m, FILE *summary) {
-  const kz_step_trial trial = kz_steps_try(&m->pendulum, &m->numerics, m->fastest);
+  const step_trial trial = try_steps(&m->pendulum, &m->numerics, m->fastest);
   const double worst = worst_error(&trial);
   char help[160];
-  for (int c = 0; c < KZ_SPEED_CLASSES; c++)
+  for (int c = 0; c < CLASSES; c++)
     if (trial.error[c] > LOOSE)
       fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by %.2g rad\n", m->where, trial.speed[c],
               trial.speed[c + 1], trial.error[c]);
@@ -187,7 +196,7 @@ void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary) {
   motions m, worst;
   for (int64_t i = 0; i < n; i++) {
     if (!motions_at(scene, i, n, &m)) continue;
-    const kz_step_trial trial = kz_steps_try(&m.pendulum, &m.numerics, m.fastest);
+    const step_trial trial = try_steps(&m.pendulum, &m.numerics, m.fastest);
     if (worst_error(&trial) <= largest) continue;
     largest = worst_error(&trial);
     worst = m;
