@@ -4,12 +4,10 @@
 
 #include "kapitza/analysis.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* Four-term Blackman-Harris window at sample i of n. */
 static double window(int64_t i, int64_t n) {
   static const double weight[4] = {0.35875, -0.48829, 0.14128, -0.01168};
-  double x = 2 * PI * (double)i / (double)n, sum = 0;
+  double x = 2 * M_PI * (double)i / (double)n, sum = 0;
   for (int j = 0; j < 4; j++) sum += weight[j] * cos(j * x);
   return sum;
 }
@@ -26,13 +24,13 @@ double kz_spectrum_rotation(const kz_record *record, const double *theta) {
     moment += weight * t * (theta[i] - theta[n / 2]);
     spread += weight * t * t;
   }
-  return moment / spread * (double)record->samples_per_period / (2 * PI);
+  return moment / spread * (double)record->samples_per_period / (2 * M_PI);
 }
 
 /* The weighted deviation from the steady turn, less its mean. Returns the mean; `total` is the sum of the weights. */
 static double fill_deviation(const kz_record *record, const double *theta, double *deviation, double *total) {
   int64_t n = samples(record);
-  double turn = 2 * PI * record->rotation / (double)record->samples_per_period, mean = 0;
+  double turn = 2 * M_PI * record->rotation / (double)record->samples_per_period, mean = 0;
   *total = 0;
   for (int64_t i = 0; i < n; i++) {
     double weight = record->closed ? 1 : window(i, n);
@@ -48,11 +46,11 @@ static double fill_deviation(const kz_record *record, const double *theta, doubl
 static double line_phase(double amplitude, double re, double im) {
   if (amplitude < KZ_LINE_FLOOR) return NAN;
   double phase = atan2(im, re);
-  return phase == -PI ? PI : phase;
+  return phase == -M_PI ? M_PI : phase;
 }
 
 static void read_lines(const fftw_complex *bin, double total, double mean, int64_t n_lines, double *amplitude, double *phase) {
-  double a0 = remainder(mean, 2 * PI);
+  double a0 = remainder(mean, 2 * M_PI);
   amplitude[0] = fabs(a0);
   phase[0] = line_phase(amplitude[0], a0, 0);
   for (int64_t j = 1; j < n_lines; j++) {

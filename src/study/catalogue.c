@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "column.h"
+
 enum { SAMPLES = 96, LINES_PER_PERIOD = 8 };
 
 void kz_catalogue_free(kz_catalogue *catalogue) {
@@ -63,31 +65,20 @@ static int64_t longest(const kz_catalogue *catalogue) {
   return most;
 }
 
-/* One value of each entry, as the store takes it. */
-#define COLUMN(type, name, expression)                                              \
-  do {                                                                              \
-    type *column = calloc((size_t)catalogue->count + 1, sizeof *column);            \
-    if (!column) return kz_fail(KZ_FAILED, "no memory for /attractors/" name);      \
-    for (int64_t i = 0; i < catalogue->count; i++) {                                \
-      const kz_entry *e = catalogue->entries + i;                                   \
-      column[i] = (expression);                                                     \
-    }                                                                               \
-    kz_status column_status = kz_store_variable(store, "attractors", name, column); \
-    free(column);                                                                   \
-    KZ_TRY(column_status);                                                          \
-  } while (0)
+#define COLUMN(type, name, expression) KZ_COLUMN(store, "attractors", name, catalogue->count, type, expression)
 
 static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction, kz_store *store) {
-  COLUMN(int32_t, "period", e->row.period);
-  COLUMN(int32_t, "winding", e->row.winding);
-  COLUMN(int8_t, "centre", (int8_t)e->row.centre);
-  COLUMN(const char *, "name", e->name);
-  COLUMN(int8_t, "symmetric", (int8_t)e->row.symmetric);
-  COLUMN(int32_t, "mirror", e->mirror);
-  COLUMN(double, "amplitude", e->row.amplitude);
-  COLUMN(double, "lyapunov", e->row.lyapunov);
-  COLUMN(double, "lyapunov_error", e->row.lyapunov_error);
-  if (with_fraction) COLUMN(double, "fraction", e->fraction);
+  const kz_entry *e = catalogue->entries;
+  COLUMN(int32_t, "period", e[i].row.period);
+  COLUMN(int32_t, "winding", e[i].row.winding);
+  COLUMN(int8_t, "centre", e[i].row.centre);
+  COLUMN(const char *, "name", e[i].name);
+  COLUMN(int8_t, "symmetric", e[i].row.symmetric);
+  COLUMN(int32_t, "mirror", e[i].mirror);
+  COLUMN(double, "amplitude", e[i].row.amplitude);
+  COLUMN(double, "lyapunov", e[i].row.lyapunov);
+  COLUMN(double, "lyapunov_error", e[i].row.lyapunov_error);
+  if (with_fraction) COLUMN(double, "fraction", e[i].fraction);
   return KZ_OK;
 }
 

@@ -4,8 +4,6 @@
 #include "kapitza/dynamics.h"
 #include "motion.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* A cycle must lie this near to the start (rad), or Newton has gone to another one. */
 static const double REACH = 0.3;
 /* Linear orbits count as closed when they come back to this share of their size. */
@@ -27,7 +25,7 @@ static kz_status find(const kz_mover *mover, kz_state start, kz_cycle *cycle) {
   kz_state x = start;
   for (int n = 1; n <= MOST_PERIODS; n++) {
     kz_mover_skip(mover, 1, &x);
-    back[n] = hypot(remainder(x.theta - start.theta, 2 * PI), x.velocity - start.velocity);
+    back[n] = hypot(remainder(x.theta - start.theta, 2 * M_PI), x.velocity - start.velocity);
   }
   for (size_t i = 0; i < sizeof WITHIN / sizeof WITHIN[0]; i++) {
     for (int n = 1; n <= MOST_PERIODS; n++)

@@ -4,8 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double PI = 3.14159265358979323846;
-
 /* Samples a period that turning points and spectra need, whatever the scene wants to see. */
 enum { LEAST_SAMPLES = 96 };
 /* Periods of a simpler model that are skipped at once. */
@@ -38,7 +36,7 @@ kz_status kz_mover_make(const kz_scene *scene, kz_mover *mover) {
   bool inverted = orbit->model == KZ_MATHIEU && orbit->about == KZ_ABOUT_INVERTED;
   *mover = (kz_mover){.model = orbit->model, .pendulum = *p, .samples = (int64_t)samples_of(scene)};
   if (inverted) mover->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
-  if (inverted) mover->origin = PI;
+  if (inverted) mover->origin = M_PI;
   if (mover->model != KZ_PENDULUM) return KZ_OK;
   mover->numerics = scene->numerics;
   mover->numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);

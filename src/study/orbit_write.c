@@ -5,7 +5,6 @@
 
 #include "orbit.h"
 
-static const double PI = 3.14159265358979323846;
 static const char *const GROUP = "orbit";
 
 /* Every `stride`-th value, count of them, in a new array. NULL where memory ran out. */
@@ -24,7 +23,7 @@ static double *ramp(double unit, int64_t parts, int64_t count) {
 
 static double *pivot(double m, int64_t samples, int64_t count) {
   double *to = malloc((size_t)count * sizeof *to);
-  for (int64_t i = 0; to && i < count; i++) to[i] = m * cos(2 * PI * (double)(i % samples) / (double)samples);
+  for (int64_t i = 0; to && i < count; i++) to[i] = m * cos(2 * M_PI * (double)(i % samples) / (double)samples);
   return to;
 }
 
@@ -40,12 +39,12 @@ static kz_status put(kz_store *store, const char *name, bool dimension, int64_t 
 static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
   const kz_motion *motion = &orbit->motion;
   int64_t samples = orbit->plan->samples_per_period, stride = motion->samples / samples, n = motion->periods * samples + 1;
-  KZ_TRY(put(store, "time", true, n, ramp(2 * PI, samples, n)));
+  KZ_TRY(put(store, "time", true, n, ramp(2 * M_PI, samples, n)));
   KZ_TRY(put(store, "theta", false, n, every(motion->theta, stride, n)));
   KZ_TRY(put(store, "velocity", false, n, every(motion->velocity, stride, n)));
   KZ_TRY(put(store, "pivot", false, n, pivot(orbit->pendulum.m, samples, n)));
   n = motion->periods + 1;
-  KZ_TRY(put(store, "strobe_time", true, n, ramp(2 * PI, 1, n)));
+  KZ_TRY(put(store, "strobe_time", true, n, ramp(2 * M_PI, 1, n)));
   KZ_TRY(put(store, "strobe_theta", false, n, every(motion->theta, motion->samples, n)));
   return put(store, "strobe_velocity", false, n, every(motion->velocity, motion->samples, n));
 }

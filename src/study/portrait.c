@@ -3,8 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double PI = 3.14159265358979323846;
-
 /* Lines up to this many drive frequencies. */
 enum { TOP_FREQUENCY = 8 };
 
@@ -12,7 +10,7 @@ enum { TOP_FREQUENCY = 8 };
 static double rotation_of(const kz_motion *motion, const kz_record *record) {
   if (record->closed) {
     double advance = motion->theta[record->periods * record->samples_per_period] - motion->theta[0];
-    return (double)llrint(advance / (2 * PI)) / (double)record->periods;
+    return (double)llrint(advance / (2 * M_PI)) / (double)record->periods;
   }
   double rotation = kz_spectrum_rotation(record, motion->theta);
   return fabs(rotation) * (double)record->periods < 1 ? 0 : rotation;
@@ -24,10 +22,10 @@ static int centre_of(const kz_motion *motion, int64_t n, double rotation, double
   *origin = 0;
   if (rotation != 0) return KZ_ROTATING;
   for (int64_t i = 0; i < n; i++) mean += motion->theta[i] / (double)n;
-  double nearest = rint(mean / PI);
-  for (int64_t i = 0; i < n; i++) amplitude = fmax(amplitude, fabs(motion->theta[i] - nearest * PI));
-  if (fabs(mean - nearest * PI) > PI / 4 || amplitude >= PI) return KZ_ABOUT_NEITHER;
-  *origin = nearest * PI;
+  double nearest = rint(mean / M_PI);
+  for (int64_t i = 0; i < n; i++) amplitude = fmax(amplitude, fabs(motion->theta[i] - nearest * M_PI));
+  if (fabs(mean - nearest * M_PI) > M_PI / 4 || amplitude >= M_PI) return KZ_ABOUT_NEITHER;
+  *origin = nearest * M_PI;
   return fmod(nearest, 2) == 0 ? KZ_ABOUT_DOWN : KZ_ABOUT_INVERTED;
 }
 
@@ -49,7 +47,7 @@ static kz_status make_turning(const kz_motion *motion, kz_portrait *portrait) {
   int64_t n = motion->periods * motion->samples + 1;
   portrait->turning = malloc((size_t)n * sizeof *portrait->turning);
   if (!portrait->turning) return kz_fail(KZ_FAILED, "out of memory for the turning points of an orbit");
-  double step = 2 * PI / (double)motion->samples;
+  double step = 2 * M_PI / (double)motion->samples;
   portrait->n_turning = kz_turning_points(n, step, motion->theta, motion->velocity, portrait->turning);
   for (int64_t i = 0; i < portrait->n_turning; i++) portrait->turning[i].angle -= portrait->origin;
   return KZ_OK;

@@ -6,7 +6,6 @@
 
 #include "kapitza/stability.h"
 
-static const double PI = 3.14159265358979323846;
 static const char *const GROUP = "potential";
 
 /* Energies are [amplitude][theta]. */
@@ -46,7 +45,7 @@ static void release(curves *c) {
 /* The whole circle from -pi to pi, both ends included. */
 static void model(const kz_pendulum *pendulum, curves *c) {
   int64_t columns = c->plan->theta_count;
-  for (int64_t i = 0; i < columns; i++) c->theta[i] = PI * (double)(2 * i - (columns - 1)) / (double)(columns - 1);
+  for (int64_t i = 0; i < columns; i++) c->theta[i] = M_PI * (double)(2 * i - (columns - 1)) / (double)(columns - 1);
   for (int64_t j = 0; j < c->plan->drive_amplitudes.count; j++) {
     double m = c->plan->drive_amplitudes.values[j];
     kz_rim rim;
@@ -84,7 +83,7 @@ static void summarise(const curves *c, FILE *summary) {
       fprintf(summary, "  m = %g: none\n", m);
     else
       fprintf(summary, "  m = %g: out to %.4g deg from the top (simple formula %.4g deg)\n", m,
-              180 - c->rim_exact[j] * 180 / PI, 180 - c->rim[j] * 180 / PI);
+              180 - c->rim_exact[j] * 180 / M_PI, 180 - c->rim[j] * 180 / M_PI);
   }
 }
 

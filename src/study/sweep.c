@@ -1,12 +1,12 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
-#include "kapitza/steps.h"
 #include "sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#define KEY(name_, unit_) \
-  { #name_, unit_, offsetof(kz_pendulum_keys, name_) }
+#include "kapitza/steps.h"
+
+#define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
 const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(quality_factor, "1"),
     KEY(drive_frequency, "1"),
@@ -65,6 +65,19 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
                    .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells,
                    .core_seconds = values * value_seconds(scene)};
+}
+
+kz_status kz_sweep_stage(const kz_scene *scene, kz_team *team, const kz_stage *stage, kz_records_fn write, kz_store *store,
+                         FILE *summary) {
+  kz_stage kept = *stage;
+  kept.context = (void *)scene;
+  kept.keep = true;
+  void *records = malloc((size_t)stage->n_tiles * stage->record_bytes);
+  kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the stage %s", stage->name));
+  if (status == KZ_OK) status = kz_stage_run(team, &kept, records);
+  if (status == KZ_OK && kz_team_rank(team) == 0) status = write(scene, records, store, summary);
+  free(records);
+  return kz_team_agree(team, status);
 }
 
 /* The catalogues and what joins them. */

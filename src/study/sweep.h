@@ -38,9 +38,6 @@ double kz_walk(const kz_path *path, double from, double to, kz_branch_point *poi
 /* The kind of end that the multipliers of a cycle at its very end tell. */
 int kz_end_kind(const kz_branch_point *end);
 
-/* The state at rest, down (theta = 0) or inverted (pi), as a cycle to begin with. */
-kz_branch_point kz_rest(double theta);
-
 /* The attracting symmetric period-2 cycle about inverted (flutter) near the inverted state of a pendulum that has lost its
  * stability by multiplier -1: the first that a ladder of amplitudes along the eigenvector leads to. */
 bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter);
@@ -98,6 +95,12 @@ kz_status kz_sweep_flutter(const kz_scene *scene, kz_team *team, kz_store *store
 kz_status kz_sweep_zone(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
 kz_status kz_sweep_release(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+
+/* What such a measure does with its records on rank 0. */
+typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, kz_store *store, FILE *summary);
+/* Runs a kept stage whose `work` takes the scene as context, then `write`. Collective. */
+kz_status kz_sweep_stage(const kz_scene *scene, kz_team *team, const kz_stage *stage, kz_records_fn write, kz_store *store,
+                         FILE *summary);
 
 /* Releases from rest at t = 0, `angle` [n] rad from inverted: stays [n] = 1 where the motion stays within half a turn of it. */
 kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays);

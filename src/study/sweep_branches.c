@@ -6,8 +6,6 @@
 
 #include "sweep.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* A walk from a node to its neighbour value, and how it went. */
 typedef struct {
   int64_t node;
@@ -166,7 +164,7 @@ static kz_status walk_all(walking *w, kz_team *team, bool forward) {
 
 /* How unlike two chaotic attractors are: their mean angles and velocities (point.theta, point.velocity). */
 static double unlike(const kz_branch_point *a, const kz_branch_point *b) {
-  return fabs(remainder(a->theta - b->theta, 2 * PI)) + fabs(a->velocity - b->velocity);
+  return fabs(remainder(a->theta - b->theta, 2 * M_PI)) + fabs(a->velocity - b->velocity);
 }
 
 /* Chaotic attractors have no cycle to carry: each joins the one of the next value that is most like it. */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "column.h"
 #include "kapitza/analysis.h"
 #include "share.h"
 #include "sweep.h"
@@ -56,38 +57,25 @@ static int32_t mirror_of(const writing *w, int64_t branch) {
   return -1;
 }
 
-/* One value of each branch, as the store takes it; `expression` sees branch, first, last. */
-#define COLUMN(type, name, expression)                                              \
-  do {                                                                              \
-    type *column = calloc((size_t)b->n_branches + 1, sizeof *column);               \
-    if (!column) return kz_fail(KZ_FAILED, "no memory for /sweep/" name);           \
-    for (int64_t branch = 0; branch < b->n_branches; branch++) {                    \
-      const kz_sweep_node *first = first_of(b, branch), *last = last_of(b, branch); \
-      (void)first, (void)last;                                                      \
-      column[branch] = (type)(expression);                                          \
-    }                                                                               \
-    kz_status column_status = kz_store_variable(w->store, "sweep", name, column);   \
-    free(column);                                                                   \
-    KZ_TRY(column_status);                                                          \
-  } while (0)
+#define COLUMN(type, name, expression) KZ_COLUMN(w->store, "sweep", name, b->n_branches, type, expression)
 
 static kz_status write_columns(const writing *w) {
   const kz_sweep_branches *b = w->branches;
-  COLUMN(int32_t, "branch_period", first->entry.point.period);
-  COLUMN(int32_t, "branch_winding", first->entry.point.winding);
-  COLUMN(int8_t, "branch_centre", first->entry.point.centre);
-  COLUMN(int8_t, "branch_symmetric", first->entry.point.symmetric);
-  COLUMN(int32_t, "branch_mirror", mirror_of(w, branch));
-  COLUMN(double, "branch_start", first->first);
-  COLUMN(double, "branch_end", last->last);
-  COLUMN(int8_t, "branch_start_kind", first->first_kind);
-  COLUMN(int8_t, "branch_end_kind", last->last_kind);
+  COLUMN(int32_t, "branch_period", first_of(b, i)->entry.point.period);
+  COLUMN(int32_t, "branch_winding", first_of(b, i)->entry.point.winding);
+  COLUMN(int8_t, "branch_centre", first_of(b, i)->entry.point.centre);
+  COLUMN(int8_t, "branch_symmetric", first_of(b, i)->entry.point.symmetric);
+  COLUMN(int32_t, "branch_mirror", mirror_of(w, i));
+  COLUMN(double, "branch_start", first_of(b, i)->first);
+  COLUMN(double, "branch_end", last_of(b, i)->last);
+  COLUMN(int8_t, "branch_start_kind", first_of(b, i)->first_kind);
+  COLUMN(int8_t, "branch_end_kind", last_of(b, i)->last_kind);
   return KZ_OK;
 }
 
 static kz_status write_names(const writing *w) {
   const int64_t n = w->branches->n_branches;
-  char(*names)[KZ_NAME_LENGTH] = calloc((size_t)n + 1, sizeof *names);
+  char (*names)[KZ_NAME_LENGTH] = calloc((size_t)n + 1, sizeof *names);
   const char **pointers = calloc((size_t)n + 1, sizeof *pointers);
   kz_status status = names && pointers ? KZ_OK : kz_fail(KZ_FAILED, "no memory for /sweep/branch_name");
   for (int64_t i = 0; status == KZ_OK && i < n; i++) {

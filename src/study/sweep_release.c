@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "column.h"
 #include "sweep.h"
-
-static const double PI = 3.14159265358979323846;
 
 enum {
   SHORTEST = 300,
@@ -22,14 +21,14 @@ static const double LOCATED = 1e-9;
 
 /* Follows the releases period by period; one that is more than half a turn from inverted has gone over the bottom. */
 kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays) {
-  const double enough = pendulum->beta > 0 ? SHRUNK / (PI * pendulum->beta) : LONGEST;
+  const double enough = pendulum->beta > 0 ? SHRUNK / (M_PI * pendulum->beta) : LONGEST;
   const int64_t periods = (int64_t)fmin(fmax(ceil(enough), SHORTEST), LONGEST);
   kz_plan *plan = kz_plan_create(pendulum, numerics);
   double *theta = malloc((size_t)n * sizeof *theta), *velocity = calloc((size_t)n, sizeof *velocity);
   int64_t *turns = calloc((size_t)n, sizeof *turns), *number = malloc((size_t)n * sizeof *number), left = n;
   const bool ready = plan && theta && velocity && turns && number;
   for (int64_t i = 0; ready && i < n; i++) {
-    theta[i] = PI - angle[i];
+    theta[i] = M_PI - angle[i];
     number[i] = i;
     stays[i] = 1;
   }
@@ -37,7 +36,7 @@ kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, i
     kz_advance(plan, left, 1, theta, velocity, turns);
     int64_t kept = 0;
     for (int64_t i = 0; i < left; i++) {
-      if (fabs(theta[i] + 2 * PI * (double)turns[i] - PI) >= PI) {
+      if (fabs(theta[i] + 2 * M_PI * (double)turns[i] - M_PI) >= M_PI) {
         stays[number[i]] = 0;
         continue;
       }
@@ -62,7 +61,7 @@ typedef struct {
 } released;
 
 static double half_degrees(int64_t i) {
-  return (double)(i + 1) * (PI / 360);
+  return (double)(i + 1) * (M_PI / 360);
 }
 
 /* The edge between a release that stays (inside) and one that fails (outside). Of several edges the one next to inside, or with
@@ -89,7 +88,7 @@ static kz_status locate(const kz_pendulum *pendulum, const kz_numerics *numerics
 static kz_status scan(const kz_pendulum *pendulum, const kz_numerics *numerics, const uint8_t *stays, double *edge) {
   int64_t degree = 1;
   while (2 * degree - 1 < HALF_DEGREES && stays[2 * degree - 1]) degree++;
-  double inside = (double)(degree - 1) * (PI / 180), outside = (double)degree * (PI / 180);
+  double inside = (double)(degree - 1) * (M_PI / 180), outside = (double)degree * (M_PI / 180);
   while (outside - inside > LOCATED) {
     const double middle = (inside + outside) / 2;
     uint8_t here;
@@ -147,18 +146,6 @@ static kz_status work(void *context, int64_t tile, void *record) {
   return locate(&pendulum, &scene->numerics, half_degrees(last), half_degrees(last + 1), true, &out->largest);
 }
 
-/* One number of every value: `offset` is its place in a record. */
-static kz_status write_column(const kz_scene *scene, const released *records, const char *name, size_t offset,
-                              kz_store *store) {
-  const int64_t n = scene->sweep.values.count;
-  double *column = malloc((size_t)n * sizeof *column);
-  if (!column) return kz_fail(KZ_FAILED, "no memory for the releases of a sweep");
-  for (int64_t i = 0; i < n; i++) column[i] = *(const double *)((const char *)(records + i) + offset);
-  const kz_status status = kz_store_variable(store, "sweep", name, column);
-  free(column);
-  return status;
-}
-
 static kz_status write_set(const kz_scene *scene, const released *records, kz_store *store) {
   const int64_t n = scene->sweep.values.count;
   double angle[HALF_DEGREES];
@@ -172,29 +159,23 @@ static kz_status write_set(const kz_scene *scene, const released *records, kz_st
   return status;
 }
 
-static kz_status write_release(const kz_scene *scene, const released *records, kz_store *store, FILE *summary) {
-  KZ_TRY(write_column(scene, records, "release_angle", offsetof(released, first), store));
-  KZ_TRY(write_column(scene, records, "release_angle_scan", offsetof(released, scan), store));
-  KZ_TRY(write_column(scene, records, "release_angle_largest", offsetof(released, largest), store));
+#define COLUMN(name, expression) KZ_COLUMN(store, "sweep", name, scene->sweep.values.count, double, expression)
+
+static kz_status write_release(const kz_scene *scene, const void *all, kz_store *store, FILE *summary) {
+  const released *records = all;
+  COLUMN("release_angle", records[i].first);
+  COLUMN("release_angle_scan", records[i].scan);
+  COLUMN("release_angle_largest", records[i].largest);
   KZ_TRY(write_set(scene, records, store));
   fprintf(summary, "releases from rest, degrees from inverted:\n         value  first gap  of whole degrees  last stays\n");
   for (int64_t i = 0; i < scene->sweep.values.count; i++)
-    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_sweep_value(&scene->sweep, i), records[i].first * 180 / PI,
-            records[i].scan * 180 / PI, records[i].largest * 180 / PI);
+    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_sweep_value(&scene->sweep, i), records[i].first * 180 / M_PI,
+            records[i].scan * 180 / M_PI, records[i].largest * 180 / M_PI);
   return KZ_OK;
 }
 
 kz_status kz_sweep_release(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  released *records = malloc((size_t)scene->sweep.values.count * sizeof *records);
-  kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the releases of a sweep"));
-  const kz_stage stage = {.name = "sweep releases",
-                          .n_tiles = scene->sweep.values.count,
-                          .record_bytes = sizeof *records,
-                          .work = work,
-                          .context = (void *)scene,
-                          .keep = true};
-  if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
-  if (status == KZ_OK && kz_team_rank(team) == 0) status = write_release(scene, records, store, summary);
-  free(records);
-  return kz_team_agree(team, status);
+  const kz_stage stage = {
+      .name = "sweep releases", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(released), .work = work};
+  return kz_sweep_stage(scene, team, &stage, write_release, store, summary);
 }

@@ -38,15 +38,16 @@ static kz_status work(void *context, int64_t tile, void *record) {
 }
 
 /* The walks side by side: [values][up, then down]. */
-static kz_status write_strobe(const kz_scene *scene, const double *records, kz_store *store) {
+static kz_status write_strobe(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
+  const double *points = records;
   const int64_t values = scene->sweep.values.count, samples = scene->sweep.samples, all = WALKS * samples;
   double *theta = malloc((size_t)(values * all) * sizeof *theta), *velocity = malloc((size_t)(values * all) * sizeof *velocity);
   int8_t *walk = malloc((size_t)all);
   kz_status status = theta && velocity && walk ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep");
   for (int64_t i = 0; status == KZ_OK && i < WALKS * values; i++) {
     const int64_t at = (i % values) * all + (i / values) * samples;
-    memcpy(theta + at, records + i * 2 * samples, (size_t)samples * sizeof *theta);
-    memcpy(velocity + at, records + (i * 2 + 1) * samples, (size_t)samples * sizeof *velocity);
+    memcpy(theta + at, points + i * 2 * samples, (size_t)samples * sizeof *theta);
+    memcpy(velocity + at, points + (i * 2 + 1) * samples, (size_t)samples * sizeof *velocity);
   }
   for (int64_t s = 0; status == KZ_OK && s < all; s++) walk[s] = (int8_t)(s / samples);
   if (status == KZ_OK) status = kz_store_dimension(store, "sweep", "sample", all, NULL);
@@ -56,20 +57,12 @@ static kz_status write_strobe(const kz_scene *scene, const double *records, kz_s
   free(theta);
   free(velocity);
   free(walk);
+  fprintf(summary, "strobe points of %lld periods at each value, up and down\n", (long long)samples);
   return status;
 }
 
 kz_status kz_sweep_strobe(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   const size_t bytes = (size_t)(scene->sweep.values.count * 2 * scene->sweep.samples) * sizeof(double);
-  double *records = malloc(WALKS * bytes);
-  kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
-  const kz_stage stage = {
-      .name = "sweep strobe", .n_tiles = WALKS, .record_bytes = bytes, .work = work, .context = (void *)scene, .keep = true};
-  if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
-  if (status == KZ_OK && kz_team_rank(team) == 0) {
-    status = write_strobe(scene, records, store);
-    fprintf(summary, "strobe points of %lld periods at each value, up and down\n", (long long)scene->sweep.samples);
-  }
-  free(records);
-  return kz_team_agree(team, status);
+  const kz_stage stage = {.name = "sweep strobe", .n_tiles = WALKS, .record_bytes = bytes, .work = work};
+  return kz_sweep_stage(scene, team, &stage, write_strobe, store, summary);
 }

@@ -4,8 +4,6 @@
 
 #include "sweep.h"
 
-static const double PI = 3.14159265358979323846;
-
 /* rad: farthest that a strobe point may move in one step. */
 static const double REACH = 0.3;
 /* Ends are located to this share of the parameter. */
@@ -72,16 +70,12 @@ int kz_end_kind(const kz_branch_point *end) {
   return end->halves_apart < MERGING ? KZ_END_PERIOD_DOUBLING : KZ_END_FOLD;
 }
 
-kz_branch_point kz_rest(double theta) {
-  return (kz_branch_point){.theta = theta, .period = 1, .symmetric = 1, .centre = theta == 0 ? 0 : 1};
-}
-
 /* 1 + trace + det: the characteristic polynomial at -1 of the one-period map about inverted. NaN without a pendulum. */
 static double flip_test(const kz_path *path, double value) {
   kz_pendulum pendulum;
-  kz_branch_point rest = kz_rest(PI);
+  kz_branch_point rest = {.theta = M_PI, .period = 1, .symmetric = 1, .centre = 1};
   if (!path->pendulum(path->context, value, &pendulum) || !kz_branch_continue(&pendulum, &rest, REACH, &rest)) return NAN;
-  return 1 + rest.multiplier_re[0] + rest.multiplier_re[1] + exp(-2 * PI * pendulum.beta);
+  return 1 + rest.multiplier_re[0] + rest.multiplier_re[1] + exp(-2 * M_PI * pendulum.beta);
 }
 
 double kz_flutter_critical(const kz_path *path, double low, double high) {
@@ -101,13 +95,13 @@ double kz_flutter_critical(const kz_path *path, double low, double high) {
 /* The direction (unit vector) in which the inverted state leaves by its most negative multiplier; false where it has none. */
 static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) {
   const kz_numerics fine = {.scheme = 2, .steps_per_period = 96, .precision = KZ_DOUBLE};
-  double theta = PI, velocity = 0, matrix[4];
+  double theta = M_PI, velocity = 0, matrix[4];
   int64_t turns = 0;
   kz_plan *plan = kz_plan_create(pendulum, &fine);
   if (!plan) return false;
   kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
   kz_plan_free(plan);
-  const double half = (matrix[0] + matrix[3]) / 2, root = half * half - exp(-2 * PI * pendulum->beta);
+  const double half = (matrix[0] + matrix[3]) / 2, root = half * half - exp(-2 * M_PI * pendulum->beta);
   if (root < 0) return false;
   const double leaving = half - sqrt(root), length = hypot(matrix[1], leaving - matrix[0]);
   direction[0] = matrix[1] / length;
@@ -120,7 +114,7 @@ bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter) {
   if (!leaving_direction(pendulum, direction)) return false;
   for (double size = 1e-3; size < 1.5; size *= 1.2) {
     const kz_branch_point guess = {
-        .theta = remainder(PI + size * direction[0], 2 * PI), .velocity = size * direction[1], .period = 2, .symmetric = 1};
+        .theta = remainder(M_PI + size * direction[0], 2 * M_PI), .velocity = size * direction[1], .period = 2, .symmetric = 1};
     if (kz_branch_continue(pendulum, &guess, size / 2, flutter) && flutter->centre == 1 && attracts(flutter)) return true;
   }
   return false;

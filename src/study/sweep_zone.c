@@ -1,15 +1,13 @@
 /* The upper end of the flutter zone (BSG Fig. 4, dots) at each value: the drive m is raised from where flutter begins, once along
  * the cycle to its true end, once by releases from rest as the paper did. */
 #include <math.h>
-#include <stdlib.h>
 
+#include "column.h"
 #include "sweep.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* The drive is searched up to TOP, in steps of STEP; releases in steps of RELEASE_STEP. */
 static const double TOP = 2, STEP = 0.01, RELEASE_STEP = 0.0005;
-static const double RELEASE_ANGLE = 3.14159265358979323846 / 180;
+static const double RELEASE_ANGLE = M_PI / 180;
 /* Locates the release limit to this. */
 static const double LOCATED = 1e-6;
 
@@ -49,8 +47,8 @@ static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point
       for (int i = 0; i < 8; i++) {
         kz_branch_point guess = *symmetric;
         guess.symmetric = 0;
-        guess.theta += size * cos(i * PI / 4);
-        guess.velocity += size * sin(i * PI / 4);
+        guess.theta += size * cos(i * M_PI / 4);
+        guess.velocity += size * sin(i * M_PI / 4);
         *at = m + above;
         path->pendulum(path->context, *at, &pendulum);
         if (kz_branch_continue(&pendulum, &guess, size, found) && hypot(found->multiplier_re[0], found->multiplier_im[0]) < 1)
@@ -112,40 +110,24 @@ static kz_status work(void *context, int64_t tile, void *record) {
   return follow_releases(&path, &scene->numerics, z);
 }
 
-static kz_status write_zone(const kz_scene *scene, const zone *zones, kz_store *store, FILE *summary) {
-  static const struct {
-    const char *name;
-    size_t offset;
-  } columns[] = {{"flutter_onset", offsetof(zone, onset)},
-                 {"flutter_asymmetry", offsetof(zone, asymmetry)},
-                 {"flutter_end", offsetof(zone, end)},
-                 {"flutter_release_end", offsetof(zone, release_end)}};
+#define COLUMN(name, expression) KZ_COLUMN(store, "sweep", name, n, double, expression)
+
+static kz_status write_zone(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
+  const zone *zones = records;
   const int64_t n = scene->sweep.values.count;
-  double *column = malloc((size_t)n * sizeof *column);
-  kz_status status = column ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter zone of a sweep");
-  for (size_t c = 0; status == KZ_OK && c < sizeof columns / sizeof columns[0]; c++) {
-    for (int64_t i = 0; i < n; i++) column[i] = *(const double *)((const char *)(zones + i) + columns[c].offset);
-    status = kz_store_variable(store, "sweep", columns[c].name, column);
-  }
-  free(column);
+  COLUMN("flutter_onset", zones[i].onset);
+  COLUMN("flutter_asymmetry", zones[i].asymmetry);
+  COLUMN("flutter_end", zones[i].end);
+  COLUMN("flutter_release_end", zones[i].release_end);
   fprintf(summary, "flutter zone over m    value        begins  1 deg release fails  asymmetric from  period doubles at\n");
   for (int64_t i = 0; i < n; i++)
     fprintf(summary, "%28.9g  %12.9f  %19.6f  %15.9f  %17.9f\n", kz_sweep_value(&scene->sweep, i), zones[i].onset,
             zones[i].release_end, zones[i].asymmetry, zones[i].end);
-  return status;
+  return KZ_OK;
 }
 
 kz_status kz_sweep_zone(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  zone *zones = malloc((size_t)scene->sweep.values.count * sizeof *zones);
-  kz_status status = kz_team_agree(team, zones ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter zone of a sweep"));
-  const kz_stage stage = {.name = "sweep flutter zone",
-                          .n_tiles = scene->sweep.values.count,
-                          .record_bytes = sizeof *zones,
-                          .work = work,
-                          .context = (void *)scene,
-                          .keep = true};
-  if (status == KZ_OK) status = kz_stage_run(team, &stage, zones);
-  if (status == KZ_OK && kz_team_rank(team) == 0) status = write_zone(scene, zones, store, summary);
-  free(zones);
-  return kz_team_agree(team, status);
+  const kz_stage stage = {
+      .name = "sweep flutter zone", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(zone), .work = work};
+  return kz_sweep_stage(scene, team, &stage, write_zone, store, summary);
 }

@@ -1,49 +1,37 @@
 /* Study `tradeoff`: its group in the file, its table for people. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "cells.h"
+#include "column.h"
 #include "kapitza/steps.h"
 #include "kapitza/truth.h"
 #include "tradeoff.h"
 
-/* One value of each setting, as the store takes it. */
-#define COLUMN(type, name, expression)                                            \
-  do {                                                                            \
-    type *column = calloc((size_t)trade->count + 1, sizeof *column);              \
-    if (!column) return kz_fail(KZ_FAILED, "no memory for /tradeoff/" name);      \
-    for (int64_t i = 0; i < trade->count; i++) {                                  \
-      const kz_setting *s = trade->settings[i];                                   \
-      const kz_measured *m = trade->measured + i;                                 \
-      (void)s, (void)m;                                                           \
-      column[i] = (type)(expression);                                             \
-    }                                                                             \
-    kz_status column_status = kz_store_variable(store, "tradeoff", name, column); \
-    free(column);                                                                 \
-    KZ_TRY(column_status);                                                        \
-  } while (0)
+#define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)
 
 static kz_status write_settings(const kz_trade *trade, kz_store *store) {
-  COLUMN(const char *, "label", s->label);
-  COLUMN(int8_t, "method", s->method);
-  COLUMN(int8_t, "precision", s->precision);
-  COLUMN(const char *, "scheme", s->scheme);
-  COLUMN(int32_t, "steps_per_period", s->steps);
-  COLUMN(int8_t, "interpolation", s->interpolation);
-  COLUMN(int32_t, "table_nodes", s->nodes);
+  const kz_setting *const *s = trade->settings;
+  COLUMN(const char *, "label", s[i]->label);
+  COLUMN(int8_t, "method", s[i]->method);
+  COLUMN(int8_t, "precision", s[i]->precision);
+  COLUMN(const char *, "scheme", s[i]->scheme);
+  COLUMN(int32_t, "steps_per_period", s[i]->steps);
+  COLUMN(int8_t, "interpolation", s[i]->interpolation);
+  COLUMN(int32_t, "table_nodes", s[i]->nodes);
   return KZ_OK;
 }
 
 static kz_status write_measures(const kz_judge *judge, const kz_trade *trade, kz_store *store) {
+  const kz_measured *m = trade->measured;
   const double n = (double)judge->samples;
   COLUMN(double, "wrong", trade->wrong[i]);
-  COLUMN(double, "wrong_low", kz_share_of(m->wrong, judge->samples).low);
-  COLUMN(double, "wrong_high", kz_share_of(m->wrong, judge->samples).high);
-  COLUMN(double, "wrong_inside", (double)m->inside / n);
-  COLUMN(double, "wrong_distance", m->wrong > 0 ? (double)m->distance : NAN);
-  COLUMN(double, "fraction_error", (double)m->astray / n);
+  COLUMN(double, "wrong_low", kz_share_of(m[i].wrong, judge->samples).low);
+  COLUMN(double, "wrong_high", kz_share_of(m[i].wrong, judge->samples).high);
+  COLUMN(double, "wrong_inside", (double)m[i].inside / n);
+  COLUMN(double, "wrong_distance", m[i].wrong > 0 ? (double)m[i].distance : NAN);
+  COLUMN(double, "fraction_error", (double)m[i].astray / n);
   COLUMN(double, "seconds", trade->seconds[i]);
-  COLUMN(double, "seconds_per_million_cells", 1e6 * m->cell);
+  COLUMN(double, "seconds_per_million_cells", 1e6 * m[i].cell);
   COLUMN(int8_t, "pareto", trade->pareto[i]);
   return KZ_OK;
 }
