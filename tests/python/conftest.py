@@ -1,14 +1,17 @@
 """Shared fixtures: a result file as the contract asks for, made without the program, and the program itself."""
 
+import io
 import json
 import os
 import subprocess
+import sys
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from kapitza_file import Result
+from kapitza_file import Result, run
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
@@ -25,7 +28,7 @@ def attractor_name(period, winding, centre):
     """The contract's name of a periodic attractor."""
     if centre == 2:
         return f"rotation {winding:+d}/{period}"
-    about = ("down", "inverted", "", "other")[centre]
+    about = ("down", "inverted", "", "wide")[centre]
     if (centre, period) == (1, 2):
         return "flutter"
     return about if period == 1 else f"{about} {period}-nodding"
@@ -147,6 +150,20 @@ def datasets(path):
     with h5py.File(path) as file:
         file.visititems(visit)
     return contents
+
+
+def run_script(script, *arguments):
+    """A plotting script (its module) without the second that a new Python takes: its CompletedProcess."""
+    output, errors, status = io.StringIO(), io.StringIO(), 0
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(errors):
+        patch.setattr(sys, "argv", [f"{script.__name__}.py", *map(str, arguments)])
+        try:
+            run(script.main)
+        except SystemExit as end:
+            status = end.code
+        finally:
+            script.plt.close("all")
+    return subprocess.CompletedProcess(arguments, status, output.getvalue(), errors.getvalue())
 
 
 @pytest.fixture(scope="session")

@@ -155,11 +155,9 @@ def test_butikov_fig12(drawn):
         assert j == 0 or abs(sine - wanted[f"S{j}"]) < 1e-7
 
 
-
-
 @pytest.mark.parametrize("epsilon", FIGURES)
 def test_catalogue_of_blackburn(model, epsilon):
-    """Every attractor of Figs 11-15 from the default starts: name, strobe points, multipliers."""
+    """Every attractor of Figs 11-15 from the default starts: strobe points, multipliers."""
     result = model({**BLACKBURN, "drive_amplitude": float(epsilon)}, attractors=WINDOW).group("attractors")
     for row in FIGURES[epsilon]["attractors"]:
         theta, velocity = map(float, row["strobe_points"][0])
@@ -213,4 +211,3 @@ def test_every_search_finds_small_basins(model, epsilon):
                 np.abs(listed["strobe_velocity"].values - owners["strobe_velocity"].values[id_, 0]) for id_ in large]
         found += all(np.nanmin(gap) < 1e-9 for gap in gaps)
     assert found >= 0.99 * len(seeds)
-

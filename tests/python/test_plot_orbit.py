@@ -1,14 +1,11 @@
 """plot_orbit.py draws every kind of orbit, draws what the file says, and refuses files without one in one line."""
 
-import io
 import json
-import sys
-from contextlib import redirect_stderr, redirect_stdout
 
 import matplotlib.image
 import plot_orbit
 import pytest
-from kapitza_file import run
+from conftest import run_script
 
 BLACKBURN = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 ORBITS = {
@@ -33,29 +30,19 @@ def files(kapitza, tmp_path_factory):
 
 
 def plot(*arguments):
-    """(status, stdout, stderr) of the script."""
-    output, errors, status = io.StringIO(), io.StringIO(), 0
-    with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(errors):
-        patch.setattr(sys, "argv", ["plot_orbit.py", *map(str, arguments)])
-        try:
-            run(plot_orbit.main)
-        except SystemExit as end:
-            status = end.code
-        finally:
-            plot_orbit.plt.close("all")
-    return status, output.getvalue(), errors.getvalue()
+    return run_script(plot_orbit, *arguments)
 
 
 @pytest.mark.parametrize("name", ORBITS)
 def test_every_orbit_is_drawn(files, tmp_path, name):
-    status, _, errors = plot(files / f"{name}.h5", "-o", tmp_path / "out.png", "--dpi", 100)
-    assert (status, errors) == (0, "")
+    done = plot(files / f"{name}.h5", "-o", tmp_path / "out.png", "--dpi", 100)
+    assert (done.returncode, done.stderr) == (0, "")
     image = matplotlib.image.imread(tmp_path / "out.png")
     assert image.shape[1] > 700 and image[..., :3].std() > 0.05
 
 
 def test_the_picture_says_what_the_file_holds(files, tmp_path):
-    assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg")[0] == 0
+    assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg").returncode == 0
     text = (tmp_path / "out.svg").read_text()
     for words in ("A nodding orbit", "down 6-nodding", "period 6", "line 1/6", "1/6", "strobe points", "angle from down (deg)"):
         assert words in text, words
@@ -63,7 +50,7 @@ def test_the_picture_says_what_the_file_holds(files, tmp_path):
 
 @pytest.mark.parametrize("panels", ["time", "phase,path", "spectrum", "time,spectrum"])
 def test_panels_are_a_choice(files, tmp_path, panels):
-    assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg", "--panels", panels)[0] == 0
+    assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg", "--panels", panels).returncode == 0
     text = (tmp_path / "out.svg").read_text()
     assert ("amplitude (rad)" in text) == ("spectrum" in panels)
     assert ("x / length" in text) == ("path" in panels)
@@ -72,12 +59,12 @@ def test_panels_are_a_choice(files, tmp_path, panels):
 def test_the_same_file_gives_the_same_bytes(files, tmp_path):
     pictures = [tmp_path / f"{name}.pdf" for name in "ab"]
     for picture in pictures:
-        assert plot(files / "open.h5", "-o", picture)[0] == 0
+        assert plot(files / "open.h5", "-o", picture).returncode == 0
     assert pictures[0].read_bytes() == pictures[1].read_bytes()
 
 
 def test_what_cannot_be_drawn(made_file, tmp_path):
-    status, _, errors = plot(made_file, "-o", tmp_path / "out.png")
-    assert (status, errors) == (1, f"error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
-    assert plot(made_file, "--panels", "tiem")[0] == 2
-    assert plot(made_file, "-o", "out.gif")[0] == 2
+    done = plot(made_file, "-o", tmp_path / "out.png")
+    assert (done.returncode, done.stderr) == (1, f"error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
+    assert plot(made_file, "--panels", "tiem").returncode == 2
+    assert plot(made_file, "-o", "out.gif").returncode == 2

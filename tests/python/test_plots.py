@@ -1,35 +1,23 @@
 """The plotting script: every mode draws, draws what the file says, and files that cannot be used are refused in one line."""
 
-import io
 import subprocess
 import sys
-from contextlib import redirect_stderr, redirect_stdout
 
 import h5py
 import matplotlib.image
 import numpy as np
 import plot_basin
 import pytest
-from conftest import ROOT
+from conftest import ROOT, run_script
 from hypothesis import given
 from hypothesis import strategies as st
-from kapitza_file import Result, run
+from kapitza_file import Result
 
 SCRIPT = ROOT / "scripts" / "plot_basin.py"
 
 
 def plot(*arguments):
-    """The script's returncode, stdout and stderr, without the second that a new Python takes."""
-    output, errors, status = io.StringIO(), io.StringIO(), 0
-    with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(errors):
-        patch.setattr(sys, "argv", [str(SCRIPT), *map(str, arguments)])
-        try:
-            run(plot_basin.main)
-        except SystemExit as end:
-            status = end.code
-        finally:
-            plot_basin.plt.close("all")
-    return subprocess.CompletedProcess(arguments, status, output.getvalue(), errors.getvalue())
+    return run_script(plot_basin, *arguments)
 
 
 def test_the_script_runs_by_itself(made_file, tmp_path):

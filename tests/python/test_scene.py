@@ -22,8 +22,6 @@ def resolved(folder, *arguments, scene=GOOD):
     return out.decode().split("\n\n")[1] + "\n"
 
 
-
-
 def at(tree, path):
     for name in path.split("."):
         tree = tree[name]

@@ -1,13 +1,17 @@
 /* Attractors, map table, trapping regions, labels and measures. */
+/* cmocka.h needs the three before it: */
+/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <cmocka.h>
-#include <math.h>
-#include <string.h>
+/* clang-format on */
 
 #include "kapitza/dynamics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const kz_numerics NUMERICS = {2, 16, KZ_DOUBLE};
 static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
@@ -15,8 +19,7 @@ static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
 enum { STARTS = 1024 };
 
 /* Follows starts and looks for cycles until every start is trapped. */
-static kz_dynamics *explored(double m, int64_t seed, double reach)
-{
+static kz_dynamics *explored(double m, int64_t seed, double reach) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
   kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 12);
   double *state = malloc(2 * STARTS * sizeof *state);
@@ -45,8 +48,7 @@ static kz_dynamics *explored(double m, int64_t seed, double reach)
   return d;
 }
 
-static void with_table(kz_dynamics *d, int64_t nodes, double reach)
-{
+static void with_table(kz_dynamics *d, int64_t nodes, double reach) {
   kz_dynamics_table_create(d, nodes, nodes, reach);
   int64_t size = kz_dynamics_table_row_size(d);
   double *rows = malloc((size_t)(nodes * size) * sizeof *rows);
@@ -56,8 +58,7 @@ static void with_table(kz_dynamics *d, int64_t nodes, double reach)
 }
 
 /* The four attractors of Fig. 13, whatever the seed: pairs are exact mirror images, ids do not depend on the search. */
-static void test_catalogue(void **state)
-{
+static void test_catalogue(void **state) {
   (void)state;
   kz_dynamics *a = explored(0.46, 1, 3), *b = explored(0.46, 77, 3);
   int64_t order_a[64], order_b[64], n = kz_dynamics_count(a);
@@ -85,8 +86,7 @@ static void test_catalogue(void **state)
     assert_int_equal(x.symmetric, x.mirror == order_a[i]);
     for (int j = 0; j < x.period; j++) {
       int found = 0;
-      for (int k = 0; k < x.period; k++)
-        found += velocity2[k] == -velocity[j] && (theta2[k] == -theta[j] || theta[j] == -M_PI);
+      for (int k = 0; k < x.period; k++) found += velocity2[k] == -velocity[j] && (theta2[k] == -theta[j] || theta[j] == -M_PI);
       assert_true(found >= 1);
     }
   }
@@ -95,8 +95,7 @@ static void test_catalogue(void **state)
 }
 
 /* A period of ICM converges to a period of integration with the order of its interpolation. */
-static void test_interpolation(void **state)
-{
+static void test_interpolation(void **state) {
   (void)state;
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   enum { N = 500 };
@@ -126,8 +125,7 @@ static void test_interpolation(void **state)
 }
 
 /* Mirrored starts get mirrored labels and equal settling times; a cell outside the table is integrated, not guessed. */
-static void test_mirrored_labels(void **state)
-{
+static void test_mirrored_labels(void **state) {
   (void)state;
   enum { N = 1000 };
   kz_dynamics *d = explored(0.46, 1, 3);
@@ -166,8 +164,7 @@ static void test_mirrored_labels(void **state)
 
 /* A coarse table, whatever its interpolation: the hybrid labels nearly all starts as integration does where the table fails, does not
  * integrate what it need not, and says what it did. */
-static void test_hybrid(void **state)
-{
+static void test_hybrid(void **state) {
   (void)state;
   enum { N = 4096 };
   static double x[2 * N], y[2 * N], z[2 * N];
@@ -193,16 +190,15 @@ static void test_hybrid(void **state)
       assert_int_equal(hybrid[i], table[i]);
       assert_int_equal(r[i], q[i]);
     }
-    print_message("%d nodes: %lld of %d labels unlike integration, %lld with hybrid, %.0f %% of the periods integrated\n", points,
-                  (long long)wrong, N, (long long)unlike, 100.0 * (double)some / (double)all);
+    print_message("%d nodes: %lld of %d labels unlike integration, %lld with hybrid, %.0f %% of the periods integrated\n",
+                  points, (long long)wrong, N, (long long)unlike, 100.0 * (double)some / (double)all);
     assert_true(wrong > N / 50 && unlike < N / 200 && some < 7 * all / 10);
     kz_dynamics_free(d);
   }
 }
 
 /* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search. */
-static void test_regions_are_right(void **state)
-{
+static void test_regions_are_right(void **state) {
   (void)state;
   enum { N = 4000 };
   const double drives[] = {0.15, 0.46};
@@ -231,8 +227,7 @@ static void test_regions_are_right(void **state)
   }
 }
 
-static void test_measures(void **state)
-{
+static void test_measures(void **state) {
   (void)state;
   int16_t one[100] = {0}, halves[100];
   double entropy, boundary, share;
@@ -249,8 +244,7 @@ static void test_measures(void **state)
 }
 
 /* The catalogue survives its travel as doubles. */
-static void test_packing(void **state)
-{
+static void test_packing(void **state) {
   (void)state;
   kz_dynamics *a = explored(0.46, 1, 3);
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.46};
@@ -269,8 +263,7 @@ static void test_packing(void **state)
 }
 
 /* k = 0.25, beta = 0.05, m = 0.5: one chaotic attractor owns the plane. */
-static void test_chaos(void **state)
-{
+static void test_chaos(void **state) {
   (void)state;
   enum { N = 256 };
   kz_pendulum pendulum = {0.25, 0.05, 0.5};
@@ -296,12 +289,12 @@ static void test_chaos(void **state)
   kz_dynamics_free(d);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_catalogue), cmocka_unit_test(test_interpolation), cmocka_unit_test(test_mirrored_labels),
-    cmocka_unit_test(test_hybrid), cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_measures),
-    cmocka_unit_test(test_packing), cmocka_unit_test(test_chaos),
+      cmocka_unit_test(test_catalogue),         cmocka_unit_test(test_interpolation),
+      cmocka_unit_test(test_mirrored_labels),   cmocka_unit_test(test_hybrid),
+      cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_measures),
+      cmocka_unit_test(test_packing),           cmocka_unit_test(test_chaos),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
