@@ -27,7 +27,7 @@ module kz_dynamics_tables
 
   !> Where lanes lie in the table.
   type :: place_t
-    real(dp) :: fold(WIDTH)   !< -1 where the mirror image is stored
+    real(dp) :: fold(WIDTH)   !< -1 where the mirror image is stored; 0 at the two states that are their own images: they rest
     integer :: i(WIDTH)       !< cell of the angle, from 0
     integer :: j(WIDTH)       !< cell of the velocity, from 0
     real(dp) :: x(WIDTH)      !< within the cell, [0, 1)
@@ -154,6 +154,7 @@ contains
       w = sheared(self%u(lane), self%v(lane))
       w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
       place%fold(lane) = merge(1.0_dp, -1.0_dp, w > 0 .or. (.not. w < 0 .and. self%v(lane) >= 0))
+      if (.not. abs(self%v(lane)) > 0 .and. (.not. abs(w) > 0 .or. abs(w) >= 1)) place%fold(lane) = 0
       x(lane) = abs(w)*per_u
       y(lane) = (place%fold(lane)*self%v(lane) + self%table%top)*per_v
     end do

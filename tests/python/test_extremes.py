@@ -222,6 +222,14 @@ def test_starts_on_the_seam_and_on_unstable_points(model, method):
     assert (labels == labels[::-1, ::-1]).all()
 
 
+@pytest.mark.parametrize("method", ["icm", "direct", "hybrid"])
+def test_rest_where_rest_is_unstable_reaches_no_attractor(model, method):
+    """(0, 0) and (pi, 0) are their own mirror images: the rotation in which rounding would make them end is not."""
+    settings = [pendulum(m=0.52), f"basin.method={method}", "basin.icm={theta: 250, velocity: 250}"]
+    labels, _, _, _ = model(*settings, *window((-math.pi / 2, 1.5 * math.pi, 2), (-1, 1, 3)))
+    assert labels[1].tolist() == [-1, -1] and (labels[[0, 2]] >= 0).all()
+
+
 def test_a_cell_at_the_unstable_equilibrium_is_not_called_attracted(model):
     """theta = pi exactly, inverted unstable: nothing may be called inverted."""
     labels, names, _, _ = model(pendulum(m=0.05), *window((math.pi - 1e-9, math.pi + 1e-9, 3), (-1e-9, 1e-9, 3)))
