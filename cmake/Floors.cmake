@@ -18,7 +18,7 @@ endif()
 # kapitza_floor(name FLOORS lower... LIBRARIES targets...): src/name becomes the library kapitza_name.
 function(kapitza_floor name)
   cmake_parse_arguments(arg "" "" "FLOORS;LIBRARIES" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90 src/${name}/*.F90)
+  file(GLOB sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90)
   list(FILTER sources EXCLUDE REGEX "/main\\.c$")
   add_library(kapitza_${name} STATIC ${sources})
   target_include_directories(kapitza_${name} PUBLIC include ${PROJECT_BINARY_DIR}/include PRIVATE src/${name})
@@ -33,7 +33,7 @@ function(kapitza_floor name)
     target_link_libraries(kapitza_${name} PUBLIC kapitza_${floor})
   endforeach()
   target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} gfortran m)
-  list(FILTER sources INCLUDE REGEX "\\.[fF]90$")
+  list(FILTER sources INCLUDE REGEX "\\.f90$")
   if(sources) # gfortran does not look whether malloc gave memory: include/kapitza/memory.h
     add_custom_command(TARGET kapitza_${name} POST_BUILD COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=kz_malloc
                        --redefine-sym calloc=kz_calloc --redefine-sym realloc=kz_realloc $<TARGET_FILE:kapitza_${name}>)

@@ -31,8 +31,8 @@ typedef struct {
   int32_t order;         /* order of convergence */
   int32_t kicks;         /* sines per step */
   int32_t default_steps; /* steps per period where the scene gives none */
-  char source[120];      /* publication of the coefficients */
 } kz_scheme;
+enum { KZ_SPLIT6 = 2 }; /* the row that published values and judges rest on */
 int32_t kz_scheme_count(void);
 void kz_scheme_row(int32_t row, kz_scheme *scheme);
 

@@ -107,7 +107,6 @@ typedef struct {
   const kz_key *keys;
   kz_node *root;
   void *scene;
-  const char *file;
   int first; /* order of the complaint kept; INT_MAX = none */
   char message[2000];
 } kz_reading;

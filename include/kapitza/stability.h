@@ -22,10 +22,8 @@ double kz_damping_at(const kz_damping *damping, double k);
 
 /* A row of the table of curves. A curve that turns back has two rows, the second one named NAME_upper. */
 typedef struct {
-  const char *name;   /* exact_1 ... of the result file */
-  const char *asked;  /* the name by which a scene asks for it: NAME for NAME_upper, else the name itself */
-  const char *domain; /* of k, for people */
-  const char *source; /* equation */
+  const char *name;  /* exact_1 ... of the result file */
+  const char *asked; /* the name by which a scene asks for it: NAME for NAME_upper, else the name itself */
   double (*value)(double k, double beta, double turn);
   double (*turn)(void); /* m where the curve turns back; NULL for one that does not need it */
 } kz_curve;

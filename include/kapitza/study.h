@@ -32,7 +32,7 @@ typedef struct {
   int64_t max_period;
   int64_t seed;
   bool flag_undecided; /* ask every integrated cell whether the last place of its start changes the label */
-  double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
+  double accuracy;     /* NaN, or the share of right labels for which the program chooses method, table and numerics */
 } kz_basin_plan;
 
 /* A list of a scene. */
@@ -149,13 +149,15 @@ typedef struct {
 enum { KZ_MOST_ORBIT_STEPS = 200000 };
 double kz_orbit_steps(const kz_scene *scene);
 
-/* The keys of the pendulum mapping that a sweep can walk along, in the order of the words of the scene. */
+/* The keys of the pendulum mapping that a sweep can walk along. */
 typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
 enum { KZ_SWEEP_PARAMETERS = 13 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
+/* Their names, joined by '|'. */
+const char *kz_sweep_words(void);
 
 /* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping). */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);

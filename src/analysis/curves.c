@@ -114,35 +114,35 @@ CURVE(butikov_damped_2) {
   return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
-#define ROW(name, domain, source, turn) \
-  { #name, #name, domain, source, name, turn }
-#define UPPER(name, domain, source, turn) \
-  { #name "_upper", #name, domain, source, name##_upper, turn }
+#define ROW(name, turn) \
+  { #name, #name, name, turn }
+#define UPPER(name, turn) \
+  { #name "_upper", #name, name##_upper, turn }
 const kz_curve kz_curves[] = {
-    ROW(exact_1, "k <= 0", "4k = a_0(2m)", NULL),
-    ROW(exact_2, "k <= 1/4", "4k = b_1(2m)", NULL),
-    ROW(exact_3, "1/4 <= k <= 0.6304", "4k = a_1(2m)", turn_3),
-    UPPER(exact_3, "k <= 0.6304", "4k = a_1(2m), beyond its turn", turn_3),
-    ROW(exact_4, "k <= 1", "4k = b_2(2m)", NULL),
-    ROW(exact_5, "1 <= k <= 2.0313", "4k = a_2(2m)", turn_5),
-    UPPER(exact_5, "k <= 2.0313", "4k = a_2(2m), beyond its turn", turn_5),
-    ROW(butikov_1, "k <= 0", "BUT (3)", NULL),
-    ROW(butikov_2, "k <= 1/4", "BUT (4)", NULL),
-    ROW(butikov_3, "1/4 <= k <= 13/20", "BUT (5), minus", NULL),
-    UPPER(butikov_3, "k <= 13/20", "BUT (5), plus", NULL),
-    ROW(butikov_4, "k <= 1", "BUT (6)", NULL),
-    ROW(butikov_5, "1 <= k < 8/3", "BUT (7)", NULL),
-    ROW(butikov_4_refined, "k <= 1", "BUT (17)", NULL),
-    ROW(butikov_5_refined, "1 <= k <= 2.042", "BUT (19), minus", NULL),
-    UPPER(butikov_5_refined, "k <= 2.042", "BUT (19), plus", NULL),
-    ROW(blackburn_lower, "k <= 0", "BSG (5)", NULL),
-    ROW(blackburn_upper, "k <= 0", "BSG (6)", NULL),
-    ROW(blackburn_down_upper, "0 <= k <= 1/4", "BSG (6), hanging", NULL),
-    ROW(damped_0, "k <= 0", "multiplier 1, continues curve 1", NULL),
-    ROW(damped_1, "where tongue 1 is", "multiplier -1, continues curves 2 and 3", turn_3),
-    ROW(damped_2, "where tongue 2 is", "multiplier 1, continues curves 4 and 5", turn_5),
-    ROW(butikov_damped_1, "k <= 9/4 and a real root", "BUT (25), corrected", NULL),
-    ROW(butikov_damped_2, "k <= 8/3 and a real root", "BUT (26), corrected", NULL),
+    ROW(exact_1, NULL),              /* k <= 0: 4k = a_0(2m) */
+    ROW(exact_2, NULL),              /* k <= 1/4: 4k = b_1(2m) */
+    ROW(exact_3, turn_3),            /* 1/4 <= k <= 0.6304: 4k = a_1(2m) */
+    UPPER(exact_3, turn_3),          /* k <= 0.6304: 4k = a_1(2m), beyond its turn */
+    ROW(exact_4, NULL),              /* k <= 1: 4k = b_2(2m) */
+    ROW(exact_5, turn_5),            /* 1 <= k <= 2.0313: 4k = a_2(2m) */
+    UPPER(exact_5, turn_5),          /* k <= 2.0313: 4k = a_2(2m), beyond its turn */
+    ROW(butikov_1, NULL),            /* k <= 0: BUT (3) */
+    ROW(butikov_2, NULL),            /* k <= 1/4: BUT (4) */
+    ROW(butikov_3, NULL),            /* 1/4 <= k <= 13/20: BUT (5), minus */
+    UPPER(butikov_3, NULL),          /* k <= 13/20: BUT (5), plus */
+    ROW(butikov_4, NULL),            /* k <= 1: BUT (6) */
+    ROW(butikov_5, NULL),            /* 1 <= k < 8/3: BUT (7) */
+    ROW(butikov_4_refined, NULL),    /* k <= 1: BUT (17) */
+    ROW(butikov_5_refined, NULL),    /* 1 <= k <= 2.042: BUT (19), minus */
+    UPPER(butikov_5_refined, NULL),  /* k <= 2.042: BUT (19), plus */
+    ROW(blackburn_lower, NULL),      /* k <= 0: BSG (5) */
+    ROW(blackburn_upper, NULL),      /* k <= 0: BSG (6) */
+    ROW(blackburn_down_upper, NULL), /* 0 <= k <= 1/4: BSG (6), hanging */
+    ROW(damped_0, NULL),             /* k <= 0: multiplier 1, continues curve 1 */
+    ROW(damped_1, turn_3),           /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */
+    ROW(damped_2, turn_5),           /* where tongue 2 is: multiplier 1, continues curves 4 and 5 */
+    ROW(butikov_damped_1, NULL),     /* k <= 9/4 and a real root: BUT (25), corrected */
+    ROW(butikov_damped_2, NULL),     /* k <= 8/3 and a real root: BUT (26), corrected */
 };
 const int kz_curve_count = sizeof kz_curves / sizeof kz_curves[0];
 

@@ -1,7 +1,7 @@
 /* Hill's determinant: the harmonics exp(i w t) of a solution, w = w0 + j, obey D_w a_w = (m/2) (a_(w-1) + a_(w+1)) with
  * D_w = k - w^2 + i beta w. Elimination from the far end leaves pivots, R_w = D_w - x/R_(w+1), x = m^2/4. */
-#ifndef KZ_ANALYSIS_HILL_H
-#define KZ_ANALYSIS_HILL_H
+#ifndef KAPITZA_ANALYSIS_HILL_H
+#define KAPITZA_ANALYSIS_HILL_H
 
 #include <complex.h>
 

@@ -1,7 +1,7 @@
 /* Characteristic values of Mathieu's equation and the exact transition curves as roots. Curve 1 .. 5 = a_0, b_1, a_1, b_2, a_2
  * of y'' + (a - 2 q cos 2z) y = 0 with a = 4k, q = 2m (BUT sections 2-3). */
-#ifndef KZ_ANALYSIS_MATHIEU_H
-#define KZ_ANALYSIS_MATHIEU_H
+#ifndef KAPITZA_ANALYSIS_MATHIEU_H
+#define KAPITZA_ANALYSIS_MATHIEU_H
 
 /* k of a curve at m >= 0: from GSL up to q = 5000, beyond from the tridiagonal eigenproblem. GSL 2.7 loses digits without
  * telling: 1e-12 at q = 3e4, 1e-8 at 1e5, all of them at 1e6. */

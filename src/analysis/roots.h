@@ -1,6 +1,6 @@
 /* Roots and lowest points of a function of one variable, by GSL's Brent. */
-#ifndef KZ_ANALYSIS_ROOTS_H
-#define KZ_ANALYSIS_ROOTS_H
+#ifndef KAPITZA_ANALYSIS_ROOTS_H
+#define KAPITZA_ANALYSIS_ROOTS_H
 
 typedef double (*kz_real_fn)(double x, void *context);
 

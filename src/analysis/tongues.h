@@ -1,6 +1,6 @@
 /* The damped continuation of the transition curves, exactly. */
-#ifndef KZ_ANALYSIS_TONGUES_H
-#define KZ_ANALYSIS_TONGUES_H
+#ifndef KAPITZA_ANALYSIS_TONGUES_H
+#define KAPITZA_ANALYSIS_TONGUES_H
 
 /* Where the inverted well begins (k < 0): the damped continuation of curve 1. */
 double kz_tongue_lower(double k, double beta);

@@ -167,10 +167,8 @@ const kz_key kz_keys[] = {
     INTEGER("potential.theta.count", 2, 1e6, "721", potential.theta_count, "Number of angles."),
 
     MAPPING("sweep", "", AT(has_sweep), "Study: quantities along one key of the pendulum mapping."),
-    WORD("sweep.parameter",
-         "quality_factor|drive_frequency|drive_amplitude|k|damping|m|mass|radius|inertia|friction|gravity|pivot_amplitude|"
-         "pivot_frequency",
-         NULL, sweep.parameter, "Key of the pendulum mapping, as written there, that takes the values."),
+    ROW("sweep.parameter", KZ_KEY_WORD, NULL, AT(sweep.parameter),
+        "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words),
     REAL("sweep.min", "", -DBL_MAX, DBL_MAX, NULL, sweep.values.min, "First value."),
     REAL("sweep.max", "", -DBL_MAX, DBL_MAX, NULL, sweep.values.max, "Last value."),
     INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Values, both ends included."),

@@ -97,8 +97,8 @@ static void fell(grown *tree) {
   free(tree->labels);
 }
 
-static kz_status read_tree(kz_node *root, const char *file, kz_scene *scene) {
-  kz_reading reading = {.keys = kz_keys, .root = root, .scene = scene, .file = file};
+static kz_status read_tree(kz_node *root, kz_scene *scene) {
+  kz_reading reading = {.keys = kz_keys, .root = root, .scene = scene};
   KZ_TRY(kz_reading_keys(&reading));
   if (root->kind == KZ_MAPPING) kz_reading_rules(&reading);
   return reading.message[0] ? kz_fail(KZ_REFUSED, "%s", reading.message) : KZ_OK;
@@ -108,7 +108,7 @@ kz_status kz_scene_read(const char *text, size_t length, const char *file, int n
   grown tree;
   memset(scene, 0, sizeof *scene);
   kz_status status = grow(text, length, file, n_sets, sets, &tree);
-  if (status == KZ_OK) status = read_tree(tree.root, file, scene);
+  if (status == KZ_OK) status = read_tree(tree.root, scene);
   fell(&tree);
   if (status == KZ_OK && !scene->title) scene->title = strdup("");
   if (status == KZ_OK && !scene->title) status = kz_fail(KZ_FAILED, "out of memory while reading %s", file);
@@ -146,7 +146,7 @@ kz_status kz_scene_locate(kz_status status, const char *text, size_t length, con
   *end = '\0';
   if (!are_keys(message)) return status;
   grown tree;
-  kz_reading reading = {.keys = kz_keys, .file = file, .first = INT_MAX};
+  kz_reading reading = {.keys = kz_keys, .first = INT_MAX};
   if (grow(text, length, file, n_sets, sets, &tree) == KZ_OK) {
     reading.root = tree.root;
     complain_first(&reading, message, end + 2);

@@ -23,7 +23,6 @@ module kz_kernel_border
     integer(c_int32_t) :: order
     integer(c_int32_t) :: kicks
     integer(c_int32_t) :: default_steps
-    character(kind=c_char) :: source(120)
   end type scheme_row_t
 
 contains
@@ -38,11 +37,10 @@ contains
     integer(c_int32_t), value :: row
     type(scheme_row_t), intent(out) :: scheme
 
-    scheme%name = c_text(SCHEMES(row + 1)%name, 16)
+    scheme%name = c_text(SCHEMES(row + 1)%name, size(scheme%name))
     scheme%order = SCHEMES(row + 1)%order
     scheme%kicks = SCHEMES(row + 1)%kicks
     scheme%default_steps = SCHEMES(row + 1)%default_steps
-    scheme%source = c_text(SCHEMES(row + 1)%source, 120)
   end subroutine scheme_row
 
   pure function c_text(text, n) result(chars)

@@ -54,14 +54,11 @@ static kz_status discover(kz_team *team, finding *s) {
 
 static kz_status publish(const kz_scene *scene, const finding *s, kz_store *store, FILE *summary) {
   kz_catalogue catalogue = {0};
-  kz_status status = KZ_OK;
-  if (s->dynamics) {
-    kz_steps_warn(scene, kz_axis_fastest(&scene->attractors.velocity), summary);
-    kz_steps_warn_damping(&scene->parameters.pendulum, MAX_PERIODS, "more damping", summary);
-  }
-  if (s->dynamics) status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
+  kz_steps_warn(scene, kz_axis_fastest(&scene->attractors.velocity), summary);
+  kz_steps_warn_damping(&scene->parameters.pendulum, MAX_PERIODS, "more damping", summary);
+  kz_status status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
   if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
-  if (status == KZ_OK && s->dynamics) {
+  if (status == KZ_OK) {
     kz_catalogue_print(&catalogue, false, summary);
     fprintf(summary, "%lld of %lld starts did not settle within %d periods\n", (long long)s->reached[0],
             (long long)s->plan->starts, MAX_PERIODS);
@@ -74,7 +71,7 @@ static kz_status publish(const kz_scene *scene, const finding *s, kz_store *stor
 static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   if (kz_team_rank(team) != 0) return KZ_OK;
   fprintf(summary, "attractors: without damping nothing attracts\n");
-  return publish(scene, &(finding){0}, store, summary);
+  return kz_catalogue_write(&(kz_catalogue){0}, &scene->parameters.pendulum, false, store);
 }
 
 kz_status kz_attractors_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {

@@ -1,6 +1,6 @@
 /* Inside of the study `basin`: its parts. */
-#ifndef KAPITZA_BASIN_H
-#define KAPITZA_BASIN_H
+#ifndef KAPITZA_STUDY_BASIN_H
+#define KAPITZA_STUDY_BASIN_H
 
 #include "catalogue.h"
 #include "cells.h"

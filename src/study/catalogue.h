@@ -1,6 +1,6 @@
 /* The catalogue of attractors as users see it: their order, their names, their group in the file. */
-#ifndef KAPITZA_CATALOGUE_H
-#define KAPITZA_CATALOGUE_H
+#ifndef KAPITZA_STUDY_CATALOGUE_H
+#define KAPITZA_STUDY_CATALOGUE_H
 
 #include <stdint.h>
 #include <stdio.h>

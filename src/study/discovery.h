@@ -1,6 +1,6 @@
 /* Discovery of the attractors that a set of starts ends on; shared by the studies that need a catalogue. */
-#ifndef KAPITZA_DISCOVERY_H
-#define KAPITZA_DISCOVERY_H
+#ifndef KAPITZA_STUDY_DISCOVERY_H
+#define KAPITZA_STUDY_DISCOVERY_H
 
 #include <stdint.h>
 

@@ -3,10 +3,12 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "kapitza/steps.h"
 
-#define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
+#define KEY(name_, unit_) \
+  { #name_, unit_, offsetof(kz_pendulum_keys, name_) }
 const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(quality_factor, "1"),
     KEY(drive_frequency, "1"),
@@ -22,6 +24,16 @@ const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(pivot_amplitude, "m"),
     KEY(pivot_frequency, "rad s-1"),
 };
+
+const char *kz_sweep_words(void) {
+  static char words[256];
+  words[0] = '\0';
+  for (int i = 0; i < KZ_SWEEP_PARAMETERS; i++) {
+    if (i > 0) strcat(words, "|");
+    strcat(words, kz_sweep_parameters[i].name);
+  }
+  return words;
+}
 
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum) {
   kz_parameters parameters = scene->parameters;

@@ -1,6 +1,6 @@
 /* Inside of the study `sweep`: its parts. Values are those of the swept key of the pendulum mapping. */
-#ifndef KAPITZA_SWEEP_H
-#define KAPITZA_SWEEP_H
+#ifndef KAPITZA_STUDY_SWEEP_H
+#define KAPITZA_STUDY_SWEEP_H
 
 #include "kapitza/branches.h"
 #include "kapitza/study.h"

@@ -94,7 +94,7 @@ double kz_flutter_critical(const kz_path *path, double low, double high) {
 
 /* The direction (unit vector) in which the inverted state leaves by its most negative multiplier; false where it has none. */
 static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) {
-  const kz_numerics fine = {.scheme = 2, .steps_per_period = 96, .precision = KZ_DOUBLE};
+  const kz_numerics fine = {.scheme = KZ_SPLIT6, .steps_per_period = 96, .precision = KZ_DOUBLE};
   double theta = M_PI, velocity = 0, matrix[4];
   int64_t turns = 0;
   kz_plan *plan = kz_plan_create(pendulum, &fine);

@@ -233,7 +233,7 @@ static void lists_are_read_and_written(void **state) {
       {"s: {b: yes}\n", "f:1:8: s.b: \"yes\" is neither true nor false; true or false", NULL}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     lists scene;
-    kz_reading reading = {.keys = list_keys, .scene = &scene, .file = "f"};
+    kz_reading reading = {.keys = list_keys, .scene = &scene};
     assert_int_equal(kz_tree_read(cases[i].text, strlen(cases[i].text), "f", false, &reading.root), KZ_OK);
     assert_int_equal(kz_reading_keys(&reading), KZ_OK);
     assert_string_equal(reading.message, cases[i].message);
