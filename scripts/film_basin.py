@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 """A film of basins along one key of a scene: a run and a picture for every value, and an MP4 where ffmpeg is there.
 
-    source scripts/setup
-    scripts/film_basin.py scenes/small.yaml pendulum.drive_amplitude 0.12 0.58 --count 116
-    scripts/film_basin.py scenes/blackburn-fig12.yaml pendulum.drive_amplitude 0.12 0.58 --folder film --ranks 2
+    .venv/bin/python scripts/film_basin.py scenes/small.yaml pendulum.drive_amplitude 0.12 0.58 --count 116
+    .venv/bin/python scripts/film_basin.py scenes/blackburn-fig12.yaml pendulum.drive_amplitude 0.12 0.58 --ranks 2
 
 Pictures that are in the folder already are not made again, so that a film can be gone on with.
 """
@@ -47,8 +46,8 @@ def step(command):
 def make_frame(arguments, value, picture):
     """Models one value and draws it."""
     result = picture.with_suffix(".h5")
-    step(["mpirun", "-n", arguments.ranks, ROOT / "build" / "kapitza", "run", arguments.scene, "--set",
-          f"{arguments.key}={float(value)!r}", "-o", result, "--force", "--progress", "never"])
+    step(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", arguments.ranks, ROOT / "build" / "kapitza", "run",
+          arguments.scene, "--set", f"{arguments.key}={float(value)!r}", "-o", result, "--force", "--progress", "never"])
     step([sys.executable, ROOT / "scripts" / "plot_basin.py", result, "--centre", "inverted", "--no-legend",
           "--dpi", arguments.dpi, "-o", picture])
     result.unlink()

@@ -10,7 +10,7 @@
 #define NONE "1"
 #define ENERGY "I omega^2"
 #define CURVE(name, long_name) {"stability", name, KZ_REAL, {"k"}, NONE, long_name, {0}}
-#define OWN "as the attribute parameter_units of the group" /* of a swept key */
+#define OWN "@parameter_units" /* of the swept key */
 #define END_KINDS "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"
 
 static const kz_variable variables[] = {

@@ -48,9 +48,19 @@ static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) 
   return kz_attribute_text(dataset, "flag_meanings", meanings);
 }
 
-static kz_status describe(hid_t dataset, const kz_variable *row, hid_t type) {
+/* "@NAME": what the group's attribute NAME says. */
+static kz_status write_units(hid_t group, hid_t dataset, const char *units) {
+  if (units[0] != '@') return kz_attribute_text(dataset, "units", units);
+  char *own = kz_attribute_read_text(group, units + 1);
+  const kz_status status = own ? kz_attribute_text(dataset, "units", own)
+                               : kz_fail(KZ_FAILED, "the result file has no attribute %s for its units", units + 1);
+  H5free_memory(own);
+  return status;
+}
+
+static kz_status describe(hid_t group, hid_t dataset, const kz_variable *row, hid_t type) {
   KZ_TRY(kz_attribute_text(dataset, "long_name", row->long_name));
-  KZ_TRY(kz_attribute_text(dataset, "units", row->units));
+  KZ_TRY(write_units(group, dataset, row->units));
   return write_flags(dataset, row, type);
 }
 
@@ -84,7 +94,7 @@ static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, co
   if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, dataset);
   if (status == KZ_OK && n > 0 && H5Dwrite(*dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     status = kz_hdf5_fail(__FILE__, __LINE__);
-  if (status == KZ_OK) status = describe(*dataset, row, type);
+  if (status == KZ_OK) status = describe(group, *dataset, row, type);
   H5Tclose(type);
   return status;
 }

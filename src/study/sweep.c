@@ -114,14 +114,15 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
   double *values = malloc((size_t)plan->values.count * sizeof *values);
   if (!values) return kz_fail(KZ_FAILED, "no memory for the values of the sweep");
   for (int64_t i = 0; i < plan->values.count; i++) values[i] = kz_sweep_value(plan, i);
-  const kz_status status = kz_store_dimension(store, "sweep", "value", plan->values.count, values);
+  kz_status status = kz_store_text(store, "sweep", "parameter", parameter->name);
+  if (status == KZ_OK) status = kz_store_text(store, "sweep", "parameter_units", parameter->unit);
+  if (status == KZ_OK) status = kz_store_dimension(store, "sweep", "value", plan->values.count, values);
   free(values);
   KZ_TRY(status);
   fprintf(summary, "sweep of %s, %lld values from %.10g to %.10g\n", parameter->name, (long long)plan->values.count,
           plan->values.min, plan->values.max);
   kz_steps_warn_sweep(scene, summary);
-  KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
-  return kz_store_text(store, "sweep", "parameter_units", parameter->unit);
+  return KZ_OK;
 }
 
 kz_status kz_sweep_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {

@@ -1,5 +1,7 @@
 """The table of figures: every scene that it names exists, every scene is named, every name is used once."""
 
+import re
+import shlex
 import subprocess
 import sys
 
@@ -28,3 +30,17 @@ def test_the_list_shows_the_table():
     script = ROOT / "scripts" / "reproduce.py"
     done = subprocess.run([sys.executable, script, "--list", "small"], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0 and done.stdout.split()[:2] == ["small", "scenes/small.yaml"]
+
+
+def test_the_gallery_names_every_figure_of_the_papers():
+    gallery = (ROOT / "docs" / "gallery.md").read_text()
+    scenes = [path.stem for path in (ROOT / "scenes").glob("b*-fig*.yaml")]
+    assert len(scenes) > 30 and not [name for name in scenes if f"`{name}`" not in gallery]
+
+
+def test_the_commands_of_the_gallery_are_valid(kapitza):
+    """Each is checked, not run: its keys, its values, its steps."""
+    commands = re.findall(r"^\| .* \| `(scenes/.*)` \|$", (ROOT / "docs" / "gallery.md").read_text(), re.MULTILINE)
+    assert len(commands) > 12
+    for command in commands:
+        kapitza("check", *shlex.split(command))

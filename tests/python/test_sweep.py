@@ -310,4 +310,5 @@ def test_other_forms_of_the_pendulum(kapitza, tmp_path):
             values = list(file["sweep/value"][:])
             angles[name] = [file["sweep/release_angle_scan"][values.index(value)] for value in (first, last)]
             assert file["sweep"].attrs["parameter"] == parameter
+            assert file["sweep/value"].attrs["units"] == {"a": "1", "c": "kg m2 s-1"}[name]
     assert angles["a"] == pytest.approx(angles["c"], abs=1e-6)
