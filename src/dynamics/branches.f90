@@ -7,7 +7,7 @@ module kz_dynamics_branches
   use kz_dynamics_cycles, only: attractor_t, orbit_of
   use kz_dynamics_newton, only: eigenvalues, n_periods, solved, minimal_period
   use kz_dynamics_portraits, only: portray
-  use kz_dynamics_states, only: apart
+  use kz_dynamics_states, only: apart, separation
   implicit none
   private
 
@@ -67,13 +67,13 @@ contains
     same = 0
     if (a%period /= b%period .or. a%winding /= b%winding .or. a%symmetric /= b%symmetric) return
     if (hypot(a%multiplier_re(1) - b%multiplier_re(1), abs(a%multiplier_im(1)) - abs(b%multiplier_im(1))) > ALIKE) return
-    if (distance([a%theta/PI, a%velocity], [b%theta/PI, b%velocity]) < MERGED) same = 1
+    if (separation(a%theta/PI, a%velocity, b%theta/PI, b%velocity) < MERGED) same = 1
     if (same == 1 .or. a%period == 1) return
     call make_flow(pendulum, fine_numerics(pendulum), .true., flow)
     call flow%put(1, a%theta/PI, a%velocity)
     do i = 1, a%period - 1
       call flow%advance(1)
-      if (distance([flow%u(1), flow%v(1)], [b%theta/PI, b%velocity]) < MERGED) same = 1
+      if (separation(flow%u(1), flow%v(1), b%theta/PI, b%velocity) < MERGED) same = 1
     end do
   end function same_cycle
 
@@ -112,7 +112,7 @@ contains
       if (length < FLOOR) exit
     end do
     x(1) = apart(x(1), 0.0_dp)
-    converged = converged .and. distance(x, start) <= reach
+    converged = converged .and. separation(x(1), x(2), start(1), start(2)) <= reach
   end function solves
 
   !> residual = G(x) - x (rad) and G's derivative, G = F^n, or of symmetric cycles -F^(n/2).
@@ -170,14 +170,12 @@ contains
   function halves_apart(cycle) result(least)
     type(attractor_t), intent(in) :: cycle
     real(dp) :: least
-    integer :: j, half
+    integer :: half
 
     least = huge(1.0_dp)
     half = cycle%period/2
     if (2*half /= cycle%period) return
-    do j = 1, half
-      least = min(least, distance([cycle%u(j), cycle%v(j)], [cycle%u(j + half), cycle%v(j + half)]))
-    end do
+    least = minval(separation(cycle%u(:half), cycle%v(:half), cycle%u(half + 1:), cycle%v(half + 1:)))
   end function halves_apart
 
   !> From a state to the nearest strobe point, rad.
@@ -185,21 +183,8 @@ contains
     type(attractor_t), intent(in) :: cycle
     real(dp), intent(in) :: x(2)
     real(dp) :: least
-    integer :: j
 
-    least = huge(1.0_dp)
-    do j = 1, cycle%period
-      least = min(least, distance([cycle%u(j), cycle%v(j)], x))
-    end do
+    least = minval(separation(cycle%u, cycle%v, x(1), x(2)))
   end function nearest_point
-
-  !> Of two states, rad.
-  pure function distance(a, b) result(d)
-    real(dp), intent(in) :: a(2)
-    real(dp), intent(in) :: b(2)
-    real(dp) :: d
-
-    d = hypot(PI*apart(a(1), b(1)), a(2) - b(2))
-  end function distance
 
 end module kz_dynamics_branches

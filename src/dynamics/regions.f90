@@ -7,7 +7,7 @@ module kz_dynamics_regions
   use kz_dynamics_states, only: apart, sheared
   implicit none
   private
-  public :: regions_t, make_regions, draw_attractors, captors, fold_cell, cover_cell, coverer
+  public :: regions_t, make_regions, draw_attractors, captors, ellipse_captor, fold_cell, cover_cell, coverer
 
   !> An ellipse that touches a cell, and the next one.
   type :: touch_t
@@ -266,8 +266,8 @@ contains
     a = 0
   end function touch_captor
 
-  !> Outside the grid every ellipse is asked.
-  function ellipse_captor(attractors, u, v) result(a)
+  !> The attractor one of whose ellipses holds (u, v), 0 = none: every ellipse is asked.
+  pure function ellipse_captor(attractors, u, v) result(a)
     type(attractor_t), intent(in) :: attractors(:)
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v

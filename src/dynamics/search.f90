@@ -1,12 +1,13 @@
 !> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
 module kz_dynamics_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_kernel_map, only: flow_t
   use kz_kernel_tables, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
-  use kz_dynamics_ellipses, only: find_ellipses, in_ellipse
+  use kz_dynamics_ellipses, only: find_ellipses
   use kz_dynamics_portraits, only: portray
-  use kz_dynamics_states, only: apart, same_state
+  use kz_dynamics_regions, only: ellipse_captor
+  use kz_dynamics_states, only: separation, same_state
   implicit none
   private
   public :: search_t, find_cycles, add_with_mirror
@@ -70,8 +71,8 @@ contains
     integer :: try, n
 
     n = ubound(u, 1)
-    if (trapped(attractors, u(n), v(n))) return
-    distance = hypot(PI*apart(u(1:), u(0)), v(1:) - v(0))
+    if (ellipse_captor(attractors, u(n), v(n)) > 0) return
+    distance = separation(u(1:), v(1:), u(0), v(0))
     do try = 1, TRIES
       n = first_of_the_closest(distance)
       if (.not. distance(n) < closeness) return
@@ -97,22 +98,6 @@ contains
     end do
     n = 1
   end function first_of_the_closest
-
-  pure function trapped(attractors, u, v)
-    type(attractor_t), intent(in) :: attractors(:)
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-    logical :: trapped
-    integer :: a, j
-
-    trapped = .true.
-    do a = 1, size(attractors)
-      do j = 1, attractors(a)%period
-        if (in_ellipse(attractors(a), j, u, v)) return
-      end do
-    end do
-    trapped = .false.
-  end function trapped
 
   pure function known(attractors, candidate)
     type(attractor_t), intent(in) :: attractors(:)

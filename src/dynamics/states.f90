@@ -1,9 +1,10 @@
 !> States of the stroboscopic map, (half-turns, rad per drive radian): how far they are apart, when two are one.
 module kz_dynamics_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_kernel_map, only: PI
   implicit none
   private
-  public :: apart, same_state, sheared, rounded
+  public :: apart, separation, same_state, sheared, rounded
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
@@ -19,6 +20,17 @@ contains
     d = a - b
     d = d - 2*anint(0.5_dp*d)
   end function apart
+
+  !> From (u1, v1) to (u2, v2), rad and rad per drive radian together.
+  elemental function separation(u1, v1, u2, v2) result(d)
+    real(dp), intent(in) :: u1
+    real(dp), intent(in) :: v1
+    real(dp), intent(in) :: u2
+    real(dp), intent(in) :: v2
+    real(dp) :: d
+
+    d = hypot(PI*apart(u1, u2), v1 - v2)
+  end function separation
 
   !> Are (u1, v1) and (u2, v2) one state?
   elemental function same_state(u1, v1, u2, v2) result(one)

@@ -6,7 +6,7 @@ module kz_dynamics_trial
   use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_tables, only: pendulum_t, numerics_t
-  use kz_dynamics_states, only: apart
+  use kz_dynamics_states, only: separation
   implicit none
   private
   public :: table_defect
@@ -66,7 +66,7 @@ contains
       if (is_lost(map, lane, limit) .or. is_lost(other, lane, limit)) then
         largest = huge(largest)
       else
-        largest = max(largest, hypot(PI*apart(map%u(lane), other%u(lane)), map%v(lane) - other%v(lane)))
+        largest = max(largest, separation(map%u(lane), map%v(lane), other%u(lane), other%v(lane)))
       end if
     end do
   end function difference
