@@ -4,6 +4,17 @@
 
 #include "kapitza/scene.h"
 
+typedef struct {
+  char text[32];
+} decimal;
+
+/* The number as a user would write it. */
+static decimal shortest(double value) {
+  decimal number;
+  kz_scalar_print(value, number.text);
+  return number;
+}
+
 /* min < max, and cells that double precision can tell apart. `path` names the mapping of the axis. */
 static void check_axis(kz_reading *reading, const kz_axis *axis, const char *path) {
   char name[128];
@@ -12,11 +23,12 @@ static void check_axis(kz_reading *reading, const kz_axis *axis, const char *pat
   const kz_node *node = kz_tree_find(reading->root, name);
   const double cell = (axis->max - axis->min) / (double)(axis->count > 0 ? axis->count : 1);
   if (axis->max <= axis->min)
-    kz_complain(reading, node, name, "%.17g is not above min = %.17g; a larger number", axis->max, axis->min);
+    kz_complain(reading, node, name, "%s is not above min = %s; a larger number", shortest(axis->max).text,
+                shortest(axis->min).text);
   else if (cell < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max)))
     kz_complain(reading, node, name,
-                "%.17g leaves cells of width %g, too narrow for double precision; a wider window or a smaller count", axis->max,
-                cell);
+                "%s leaves cells of width %g, too narrow for double precision; a wider window or a smaller count",
+                shortest(axis->max).text, cell);
 }
 
 /* Both edges or neither; neither is the whole circle. */
@@ -33,8 +45,8 @@ static void theta_window(kz_reading *reading, kz_axis *theta, const char *path) 
   }
   check_axis(reading, theta, path);
   if (theta->max - theta->min > 2.0 * M_PI)
-    kz_complain(reading, max_node, max, "%.17g makes the window %.17g rad wide; at most 2 pi", theta->max,
-                theta->max - theta->min);
+    kz_complain(reading, max_node, max, "%s makes the window %s rad wide; at most 2 pi", shortest(theta->max).text,
+                shortest(theta->max - theta->min).text);
 }
 
 static void basin_rules(kz_reading *reading, kz_scene *scene) {
@@ -98,9 +110,11 @@ static void check_ends(kz_reading *reading, const kz_axis *axis, const char *pat
   snprintf(name, sizeof name, "%s.max", path);
   const kz_node *node = kz_tree_find(reading->root, name);
   if (axis->count == 1 && axis->max != axis->min)
-    kz_complain(reading, node, name, "%.17g is not min = %.17g though count is 1; the same number", axis->max, axis->min);
+    kz_complain(reading, node, name, "%s is not min = %s though count is 1; the same number", shortest(axis->max).text,
+                shortest(axis->min).text);
   else if (axis->count > 1 && axis->max <= axis->min)
-    kz_complain(reading, node, name, "%.17g is not above min = %.17g; a larger number", axis->max, axis->min);
+    kz_complain(reading, node, name, "%s is not above min = %s; a larger number", shortest(axis->max).text,
+                shortest(axis->min).text);
 }
 
 static void stability_rules(kz_reading *reading, kz_scene *scene) {
@@ -124,10 +138,10 @@ static void sweep_value(kz_reading *reading, const kz_scene *scene, const char *
   const double low = kz_key_find(reading->keys, key)->low;
   if (isnan(value)) return;
   if (value < low)
-    kz_complain(reading, node, path, "%.17g is below what %s takes; %s%g", value, key,
+    kz_complain(reading, node, path, "%s is below what %s takes; %s%g", shortest(value).text, key,
                 low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
   else if (!reading->message[0] && !kz_sweep_pendulum(scene, value, &pendulum))
-    kz_complain(reading, node, path, "%.17g gives no finite k, beta >= 0 and m; a less extreme value", value);
+    kz_complain(reading, node, path, "%s gives no finite k, beta >= 0 and m; a less extreme value", shortest(value).text);
 }
 
 static void sweep_rules(kz_reading *reading, kz_scene *scene) {

@@ -36,6 +36,8 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
   double n, *const values[] = {&n, &start->theta, &start->velocity};
   const char *const names[] = {"period", "strobe_theta", "strobe_velocity"};
   KZ_TRY(kz_store_length(store, "attractors", "attractor", &count));
+  if (count == 0)
+    return kz_fail(KZ_REFUSED, "orbit.attractor: the catalogue is empty; orbit.start, or damping, or another window");
   if (id >= count)
     return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is not in the catalogue, which has %lld; an id below that", (long long)id,
                    (long long)count);

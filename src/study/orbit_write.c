@@ -84,10 +84,11 @@ void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
   if (p->closed)
     fprintf(summary, "orbit: %s, closes after %" PRId64 " period%s", p->name, p->period, p->period > 1 ? "s" : "");
   else if (p->period > 0)
-    fprintf(summary, "orbit: open record of %" PRId64 " periods; its lines tell n = %" PRId64 " (%s)", orbit->motion.periods,
-            p->period, p->name);
+    fprintf(summary, "orbit: open record of %" PRId64 " period%s; its lines tell n = %" PRId64 " (%s)", orbit->motion.periods,
+            orbit->motion.periods > 1 ? "s" : "", p->period, p->name);
   else
-    fprintf(summary, "orbit: open record of %" PRId64 " periods; its lines tell no period", orbit->motion.periods);
+    fprintf(summary, "orbit: open record of %" PRId64 " period%s; its lines tell no period", orbit->motion.periods,
+            orbit->motion.periods > 1 ? "s" : "");
   if (p->dominant > 0)
     fprintf(summary, ", largest line %.6g rad at %" PRId64 "/%" PRId64 " of the drive", p->amplitude[p->dominant], p->dominant,
             p->record_periods);

@@ -156,6 +156,10 @@ static kz_status write_matrices(const writing *w) {
 }
 
 static void print_table(const kz_sweep_branches *b, FILE *summary) {
+  if (b->n_branches == 0) {
+    fprintf(summary, "no attractor at any value (without damping nothing attracts)\n");
+    return;
+  }
   fprintf(summary, "branch  name                   from           begins by          to             ends by\n");
   for (int64_t branch = 0; branch < b->n_branches; branch++) {
     char name[KZ_NAME_LENGTH];

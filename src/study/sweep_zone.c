@@ -110,6 +110,13 @@ static kz_status work(void *context, int64_t tile, void *record) {
   return follow_releases(&path, &scene->numerics, z);
 }
 
+static void print_cell(FILE *summary, int width, int digits, double value) {
+  if (isnan(value))
+    fprintf(summary, "  %*s", width, "-");
+  else
+    fprintf(summary, "  %*.*f", width, digits, value);
+}
+
 #define COLUMN(name, expression) KZ_COLUMN(store, "sweep", name, n, double, expression)
 
 static kz_status write_zone(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
@@ -120,9 +127,14 @@ static kz_status write_zone(const kz_scene *scene, const void *records, kz_store
   COLUMN("flutter_end", zones[i].end);
   COLUMN("flutter_release_end", zones[i].release_end);
   fprintf(summary, "flutter zone over m    value        begins  1 deg release fails  asymmetric from  period doubles at\n");
-  for (int64_t i = 0; i < n; i++)
-    fprintf(summary, "%28.9g  %12.9f  %19.6f  %15.9f  %17.9f\n", kz_sweep_value(&scene->sweep, i), zones[i].onset,
-            zones[i].release_end, zones[i].asymmetry, zones[i].end);
+  for (int64_t i = 0; i < n; i++) {
+    fprintf(summary, "%28.9g", kz_sweep_value(&scene->sweep, i));
+    print_cell(summary, 12, 9, zones[i].onset);
+    print_cell(summary, 19, 6, zones[i].release_end);
+    print_cell(summary, 15, 9, zones[i].asymmetry);
+    print_cell(summary, 17, 9, zones[i].end);
+    fputc('\n', summary);
+  }
   return KZ_OK;
 }
 

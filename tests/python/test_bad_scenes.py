@@ -56,6 +56,8 @@ SCENES = {
         "9:42", "sweep.min: -1 is below what pendulum.drive_frequency takes"),
     "sweep backwards": (GOOD + "sweep: {parameter: drive_amplitude, min: 1, max: 0.5, count: 3, measure: [strobe]}\n",
         "9:50", "sweep.max: 0.5 is not above min = 1"),
+    "sweep of nothing": (GOOD + "sweep: {parameter: drive_amplitude, min: 0.2, max: 0.2, count: 3, measure: [strobe]}\n",
+        "9:52", "sweep.max: 0.2 is not above min = 0.2;"),
     "sweep without a measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: []}\n",
         "9:74", "sweep.measure"),
     "sweep with an unknown measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: [angle]}\n",

@@ -191,6 +191,17 @@ sweep: {parameter: drive_amplitude, min: 0.46, max: 0.475, count: 7, measure: [f
     assert "times the distance\n" in said and "nan" not in said
 
 
+def test_without_damping_a_sweep_says_that_nothing_attracts(kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text("""\
+pendulum: {drive_frequency: 11, drive_amplitude: 0.3}
+sweep: {parameter: drive_amplitude, min: 0.2, max: 0.3, count: 2, measure: [attractors, flutter_zone], starts: 16}
+""")
+    said = kapitza("run", "s.yaml", folder=tmp_path).stdout
+    assert "without damping nothing attracts" in said and "nan" not in said
+    with h5py.File(tmp_path / "s.h5") as file:
+        assert file["sweep/branch"].shape == (0,) and np.isnan(file["sweep/flutter_onset"][:]).all()
+
+
 def test_no_flutter_where_there_is_none(sweep):
     arrays, attributes = sweep("flutter_amplitude", 0.2, 0.25, 5, ranks=None)
     assert np.isnan(arrays["flutter_amplitude"]).all() and np.isnan(attributes["fit_slope"])
