@@ -258,12 +258,6 @@ static void too_large_for_the_disk_is_known_early(void **state)
 
 int main(void)
 {
-  char folder[] = "/tmp/kapitza-checkpoint-XXXXXX";
-  if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
-  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
-  kz_team_set_progress(team, KZ_PROGRESS_NEVER);
-  kz_team_broadcast(team, folder, sizeof folder);
-  snprintf(path, sizeof path, "%s/a.checkpoint", folder);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(finished_tiles_are_not_done_again),
       cmocka_unit_test(resume_without_a_file_starts_anew),
@@ -279,11 +273,5 @@ int main(void)
       cmocka_unit_test(a_removed_file_is_noticed),
       cmocka_unit_test(too_large_for_the_disk_is_known_early),
   };
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  if (first()) {
-    unlink(path);
-    rmdir(folder);
-  }
-  kz_team_end(team);
-  return failed;
+  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
 }

@@ -65,21 +65,10 @@ static void a_rank_of_this_run_holds_it(void **state)
 
 int main(void)
 {
-  char folder[] = "/tmp/kapitza-hold-XXXXXX";
-  if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
-  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
-  kz_team_broadcast(team, folder, sizeof folder);
-  snprintf(path, sizeof path, "%s/a.checkpoint", folder);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_rank_of_this_run_holds_it),
       cmocka_unit_test(orphans_are_waited_for),
       cmocka_unit_test(a_running_program_is_refused),
   };
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  if (kz_team_rank(team) == 0) {
-    unlink(path);
-    rmdir(folder);
-  }
-  kz_team_end(team);
-  return failed;
+  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
 }

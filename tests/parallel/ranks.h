@@ -51,4 +51,22 @@ static inline int run_ranks(const struct CMUnitTest *tests, size_t n)
   return failed;
 }
 
+/* The same with `path` [bytes] in a folder of its own, for a checkpoint. */
+static inline int run_ranks_with_path(const struct CMUnitTest *tests, size_t n, char *path, size_t bytes)
+{
+  char folder[] = "/tmp/kapitza-ranks-XXXXXX";
+  if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
+  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
+  kz_team_set_progress(team, KZ_PROGRESS_NEVER);
+  kz_team_broadcast(team, folder, sizeof folder);
+  snprintf(path, bytes, "%s/a.checkpoint", folder);
+  const int failed = _cmocka_run_group_tests("ranks", tests, n, NULL, NULL);
+  if (kz_team_rank(team) == 0) {
+    unlink(path);
+    rmdir(folder);
+  }
+  kz_team_end(team);
+  return failed;
+}
+
 #endif

@@ -80,18 +80,10 @@ static void nothing_is_promised_where_nothing_was_kept(void **state)
 
 int main(void)
 {
-  char folder[] = "/tmp/kapitza-stop-XXXXXX";
-  if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
-  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
-  kz_team_broadcast(team, folder, sizeof folder);
-  snprintf(path, sizeof path, "%s/a.checkpoint", folder);
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_time_limit_stops_and_resumes),
       cmocka_unit_test(a_signal_to_one_rank_stops_all),
       cmocka_unit_test(nothing_is_promised_where_nothing_was_kept),
   };
-  const int failed = cmocka_run_group_tests(tests, NULL, NULL);
-  if (kz_team_rank(team) == 0) rmdir(folder);
-  kz_team_end(team);
-  return failed;
+  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
 }
