@@ -67,6 +67,8 @@ typedef struct {
 kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan);
 /* Closes it; removes the file when `complete`, or where no kept stage has begun. Without an open one: KZ_OK. Collective. */
 kz_status kz_checkpoint_close(kz_team *team, bool complete);
+/* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that differs. */
+kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
 /* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, no kz_team call. */
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);

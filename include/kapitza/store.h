@@ -44,7 +44,7 @@ kz_status kz_store_variable(kz_store *store, const char *group, const char *name
 kz_status kz_store_length(kz_store *store, const char *group, const char *dimension, int64_t *length);
 kz_status kz_store_number(kz_store *store, const char *group, const char *name, const int64_t *index, double *value);
 
-/* True where PATH is a complete file of this program whose root attribute `fingerprint` equals the given one. */
-bool kz_store_is_complete(const char *path, const char *fingerprint);
+/* The root attribute `fingerprint` of PATH, to be freed; NULL where PATH is no complete file of this program. */
+char *kz_store_fingerprint(const char *path);
 
 #endif

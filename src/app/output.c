@@ -79,10 +79,11 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
   KZ_TRY(check_names(path, options->scene, &exists));
   if (!exists) return try_folder(path);
   if (options->force) return try_folder(path);
-  *complete = options->resume && kz_store_is_complete(path, fingerprint);
-  if (*complete) return KZ_OK;
-  return kz_fail(KZ_REFUSED,
-                 options->resume ? "%s: exists and is not a complete file of this scene and program; --force, or another name"
-                                 : "%s: exists; --force to overwrite it, or another name",
-                 path);
+  if (!options->resume) return kz_fail(KZ_REFUSED, "%s: exists; --force to overwrite it, or another name", path);
+  char *there = kz_store_fingerprint(path);
+  const kz_status status = there ? kz_fingerprint_compare(path, there, fingerprint)
+                                 : kz_fail(KZ_REFUSED, "%s: exists and is no file of this program; --force, or another name", path);
+  free(there);
+  *complete = status == KZ_OK;
+  return status;
 }

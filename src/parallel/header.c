@@ -46,8 +46,7 @@ static kz_status damaged(const kz_checkpoint *checkpoint) {
   return kz_fail(KZ_REFUSED, "%s: is damaged or no checkpoint of this program; use --force to discard it", checkpoint->path);
 }
 
-/* The first line in which two fingerprints differ. */
-static kz_status compare(const kz_checkpoint *checkpoint, const char *there, const char *here) {
+kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here) {
   while (*there && *there == *here) {
     const size_t n = strcspn(there, "\n");
     if (n != strcspn(here, "\n") || strncmp(there, here, n) != 0) break;
@@ -57,7 +56,7 @@ static kz_status compare(const kz_checkpoint *checkpoint, const char *there, con
   if (*there == *here && *there == '\0') return KZ_OK;
   const int n_there = (int)strcspn(there, "\n"), n_here = (int)strcspn(here, "\n");
   return kz_fail(KZ_REFUSED, "%s: belongs to another run: it has \"%.*s\", this run has \"%.*s\"; use --force to discard it",
-                 checkpoint->path, n_there > 0 ? n_there : 7, n_there > 0 ? there : "nothing", n_here > 0 ? n_here : 7,
+                 path, n_there > 0 ? n_there : 7, n_there > 0 ? there : "nothing", n_here > 0 ? n_here : 7,
                  n_here > 0 ? here : "nothing");
 }
 
@@ -67,7 +66,7 @@ static kz_status read_text(kz_checkpoint *checkpoint, const kz_header *header, c
     return damaged(checkpoint);
   text[n] = '\0';
   adopt(checkpoint, header);
-  return compare(checkpoint, text, fingerprint);
+  return kz_fingerprint_compare(checkpoint->path, text, fingerprint);
 }
 
 kz_status kz_header_read(kz_checkpoint *checkpoint, const char *fingerprint, bool *unfinished) {

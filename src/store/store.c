@@ -122,15 +122,14 @@ kz_status kz_store_complete(kz_store *store) {
   return KZ_OK;
 }
 
-bool kz_store_is_complete(const char *path, const char *fingerprint) {
-  if (kz_hdf5_start() != KZ_OK) return false;
+char *kz_store_fingerprint(const char *path) {
+  if (kz_hdf5_start() != KZ_OK) return NULL;
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return false;
-  char *found = kz_attribute_read_text(file, "fingerprint");
-  const bool same = found && strcmp(found, fingerprint) == 0;
+  if (file < 0) return NULL;
+  char *found = kz_attribute_read_text(file, "fingerprint"), *copy = found ? strdup(found) : NULL;
   H5free_memory(found);
   H5Fclose(file);
-  return same;
+  return copy;
 }
 
 const char *kz_store_library(void) {

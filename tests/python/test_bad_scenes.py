@@ -204,7 +204,7 @@ COMMAND_LINES = {
     "path too long": (["run", "scene.yaml", "-o", "x/" * 3000], "too long"),
     "read-only folder": (["run", "scene.yaml", "-o", "/proc/x.h5"], "/proc/x.h5"),
     "existing output": (["run", "scene.yaml", "-o", "there.h5"], "there.h5: exists; --force"),
-    "resume into another file": (["run", "scene.yaml", "-o", "there.h5", "--resume"], "there.h5: exists and is not"),
+    "resume into another file": (["run", "scene.yaml", "-o", "there.h5", "--resume"], "there.h5: exists and is no file of this program"),
     "existing checkpoint": (["run", "scene.yaml", "-o", "half.h5"], "half.h5.checkpoint"),
     "checkpoint of another program": (["run", "scene.yaml", "-o", "half.h5", "--resume"], "half.h5.checkpoint"),
     "scene as the output": (["run", "scene.yaml", "-o", "scene.yaml", "--force"], "scene.yaml: is the scene itself"),

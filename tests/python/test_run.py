@@ -53,7 +53,8 @@ def test_resume_of_a_complete_file_is_success_at_once(kapitza, tmp_path):
     done = kapitza("run", SMALL, "-o", "x.h5", "--resume", ranks=2, folder=tmp_path)
     assert "already complete" in done.stdout and (tmp_path / "x.h5").stat().st_mtime_ns == before
     assert [path.name for path in tmp_path.iterdir()] == ["x.h5"]
-    kapitza("run", SMALL, "-o", "x.h5", "--resume", "--set", "basin.attractors.seed=2", folder=tmp_path, status=2)
+    other = kapitza("run", SMALL, "-o", "x.h5", "--resume", "--set", "basin.attractors.seed=2", folder=tmp_path, status=2)
+    assert 'x.h5: belongs to another run: it has "basin.attractors.seed: 1", this run has "basin.attractors.seed: 2"' in other.stderr
     kapitza("run", SMALL, "-o", "x.h5", "--force", folder=tmp_path)
 
 
