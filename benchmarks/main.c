@@ -9,8 +9,7 @@
 static double *states; /* theta, velocity of each, as read */
 static long n_states;
 
-static bool read_states(void)
-{
+static bool read_states(void) {
   long room = 0;
   double theta, velocity;
   while (scanf("%lf %lf", &theta, &velocity) == 2) {
@@ -26,15 +25,13 @@ static bool read_states(void)
   return n_states > 0;
 }
 
-static double now(void)
-{
+static double now(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static int label_all(const kz_catalogue *catalogue)
-{
+static int label_all(const kz_catalogue *catalogue) {
   size_t n = (size_t)n_states;
   double *theta = malloc(2 * n * sizeof *theta), *velocity = theta + n;
   int *labels = malloc(n * sizeof *labels);
@@ -54,8 +51,7 @@ static int label_all(const kz_catalogue *catalogue)
   return status;
 }
 
-int main(void)
-{
+int main(void) {
   kz_catalogue catalogue;
   int status = 2;
   if (kz_catalogue_read(stdin, &catalogue) && read_states()) status = label_all(&catalogue);

@@ -5,13 +5,11 @@
 
 static const double two_pi = 6.28318530717958647692;
 
-static double acceleration(const kz_pendulum *p, double t, double theta, double velocity)
-{
+static double acceleration(const kz_pendulum *p, double t, double theta, double velocity) {
   return -p->beta * velocity - (p->k - p->m * cos(t)) * sin(theta);
 }
 
-static void one_period(const kz_pendulum *p, double *theta, double *velocity)
-{
+static void one_period(const kz_pendulum *p, double *theta, double *velocity) {
   const double h = two_pi / STEPS;
   for (int step = 0; step < STEPS; step++) {
     double t = step * h, x = *theta, v = *velocity;
@@ -25,15 +23,13 @@ static void one_period(const kz_pendulum *p, double *theta, double *velocity)
   *theta = remainder(*theta, two_pi);
 }
 
-static int point_near(const kz_catalogue *c, double theta, double velocity)
-{
+static int point_near(const kz_catalogue *c, double theta, double velocity) {
   for (int i = 0; i < c->n_points; i++)
     if (kz_point_distance(theta, velocity, &c->points[i]) < capture_circle) return i;
   return -1;
 }
 
-static int label_of(const kz_catalogue *c, double theta, double velocity, long *periods)
-{
+static int label_of(const kz_catalogue *c, double theta, double velocity, long *periods) {
   int expected = -1, running = 0;
   for (long period = 0;; period++) {
     int near = point_near(c, theta, velocity);
@@ -46,8 +42,7 @@ static int label_of(const kz_catalogue *c, double theta, double velocity, long *
   }
 }
 
-long label_states(const kz_catalogue *catalogue, long n, const double *theta, const double *velocity, int *labels)
-{
+long label_states(const kz_catalogue *catalogue, long n, const double *theta, const double *velocity, int *labels) {
   long periods = 0;
   for (long i = 0; i < n; i++) labels[i] = label_of(catalogue, theta[i], velocity[i], &periods);
   return periods;

@@ -14,13 +14,11 @@ typedef struct {
 } tile;
 
 /* k - m cos t at the 2 STEPS + 1 half steps of a period. */
-static void tabulate(const kz_pendulum *p, double *drive)
-{
+static void tabulate(const kz_pendulum *p, double *drive) {
   for (int i = 0; i <= 2 * STEPS; i++) drive[i] = p->k - p->m * cos(two_pi * i / (2 * STEPS));
 }
 
-static void one_period(double beta, const double *drive, double *restrict theta, double *restrict velocity)
-{
+static void one_period(double beta, const double *drive, double *restrict theta, double *restrict velocity) {
   const double h = two_pi / STEPS;
   for (int step = 0; step < STEPS; step++) {
     const double d1 = drive[2 * step], d2 = drive[2 * step + 1], d4 = drive[2 * step + 2];
@@ -38,8 +36,7 @@ static void one_period(double beta, const double *drive, double *restrict theta,
 }
 
 /* Wraps every lane and finds the strobe point it is near, -1 = none. */
-static void look(const kz_catalogue *c, tile *t)
-{
+static void look(const kz_catalogue *c, tile *t) {
 #pragma omp simd
   for (int i = 0; i < LANES; i++) {
     t->theta[i] -= two_pi * rint(t->theta[i] / two_pi);
@@ -57,8 +54,7 @@ static void look(const kz_catalogue *c, tile *t)
 }
 
 /* The lane's label once it is captured, -1 once it is too old, -2 while it goes on. */
-static int verdict(const kz_catalogue *c, tile *t, int i)
-{
+static int verdict(const kz_catalogue *c, tile *t, int i) {
   int near = t->near[i];
   t->running[i] = near < 0 ? 0 : near == t->expected[i] ? t->running[i] + 1 : 1;
   t->expected[i] = near < 0 ? -1 : c->points[near].next;
@@ -66,8 +62,7 @@ static int verdict(const kz_catalogue *c, tile *t, int i)
   return t->age[i]++ == c->max_periods ? -1 : -2;
 }
 
-long label_states(const kz_catalogue *catalogue, long n, const double *theta, const double *velocity, int *labels)
-{
+long label_states(const kz_catalogue *catalogue, long n, const double *theta, const double *velocity, int *labels) {
   double drive[2 * STEPS + 1];
   static tile t;
   long next = 0, left = n, periods = 0;

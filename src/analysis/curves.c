@@ -114,10 +114,8 @@ CURVE(butikov_damped_2) {
   return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
-#define ROW(name, turn) \
-  { #name, #name, name, turn }
-#define UPPER(name, turn) \
-  { #name "_upper", #name, name##_upper, turn }
+#define ROW(name, turn) {#name, #name, name, turn}
+#define UPPER(name, turn) {#name "_upper", #name, name##_upper, turn}
 const kz_curve kz_curves[] = {
     ROW(exact_1, NULL),              /* k <= 0: 4k = a_0(2m) */
     ROW(exact_2, NULL),              /* k <= 1/4: 4k = b_1(2m) */

@@ -8,7 +8,7 @@
 
 /* One row: the first four of every type, then what the type needs. */
 #define ROW(path_, type_, fallback_, offset_, help_, ...) \
-  { .path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__ }
+  {.path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__}
 #define MAPPING(path, fallback, offset, help) ROW(path, KZ_KEY_MAPPING, fallback, offset, help, .unit = "")
 /* Keys that basin.accuracy answers. */
 #define CHOSEN .chosen_by = "basin.accuracy", .chooser = AT(basin.accuracy)

@@ -81,8 +81,9 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
   if (options->force) return try_folder(path);
   if (!options->resume) return kz_fail(KZ_REFUSED, "%s: exists; --force to overwrite it, or another name", path);
   char *there = kz_store_fingerprint(path);
-  const kz_status status = there ? kz_fingerprint_compare(path, there, fingerprint)
-                                 : kz_fail(KZ_REFUSED, "%s: exists and is no file of this program; --force, or another name", path);
+  const kz_status status =
+      there ? kz_fingerprint_compare(path, there, fingerprint)
+            : kz_fail(KZ_REFUSED, "%s: exists and is no file of this program; --force, or another name", path);
   free(there);
   *complete = status == KZ_OK;
   return status;

@@ -5,7 +5,7 @@
 
 #include "store.h"
 
-static const size_t SPARE_BYTES = (size_t)1 << 24; /* what HDF5 may need besides the data */
+static const size_t SPARE_BYTES = (size_t)1 << 24;               /* what HDF5 may need besides the data */
 static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20; /* smaller arrays stay whole; larger ones are packed */
 enum { DEFLATE = 4 };
 

@@ -5,11 +5,10 @@
 #include "setting.h"
 
 #define DIRECT(label, scheme, steps, precision, candidate) \
-  { label, KZ_METHOD_DIRECT, scheme, steps, precision, KZ_QUINTIC, 1000, candidate }
+  {label, KZ_METHOD_DIRECT, scheme, steps, precision, KZ_QUINTIC, 1000, candidate}
 #define ICM(label, interpolation, nodes) \
-  { label, KZ_METHOD_ICM, "split6", 24, KZ_DOUBLE, interpolation, nodes, interpolation == KZ_QUINTIC }
-#define HYBRID(label, nodes, steps) \
-  { label, KZ_METHOD_HYBRID, "split6", steps, KZ_DOUBLE, KZ_QUINTIC, nodes, true }
+  {label, KZ_METHOD_ICM, "split6", 24, KZ_DOUBLE, interpolation, nodes, interpolation == KZ_QUINTIC}
+#define HYBRID(label, nodes, steps) {label, KZ_METHOD_HYBRID, "split6", steps, KZ_DOUBLE, KZ_QUINTIC, nodes, true}
 
 const kz_setting kz_settings[] = {
     DIRECT("direct-rk4-100-1992", "rk4", 100, KZ_DOUBLE, false),

@@ -75,7 +75,7 @@ static kz_status write_columns(const writing *w) {
 
 static kz_status write_names(const writing *w) {
   const int64_t n = w->branches->n_branches;
-  char (*names)[KZ_NAME_LENGTH] = calloc((size_t)n + 1, sizeof *names);
+  char(*names)[KZ_NAME_LENGTH] = calloc((size_t)n + 1, sizeof *names);
   const char **pointers = calloc((size_t)n + 1, sizeof *pointers);
   kz_status status = names && pointers ? KZ_OK : kz_fail(KZ_FAILED, "no memory for /sweep/branch_name");
   for (int64_t i = 0; status == KZ_OK && i < n; i++) {

@@ -1,11 +1,8 @@
 /* Attractors near a bifurcation: the right one or none, never one that is not there, never two taken for one. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include <math.h>
 

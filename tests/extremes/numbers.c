@@ -1,11 +1,8 @@
 /* One drive period at the extremes, judged by the quad-precision truth and by theory; and what is lost is shown as lost. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include <float.h>
 #include <math.h>

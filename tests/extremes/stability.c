@@ -188,7 +188,8 @@ int main(void) {
       cmocka_unit_test(curves_far_below),
       cmocka_unit_test(gsl_is_left_before_it_fails),
       cmocka_unit_test(damping_at_its_ends),
-      cmocka_unit_test(potential_at_its_ends), cmocka_unit_test(rims_with_gravity_upward),
+      cmocka_unit_test(potential_at_its_ends),
+      cmocka_unit_test(rims_with_gravity_upward),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

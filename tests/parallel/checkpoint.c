@@ -14,8 +14,7 @@ typedef struct {
   int64_t done, failing;
 } job;
 
-static kz_status fill(void *context, int64_t tile, void *bytes)
-{
+static kz_status fill(void *context, int64_t tile, void *bytes) {
   job *j = context;
   if (tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)tile);
   for (int i = 0; i < N_BYTES; ++i) ((unsigned char *)bytes)[i] = (unsigned char)(tile * 31 + i * 7 + 1);
@@ -24,40 +23,37 @@ static kz_status fill(void *context, int64_t tile, void *bytes)
   return KZ_OK;
 }
 
-static bool first(void) { return kz_team_rank(team) == 0; }
+static bool first(void) {
+  return kz_team_rank(team) == 0;
+}
 
-static int64_t sum(int64_t mine)
-{
+static int64_t sum(int64_t mine) {
   int64_t all = -1;
   MPI_Allreduce(&mine, &all, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
   return all;
 }
 
-static kz_status run_named(const char *name, job *j)
-{
+static kz_status run_named(const char *name, job *j) {
   const kz_stage stage = {
       .name = name, .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = fill, .context = j, .keep = true, .everywhere = true};
   memset(records, 0, sizeof records);
   return kz_stage_run(team, &stage, records);
 }
 
-static bool is_right(void)
-{
+static bool is_right(void) {
   for (int t = 0; t < N_TILES; ++t)
     for (int i = 0; i < N_BYTES; ++i)
       if (records[t][i] != (unsigned char)(t * 31 + i * 7 + 1)) return false;
   return true;
 }
 
-static kz_status open_with(const char *fingerprint, bool resume, bool force)
-{
+static kz_status open_with(const char *fingerprint, bool resume, bool force) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = fingerprint, .resume = resume, .force = force};
   return kz_checkpoint_open(team, &plan);
 }
 
 /* A run that does some tiles and fails; how many it did. */
-static int64_t leave_partial(int64_t failing)
-{
+static int64_t leave_partial(int64_t failing) {
   job j = {.failing = failing};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   assert_all(run_named("first", &j) == (failing < 0 ? KZ_OK : KZ_FAILED));
@@ -67,8 +63,7 @@ static int64_t leave_partial(int64_t failing)
 }
 
 /* A resumed run to the end; how many tiles it did. */
-static int64_t resume(void)
-{
+static int64_t resume(void) {
   job j = {.failing = -1};
   assert_all(open_with(FINGERPRINT, true, false) == KZ_OK);
   assert_all(run_named("first", &j) == KZ_OK);
@@ -79,8 +74,7 @@ static int64_t resume(void)
 }
 
 /* One bit of the file turned over, on rank 0, seen by all. */
-static void flip(long offset)
-{
+static void flip(long offset) {
   unsigned char byte = 0;
   if (first()) {
     FILE *file = fopen(path, "r+b");
@@ -94,8 +88,7 @@ static void flip(long offset)
   kz_team_broadcast(team, &byte, 1);
 }
 
-static void finished_tiles_are_not_done_again(void **state)
-{
+static void finished_tiles_are_not_done_again(void **state) {
   (void)state;
   for (int64_t failing = 0; failing < N_TILES; failing += 13) {
     const int64_t done = leave_partial(failing);
@@ -105,16 +98,14 @@ static void finished_tiles_are_not_done_again(void **state)
   assert_all(resume() == 0);
 }
 
-static void resume_without_a_file_starts_anew(void **state)
-{
+static void resume_without_a_file_starts_anew(void **state) {
   (void)state;
   assert_all(resume() == N_TILES);
   if (first()) fclose(fopen(path, "w")); /* killed before the header was there */
   assert_all(resume() == N_TILES);
 }
 
-static void a_flipped_bit_is_done_again(void **state)
-{
+static void a_flipped_bit_is_done_again(void **state) {
   (void)state;
   const long offsets[] = {0, 1, 9, 16, 17, 2000, 16 + N_BYTES - 1}; /* of a slot: tile, checksum, record */
   for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
@@ -127,16 +118,14 @@ static void a_flipped_bit_is_done_again(void **state)
   assert_all(resume() == 0);
 }
 
-static void a_damaged_section_is_done_again(void **state)
-{
+static void a_damaged_section_is_done_again(void **state) {
   (void)state;
   leave_partial(-1);
   flip(PAGE + 12);
   assert_all(resume() == N_TILES);
 }
 
-static void a_short_file_is_done_again_or_refused(void **state)
-{
+static void a_short_file_is_done_again_or_refused(void **state) {
   (void)state;
   for (int kept = 0; kept < N_TILES; kept += 11) {
     leave_partial(-1);
@@ -149,8 +138,7 @@ static void a_short_file_is_done_again_or_refused(void **state)
   assert_all(!first() || unlink(path) == 0);
 }
 
-static void a_damaged_header_is_refused(void **state)
-{
+static void a_damaged_header_is_refused(void **state) {
   (void)state;
   const long offsets[] = {0, 3, 8, 17, 25, 40};
   for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
@@ -164,8 +152,7 @@ static void a_damaged_header_is_refused(void **state)
   assert_all(resume() > 0);
 }
 
-static void another_run_is_refused(void **state)
-{
+static void another_run_is_refused(void **state) {
   (void)state;
   const int64_t done = leave_partial(20);
   kz_status status = open_with("version: 1\nk: 0.26\nsteps: 24\n", true, false);
@@ -177,8 +164,7 @@ static void another_run_is_refused(void **state)
   assert_all(resume() == N_TILES - done);
 }
 
-static void an_existing_file_needs_a_word(void **state)
-{
+static void an_existing_file_needs_a_word(void **state) {
   (void)state;
   leave_partial(20);
   const kz_status status = open_with(FINGERPRINT, false, false);
@@ -190,8 +176,7 @@ static void an_existing_file_needs_a_word(void **state)
   assert_all(kz_checkpoint_close(team, true) == KZ_OK);
 }
 
-static void sections_follow_each_other(void **state)
-{
+static void sections_follow_each_other(void **state) {
   (void)state;
   job j = {.failing = -1}, k = {.failing = 30}, again = {.failing = -1};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
@@ -207,8 +192,7 @@ static void sections_follow_each_other(void **state)
   assert_all(kz_checkpoint_close(team, true) == KZ_OK);
 }
 
-static void nothing_kept_leaves_nothing(void **state)
-{
+static void nothing_kept_leaves_nothing(void **state) {
   (void)state;
   assert_all(open_with(FINGERPRINT, false, false) == KZ_OK);
   assert_all(kz_checkpoint_close(team, false) == KZ_OK);
@@ -216,8 +200,7 @@ static void nothing_kept_leaves_nothing(void **state)
   assert_all(kz_checkpoint_close(team, true) == KZ_OK);
 }
 
-static void a_wrong_path_is_refused(void **state)
-{
+static void a_wrong_path_is_refused(void **state) {
   (void)state;
   const kz_checkpoint_plan missing = {.path = "/proc/nowhere/a.checkpoint", .fingerprint = ""};
   const kz_checkpoint_plan device = {.path = "/dev/null", .fingerprint = "", .resume = true};
@@ -227,28 +210,27 @@ static void a_wrong_path_is_refused(void **state)
   assert_all(kz_checkpoint_open(team, &directory) == KZ_REFUSED);
 }
 
-static kz_status remove_and_fill(void *context, int64_t tile, void *bytes)
-{
+static kz_status remove_and_fill(void *context, int64_t tile, void *bytes) {
   if (tile == N_TILES / 2) unlink(path);
   return fill(context, tile, bytes);
 }
 
-static void a_removed_file_is_noticed(void **state)
-{
+static void a_removed_file_is_noticed(void **state) {
   (void)state;
   job j = {.failing = -1};
-  kz_stage stage = {.name = "first", .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = remove_and_fill, .context = &j, .keep = true};
+  kz_stage stage = {
+      .name = "first", .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = remove_and_fill, .context = &j, .keep = true};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   const kz_status status = kz_stage_run(team, &stage, records);
   assert_all(status == KZ_FAILED && strstr(kz_message(), "was removed during the run"));
   assert_all(kz_checkpoint_close(team, false) == KZ_FAILED);
 }
 
-static void too_large_for_the_disk_is_known_early(void **state)
-{
+static void too_large_for_the_disk_is_known_early(void **state) {
   (void)state;
   job j = {.failing = -1};
-  kz_stage stage = {.name = "huge", .n_tiles = (int64_t)1 << 43, .record_bytes = N_BYTES, .work = fill, .context = &j, .keep = true};
+  kz_stage stage = {
+      .name = "huge", .n_tiles = (int64_t)1 << 43, .record_bytes = N_BYTES, .work = fill, .context = &j, .keep = true};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   const kz_status status = kz_stage_run(team, &stage, records);
   assert_all(status == KZ_FAILED && strstr(kz_message(), "no room"));
@@ -256,8 +238,7 @@ static void too_large_for_the_disk_is_known_early(void **state)
   assert_all(kz_checkpoint_close(team, false) == KZ_OK);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(finished_tiles_are_not_done_again),
       cmocka_unit_test(resume_without_a_file_starts_anew),

@@ -8,8 +8,7 @@
 static char path[64];
 
 /* A process that holds the file for a while, as an orphan of a killed run does: byte 1, shared. */
-static pid_t hold_for(double seconds)
-{
+static pid_t hold_for(double seconds) {
   const int file = open(path, O_RDWR | O_CREAT, 0666);
   struct flock byte = {.l_type = F_RDLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
   if (file < 0 || fcntl(file, F_OFD_SETLK, &byte) != 0) perror(path);
@@ -23,8 +22,7 @@ static pid_t hold_for(double seconds)
 }
 
 /* Opens against a holder; the time it took. */
-static double open_against(double seconds, kz_status expected)
-{
+static double open_against(double seconds, kz_status expected) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
   const pid_t child = kz_team_rank(team) == 0 ? hold_for(seconds) : 0;
   const double begun = now();
@@ -35,23 +33,20 @@ static double open_against(double seconds, kz_status expected)
   return took;
 }
 
-static void orphans_are_waited_for(void **state)
-{
+static void orphans_are_waited_for(void **state) {
   (void)state;
   const double took = open_against(1.5, KZ_OK);
   assert_all(kz_team_rank(team) != 0 || (took > 1.0 && took < 6.0));
   assert_all(kz_checkpoint_close(team, true) == KZ_OK);
 }
 
-static void a_running_program_is_refused(void **state)
-{
+static void a_running_program_is_refused(void **state) {
   (void)state;
   const double took = open_against(17, KZ_REFUSED);
   assert_all(kz_team_rank(team) != 0 || (took > 14.0 && took < 17.0));
 }
 
-static void a_rank_of_this_run_holds_it(void **state)
-{
+static void a_rank_of_this_run_holds_it(void **state) {
   (void)state;
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .force = true};
   struct flock byte = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
@@ -63,8 +58,7 @@ static void a_rank_of_this_run_holds_it(void **state)
   close(other);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_rank_of_this_run_holds_it),
       cmocka_unit_test(orphans_are_waited_for),

@@ -7,8 +7,7 @@
 
 static char shown[100000];
 
-static kz_status fill(void *context, int64_t tile, void *bytes)
-{
+static kz_status fill(void *context, int64_t tile, void *bytes) {
   (void)context;
   (void)bytes;
   (void)tile;
@@ -17,8 +16,7 @@ static kz_status fill(void *context, int64_t tile, void *bytes)
 }
 
 /* Runs a stage with stderr at `end`; what came out is read from `file` into shown. */
-static void show(kz_progress progress, int64_t n_tiles, int end, int file)
-{
+static void show(kz_progress progress, int64_t n_tiles, int end, int file) {
   const kz_stage stage = {.name = "cells", .n_tiles = n_tiles, .record_bytes = 1, .work = fill};
   char records[100];
   const int before = dup(STDERR_FILENO);
@@ -38,8 +36,7 @@ static void show(kz_progress progress, int64_t n_tiles, int end, int file)
   shown[n] = '\0';
 }
 
-static void show_in_pipe(kz_progress progress, int64_t n_tiles)
-{
+static void show_in_pipe(kz_progress progress, int64_t n_tiles) {
   int ends[2];
   assert_int_equal(pipe(ends), 0);
   show(progress, n_tiles, ends[1], ends[0]);
@@ -48,8 +45,7 @@ static void show_in_pipe(kz_progress progress, int64_t n_tiles)
 }
 
 /* Skips the test on a machine without pseudo-terminals: a bare chroot has none. */
-static void show_on_terminal(kz_progress progress, int64_t n_tiles)
-{
+static void show_on_terminal(kz_progress progress, int64_t n_tiles) {
   int here, there;
   if (openpty(&here, &there, NULL, NULL, NULL) != 0) skip();
   show(progress, n_tiles, there, here);
@@ -57,8 +53,7 @@ static void show_on_terminal(kz_progress progress, int64_t n_tiles)
   close(there);
 }
 
-static void a_terminal_gets_a_bar(void **state)
-{
+static void a_terminal_gets_a_bar(void **state) {
   (void)state;
   show_on_terminal(KZ_PROGRESS_AUTO, 60);
   assert_non_null(strstr(shown, "\rcells"));
@@ -66,8 +61,7 @@ static void a_terminal_gets_a_bar(void **state)
   assert_string_equal(shown + strlen(shown) - 4, "\r\033[K"); /* and is clean again */
 }
 
-static void a_file_gets_lines(void **state)
-{
+static void a_file_gets_lines(void **state) {
   (void)state;
   show_in_pipe(KZ_PROGRESS_ALWAYS, 70);
   assert_non_null(strstr(shown, "kapitza: cells: 100 %"));
@@ -75,8 +69,7 @@ static void a_file_gets_lines(void **state)
   assert_null(strchr(shown, '\r'));
 }
 
-static void nothing_is_nothing(void **state)
-{
+static void nothing_is_nothing(void **state) {
   (void)state;
   show_in_pipe(KZ_PROGRESS_AUTO, 60); /* over before the first line is due */
   assert_string_equal(shown, "");
@@ -84,8 +77,7 @@ static void nothing_is_nothing(void **state)
   assert_string_equal(shown, "");
 }
 
-static void a_terminal_is_left_alone_too(void **state)
-{
+static void a_terminal_is_left_alone_too(void **state) {
   (void)state;
   show_on_terminal(KZ_PROGRESS_NEVER, 60);
   assert_string_equal(shown, "");
@@ -93,8 +85,7 @@ static void a_terminal_is_left_alone_too(void **state)
   assert_string_equal(shown, "");
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_terminal_gets_a_bar),
       cmocka_unit_test(a_file_gets_lines),

@@ -20,8 +20,7 @@ static kz_team *team;
 
 #define assert_all(condition) assert_on_all((condition), #condition, __LINE__)
 
-static inline void assert_on_all(int holds, const char *text, int line)
-{
+static inline void assert_on_all(int holds, const char *text, int line) {
   if (!holds) print_error("rank %d: %s is false (line %d); message: %s\n", kz_team_rank(team), text, line, kz_message());
   kz_message_clear();
   const kz_status agreed = kz_team_agree(team, holds ? KZ_OK : KZ_FAILED);
@@ -29,21 +28,18 @@ static inline void assert_on_all(int holds, const char *text, int line)
   if (agreed != KZ_OK) _fail(__FILE__, line);
 }
 
-static inline double now(void)
-{
+static inline double now(void) {
   struct timespec time;
   clock_gettime(CLOCK_MONOTONIC, &time);
   return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-static inline void pause_for(double seconds)
-{
+static inline void pause_for(double seconds) {
   const struct timespec time = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
   nanosleep(&time, NULL);
 }
 
-static inline int run_ranks(const struct CMUnitTest *tests, size_t n)
-{
+static inline int run_ranks(const struct CMUnitTest *tests, size_t n) {
   if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
   kz_team_set_progress(team, KZ_PROGRESS_NEVER);
   const int failed = _cmocka_run_group_tests("ranks", tests, n, NULL, NULL);
@@ -52,8 +48,7 @@ static inline int run_ranks(const struct CMUnitTest *tests, size_t n)
 }
 
 /* The same with `path` [bytes] in a folder of its own, for a checkpoint. */
-static inline int run_ranks_with_path(const struct CMUnitTest *tests, size_t n, char *path, size_t bytes)
-{
+static inline int run_ranks_with_path(const struct CMUnitTest *tests, size_t n, char *path, size_t bytes) {
   char folder[] = "/tmp/kapitza-ranks-XXXXXX";
   if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
   if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;

@@ -17,8 +17,7 @@ typedef struct {
   int dirty;       /* records that were not zero at the start */
 } job;
 
-static kz_status fill(void *context, int64_t tile, void *bytes)
-{
+static kz_status fill(void *context, int64_t tile, void *bytes) {
   job *j = context;
   record *r = bytes;
   for (size_t i = 0; i < sizeof *r; ++i) j->dirty += ((char *)bytes)[i] != 0;
@@ -30,22 +29,19 @@ static kz_status fill(void *context, int64_t tile, void *bytes)
   return KZ_OK;
 }
 
-static int is_right(const record *records, int64_t n_tiles)
-{
+static int is_right(const record *records, int64_t n_tiles) {
   for (int64_t t = 0; t < n_tiles; ++t)
     for (int i = 0; i < N_NUMBERS; ++i)
       if (records[t].number[i] != t * 100 + i || memcmp(records[t].tail, "end", 3) != 0) return 0;
   return 1;
 }
 
-static kz_stage stage_of(job *j, int64_t n_tiles, bool everywhere)
-{
+static kz_stage stage_of(job *j, int64_t n_tiles, bool everywhere) {
   return (kz_stage){
       .name = "test", .n_tiles = n_tiles, .record_bytes = sizeof(record), .work = fill, .context = j, .everywhere = everywhere};
 }
 
-static void records_arrive_on_rank_0(void **state)
-{
+static void records_arrive_on_rank_0(void **state) {
   (void)state;
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
@@ -56,8 +52,7 @@ static void records_arrive_on_rank_0(void **state)
   free(records);
 }
 
-static void records_arrive_everywhere(void **state)
-{
+static void records_arrive_everywhere(void **state) {
   (void)state;
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, true);
@@ -69,8 +64,7 @@ static void records_arrive_everywhere(void **state)
   }
 }
 
-static void few_tiles_are_enough(void **state)
-{
+static void few_tiles_are_enough(void **state) {
   (void)state;
   static record records[2];
   for (int64_t n = 0; n <= 2; ++n) {
@@ -83,8 +77,7 @@ static void few_tiles_are_enough(void **state)
   }
 }
 
-static void all_ranks_take_part(void **state)
-{
+static void all_ranks_take_part(void **state) {
   (void)state;
   job j = {.failing = -1, .seconds = 0.005};
   const kz_stage stage = stage_of(&j, N_TILES, true);
@@ -93,8 +86,7 @@ static void all_ranks_take_part(void **state)
   assert_all(j.done > 0 && j.done < (kz_team_size(team) == 1 ? N_TILES + 1 : N_TILES));
 }
 
-static void a_failing_tile_ends_all_ranks(void **state)
-{
+static void a_failing_tile_ends_all_ranks(void **state) {
   (void)state;
   static record records[N_TILES];
   for (int64_t failing = 0; failing < N_TILES; failing += 57) {
@@ -108,8 +100,7 @@ static void a_failing_tile_ends_all_ranks(void **state)
   records_arrive_everywhere(state); /* and the team is as good as before */
 }
 
-static void a_missing_array_ends_all_ranks(void **state)
-{
+static void a_missing_array_ends_all_ranks(void **state) {
   (void)state;
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
@@ -117,19 +108,18 @@ static void a_missing_array_ends_all_ranks(void **state)
   assert_all(j.done == 0);
 }
 
-static kz_status fill_large(void *context, int64_t tile, void *bytes)
-{
+static kz_status fill_large(void *context, int64_t tile, void *bytes) {
   const size_t n = *(const size_t *)context;
   memset(bytes, (int)tile + 1, n);
   pause_for(0.1); /* every rank gets one */
   return KZ_OK;
 }
 
-static void records_beyond_a_message_arrive(void **state)
-{
+static void records_beyond_a_message_arrive(void **state) {
   (void)state;
   size_t n = ((size_t)6 << 20) + 7; /* larger than a block of small ones */
-  const kz_stage stage = {.name = "large", .n_tiles = 7, .record_bytes = n, .work = fill_large, .context = &n, .everywhere = true};
+  const kz_stage stage = {
+      .name = "large", .n_tiles = 7, .record_bytes = n, .work = fill_large, .context = &n, .everywhere = true};
   char *records = malloc(7 * n);
   assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
   int wrong = 0;
@@ -139,8 +129,7 @@ static void records_beyond_a_message_arrive(void **state)
 }
 
 /* No more address space than now, and a little. */
-static void limit_memory(struct rlimit *before)
-{
+static void limit_memory(struct rlimit *before) {
   long pages = 0;
   FILE *file = fopen("/proc/self/statm", "r");
   if (!file || fscanf(file, "%ld", &pages) != 1) perror("statm");
@@ -151,8 +140,7 @@ static void limit_memory(struct rlimit *before)
   setrlimit(RLIMIT_AS, &tight);
 }
 
-static void memory_that_runs_out_on_one_rank_ends_all(void **state)
-{
+static void memory_that_runs_out_on_one_rank_ends_all(void **state) {
   (void)state;
   size_t n = (size_t)16 << 20;
   const kz_stage stage = {.name = "large", .n_tiles = 20, .record_bytes = n, .work = fill_large, .context = &n};
@@ -166,8 +154,7 @@ static void memory_that_runs_out_on_one_rank_ends_all(void **state)
   free(records);
 }
 
-static void the_worst_status_wins(void **state)
-{
+static void the_worst_status_wins(void **state) {
   (void)state;
   const int last = kz_team_size(team) - 1, rank = kz_team_rank(team);
   const kz_status mine = rank == last ? kz_fail(KZ_REFUSED, "rank %d", rank) : kz_fail(KZ_STOPPED, "stop");
@@ -178,8 +165,7 @@ static void the_worst_status_wins(void **state)
   assert_all(kz_team_agree(team, KZ_OK) == KZ_OK);
 }
 
-static void broadcast_reaches_all(void **state)
-{
+static void broadcast_reaches_all(void **state) {
   (void)state;
   char text[100000];
   memset(text, kz_team_rank(team) == 0 ? 'x' : 'y', sizeof text);
@@ -187,14 +173,18 @@ static void broadcast_reaches_all(void **state)
   assert_all(text[0] == 'x' && text[sizeof text - 1] == 'x');
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(records_arrive_on_rank_0),      cmocka_unit_test(records_arrive_everywhere),
-      cmocka_unit_test(few_tiles_are_enough),          cmocka_unit_test(all_ranks_take_part),
-      cmocka_unit_test(a_failing_tile_ends_all_ranks), cmocka_unit_test(a_missing_array_ends_all_ranks),
-      cmocka_unit_test(records_beyond_a_message_arrive), cmocka_unit_test(the_worst_status_wins),
-      cmocka_unit_test(broadcast_reaches_all),         cmocka_unit_test(memory_that_runs_out_on_one_rank_ends_all),
+      cmocka_unit_test(records_arrive_on_rank_0),
+      cmocka_unit_test(records_arrive_everywhere),
+      cmocka_unit_test(few_tiles_are_enough),
+      cmocka_unit_test(all_ranks_take_part),
+      cmocka_unit_test(a_failing_tile_ends_all_ranks),
+      cmocka_unit_test(a_missing_array_ends_all_ranks),
+      cmocka_unit_test(records_beyond_a_message_arrive),
+      cmocka_unit_test(the_worst_status_wins),
+      cmocka_unit_test(broadcast_reaches_all),
+      cmocka_unit_test(memory_that_runs_out_on_one_rank_ends_all),
   };
   return run_ranks(tests, sizeof tests / sizeof *tests);
 }

@@ -8,8 +8,7 @@ static char path[64];
 static int64_t records[N_TILES];
 static int64_t raising = -1;
 
-static kz_status fill(void *context, int64_t tile, void *bytes)
-{
+static kz_status fill(void *context, int64_t tile, void *bytes) {
   ++*(int64_t *)context;
   pause_for(0.005);
   if (tile == raising && raise(SIGUSR1) != 0) return kz_fail(KZ_FAILED, "raise");
@@ -17,23 +16,20 @@ static kz_status fill(void *context, int64_t tile, void *bytes)
   return KZ_OK;
 }
 
-static kz_status run(int64_t *done, bool keep)
-{
+static kz_status run(int64_t *done, bool keep) {
   const kz_stage stage = {
       .name = "cells", .n_tiles = N_TILES, .record_bytes = sizeof *records, .work = fill, .context = done, .keep = keep};
   memset(records, 0, sizeof records);
   return kz_stage_run(team, &stage, records);
 }
 
-static bool is_right(void)
-{
+static bool is_right(void) {
   for (int64_t t = 0; t < N_TILES; ++t)
     if (records[t] != t + 1) return false;
   return true;
 }
 
-static void the_time_limit_stops_and_resumes(void **state)
-{
+static void the_time_limit_stops_and_resumes(void **state) {
   (void)state;
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
   int64_t done = 0, more = 0;
@@ -49,8 +45,7 @@ static void the_time_limit_stops_and_resumes(void **state)
 }
 
 /* From here on the request stays. */
-static void a_signal_to_one_rank_stops_all(void **state)
-{
+static void a_signal_to_one_rank_stops_all(void **state) {
   (void)state;
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
   int64_t done = 0;
@@ -66,8 +61,7 @@ static void a_signal_to_one_rank_stops_all(void **state)
   assert_all(kz_team_rank(team) != 0 || unlink(path) == 0);
 }
 
-static void nothing_is_promised_where_nothing_was_kept(void **state)
-{
+static void nothing_is_promised_where_nothing_was_kept(void **state) {
   (void)state;
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
   int64_t done = 0;
@@ -78,8 +72,7 @@ static void nothing_is_promised_where_nothing_was_kept(void **state)
   assert_all(access(path, F_OK) != 0);
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(the_time_limit_stops_and_resumes),
       cmocka_unit_test(a_signal_to_one_rank_stops_all),

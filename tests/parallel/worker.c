@@ -22,8 +22,7 @@ typedef struct {
   int log;
 } job;
 
-static kz_status fill(void *context, int64_t tile, void *bytes)
-{
+static kz_status fill(void *context, int64_t tile, void *bytes) {
   const job *j = context;
   uint64_t *number = bytes, value = j->seed + (uint64_t)tile;
   if (write(j->log, ".", 1) != 1) return kz_fail(KZ_FAILED, "the log cannot be written");
@@ -35,10 +34,10 @@ static kz_status fill(void *context, int64_t tile, void *bytes)
   return KZ_OK;
 }
 
-static kz_status run_stages(kz_team *team, int log)
-{
+static kz_status run_stages(kz_team *team, int log) {
   job j = {.seed = 1, .log = log};
-  kz_stage stage = {.name = "table", .n_tiles = N_TILES, .record_bytes = sizeof(record), .work = fill, .context = &j, .keep = true};
+  kz_stage stage = {
+      .name = "table", .n_tiles = N_TILES, .record_bytes = sizeof(record), .work = fill, .context = &j, .keep = true};
   stage.everywhere = true;
   KZ_TRY(kz_stage_run(team, &stage, table));
   j = (job){.seed = 2, .below = (const record *)table, .log = log};
@@ -47,8 +46,7 @@ static kz_status run_stages(kz_team *team, int log)
   return kz_stage_run(team, &stage, cells);
 }
 
-static kz_status save(const char *path)
-{
+static kz_status save(const char *path) {
   char part[4096];
   snprintf(part, sizeof part, "%s.part", path);
   FILE *file = fopen(part, "wb");
@@ -59,8 +57,7 @@ static kz_status save(const char *path)
 }
 
 /* The result may have been finished by ranks of the earlier run while this one waited for its checkpoint: ask after opening. */
-static kz_status work(kz_team *team, const char *path, bool resume, int log)
-{
+static kz_status work(kz_team *team, const char *path, bool resume, int log) {
   bool done = resume && access(path, F_OK) == 0;
   KZ_TRY(kz_team_broadcast(team, &done, sizeof done));
   if (done) return KZ_OK;
@@ -68,8 +65,7 @@ static kz_status work(kz_team *team, const char *path, bool resume, int log)
   return kz_team_agree(team, kz_team_rank(team) == 0 ? save(path) : KZ_OK);
 }
 
-static kz_status run(kz_team *team, const char *path, bool resume)
-{
+static kz_status run(kz_team *team, const char *path, bool resume) {
   char name[4096];
   snprintf(name, sizeof name, "%s.log", path);
   const int log = open(name, O_WRONLY | O_CREAT | O_APPEND, 0666);
@@ -82,8 +78,7 @@ static kz_status run(kz_team *team, const char *path, bool resume)
   return status == KZ_OK ? closed : status;
 }
 
-int main(int n, char **words)
-{
+int main(int n, char **words) {
   if (n < 2) return KZ_REFUSED;
   kz_team *team = NULL;
   kz_status status = kz_team_start(&n, &words, &team);

@@ -5,13 +5,11 @@
 
 static const double two_pi = 6.28318530717958647692;
 
-double kz_point_distance(double theta, double velocity, const kz_strobe_point *point)
-{
+double kz_point_distance(double theta, double velocity, const kz_strobe_point *point) {
   return hypot(remainder(theta - point->theta, two_pi), velocity - point->velocity);
 }
 
-static bool read_attractor(FILE *in, kz_catalogue *c, int attractor)
-{
+static bool read_attractor(FILE *in, kz_catalogue *c, int attractor) {
   int period;
   if (fscanf(in, "%d", &period) != 1 || period < 1) return false;
   kz_strobe_point *points = realloc(c->points, (size_t)(c->n_points + period) * sizeof *points);
@@ -27,8 +25,7 @@ static bool read_attractor(FILE *in, kz_catalogue *c, int attractor)
   return true;
 }
 
-bool kz_catalogue_read(FILE *in, kz_catalogue *catalogue)
-{
+bool kz_catalogue_read(FILE *in, kz_catalogue *catalogue) {
   int n_attractors;
   *catalogue = (kz_catalogue){0};
   kz_pendulum *pendulum = &catalogue->pendulum;
@@ -39,8 +36,7 @@ bool kz_catalogue_read(FILE *in, kz_catalogue *catalogue)
   return true;
 }
 
-void kz_catalogue_free(kz_catalogue *catalogue)
-{
+void kz_catalogue_free(kz_catalogue *catalogue) {
   free(catalogue->points);
   *catalogue = (kz_catalogue){0};
 }

@@ -14,7 +14,7 @@ enum { BATCH = 256 };
 static const double widest_circle = 1e-2; /* rad */
 static const double share_of_gap = 0.2;   /* of the smallest distance between two strobe points */
 static const double shrinking = 0.1;
-static const double at_rest = 1e-8;        /* as good as on the attractor */
+static const double at_rest = 1e-8; /* as good as on the attractor */
 
 typedef struct {
   kz_catalogue catalogue;
@@ -29,8 +29,7 @@ typedef struct {
 } orbit;
 
 /* The circle: small against the gaps, so that no state is near two strobe points. */
-static double circle_of(const kz_catalogue *c)
-{
+static double circle_of(const kz_catalogue *c) {
   double circle = widest_circle;
   for (int i = 0; i < c->n_points; i++)
     for (int j = 0; j < i; j++)
@@ -38,16 +37,14 @@ static double circle_of(const kz_catalogue *c)
   return circle;
 }
 
-static int point_within(const judge *j, double theta, double velocity)
-{
+static int point_within(const judge *j, double theta, double velocity) {
   for (int i = 0; i < j->catalogue.n_points; i++)
     if (kz_point_distance(theta, velocity, &j->catalogue.points[i]) < j->circle) return i;
   return -1;
 }
 
 /* Takes note of the orbit's strobe state after another period; true where it is settled or out of time. */
-static bool settled(const judge *j, orbit *o, double theta, double velocity)
-{
+static bool settled(const judge *j, orbit *o, double theta, double velocity) {
   double d = o->expected >= 0 ? kz_point_distance(theta, velocity, &j->catalogue.points[o->expected]) : INFINITY;
   if (d > j->circle) {
     o->expected = point_within(j, theta, velocity);
@@ -63,8 +60,7 @@ static bool settled(const judge *j, orbit *o, double theta, double velocity)
 }
 
 /* Follows n orbits together, each until it settles: the first `left` ones are still under way. */
-static void follow(const judge *j, int n, kz_truth_state *states, orbit **under_way)
-{
+static void follow(const judge *j, int n, kz_truth_state *states, orbit **under_way) {
   double theta[BATCH], velocity[BATCH];
   int64_t turns[BATCH];
   for (int left = n; left > 0; kz_truth_advance(&j->catalogue.pendulum, KZ_TRUTH_STEPS, left, 1, states)) {
@@ -79,8 +75,7 @@ static void follow(const judge *j, int n, kz_truth_state *states, orbit **under_
 }
 
 /* Labels the next batch of stdin; its size, 0 at the end. */
-static int label_batch(const judge *j)
-{
+static int label_batch(const judge *j) {
   static kz_truth_state states[BATCH];
   double theta[BATCH], velocity[BATCH];
   orbit orbits[BATCH], *under_way[BATCH];
@@ -96,8 +91,7 @@ static int label_batch(const judge *j)
   return n;
 }
 
-int main(void)
-{
+int main(void) {
   judge j;
   if (!kz_catalogue_read(stdin, &j.catalogue)) {
     fputs("truth_label: error: stdin: not a catalogue\n", stderr);

@@ -1,11 +1,8 @@
 /* Attractors, map table, trapping regions, labels and measures. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include "kapitza/dynamics.h"
 

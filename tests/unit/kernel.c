@@ -1,11 +1,8 @@
 /* The kernel: sine, mirror symmetry, lanes, tangent map, sampling; every scheme in every kind. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include "kapitza/kernel.h"
 

@@ -1,11 +1,8 @@
 /* The linear and the slow model against what is known in closed form. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include <math.h>
 

@@ -1,11 +1,8 @@
 /* The table of keys, strict scalars, the reading of a scene and its resolved text. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include "kapitza/scene.h"
 

@@ -1,12 +1,9 @@
 /* Mutated scenes: each is read or refused in one line that names the file; what is read has a resolved text that is a fixed
  * point. KZ_FUZZ_INPUTS sets the number of inputs (default 20000), KZ_FUZZ_SEED the random numbers. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include <stdlib.h>
 #include <string.h>

@@ -108,10 +108,14 @@ static void test_cost_grows(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_wilson_solves_its_equation), cmocka_unit_test(test_smallest_sample_proves_its_share),
-      cmocka_unit_test(test_pareto_front),               cmocka_unit_test(test_cost_order_is_stable),
-      cmocka_unit_test(test_shuffled_cells_are_a_permutation), cmocka_unit_test(test_shuffled_cells_spread),
-      cmocka_unit_test(test_settings_differ_and_exist),  cmocka_unit_test(test_cost_grows),
+      cmocka_unit_test(test_wilson_solves_its_equation),
+      cmocka_unit_test(test_smallest_sample_proves_its_share),
+      cmocka_unit_test(test_pareto_front),
+      cmocka_unit_test(test_cost_order_is_stable),
+      cmocka_unit_test(test_shuffled_cells_are_a_permutation),
+      cmocka_unit_test(test_shuffled_cells_spread),
+      cmocka_unit_test(test_settings_differ_and_exist),
+      cmocka_unit_test(test_cost_grows),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,8 @@
 /* What one study reads of another: lengths and single numbers. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include <stdio.h>
 #include <stdlib.h>

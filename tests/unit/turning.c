@@ -1,11 +1,8 @@
 /* Turning points of motions that are known in closed form. */
-/* cmocka.h needs the three before it: */
-/* clang-format off */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <cmocka.h>
-/* clang-format on */
 
 #include <math.h>
 

@@ -10,8 +10,7 @@
 
 enum { N = 16 };
 
-static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity)
-{
+static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
   kz_plan *plan = kz_plan_create(pendulum, &numerics);
   assert_non_null(plan);
@@ -20,8 +19,7 @@ static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta
   kz_plan_free(plan);
 }
 
-static double error_of(const kz_pendulum *pendulum, kz_numerics numerics)
-{
+static double error_of(const kz_pendulum *pendulum, kz_numerics numerics) {
   double theta[N], velocity[N], exact[N], exact_velocity[N], sum = 0;
   kz_numerics truth = {2, 300, KZ_QUAD};
   fly(pendulum, numerics, theta, velocity);
@@ -30,8 +28,7 @@ static double error_of(const kz_pendulum *pendulum, kz_numerics numerics)
   return sqrt(sum / N);
 }
 
-static void check_orders(int precision, const int *steps, double tolerance)
-{
+static void check_orders(int precision, const int *steps, double tolerance) {
   const kz_pendulum pendulum = {0.05, 0.1, 0.4};
   for (int row = 0; row < kz_scheme_count(); row++) {
     kz_scheme scheme;
@@ -45,27 +42,23 @@ static void check_orders(int precision, const int *steps, double tolerance)
   }
 }
 
-static void test_single(void **state)
-{
+static void test_single(void **state) {
   (void)state;
   check_orders(KZ_SINGLE, (const int[]){8, 3, 2, 2}, HUGE_VAL); /* rounding ends it early: see that errors reach it */
 }
 
-static void test_double(void **state)
-{
+static void test_double(void **state) {
   (void)state;
   check_orders(KZ_DOUBLE, (const int[]){100, 20, 12, 12}, 0.4);
 }
 
-static void test_quad(void **state)
-{
+static void test_quad(void **state) {
   (void)state;
   check_orders(KZ_QUAD, (const int[]){100, 20, 12, 12}, 0.4);
 }
 
 /* Undamped, the split schemes conserve area through 1e5 periods and stay where they belong. */
-static void test_undamped(void **state)
-{
+static void test_undamped(void **state) {
   (void)state;
   const kz_pendulum pendulum = {1.0 / 121, 0, 0.3};
   for (int row = 1; row < kz_scheme_count(); row++) {
@@ -82,9 +75,8 @@ static void test_undamped(void **state)
   }
 }
 
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_single), cmocka_unit_test(test_double),
-                                     cmocka_unit_test(test_quad), cmocka_unit_test(test_undamped)};
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_single), cmocka_unit_test(test_double), cmocka_unit_test(test_quad),
+                                     cmocka_unit_test(test_undamped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,8 +17,7 @@ typedef struct {
   int64_t turns;
 } motion;
 
-static motion carried(kz_pendulum pendulum, int32_t steps, int64_t periods, double theta, double velocity)
-{
+static motion carried(kz_pendulum pendulum, int32_t steps, int64_t periods, double theta, double velocity) {
   kz_truth_state state;
   motion end;
   kz_truth_start(1, &theta, &velocity, &state);
@@ -27,11 +26,12 @@ static motion carried(kz_pendulum pendulum, int32_t steps, int64_t periods, doub
   return end;
 }
 
-static double between(double a, double b) { return fabs(remainder(a - b, 2 * PI)); }
+static double between(double a, double b) {
+  return fabs(remainder(a - b, 2 * PI));
+}
 
 /* Attracting cycles of tests/literature/reference.json (16 digits): they close after their period, with their winding. */
-static void published_cycles_close(void **unused)
-{
+static void published_cycles_close(void **unused) {
   (void)unused;
   static const struct {
     kz_pendulum pendulum;
@@ -53,8 +53,7 @@ static void published_cycles_close(void **unused)
 }
 
 /* k = m = 0: theta = theta0 + v (1 - e^(-beta t)) / beta, v e^(-beta t). */
-static void free_rotor_is_exact(void **unused)
-{
+static void free_rotor_is_exact(void **unused) {
   (void)unused;
   const double beta = 0.05, theta = 0.3, velocity = 1.7;
   motion end = carried((kz_pendulum){0, beta, 0}, KZ_TRUTH_STEPS, 3, theta, velocity);
@@ -64,8 +63,7 @@ static void free_rotor_is_exact(void **unused)
 }
 
 /* A long chaotic transient multiplies any error: doubles still agree to the last bits for any number of steps. */
-static void steps_do_not_matter(void **unused)
-{
+static void steps_do_not_matter(void **unused) {
   (void)unused;
   static const struct {
     double m, theta, velocity;
@@ -82,8 +80,7 @@ static void steps_do_not_matter(void **unused)
 }
 
 /* Another method, other code: the order-6 split scheme in quad precision, 600 steps. */
-static void agrees_with_the_split_scheme(void **unused)
-{
+static void agrees_with_the_split_scheme(void **unused) {
   (void)unused;
   kz_scheme scheme;
   int32_t row = 0;
@@ -106,8 +103,7 @@ static void agrees_with_the_split_scheme(void **unused)
   kz_plan_free(plan);
 }
 
-static void mirror_is_exact(void **unused)
-{
+static void mirror_is_exact(void **unused) {
   (void)unused;
   motion end = carried((kz_pendulum)Q5_11(0.46), KZ_TRUTH_STEPS, 20, 2.7, -1.3);
   motion mirrored = carried((kz_pendulum)Q5_11(0.46), KZ_TRUTH_STEPS, 20, -2.7, 1.3);
@@ -115,8 +111,7 @@ static void mirror_is_exact(void **unused)
 }
 
 /* A start at rest whose first force vanishes (k = m), rest itself, and motions too fast or too slow for their size. */
-static void odd_starts(void **unused)
-{
+static void odd_starts(void **unused) {
   (void)unused;
   const kz_pendulum level = {0.3, 0.05, 0.3};
   motion a = carried(level, 9, 2, 1, 0), b = carried(level, 31, 2, 1, 0);
@@ -129,8 +124,7 @@ static void odd_starts(void **unused)
 }
 
 /* Many states in one call, and their quads kept between calls, move as one state at a time does. */
-static void batches_and_calls_do_not_matter(void **unused)
-{
+static void batches_and_calls_do_not_matter(void **unused) {
   (void)unused;
   enum { N = 5 };
   const kz_pendulum pendulum = Q5_11(0.46);
@@ -150,12 +144,14 @@ static void batches_and_calls_do_not_matter(void **unused)
   }
 }
 
-int main(void)
-{
+int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(published_cycles_close),      cmocka_unit_test(free_rotor_is_exact),
-      cmocka_unit_test(steps_do_not_matter),         cmocka_unit_test(agrees_with_the_split_scheme),
-      cmocka_unit_test(mirror_is_exact),             cmocka_unit_test(odd_starts),
+      cmocka_unit_test(published_cycles_close),
+      cmocka_unit_test(free_rotor_is_exact),
+      cmocka_unit_test(steps_do_not_matter),
+      cmocka_unit_test(agrees_with_the_split_scheme),
+      cmocka_unit_test(mirror_is_exact),
+      cmocka_unit_test(odd_starts),
       cmocka_unit_test(batches_and_calls_do_not_matter),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
