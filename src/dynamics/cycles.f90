@@ -6,7 +6,7 @@ module kz_dynamics_cycles
   use kz_dynamics_states, only: apart, same_state, rounded
   implicit none
   private
-  public :: attractor_t, apart, close_cycle, polish_cycle, orbit_of, mirror_image, listed_from_lowest
+  public :: attractor_t, close_cycle, polish_cycle, orbit_of, mirror_image, listed_from_lowest
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t

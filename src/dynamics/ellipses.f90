@@ -6,7 +6,8 @@
 module kz_dynamics_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_dynamics_cycles, only: attractor_t, apart
+  use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_states, only: apart
   implicit none
   private
   public :: find_ellipses, in_ellipse
