@@ -175,7 +175,9 @@ def main():
     seed = options.seed if options.seed is not None else int(time.time())
     random.seed(seed)
     ranks = [int(word) for word in options.ranks.split(",")]
-    options.folder.mkdir(parents=True, exist_ok=False)
+    if options.folder.exists():
+        parser.error(f"{options.folder} is there; a new folder")
+    options.folder.mkdir(parents=True)
     counts = dict.fromkeys(KNOCKS, 0)
     try:
         expected, seconds = undisturbed(options.folder / "undisturbed", options.words)
