@@ -78,16 +78,12 @@ contains
     integer(c_int64_t), intent(out) :: integrated(n)
     type(dynamics_t), pointer :: d
     type(tracked_map_t) :: map
-    real(dp), allocatable :: u(:), v(:)
 
     d => of_handle(handle)
     call measure_table(handle, points)
     call make_tracked_map(d%table, int(points), d%search%flow, d%defect, map)
-    allocate (u, source=state(1, :))
-    allocate (v, source=state(2, :))
-    call follow_trusted(map, d%flow, d%regions, d%attractors, max_periods, u, v, owner, periods, integrated)
-    state(1, :) = u
-    state(2, :) = v
+    call follow_trusted(map, d%flow, d%regions, d%attractors, max_periods, state(1, :), state(2, :), owner, &
+                        periods, integrated)
   end subroutine follow_hybrid
 
   subroutine follow_truth(handle, n_steps, n, max_periods, start, owner, periods) bind(C, name='kz_dynamics_follow_truth')
@@ -117,14 +113,9 @@ contains
     real(dp), intent(inout) :: state(:, :)
     integer(c_int32_t), intent(out) :: owner(:)
     integer(c_int64_t), intent(out) :: periods(:)
-    real(dp), allocatable :: u(:), v(:)
 
-    allocate (u, source=state(1, :))
-    allocate (v, source=state(2, :))
     periods = max_periods
-    call follow(map, d%regions, d%attractors, u, v, owner, periods)
-    state(1, :) = u
-    state(2, :) = v
+    call follow(map, d%regions, d%attractors, state(1, :), state(2, :), owner, periods)
   end subroutine follow_with
 
 end module kz_dynamics_border_follow
