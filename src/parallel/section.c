@@ -54,7 +54,7 @@ static bool recall_record(const kz_checkpoint *checkpoint, const kz_section *sec
 }
 
 kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, char *records, kz_section *section,
-                          int64_t **todo, int64_t *n_todo) {
+                          int64_t **left, int64_t *n_left) {
   const kz_section_head head = head_of(checkpoint, stage);
   kz_section_head found;
   *section = (kz_section){.slots = checkpoint->end + KZ_PAGE, .seed = head.checksum, .record_bytes = stage->record_bytes};
@@ -65,12 +65,12 @@ kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage
   KZ_TRY(reserve(checkpoint, section));
   if (!known && kz_bytes_write(checkpoint->file, &head, sizeof head, checkpoint->end) != 0)
     return kz_fail(KZ_FAILED, "%s: cannot be written: %s", checkpoint->path, strerror(errno));
-  *n_todo = 0;
-  if (!(*todo = malloc((size_t)stage->n_tiles * sizeof **todo + 1)))
+  *n_left = 0;
+  if (!(*left = malloc((size_t)stage->n_tiles * sizeof **left + 1)))
     return kz_fail(KZ_FAILED, "stage %s: out of memory", stage->name);
   for (int64_t tile = 0; tile < stage->n_tiles; ++tile)
     if (!known || !recall_record(checkpoint, section, tile, records + (size_t)tile * stage->record_bytes))
-      (*todo)[(*n_todo)++] = tile;
+      (*left)[(*n_left)++] = tile;
   return KZ_OK;
 }
 

@@ -14,9 +14,9 @@ typedef struct {
 } kz_section;
 
 /* Opens the next section on rank 0: finds or begins it, and reserves its room on the disk. Valid records found there are
- * read into `records`; `todo` [n_todo] are the other tiles, to be freed by the caller. */
+ * read into `records`; `left` [n_left] are the other tiles, to be freed by the caller. */
 kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, char *records, kz_section *section,
-                          int64_t **todo, int64_t *n_todo);
+                          int64_t **left, int64_t *n_left);
 /* Counts the opened section as part of the checkpoint. Every rank. */
 void kz_section_adopt(kz_checkpoint *checkpoint, const kz_section *section);
 /* Writes one finished record. Any rank, any time. */

@@ -13,8 +13,8 @@ typedef struct {
   char *records;      /* [n_tiles][record_bytes]: complete on rank 0 */
   bool kept;          /* finished records go to the section */
   kz_section section; /* of the checkpoint */
-  int64_t n_todo;
-  int64_t *todo; /* [n_todo] tiles to do; NULL: all of them in order */
+  int64_t n_left;
+  int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
   kz_harvest harvest;
   void *buffer; /* of the delivery, rank 0 */
   kz_meter meter;
@@ -42,18 +42,18 @@ static kz_status prepare(kz_shift *shift) {
 /* Tiles whose records are in the checkpoint are not done again. Collective. */
 static kz_status recall(kz_shift *shift) {
   kz_team *team = shift->team;
-  int64_t *todo = NULL;
+  int64_t *left = NULL;
   kz_status status = KZ_OK;
   if (team->rank == 0)
-    status = kz_section_open(&team->checkpoint, shift->stage, shift->records, &shift->section, &todo, &shift->n_todo);
+    status = kz_section_open(&team->checkpoint, shift->stage, shift->records, &shift->section, &left, &shift->n_left);
   if ((status = kz_team_agree(team, status)) == KZ_OK) status = kz_team_broadcast(team, &shift->section, sizeof shift->section);
-  if (status == KZ_OK) status = kz_team_broadcast(team, &shift->n_todo, sizeof shift->n_todo);
-  if (team->rank != 0 && status == KZ_OK && !(todo = malloc((size_t)shift->n_todo * sizeof *todo + 1)))
+  if (status == KZ_OK) status = kz_team_broadcast(team, &shift->n_left, sizeof shift->n_left);
+  if (team->rank != 0 && status == KZ_OK && !(left = malloc((size_t)shift->n_left * sizeof *left + 1)))
     status = kz_fail(KZ_FAILED, "stage %s: out of memory", shift->stage->name);
-  shift->todo = todo;
+  shift->left = left;
   KZ_TRY(kz_team_agree(team, status));
   kz_section_adopt(&team->checkpoint, &shift->section);
-  return kz_team_broadcast(team, todo, (size_t)shift->n_todo * sizeof *todo);
+  return kz_team_broadcast(team, left, (size_t)shift->n_left * sizeof *left);
 }
 
 static kz_status do_tile(kz_shift *shift, int64_t tile) {
@@ -72,10 +72,10 @@ static kz_status work(kz_shift *shift) {
   for (;;) {
     int64_t drawn;
     KZ_TRY(kz_counter_draw(shift->team, &drawn));
-    if (drawn >= shift->n_todo) return KZ_OK;
-    kz_meter_show(&shift->meter, shift->stage->n_tiles - shift->n_todo + drawn);
+    if (drawn >= shift->n_left) return KZ_OK;
+    kz_meter_show(&shift->meter, shift->stage->n_tiles - shift->n_left + drawn);
     kz_status status = kz_team_interrupted(shift->team);
-    if (status == KZ_OK) status = do_tile(shift, shift->todo ? shift->todo[drawn] : drawn);
+    if (status == KZ_OK) status = do_tile(shift, shift->left ? shift->left[drawn] : drawn);
     if (status != KZ_OK) {
       KZ_TRY(kz_counter_halt(shift->team));
       return status;
@@ -93,7 +93,7 @@ static kz_status deliver(kz_shift *shift) {
 static kz_status run(kz_shift *shift) {
   KZ_TRY(kz_team_agree(shift->team, prepare(shift)));
   if (shift->kept) KZ_TRY(recall(shift));
-  kz_meter_begin(&shift->meter, shift->team, shift->stage->name, shift->stage->n_tiles, shift->stage->n_tiles - shift->n_todo);
+  kz_meter_begin(&shift->meter, shift->team, shift->stage->name, shift->stage->n_tiles, shift->stage->n_tiles - shift->n_left);
   const kz_status status = kz_team_agree(shift->team, work(shift));
   kz_meter_end(&shift->meter, status == KZ_OK);
   KZ_TRY(status);
@@ -101,11 +101,11 @@ static kz_status run(kz_shift *shift) {
 }
 
 kz_status kz_stage_run(kz_team *team, const kz_stage *stage, void *records) {
-  kz_shift shift = {.team = team, .stage = stage, .records = records, .n_todo = stage->n_tiles};
+  kz_shift shift = {.team = team, .stage = stage, .records = records, .n_left = stage->n_tiles};
   shift.kept = stage->keep && team->checkpoint.file >= 0;
   const kz_status status = run(&shift);
   kz_harvest_end(&shift.harvest);
   free(shift.buffer);
-  free(shift.todo);
+  free(shift.left);
   return status;
 }
