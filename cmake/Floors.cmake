@@ -47,10 +47,3 @@ function(kapitza_program)
   target_link_libraries(kapitza PRIVATE kapitza_app)
   set_target_properties(kapitza PROPERTIES LINKER_LANGUAGE C)
 endfunction()
-
-execute_process(COMMAND git describe --always --dirty WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-                OUTPUT_VARIABLE KAPITZA_GIT_REVISION OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
-if(NOT KAPITZA_GIT_REVISION)
-  set(KAPITZA_GIT_REVISION unknown)
-endif()
-configure_file(cmake/version.h.in ${PROJECT_BINARY_DIR}/include/kapitza/version.h)

@@ -1,6 +1,7 @@
 """The scripts of the set-up: what they say of themselves, and that a shell which sources them stays as it was."""
 
 import re
+import shutil
 import subprocess
 
 import pytest
@@ -31,12 +32,86 @@ def test_what_fails_in_the_set_up_ends_the_script_that_needs_it(tmp_path):
     (tmp_path / ".venv" / "bin").mkdir(parents=True)
     (tmp_path / "scripts" / "setup").write_text((ROOT / "scripts" / "setup").read_text())
     (tmp_path / "scripts" / "requirements.txt").write_text("")
-    pip = tmp_path / ".venv" / "bin" / "pip"
-    pip.write_text("#!/bin/sh\nexit 3\n")
-    pip.chmod(0o755)
+    for name in ("pip", "python"):
+        (tmp_path / ".venv" / "bin" / name).write_text("#!/bin/sh\nexit 3\n")
+        (tmp_path / ".venv" / "bin" / name).chmod(0o755)
     done = shell("bash", "-c", f"set -eu; source {tmp_path}/scripts/setup; echo reached")
     assert done.returncode == 3 and "reached" not in done.stdout
     assert not (tmp_path / ".venv" / "requirements.done").exists() and not (tmp_path / "build").exists()
+
+
+def git(folder, *arguments):
+    """Runs git with an author of its own; what it prints."""
+    done = subprocess.run(["git", "-c", "user.name=t", "-c", "user.email=t@t.invalid", *arguments], cwd=folder,
+                          capture_output=True, text=True, check=True, timeout=60)
+    return done.stdout.strip()
+
+
+@pytest.fixture
+def project(tmp_path):
+    """A project with this one's set-up and version header, whose program prints its git revision and a word."""
+    folder = tmp_path / "first"
+    for name in ("scripts/setup", "cmake/Version.cmake", "cmake/version.h.in", "CMakePresets.json", ".gitignore"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, folder / name)
+    (folder / "scripts" / "requirements.txt").write_text("")
+    (folder / ".venv").mkdir()
+    (folder / ".venv" / "requirements.done").write_text("")
+    (folder / "CMakeLists.txt").write_text("""\
+cmake_minimum_required(VERSION 3.24)
+project(kapitza VERSION 1.0 LANGUAGES C)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+include(cmake/Version.cmake)
+add_executable(kapitza main.c)
+target_include_directories(kapitza PRIVATE ${PROJECT_BINARY_DIR}/include)
+add_dependencies(kapitza kapitza_version)
+""")
+    write_word(folder, "first")
+    git(folder, "init", "--quiet")
+    git(folder, "add", ".")
+    git(folder, "commit", "--quiet", "--message", "first")
+    return folder
+
+
+def write_word(folder, word):
+    (folder / "main.c").write_text('#include <stdio.h>\n#include "kapitza/version.h"\n'
+                                   f'int main(void) {{ puts(KZ_GIT_REVISION " {word}"); }}\n')
+
+
+def built(folder):
+    """What the project's program prints after its set-up: revision and word."""
+    done = shell(folder / "scripts" / "setup")
+    assert done.returncode == 0, done.stderr
+    return shell(folder / "build" / "kapitza").stdout.split()
+
+
+def test_a_copied_or_moved_project_builds_its_own_sources(project):
+    assert built(project)[1] == "first"
+    copy, moved = project.with_name("copy"), project.with_name("moved")
+    shutil.copytree(project, copy, symlinks=True)
+    write_word(copy, "copied")
+    assert built(copy)[1] == "copied" and built(project)[1] == "first"
+    project.rename(moved)
+    write_word(moved, "moved")
+    assert built(moved)[1] == "moved"
+
+
+def test_the_revision_is_that_of_the_build(project):
+    first = built(project)[0]
+    assert first == git(project, "describe", "--always")
+    write_word(project, "second")
+    assert built(project)[0] == first + "-dirty"
+    git(project, "commit", "--quiet", "--all", "--message", "second")
+    second = built(project)[0]
+    assert second == git(project, "describe", "--always") != first
+    header = project / "build" / "include" / "kapitza" / "version.h"
+    written = header.stat().st_mtime_ns
+    assert built(project)[0] == second and header.stat().st_mtime_ns == written
+
+
+def test_the_revision_is_never_that_of_a_repository_around_the_project(project):
+    (project / ".git").rename(project.parent / ".git")
+    assert built(project)[0] == "unknown"
 
 
 def test_commands_of_the_docs_name_the_python_that_has_the_packages():
