@@ -4,7 +4,8 @@
     .venv/bin/python scripts/film_basin.py scenes/small.yaml pendulum.drive_amplitude 0.12 0.58 --count 116
     .venv/bin/python scripts/film_basin.py scenes/blackburn-fig12.yaml pendulum.drive_amplitude 0.12 0.58 --ranks 2
 
-Pictures that are in the folder already are not made again, so that a film can be gone on with.
+A film that was interrupted goes on with the frames that its folder holds; frames of another film are refused. film.txt in the folder
+says which film it is: scene, key, values, resolution and program.
 """
 
 import argparse
@@ -12,9 +13,11 @@ import os
 import shutil
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
+from kapitza_file import BadFile, run
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -43,13 +46,44 @@ def step(command):
         sys.exit(status)
 
 
+def description(arguments, values):
+    """All that the frames depend on, as text."""
+    version = subprocess.run([ROOT / "build" / "kapitza", "--version"], capture_output=True, text=True).stdout
+    settings = f"{arguments.key} = {', '.join(repr(float(value)) for value in values)}\n{arguments.dpi} dots per inch\n"
+    return f"{settings}\n{version}\n{arguments.scene.read_text()}"
+
+
+def claim_folder(folder, film):
+    """Makes the folder this film's; BadFile if it holds frames of another one."""
+    folder.mkdir(parents=True, exist_ok=True)
+    record = folder / "film.txt"
+    known = record.read_text() if record.is_file() else None
+    if known == film:
+        return
+    if known is not None or any(folder.glob("frame-*.png")):
+        raise BadFile(f"{folder}: holds frames of another film (another scene, key, values, resolution or program); "
+                      "take another --folder or empty it")
+    with whole(record) as part:
+        part.write_text(film)
+
+
+@contextmanager
+def whole(path):
+    """A name to write to, which becomes `path` when all is written: what a kill cuts short never carries the name."""
+    part = path.with_name(f"part-{path.name}")
+    part.unlink(missing_ok=True)  # a link there would lead elsewhere
+    yield part
+    part.replace(path)
+
+
 def make_frame(arguments, value, picture):
     """Models one value and draws it."""
     result = picture.with_suffix(".h5")
     step(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", arguments.ranks, ROOT / "build" / "kapitza", "run",
           arguments.scene, "--set", f"{arguments.key}={float(value)!r}", "-o", result, "--force", "--progress", "never"])
-    step([sys.executable, ROOT / "scripts" / "plot_basin.py", result, "--centre", "inverted", "--no-legend",
-          "--dpi", arguments.dpi, "-o", picture])
+    with whole(picture) as part:
+        step([sys.executable, ROOT / "scripts" / "plot_basin.py", result, "--centre", "inverted", "--no-legend",
+              "--dpi", arguments.dpi, "-o", part])
     result.unlink()
 
 
@@ -60,15 +94,17 @@ def make_film(arguments):
         return
     film = arguments.folder / "film.mp4"
     fit = "scale=1280:960:force_original_aspect_ratio=decrease,pad=1280:960:-1:-1:white,format=yuv420p"
-    step(["ffmpeg", "-y", "-loglevel", "error", "-framerate", arguments.rate, "-i", arguments.folder / "frame-%04d.png",
-          "-vf", fit, film])
+    with whole(film) as part:
+        step(["ffmpeg", "-y", "-loglevel", "error", "-framerate", arguments.rate, "-i", arguments.folder / "frame-%04d.png",
+              "-vf", fit, part])
     print(film)
 
 
 def main():
     arguments = parse_arguments()
-    arguments.folder.mkdir(parents=True, exist_ok=True)
-    for index, value in enumerate(np.linspace(arguments.first, arguments.last, arguments.count)):
+    values = np.linspace(arguments.first, arguments.last, arguments.count)
+    claim_folder(arguments.folder, description(arguments, values))
+    for index, value in enumerate(values):
         picture = arguments.folder / f"frame-{index:04d}.png"
         if not picture.exists():
             make_frame(arguments, value, picture)
@@ -77,4 +113,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    run(main)

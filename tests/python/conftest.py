@@ -9,6 +9,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import h5py
+import matplotlib.pyplot
 import numpy as np
 import pytest
 from kapitza_file import Result, run
@@ -162,7 +163,7 @@ def run_script(script, *arguments):
         except SystemExit as end:
             status = end.code
         finally:
-            script.plt.close("all")
+            matplotlib.pyplot.close("all")
     return subprocess.CompletedProcess(arguments, status, output.getvalue(), errors.getvalue())
 
 

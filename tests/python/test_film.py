@@ -1,0 +1,62 @@
+"""film_basin.py: a film goes on with its own whole frames, and with nobody else's."""
+
+import film_basin
+import pytest
+from conftest import ROOT, run_script
+
+SCENE = (ROOT / "scenes" / "small.yaml").read_text()
+COUNTS = ("basin.theta.count", "basin.velocity.count")
+
+
+@pytest.fixture
+def film(tmp_path, monkeypatch):
+    """film(first, last) makes a film of two frames of a coarse scene in the folder "film", without ffmpeg."""
+    scene = tmp_path / "scene.yaml"
+    scene.write_text(SCENE)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(film_basin.shutil, "which", lambda name: None)
+    drawn = []
+
+    def step(command):
+        command = list(map(str, command))
+        if "run" in command:
+            command[command.index("--set"):command.index("--set")] = [word for key in COUNTS for word in ("--set", f"{key}=20")]
+        else:
+            drawn.append(command[-1])
+        run_command(command)
+
+    run_command = film_basin.step
+    monkeypatch.setattr(film_basin, "step", step)
+
+    def call(first, last, *options):
+        drawn.clear()
+        done = run_script(film_basin, scene, "pendulum.drive_amplitude", first, last, "--count", 2, "--ranks", 1, "--dpi", 30, *options)
+        return done, len(drawn)
+
+    return call
+
+
+def test_a_film_goes_on_and_another_one_is_refused(film, tmp_path):
+    done, drawn = film(0.15, 0.16)
+    assert (done.returncode, drawn) == (0, 2), done.stderr
+    frames = {path.name: path.read_bytes() for path in (tmp_path / "film").glob("frame-*")}
+    assert set(frames) == {"frame-0000.png", "frame-0001.png"}
+    (tmp_path / "film" / "frame-0001.png").unlink()
+    (tmp_path / "film" / "part-frame-0001.png").write_bytes(b"cut short by a kill")
+    done, drawn = film(0.15, 0.16)
+    assert (done.returncode, drawn) == (0, 1), done.stderr
+    assert (tmp_path / "film" / "frame-0001.png").read_bytes() == frames["frame-0001.png"]
+    for change in ((0.15, 0.17), (0.15, 0.16, "--dpi", 40)):
+        done, drawn = film(*change)
+        assert (done.returncode, drawn) == (1, 0) and "holds frames of another film" in done.stderr
+    (tmp_path / "scene.yaml").write_text(SCENE + "\n# edited\n")
+    done, drawn = film(0.15, 0.16)
+    assert (done.returncode, drawn) == (1, 0) and done.stderr.count("\n") == 1
+
+
+def test_frames_without_a_record_are_another_film(film, tmp_path):
+    (tmp_path / "film").mkdir()
+    (tmp_path / "film" / "frame-0000.png").write_bytes(b"a holiday")
+    done, drawn = film(0.15, 0.16)
+    assert (done.returncode, drawn) == (1, 0) and "another film" in done.stderr
+    assert (tmp_path / "film" / "frame-0000.png").read_bytes() == b"a holiday"
