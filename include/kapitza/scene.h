@@ -92,6 +92,9 @@ const char *kz_scalar_integer(const kz_node *node, int64_t *value);
 const char *kz_scalar_real(const kz_node *node, double *value);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
 const char *kz_scalar_text(const kz_node *node);
+
+/* Bytes of the control character at `c` (UTF-8: C0, DEL or C1, which terminals obey), 0 where there is none. */
+int kz_control_bytes(const char *c);
 /* The shortest decimal text that reads back as `value`, in text [32]. */
 void kz_scalar_print(double value, char *text);
 

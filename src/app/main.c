@@ -25,7 +25,11 @@ static void fill_streams(void) {
 /* One line whatever the message holds: control characters become '?'. */
 static void print_message(kz_status status) {
   fputs(status == KZ_STOPPED ? "kapitza: " : "kapitza: error: ", stderr);
-  for (const char *c = kz_message(); *c; c++) fputc((unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c, stderr);
+  for (const char *c = kz_message(); *c;) {
+    const int control = kz_control_bytes(c);
+    fputc(control ? '?' : *c, stderr);
+    c += control ? control : 1;
+  }
   fputc('\n', stderr);
 }
 

@@ -72,12 +72,18 @@ const char *kz_scalar_boolean(const kz_node *node, bool *value) {
   return *value || strcmp(node->text, "false") == 0 ? NULL : "is neither true nor false";
 }
 
+int kz_control_bytes(const char *c) {
+  const unsigned char first = (unsigned char)c[0];
+  if (first == 0xc2) return (unsigned char)c[1] >= 0x80 && (unsigned char)c[1] <= 0x9f ? 2 : 0;
+  return (first > 0 && first < 0x20) || first == 0x7f;
+}
+
 const char *kz_scalar_text(const kz_node *node) {
   if (node->kind == KZ_SEQUENCE) return "is a list";
   if (node->kind == KZ_MAPPING) return "is a mapping";
   if (node->plain && node->text[0] == '\0') return "is empty";
   for (const char *c = node->text; *c; c++)
-    if ((unsigned char)*c < 0x20 || *c == 0x7f) return "holds a line break or a control character";
+    if (kz_control_bytes(c)) return "holds a line break or a control character";
   return strlen(node->text) > 500 ? "is longer than 500 bytes" : NULL;
 }
 

@@ -165,6 +165,8 @@ SCENES = {
     "nul byte": (GOOD.encode() + b"a: \0\n", "9:4", "is not text"),
     "invalid UTF-8": (GOOD.encode() + b"# caf\xe9\n", "9:6", "is not text"),
     "UTF-16": (GOOD.encode("utf-16"), "1:1", "is not text"),
+    "C1 control in the title": (replaced("title: good", r'title: "red \x9b31m"'), "1:8", "holds a line break or a control"),
+    "C1 control in a key": (GOOD + r'"a\x9bb": 1' + "\n", "9:1", "a?b: unknown key"),
     "byte-order mark": (b"\xef\xbb\xbf" + GOOD.encode(), "1:1", "byte-order mark"),
     "too large": (GOOD + "#" * 1_000_000, "", "too many for a scene"),
     "first of two errors": (replaced("factor: 5", "factor: x") + "colour: red\n", "3:19", "pendulum.quality_factor"),
