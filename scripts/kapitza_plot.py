@@ -33,7 +33,12 @@ def parsed(parser):
     return arguments
 
 
+def title_text(result):
+    """The scene's title, or the file's name: plain text, to be drawn with parse_math=False."""
+    return str(result.attributes.get("title") or result.path.stem)
+
+
 def entitle(figure, result, *parts):
     """The scene's title above the figure, the parts that are not empty below it."""
-    figure.suptitle(result.attributes.get("title") or result.path.stem, x=0.01, ha="left", fontsize=11, fontweight="bold")
+    figure.suptitle(title_text(result), x=0.01, ha="left", fontsize=11, fontweight="bold", parse_math=False)
     figure.text(0.01, -0.01, "   |   ".join(filter(None, parts)), ha="left", va="top", fontsize=8, color=style.FAINT)

@@ -1,7 +1,8 @@
 """How kapitza's figures look: one table of colours that keep their meaning from figure to figure, and the page settings.
 
 A colour belongs to a kind of motion, not to an id: the inverted state is amber in every figure. Light and dark shades
-within a kind tell periods and mirror partners apart. The kinds stay apart for colour-blind readers (tests/python/test_style.py).
+within a kind tell periods and mirror partners apart; where they would not, in one catalogue, the rarer motion gets another hue.
+The kinds stay apart for colour-blind readers (tests/python/test_style.py).
 """
 
 import warnings
@@ -29,6 +30,14 @@ KINDS = {
     "chaotic": "#3b3f45",
 }
 
+# Colours nearer than this in OKLab are not told apart in a fine mixture.
+APART = 0.06
+_OKLAB = (np.array([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0.6806995451, 0.1073969566],
+                    [0.0883024619, 0.2817188376, 0.6299787005]]),
+          np.array([[0.2104542553, 0.7936177850, -0.0040720468], [1.9779984951, -2.4285922050, 0.4505937099],
+                    [0.0259040371, 0.7827717662, -0.8086757660]]))
+_OKLAB_INVERSE = tuple(np.linalg.inv(matrix) for matrix in _OKLAB)
+
 # Codes of the variable `centre`.
 DOWN, INVERTED, ROTATING = 0, 1, 2
 
@@ -47,10 +56,43 @@ def kind(period, winding, centre):
 
 
 def colours(attractors):
-    """One colour (hex) per attractor of the dataset `attractors`."""
-    rows = zip(attractors["period"].values, attractors["winding"].values, attractors["centre"].values,
-               attractors["mirror"].values, strict=True)
-    return [_colour(index, *row) for index, row in enumerate(rows)]
+    """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is too near."""
+    rows = list(zip(attractors["period"].values, attractors["winding"].values, attractors["centre"].values,
+                    attractors["mirror"].values, strict=True))
+    order = sorted(range(len(rows)), key=lambda index: (rows[index][0], abs(rows[index][1]), rows[index][3] < index, index))
+    return _told_apart([_colour(index, *row) for index, row in enumerate(rows)], order)
+
+
+def _told_apart(wanted, order):
+    """The colours, each at least APART from white and from those before it in `order`; or as far as it goes."""
+    taken, chosen = [_oklab(UNSETTLED)], list(wanted)
+    for index in order:
+        variants = [(wanted[index], _oklab(wanted[index])), *_variants(wanted[index])]
+        distances = [np.linalg.norm(np.array(taken) - place, axis=1).min() for _, place in variants]
+        best = next((n for n, distance in enumerate(distances) if distance >= APART), int(np.argmax(distances)))
+        chosen[index] = variants[best][0]
+        taken.append(variants[best][1])
+    return chosen
+
+
+def _variants(colour):
+    """(colour, its OKLab) of other hues and lightnesses, the nearest hues first; never paler than is seen."""
+    lightness, chroma, hue = _oklab(colour)[0], max(np.hypot(*_oklab(colour)[1:]), 0.09), np.arctan2(*_oklab(colour)[:0:-1])
+    found = []
+    for turn in np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)):
+        for lighter in (0, -0.12, 0.12, -0.24):
+            place = (np.clip(lightness + lighter, 0.3, 0.88), chroma * np.cos(hue + turn), chroma * np.sin(hue + turn))
+            linear = np.clip((_OKLAB_INVERSE[0] @ (_OKLAB_INVERSE[1] @ place) ** 3), 0, 1)
+            hexadecimal = to_hex(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
+            found.append((hexadecimal, _oklab(hexadecimal)))
+    return found
+
+
+def _oklab(colour):
+    """(L, a, b) of B. Ottosson's OKLab (2020), in which equal distances look about equally different."""
+    rgb = np.array(to_rgb(colour))
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return _OKLAB[1] @ np.cbrt(_OKLAB[0] @ linear)
 
 
 def _colour(index, period, winding, centre, mirror):
@@ -81,8 +123,14 @@ def shade(colour, lighter):
 
 
 def name_text(name):
-    """An attractor's name with a true minus."""
-    return str(name).replace(" -", " −")
+    """An attractor's name with a true minus; never read as a formula."""
+    return str(name).replace(" -", " −").replace("$", r"\$")
+
+
+def names_with_ids(names):
+    """The names; two attractors of one name get their ids: "inverted 3-nodding (2)"."""
+    names = [str(name) for name in names]
+    return [f"{name} ({index})" if names.count(name) > 1 else name for index, name in enumerate(names)]
 
 
 def share_text(fraction):
@@ -130,6 +178,7 @@ def save(figure, output, dpi):
     """Writes the picture and prints its name. The same figure gives the same bytes: no clock goes into it."""
     clock = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(Path(output).suffix.lower(), {})
     with warnings.catch_warnings():
-        warnings.simplefilter("error")  # a missing glyph or a failed layout is a fault, not a footnote
+        warnings.simplefilter("error")  # a failed layout is a fault, not a footnote
+        warnings.filterwarnings("ignore", message="Glyph")  # a letter of the title that the font lacks is seen as a box
         figure.savefig(output, dpi=dpi, bbox_inches="tight", metadata=clock)
     print(output)

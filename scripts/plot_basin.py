@@ -10,7 +10,7 @@ import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
 from kapitza_file import BadFile, Result, run
-from kapitza_plot import argument_parser, parsed
+from kapitza_plot import argument_parser, parsed, title_text
 from matplotlib.colors import LogNorm, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -27,6 +27,7 @@ def parse_arguments():
                         help="state in the middle of a whole-circle picture (default: down)")
     parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
     parser.add_argument("--no-legend", action="store_true")
+    parser.add_argument("--no-dots", action="store_true", help="leave out the strobe points of the attractors")
     arguments = parsed(parser)
     if arguments.attractor and (arguments.quantity != "attractor" or arguments.shade):
         parser.error("--attractor goes with neither --quantity nor --shade")
@@ -64,6 +65,14 @@ class Plane:
         keep = (images >= left - edge) & (images <= right + edge) & (heights >= low) & (heights <= high)
         return images[keep], heights[keep]
 
+    def label_at(self, basin, theta, velocity):
+        """The labels of the cells in which points of the window lie."""
+        (left, right), (low, high) = self.theta_range, self.velocity_range
+        labels = self.cells(basin["attractor"])
+        rows, columns = (np.clip(np.floor((place - start) / (end - start) * count).astype(int), 0, count - 1) for place, start, end, count
+                         in ((velocity, low, high, labels.shape[0]), (theta, left, right, labels.shape[1])))
+        return labels[rows, columns]
+
     @property
     def extent(self):
         return (*self.theta_range, *self.velocity_range)
@@ -91,7 +100,7 @@ def chosen_ids(result, attractors, wanted):
     return ids
 
 
-def draw_basins(axes, plane, basin, attractors, shaded):
+def draw_basins(axes, plane, basin, attractors, shaded, dots):
     """Every basin in its colour."""
     colours = style.colours(attractors)
     table = np.array([to_rgb(colour) for colour in [*colours, style.UNSETTLED]])
@@ -99,8 +108,9 @@ def draw_basins(axes, plane, basin, attractors, shaded):
     if shaded:
         image = image * (1 - 0.55 * _slowness(plane.cells(basin["settling_time"])))[..., None]
     axes.imshow(image, extent=plane.extent, origin="lower", aspect="auto")
-    for index, colour in enumerate(colours):
-        mark_strobe_points(axes, plane, attractors, index, style.shade(colour, -0.45), "white")
+    if dots:
+        mark_strobe_points(axes, plane, basin, attractors, {index: style.shade(colour, -0.45) for index, colour in enumerate(colours)},
+                           "white")
     return basin_entries(attractors, colours, basin["attractor"].values)
 
 
@@ -110,29 +120,66 @@ def _slowness(periods):
     return np.clip(time / max(np.percentile(time, 99), 1e-300), 0, 1)
 
 
-def mark_strobe_points(axes, plane, attractors, index, face, edge):
-    """Every strobe point of the attractor, at every place of the window where it shows; many points are drawn smaller."""
-    size, line = (4.6, 0.9) if attractors["period"].values[index] <= 2 else (3.2, 0.6)
-    points = plane.inside(attractors["strobe_theta"].values[index], attractors["strobe_velocity"].values[index])
-    axes.plot(*points, "o", markersize=size, markerfacecolor=face, markeredgecolor=edge, markeredgewidth=line,
-              clip_on=False, zorder=3)
+def mark_strobe_points(axes, plane, basin, attractors, faces, edge):
+    """Every strobe point of the attractors in `faces` (id -> colour), at every place of the window where it shows; many points are
+    drawn smaller, and what would hide a small basin is smaller still or left out."""
+    room = Room(plane, basin)
+    for index, face in faces.items():
+        size, line = (4.6, 0.9) if attractors["period"].values[index] <= 2 else (3.2, 0.6)
+        points = plane.inside(attractors["strobe_theta"].values[index], attractors["strobe_velocity"].values[index])
+        scale = room.taken_by(*points, size + line)
+        if scale:
+            axes.plot(*points, "o", markersize=scale * size, markerfacecolor=face, markeredgecolor=edge, markeredgewidth=scale * line,
+                      clip_on=False, zorder=3)
+
+
+class Room:
+    """How much of every basin is still to be seen under the dots."""
+
+    HIDDEN = 0.2  # share of a basin's picture that dots may cover
+
+    def __init__(self, plane, basin):
+        self.plane, self.basin = plane, basin
+        labels, counts = np.unique(basin["attractor"].values, return_counts=True)
+        page = (72 * PLANE_WIDTH) ** 2 * plane.shape  # square points
+        self.left = dict(zip(labels, self.HIDDEN * page * counts / counts.sum(), strict=True))
+        across = np.linspace(-1, 1, 15)
+        disk = np.array(np.meshgrid(across, across)).reshape(2, -1)
+        self.disk = disk[:, np.hypot(*disk) <= 1]
+
+    def taken_by(self, theta, velocity, diameter):
+        """The scale (1, 1/2, 1/4 or 0) at which the dots of an attractor leave every basin under them visible; takes their place."""
+        for scale in (1, 0.5, 0.25):
+            covered = self._covered(theta, velocity, scale * diameter)
+            if all(area <= self.left[label] for label, area in covered.items()):
+                self.left.update({label: self.left[label] - area for label, area in covered.items()})
+                return scale
+        return 0
+
+    def _covered(self, theta, velocity, diameter):
+        """Label -> square points under the dots."""
+        half = diameter / 2 / (72 * PLANE_WIDTH)
+        x = theta[:, None] + half * np.ptp(self.plane.theta_range) * self.disk[0]
+        y = velocity[:, None] + half / self.plane.shape * np.ptp(self.plane.velocity_range) * self.disk[1]
+        labels, counts = np.unique(self.plane.label_at(self.basin, x, y), return_counts=True)
+        return dict(zip(labels, np.pi / 4 * diameter**2 * counts / self.disk.shape[1], strict=True))
 
 
 def basin_entries(attractors, colours, labels):
     """Legend entries (colour, name, share) of the basins that have cells here, largest first; the unsettled cells last."""
     entries = [(colour, name, np.mean(labels == index))
-               for index, (name, colour) in enumerate(zip(attractors["name"].values, colours, strict=True))]
+               for index, (name, colour) in enumerate(zip(style.names_with_ids(attractors["name"].values), colours, strict=True))]
     entries.sort(key=lambda entry: -entry[2])
     entries.append((style.UNSETTLED, "not settled", np.mean(labels < 0)))
     return [entry for entry in entries if entry[2] > 0]
 
 
-def draw_one(axes, plane, basin, attractors, ids):
+def draw_one(axes, plane, basin, attractors, ids, dots):
     """One basin black on white, its strobe points as open rings."""
     mine = np.isin(basin["attractor"].values, ids)
     axes.imshow(np.where(mine[:, plane.order, None], 0.0, 1.0) * np.ones(3), extent=plane.extent, origin="lower", aspect="auto")
-    for index in ids:
-        mark_strobe_points(axes, plane, attractors, index, "white", "black")
+    if dots:
+        mark_strobe_points(axes, plane, basin, attractors, dict.fromkeys(ids, "white"), "black")
     return [("black", attractors["name"].values[ids[0]], np.mean(mine))]
 
 
@@ -187,7 +234,7 @@ def label_axes(axes, plane):
 
 def write_titles(axes, result, basin):
     """The scene's title, the parameters, and how the labels were found."""
-    axes.set_title(result.attributes.get("title") or result.path.stem, pad=22)
+    axes.set_title(title_text(result), pad=22, parse_math=False)
     axes.text(0, 1.02, style.parameters_text(result.pendulum), transform=axes.transAxes, va="bottom", ha="left",
               fontsize=9, color=style.FAINT)
     rows, columns = basin["attractor"].shape
@@ -208,9 +255,10 @@ def draw(arguments):
     figure = plt.figure(figsize=(PLANE_WIDTH, PLANE_WIDTH * plane.shape))
     axes = figure.add_axes((0, 0, 1, 1))  # the page grows around the plane when it is saved
     if arguments.attractor:
-        entries = draw_one(axes, plane, basin, attractors, chosen_ids(result, attractors, arguments.attractor))
+        ids = chosen_ids(result, attractors, arguments.attractor)
+        entries = draw_one(axes, plane, basin, attractors, ids, not arguments.no_dots)
     elif arguments.quantity == "attractor":
-        entries = draw_basins(axes, plane, basin, attractors, arguments.shade)
+        entries = draw_basins(axes, plane, basin, attractors, arguments.shade, not arguments.no_dots)
     elif arguments.quantity == "evidence":
         entries = draw_evidence(axes, plane, basin)
     else:

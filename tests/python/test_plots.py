@@ -58,9 +58,52 @@ def test_black_and_white_draws_just_that_basin(made_file):
     assert plot_basin.chosen_ids(result, attractors, "inverted 3-nodding") == [2, 3]
     assert plot_basin.chosen_ids(result, attractors, "3") == [3]
     axes = plot_basin.plt.figure().add_subplot()
-    ((_, _, share),) = plot_basin.draw_one(axes, plot_basin.Plane(basin, "down"), basin, attractors, [2, 3])
+    ((_, _, share),) = plot_basin.draw_one(axes, plot_basin.Plane(basin, "down"), basin, attractors, [2, 3], True)
     drawn = axes.images[0].get_array()[..., 0] == 0
     assert np.array_equal(drawn, np.isin(basin["attractor"].values, [2, 3])) and share == drawn.mean()
+
+
+@pytest.mark.parametrize("title, suffix", [(r"$\frac{1}$", "png"), (r"$\frac{1}$", "svg"), ("100 % of $m and $k, \\$", "svg"),
+                                           ("倒立摆 🎈", "png"), ("倒立摆 🎈", "pdf"), ("倒立摆 🎈", "svg")])
+def test_a_title_is_plain_text(made_file, tmp_path, title, suffix):
+    with h5py.File(made_file, "r+") as file:
+        file.attrs["title"] = title
+    done = plot(made_file, "-o", tmp_path / f"out.{suffix}", "--dpi", 30)
+    assert (done.returncode, done.stderr) == (0, "")
+    if suffix == "svg":
+        assert title in (tmp_path / "out.svg").read_text()
+
+
+def test_attractors_of_one_name_get_their_ids(made_file, tmp_path):
+    assert plot(made_file, "-o", tmp_path / "out.svg").returncode == 0
+    text = (tmp_path / "out.svg").read_text()
+    assert "inverted 3-nodding (2)" in text and "inverted 3-nodding (3)" in text and "rotation +1/1 (" not in text
+
+
+def pixels(made_file, colour, *options):
+    """How many pixels of the picture have the colour."""
+    picture = made_file.with_name("pixels.png")
+    assert plot(made_file, "-o", picture, "--no-legend", "--dpi", 150, *options).returncode == 0
+    image = matplotlib.image.imread(picture)[..., :3]
+    return int(np.all(np.abs(image - plot_basin.to_rgb(colour)) < 0.004, axis=-1).sum())
+
+
+@pytest.mark.parametrize("cells", [1, 3, 12])
+def test_dots_never_cover_a_small_basin(made_file, cells):
+    """The basin of a rotation is a few cells around its strobe point, most of which a dot of the usual size would hide."""
+    with h5py.File(made_file, "r+") as file:
+        distance = np.hypot(file["basin/theta"][:] - 3.0, file["basin/velocity"][:][:, None] - 1.1)
+        labels = np.zeros(distance.shape, "i2")
+        labels.flat[distance.ravel().argsort()[:cells]] = 4
+        file["basin/attractor"][:] = labels
+    colour = plot_basin.style.KINDS["rotation +"]
+    assert pixels(made_file, colour) >= 0.75 * pixels(made_file, colour, "--no-dots") > 100
+
+
+def test_dots_can_be_left_out(made_file):
+    dot = plot_basin.style.shade(plot_basin.style.KINDS["inverted"], -0.45)
+    assert pixels(made_file, dot) > 20 and pixels(made_file, dot, "--no-dots") == 0
+    assert pixels(made_file, "white", "--attractor", "1", "--no-dots") != pixels(made_file, "white", "--attractor", "1")
 
 
 def test_a_strobe_point_on_the_seam_shows_on_both_edges(made_file):

@@ -59,6 +59,23 @@ def test_every_attractor_of_the_five_figures_has_its_own_colour():
         assert len(set(style.colours(catalogue(*rows)))) == len(rows)
 
 
+@pytest.mark.parametrize("rows", [
+    [(2, 0, 0, 0), (2, 0, 1, 1), (3, 0, 1, 3), (3, 0, 1, 2), (9, 0, 1, 5), (9, 0, 1, 4)],
+    [(1, 1, 2, 0), (8, 1, 2, 1), (9, 1, 2, 2), (10, 1, 2, 3), (20, 2, 2, 4)],
+    [(4, 0, 1, 1), (4, 0, 1, 0), (4, 0, 1, 3), (4, 0, 1, 2), (1, 0, 1, 4)],
+    [(period, 0, 0, index) for index, period in enumerate(range(1, 25))],
+])
+def test_colours_of_one_catalogue_can_be_told_apart(rows):
+    colours = [lab(colour, "full") for colour in (*style.colours(catalogue(*rows)), style.UNSETTLED)]
+    assert min(np.linalg.norm(one - other) for one, other in itertools.combinations(colours, 2)) > 5
+    simplest = min(range(len(rows)), key=lambda index: rows[index])
+    assert style.colours(catalogue(*rows))[simplest] == style.KINDS[style.kind(*rows[simplest][:3])]
+
+
+def test_names_that_occur_twice_get_their_ids():
+    assert style.names_with_ids(["flutter", "down", "flutter"]) == ["flutter (0)", "down", "flutter (2)"]
+
+
 @given(st.integers(0, 96), st.integers(-200, 200), st.integers(0, 3))
 def test_every_attractor_has_a_colour(period, winding, centre):
     centre = 2 if winding else centre % 2
