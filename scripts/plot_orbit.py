@@ -4,7 +4,13 @@
     .venv/bin/python scripts/plot_orbit.py butikov-fig07.h5                               all four panels
     .venv/bin/python scripts/plot_orbit.py blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
     .venv/bin/python scripts/plot_orbit.py blackburn-fig09c.h5 --panels phase,path
+    .venv/bin/python scripts/plot_orbit.py FILE --last 20                                 its last 20 drive periods
+
+An open record of more than 200 periods shows its last 100 unless --last says otherwise, a closed orbit of as many periods one round;
+the spectrum is always that of the whole record.
 """
+
+import argparse
 
 import kapitza_style as style
 import matplotlib.pyplot as plt
@@ -16,12 +22,15 @@ from matplotlib.ticker import MaxNLocator
 PANELS = ("time", "path", "phase", "spectrum")
 HARMONICS = ["#d1602f", "#12806a", "#8a5fb8", "#b08a1e"]  # the strongest lines, in this order
 TURN = 2 * np.pi
+LONG, LAST = 200, 100  # open records of more periods than LONG show their last ones
+ROUNDING = 1e-9  # deg, and whatever else an axis counts in: what spans less is rounding noise, not motion
 
 
 def parse_arguments():
     parser = argument_parser(__doc__, "an orbit")
     parser.add_argument("--panels", default=",".join(PANELS), help=f"some of {','.join(PANELS)} (default: all)")
     parser.add_argument("--harmonics", type=int, default=3, choices=range(5), help="lines drawn into the time graph (default: 3)")
+    parser.add_argument("--last", type=periods, metavar="N", help="of an open record, the last N drive periods")
     arguments = parsed(parser)
     arguments.panels = arguments.panels.split(",")
     if not set(arguments.panels) <= set(PANELS):
@@ -29,11 +38,35 @@ def parse_arguments():
     return arguments
 
 
+def periods(text):
+    """A number of drive periods."""
+    if not float(text) > 0:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0")
+    return float(text)
+
+
+def cut(data, start, end):
+    """The orbit's data between two times (drive periods)."""
+    for time in ("time", "strobe_time", "maximum_time"):
+        inside = (data[time].values >= TURN * start - 1e-6) & (data[time].values <= TURN * end + 1e-6)
+        data = data.isel({data[time].dims[0]: np.flatnonzero(inside)})
+    return data
+
+
+def shown(data, last):
+    """(data, last periods that they are or None): of a long open record its last periods, of a long closed orbit one round."""
+    length = float(data["time"].values[-1]) / TURN
+    if data.attrs["closed"]:
+        return (cut(data, 0, int(data.attrs["period"])) if length > LONG else data), None
+    last = last or (LAST if length > LONG else length)
+    return (cut(data, length - last, length), last) if last < length else (data, None)
+
+
 class Orbit:
     """The group orbit in the units of the pictures: degrees from the centre, drive periods."""
 
-    def __init__(self, result):
-        self.data = result.group("orbit")
+    def __init__(self, result, last=None):
+        self.data, self.last = shown(result.group("orbit"), last)
         self.attributes = self.data.attrs
         self.closed = bool(self.attributes["closed"])
         self.rotating = int(self.attributes["centre"]) == 2
@@ -50,6 +83,11 @@ class Orbit:
         offset = np.pi * int(self.attributes["centre"])
         mean = float(self.data["theta"].mean())
         return offset + TURN * np.rint((mean - offset) / TURN)
+
+    @property
+    def resting(self):
+        """Whether nothing moves but the last digits."""
+        return np.ptp(self.deflection()) < ROUNDING
 
     @property
     def place(self):
@@ -91,33 +129,51 @@ def draw_time(axes, orbit, harmonics):
     span = 2 * orbit.period if orbit.closed and orbit.period <= 4 else np.inf
     for t, y in repeated(orbit, span):
         axes.plot(t, y, color=style.INK, linewidth=1.3, zorder=3)
-    end = axes.dataLim.x1
-    pivot_axis(axes, orbit, end)
+    start, end = axes.dataLim.intervalx
+    if orbit.resting:
+        axes.text(0.5, 0.8, "at rest: no motion beyond rounding", transform=axes.transAxes, ha="center", color=style.FAINT)
+    else:
+        pivot_axis(axes, orbit, start, end)
+        draw_features(axes, orbit, end, harmonics)
+    axes.set_xlim(start, end)
+    axes.set_xlabel("time (drive periods)")
+    what = "from the steady rotation" if orbit.rotation() else f"from {orbit.place}"
+    axes.set_ylabel(f"angle {what} (deg)")
+    axes.margins(y=0.08)
+    hide_rounding(axes, y=2)
+    if end - start <= 25:
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    write_legend(axes)
+
+
+def draw_features(axes, orbit, end, harmonics):
+    """Harmonics and strobe points of a closed orbit, turning points of an open one, where there are few enough to be seen."""
     if orbit.closed:
         draw_harmonics(axes, orbit, end, harmonics)
     elif not orbit.rotating and orbit.data.sizes["maximum_time"] < 200:
         axes.plot(orbit.data["maximum_time"] / TURN, np.degrees(orbit.data["maximum_angle"]), "o", markersize=3.2,
                   color=style.KINDS["rotation -"], zorder=4, label="turning points")
-    strobes = orbit.data["strobe_time"].values / TURN
     if orbit.closed and orbit.period <= 24:
         t, y = strobe_deflection(orbit)
         for shift in np.arange(0, end - 1e-9, orbit.time[-1]):
             keep = t + shift <= end + 1e-9
             axes.plot(t[keep] + shift, y[keep], "o", markersize=4, color=style.KINDS["rotation +"], zorder=4,
                       label="strobe points" if shift == 0 else None)
-    axes.set_xlim(0, end)
-    axes.set_xlabel("time (drive periods)")
-    what = "from the steady rotation" if orbit.rotation() else f"from {orbit.place}"
-    axes.set_ylabel(f"angle {what} (deg)")
-    axes.margins(y=0.08)
-    if len(strobes) <= 25:
-        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    write_legend(axes)
+
+
+def hide_rounding(axes, **spans):
+    """Gives an axis (x or y) whose data differ by rounding alone the span at which that is not seen."""
+    for name, span in spans.items():
+        low, high = getattr(axes.dataLim, f"interval{name}")
+        if high - low < ROUNDING:
+            axes.set(**{f"{name}lim": ((low + high - span) / 2, (low + high + span) / 2)})
 
 
 def write_legend(axes):
     """Above the panel, where it hides nothing."""
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize=7.5, handlelength=1.4, columnspacing=1.2)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize=7.5, handlelength=1.4,
+                    columnspacing=1.2)
 
 
 def repeated(orbit, span):
@@ -132,14 +188,14 @@ def strobe_deflection(orbit):
     return time / TURN, orbit.deflection(orbit.data["strobe_theta"].values, time)
 
 
-def pivot_axis(axes, orbit, end):
+def pivot_axis(axes, orbit, start, end):
     """The pivot's motion as a faint curve that fills a fifth of the height."""
     height = 0.2 * np.abs(orbit.deflection()).max()
-    if not orbit.data["pivot"].values.any() or end > 40:
+    if not orbit.data["pivot"].values.any() or end - start > 40:
         return
-    t = np.linspace(0, end, int(60 * end) + 1)
+    t = np.linspace(start, end, int(60 * (end - start)) + 1)
     sign = np.sign(orbit.data["pivot"].values[0])
-    axes.plot(t, sign * height * np.cos(TURN * t), color="#b9c2cb", linewidth=0.9, zorder=1, label="pivot (not to scale)")
+    axes.plot(t, sign * height * np.cos(TURN * (t - start)), color="#b9c2cb", linewidth=0.9, zorder=1, label="pivot (not to scale)")
 
 
 def draw_harmonics(axes, orbit, end, count):
@@ -181,6 +237,7 @@ def draw_phase(axes, orbit):
               label="strobe points")
     axes.set_xlabel(f"angle from {orbit.place} (deg)")
     axes.set_ylabel("velocity (rad per drive radian)")
+    hide_rounding(axes, x=2, y=0.02)
     write_legend(axes)
 
 
@@ -188,8 +245,8 @@ def draw_spectrum(axes, orbit):
     """Amplitudes against frequency: stems for a closed orbit, a curve for an open record seen through its window."""
     frequency, amplitude = orbit.data["line_frequency"].values, orbit.data["line_amplitude"].values
     top = amplitude[1:].max()
-    if top <= 0:
-        axes.text(0.5, 0.5, "at rest: no lines", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
+    if top < ROUNDING:
+        axes.text(0.5, 0.5, "no lines beyond rounding", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
         return
     floor = max(top * 1e-7, 1e-12)
     if orbit.closed:
@@ -226,13 +283,14 @@ def write_title(figure, result, orbit):
     words = {"mathieu": "linear equation", "effective": "slow equation of the effective potential"}.get(
         str(orbit.attributes.get("model")), "")
     name = style.name_text(orbit.attributes.get("name", "")) if orbit.closed else "open record"
-    parts = [style.parameters_text(result.pendulum), words, name, f"period {orbit.period}" if orbit.closed else ""]
+    parts = [style.parameters_text(result.pendulum), words, name, f"period {orbit.period}" if orbit.closed else "",
+             f"last {orbit.last:g} periods" if orbit.last else ""]
     entitle(figure, result, *parts)
 
 
 def draw(arguments):
     result = Result(arguments.file)
-    orbit = Orbit(result)
+    orbit = Orbit(result, arguments.last)
     if len(orbit.time) < 2:
         raise BadFile(f"{result.path}: the orbit has no length")
     figure, axes = lay_out(arguments.panels)

@@ -3,6 +3,7 @@
 import json
 
 import matplotlib.image
+import numpy as np
 import plot_orbit
 import pytest
 from conftest import run_script
@@ -12,6 +13,8 @@ ORBITS = {
     "nodding": (BLACKBURN, {"start": {"theta": 0.1551784805487, "velocity": 0.29665394403367}, "closed": True}),
     "rotation": (BLACKBURN, {"start": {"theta": 3.0164225972238, "velocity": 1.0688105148992}, "closed": True}),
     "rest": (BLACKBURN, {"start": {"theta": 0, "velocity": 0}, "closed": True}),
+    "long": (BLACKBURN, {"start": {"theta": 3, "velocity": 0.1}, "periods": 1500}),
+    "closed and long": (BLACKBURN, {"start": {"theta": 0.1551784805487, "velocity": 0.29665394403367}, "closed": True, "periods": 600}),
     "open": (BLACKBURN, {"start": {"theta": 3, "velocity": 0.1}, "periods": 50}),
     "slow": (BLACKBURN, {"start": {"theta": 3, "velocity": 0}, "periods": 50, "model": "effective"}),
     "linear": ({"k": 0, "damping": 0, "m": 0.4540231668672888},
@@ -48,6 +51,55 @@ def test_the_picture_says_what_the_file_holds(files, tmp_path):
         assert words in text, words
 
 
+@pytest.fixture
+def axes_of(files, monkeypatch):
+    """axes_of(name, *options): the panels of the picture, by name, with what --last printed in the title line."""
+    def call(name, *options):
+        kept = {}
+        monkeypatch.setattr(plot_orbit, "lay_out", lambda panels: kept.update(zip(("figure", "axes"), lay_out(panels), strict=True))
+                            or (kept["figure"], kept["axes"]))
+        monkeypatch.setattr(plot_orbit.style, "save", lambda figure, output, dpi: figure.canvas.draw())
+        done = plot(files / f"{name}.h5", *options)
+        assert (done.returncode, done.stderr) == (0, "")
+        return kept["axes"], " ".join(text.get_text() for text in kept["figure"].texts)
+    lay_out = plot_orbit.lay_out
+    return call
+
+
+@pytest.mark.parametrize("name, options", [("rest", []), ("long", []), ("long", ["--last", "20"])])
+def test_rounding_noise_is_no_motion(axes_of, name, options):
+    """At rest, or settled long before the last periods: an axis that magnifies 1e-15 would show lively motion."""
+    axes, _ = axes_of(name, *options)
+    assert np.ptp(axes["time"].get_ylim()) > 0.1
+    assert np.ptp(axes["phase"].get_xlim()) > 0.1 and np.ptp(axes["phase"].get_ylim()) > 1e-3
+    assert any("at rest" in text.get_text() for text in axes["time"].texts)
+    low, high = axes["spectrum"].get_ylim()
+    assert low < high
+    if name == "rest":
+        assert axes["spectrum"].get_yscale() == "linear" and not axes["spectrum"].lines and not axes["spectrum"].collections
+
+
+def test_motion_is_not_taken_for_noise(axes_of):
+    axes, words = axes_of("open")
+    assert not axes["time"].texts and np.ptp(axes["time"].get_ylim()) > 5 and "last" not in words
+
+
+def test_long_records_show_their_last_periods(axes_of):
+    axes, words = axes_of("long")
+    assert axes["time"].get_xlim() == pytest.approx((1400, 1500)) and "last 100 periods" in words
+    axes, words = axes_of("long", "--last", "1500")
+    assert axes["time"].get_xlim() == pytest.approx((0, 1500)) and "last" not in words and not axes["time"].texts
+    axes, words = axes_of("open", "--last", "10")
+    assert axes["time"].get_xlim() == pytest.approx((40, 50)) and "last 10 periods" in words
+    strobes = next(line for line in axes["phase"].lines if line.get_label() == "strobe points")
+    assert len(strobes.get_xdata()) == 11
+
+
+def test_a_long_closed_orbit_shows_one_round(axes_of):
+    axes, words = axes_of("closed and long")
+    assert axes["time"].get_xlim() == pytest.approx((0, 6)) and "last" not in words
+
+
 @pytest.mark.parametrize("panels", ["time", "phase,path", "spectrum", "time,spectrum"])
 def test_panels_are_a_choice(files, tmp_path, panels):
     assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg", "--panels", panels).returncode == 0
@@ -68,3 +120,5 @@ def test_what_cannot_be_drawn(made_file, tmp_path):
     assert (done.returncode, done.stderr) == (1, f"error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
     assert plot(made_file, "--panels", "tiem").returncode == 2
     assert plot(made_file, "-o", "out.gif").returncode == 2
+    for last in ("0", "-3", "nan", "long"):
+        assert plot(made_file, "--last", last).returncode == 2
