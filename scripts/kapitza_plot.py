@@ -35,7 +35,8 @@ def parsed(parser):
 
 def title_text(result):
     """The scene's title, or the file's name: plain text, to be drawn with parse_math=False."""
-    return str(result.attributes.get("title") or result.path.stem)
+    title = str(result.attributes.get("title") or result.path.stem)
+    return "".join(letter if letter.isprintable() else "?" for letter in title)
 
 
 def entitle(figure, result, *parts):

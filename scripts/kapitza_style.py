@@ -55,11 +55,13 @@ def kind(period, winding, centre):
     return "other"
 
 
-def colours(attractors):
-    """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is too near."""
+def colours(attractors, apart=None):
+    """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is too near;
+    `apart`: the ids that must be told apart (default: all)."""
     rows = list(zip(attractors["period"].values, attractors["winding"].values, attractors["centre"].values,
                     attractors["mirror"].values, strict=True))
-    order = sorted(range(len(rows)), key=lambda index: (rows[index][0], abs(rows[index][1]), rows[index][3] < index, index))
+    order = sorted(range(len(rows)) if apart is None else apart,
+                   key=lambda index: (rows[index][0], abs(rows[index][1]), rows[index][3] < index, index))
     return _told_apart([_colour(index, *row) for index, row in enumerate(rows)], order)
 
 

@@ -251,6 +251,9 @@ def _method(basin):
 def draw(arguments):
     result = Result(arguments.file)
     basin, attractors = result.group("basin"), result.group("attractors")
+    labels = basin["attractor"].values
+    if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes["attractor"]:
+        raise BadFile(f"{result.path}: has cells of attractors that it does not list")
     plane = Plane(basin, arguments.centre)
     figure = plt.figure(figsize=(PLANE_WIDTH, PLANE_WIDTH * plane.shape))
     axes = figure.add_axes((0, 0, 1, 1))  # the page grows around the plane when it is saved

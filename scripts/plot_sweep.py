@@ -12,6 +12,7 @@
 import kapitza_style as style
 import matplotlib.pyplot as plt
 import numpy as np
+import xarray
 from kapitza_file import BadFile, Result, run
 from kapitza_plot import argument_parser, entitle, parsed
 from matplotlib.lines import Line2D
@@ -20,7 +21,7 @@ from matplotlib.patches import Patch
 SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$", "damping": r"$\beta$"}
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
-NAMED = 0.004  # branches with a larger share somewhere are named in the legend
+NAMED = 0.004  # branches whose share is smaller everywhere are drawn as one band
 
 
 def parse_arguments():
@@ -37,24 +38,58 @@ def parameter_text(sweep):
     return f"{words} {SYMBOLS[name]}" if name in SYMBOLS else words if unit == "1" else f"{words} / {unit}"
 
 
-def branch_colours(sweep):
-    """One colour per branch, by its kind of motion."""
-    names = ("period", "winding", "centre", "mirror")
-    return style.colours(sweep[[f"branch_{name}" for name in names]].rename({f"branch_{name}": name for name in names}))
+def motions(sweep):
+    """(period, winding, centre, whether the second of two mirror partners) of every branch."""
+    columns = (sweep[f"branch_{name}"].values for name in ("period", "winding", "centre", "mirror"))
+    return [(int(period), int(winding), int(centre), bool(mirror < branch)) for branch, (period, winding, centre, mirror)
+            in enumerate(zip(*columns, strict=True))]
+
+
+def branch_colours(sweep, named=None):
+    """One colour per branch: branches of one motion share it, however far apart they live; those of `named` can be told apart."""
+    kinds = motions(sweep)
+    firsts = sorted({kind: kinds.index(kind) for kind in kinds}.values())
+    dimension = sweep["branch_period"].dims
+    table = xarray.Dataset({name: (dimension, [kinds[branch][column] for branch in firsts])
+                            for column, name in enumerate(("period", "winding", "centre"))})
+    table["mirror"] = dimension, [-1 if kinds[branch][3] else len(firsts) for branch in firsts]
+    apart = None if named is None else [row for row, branch in enumerate(firsts) if kinds[branch] in {kinds[one] for one in named}]
+    colour = dict(zip((kinds[branch] for branch in firsts), style.colours(table, apart), strict=True))
+    return [colour[kind] for kind in kinds]
 
 
 def draw_fractions(sweep):
-    """Shares stacked over the parameter; under them the life of every branch."""
+    """Shares stacked over the parameter, with their intervals; under them the life of every branch."""
     figure, (top, bottom) = plt.subplots(2, 1, figsize=(8.6, 8.2), sharex=True, height_ratios=[3, 2], layout="constrained")
-    value, colours = sweep["value"].values, branch_colours(sweep)
-    share = np.nan_to_num(sweep["fraction"].values)
-    order = _stack_order(sweep)
-    top.stackplot(value, share[:, order].T, colors=[colours[branch] for branch in order], edgecolor="white", linewidth=0.25)
-    top.set(ylim=(0, 1), ylabel="share of the starts")
+    value, share, order = sweep["value"].values, np.nan_to_num(sweep["fraction"].values), _stack_order(sweep)
     named = [branch for branch in order if share[:, branch].max() > NAMED]
-    top.legend(handles=_entries(sweep, colours, named[::-1]), loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4)
+    small = [branch for branch in order if share[:, branch].max() <= NAMED]
+    colours = branch_colours(sweep, named)
+    bands = np.column_stack([share[:, named], share[:, small].sum(axis=1)])
+    top.stackplot(value, bands.T, colors=[*(colours[branch] for branch in named), style.FAINT], edgecolor="white", linewidth=0.25)
+    bars = _draw_intervals(top, sweep, named, np.cumsum(bands, axis=1) - bands)
+    top.set(ylim=(0, 1), ylabel="share of the starts")
+    entries = [Patch(color=style.FAINT, label=_rest_text(small, bands))] if bands[:, -1].any() else []
+    entries += [*_entries(sweep, colours, named[::-1]), *bars]
+    if bands.sum(axis=1).min() < 1 - NAMED:
+        entries.insert(0, Patch(facecolor="white", edgecolor=style.FAINT, lw=0.5, label="not settled"))
+    top.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize=8, labelspacing=0.35)
     _draw_lives(bottom, sweep, colours, order)
     return figure
+
+
+def _draw_intervals(axes, sweep, branches, base):
+    """Where the upper edge of every band could lie: its own share's interval above its lower edge. Returns the legend's entries."""
+    caps, drawn = 1.5 if sweep.sizes["value"] <= 40 else 0, []
+    for row, branch in enumerate(branches):
+        share, low, high = (sweep[name].values[:, branch] for name in ("fraction", "fraction_low", "fraction_high"))
+        drawn.append(axes.errorbar(sweep["value"].values, base[:, row] + share, [share - low, high - share], fmt="none", ecolor=style.INK,
+                                   elinewidth=0.7, capsize=caps, capthick=0.7, label="95 % interval of a share"))
+    return drawn[:1]
+
+
+def _rest_text(small, bands):
+    return f"{len(small)} others, {style.share_text(bands[:, -1].max())} at most"
 
 
 def _stack_order(sweep):
@@ -66,13 +101,13 @@ def _stack_order(sweep):
 
 
 def _entries(sweep, colours, branches):
-    """Legend entries, one per name and colour."""
-    entries = {}
+    """Legend entries, one per name and colour; two colours of one name are told apart by their branches."""
+    groups = {}
     for branch in branches:
-        entries.setdefault(style.name_text(sweep["branch_name"].values[branch]), Patch(color=colours[branch]))
-    for name, patch in entries.items():
-        patch.set_label(name)
-    return list(entries.values())
+        groups.setdefault((str(sweep["branch_name"].values[branch]), colours[branch]), []).append(branch)
+    names = [name for name, _ in groups]
+    return [Patch(color=colour, label=style.name_text(name) + (f" ({', '.join(map(str, sorted(ids)))})" if names.count(name) > 1 else ""))
+            for (name, colour), ids in groups.items()]
 
 
 ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located")}
@@ -98,7 +133,8 @@ def draw_branches(sweep):
     colours, order = branch_colours(sweep), _stack_order(sweep)
     figure, axes = plt.subplots(figsize=(8.6, 1.6 + 0.16 * len(order)), layout="constrained")
     _draw_lives(axes, sweep, colours, order)
-    names = [style.name_text(sweep["branch_name"].values[branch]) for branch in order]
+    ids = style.names_with_ids(sweep["branch_name"].values)
+    names = [style.name_text(ids[branch]) for branch in order]
     axes.set_yticks(range(len(order)), names, fontsize=6.5)
     axes.set_ylabel("")
     return figure

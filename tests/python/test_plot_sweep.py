@@ -3,8 +3,13 @@
 import subprocess
 import sys
 
+import kapitza_style as style
+import numpy as np
+import plot_sweep
 import pytest
 from conftest import ROOT
+from kapitza_file import Result
+from matplotlib.collections import FillBetweenPolyCollection
 
 SCENE = """\
 title: A short walk
@@ -47,6 +52,32 @@ def test_fractions_name_the_large_branches(swept):
     text = (swept.parent / "first.svg").read_text()
     for name in ("inverted", "flutter", "rotation +1/1", "rotation −1/1", "period doubling"):
         assert name in text
+
+
+def test_fractions_show_intervals_and_name_every_band(swept):
+    """As many entries as bands: the named ones, and all others as one."""
+    result = Result(swept)
+    sweep = result.group("sweep")
+    share = np.nan_to_num(sweep["fraction"].values)
+    figure = plot_sweep.draw_fractions(sweep)
+    axes = figure.axes[0]
+    large = share.max(axis=0) > plot_sweep.NAMED
+    bands, bars = [item for item in axes.collections if isinstance(item, FillBetweenPolyCollection)], axes.containers
+    assert len(bands) == large.sum() + 1 and len(bars) == large.sum()
+    names = [text.get_text() for text in axes.get_legend().get_texts()]
+    for branch in np.flatnonzero(large):
+        assert any(style.name_text(sweep["branch_name"].values[branch]) in name for name in names)
+    assert len(set(names)) == len(names) and "95 % interval of a share" in names
+    rest = share[:, ~large].sum(axis=1).max()
+    assert (rest > 0) == any(name.startswith(f"{(~large).sum()} others, {style.share_text(rest)}") for name in names)
+    (line,) = bars[0].lines[2]
+    segments = np.array([segment for segment in line.get_segments() if len(segment)])
+    first = plot_sweep._stack_order(sweep)
+    first = next(branch for branch in first if large[branch])
+    there = np.isfinite(sweep["fraction"].values[:, first])
+    assert np.allclose(segments[:, 0, 1][: there.sum()], sweep["fraction_low"].values[there, first])
+    assert np.allclose(segments[:, 1, 1][: there.sum()], sweep["fraction_high"].values[there, first])
+    plot_sweep.plt.close(figure)
 
 
 def test_zone_of_flutter(kapitza, tmp_path):

@@ -156,6 +156,53 @@ def damage(path, how):
                 del file["basin/attractor"]
             elif how == "no parameters":
                 del file["pendulum"].attrs["k"]
+            elif how == "parameter of text":
+                file["pendulum"].attrs["k"] = "half"
+            else:
+                craft(file, how)
+
+
+def craft(file, how):
+    """What no run writes: each of these once ended in a traceback, a wrong picture or no end at all."""
+    labels, theta = file["basin/attractor"], file["basin/theta"]
+    if how == "unknown label":
+        labels[3, 4] = 999
+    elif how == "axis not finite":
+        theta[7] = np.nan
+    elif how == "axis down":
+        theta[:] = theta[:][::-1]
+    elif how == "unknown evidence":
+        file["basin/evidence"][0, 0] = 77
+    elif how == "period below zero":
+        file["attractors/period"][0] = -1
+    elif how == "infinite cells":
+        replace(file, "basin/attractor", shape=(10**6, 10**5), dtype="i2", chunks=(1000, 1000))
+    elif how == "external data":
+        replace(file, "basin/attractor", shape=labels.shape, dtype="i2", external=[("/etc/passwd", 0, h5py.h5f.UNLIMITED)])
+    elif how == "external link":
+        del file["basin/attractor"]
+        file["basin/attractor"] = h5py.ExternalLink("/tmp/other.h5", "/data")
+    elif how == "virtual data":
+        layout = h5py.VirtualLayout(labels.shape, "i2")
+        layout[:] = h5py.VirtualSource("/tmp/other.h5", "data", labels.shape)
+        del file["basin/attractor"]
+        file["basin"].create_virtual_dataset("attractor", layout)
+    elif how == "turned":
+        turned = labels[:].T
+        replace(file, "basin/attractor", data=turned)
+        for axis, name in enumerate(("theta", "velocity")):
+            file["basin/attractor"].dims[axis].attach_scale(file["basin"][name])
+    elif how == "text for numbers":
+        replace(file, "attractors/period", data=list("abcdef"), dtype=h5py.string_dtype())
+        file["attractors/period"].dims[0].attach_scale(file["attractors/attractor"])
+    elif how == "no dimensions":
+        replace(file, "attractors/period", data=[1, 2])
+
+
+def replace(file, name, **contents):
+    """Another dataset under the name."""
+    del file[name]
+    file.create_dataset(name, **contents)
 
 
 @pytest.mark.parametrize("how, words", [
@@ -168,6 +215,19 @@ def damage(path, how):
     ("no basin", "holds no basin"),
     ("no labels", "lacks attractor"),
     ("no parameters", "lacks k, beta or m"),
+    ("parameter of text", "lacks k, beta or m"),
+    ("unknown label", "has cells of attractors that it does not list"),
+    ("axis not finite", "theta is an axis with values that are not finite"),
+    ("axis down", "theta is an axis that does not go up"),
+    ("unknown evidence", "evidence has values that mean nothing"),
+    ("period below zero", "period has values that mean nothing"),
+    ("infinite cells", "holds 200 GB, too much for a picture"),
+    ("external data", "keeps data in another file"),
+    ("external link", "keeps data in another file"),
+    ("virtual data", "keeps data in another file"),
+    ("turned", "basin/attractor is not over velocity and theta"),
+    ("text for numbers", "period is of another type"),
+    ("no dimensions", "attractors/period is not over attractor"),
 ])
 def test_files_that_cannot_be_used_get_one_line(made_file, tmp_path, how, words):
     damage(made_file, how)
