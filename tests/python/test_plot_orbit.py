@@ -13,6 +13,7 @@ ORBITS = {
     "rotation": (BLACKBURN, {"start": {"theta": 3.0164225972238, "velocity": 1.0688105148992}, "closed": True}),
     "rest": (BLACKBURN, {"start": {"theta": 0, "velocity": 0}, "closed": True}),
     "open": (BLACKBURN, {"start": {"theta": 3, "velocity": 0.1}, "periods": 50}),
+    "chaotic": ({"k": 0.25, "damping": 0.05, "m": 0.5}, {"start": {"theta": 1, "velocity": 0.2}, "periods": 100}),
     "slow": (BLACKBURN, {"start": {"theta": 3, "velocity": 0}, "periods": 50, "model": "effective"}),
     "linear": ({"k": 0, "damping": 0, "m": 0.4540231668672888},
                {"start": {"theta": 0, "velocity": 0.1}, "model": "mathieu", "closed": True, "period": 2}),
@@ -46,6 +47,14 @@ def test_the_picture_says_what_the_file_holds(files, tmp_path):
     text = (tmp_path / "out.svg").read_text()
     for words in ("A nodding orbit", "down 6-nodding", "period 6", "line 1/6", "1/6", "strobe points", "angle from down (deg)"):
         assert words in text, words
+
+
+@pytest.mark.parametrize("name, words", [("chaotic", ["chaotic", "velocity (rad per drive radian), through a window"]),
+                                         ("open", ["open record   |   settles on inverted", "amplitude (rad), through a window"])])
+def test_open_records_say_what_they_are(files, tmp_path, name, words):
+    assert plot(files / f"{name}.h5", "-o", tmp_path / "out.svg").returncode == 0
+    text = (tmp_path / "out.svg").read_text()
+    assert all(word in text for word in words), words
 
 
 @pytest.mark.parametrize("panels", ["time", "phase,path", "spectrum", "time,spectrum"])

@@ -89,7 +89,8 @@ def test_curves_bring_their_upper_branch_and_subharmonics_both_kinds(kapitza, tm
 @pytest.mark.parametrize("last_k, parted", [(0.7, False), (0.5, True)])
 def test_a_damped_tongue_is_drawn_around_its_turn(kapitza, tmp_path, last_k, parted):
     """Both branches as one line where the chart holds the turn (k = 0.6298), as two where it ends before."""
-    chart = f"stability: {{k: {{min: 0.1, max: {last_k}, count: 61}}, m: {{min: 0, max: 4, count: 3}}, damping: 0.07, curves: [damped_1]}}\n"
+    axes = f"k: {{min: 0.1, max: {last_k}, count: 61}}, m: {{min: 0, max: 4, count: 3}}"
+    chart = f"stability: {{{axes}, damping: 0.07, curves: [damped_1]}}\n"
     run(kapitza, tmp_path, PENDULUM + chart).close()
     k, m = plot_stability.whole_curve(Result(tmp_path / "chart.h5").group("stability"), "damped_1")
     assert np.isnan(m).sum() == parted

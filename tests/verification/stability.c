@@ -264,18 +264,12 @@ static void leading_terms_of_thresholds(void **unused) {
 int main(void) {
   srand48(4);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(no_drive_is_elementary),
-      cmocka_unit_test(area_is_kept),
-      cmocka_unit_test(nonlinear_tangent_map_agrees),
-      cmocka_unit_test(curves_are_floquet_roots),
-      cmocka_unit_test(gsl_and_tridiagonal_agree),
-      cmocka_unit_test(damped_edges_have_multiplier_one),
-      cmocka_unit_test(damped_tongue_turns_back),
-      cmocka_unit_test(angle_is_root_of_hills_determinant),
-      cmocka_unit_test(subharmonics_have_their_angle),
-      cmocka_unit_test(potential_is_the_integral_of_the_slow_force),
-      cmocka_unit_test(rim_is_the_first_top),
-      cmocka_unit_test(slow_motion_keeps_its_energy),
+      cmocka_unit_test(no_drive_is_elementary),        cmocka_unit_test(area_is_kept),
+      cmocka_unit_test(nonlinear_tangent_map_agrees),  cmocka_unit_test(curves_are_floquet_roots),
+      cmocka_unit_test(gsl_and_tridiagonal_agree),     cmocka_unit_test(damped_edges_have_multiplier_one),
+      cmocka_unit_test(damped_tongue_turns_back),      cmocka_unit_test(angle_is_root_of_hills_determinant),
+      cmocka_unit_test(subharmonics_have_their_angle), cmocka_unit_test(potential_is_the_integral_of_the_slow_force),
+      cmocka_unit_test(rim_is_the_first_top),          cmocka_unit_test(slow_motion_keeps_its_energy),
       cmocka_unit_test(leading_terms_of_thresholds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
