@@ -50,7 +50,7 @@ class Result:
             raise BadFile(f"{self.path}: damaged") from error
         if attributes.get("program") != "kapitza":
             raise BadFile(f"{self.path}: not a result of kapitza")
-        if not {"k", "beta", "m"} <= pendulum.keys():
+        if "pendulum" in groups and not {"k", "beta", "m"} <= pendulum.keys():
             raise BadFile(f"{self.path}: incomplete, the group pendulum lacks k, beta or m")
         return attributes, groups, pendulum
 

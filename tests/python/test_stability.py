@@ -98,6 +98,22 @@ def test_a_damped_tongue_is_drawn_around_its_turn(kapitza, tmp_path, last_k, par
     assert (k[0], k[-1]) == (0.1, 0.1) and m[at] == pytest.approx([0.612655265, 2.369918349], abs=1e-8)
 
 
+def test_a_chart_needs_no_pendulum(kapitza, tmp_path):
+    """The study has its own k, m and damping: the same chart without the mapping, from the resolved scene too, and a picture."""
+    alone = CHART.removeprefix(PENDULUM)
+    with run(kapitza, tmp_path, CHART) as file:
+        one = file["stability/log_multiplier"][:]
+    for _ in range(2):
+        (tmp_path / "alone.yaml").write_text(alone)
+        said = kapitza("run", "alone.yaml", "--force", folder=tmp_path).stdout
+        assert "nan" not in said and "nan" not in kapitza("check", "alone.yaml", folder=tmp_path).stdout
+        with h5py.File(tmp_path / "alone.h5") as file:
+            assert "pendulum" not in file and np.array_equal(file["stability/log_multiplier"][:], one)
+            alone = file.attrs["scene_resolved"]
+    script = [sys.executable, ROOT / "scripts" / "plot_stability.py", "alone.h5", "-o", "alone.png", "--dpi", "60"]
+    assert subprocess.run(script, cwd=tmp_path).returncode == 0
+
+
 def test_one_value(kapitza, tmp_path):
     scene = PENDULUM + """\
 stability:
