@@ -117,7 +117,9 @@ def draw_time(axes, orbit, harmonics):
 
 def write_legend(axes):
     """Above the panel, where it hides nothing."""
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize=7.5, handlelength=1.4, columnspacing=1.2)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize=7.5, handlelength=1.4,
+                    columnspacing=1.2)
 
 
 def repeated(orbit, span):
@@ -205,7 +207,7 @@ def draw_spectrum(axes, orbit):
     axes.set_xlim(-0.05, last_line(frequency, amplitude, floor))
     axes.set_xlabel("frequency / drive frequency")
     what = "velocity" if orbit.attributes.get("line_quantity") == "velocity" else "amplitude"
-    axes.set_ylabel(f"{what} ({orbit.attributes.get('line_units', 'rad')})" + ("" if orbit.closed else ", through a window"))
+    axes.set_ylabel(f"{what} ({orbit.attributes.get('line_units', 'rad')})" + ("" if orbit.closed else ",\nthrough a window"))
 
 
 def last_line(frequency, amplitude, floor):

@@ -49,8 +49,8 @@ def test_the_picture_says_what_the_file_holds(files, tmp_path):
         assert words in text, words
 
 
-@pytest.mark.parametrize("name, words", [("chaotic", ["chaotic", "velocity (rad per drive radian), through a window"]),
-                                         ("open", ["open record   |   settles on inverted", "amplitude (rad), through a window"])])
+@pytest.mark.parametrize("name, words", [("chaotic", ["chaotic", "velocity (rad per drive radian),"]),
+                                         ("open", ["open record   |   settles on inverted", "amplitude (rad),"])])
 def test_open_records_say_what_they_are(files, tmp_path, name, words):
     assert plot(files / f"{name}.h5", "-o", tmp_path / "out.svg").returncode == 0
     text = (tmp_path / "out.svg").read_text()
