@@ -65,7 +65,7 @@ class Result:
             raise BadFile(f"{self.path}: damaged") from error
         if attributes.get("program") != "kapitza":
             raise BadFile(f"{self.path}: not a result of kapitza")
-        if not all(isinstance(pendulum.get(name), int | float) for name in ("k", "beta", "m")):
+        if "pendulum" in groups and not all(isinstance(pendulum.get(name), int | float) for name in ("k", "beta", "m")):
             raise BadFile(f"{self.path}: incomplete, the group pendulum lacks k, beta or m")
         return attributes, groups, pendulum
 

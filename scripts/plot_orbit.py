@@ -261,7 +261,8 @@ def draw_spectrum(axes, orbit):
     axes.set_ylim(floor, top * 4)
     axes.set_xlim(-0.05, last_line(frequency, amplitude, floor))
     axes.set_xlabel("frequency / drive frequency")
-    axes.set_ylabel("amplitude (rad)" + ("" if orbit.closed else ", through a window"))
+    what = "velocity" if orbit.attributes.get("line_quantity") == "velocity" else "amplitude"
+    axes.set_ylabel(f"{what} ({orbit.attributes.get('line_units', 'rad')})" + ("" if orbit.closed else ",\nthrough a window"))
 
 
 def last_line(frequency, amplitude, floor):
@@ -279,11 +280,18 @@ def lay_out(panels):
     return figure, axes
 
 
+def state_words(orbit):
+    """What kind of motion it is, for the line under the picture."""
+    name, end = (style.name_text(orbit.attributes.get(key, "")) for key in ("name", "settles_on"))
+    if orbit.closed:
+        return [name, f"period {orbit.period}"]
+    return ["open record", name if name == "chaotic" else f"settles on {end}" if end else ""]
+
+
 def write_title(figure, result, orbit):
     words = {"mathieu": "linear equation", "effective": "slow equation of the effective potential"}.get(
         str(orbit.attributes.get("model")), "")
-    name = style.name_text(orbit.attributes.get("name", "")) if orbit.closed else "open record"
-    parts = [style.parameters_text(result.pendulum), words, name, f"period {orbit.period}" if orbit.closed else "",
+    parts = [style.parameters_text(result.pendulum), words, *state_words(orbit),
              f"last {orbit.last:g} periods" if orbit.last else ""]
     entitle(figure, result, *parts)
 

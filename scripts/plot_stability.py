@@ -51,7 +51,7 @@ def exact_of(name):
     """The exact curve behind a formula, None for a curve that is exact itself."""
     if name in EXACT:
         return EXACT[name]
-    match = re.fullmatch(r"butikov_(subharmonic_\d+|damped_\d)", name)
+    match = re.fullmatch(r"butikov_(subharmonic_\d+|damped_\d(_upper)?)", name)
     if match:
         return match[1]
     return name.replace("butikov", "exact") if name.startswith("butikov") else None
@@ -88,7 +88,8 @@ def whole_curve(chart, name):
     if upper is None or name.startswith("blackburn"):
         return k, m
     first, second = np.isfinite(m), np.isfinite(upper.values)
-    return np.append(k[first], k[second][::-1]), np.append(m[first], upper.values[second][::-1])
+    gap = [np.nan] * int(first[-1] and second[-1])  # the turn lies beyond the chart
+    return np.concatenate([k[first], gap, k[second][::-1]]), np.concatenate([m[first], gap, upper.values[second][::-1]])
 
 
 def is_branch(chart, name):

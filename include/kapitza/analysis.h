@@ -22,6 +22,7 @@ typedef struct {
   double rotation;            /* turns per drive period, counterclockwise +: winding/n of a closed orbit */
   double centre;              /* rad: the angle that lines are counted from, 0 or pi */
   bool closed;                /* the orbit closes after `periods`; else the record is seen through a window */
+  bool velocity;              /* the samples are velocities: their mean is not wrapped */
 } kz_record;
 
 /* Amplitudes under this count as none: their phase is NaN. */
@@ -32,7 +33,7 @@ double kz_spectrum_rotation(const kz_record *record, const double *theta);
 
 /* Lines of a record: theta - centre - rotation t = a0 + sum_j A_j cos(j t/periods + phase_j).
  * theta [periods * samples_per_period] unwrapped; amplitude, phase [n_lines], line j at j/periods drive frequencies; line 0 is
- * abs(a0), a0 in [-pi, pi], phase 0 or pi. A closed record gives the Fourier coefficients to rounding. An open one is seen
+ * abs(a0), phase 0 or pi, a0 in [-pi, pi] but of a velocity. A closed record gives the Fourier coefficients to rounding. An open one is seen
  * through the four-term Blackman-Harris window (Harris, Proc. IEEE 66 (1978) 51): side lobes below -92 dB, a line is eight
  * bins wide, its top up to 0.83 dB low between bins, its phase right at bin centres alone. 2 n_lines must not exceed
  * the samples (KZ_REFUSED); KZ_FAILED where memory ran out. */

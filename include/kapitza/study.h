@@ -149,6 +149,10 @@ typedef struct {
 enum { KZ_MOST_ORBIT_STEPS = 200000 };
 double kz_orbit_steps(const kz_scene *scene);
 
+/* M r^2 of a pendulum written in SI units, kg m2; whether its inertia is at least that, to rounding. */
+double kz_point_inertia(const kz_pendulum_keys *written);
+bool kz_inertia_is_possible(const kz_pendulum_keys *written);
+
 /* The keys of the pendulum mapping that a sweep can walk along. */
 typedef struct {
   const char *name, *unit;
@@ -159,7 +163,7 @@ extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, joined by '|'. */
 const char *kz_sweep_words(void);
 
-/* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping). */
+/* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping, less inertia than a point). */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
 
 /* What a study would cost. */

@@ -102,13 +102,22 @@ CURVE(damped_0) {
   return kz_tongue_lower(k, beta);
 }
 CURVE(damped_1) {
-  return kz_tongue_edge(1, k, beta, turn);
+  return kz_tongue_edge(1, k, beta, turn, false);
+}
+CURVE(damped_1_upper) {
+  return kz_tongue_edge(1, k, beta, turn, true);
 }
 CURVE(damped_2) {
-  return kz_tongue_edge(2, k, beta, turn);
+  return kz_tongue_edge(2, k, beta, turn, false);
+}
+CURVE(damped_2_upper) {
+  return kz_tongue_edge(2, k, beta, turn, true);
 }
 CURVE(butikov_damped_1) {
-  return within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta));
+  return within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, false));
+}
+CURVE(butikov_damped_1_upper) {
+  return within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, true));
 }
 CURVE(butikov_damped_2) {
   return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
@@ -138,8 +147,11 @@ const kz_curve kz_curves[] = {
     ROW(blackburn_down_upper, NULL), /* 0 <= k <= 1/4: BSG (6), hanging */
     ROW(damped_0, NULL),             /* k <= 0: multiplier 1, continues curve 1 */
     ROW(damped_1, turn_3),           /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */
+    UPPER(damped_1, turn_3),         /* the same, beyond its turn */
     ROW(damped_2, turn_5),           /* where tongue 2 is: multiplier 1, continues curves 4 and 5 */
+    UPPER(damped_2, turn_5),         /* the same, beyond its turn */
     ROW(butikov_damped_1, NULL),     /* k <= 9/4 and a real root: BUT (25), corrected */
+    UPPER(butikov_damped_1, NULL),   /* the same: its larger root */
     ROW(butikov_damped_2, NULL),     /* k <= 8/3 and a real root: BUT (26), corrected */
 };
 const int kz_curve_count = sizeof kz_curves / sizeof kz_curves[0];

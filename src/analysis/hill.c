@@ -2,7 +2,6 @@
 
 #include <gsl/gsl_poly.h>
 #include <math.h>
-#include <stdbool.h>
 
 static double complex diagonal(double k, double beta, double w) {
   return k - w * w + I * beta * w;
@@ -37,10 +36,10 @@ static double drive_of(double a, double b, double c, bool larger) {
 }
 
 /* |a b - x|^2 = x |b|^2 with a, b the first two diagonals. */
-double kz_hill_cut_half(double k, double beta) {
+double kz_hill_cut_half(double k, double beta, bool larger) {
   double complex a = diagonal(k, beta, 0.5), b = diagonal(k, beta, 1.5), ab = a * b;
   double size_b = creal(b * conj(b));
-  return drive_of(1, -(2 * creal(ab) + size_b), creal(ab * conj(ab)), false);
+  return drive_of(1, -(2 * creal(ab) + size_b), creal(ab * conj(ab)), larger);
 }
 
 /* k |a b - x|^2 = 2 x Re((a b - x) conj b). For k <= 0 its smaller root continues curve 1, not tongue 2. */

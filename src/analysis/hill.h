@@ -4,6 +4,7 @@
 #define KAPITZA_ANALYSIS_HILL_H
 
 #include <complex.h>
+#include <stdbool.h>
 
 /* The pivot R_w of all harmonics w, w + 1, ... (converged to rounding). */
 double complex kz_hill_pivot(double k, double beta, double m, double w);
@@ -14,8 +15,8 @@ double kz_hill_half(double k, double beta, double m);
 double kz_hill_whole(double k, double beta, double m);
 
 /* The m of the tongue from the determinants cut to +-1/2, +-3/2 (BUT 25), to 0, +-1, +-2 (BUT 26), to nu, nu+-1, nu+-2
- * (BUT 21); NaN where there is none. */
-double kz_hill_cut_half(double k, double beta);
+ * (BUT 21); NaN where there is none. larger: beyond the turn of the first. */
+double kz_hill_cut_half(double k, double beta, bool larger);
 double kz_hill_cut_whole(double k, double beta);
 double kz_hill_cut_angle(double k, double nu);
 

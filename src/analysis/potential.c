@@ -1,8 +1,8 @@
 #include <gsl/gsl_integration.h>
+#include <gsl/gsl_poly.h>
 #include <math.h>
 
 #include "kapitza/stability.h"
-#include "roots.h"
 
 /* The slow equation BSG (10) is theta'' + beta theta' = -k sin(theta) - (m^2/2) sin(theta) cos(theta) u/(u^2 + beta^2),
  * u = 1 - k cos(theta). With d(theta)/d(energy) = k sin + ... its energy is
@@ -58,15 +58,25 @@ typedef struct {
 } hill_top;
 
 /* d(energy)/d(theta)/sin(theta) of the exact potential over cos(theta). */
-static double pull(double cosine, void *context) {
-  const hill_top *top = context;
+static double pull(double cosine, const hill_top *top) {
   return top->s.k + 0.5 * top->m * top->m * cosine * bracket(cosine, &top->s);
+}
+
+/* The lowest cosine at which pull changes its sign, 1 where it does nowhere. pull (u^2 + beta^2) is a quadratic in the cosine, here
+ * divided by max(1, k^2) so that nothing overflows. */
+static double first_balance(const hill_top *top) {
+  const double k = top->s.k, beta = top->s.beta, unit = fmax(1, fabs(k));
+  const double share = k / unit, drive = 0.5 * (top->m / unit) * (top->m / unit);
+  double first = 1, second = 1;
+  gsl_poly_solve_quadratic(k * (share * share - drive), drive - 2 * share * share, share * (1 + beta * beta) / unit, &first,
+                           &second);
+  if (first > -1 && first < 1) return first;
+  return second > -1 && second < 1 ? second : 1;
 }
 
 void kz_potential_rim(double k, double beta, double m, kz_rim *rim) {
   hill_top top = {{k, beta}, m};
   rim->stable_inverted = pull(-1, &top) < 0;
-  double cosine = pull(1, &top) > 0 ? kz_root(pull, &top, -1, 1) : 1;
-  rim->exact = rim->stable_inverted ? acos(cosine) : NAN;
+  rim->exact = rim->stable_inverted ? acos(first_balance(&top)) : NAN;
   rim->simple = m * m > 2 * k ? acos(fmin(1, -2 * k / (m * m))) : NAN;
 }

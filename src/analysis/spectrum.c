@@ -49,8 +49,7 @@ static double line_phase(double amplitude, double re, double im) {
   return phase == -M_PI ? M_PI : phase;
 }
 
-static void read_lines(const fftw_complex *bin, double total, double mean, int64_t n_lines, double *amplitude, double *phase) {
-  double a0 = remainder(mean, 2 * M_PI);
+static void read_lines(const fftw_complex *bin, double total, double a0, int64_t n_lines, double *amplitude, double *phase) {
   amplitude[0] = fabs(a0);
   phase[0] = line_phase(amplitude[0], a0, 0);
   for (int64_t j = 1; j < n_lines; j++) {
@@ -70,7 +69,7 @@ kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_
   if (done) {
     double total, mean = fill_deviation(record, theta, deviation, &total);
     fftw_execute(plan);
-    read_lines(bin, total, mean, n_lines, amplitude, phase);
+    read_lines(bin, total, record->velocity ? mean : remainder(mean, 2 * M_PI), n_lines, amplitude, phase);
     fftw_destroy_plan(plan);
   }
   fftw_free(deviation);

@@ -55,17 +55,19 @@ static double probe(const place *at, double *low, double *high, double *best) {
   return growth[top];
 }
 
-/* Within the undamped tongue growth rises from its lower edge to one maximum: the damped edge lies between. */
-double kz_tongue_edge(int tongue, double k, double beta, double turn) {
+/* Within the undamped tongue growth rises from its lower edge to one maximum and falls to its upper edge: the damped edges lie
+ * on both sides of a point of growth. */
+double kz_tongue_edge(int tongue, double k, double beta, double turn, bool upper_edge) {
   int lower = tongue == 1 ? 2 : 4, upper = lower + 1;
   double kappa = undamped(k, beta), axis = tongue == 1 ? 0.25 : 1;
-  double edge = kappa <= axis ? kz_mathieu_m(lower, kappa, 0, false) : kz_mathieu_m(upper, kappa, turn, false);
+  double foot = kappa <= axis ? kz_mathieu_m(lower, kappa, 0, false) : kz_mathieu_m(upper, kappa, turn, false);
+  double top = kz_mathieu_m(upper, kappa, turn, true), edge = upper_edge ? top : foot;
   if (beta == 0 || !isfinite(edge)) return edge;
   place at = {k, beta, tongue == 1};
-  double low = edge, high = kz_mathieu_m(upper, kappa, turn, true), inside = NAN;
+  double low = foot, high = top, inside = NAN;
   for (int round = 0; round < ROUNDS; round++) {
     if (probe(&at, &low, &high, &inside) > 0) {
-      double m = kz_root(residual, &at, edge, inside);
+      double m = upper_edge ? kz_root(residual, &at, inside, edge) : kz_root(residual, &at, edge, inside);
       return isfinite(m) ? m : edge;
     }
   }
@@ -83,8 +85,8 @@ typedef struct {
 static double edge_at(double from_axis, void *context) {
   const valley *v = context;
   double k = v->axis + from_axis, beta = sqrt(fabs(k)) / v->quality_factor;
-  if (v->way == KZ_BY_FLOQUET) return kz_tongue_edge(v->tongue, k, beta, v->turn);
-  return v->tongue == 1 ? kz_hill_cut_half(k, beta) : kz_hill_cut_whole(k, beta);
+  if (v->way == KZ_BY_FLOQUET) return kz_tongue_edge(v->tongue, k, beta, v->turn, false);
+  return v->tongue == 1 ? kz_hill_cut_half(k, beta, false) : kz_hill_cut_whole(k, beta);
 }
 
 /* Slope of the edge, fourth order. */

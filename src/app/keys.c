@@ -47,7 +47,7 @@ static const char *scheme_words(void) {
 const kz_key kz_keys[] = {
     TEXT("title", "", title, "One line that names the scene in files and pictures."),
 
-    MAPPING("pendulum", NULL, KZ_NO_FIELD, "The parameters, in ONE of three ways."),
+    MAPPING("pendulum", NULL, KZ_NO_FIELD, "The parameters, in ONE of three ways; a scene of `stability` alone needs none."),
     PENDULUM('a', quality_factor, "", KZ_ABOVE_ZERO, "", "Q = omega0 I/b, so that beta = 1/(Omega Q); left out: no damping."),
     PENDULUM('a', drive_frequency, "", KZ_ABOVE_ZERO, NULL, "Omega = omega/omega0, so that k = 1/Omega^2."),
     PENDULUM('a', drive_amplitude, "", -DBL_MAX, NULL, "epsilon = (A/r)(M r^2/I), so that m = epsilon."),
@@ -56,7 +56,7 @@ const kz_key kz_keys[] = {
     PENDULUM('b', m, "", -DBL_MAX, NULL, "Drive, of any sign."),
     PENDULUM('c', mass, "kg", KZ_ABOVE_ZERO, NULL, "M."),
     PENDULUM('c', radius, "m", KZ_ABOVE_ZERO, NULL, "r, from the pivot to the centre of mass."),
-    PENDULUM('c', inertia, "kg m2", KZ_ABOVE_ZERO, NULL, "I, about the pivot."),
+    PENDULUM('c', inertia, "kg m2", KZ_ABOVE_ZERO, NULL, "I, about the pivot; at least M r^2."),
     PENDULUM('c', friction, "kg m2 s-1", 0.0, NULL, "b; beta = b/(I omega)."),
     PENDULUM('c', gravity, "m s-2", -DBL_MAX, NULL, "g; k = M g r/(I omega^2)."),
     PENDULUM('c', pivot_amplitude, "m", -DBL_MAX, NULL, "A; m = M r A/I."),

@@ -137,10 +137,20 @@ static const kz_node *holder(const kz_reading *reading, const kz_key *key, char 
   return node && node->kind == KZ_MAPPING ? node : NULL;
 }
 
+/* The study stability has its own values of k, m and damping: a scene of it alone needs no pendulum. */
+static bool needs_no_pendulum(const kz_reading *reading) {
+  for (const kz_key *key = reading->keys; key->path; key++) {
+    const bool study = key->type == KZ_KEY_MAPPING && key->offset != KZ_NO_FIELD;
+    if (study && strcmp(key->path, "stability") != 0 && kz_tree_find(reading->root, key->path)) return false;
+  }
+  return kz_tree_child(reading->root, "stability") != NULL;
+}
+
 static void check_missing(kz_reading *reading, const kz_key *key) {
   char parent[256], accepted[700];
   const kz_node *mapping = holder(reading, key, parent, sizeof parent);
   if (!mapping || key->fallback || kz_tree_find(reading->root, key->path)) return;
+  if (strcmp(key->path, "pendulum") == 0 && needs_no_pendulum(reading)) return;
   const kz_key *chooser = key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
   if (chooser && chooser->form != key->form) return;
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);

@@ -1,4 +1,5 @@
 /* What the program says about itself and about a scene: check, keys, --version. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "kapitza/app.h"
@@ -43,7 +44,8 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   kz_cost_print_bytes(cost.memory_bytes, memory);
   const kz_pendulum *p = &scene->parameters.pendulum;
   printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
-  printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\nstudies         ", p->k, p->beta, p->m);
+  if (!isnan(p->k)) printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
+  fputs("studies         ", stdout);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);
   printf("\ncells            %lld\ndisk             %s\nmemory per rank  %s\nestimated time   ", (long long)cost.cells, disk,

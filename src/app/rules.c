@@ -141,7 +141,9 @@ static void sweep_value(kz_reading *reading, const kz_scene *scene, const char *
     kz_complain(reading, node, path, "%s is below what %s takes; %s%g", shortest(value).text, key,
                 low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
   else if (!reading->message[0] && !kz_sweep_pendulum(scene, value, &pendulum))
-    kz_complain(reading, node, path, "%s gives no finite k, beta >= 0 and m; a less extreme value", shortest(value).text);
+    kz_complain(reading, node, path,
+                "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; a less extreme value",
+                shortest(value).text);
 }
 
 static void sweep_rules(kz_reading *reading, kz_scene *scene) {
@@ -173,8 +175,23 @@ static void numerics_rules(kz_reading *reading, kz_scene *scene) {
   scene->numerics.steps_per_period = scheme.default_steps;
 }
 
+/* No body has less inertia about the pivot than its mass in one point. */
+static void inertia_rules(kz_reading *reading, kz_scene *scene) {
+  const kz_pendulum_keys *written = &scene->parameters.written;
+  if (reading->message[0] || isnan(written->inertia) || kz_inertia_is_possible(written)) return;
+  kz_complain(reading, kz_tree_find(reading->root, "pendulum.inertia"), "pendulum.inertia",
+              "%s is below pendulum.mass * pendulum.radius^2 = %s, the least of any body; at least that",
+              shortest(written->inertia).text, shortest(kz_point_inertia(written)).text);
+}
+
 /* k, beta, m from the form that the scene chose; only a reading without complaints has it whole. */
 static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
+  if (!kz_tree_child(reading->root, "pendulum")) { /* stability alone does without */
+    scene->parameters.pendulum = (kz_pendulum){NAN, NAN, NAN};
+    scene->parameters.quality_factor = scene->parameters.drive_frequency = scene->parameters.drive_amplitude = NAN;
+    return;
+  }
+  inertia_rules(reading, scene);
   if (reading->message[0] || kz_parameters_resolve(&scene->parameters) == KZ_OK) return;
   char wrong[256];
   snprintf(wrong, sizeof wrong, "%s", kz_message());

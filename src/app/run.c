@@ -1,5 +1,6 @@
 /* The command run: one job from the scene's text to the complete file. All ranks walk through it together. */
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -141,7 +142,8 @@ static void print_summary(job *j) {
   fclose(j->summary);
   j->summary = NULL;
   if (j->scene.title[0]) puts(j->scene.title);
-  printf("k = %.10g, beta = %.10g, m = %.10g\n%swritten to %s\n", p->k, p->beta, p->m, j->words, j->path);
+  if (!isnan(p->k)) printf("k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
+  printf("%swritten to %s\n", j->words, j->path);
 }
 
 /* The file appears under its name, or not at all; one that somebody else has put there meanwhile stays. */

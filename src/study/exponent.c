@@ -2,7 +2,12 @@
 
 #include <math.h>
 
-enum { BLOCKS = 10 };
+enum { BLOCKS = 10, LEAST_PERIODS = 1000, MOST_PERIODS = 100000 };
+
+/* An orbit that starts within rounding (1e-16) of an unstable cycle has left it when its neighbours have parted by exp(ESCAPE). */
+static const double ESCAPE = 40;
+/* A positive exponent is believed from so many standard errors on. */
+static const double CONFIDENCE = 5;
 
 /* Carries a unit deviation through one period; returns the logarithm of its growth. */
 static double growth(const kz_mover *mover, kz_state *x, double *deviation) {
@@ -26,4 +31,15 @@ void kz_exponent_along(const kz_mover *mover, int64_t periods, kz_state start, d
   for (int i = 0; i < BLOCKS; i++) square += (block[i] - total) * (block[i] - total);
   *mean = length > 0 ? total : NAN;
   *error = length > 0 ? sqrt(square / (BLOCKS * (BLOCKS - 1))) : NAN;
+}
+
+bool kz_exponent_positive(double mean, double error) {
+  return mean > 0 && mean > CONFIDENCE * error;
+}
+
+bool kz_exponent_stays_positive(const kz_mover *mover, kz_state start, double mean) {
+  double later, error, periods = fmax(LEAST_PERIODS, ceil(2 * ESCAPE / mean));
+  if (!(periods <= MOST_PERIODS)) return false;
+  kz_exponent_along(mover, (int64_t)periods, start, &later, &error);
+  return kz_exponent_positive(later, error) && later * periods > ESCAPE;
 }

@@ -6,9 +6,12 @@
 #include <string.h>
 
 #include "exponent.h"
+#include "settling.h"
 
 /* Periods of an open record that the scene does not bound. */
 enum { OPEN_PERIODS = 100 };
+/* Periods that an open record is looked ahead, as a rule, and the most steps a period with which it is. */
+enum { AHEAD_PERIODS = 2000, AHEAD_STEPS = 1500 };
 /* Periods of the transient between two looks at stop requests: a few seconds. */
 enum { STRETCH = 100000 };
 
@@ -23,11 +26,12 @@ static int64_t given(int64_t value, int64_t fallback) {
 kz_cost kz_orbit_cost(const kz_scene *scene) {
   const kz_orbit_plan *plan = &scene->orbit;
   double periods = (double)given(plan->periods, OPEN_PERIODS), rows = periods * (double)plan->samples_per_period;
+  double ahead = plan->closed || plan->model != KZ_PENDULUM ? 0 : AHEAD_PERIODS;
   double samples = fmax(96, (double)plan->samples_per_period) * periods;
   return (kz_cost){.cells = 0,
                    .disk_bytes = 32 * rows + 300 * periods,
                    .memory_bytes = 80 * samples + 32 * rows,
-                   .core_seconds = 1e-4 * (periods + (double)plan->transient)};
+                   .core_seconds = 1e-4 * (periods + (double)plan->transient + ahead)};
 }
 
 /* The state and the period of an attractor, as the study before has written it. */
@@ -91,6 +95,32 @@ static kz_status skip_transient(kz_orbit *orbit, kz_team *team) {
   return KZ_OK;
 }
 
+/* How an open record of the pendulum goes on: in chaos, or to which attractor. */
+static kz_status look_ahead(kz_orbit *orbit, const kz_mover *mover) {
+  const kz_motion *motion = &orbit->motion;
+  const int64_t last = motion->periods * motion->samples;
+  const kz_state end = {remainder(motion->theta[last], 2 * M_PI), motion->velocity[last]};
+  double fastest = 0;
+  orbit->parting =
+      kz_exponent_positive(orbit->lyapunov, orbit->lyapunov_error) && kz_exponent_stays_positive(mover, end, orbit->lyapunov);
+  if (orbit->parting) return KZ_OK;
+  for (int64_t i = last - motion->samples; i <= last; i++) fastest = fmax(fastest, fabs(motion->velocity[i]));
+  return kz_settles_on(mover, end, fastest, orbit->settles_on);
+}
+
+/* The same in double precision whatever the record has: what comes is asked for its kind alone. Motions so fast that this takes long
+ * are left without an answer. */
+static kz_status look_ahead_in_double(kz_orbit *orbit) {
+  kz_mover mover = orbit->mover;
+  if (mover.numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
+  mover.numerics.precision = KZ_DOUBLE;
+  mover.plan = kz_plan_create(&mover.pendulum, &mover.numerics);
+  if (!mover.plan) return kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
+  kz_status status = look_ahead(orbit, &mover);
+  kz_mover_free(&mover);
+  return status;
+}
+
 /* The motion after the transient, recorded and portrayed. */
 static kz_status follow(kz_orbit *orbit) {
   const bool closed = orbit->plan->closed;
@@ -106,7 +136,8 @@ static kz_status follow(kz_orbit *orbit) {
     orbit->lyapunov = log(hypot(orbit->cycle.re[0], orbit->cycle.im[0])) / (double)orbit->cycle.period;
     orbit->lyapunov_error = 0;
   }
-  return kz_portrait_make(&orbit->motion, orbit->cycle.period, &orbit->portrait);
+  if (orbit->mover.plan && !closed) KZ_TRY(look_ahead_in_double(orbit));
+  return kz_portrait_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->portrait);
 }
 
 static kz_status portray(kz_orbit *orbit, kz_store *store, FILE *summary) {

@@ -12,6 +12,8 @@ typedef struct {
   kz_motion motion;
   kz_portrait portrait;
   double lyapunov, lyapunov_error; /* per drive period, largest exponent along the record; NaN but of the pendulum */
+  bool parting;                    /* neighbours of an open record part for good */
+  char settles_on[KZ_NAME_LENGTH]; /* the attractor that an open record of the pendulum leads to; empty where none is known */
 } kz_orbit;
 
 /* Group /orbit of the file. */

@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "orbit.h"
 
@@ -49,12 +50,19 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
   return put(store, "strobe_velocity", false, n, every(motion->velocity, motion->samples, n));
 }
 
+/* What the lines are of. */
+static kz_status write_quantity(const kz_portrait *portrait, kz_store *store) {
+  KZ_TRY(kz_store_text(store, GROUP, "line_quantity", portrait->chaotic ? "velocity" : "angle"));
+  return kz_store_text(store, GROUP, "line_units", portrait->chaotic ? "rad per drive radian" : "rad");
+}
+
 static kz_status write_portrait(const kz_portrait *portrait, kz_store *store) {
   const double *turning = &portrait->turning->time; /* pairs (time, angle) */
   int64_t n = portrait->n_turning;
   KZ_TRY(put(store, "maximum_time", true, n, every(turning, 2, n)));
   KZ_TRY(put(store, "maximum_angle", false, n, every(turning + 1, 2, n)));
   KZ_TRY(put(store, "line_frequency", true, portrait->n_lines, ramp(1, portrait->record_periods, portrait->n_lines)));
+  KZ_TRY(write_quantity(portrait, store));
   KZ_TRY(kz_store_variable(store, GROUP, "line_amplitude", portrait->amplitude));
   return kz_store_variable(store, GROUP, "line_phase", portrait->phase);
 }
@@ -74,23 +82,33 @@ static kz_status write_attributes(const kz_orbit *orbit, kz_store *store) {
   if (orbit->plan->model != KZ_PENDULUM) return KZ_OK;
   KZ_TRY(kz_store_real(store, GROUP, "lyapunov", orbit->lyapunov));
   KZ_TRY(kz_store_real(store, GROUP, "lyapunov_error", orbit->lyapunov_error));
+  if (orbit->settles_on[0]) KZ_TRY(kz_store_text(store, GROUP, "settles_on", orbit->settles_on));
   if (!p->closed) return KZ_OK;
   KZ_TRY(kz_store_real(store, GROUP, "multiplier_re", orbit->cycle.re[0]));
   return kz_store_real(store, GROUP, "multiplier_im", orbit->cycle.im[0]);
+}
+
+static void print_open(const kz_orbit *orbit, FILE *summary) {
+  const kz_portrait *p = &orbit->portrait;
+  fprintf(summary, "orbit: %sopen record of %" PRId64 " period%s", p->chaotic ? "chaotic, " : "", orbit->motion.periods,
+          orbit->motion.periods > 1 ? "s" : "");
+  if (p->period > 0)
+    fprintf(summary, "; its lines tell n = %" PRId64 " (%s)", p->period, p->name);
+  else if (!p->chaotic)
+    fprintf(summary, "; its lines tell no period");
+  if (orbit->settles_on[0] && strcmp(orbit->settles_on, p->name) != 0)
+    fprintf(summary, "; it settles on %s", orbit->settles_on);
 }
 
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
   const kz_portrait *p = &orbit->portrait;
   if (p->closed)
     fprintf(summary, "orbit: %s, closes after %" PRId64 " period%s", p->name, p->period, p->period > 1 ? "s" : "");
-  else if (p->period > 0)
-    fprintf(summary, "orbit: open record of %" PRId64 " period%s; its lines tell n = %" PRId64 " (%s)", orbit->motion.periods,
-            orbit->motion.periods > 1 ? "s" : "", p->period, p->name);
   else
-    fprintf(summary, "orbit: open record of %" PRId64 " period%s; its lines tell no period", orbit->motion.periods,
-            orbit->motion.periods > 1 ? "s" : "");
+    print_open(orbit, summary);
   if (p->dominant > 0)
-    fprintf(summary, ", largest line %.6g rad at %" PRId64 "/%" PRId64 " of the drive", p->amplitude[p->dominant], p->dominant,
+    fprintf(summary, ", largest line%s %.6g rad%s at %" PRId64 "/%" PRId64 " of the drive",
+            p->chaotic ? " of the velocity" : "", p->amplitude[p->dominant], p->chaotic ? " per drive radian" : "", p->dominant,
             p->record_periods);
   if (!p->closed && isfinite(orbit->lyapunov))
     fprintf(summary, ", largest Lyapunov exponent %.4f +- %.4f a period", orbit->lyapunov, orbit->lyapunov_error);

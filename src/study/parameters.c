@@ -18,6 +18,14 @@ static kz_pendulum from_si(const kz_pendulum_keys *written) {
                        .m = lever * written->pivot_amplitude};
 }
 
+double kz_point_inertia(const kz_pendulum_keys *written) {
+  return written->mass * written->radius * written->radius;
+}
+
+bool kz_inertia_is_possible(const kz_pendulum_keys *written) {
+  return written->inertia >= kz_point_inertia(written) * (1 - 1e-9);
+}
+
 static kz_pendulum from_written(const kz_pendulum_keys *written) {
   if (!isnan(written->drive_frequency)) return from_quality(written);
   if (!isnan(written->mass)) return from_si(written);

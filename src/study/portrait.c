@@ -43,6 +43,14 @@ static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz
   return KZ_OK;
 }
 
+/* The lines of the velocity instead of those of the angle. */
+static kz_status take_velocity(const kz_motion *motion, kz_portrait *portrait) {
+  const kz_record record = {.periods = motion->periods, .samples_per_period = motion->samples, .velocity = true};
+  KZ_TRY(kz_spectrum_lines(&record, motion->velocity, portrait->n_lines, portrait->amplitude, portrait->phase));
+  portrait->dominant = kz_spectrum_dominant(portrait->n_lines, portrait->amplitude);
+  return KZ_OK;
+}
+
 static kz_status make_turning(const kz_motion *motion, kz_portrait *portrait) {
   int64_t n = motion->periods * motion->samples + 1;
   portrait->turning = malloc((size_t)n * sizeof *portrait->turning);
@@ -53,7 +61,7 @@ static kz_status make_turning(const kz_motion *motion, kz_portrait *portrait) {
   return KZ_OK;
 }
 
-kz_status kz_portrait_make(const kz_motion *motion, int64_t period, kz_portrait *portrait) {
+kz_status kz_portrait_make(const kz_motion *motion, int64_t period, bool parting, kz_portrait *portrait) {
   *portrait = (kz_portrait){.closed = period > 0};
   kz_record record = {
       .periods = period > 0 ? period : motion->periods, .samples_per_period = motion->samples, .closed = period > 0};
@@ -64,9 +72,12 @@ kz_status kz_portrait_make(const kz_motion *motion, int64_t period, kz_portrait 
   if (record.closed && portrait->period != period)
     return kz_fail(KZ_FAILED, "orbit: the strobe points close after %lld periods, the lines say %lld; a less degenerate cycle",
                    (long long)period, (long long)portrait->period);
+  portrait->chaotic = parting && portrait->period == 0;
+  if (portrait->chaotic) KZ_TRY(take_velocity(motion, portrait));
   int64_t span = portrait->period > 0 ? portrait->period : record.periods;
   portrait->winding = llrint(record.rotation * (double)span);
-  if (portrait->period > 0) kz_orbit_name(portrait->period, portrait->winding, portrait->centre, portrait->name);
+  if (portrait->period > 0 || portrait->chaotic)
+    kz_orbit_name(portrait->period, portrait->winding, portrait->centre, portrait->name);
   return make_turning(motion, portrait);
 }
 

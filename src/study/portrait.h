@@ -11,6 +11,8 @@ typedef struct {
   int centre;      /* KZ_ABOUT_DOWN ... */
   double origin;   /* rad: the angle that deflections are counted from, a multiple of pi; 0 where there is no centre */
   bool symmetric;  /* its own mirror image; false for an open record */
+  bool
+      chaotic; /* an open record without period whose neighbours part; its lines are those of the velocity (its angle may drift) */
   char name[KZ_NAME_LENGTH];
   int64_t n_lines;        /* lines j = 0 .. n_lines - 1 */
   int64_t record_periods; /* line j lies at j / record_periods drive frequencies */
@@ -20,9 +22,9 @@ typedef struct {
   kz_turning_point *turning;
 } kz_portrait;
 
-/* The portrait of a record; `period` = n of a closed orbit (the record's first n periods are one cycle), 0 = open. KZ_FAILED
- * where memory ran out, or where the lines of a closed orbit contradict n. */
-kz_status kz_portrait_make(const kz_motion *motion, int64_t period, kz_portrait *portrait);
+/* The portrait of a record; `period` = n of a closed orbit (the record's first n periods are one cycle), 0 = open; `parting` = its
+ * neighbours part for good. KZ_FAILED where memory ran out, or where the lines of a closed orbit contradict n. */
+kz_status kz_portrait_make(const kz_motion *motion, int64_t period, bool parting, kz_portrait *portrait);
 void kz_portrait_free(kz_portrait *portrait);
 
 #endif

@@ -42,7 +42,7 @@ bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulu
     return false;
   }
   *pendulum = parameters.pendulum;
-  return pendulum->beta >= 0;
+  return pendulum->beta >= 0 && (isnan(parameters.written.mass) || kz_inertia_is_possible(&parameters.written));
 }
 
 bool kz_sweep_wanted(const kz_scene *scene) {

@@ -75,7 +75,7 @@ static kz_status write_columns(const writing *w) {
 
 static kz_status write_names(const writing *w) {
   const int64_t n = w->branches->n_branches;
-  char(*names)[KZ_NAME_LENGTH] = calloc((size_t)n + 1, sizeof *names);
+  char (*names)[KZ_NAME_LENGTH] = calloc((size_t)n + 1, sizeof *names);
   const char **pointers = calloc((size_t)n + 1, sizeof *pointers);
   kz_status status = names && pointers ? KZ_OK : kz_fail(KZ_FAILED, "no memory for /sweep/branch_name");
   for (int64_t i = 0; status == KZ_OK && i < n; i++) {
@@ -155,18 +155,35 @@ static kz_status write_matrices(const writing *w) {
   return KZ_OK;
 }
 
-static void print_table(const kz_sweep_branches *b, FILE *summary) {
+/* The lowest and the highest share of a branch along its values. */
+static void print_share(const writing *w, int64_t branch, FILE *summary) {
+  double low = 1, high = 0;
+  for (int64_t i = w->branches->first_node[branch]; i >= 0; i = w->branches->nodes[i].next) {
+    const kz_sweep_node *node = w->branches->nodes + i;
+    const double share = fraction_of(node, w->catalogue[node->value].samples);
+    low = fmin(low, share);
+    high = fmax(high, share);
+  }
+  fprintf(summary, "  %6.2f to %6.2f %%", 100 * low, 100 * high);
+}
+
+static void print_table(const writing *w, FILE *summary) {
+  const kz_sweep_branches *b = w->branches;
+  const bool shares = kz_sweep_measures(&w->scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
   if (b->n_branches == 0) {
     fprintf(summary, "no attractor at any value (without damping nothing attracts)\n");
     return;
   }
-  fprintf(summary, "branch  name                   from           begins by          to             ends by\n");
+  fprintf(summary, "branch  name                   from           begins by          to             ends by%s\n",
+          shares ? "            share" : "");
   for (int64_t branch = 0; branch < b->n_branches; branch++) {
     char name[KZ_NAME_LENGTH];
     const kz_sweep_node *first = first_of(b, branch), *last = last_of(b, branch);
     name_of(b, branch, name);
-    fprintf(summary, "%6lld  %-21s  %-13.9g  %-17s  %-13.9g  %s\n", (long long)branch, name, first->first,
-            END_NAMES[first->first_kind], last->last, END_NAMES[last->last_kind]);
+    fprintf(summary, "%6lld  %-21s  %-13.9g  %-17s  %-13.9g  %-*s", (long long)branch, name, first->first,
+            END_NAMES[first->first_kind], last->last, shares ? 17 : 0, END_NAMES[last->last_kind]);
+    if (shares) print_share(w, branch, summary);
+    fputc('\n', summary);
   }
 }
 
@@ -177,6 +194,6 @@ kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogu
   KZ_TRY(write_names(&w));
   KZ_TRY(write_columns(&w));
   KZ_TRY(write_matrices(&w));
-  print_table(branches, summary);
+  print_table(&w, summary);
   return KZ_OK;
 }

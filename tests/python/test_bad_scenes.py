@@ -17,6 +17,7 @@ basin:
   theta: {count: 20}
   velocity: {min: -2, max: 2, count: 20}
 """
+SI = "pendulum: {mass: 1, radius: 1, inertia: 1, friction: 0.2, gravity: 1, pivot_amplitude: 0.3, pivot_frequency: 11}\n"
 BASIN = "basin: {velocity: {min: -2, max: 2}}\n"
 
 
@@ -132,6 +133,12 @@ SCENES = {
     "half of form a": ("pendulum: {drive_frequency: 11}\n" + BASIN, "1:11", "pendulum.drive_amplitude: is missing"),
     "half of form b": ("pendulum: {k: 0, m: 0.5}\n" + BASIN, "1:11", "pendulum.damping: is missing"),
     "half of form c": ("pendulum: {mass: 1, radius: 1}\n" + BASIN, "1:11", "pendulum.inertia: is missing"),
+    "no pendulum for the second study": ("stability: {k: {min: 0, max: 1}, m: {min: 0, max: 1}}\norbit: {start: {theta: 0, velocity: 0}}\n",
+        "1:1", "pendulum: is missing"),
+    "inertia of no body": (SI.replace("inertia: 1,", "inertia: 0.999,") + BASIN, "1:41",
+        "pendulum.inertia: 0.999 is below pendulum.mass * pendulum.radius^2 = 1"),
+    "sweep to the inertia of no body": (SI + "sweep: {parameter: radius, min: 0.5, max: 1.1, count: 3, measure: [strobe]}\n", "2:43",
+        "sweep.max: 1.1 gives"),
     "forms a and b": (replaced("  drive_amplitude: 0.3", "  m: 0.3"), "5:3", "pendulum.m: contradicts pendulum.quality_factor"),
     "forms b and c": ("pendulum: {k: 0, damping: 0, m: 1, mass: 1}\n" + BASIN, "1:36", "pendulum.mass: contradicts pendulum.k"),
     "three forms": ("pendulum: {k: 0, drive_frequency: 2, mass: 1}\n" + BASIN,

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from kapitza_file import Result
 from orbit_scenes import BLACKBURN, FIGURES, NODDING, WINDOW, closed, near, parameters
+from scipy import signal
 
 
 def test_listed_orbit_equals_its_lines(model):
@@ -44,9 +45,51 @@ def test_chaos_is_never_a_long_period(model):
     assert [str(name) for name in listed["name"].values] == ["chaotic"]
     assert listed["lyapunov"].values[0] > 5 * listed["lyapunov_error"].values[0] > 0
     orbit = model(pendulum, orbit={"start": {"theta": 1, "velocity": 0.2}, "transient": 1000, "periods": 400}).group("orbit")
-    assert orbit.attrs["period"] == 0
+    assert (orbit.attrs["period"], orbit.attrs["name"]) == (0, "chaotic")
     assert orbit.attrs["lyapunov"] > 5 * orbit.attrs["lyapunov_error"] > 0
     assert abs(orbit.attrs["lyapunov"] - listed["lyapunov"].values[0]) < 6 * orbit.attrs["lyapunov_error"]
+
+
+def test_lines_of_chaos_are_those_of_the_velocity(model):
+    """Its angle drifts by many turns, whose spectrum hides everything else; against numpy's transform through the same window."""
+    orbit = model({"k": 0.25, "damping": 0.05, "m": 0.5},
+                  orbit={"start": {"theta": 1, "velocity": 0.2}, "transient": 1000, "periods": 100}).group("orbit")
+    assert (orbit.attrs["line_quantity"], orbit["line_amplitude"].attrs["units"]) == ("velocity", "rad per drive radian")
+    velocity = orbit["velocity"].values[:-1]
+    window = signal.get_window("blackmanharris", len(velocity))
+    mean = np.average(velocity, weights=window)
+    lines = 2 * np.abs(np.fft.rfft((velocity - mean) * window)) / window.sum()
+    ours = orbit["line_amplitude"].values
+    assert np.ptp(orbit["theta"].values) > 6 * pi
+    assert abs(ours[0] - abs(mean)) < 1e-9 and np.abs(ours[1:] - lines[1:len(ours)]).max() < 1e-9
+    assert orbit.attrs["dominant_line"] == 1 + ours[1:].argmax()
+
+
+SETTLING = {
+    "inverted": ({**BLACKBURN, "drive_amplitude": 0.3}, {"theta": 3, "velocity": 0.1}),
+    "rotation +1/1": ({**BLACKBURN, "drive_amplitude": 0.3}, {"theta": 3, "velocity": 1}),
+    "flutter": ({**BLACKBURN, "drive_amplitude": 0.5}, {"theta": 3.316, "velocity": 0}),
+    "down": ({"k": 0.01, "damping": 0.02, "m": 0}, {"theta": 3, "velocity": 0.1}),
+    None: ({"k": 0.01, "damping": 0, "m": 0}, {"theta": 3, "velocity": 0.1}),
+}
+
+
+@pytest.mark.parametrize("end", SETTLING)
+def test_a_decay_is_named_with_what_it_decays_to(kapitza, tmp_path, end):
+    pendulum, start = SETTLING[end]
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "orbit": {"start": start, "periods": 40}}))
+    line = kapitza("run", "s.yaml", folder=tmp_path).stdout
+    attributes = Result(tmp_path / "s.h5").group("orbit").attrs
+    assert (attributes["period"], attributes.get("settles_on")) == (0, end)
+    assert (f"; it settles on {end}, " in line) == (end is not None) and "chaotic" not in line
+
+
+def test_leaving_an_unstable_position_is_no_chaos(model):
+    """From 6e-10 rad beside the unstable top neighbours part all through the record, which still is a fall to the bottom."""
+    orbit = model({**BLACKBURN, "drive_amplitude": 0.1},
+                  orbit={"start": {"theta": 3.141592653, "velocity": 0}, "periods": 60}).group("orbit")
+    assert orbit.attrs["period"] == 0 and orbit.attrs["lyapunov"] > 5 * orbit.attrs["lyapunov_error"]
+    assert (orbit.attrs["name"], orbit.attrs["settles_on"], orbit.attrs["line_quantity"]) == ("", "down", "angle")
 
 
 @settings(max_examples=8, deadline=None)

@@ -16,6 +16,7 @@ ORBITS = {
     "long": (BLACKBURN, {"start": {"theta": 3, "velocity": 0.1}, "periods": 1500}),
     "closed and long": (BLACKBURN, {"start": {"theta": 0.1551784805487, "velocity": 0.29665394403367}, "closed": True, "periods": 600}),
     "open": (BLACKBURN, {"start": {"theta": 3, "velocity": 0.1}, "periods": 50}),
+    "chaotic": ({"k": 0.25, "damping": 0.05, "m": 0.5}, {"start": {"theta": 1, "velocity": 0.2}, "periods": 100}),
     "slow": (BLACKBURN, {"start": {"theta": 3, "velocity": 0}, "periods": 50, "model": "effective"}),
     "linear": ({"k": 0, "damping": 0, "m": 0.4540231668672888},
                {"start": {"theta": 0, "velocity": 0.1}, "model": "mathieu", "closed": True, "period": 2}),
@@ -98,6 +99,14 @@ def test_long_records_show_their_last_periods(axes_of):
 def test_a_long_closed_orbit_shows_one_round(axes_of):
     axes, words = axes_of("closed and long")
     assert axes["time"].get_xlim() == pytest.approx((0, 6)) and "last" not in words
+
+
+@pytest.mark.parametrize("name, words", [("chaotic", ["chaotic", "velocity (rad per drive radian),"]),
+                                         ("open", ["open record   |   settles on inverted", "amplitude (rad),"])])
+def test_open_records_say_what_they_are(files, tmp_path, name, words):
+    assert plot(files / f"{name}.h5", "-o", tmp_path / "out.svg").returncode == 0
+    text = (tmp_path / "out.svg").read_text()
+    assert all(word in text for word in words), words
 
 
 @pytest.mark.parametrize("panels", ["time", "phase,path", "spectrum", "time,spectrum"])

@@ -6,11 +6,13 @@ import sys
 
 import h5py
 import numpy as np
+import plot_stability
 import pytest
 import yaml
 from conftest import ROOT, datasets
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from kapitza_file import Result
 from matplotlib import image
 from scipy import integrate
 from test_bad_scenes import refused
@@ -82,6 +84,34 @@ def test_curves_bring_their_upper_branch_and_subharmonics_both_kinds(kapitza, tm
                      "butikov_5_refined_upper", "subharmonic_6", "butikov_subharmonic_6", "subharmonic_2",
                      "butikov_subharmonic_2"}
     assert "repeat" in long_name
+
+
+@pytest.mark.parametrize("last_k, parted", [(0.7, False), (0.5, True)])
+def test_a_damped_tongue_is_drawn_around_its_turn(kapitza, tmp_path, last_k, parted):
+    """Both branches as one line where the chart holds the turn (k = 0.6298), as two where it ends before."""
+    axes = f"k: {{min: 0.1, max: {last_k}, count: 61}}, m: {{min: 0, max: 4, count: 3}}"
+    chart = f"stability: {{{axes}, damping: 0.07, curves: [damped_1]}}\n"
+    run(kapitza, tmp_path, PENDULUM + chart).close()
+    k, m = plot_stability.whole_curve(Result(tmp_path / "chart.h5").group("stability"), "damped_1")
+    assert np.isnan(m).sum() == parted
+    at = np.flatnonzero(np.abs(k - 0.5) < 1e-9)
+    assert (k[0], k[-1]) == (0.1, 0.1) and m[at] == pytest.approx([0.612655265, 2.369918349], abs=1e-8)
+
+
+def test_a_chart_needs_no_pendulum(kapitza, tmp_path):
+    """The study has its own k, m and damping: the same chart without the mapping, from the resolved scene too, and a picture."""
+    alone = CHART.removeprefix(PENDULUM)
+    with run(kapitza, tmp_path, CHART) as file:
+        one = file["stability/log_multiplier"][:]
+    for _ in range(2):
+        (tmp_path / "alone.yaml").write_text(alone)
+        said = kapitza("run", "alone.yaml", "--force", folder=tmp_path).stdout
+        assert "nan" not in said and "nan" not in kapitza("check", "alone.yaml", folder=tmp_path).stdout
+        with h5py.File(tmp_path / "alone.h5") as file:
+            assert "pendulum" not in file and np.array_equal(file["stability/log_multiplier"][:], one)
+            alone = file.attrs["scene_resolved"]
+    script = [sys.executable, ROOT / "scripts" / "plot_stability.py", "alone.h5", "-o", "alone.png", "--dpi", "60"]
+    assert subprocess.run(script, cwd=tmp_path).returncode == 0
 
 
 def test_one_value(kapitza, tmp_path):

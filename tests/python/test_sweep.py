@@ -139,11 +139,13 @@ def test_chaos_is_one_branch(kapitza, tmp_path):
 pendulum: {k: 0.25, damping: 0.05, m: 0.5}
 sweep: {parameter: m, min: 0.45, max: 0.5, count: 3, measure: [basin_fractions], starts: 64, velocity: {min: -1, max: 1}}
 """)
-    kapitza("run", "chaos.yaml", ranks=2, folder=tmp_path)
+    said = kapitza("run", "chaos.yaml", ranks=2, folder=tmp_path).stdout
     with h5py.File(tmp_path / "chaos.h5") as file:
         group = file["sweep"]
         names = list(group["branch_name"].asstr()[:])
         row = names.index("chaotic")
+        share = 100 * group["fraction"][:, row]
+        assert f"{np.nanmin(share):.2f} to {np.nanmax(share):.2f} %" in next(line for line in said.splitlines() if "chaotic" in line)
         assert names.count("rotation +8/8") == names.count("rotation -8/8") == names.count("chaotic") == 1
         assert group["branch_period"][row] == 0 and group["branch_mirror"][row] == row
         assert (group["branch_start"][row], KINDS[group["branch_start_kind"][row]]) == (0.475, "not_located")

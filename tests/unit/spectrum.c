@@ -44,7 +44,7 @@ static int free_room(void **state) {
 }
 
 static kz_record closed(int64_t periods, double rotation, double centre) {
-  return (kz_record){periods, SAMPLES, rotation, centre, true};
+  return (kz_record){periods, SAMPLES, rotation, centre, true, false};
 }
 
 /* Samples centre + a0 + rotation t + the lines, the clock `shift` drive radians ahead. */
@@ -106,6 +106,18 @@ static void parseval(void **state) {
   for (int j = 1; j < 6 * SAMPLES / 2; j++) in_lines += room->amplitude[j] * room->amplitude[j] / 2;
   in_lines += last * last;
   assert_true(fabs(in_lines - in_time) < 1e-12 * in_time);
+}
+
+/* A mean velocity of more than half a turn a drive radian is no angle: it is not wrapped. */
+static void mean_velocity_is_not_wrapped(void **state) {
+  (void)state;
+  kz_record record = closed(6, 0, 0);
+  fill(&record, 5, NODDING, 4, 0.7);
+  lines(&record, 20);
+  assert_true(fabs(room->amplitude[0] - (2 * PI - 5)) < 1e-12);
+  record.velocity = true;
+  lines(&record, 20);
+  assert_true(fabs(room->amplitude[0] - 5) < 1e-12 && fabs(room->amplitude[1] - NODDING[0].amplitude) < 1e-12);
 }
 
 static void time_shift_changes_phases_alone(void **state) {
@@ -194,7 +206,7 @@ static void rest_has_no_lines(void **state) {
 
 /* An open record: any number of periods, a fitted rotation. */
 static int64_t open_period(int64_t periods, double rotation, const line_t *line, int n, double *largest) {
-  kz_record record = {periods, SAMPLES, rotation, 0, false};
+  kz_record record = {periods, SAMPLES, rotation, 0, false, false};
   fill(&record, 0.3, line, n, 0.1);
   record.rotation = kz_spectrum_rotation(&record, room->theta);
   assert_true(fabs(record.rotation - rotation) < 1e-5);
@@ -253,6 +265,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(analytic_lines_come_back),
       cmocka_unit_test(rotation_and_centre_are_removed),
+      cmocka_unit_test(mean_velocity_is_not_wrapped),
       cmocka_unit_test(parseval),
       cmocka_unit_test(time_shift_changes_phases_alone),
       cmocka_unit_test(mirror_orbit_has_mirrored_lines),

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -114,11 +115,12 @@ static void gsl_and_tridiagonal_agree(void **unused) {
 /* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue 1) or +1 (others). */
 static void damped_edges_have_multiplier_one(void **unused) {
   (void)unused;
-  const char *names[] = {"damped_0", "damped_1", "damped_2"};
-  int seen = 0;
+  const char *names[] = {"damped_0", "damped_1", "damped_2", "damped_1_upper", "damped_2_upper"};
   for (int row = 0; row < kz_curve_count; row++)
-    for (int tongue = 0; tongue < 3; tongue++) {
-      if (strcmp(kz_curves[row].name, names[tongue]) != 0) continue;
+    for (int name = 0; name < 5; name++) {
+      if (strcmp(kz_curves[row].name, names[name]) != 0) continue;
+      int tongue = name > 2 ? name - 2 : name, seen = 0;
+      bool leaves = name == 0 || name > 2; /* growth ends here with rising m */
       for (int i = 0; i < POINTS / 4; i++) {
         double k = random_between(-2, 1.9), m, angle;
         kz_damping damping = {0, exp(random_between(log(0.7), log(1e4)))};
@@ -126,12 +128,29 @@ static void damped_edges_have_multiplier_one(void **unused) {
         if (isnan(m)) continue;
         double beta = kz_damping_at(&damping, k);
         double below = growth(k, beta, m * (1 - 1e-9), &angle), above = growth(k, beta, m * (1 + 1e-9), &angle);
-        assert_true(tongue == 0 ? below > 0 && above < 0 : below < 0 && above > 0);
+        assert_true(leaves ? below > 0 && above < 0 : below < 0 && above > 0);
+        growth(k, beta, m * (leaves ? 1 - 1e-9 : 1 + 1e-9), &angle);
         if (tongue > 0) assert_true(angle == (tongue == 1 ? 0.5 : 0));
         seen++;
       }
+      assert_true(seen > 25);
     }
-  assert_true(seen > 150);
+}
+
+/* Both edges of tongue 1 at beta = 0.07, by DOP853 at rtol 1e-12; where the damped tongue ends neither is left. */
+static void damped_tongue_turns_back(void **unused) {
+  (void)unused;
+  const kz_damping damping = {0.07, NAN};
+  const double k[] = {0.3, 0.5, 0.6, 0.63}, edges[2][4] = {{0.125508629944, 0.612655265242, 1.040605809697, NAN},
+                                                           {3.012258238175, 2.369918348959, 1.867327450921, NAN}};
+  for (int row = 0; row < kz_curve_count; row++)
+    for (int upper = 0; upper < 2; upper++) {
+      if (strcmp(kz_curves[row].name, upper ? "damped_1_upper" : "damped_1") != 0) continue;
+      double m[4];
+      kz_curve_values(&kz_curves[row], &damping, 4, k, m);
+      for (int i = 0; i < 3; i++) assert_true(fabs(m[i] - edges[upper][i]) < 1e-10);
+      assert_true(isnan(m[3]));
+    }
 }
 
 /* Between the tongues the Floquet angle makes Hill's determinant zero; the size of its terms is the measure. */
@@ -182,6 +201,33 @@ static void potential_is_the_integral_of_the_slow_force(void **unused) {
   }
 }
 
+/* The rim is the first top of the energy seen from the inverted position, for gravity of any size and sign. */
+static void rim_is_the_first_top(void **unused) {
+  (void)unused;
+  enum { ANGLES = 20000 };
+  int wells = 0;
+  for (int i = 0; i < POINTS; i++) {
+    double k = random_between(-4, 4), beta = random_between(0.02, 0.5), m = random_between(0, 3 * (1 + fabs(k))), top = PI;
+    kz_rim rim;
+    kz_energy here, next;
+    kz_potential_rim(k, beta, m, &rim);
+    kz_potential_energy(k, beta, m, PI, &here);
+    for (int j = 1; j <= ANGLES; j++, here = next) {
+      kz_potential_energy(k, beta, m, PI - PI * j / ANGLES, &next);
+      if (next.exact <= here.exact) break;
+      top = PI - PI * j / ANGLES;
+    }
+    if (!rim.stable_inverted) continue;
+    assert_true(fabs(rim.exact - top) < 2 * PI / ANGLES);
+    wells++;
+  }
+  assert_true(wells > POINTS / 4);
+  kz_rim one, three;
+  kz_potential_rim(1.5, 0.1, 3, &one);
+  kz_potential_rim(3, 0.3, 6, &three);
+  assert_true(fabs(one.exact - 2.304994) < 5e-7 && fabs(three.exact - 1.926) < 5e-4);
+}
+
 /* Motion by the slow equation keeps velocity^2/2 + exact potential. */
 static void slow_motion_keeps_its_energy(void **unused) {
   (void)unused;
@@ -218,16 +264,12 @@ static void leading_terms_of_thresholds(void **unused) {
 int main(void) {
   srand48(4);
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(no_drive_is_elementary),
-      cmocka_unit_test(area_is_kept),
-      cmocka_unit_test(nonlinear_tangent_map_agrees),
-      cmocka_unit_test(curves_are_floquet_roots),
-      cmocka_unit_test(gsl_and_tridiagonal_agree),
-      cmocka_unit_test(damped_edges_have_multiplier_one),
-      cmocka_unit_test(angle_is_root_of_hills_determinant),
-      cmocka_unit_test(subharmonics_have_their_angle),
-      cmocka_unit_test(potential_is_the_integral_of_the_slow_force),
-      cmocka_unit_test(slow_motion_keeps_its_energy),
+      cmocka_unit_test(no_drive_is_elementary),        cmocka_unit_test(area_is_kept),
+      cmocka_unit_test(nonlinear_tangent_map_agrees),  cmocka_unit_test(curves_are_floquet_roots),
+      cmocka_unit_test(gsl_and_tridiagonal_agree),     cmocka_unit_test(damped_edges_have_multiplier_one),
+      cmocka_unit_test(damped_tongue_turns_back),      cmocka_unit_test(angle_is_root_of_hills_determinant),
+      cmocka_unit_test(subharmonics_have_their_angle), cmocka_unit_test(potential_is_the_integral_of_the_slow_force),
+      cmocka_unit_test(rim_is_the_first_top),          cmocka_unit_test(slow_motion_keeps_its_energy),
       cmocka_unit_test(leading_terms_of_thresholds),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
