@@ -283,7 +283,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_HYBRID] = 0.15};
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const double periods = kz_settling_cells(pendulum->beta, plan->max_periods);
-  double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 3e-8);
+  double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 7e-8);
   kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
                   .disk_bytes = 14 * cells,
                   .memory_bytes = 27 * cells + 100 * nodes,
