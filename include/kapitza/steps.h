@@ -21,9 +21,6 @@ double kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary);
 /* The same for the worst of a sweep's values. */
 void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary);
 
-/* A line where the damping is too weak to settle anything within max_periods; `remedy`: what would help. */
-void kz_steps_warn_damping(const kz_pendulum *pendulum, int64_t max_periods, const char *remedy, FILE *summary);
-
 /* A line where one period of the map table is off by more than 1e-4 rad. */
 void kz_steps_warn_table(double defect, FILE *summary);
 

@@ -8,7 +8,7 @@
 
 /* One row: the first four of every type, then what the type needs. */
 #define ROW(path_, type_, fallback_, offset_, help_, ...) \
-  {.path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__}
+  { .path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__ }
 #define MAPPING(path, fallback, offset, help) ROW(path, KZ_KEY_MAPPING, fallback, offset, help, .unit = "")
 /* Keys that basin.accuracy answers. */
 #define CHOSEN .chosen_by = "basin.accuracy", .chooser = AT(basin.accuracy)
@@ -89,7 +89,8 @@ const kz_key kz_keys[] = {
     INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity.", CHOSEN),
     WORD("basin.icm.interpolation", "linear|cubic|quintic", "quintic", basin.interpolation, "Interpolation between the nodes.",
          CHOSEN),
-    INTEGER("basin.max_periods", 1, 4e9, "2000", basin.max_periods, "Drive periods after which a cell counts as not settled."),
+    INTEGER("basin.max_periods", 1, 4e9, "", basin.max_periods,
+            "Drive periods after which a cell counts as not settled; left out: what the damping needs, 2000 at least."),
     MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),

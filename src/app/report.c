@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "kapitza/app.h"
+#include "kapitza/settling.h"
 #include "kapitza/steps.h"
 #include "kapitza/version.h"
 
@@ -59,7 +60,10 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   const kz_cost cost = kz_cost_of(scene);
   kz_status status = resolved ? kz_cost_check(&cost) : kz_fail(KZ_FAILED, "out of memory");
   if (status == KZ_OK) status = kz_steps_check(scene);
-  if (status == KZ_OK && options->speaks) print_check(options, scene, resolved);
+  if (status == KZ_OK && options->speaks) {
+    print_check(options, scene, resolved);
+    kz_settling_warn(scene, stdout);
+  }
   free(resolved);
   return status;
 }

@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "kapitza/scene.h"
+#include "kapitza/settling.h"
 
 typedef struct {
   char text[32];
@@ -212,9 +213,15 @@ static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
                 "effective averages over a fast drive, abs(k) < 1, but k = %.9g; another model or a faster drive", k);
 }
 
+/* As long as the weakest damping needs, where the scene does not say. */
+static void settling_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_basin || reading->message[0] || scene->basin.max_periods != KZ_UNSET_INTEGER) return;
+  scene->basin.max_periods = kz_settling_scene(scene);
+}
+
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
 static const rule rules[] = {numerics_rules, basin_rules,    attractors_rules,  orbit_rules, stability_rules,
-                             tradeoff_rules, pendulum_rules, orbit_range_rules, sweep_rules};
+                             tradeoff_rules, pendulum_rules, orbit_range_rules, sweep_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "kapitza/app.h"
+#include "kapitza/settling.h"
 #include "kapitza/steps.h"
 #include "kapitza/version.h"
 
@@ -65,7 +66,9 @@ static kz_status prepare(job *j, bool *complete) {
   KZ_TRY(check_output(j, complete));
   const kz_cost cost = kz_cost_of(&j->scene);
   KZ_TRY(kz_team_agree(j->team, kz_cost_check(&cost)));
-  return kz_team_agree(j->team, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK);
+  KZ_TRY(kz_team_agree(j->team, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK));
+  if (j->first && !*complete) kz_settling_warn(&j->scene, stderr);
+  return KZ_OK;
 }
 
 /* Opens the checkpoint. The run that held it until now may have written the result: it is looked for once more. */

@@ -1,10 +1,11 @@
 !> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
 module kz_dynamics_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t
+  use kz_kernel_map, only: flow_t, PI
   use kz_kernel_tables, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
   use kz_dynamics_ellipses, only: find_ellipses
+  use kz_dynamics_newton, only: n_periods, eigenvalues
   use kz_dynamics_portraits, only: portray
   use kz_dynamics_regions, only: ellipse_captor
   use kz_dynamics_states, only: separation, same_state
@@ -22,9 +23,12 @@ module kz_dynamics_search
   end type search_t
 
   !> Newton is tried for so many recurrences of a state, the closest first,
-  integer, parameter :: TRIES = 4
+  integer, parameter :: MOST_TRIES = 4
   !> and for one period from so many states, where a bifurcation blurs the cycle.
   integer, parameter :: BLURRED_TRIES = 4
+  !> Where the map of the recurrence stretches by more than this, no attracting cycle is near: about one that a fold bears or a
+  !> period doubling ends, the map is like x -> 1 - a x**2, a <= 2, whose slope is at most 4.
+  real(dp), parameter :: STRETCHED = 10
 
 contains
 
@@ -68,25 +72,48 @@ contains
     real(dp) :: distance(ubound(u, 1))
     type(attractor_t) :: candidate
     logical :: found, blurred
-    integer :: try, n
+    integer :: tries, n
 
     n = ubound(u, 1)
     if (ellipse_captor(attractors, u(n), v(n)) > 0) return
     distance = separation(u(1:), v(1:), u(0), v(0))
-    do try = 1, TRIES
+    do tries = 1, MOST_TRIES
       n = first_of_the_closest(distance)
       if (.not. distance(n) < closeness) return
-      if (n_blurred(n) < BLURRED_TRIES) then
-        call polish_cycle(search%fine, search%pendulum%beta, n, u(0), v(0), max(0.1_dp, 20*distance(n)), candidate, found, blurred)
-        if (found) then
-          if (.not. known(attractors, candidate)) call add_with_mirror(search, candidate, attractors)
-          return
-        end if
-        if (blurred) n_blurred(n) = n_blurred(n) + 1
-      end if
+      call try(n)
+      if (found) return
       distance(n::n) = huge(1.0_dp) ! its multiples lead to the same cycle
     end do
+  contains
+    subroutine try(period)
+      integer, intent(in) :: period
+
+      found = .false.
+      if (n_blurred(period) >= BLURRED_TRIES) return
+      if (repels(search, period, u(0), v(0))) return
+      call polish_cycle(search%fine, search%pendulum%beta, period, u(0), v(0), max(0.1_dp, 20*distance(period)), candidate, &
+                        found, blurred)
+      if (blurred) n_blurred(period) = n_blurred(period) + 1
+      if (.not. found) return
+      if (.not. known(attractors, candidate)) call add_with_mirror(search, candidate, attractors)
+    end subroutine try
   end subroutine try_recurrences
+
+  !> Would a cycle of n periods near (u, v) repel? Recurrences on a chaotic set lead to such cycles without end: their map, once with
+  !> the scene's steps, costs hundreds of times less than Newton's method with fine ones.
+  function repels(search, n, u, v)
+    type(search_t), intent(inout) :: search
+    integer, intent(in) :: n
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    logical :: repels
+    real(dp) :: residual(2), matrix(2, 2)
+    complex(dp) :: multiplier(2)
+
+    call n_periods(search%flow, n, [u, v], residual, matrix)
+    multiplier = eigenvalues(matrix, exp(-2*PI*search%pendulum%beta*n))
+    repels = abs(multiplier(1)) > STRETCHED
+  end function repels
 
   !> The shortest recurrence among those within a factor 3 of the closest: its multiples come back about as near.
   pure function first_of_the_closest(distance) result(n)

@@ -6,10 +6,8 @@
 #include "catalogue.h"
 #include "cells.h"
 #include "discovery.h"
+#include "kapitza/settling.h"
 #include "kapitza/steps.h"
-
-/* Drive periods after which a start counts as not settled. */
-enum { MAX_PERIODS = 2000 };
 
 typedef struct {
   const kz_attractors_plan *plan;
@@ -17,6 +15,7 @@ typedef struct {
   double *state;    /* [starts][2] */
   int32_t *owner;   /* [starts] */
   int64_t *reached; /* [numbers from 1] */
+  int64_t max_periods;
 } finding;
 
 bool kz_attractors_wanted(const kz_scene *scene) {
@@ -26,8 +25,11 @@ bool kz_attractors_wanted(const kz_scene *scene) {
 kz_cost kz_attractors_cost(const kz_scene *scene) {
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
   double starts = (double)scene->attractors.starts, kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
-  return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * starts, .core_seconds = 1e-9 * 200 * kicks * starts};
+  return (kz_cost){.disk_bytes = 1e5,
+                   .memory_bytes = 100 * starts,
+                   .core_seconds = kz_settling_search(pendulum, starts, 1e-9 * kicks, kz_settling_periods(pendulum->beta))};
 }
 
 static kz_status allocate(const kz_scene *scene, finding *s) {
@@ -43,7 +45,7 @@ static kz_status discover(kz_team *team, finding *s) {
   kz_search search = {.window = kz_window_of(&s->plan->theta, &s->plan->velocity),
                       .starts = s->plan->starts,
                       .seed = s->plan->seed,
-                      .max_periods = MAX_PERIODS};
+                      .max_periods = s->max_periods};
   search.reach = kz_dynamics_reach(s->dynamics, &search.window);
   KZ_TRY(kz_search_window(team, s->dynamics, &search, s->state, s->owner));
   s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
@@ -55,13 +57,12 @@ static kz_status discover(kz_team *team, finding *s) {
 static kz_status publish(const kz_scene *scene, const finding *s, kz_store *store, FILE *summary) {
   kz_catalogue catalogue = {0};
   kz_steps_warn(scene, kz_axis_fastest(&scene->attractors.velocity), summary);
-  kz_steps_warn_damping(&scene->parameters.pendulum, MAX_PERIODS, "more damping", summary);
   kz_status status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
   if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
   if (status == KZ_OK) {
     kz_catalogue_print(&catalogue, false, summary);
-    fprintf(summary, "%lld of %lld starts did not settle within %d periods\n", (long long)s->reached[0],
-            (long long)s->plan->starts, MAX_PERIODS);
+    fprintf(summary, "%lld of %lld starts did not settle within %lld periods\n", (long long)s->reached[0],
+            (long long)s->plan->starts, (long long)s->max_periods);
   }
   kz_catalogue_free(&catalogue);
   return status;
@@ -76,7 +77,7 @@ static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *st
 
 kz_status kz_attractors_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, team, store, summary);
-  finding s = {.plan = &scene->attractors};
+  finding s = {.plan = &scene->attractors, .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
   kz_status status = kz_team_agree(team, allocate(scene, &s));
   if (status == KZ_OK) status = kz_team_agree(team, discover(team, &s));
   if (status == KZ_OK && kz_team_rank(team) == 0) status = publish(scene, &s, store, summary);

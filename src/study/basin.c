@@ -11,6 +11,7 @@
 #include "accuracy.h"
 #include "catalogue.h"
 #include "discovery.h"
+#include "kapitza/settling.h"
 #include "kapitza/steps.h"
 #include "kapitza/trial.h"
 
@@ -186,7 +187,6 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
 /* What the labels stand on, in numbers and as warnings. */
 static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
   labels->step_error = kz_steps_warn(scene, kz_axis_fastest(&scene->basin.velocity), summary);
-  kz_steps_warn_damping(&scene->parameters.pendulum, scene->basin.max_periods, "more max_periods or more damping", summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
   labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil[scene->basin.interpolation]);
@@ -281,12 +281,14 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
   static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_HYBRID] = 0.15};
-  double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 3e-8);
-  kz_cost cost = {
-      .cells = plan->theta.count * plan->velocity.count,
-      .disk_bytes = 14 * cells,
-      .memory_bytes = 27 * cells + 100 * nodes,
-      .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) + cells * 10 * cell_period};
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  const double periods = kz_settling_cells(pendulum->beta, plan->max_periods);
+  double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 7e-8);
+  kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
+                  .disk_bytes = 14 * cells,
+                  .memory_bytes = 27 * cells + 100 * nodes,
+                  .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
+                                  nodes / 2 * (table_period + 1e-6) + cells * periods * cell_period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

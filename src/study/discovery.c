@@ -134,7 +134,7 @@ static kz_status discover(kz_team *team, following *f, int64_t max_periods, int6
     KZ_TRY(share_catalogue(team, f->dynamics));
     if (kz_dynamics_count(f->dynamics) > known) continue;
     if (done >= max_periods) break;
-    length = 2 * length;
+    length = 2 * length < max_periods - done ? 2 * length : max_periods - done;
   }
   return find_chaos(team, f, n, owner);
 }

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "exponent.h"
-#include "settling.h"
+#include "settles_on.h"
 
 /* Periods of an open record that the scene does not bound. */
 enum { OPEN_PERIODS = 100 };

@@ -204,14 +204,6 @@ void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary) {
   if (largest > LOOSE) warn(&worst, summary);
 }
 
-void kz_steps_warn_damping(const kz_pendulum *pendulum, int64_t max_periods, const char *remedy, FILE *summary) {
-  const double lifetime = 1 / (2 * M_PI * pendulum->beta); /* periods in which areas shrink by e */
-  if ((double)max_periods >= lifetime) return;
-  fprintf(summary,
-          "warning: damping %g needs %.3g drive periods to shrink areas by e: hardly anything settles within %lld; %s\n",
-          pendulum->beta, lifetime, (long long)max_periods, remedy);
-}
-
 void kz_steps_warn_table(double defect, FILE *summary) {
   if (defect <= LOOSE) return;
   fprintf(summary,

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kapitza/settling.h"
 #include "kapitza/steps.h"
 
 #define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
@@ -49,21 +50,31 @@ bool kz_sweep_wanted(const kz_scene *scene) {
   return scene->has_sweep;
 }
 
-/* Rough seconds of one value on one core. */
-static double value_seconds(const kz_scene *scene) {
+/* Rough seconds of one value, whose pendulum this is, on one core. */
+static double value_seconds(const kz_scene *scene, const kz_pendulum *pendulum) {
   const kz_sweep_plan *plan = &scene->sweep;
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
   const double period = 1e-9 * (double)scheme.kicks * scene->numerics.steps_per_period;
   const bool fractions = kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS);
   double seconds = 0;
-  if (fractions || kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS)) seconds += 200 * period * (double)plan->starts + 0.1;
+  if (fractions || kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS))
+    seconds += kz_settling_search(pendulum, (double)plan->starts, period, kz_settling_periods(pendulum->beta)) + 0.1;
   if (fractions && scene->has_basin)
     seconds += (double)(scene->basin.table_theta * scene->basin.table_velocity) / 2 * (period + 1e-6) +
-               3e-7 * (double)(scene->basin.theta.count * scene->basin.velocity.count);
+               7e-8 * kz_settling_cells(pendulum->beta, scene->basin.max_periods) *
+                   (double)(scene->basin.theta.count * scene->basin.velocity.count);
   if (kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE)) seconds += 0.3;
   if (kz_sweep_measures(plan, KZ_SWEEP_FLUTTER_ZONE)) seconds += 0.5;
   if (kz_sweep_measures(plan, KZ_SWEEP_STROBE)) seconds += 2 * 4 * period * (double)(plan->transient + plan->samples);
+  return seconds;
+}
+
+static double all_seconds(const kz_scene *scene) {
+  double seconds = 0;
+  kz_pendulum pendulum;
+  for (int64_t i = 0; i < scene->sweep.values.count; i++)
+    if (kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, i), &pendulum)) seconds += value_seconds(scene, &pendulum);
   return seconds;
 }
 
@@ -75,7 +86,7 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
   return (kz_cost){.cells = (int64_t)(cells * values),
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
                    .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells,
-                   .core_seconds = values * value_seconds(scene)};
+                   .core_seconds = all_seconds(scene)};
 }
 
 kz_status kz_sweep_stage(const kz_scene *scene, kz_team *team, const kz_stage *stage, kz_records_fn write, kz_store *store,

@@ -5,12 +5,12 @@
 
 #include "cells.h"
 #include "discovery.h"
+#include "kapitza/settling.h"
 #include "sweep.h"
 
 enum {
-  MAX_PERIODS = 2000, /* drive periods after which a start counts as not settled; of the cells the basin's own number */
-  CHUNK = 4096,       /* cells followed at once */
-  ROUNDS = 3          /* of discovery among cells that end nowhere known, at most */
+  CHUNK = 4096, /* cells followed at once */
+  ROUNDS = 3    /* of discovery among cells that end nowhere known, at most */
 };
 
 /* One value at work. */
@@ -21,6 +21,7 @@ typedef struct {
   double *state;             /* [starts or cells][2] */
   int32_t *owner, *cell;     /* [starts]; [cells] number of kz_dynamics, 0 = not settled */
   int64_t *hits;             /* [numbers from 1] */
+  int64_t max_periods;       /* after which a start counts as not settled; of the cells the basin's own number */
 } searching;
 
 static bool on_grid(const kz_scene *scene) {
@@ -30,6 +31,7 @@ static bool on_grid(const kz_scene *scene) {
 static kz_status begin(const kz_pendulum *pendulum, searching *s) {
   const kz_scene *scene = s->scene;
   s->n_starts = scene->sweep.starts;
+  s->max_periods = kz_settling_periods(pendulum->beta);
   if (on_grid(scene)) s->n_cells = kz_own_cells(&scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
@@ -147,7 +149,7 @@ static kz_status discover(searching *s) {
       .window = basin ? kz_window_of(&basin->theta, &basin->velocity) : kz_window_of(&sweep->theta, &sweep->velocity),
       .starts = s->n_starts,
       .seed = sweep->seed,
-      .max_periods = MAX_PERIODS,
+      .max_periods = s->max_periods,
       .table_theta = basin ? basin->table_theta : 0,
       .table_velocity = basin ? basin->table_velocity : 0};
   search.reach = kz_dynamics_reach(s->dynamics, &search.window);

@@ -1,6 +1,6 @@
 /* Where a motion of the pendulum ends. */
-#ifndef KAPITZA_STUDY_SETTLING_H
-#define KAPITZA_STUDY_SETTLING_H
+#ifndef KAPITZA_STUDY_SETTLES_ON_H
+#define KAPITZA_STUDY_SETTLES_ON_H
 
 #include "motion.h"
 
