@@ -284,11 +284,11 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
   static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_HYBRID] = 0.15};
   double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 3e-8);
-  kz_cost cost = {
-      .cells = plan->theta.count * plan->velocity.count,
-      .disk_bytes = 14 * cells,
-      .memory_bytes = 27 * cells + 100 * nodes,
-      .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) + cells * 10 * cell_period};
+  kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
+                  .disk_bytes = 14 * cells,
+                  .memory_bytes = 27 * cells + 100 * nodes,
+                  .core_seconds = (double)plan->starts * 130 * table_period + nodes / 2 * (table_period + 1e-6) +
+                                  cells * 10 * cell_period + (double)kz_doubt_cells(plan) * 10 * 4 * period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

@@ -22,6 +22,11 @@ static int64_t cell_of(const sample *s, int64_t i) {
   return kz_shuffled(i, s->of, s->plan->seed);
 }
 
+int64_t kz_doubt_cells(const kz_basin_plan *plan) {
+  const int64_t own = kz_own_cells(plan);
+  return own < SAMPLE ? own : SAMPLE;
+}
+
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const sample *s = context;
   int32_t *owner = record;
@@ -46,8 +51,7 @@ static void count(const sample *s, const int32_t *followed, const int16_t *owner
 
 kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *owner,
                            kz_doubt *doubt) {
-  sample s = {.plan = plan, .dynamics = dynamics, .of = kz_own_cells(plan)};
-  s.n = s.of < SAMPLE ? s.of : SAMPLE;
+  sample s = {.plan = plan, .dynamics = dynamics, .n = kz_doubt_cells(plan), .of = kz_own_cells(plan)};
   kz_stage stage = {.name = "doubt",
                     .n_tiles = (s.n + TILE - 1) / TILE,
                     .record_bytes = TILE * sizeof(int32_t),

@@ -12,6 +12,9 @@ typedef struct {
   kz_share differing; /* share with another label than a decided one: errors of the map table */
 } kz_doubt;
 
+/* Cells of the sample. */
+int64_t kz_doubt_cells(const kz_basin_plan *plan);
+
 /* Follows the sample, which depends on the window, its cells and the seed alone. owner [kz_own_cells] on rank 0: the labels, as numbers of
  * `dynamics`. `doubt` is filled on rank 0. Its stage is kept by a checkpoint. Collective. */
 kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *owner,
