@@ -47,6 +47,13 @@ void kz_dynamics_follow_hybrid(kz_dynamics *dynamics, int32_t points, int64_t n,
 /* What that needs and does itself, once: the error of the map table all over. */
 void kz_dynamics_measure_table(kz_dynamics *dynamics, int32_t points);
 
+/* kz_dynamics_follow with the error of each orbit beside it, from the last place of its start, its steps and rounding (Fortran:
+ * covariance.f90): owner [n] = KZ_DOUBTFUL where that outgrows what a label bears. Any other label, 0 too, is decided: the errors do not
+ * change it. An orbit is trapped once a trapping region holds it with its error. */
+enum { KZ_DOUBTFUL = -1 };
+void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner,
+                                   int64_t *periods);
+
 /* kz_dynamics_follow in quad precision, by Taylor series (truth.h) of n_steps steps a period, from start [n][2] in rad and rad per drive
  * radian, both taken as exact. */
 void kz_dynamics_follow_truth(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,

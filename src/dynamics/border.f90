@@ -43,6 +43,7 @@ contains
     if (status /= 0) return
     coarse = numerics
     coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
+    d%numerics = numerics
     call make_flow(pendulum, numerics, .true., d%flow)
     d%search%pendulum = pendulum
     d%search%max_period = int(max_period)

@@ -2,6 +2,9 @@
 module kz_dynamics_border_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_kernel_map, only: map_t
+  use kz_kernel_plan, only: make_flow, DOUBLE
+  use kz_kernel_tables, only: numerics_t
+  use kz_dynamics_covariance, only: covariant_map_t, make_covariant_map
   use kz_dynamics_handle, only: dynamics_t, of_handle
   use kz_dynamics_labels, only: follow
   use kz_dynamics_tables, only: table_map_t, make_table_map
@@ -85,6 +88,25 @@ contains
     call follow_trusted(map, d%flow, d%regions, d%attractors, max_periods, state(1, :), state(2, :), owner, &
                         periods, integrated)
   end subroutine follow_hybrid
+
+  subroutine follow_covariance(handle, n, max_periods, state, owner, periods) bind(C, name='kz_dynamics_follow_covariance')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(inout) :: state(2, n)
+    integer(c_int32_t), intent(out) :: owner(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+    type(numerics_t) :: halved
+    type(covariant_map_t), allocatable :: map
+
+    d => of_handle(handle)
+    halved = numerics_t(d%numerics%scheme, 2*d%numerics%steps_per_period, DOUBLE)
+    if (.not. allocated(d%finer)) call make_flow(d%search%pendulum, halved, .true., d%finer)
+    allocate (map)
+    call make_covariant_map(d%flow, d%finer, d%regions, d%attractors, map)
+    call follow_with(map, d, max_periods, state, owner, periods)
+  end subroutine follow_covariance
 
   subroutine follow_truth(handle, n_steps, n, max_periods, start, owner, periods) bind(C, name='kz_dynamics_follow_truth')
     type(c_ptr), value :: handle

@@ -2,6 +2,7 @@
 module kz_dynamics_handle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
   use kz_kernel_map, only: flow_t
+  use kz_kernel_tables, only: numerics_t
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_regions, only: regions_t
   use kz_dynamics_search, only: search_t
@@ -12,7 +13,9 @@ module kz_dynamics_handle
 
   type :: dynamics_t
     type(search_t) :: search
+    type(numerics_t) :: numerics       !< of the scene
     class(flow_t), allocatable :: flow !< the scene's map in the scene's precision
+    class(flow_t), allocatable :: finer !< in double precision with steps half as long, once it is needed
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table

@@ -55,7 +55,12 @@ contains
       call captors(regions, attractors, active, map%u, map%v, captor)
       do lane = active, 1, -1
         lanes(lane)%age = lanes(lane)%age + 1
-        if (captor(lane) == 0 .and. size(regions%covered) > 0) call visit(lanes(lane), lane)
+        if (map%straddling(lane)) captor(lane) = merge(DOUBTFUL, 0, lanes(lane)%age >= periods(lanes(lane)%start))
+        if (captor(lane) /= 0) then
+          lanes(lane)%guest_of = 0
+        else if (size(regions%covered) > 0) then
+          call visit(lanes(lane), lane)
+        end if
         if (map%doubtful(lane) .and. lanes(lane)%guest_of == 0) captor(lane) = DOUBTFUL
         if (captor(lane) == 0 .and. lanes(lane)%age < periods(lanes(lane)%start)) cycle
         call leave(lanes(lane), lane)

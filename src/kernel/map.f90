@@ -20,8 +20,10 @@ module kz_kernel_map
     real(c_double) :: v(WIDTH) = 0
     !> net turns, counterclockwise +
     integer(c_int64_t) :: turns(WIDTH) = 0
-    !> has a label ceased to follow from the state? Integrated ones never do
+    !> has a label ceased to follow from the state? One that is integrated without its error never does
     logical :: doubtful(WIDTH) = .false.
+    !> does a trapping region hold the state, but not all that its error leaves open? Later it may
+    logical :: straddling(WIDTH) = .false.
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state
@@ -77,6 +79,7 @@ contains
     self%v(lane) = v
     self%turns(lane) = 0
     self%doubtful(lane) = .false.
+    self%straddling(lane) = .false.
   end subroutine put_state
 
   subroutine move_state(self, from, to)
@@ -88,6 +91,7 @@ contains
     self%v(to) = self%v(from)
     self%turns(to) = self%turns(from)
     self%doubtful(to) = self%doubtful(from)
+    self%straddling(to) = self%straddling(from)
   end subroutine move_state
 
 end module kz_kernel_map

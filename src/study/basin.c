@@ -212,9 +212,11 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
     b.search.reach = kz_dynamics_reach(b.dynamics, &b.search.window);
     status = model(&b, team);
   }
+  kz_doubt doubt = {0};
+  if (status == KZ_OK) status = kz_doubt_measure(plan, team, b.dynamics, b.owner, &doubt);
   if (status == KZ_OK && kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};
-    kz_labels labels = {.trapped_share = kz_dynamics_trapped_share(b.dynamics)};
+    kz_labels labels = {.trapped_share = kz_dynamics_trapped_share(b.dynamics), .doubt = doubt};
     judge_numerics(scene, &b, &labels, summary);
     status = finish(&b, &catalogue, &labels);
     if (status == KZ_OK) status = kz_basin_write(scene, &catalogue, &labels, store, summary);
@@ -288,7 +290,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
                   .disk_bytes = 14 * cells,
                   .memory_bytes = 27 * cells + 100 * nodes,
                   .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
-                                  nodes / 2 * (table_period + 1e-6) + cells * periods * cell_period};
+                                  nodes / 2 * (table_period + 1e-6) + cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

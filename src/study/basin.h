@@ -4,6 +4,7 @@
 
 #include "catalogue.h"
 #include "cells.h"
+#include "doubt.h"
 
 /* Labels of all cells, velocity-major, on rank 0. */
 typedef struct {
@@ -14,6 +15,7 @@ typedef struct {
   int64_t undecided;    /* cells whose label the last place of the start changes, where that was asked */
   double trapped_share; /* of the map table's cells */
   double step_error;    /* rad, the largest of one drive period in a sample */
+  kz_doubt doubt;       /* of the labels */
   double table_error;   /* the same of the map table; NaN where labels do not come from it */
 } kz_labels;
 

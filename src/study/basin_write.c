@@ -112,5 +112,6 @@ kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const k
   KZ_TRY(kz_store_variable(store, "basin", "settling_time", labels->settling_time));
   KZ_TRY(kz_store_variable(store, "basin", "evidence", labels->evidence));
   KZ_TRY(write_numerics(scene, store));
+  KZ_TRY(kz_doubt_write(&labels->doubt, plan->method != KZ_METHOD_DIRECT, store, summary));
   return write_measures(plan, labels, store, summary);
 }

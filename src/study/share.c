@@ -4,12 +4,22 @@
 
 static const double Z = 1.959963984540054; /* 97.5 % of the normal distribution lie below */
 
-kz_share kz_share_of(int64_t hits, int64_t n) {
+/* Wilson's interval with z^2 = `square`. */
+static kz_share interval(int64_t hits, int64_t n, double square) {
   if (n == 0) return (kz_share){NAN, 0, 1};
   const double k = (double)hits, of = (double)n;
-  const double centre = (k + Z * Z / 2) / (of + Z * Z);
-  const double half = Z / (of + Z * Z) * sqrt(k * (of - k) / of + Z * Z / 4);
+  const double centre = (k + square / 2) / (of + square);
+  const double half = sqrt(square) / (of + square) * sqrt(k * (of - k) / of + square / 4);
   return (kz_share){k / of, hits == 0 ? 0 : fmax(0, centre - half), hits == n ? 1 : fmin(1, centre + half)};
+}
+
+kz_share kz_share_of(int64_t hits, int64_t n) {
+  return interval(hits, n, Z * Z);
+}
+
+kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total) {
+  if (n > 0 && n == total) return (kz_share){(double)hits / (double)n, (double)hits / (double)n, (double)hits / (double)n};
+  return interval(hits, n, total > 1 ? Z * Z * (double)(total - n) / (double)(total - 1) : Z * Z);
 }
 
 int64_t kz_share_sample(double share) {

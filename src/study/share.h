@@ -9,6 +9,8 @@ typedef struct {
   double share, low, high;
 } kz_share;
 kz_share kz_share_of(int64_t hits, int64_t n);
+/* The same for n different ones of `total`: the variance is smaller by (total - n)/(total - 1), and none is left for all of them. */
+kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 
 /* The smallest sample whose upper bound is at most `share` where no hit is seen. */
 int64_t kz_share_sample(double share);

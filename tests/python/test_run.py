@@ -7,6 +7,7 @@ import h5py
 import pytest
 import yaml
 from conftest import ROOT, datasets
+from kapitza_file import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
 # A short search, then some seconds of cells.
@@ -68,6 +69,8 @@ def test_time_limit_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path)
     kapitza("run", SMALL, *SLOW, "-o", "undisturbed.h5", ranks=2, folder=tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5", "undisturbed.h5"]
     assert datasets(tmp_path / "small.h5") == datasets(tmp_path / "undisturbed.h5")
+    shares = [Result(tmp_path / name).group("basin").attrs["doubtful_share"] for name in ("small.h5", "undisturbed.h5")]
+    assert 0 < shares[0] == shares[1] < 0.01
 
 
 def test_check_predicts_what_run_would_do(kapitza, tmp_path):

@@ -94,6 +94,28 @@ static void test_lanes(void **state) {
     }
 }
 
+/* With the tangent map states move as without, and the matrix of a start is the same alone and in any lane. */
+static void test_tangent_lanes(void **state) {
+  (void)state;
+  for (int scheme = 0; scheme < kz_scheme_count(); scheme++)
+    for (int kind = 0; kind < 2; kind++) {
+      double a[N], va[N], matrix[N][4], b[N], vb[N], alone[4];
+      int64_t ta[N], tb[N];
+      kz_plan *plan = plan_of(scheme, 24, kind);
+      starts(a, va, ta);
+      starts(b, vb, tb);
+      kz_advance_tangent(plan, N, 7, a, va, ta, matrix[0]);
+      kz_advance(plan, N, 7, b, vb, tb);
+      for (int i = 0; i < N; i++) assert_true(a[i] == b[i] && va[i] == vb[i] && ta[i] == tb[i]);
+      starts(b, vb, tb);
+      for (int i = 0; i < N; i += 9) {
+        kz_advance_tangent(plan, 1, 7, b + i, vb + i, tb + i, alone);
+        assert_memory_equal(alone, matrix[i], sizeof alone);
+      }
+      kz_plan_free(plan);
+    }
+}
+
 /* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly. */
 static void test_determinant(void **state) {
   (void)state;
@@ -184,9 +206,9 @@ static void test_subnormals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_sine),        cmocka_unit_test(test_mirror),  cmocka_unit_test(test_lanes),
-      cmocka_unit_test(test_determinant), cmocka_unit_test(test_tangent), cmocka_unit_test(test_sample),
-      cmocka_unit_test(test_subnormals),
+      cmocka_unit_test(test_sine),          cmocka_unit_test(test_mirror),      cmocka_unit_test(test_lanes),
+      cmocka_unit_test(test_tangent_lanes), cmocka_unit_test(test_determinant), cmocka_unit_test(test_tangent),
+      cmocka_unit_test(test_sample),        cmocka_unit_test(test_subnormals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

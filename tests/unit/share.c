@@ -29,6 +29,19 @@ static void test_wilson_solves_its_equation(void **state) {
   assert_true(kz_share_of(0, 0).low == 0 && kz_share_of(0, 0).high == 1);
 }
 
+/* Half of a population leaves half of the variance, all of it none, and a large one is like no end of cells. */
+static void test_part_of_a_population(void **state) {
+  (void)state;
+  const double z = 1.959963984540054;
+  const kz_share half = kz_share_of_part(30, 500, 1000), all = kz_share_of_part(3, 40, 40),
+                 of_many = kz_share_of_part(30, 500, INT64_MAX);
+  const double p = half.high, square = z * z * 500 / 999;
+  assert_true(fabs((half.share - p) * (half.share - p) - square * p * (1 - p) / 500) < 1e-12);
+  assert_true(all.low == 3.0 / 40 && all.share == all.low && all.high == all.low);
+  assert_true(fabs(of_many.high - kz_share_of(30, 500).high) < 1e-12);
+  assert_true(kz_share_of_part(0, 0, 0).low == 0 && kz_share_of_part(0, 0, 0).high == 1);
+}
+
 static void test_smallest_sample_proves_its_share(void **state) {
   (void)state;
   assert_int_equal(kz_share_sample(0.001), 3838);
@@ -109,6 +122,7 @@ static void test_cost_grows(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_wilson_solves_its_equation),
+      cmocka_unit_test(test_part_of_a_population),
       cmocka_unit_test(test_smallest_sample_proves_its_share),
       cmocka_unit_test(test_pareto_front),
       cmocka_unit_test(test_cost_order_is_stable),

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Does `doubtful_share` understate? Random pendulums of no scene, labelled by `direct`, against quad precision.
+
+    tests/tools/truth_doubt.py                              20 pendulums
+    tests/tools/truth_doubt.py --pendulums 40 --seed 2 --ranks 2
+
+For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which judges `direct-24` (the same scheme and
+steps) on random cells of the same window by quad precision. A share is understated where the wrong share of the judge's cells is above
+the doubtful one's interval. Exit status 1 where one is.
+"""
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests" / "tools")]
+
+from kapitza_file import run  # noqa: E402
+from truth_coverage import Kapitza, lively_scene  # noqa: E402
+
+SETTING = "direct-24"
+
+
+def compare(kapitza, scene, samples):
+    """(doubtful, low, high) and (wrong, low, high) of a scene."""
+    scene = scene | {"basin": scene["basin"] | {"method": "direct"}, "tradeoff": {"samples": samples, "settings": [SETTING]}}
+    result = kapitza(scene)
+    basin, trade = result.group("basin").attrs, result.group("tradeoff")
+    stated = tuple(float(basin[f"doubtful_share{end}"]) for end in ("", "_low", "_high"))
+    return stated, tuple(float(trade[f"wrong{end}"].values[0]) for end in ("", "_low", "_high"))
+
+
+def understates(stated, wrong):
+    return wrong[0] > stated[2]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--pendulums", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--samples", type=int, default=4000, help="cells that are judged")
+    parser.add_argument("--cells", type=int, default=300, help="of the window, an axis")
+    parser.add_argument("--ranks", type=int, default=1)
+    arguments = parser.parse_args()
+    print("pendulum, window; % doubtful, its interval; % wrong, its interval (! = understated)")
+    low = 0
+    with tempfile.TemporaryDirectory() as folder:
+        kapitza = Kapitza(folder, arguments.ranks)
+        for number in range(arguments.pendulums):
+            scene = lively_scene(kapitza, np.random.default_rng([arguments.seed, number]), number, arguments.cells)
+            stated, wrong = compare(kapitza, scene, arguments.samples)
+            low += understates(stated, wrong)
+            speeds = scene["basin"]["velocity"]
+            names = " ".join(f"{value:g}" for value in [*scene["pendulum"].values(), speeds["min"], speeds["max"]])
+            shares = " ".join(f"{100 * share:6.2f}" for share in [*stated, *wrong])
+            print(f"{number:3} {names:42} {shares} {'!' if understates(stated, wrong) else ''}", flush=True)
+    print(f"{low} of {arguments.pendulums} understated")
+    sys.exit(low > 0)
+
+
+if __name__ == "__main__":
+    run(main)
