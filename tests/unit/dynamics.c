@@ -305,11 +305,15 @@ static void test_chaos(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_catalogue),         cmocka_unit_test(test_interpolation),
-      cmocka_unit_test(test_mirrored_labels),   cmocka_unit_test(test_hybrid),
-      cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_measures),
+      cmocka_unit_test(test_catalogue),
+      cmocka_unit_test(test_interpolation),
+      cmocka_unit_test(test_mirrored_labels),
+      cmocka_unit_test(test_hybrid),
+      cmocka_unit_test(test_regions_are_right),
+      cmocka_unit_test(test_measures),
       cmocka_unit_test(test_measures_leave_unsettled_cells_out),
-      cmocka_unit_test(test_packing),           cmocka_unit_test(test_chaos),
+      cmocka_unit_test(test_packing),
+      cmocka_unit_test(test_chaos),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
