@@ -4,6 +4,13 @@
 
 #include "kapitza/study.h"
 
+/* rad: what one drive period of a basin's window may be off by without a word: a hundredth of a cell (kz_cell_size), 1e-4 at most. */
+double kz_steps_tolerance(const kz_basin_plan *plan);
+
+/* numerics.steps_per_period where a scene leaves it out: the scheme's own number, or as many more as the small cells of a damped
+ * basin need (smaller than 0.01 rad); left as it is where no number would do (kz_steps_check says so then), and where basin.accuracy chooses. */
+void kz_steps_choose(kz_scene *scene);
+
 /* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
  * `most` steps: then the last number tried. */
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
@@ -16,12 +23,17 @@ bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, do
  * both ends and between. */
 kz_status kz_steps_check(const kz_scene *scene);
 
-/* A line for each class of speeds up to `fastest` that is off by more than 1e-4 rad. Returns the largest error. */
-double kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary);
+/* A line for each class of speeds up to `fastest` that is off by more than 1e-4 rad. */
+void kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary);
+/* The steps of a basin and their error beside its cells, and a line for each class of speeds that is off by more than
+ * kz_steps_tolerance. Returns the largest error of a drive period, rad: an upper estimate. */
+double kz_steps_warn_basin(const kz_scene *scene, FILE *summary);
 /* The same for the worst of a sweep's values. */
 void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary);
 
-/* A line where one period of the map table is off by more than 1e-4 rad. */
-void kz_steps_warn_table(double defect, FILE *summary);
+/* KZ_REFUSED where one period of the map table (`defect`, rad) is off by more than a cell: the message tells the nodes that would do. */
+kz_status kz_steps_check_table(const kz_basin_plan *plan, double defect);
+/* A line where it is off by more than kz_steps_tolerance. */
+void kz_steps_warn_table(const kz_basin_plan *plan, double defect, FILE *summary);
 
 #endif

@@ -1,4 +1,4 @@
-/* trial: what the numerics can carry, measured on a few hundred states before anything is labelled (Fortran; floor 1, dynamics).
+/* trial: what the numerics can carry, measured on a few thousand states before anything is labelled (Fortran; floor 1, dynamics).
  * Nothing here is collective. */
 #ifndef KAPITZA_TRIAL_H
 #define KAPITZA_TRIAL_H
@@ -7,8 +7,9 @@
 
 #include "kapitza/dynamics.h"
 
-/* error [n]: the largest error of one drive period, by step doubling, among states with speeds from speed[c] to speed[c + 1]
- * (rad per drive radian, speed [n + 1] ascending), whole circle; rad. Huge where a state diverges. Double precision at most. */
+/* error [n]: an upper estimate of the error of one drive period, by step doubling, for states with speeds from speed[c] to
+ * speed[c + 1] (rad per drive radian, speed [n + 1] ascending), whole circle; rad: twice the largest of 512 states. Huge where a
+ * state diverges. Double precision at most. */
 void kz_trial_step_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *speed,
                           double *error);
 

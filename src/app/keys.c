@@ -67,7 +67,8 @@ const kz_key kz_keys[] = {
         "Integrator; rk4 is the classical one, the split ones are exact in the damping.", .unit = "",
         .words_from = scheme_words, CHOSEN),
     COUNT("numerics.steps_per_period", 1, 100000, "", numerics.steps_per_period,
-          "Whole steps of the scheme in a drive period; left out: the scheme's own number.", CHOSEN),
+          "Whole steps of the scheme in a drive period; left out: the scheme's own number, or as many as small cells need.",
+          CHOSEN),
     WORD("numerics.precision", "single|double|quad", "double", numerics.precision, "Kind of the arithmetic.", CHOSEN),
 
     MAPPING("basin", "", AT(has_basin), "Study: the attractors, then a label for every cell of a window."),

@@ -4,6 +4,7 @@
 
 #include "kapitza/scene.h"
 #include "kapitza/settling.h"
+#include "kapitza/steps.h"
 
 typedef struct {
   char text[32];
@@ -167,10 +168,13 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   sweep_value(reading, scene, "sweep.max", sweep->values.max);
 }
 
-/* The scheme's own steps where the scene gives none. */
+/* Steps where the scene gives none: chosen for a scene that is right so far, the scheme's own for one that is not. */
 static void numerics_rules(kz_reading *reading, kz_scene *scene) {
-  (void)reading;
   if (scene->numerics.steps_per_period != KZ_UNSET_WORD) return;
+  if (!reading->message[0]) {
+    kz_steps_choose(scene);
+    return;
+  }
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
   scene->numerics.steps_per_period = scheme.default_steps;
@@ -220,8 +224,8 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {numerics_rules, basin_rules,    attractors_rules,  orbit_rules, stability_rules,
-                             tradeoff_rules, pendulum_rules, orbit_range_rules, sweep_rules, settling_rules};
+static const rule rules[] = {basin_rules,    attractors_rules, orbit_rules, stability_rules,  tradeoff_rules,
+                             pendulum_rules, numerics_rules,   sweep_rules, orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

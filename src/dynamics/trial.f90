@@ -11,10 +11,16 @@ module kz_dynamics_trial
   private
   public :: table_defect
 
+  !> States of a class of speeds.
+  integer, parameter :: STATES = 8*WIDTH
+  !> Such a sample has seen more than the inverse of this of the largest error (tests/extremes/trial.c holds it against dense ones).
+  real(dp), parameter :: SAFETY = 2
+
 contains
 
-  !> error(c) = the largest error of one period among WIDTH states with speeds from speed(c) to speed(c + 1), in rad (velocity and
-  !> angle together); huge where a state is lost: not finite, or faster than friction and drive can make it.
+  !> error(c) = an upper estimate of the error of one period of states with speeds from speed(c) to speed(c + 1), in rad (velocity
+  !> and angle together): the largest of STATES, SAFETY times; huge where a state is lost: not finite, or faster than friction and
+  !> drive can make it.
   subroutine step_errors(pendulum, numerics, n, speed, error) bind(C, name='kz_trial_step_errors')
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
@@ -23,7 +29,9 @@ contains
     real(dp), intent(out) :: error(n)
     type(numerics_t) :: coarse, halved
     class(flow_t), allocatable :: flow, finer
+    real(dp) :: limit, largest
     integer(c_int64_t) :: c
+    integer :: first
 
     coarse = numerics
     coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
@@ -32,24 +40,32 @@ contains
     call make_flow(pendulum, coarse, .true., flow)
     call make_flow(pendulum, halved, .true., finer)
     do c = 1, n
-      call put_class(flow, speed(c), speed(c + 1))
-      call put_class(finer, speed(c), speed(c + 1))
-      call flow%advance(WIDTH)
-      call finer%advance(WIDTH)
-      error(c) = difference(flow, finer, speed(c + 1) + 2*PI*(abs(pendulum%k) + abs(pendulum%m)))
+      largest = 0
+      limit = speed(c + 1) + 2*PI*(abs(pendulum%k) + abs(pendulum%m))
+      do first = 1, STATES, WIDTH
+        call put_class(flow, first, speed(c), speed(c + 1))
+        call put_class(finer, first, speed(c), speed(c + 1))
+        call flow%advance(WIDTH)
+        call finer%advance(WIDTH)
+        largest = max(largest, difference(flow, finer, limit))
+      end do
+      error(c) = merge(SAFETY*largest, largest, largest < huge(largest)/SAFETY)
     end do
   end subroutine step_errors
 
-  !> States over the whole circle; the others are their mirror images.
-  subroutine put_class(map, slowest, fastest)
+  !> States first .. first + WIDTH - 1 of STATES over the whole circle, both ends of the speeds included; the others are their
+  !> mirror images.
+  subroutine put_class(map, first, slowest, fastest)
     class(map_t), intent(inout) :: map
+    integer, intent(in) :: first
     real(dp), intent(in) :: slowest
     real(dp), intent(in) :: fastest
     real(dp), parameter :: GOLDEN = 0.61803398874989484820_dp
-    integer :: lane
+    integer :: lane, i
 
     do lane = 1, WIDTH
-      call map%put(lane, 2*modulo(lane*GOLDEN, 1.0_dp) - 1, slowest + (fastest - slowest)*(lane - 0.5_dp)/WIDTH)
+      i = first + lane - 2
+      call map%put(lane, 2*modulo(i*GOLDEN, 1.0_dp) - 1, slowest + (fastest - slowest)*(i/real(STATES - 1, dp)))
     end do
   end subroutine put_class
 

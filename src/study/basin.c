@@ -143,9 +143,16 @@ static kz_status discover(basin *b, kz_team *team, bool again) {
   return status;
 }
 
+/* Before cells are labelled by a table alone. What basin.accuracy chose is judged by its labels. */
+static kz_status check_table(const basin *b) {
+  if (b->plan->method != KZ_METHOD_ICM || !isnan(b->plan->accuracy)) return KZ_OK;
+  return kz_steps_check_table(b->plan, kz_dynamics_table_defect(b->dynamics, kz_stencil[b->plan->interpolation]));
+}
+
 /* Everything up to the labels. */
 static kz_status model(basin *b, kz_team *team) {
   KZ_TRY(discover(b, team, false));
+  KZ_TRY(kz_team_agree(team, check_table(b)));
   b->n_open = b->own;
   for (int round = 0;; round++) {
     KZ_TRY(label_cells(b, team, round));
@@ -186,11 +193,11 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
 
 /* What the labels stand on, in numbers and as warnings. */
 static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
-  labels->step_error = kz_steps_warn(scene, kz_axis_fastest(&scene->basin.velocity), summary);
+  labels->step_error = kz_steps_warn_basin(scene, summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
   labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil[scene->basin.interpolation]);
-  kz_steps_warn_table(labels->table_error, summary);
+  if (scene->basin.method == KZ_METHOD_ICM) kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
 
 static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {

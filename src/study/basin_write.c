@@ -35,8 +35,15 @@ static int64_t count_fractions(const kz_labels *labels, kz_catalogue *catalogue)
   return unsettled;
 }
 
+/* The uncertainty exponent, and the distances (rad) over which it was found. */
+typedef struct {
+  kz_line line;
+  double nearest, farthest;
+} exponent;
+
 /* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
-static kz_line uncertainty(const kz_basin_plan *plan, const kz_labels *labels) {
+static exponent uncertainty(const kz_basin_plan *plan, const kz_labels *labels) {
+  const double cell = (plan->theta.max - plan->theta.min) / (double)plan->theta.count;
   double x[DISTANCES], y[DISTANCES], share;
   int64_t n = 0, circle = plan->theta.max - plan->theta.min == 2 * M_PI;
   for (int64_t distance = 1; n < DISTANCES && 16 * distance <= plan->theta.count; distance *= 2) {
@@ -45,23 +52,53 @@ static kz_line uncertainty(const kz_basin_plan *plan, const kz_labels *labels) {
     x[n] = log((double)distance);
     y[n++] = log(share);
   }
-  return kz_fit_line(n, x, y);
+  exponent e = {kz_fit_line(n, x, y), NAN, NAN};
+  if (isnan(e.line.slope)) return e;
+  e.nearest = cell;
+  e.farthest = ldexp(cell, (int)n - 1);
+  return e;
 }
 
-static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, kz_store *store, FILE *summary) {
+/* Measures of the settled cells: none where those are the smaller part. */
+typedef struct {
   double entropy, boundary_entropy;
-  kz_basin_entropy(plan->theta.count, plan->velocity.count, labels->attractor, &entropy, &boundary_entropy);
-  kz_line line = uncertainty(plan, labels);
+  exponent exponent;
+} measures;
+
+static measures find_measures(const kz_basin_plan *plan, const kz_labels *labels, int64_t unsettled) {
+  measures m = {NAN, NAN, {{.slope = NAN, .slope_stderr = NAN}, NAN, NAN}};
+  if (2 * unsettled > labels->cells) return m;
+  kz_basin_entropy(plan->theta.count, plan->velocity.count, labels->attractor, &m.entropy, &m.boundary_entropy);
+  m.exponent = uncertainty(plan, labels);
+  return m;
+}
+
+static void print_measures(const measures *m, int64_t unsettled, FILE *summary) {
+  const exponent *e = &m->exponent;
+  if (isnan(m->entropy)) {
+    fprintf(summary, "basin entropy and uncertainty exponent are left out: most cells are unsettled\n");
+    return;
+  }
+  fprintf(summary, "basin entropy %.4f, at the boundaries %.4f", m->entropy, m->boundary_entropy);
+  if (!isnan(e->line.slope))
+    fprintf(summary, "; uncertainty exponent %.3f +- %.3f (of the line alone) over distances from %.3g to %.3g rad",
+            e->line.slope, e->line.slope_stderr, e->nearest, e->farthest);
+  fprintf(summary, "%s\n", unsettled > 0 ? "; unsettled cells are left out" : "");
+}
+
+static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, int64_t unsettled, kz_store *store,
+                                FILE *summary) {
+  const measures m = find_measures(plan, labels, unsettled);
   KZ_TRY(kz_store_real(store, "basin", "trapped_share", labels->trapped_share));
   KZ_TRY(kz_store_real(store, "basin", "step_error", labels->step_error));
   KZ_TRY(kz_store_real(store, "basin", "table_error", labels->table_error));
-  KZ_TRY(kz_store_real(store, "basin", "basin_entropy", entropy));
-  KZ_TRY(kz_store_real(store, "basin", "boundary_basin_entropy", boundary_entropy));
-  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent", line.slope));
-  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_stderr", line.slope_stderr));
-  fprintf(summary, "basin entropy %.4f, at the boundaries %.4f", entropy, boundary_entropy);
-  if (!isnan(line.slope)) fprintf(summary, "; uncertainty exponent %.3f +- %.3f", line.slope, line.slope_stderr);
-  fprintf(summary, "\n");
+  KZ_TRY(kz_store_real(store, "basin", "basin_entropy", m.entropy));
+  KZ_TRY(kz_store_real(store, "basin", "boundary_basin_entropy", m.boundary_entropy));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent", m.exponent.line.slope));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_stderr", m.exponent.line.slope_stderr));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_nearest", m.exponent.nearest));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_farthest", m.exponent.farthest));
+  print_measures(&m, unsettled, summary);
   return KZ_OK;
 }
 
@@ -113,5 +150,5 @@ kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const k
   KZ_TRY(kz_store_variable(store, "basin", "evidence", labels->evidence));
   KZ_TRY(write_numerics(scene, store));
   KZ_TRY(kz_doubt_write(&labels->doubt, plan->method != KZ_METHOD_DIRECT, store, summary));
-  return write_measures(plan, labels, store, summary);
+  return write_measures(plan, labels, unsettled, store, summary);
 }

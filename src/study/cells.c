@@ -1,5 +1,6 @@
 #include "cells.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -10,6 +11,15 @@ double kz_axis_centre(const kz_axis *axis, int64_t i) {
 
 double kz_axis_fastest(const kz_axis *velocity) {
   return fmax(fabs(velocity->min), fabs(velocity->max));
+}
+
+static double width(const kz_axis *axis) {
+  const double extent = axis->max - axis->min;
+  return extent > DBL_EPSILON ? extent / (double)axis->count : INFINITY;
+}
+
+double kz_cell_size(const kz_basin_plan *plan) {
+  return fmin(width(&plan->theta), width(&plan->velocity));
 }
 
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity) {

@@ -10,6 +10,10 @@ double kz_axis_centre(const kz_axis *axis, int64_t i);
 /* The largest speed on an axis of velocities. */
 double kz_axis_fastest(const kz_axis *velocity);
 
+/* The smaller side of a cell: rad, or rad per drive radian. An axis that is narrower than the last place of 1 as a whole is a point
+ * to all motions and does not count; INFINITY where both are. */
+double kz_cell_size(const kz_basin_plan *plan);
+
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
 
 /* Cells that are labelled; the others of a window that is its own mirror image mirror them: cell f mirrors cell total - 1 - f. */

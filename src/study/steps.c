@@ -6,7 +6,7 @@
 
 #include "cells.h"
 #include "judge.h"
-#include "kapitza/trial.h"
+#include "steps_trial.h"
 #include "sweep.h"
 
 enum {
@@ -16,94 +16,97 @@ enum {
   SWEEP_STEPS = 20000  /* that those trials take together */
 };
 
-/* Classes of speeds: the fastest half of all speeds, half of those, and so on; class 0 is what is left. */
-enum { CLASSES = 8 };
-
-typedef struct {
-  double speed[CLASSES + 1]; /* rad per drive radian, from 0 */
-  double error[CLASSES];     /* rad, of one drive period; DBL_MAX = diverges */
-} step_trial;
-
 /* rad, of one drive period: from LOOSE on a user is warned, from LOST on labels would be chance. */
 static const double LOOSE = 1e-4, LOST = 0.1;
+/* The same in cells of a basin, where a hundredth of a cell is less than LOOSE: a picture that is shifted by so much. */
+static const double LOOSE_CELLS = 0.01, LOST_CELLS = 0.1;
 
-/* Step doubling on a sample of the speeds up to `fastest`, and those that rotation and fall bring. */
-static step_trial try_steps(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
-  step_trial trial = {{0}, {0}};
-  double top = fmax(fmax(fastest, 1.5), 2 * sqrt(fabs(pendulum->k) + fabs(pendulum->m)));
-  for (int c = 1; c <= CLASSES; c++) trial.speed[c] = ldexp(top, c - CLASSES);
-  kz_trial_step_errors(pendulum, numerics, CLASSES, trial.speed, trial.error);
-  return trial;
-}
-
-static int worst_class(const step_trial *trial) {
-  int worst = 0;
-  for (int c = 1; c < CLASSES; c++)
-    if (trial->error[c] > trial->error[worst]) worst = c;
-  return worst;
-}
-
-static double worst_error(const step_trial *trial) {
-  return trial->error[worst_class(trial)];
-}
-
-bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
-  step_trial trial = try_steps(pendulum, numerics, fastest);
-  for (int worst; worst = worst_class(&trial), trial.error[worst] > tolerance;) {
-    do { /* the worst class alone: where nothing helps, that is soon known */
-      if (numerics->steps_per_period > most / 2) return false;
-      numerics->steps_per_period *= 2;
-      kz_trial_step_errors(pendulum, numerics, 1, trial.speed + worst, trial.error + worst);
-    } while (trial.error[worst] > tolerance);
-    trial = try_steps(pendulum, numerics, fastest);
-  }
-  return true;
+double kz_steps_tolerance(const kz_basin_plan *plan) {
+  return fmin(LOOSE, LOOSE_CELLS * kz_cell_size(plan));
 }
 
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
-  const step_trial trial = try_steps(pendulum, numerics, fastest);
-  return worst_error(&trial) <= LOST;
+  const kz_step_trial trial = kz_try_steps(pendulum, numerics, fastest);
+  return kz_worst_error(&trial) <= LOST;
 }
 
 /* Motions of one study: what they are tried with, and the keys that a user could change. */
 typedef struct {
   kz_pendulum pendulum;
   kz_numerics numerics;
-  double fastest;   /* start, rad per drive radian */
-  const char *keys; /* "KEY|KEY" */
-  char where[96];   /* "at m = 0.3, ", or "" */
+  double fastest;     /* start, rad per drive radian */
+  double loose, lost; /* rad, of one drive period: warned of above, refused above */
+  double cell;        /* rad; INFINITY where nothing has cells */
+  const char *keys;   /* "KEY|KEY" */
+  char where[96];     /* "at m = 0.3, ", or "" */
 } motions;
 
 static motions motions_of(const kz_scene *scene, double fastest, const char *keys) {
-  return (motions){scene->parameters.pendulum, scene->numerics, fastest, keys, ""};
+  return (motions){scene->parameters.pendulum, scene->numerics, fastest, LOOSE, LOST, INFINITY, keys, ""};
+}
+
+/* The same where a basin's cells are labelled. */
+static void hold_against_cells(const kz_basin_plan *plan, motions *m) {
+  m->cell = kz_cell_size(plan);
+  m->loose = kz_steps_tolerance(plan);
+  if (m->loose < LOOSE) m->lost = LOST_CELLS * m->cell;
+}
+
+static motions motions_of_basin(const kz_scene *scene) {
+  motions m = motions_of(scene, kz_axis_fastest(&scene->basin.velocity), "numerics.steps_per_period|basin.velocity");
+  hold_against_cells(&scene->basin, &m);
+  return m;
+}
+
+/* Steps that leave nothing to warn of; where rounding forbids that in small cells, steps that are not refused. */
+static bool find_steps(const motions *m, kz_numerics *numerics) {
+  const int32_t most = (int32_t)fmin(MOST_STEPS, ldexp(m->numerics.steps_per_period, DOUBLINGS));
+  *numerics = m->numerics;
+  if (kz_steps_enough(&m->pendulum, m->fastest, m->loose, most, numerics)) return true;
+  if (m->lost >= LOST) return false;
+  *numerics = m->numerics;
+  return kz_steps_enough(&m->pendulum, m->fastest, m->lost, most, numerics);
+}
+
+void kz_steps_choose(kz_scene *scene) {
+  kz_numerics chosen;
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  scene->numerics.steps_per_period = scheme.default_steps;
+  if (!scene->has_basin || !isnan(scene->basin.accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
+  const motions m = motions_of_basin(scene);
+  if (m.lost < LOST && find_steps(&m, &chosen)) scene->numerics = chosen;
 }
 
 /* What would help, as the end of a message. */
 static void advice(const motions *m, size_t bytes, char *text) {
-  kz_numerics numerics = m->numerics;
-  const int32_t most = (int32_t)fmin(MOST_STEPS, ldexp(numerics.steps_per_period, DOUBLINGS));
-  if (kz_steps_enough(&m->pendulum, m->fastest, LOOSE, most, &numerics))
+  kz_numerics numerics;
+  if (find_steps(m, &numerics))
     snprintf(text, bytes, "%d steps or more", (int)numerics.steps_per_period);
   else
-    snprintf(text, bytes, "not even %d steps are enough: slower starts, or weaker damping and drive",
-             (int)numerics.steps_per_period);
+    snprintf(text, bytes, "not even %d steps are enough: %s", (int)numerics.steps_per_period,
+             m->lost >= LOST                    ? "slower starts, or weaker damping and drive"
+             : m->numerics.precision == KZ_QUAD ? "wider cells"
+                                                : "wider cells, or numerics.precision quad and basin.method direct");
 }
 
-static void describe_error(double error, size_t bytes, char *text) {
-  if (error < DBL_MAX)
-    snprintf(text, bytes, "are off by %.2g rad after one drive period", error);
-  else
+static void describe_error(const motions *m, double error, size_t bytes, char *text) {
+  if (error == DBL_MAX)
     snprintf(text, bytes, "diverge");
+  else if (m->lost >= LOST)
+    snprintf(text, bytes, "are off by up to %.2g rad after one drive period", error);
+  else
+    snprintf(text, bytes, "are off by up to %.2g rad after one drive period, where a cell is %.2g wide", error, m->cell);
 }
 
 static kz_status check(const motions *m) {
-  const step_trial trial = try_steps(&m->pendulum, &m->numerics, m->fastest);
-  const int worst = worst_class(&trial);
-  if (trial.error[worst] <= LOST) return KZ_OK;
-  char what[80], help[160];
+  const kz_step_trial trial = kz_try_steps(&m->pendulum, &m->numerics, m->fastest);
+  const int worst = kz_worst_class(&trial);
+  if (trial.error[worst] <= m->lost) return KZ_OK;
+  char what[120], help[160];
   kz_scheme scheme;
   kz_scheme_row(m->numerics.scheme, &scheme);
-  describe_error(trial.error[worst], sizeof what, what);
+  describe_error(m, trial.error[worst], sizeof what, what);
   advice(m, sizeof help, help);
   return kz_fail(KZ_REFUSED, "%s: %swith numerics.steps_per_period = %d of %s, motions at speeds from %.3g to %.3g %s; %s",
                  m->keys, m->where, (int)m->numerics.steps_per_period, scheme.name, trial.speed[worst], trial.speed[worst + 1],
@@ -112,9 +115,9 @@ static kz_status check(const motions *m) {
 
 /* Without damping nothing is labelled. */
 static kz_status check_basin(const kz_scene *scene) {
-  const motions m = motions_of(scene, kz_axis_fastest(&scene->basin.velocity), "numerics.steps_per_period|basin.velocity");
   kz_numerics fine;
-  if (!scene->has_basin || !(m.pendulum.beta > 0)) return KZ_OK;
+  if (!scene->has_basin || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  const motions m = motions_of_basin(scene);
   if (isnan(scene->basin.accuracy)) KZ_TRY(check(&m));
   return scene->has_tradeoff || !isnan(scene->basin.accuracy) ? kz_judge_numerics(&scene->basin, &m.pendulum, &fine) : KZ_OK;
 }
@@ -150,6 +153,7 @@ static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, motions *m) 
   const kz_sweep_plan *plan = &scene->sweep;
   const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
   *m = motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
+  if (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) hold_against_cells(&scene->basin, m);
   snprintf(m->where, sizeof m->where, "at %s = %.6g, ", kz_sweep_parameters[plan->parameter].name, value);
   const bool damped_alone = !kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE) && !kz_sweep_measures(plan, KZ_SWEEP_STROBE);
   return kz_sweep_pendulum(scene, value, &m->pendulum) && (m->pendulum.beta > 0 || !damped_alone);
@@ -171,43 +175,49 @@ kz_status kz_steps_check(const kz_scene *scene) {
   return check_sweep(scene);
 }
 
-static double warn(const motions *m, FILE *summary) {
-  const step_trial trial = try_steps(&m->pendulum, &m->numerics, m->fastest);
-  const double worst = worst_error(&trial);
+static void warn(const motions *m, const kz_step_trial *trial, FILE *summary) {
   char help[160];
-  for (int c = 0; c < CLASSES; c++)
-    if (trial.error[c] > LOOSE)
-      fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by %.2g rad\n", m->where, trial.speed[c],
-              trial.speed[c + 1], trial.error[c]);
-  if (worst <= LOOSE) return worst;
+  for (int c = 0; c < KZ_SPEED_CLASSES; c++)
+    if (trial->error[c] > m->loose)
+      fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by up to %.2g rad\n", m->where,
+              trial->speed[c], trial->speed[c + 1], trial->error[c]);
+  if (kz_worst_error(trial) <= m->loose) return;
   advice(m, sizeof help, help);
-  fprintf(summary, "warning: to get below %g rad per period at every speed: numerics.steps_per_period: %s\n", LOOSE, help);
-  return worst;
+  fprintf(summary, "warning: to get below %.2g rad per period at every speed: numerics.steps_per_period: %s\n", m->loose, help);
 }
 
-double kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary) {
+void kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary) {
   const motions m = motions_of(scene, fastest, "");
-  return warn(&m, summary);
+  const kz_step_trial trial = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
+  warn(&m, &trial, summary);
+}
+
+double kz_steps_warn_basin(const kz_scene *scene, FILE *summary) {
+  const motions m = motions_of_basin(scene);
+  const kz_step_trial trial = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
+  const double worst = kz_worst_error(&trial);
+  kz_scheme scheme;
+  kz_scheme_row(m.numerics.scheme, &scheme);
+  fprintf(summary, "%s, %d steps a drive period", scheme.name, (int)m.numerics.steps_per_period);
+  if (m.numerics.steps_per_period != scheme.default_steps)
+    fprintf(summary, " (its own number is %d)", (int)scheme.default_steps);
+  fprintf(summary, ": a period is off by at most %.2g rad, %.2g of a cell\n", worst, worst / m.cell);
+  warn(&m, &trial, summary);
+  return worst;
 }
 
 void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary) {
   const int64_t n = tried_values(scene);
-  double largest = LOOSE;
+  double largest = 0;
   motions m, worst;
+  kz_step_trial worst_trial;
   for (int64_t i = 0; i < n; i++) {
     if (!motions_at(scene, i, n, &m)) continue;
-    const step_trial trial = try_steps(&m.pendulum, &m.numerics, m.fastest);
-    if (worst_error(&trial) <= largest) continue;
-    largest = worst_error(&trial);
+    const kz_step_trial trial = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
+    if (kz_worst_error(&trial) <= largest) continue;
+    largest = kz_worst_error(&trial);
     worst = m;
+    worst_trial = trial;
   }
-  if (largest > LOOSE) warn(&worst, summary);
-}
-
-void kz_steps_warn_table(double defect, FILE *summary) {
-  if (defect <= LOOSE) return;
-  fprintf(summary,
-          "warning: one drive period of the map table is off by %.2g rad; more nodes (basin.icm), a higher interpolation, or "
-          "method direct\n",
-          defect);
+  if (largest > 0) warn(&worst, &worst_trial, summary);
 }

@@ -93,9 +93,9 @@ def test_flutter_grows_as_the_square_root(basin, scheme, steps, distance):
 TONGUE_K, TONGUE_M = 1.0856905702485, 0.9955473346077346
 
 
-@pytest.mark.parametrize("apart, steps", [(1e-4, 192), (1e-5, 192), (1e-6, 192), (1e-5, 24), (1e-6, 24)])
+@pytest.mark.parametrize("apart, steps", [(1e-4, 192), (1e-5, 192), (1e-6, 192), (1e-5, 24), (1e-6, 48)])
 def test_mirror_images_close_together(basin, apart, steps):
-    """The scene's own steps move m_c: with 24 the nearer pairs are not there, with the 192 of published values they are."""
+    """The scene's own steps move m_c: with 24 or 48 the nearer pairs are not there, with the 192 of published values they are."""
     pendulum = f"pendulum={{k: {TONGUE_K!r}, damping: {math.sqrt(TONGUE_K) / 5!r}, m: {TONGUE_M + (apart / 5.04) ** 2!r}}}"
     found = basin((-2 * apart, 2 * apart, 16), (-2 * apart, 2 * apart, 16), pendulum, "basin.max_periods=100",
                   f"numerics.steps_per_period={steps}")
@@ -123,9 +123,13 @@ def image(name):
     return name.translate(str.maketrans("+-", "-+")) if name.startswith("rotation") else name
 
 
-def narrowest(low, high):
-    """So many cells of [low, high], at most 1000, that doubles still tell apart."""
-    return min(1000, int((high - low) / (9 * np.finfo(float).eps * max(abs(low), abs(high)))))
+# rad: cells that a method carries, with the steps that the program chooses and a table of 100 nodes; smaller ones are refused.
+FINEST = {"direct": 1e-11, "hybrid": 1e-11, "icm": 1e-4}
+
+
+def narrowest(low, high, method):
+    """So many cells of [low, high], at most 1000, that the method carries."""
+    return min(1000, int((high - low) / FINEST[method] * 1.001))
 
 
 @pytest.fixture(scope="session")
@@ -138,7 +142,7 @@ def boundary(basin):
             return made[amplitude, method]
         settings = [f"pendulum.drive_amplitude={amplitude}", f"basin.method={method}"]
         low, high = 0.0, 1.0
-        while (count := narrowest(low, high)) > 1:
+        while (count := narrowest(low, high, method)) > 1:
             found = basin((low, high, count), VELOCITY, *settings)
             assert found.ends() <= ACROSS[amplitude] | {None}
             labels, theta = found.labels[0], found.theta
@@ -155,10 +159,10 @@ def boundary(basin):
 
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("amplitude", ACROSS)
-def test_a_boundary_down_to_the_last_digits(basin, boundary, amplitude, method):
+def test_a_boundary_as_finely_as_a_method_goes(basin, boundary, amplitude, method):
     """Either side's attractor, or another one where the boundary is fractal, or none; mirrored starts to the bit."""
     low, high, settings = boundary(amplitude, method)
-    assert high - low < 32 * np.spacing(abs(low))
+    assert high - low < 2.1 * FINEST[method]
     left, right = low - 64 * (high - low), high + 64 * (high - low)
     here = basin((left, right, 64), VELOCITY, *settings)
     there = basin((-right, -left, 64), (-VELOCITY[1], -VELOCITY[0], 1), *settings)
@@ -174,7 +178,7 @@ def test_a_boundary_down_to_the_last_digits(basin, boundary, amplitude, method):
 
 def test_the_boundary_is_where_quad_precision_puts_it(basin, boundary):
     low, high, settings = boundary(0.150, "direct")
-    window = around((low + high) / 2, 4e-12, 8)
+    window = around((low + high) / 2, 4 * (high - low), 8)
     double, quad = (basin(window, VELOCITY, *settings, f"numerics.precision={kind}") for kind in ("double", "quad"))
     for found in (double, quad):
         assert (found.labels[0, :4] == found.labels[0, 0]).all() and (found.labels[0, 4:] == found.labels[0, -1]).all()
@@ -191,7 +195,7 @@ def test_starts_on_an_unstable_cycle(kapitza, basin, boundary, tmp_path):
         orbit = file["orbit"]
         assert orbit.attrs["period"] == 1 and orbit.attrs["multiplier_re"] > 1.4
         theta, velocity = orbit["strobe_theta"][0], orbit["strobe_velocity"][0]
-    for width in (1e-3, 1e-9, 1e-14):
+    for width in (1e-3, 1e-9, 1e-10):
         found = basin(around(theta, 1.5 * width, 3), around(velocity, 1.5 * width, 3), *settings)
         assert found.ends() <= {"down", "inverted", None} and len(found.names) <= 2
         assert width < 1e-4 or found.ends() == {"down", "inverted"}

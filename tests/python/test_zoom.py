@@ -1,0 +1,118 @@
+"""Windows whose cells are small: the error of a drive period is held against a cell, and the labels against quad precision."""
+
+import json
+import re
+
+import h5py
+import numpy as np
+import pytest
+import truth_check
+from conftest import datasets
+
+THETA, VELOCITY = -2.3671728704614576, 17.0
+PENDULUM = {"k": 0.1, "damping": 0.1, "m": 0.4}
+SMALL = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.300}
+
+
+def scene(folder, half, count, method, pendulum=PENDULUM, centre=(THETA, VELOCITY), numerics=None):
+    """Writes a window of count x count cells, half wide to either side of its centre."""
+    axes = {name: {"min": middle - half, "max": middle + half, "count": count}
+            for name, middle in zip(("theta", "velocity"), centre, strict=True)}
+    parts = {"pendulum": pendulum, "basin": {**axes, "method": method}} | ({"numerics": numerics} if numerics else {})
+    (folder / "zoom.yaml").write_text(json.dumps(parts))
+    return "zoom.yaml"
+
+
+@pytest.mark.parametrize("method", ["direct", "hybrid"])
+def test_labels_of_a_zoom_are_right(kapitza, tmp_path, method):
+    """With the scheme's own 24 steps, off by 500 cells a period, 55 % of these labels are wrong."""
+    done = kapitza("run", scene(tmp_path, 1e-7, 30, method), "--set", "basin.icm={theta: 500, velocity: 500}", folder=tmp_path)
+    assert "192 steps a drive period (its own number is 24)" in done.stdout and "warning" not in done.stdout
+    verdict, _ = truth_check.check_file(tmp_path / "zoom.h5", 200, 1, 2, 4000)
+    assert verdict["wrong"] <= 12 and verdict["unsettled"] == 0
+    with h5py.File(tmp_path / "zoom.h5") as file:
+        assert file["basin"].attrs["steps_per_period"] == 192
+        assert file["basin"].attrs["step_error"] < 0.01 * 2e-7 / 30
+        (tmp_path / "again.yaml").write_text(file.attrs["scene_resolved"])
+    if method == "direct":
+        kapitza("run", "again.yaml", folder=tmp_path)
+        assert datasets(tmp_path / "zoom.h5") == datasets(tmp_path / "again.h5")
+
+
+def test_a_table_that_is_off_by_cells_is_refused(kapitza, tmp_path):
+    done = kapitza("run", scene(tmp_path, 1e-7, 30, "icm"), "--set", "basin.icm={theta: 800, velocity: 800}", folder=tmp_path, status=2)
+    error = r"--set basin.icm=\S.*: basin.icm: one drive period of the map table is off by \S+ rad, where a cell is 6.7e-09 wide: "
+    assert re.search(error + "method direct or hybrid, or some [0-9]+00 nodes an axis", done.stderr), done.stderr
+    assert not (tmp_path / "zoom.h5").exists()
+
+
+def test_the_nodes_that_are_advised_do(kapitza, tmp_path):
+    """A table of 64 nodes on cells that it cannot carry, and one of as many nodes as the refusal names."""
+    path = scene(tmp_path, 2e-4, 10, "icm", SMALL, (2.0, 1.42))
+    table = "basin.icm={{theta: {0}, velocity: {0}}}".format
+    done = kapitza("run", path, "--set", table(64), folder=tmp_path, status=2)
+    assert "--set basin.icm=" in done.stderr and "basin.icm: one drive period of the map table" in done.stderr
+    nodes = int(re.search("some ([0-9]+) nodes", done.stderr)[1])
+    kapitza("run", path, "--set", table(nodes), folder=tmp_path)
+
+
+@pytest.mark.parametrize("command", ["run", "check"])
+def test_steps_that_are_given_and_too_few_are_refused(kapitza, tmp_path, command):
+    path = scene(tmp_path, 1e-7, 30, "direct", numerics={"steps_per_period": 48})
+    done = kapitza(command, path, folder=tmp_path, status=2)
+    assert "numerics.steps_per_period: with numerics.steps_per_period = 48 of split6" in done.stderr
+    assert "where a cell is 6.7e-09 wide; 192 steps or more" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["zoom.yaml"]
+
+
+def test_steps_between_are_warned_of(kapitza, tmp_path):
+    path = scene(tmp_path, 1e-5, 10, "direct", numerics={"steps_per_period": 48})
+    done = kapitza("run", path, folder=tmp_path)
+    assert "warning: at speeds from 8.5 to 17 one drive period is off by up to" in done.stdout and "96 steps or more" in done.stdout
+
+
+@pytest.mark.parametrize("half, pendulum, centre", [(1e-10, SMALL, (0.7, 1.42)), (1e-12, PENDULUM, (THETA, VELOCITY))])
+def test_cells_that_rounding_blurs_are_refused(kapitza, tmp_path, half, pendulum, centre):
+    done = kapitza("check", scene(tmp_path, half, 30 if half < 1e-11 else 100, "direct", pendulum, centre), folder=tmp_path, status=2)
+    assert "basin.velocity" in done.stderr and re.search("not even [0-9]+ steps are enough", done.stderr)
+    assert "wider cells, or numerics.precision quad and basin.method direct" in done.stderr
+
+
+def test_quad_precision_carries_them(kapitza, tmp_path):
+    """Cells of 5e-13, off by less than a hundredth of that."""
+    path = scene(tmp_path, 1e-12, 4, "direct", SMALL, (0.7, 1.42), {"precision": "quad"})
+    kapitza("run", path, "--set", "basin.icm={theta: 100, velocity: 100}", "--set", "basin.attractors.starts=256", folder=tmp_path)
+    with h5py.File(tmp_path / "zoom.h5") as file:
+        assert file["basin"].attrs["step_error"] < 5e-15
+    verdict, _ = truth_check.check_file(tmp_path / "zoom.h5", 16, 1, 2, 4000)
+    assert verdict["wrong"] == 0
+
+
+def test_the_whole_plane_keeps_the_steps_of_its_scheme(kapitza, tmp_path):
+    (tmp_path / "x.yaml").write_text(json.dumps({"pendulum": SMALL, "basin": {"velocity": {"min": -2, "max": 2}}}))
+    for scheme, steps in (("rk4", 100), ("split4", 40), ("split6", 24), ("split6-11", 32)):
+        resolved = kapitza("check", "x.yaml", "--set", f"numerics.scheme={scheme}", folder=tmp_path).stdout
+        assert f"steps_per_period: {steps}\n" in resolved
+
+
+def test_unsettled_cells_are_no_basin(kapitza, tmp_path):
+    """They are left out of the measures, and that is said; where they are most cells, so are the measures."""
+    grid = "basin={theta: {count: 100}, velocity: {min: -2, max: 2, count: 100}, method: direct, icm: {theta: 250, velocity: 250}}"
+    (tmp_path / "x.yaml").write_text(json.dumps({"pendulum": SMALL}))
+    for damping, said, finite in ((5, "; unsettled cells are left out", True), (5000, "are left out: most cells are unsettled", False)):
+        done = kapitza("run", "x.yaml", "--set", grid, "--set", f"basin.max_periods={8 if damping > 5 else 30}", "--set", f"pendulum.quality_factor={damping}",
+                       "--set", f"basin.attractors.starts={8 if damping > 5 else 256}", "--force", folder=tmp_path)
+        assert said in done.stdout
+        with h5py.File(tmp_path / "x.h5") as file:
+            attributes, unsettled = dict(file["basin"].attrs), (file["basin/attractor"][:] < 0).mean()
+        assert 0 < unsettled < 0.5 if finite else unsettled > 0.5
+        for name in ("basin_entropy", "boundary_basin_entropy", "uncertainty_exponent", "uncertainty_exponent_nearest"):
+            assert np.isfinite(attributes[name]) == finite, name
+
+
+def test_the_exponent_has_its_distances(small_result):
+    with h5py.File(small_result) as file:
+        attributes = file["basin"].attrs
+        cell = 2 * np.pi / 100
+        assert attributes["uncertainty_exponent_nearest"] == pytest.approx(cell)
+        assert attributes["uncertainty_exponent_farthest"] == pytest.approx(4 * cell)
