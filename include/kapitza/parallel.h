@@ -67,6 +67,8 @@ typedef struct {
 kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan);
 /* Closes it; removes the file when `complete`, or where no kept stage has begun. Without an open one: KZ_OK. Collective. */
 kz_status kz_checkpoint_close(kz_team *team, bool complete);
+/* Removes a checkpoint that outlived its complete file: only one that no process holds and that has this fingerprint. */
+void kz_checkpoint_clear(const char *path, const char *fingerprint);
 /* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 

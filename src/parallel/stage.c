@@ -96,6 +96,7 @@ static kz_status run(kz_shift *shift) {
   kz_meter_begin(&shift->meter, shift->team, shift->stage->name, shift->stage->n_tiles, shift->stage->n_tiles - shift->n_left);
   const kz_status status = kz_team_agree(shift->team, work(shift));
   kz_meter_end(&shift->meter, status == KZ_OK);
+  if (status == KZ_STOPPED) return kz_team_stopped(shift->team);
   KZ_TRY(status);
   return deliver(shift);
 }
