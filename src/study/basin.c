@@ -16,13 +16,9 @@
 
 enum {
   CELLS = 4096, /* of a tile, at most */
-  FEWEST = 16,  /* of a tile */
   PARTS = 4,    /* times as many in a tile of hybrid: the few orbits that it integrates must fill vectors */
   ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
-
-/* A tile whose cells all take max_periods takes so long, in kicks of double precision: some seconds. */
-static const double TILE_KICKS = 4e9;
 
 /* What a label rests on, as the file says it. */
 enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3, UNDECIDED = 4 };
@@ -162,17 +158,6 @@ static kz_status model(basin *b, kz_team *team) {
   }
 }
 
-/* Cells of a tile: few where each may take long, so that a stop loses seconds of work. */
-static int64_t tile_cells(const kz_scene *scene) {
-  static const double cost[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1, [KZ_QUAD] = 2500};
-  const bool wide = scene->basin.method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD;
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  const double kicks = cost[scene->numerics.precision] * scheme.kicks * scene->numerics.steps_per_period;
-  const double most = wide ? PARTS * CELLS : CELLS, enough = TILE_KICKS / (kicks * (double)scene->basin.max_periods);
-  return (int64_t)fmax(FEWEST, fmin(most, FEWEST * floor(enough / FEWEST)));
-}
-
 static kz_status allocate(basin *b, bool leads) {
   b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
   b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
@@ -220,7 +205,8 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
                         .table_velocity = plan->table_velocity},
              .total = plan->theta.count * plan->velocity.count};
   b.own = kz_own_cells(plan);
-  b.tile = tile_cells(scene);
+  const bool wide = plan->method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD;
+  b.tile = kz_tile_cells(scene, wide ? PARTS * CELLS : CELLS);
   b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_team_agree(team, status);
