@@ -83,7 +83,8 @@ typedef struct {
   void *context;
   bool keep;       /* records go to the checkpoint as they finish, and are not done again on resume */
   bool everywhere; /* all ranks receive all records; else only rank 0 */
-  bool together;   /* all ranks do every tile together, in order, each with the same record (everywhere): `work` is collective and may
+  bool
+      together; /* all ranks do every tile together, in order, each with the same record (everywhere): `work` is collective and may
                       run stages, whose kept records last until its tile is finished */
 } kz_stage;
 

@@ -28,7 +28,8 @@ static bool is_held(int error) {
 
 bool kz_hold_names(const char *path, int file) {
   struct stat named, opened;
-  return lstat(path, &named) == 0 && fstat(file, &opened) == 0 && named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+  return lstat(path, &named) == 0 && fstat(file, &opened) == 0 && named.st_dev == opened.st_dev &&
+         named.st_ino == opened.st_ino;
 }
 
 /* KZ_OK with file < 0 where somebody else created it between two looks. A link is refused: it may lead to anybody's file. */

@@ -56,7 +56,8 @@ static kz_status find_critical(void *context, int64_t tile, void *record) {
   const double piece = (double)(f->piece + tile);
   double low, high;
   neighbourhood(&f->scene->sweep.values, &low, &high);
-  *(double *)record = kz_flutter_critical(&f->path, low + (high - low) * piece / PIECES, low + (high - low) * (piece + 1) / PIECES);
+  *(double *)record =
+      kz_flutter_critical(&f->path, low + (high - low) * piece / PIECES, low + (high - low) * (piece + 1) / PIECES);
   return KZ_OK;
 }
 
@@ -116,13 +117,8 @@ static kz_status follow_back(void *context, int64_t tile, void *record) {
 }
 
 static kz_status run(fluttering *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
-  const kz_stage stage = {.name = name,
-                          .n_tiles = n_tiles,
-                          .record_bytes = bytes,
-                          .work = work,
-                          .context = f,
-                          .keep = true,
-                          .everywhere = true};
+  const kz_stage stage = {
+      .name = name, .n_tiles = n_tiles, .record_bytes = bytes, .work = work, .context = f, .keep = true, .everywhere = true};
   return kz_stage_run(f->team, &stage, records);
 }
 

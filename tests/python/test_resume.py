@@ -37,7 +37,7 @@ basin:
 sweep: {parameter: drive_amplitude, min: 0.3, max: 0.31, count: 2, starts: 1024, measure: [basin_fractions]}
 """,
 }
-LIMIT, MOST = 1, 60  # s; starts of the program
+LIMIT, MOST = 3, 60  # s; starts of the program
 
 
 @pytest.mark.parametrize("name", SCENES)

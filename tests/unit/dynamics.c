@@ -36,8 +36,7 @@ static kz_dynamics *explored(double m, int64_t seed, double reach) {
         open++;
       }
     n = open;
-    for (int64_t first = 0; first < n; first += 64)
-      find_cycles(d, n - first < 64 ? n - first : 64, state + 2 * first, 0.02);
+    for (int64_t first = 0; first < n; first += 64) find_cycles(d, n - first < 64 ? n - first : 64, state + 2 * first, 0.02);
   }
   assert_int_equal(n, 0);
   free(state);
