@@ -59,12 +59,17 @@ void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max
 void kz_dynamics_follow_truth(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                               int32_t *owner, int64_t *periods);
 
-/* Looks for unknown cycles near n <= 64 states that come back to themselves within `closeness` rad; returns how many
- * attractors are known then. */
-int64_t kz_dynamics_find_cycles(kz_dynamics *dynamics, int64_t n, const double *state, double closeness);
-/* Follows a bundle of orbits from one state through 60,000 periods, where neighbours part in its first 2000; a chaotic attractor
- * joins the catalogue where they diverge and are never trapped. Returns how many attractors are known then. */
-int64_t kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state);
+/* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all have
+ * been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from found[1] on what
+ * kz_dynamics_adopt takes: the cycle and its mirror image, or nothing. The catalogue itself stays as it is. */
+void kz_dynamics_find_cycle(kz_dynamics *dynamics, int64_t n, const double *state, double closeness, double *found);
+int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
+/* Follows a bundle of orbits from one state through 60,000 periods, where neighbours part in its first 2000. found
+ * [kz_dynamics_chaos_size]: what kz_dynamics_adopt takes: a chaotic attractor, where they diverge and are never trapped, or nothing. */
+void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
+int64_t kz_dynamics_chaos_size(void);
+/* The attractors that were found join the catalogue. */
+void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
 
 /* The catalogue as doubles, to travel between ranks. */
 int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);

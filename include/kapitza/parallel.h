@@ -67,6 +67,8 @@ typedef struct {
 kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan);
 /* Closes it; removes the file when `complete`, or where no kept stage has begun. Without an open one: KZ_OK. Collective. */
 kz_status kz_checkpoint_close(kz_team *team, bool complete);
+/* Removes a checkpoint that outlived its complete file: only one that no process holds and that has this fingerprint. */
+void kz_checkpoint_clear(const char *path, const char *fingerprint);
 /* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
@@ -81,6 +83,9 @@ typedef struct {
   void *context;
   bool keep;       /* records go to the checkpoint as they finish, and are not done again on resume */
   bool everywhere; /* all ranks receive all records; else only rank 0 */
+  bool
+      together; /* all ranks do every tile together, in order, each with the same record (everywhere): `work` is collective and may
+                      run stages, whose kept records last until its tile is finished */
 } kz_stage;
 
 /* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless

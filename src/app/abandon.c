@@ -22,13 +22,13 @@ static bool speaks(void) {
   return !here.part[0] || unlink(here.part) == 0 || errno != ENOENT;
 }
 
-/* "kapitza: WHAT; finished work is in ..." without a stream: there may be no memory for one. */
-static void say(const char *what) {
+/* "kapitza: WHAT; finished work is in ...", or OTHERWISE, without a stream: there may be no memory for one. */
+static void say(const char *what, const char *otherwise) {
   char line[PATH_MAX + 256];
   const char *saved = here.team ? kz_team_saved(here.team) : NULL;
   here.armed = false;
   if (here.team) kz_team_forget(here.team);
-  snprintf(line, sizeof line, "kapitza: %s%s%s%s\n", what, saved ? "; finished work is in " : "", saved ? saved : "",
+  snprintf(line, sizeof line, "kapitza: %s%s%s%s\n", what, saved ? "; finished work is in " : otherwise, saved ? saved : "",
            saved ? ", --resume goes on from it" : "");
   if (speaks() && write(STDERR_FILENO, line, strlen(line)) < 0) return; /* nobody listens */
 }
@@ -37,7 +37,7 @@ static void say_error(const char *what) {
   char text[128];
   const int rank = kz_launch_rank();
   snprintf(text, sizeof text, "error: %s on rank %d", what, rank > 0 ? rank : 0);
-  say(text);
+  say(text, "");
 }
 
 static void leave(const char *what) {
@@ -65,7 +65,7 @@ static void at_abort(int number) {
 
 /* All ranks have had the request, or the launcher ends those that have not. */
 static void overdue(const char *reason) {
-  say(reason);
+  say(reason, "; nothing was saved");
   _exit(KZ_STOPPED);
 }
 

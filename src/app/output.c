@@ -40,16 +40,16 @@ static bool is_same_file(const struct stat *file, const char *path) {
   return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
 }
 
-/* What stands under FILE and its companions may only be regular files, and none of them the scene. *exists: FILE itself is there. */
+/* What stands under FILE and its companions may only be regular files, and none of them the scene. *exists: FILE itself is there,
+ * be it a link that leads nowhere. */
 static kz_status check_names(const char *path, const char *scene, bool *exists) {
-  static const char *const suffixes[] = {".checkpoint", ".part", ".truth", ""};
-  *exists = false;
-  for (int i = 0; i < 4; i++) {
+  static const char *const suffixes[] = {".checkpoint", ".part", ".truth", ".truth.part", ""};
+  for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
     char name[PATH_MAX + 16];
     struct stat file;
     snprintf(name, sizeof name, "%s%s", path, suffixes[i]);
+    *exists = lstat(name, &file) == 0;
     if (stat(name, &file) == 0) {
-      *exists = i == 3;
       if (!S_ISREG(file.st_mode))
         return kz_fail(KZ_REFUSED, "%s: is %s; the name of a file", name,
                        S_ISDIR(file.st_mode) ? "a folder" : "not a regular file");

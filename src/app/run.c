@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "kapitza/app.h"
 #include "kapitza/settling.h"
@@ -151,7 +151,8 @@ static void print_summary(job *j) {
 
 /* The file appears under its name, or not at all; one that somebody else has put there meanwhile stays. */
 static kz_status complete_store(job *j) {
-  if (j->options->force || access(j->path, F_OK) != 0) return kz_store_complete(j->store);
+  struct stat there;
+  if (j->options->force || lstat(j->path, &there) != 0) return kz_store_complete(j->store);
   kz_store_discard(j->store);
   return kz_fail(KZ_FAILED, "%s: another file of that name appeared during the run; move it away and --resume", j->path);
 }
@@ -171,12 +172,12 @@ static kz_status finish(job *j, kz_status status) {
   return status;
 }
 
-/* A checkpoint that outlived its complete file has nothing to tell. */
+/* The checkpoint of this very run has nothing more to tell; one of another run stays. */
 static kz_status leave_complete(job *j) {
   char name[PATH_MAX + 16];
   if (!j->first) return KZ_OK;
   snprintf(name, sizeof name, "%s.checkpoint", j->path);
-  unlink(name);
+  kz_checkpoint_clear(name, j->fingerprint);
   printf("%s is already complete for this scene\n", j->path);
   return KZ_OK;
 }

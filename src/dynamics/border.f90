@@ -4,12 +4,12 @@ module kz_dynamics_border
   use kz_kernel_map, only: WIDTH, PI
   use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
   use kz_kernel_tables, only: pendulum_t, numerics_t
-  use kz_dynamics_catalogue, only: order_of, packed, unpacked
+  use kz_dynamics_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
   use kz_dynamics_chaos, only: find_chaos
   use kz_dynamics_growth, only: make_later, grow_regions
   use kz_dynamics_handle, only: dynamics_t, of_handle
   use kz_dynamics_regions, only: make_regions, draw_attractors
-  use kz_dynamics_search, only: find_cycles
+  use kz_dynamics_search, only: find_cycle, append
   use kz_dynamics_tables, only: make_table, table_row, set_table_rows, table_map_t, make_table_map
   use kz_dynamics_trial, only: table_defect
   implicit none
@@ -122,29 +122,84 @@ contains
     if (allocated(d%four)) call grow_regions(d%regions, d%attractors, d%table, d%two, d%four)
   end subroutine update_regions
 
-  function search_cycles(handle, n, state, closeness) bind(C, name='kz_dynamics_find_cycles') result(known)
+  function cycle_size(handle) bind(C, name='kz_dynamics_cycle_size') result(n)
+    type(c_ptr), value :: handle
+    integer(c_int64_t) :: n
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    n = 1 + packed_cycle_size(d%search%max_period) + d%search%max_period
+  end function cycle_size
+
+  function chaos_size() bind(C, name='kz_dynamics_chaos_size') result(n)
+    integer(c_int64_t) :: n
+
+    n = packed_chaos_size()
+  end function chaos_size
+
+  !> found: states looked at; the catalogue of what was found; how often each period was blurred.
+  subroutine search_cycle(handle, n, state, closeness, found) bind(C, name='kz_dynamics_find_cycle')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: state(2, n)
     real(dp), value :: closeness
-    integer(c_int64_t) :: known
+    real(dp), intent(inout) :: found(*)
     type(dynamics_t), pointer :: d
+    integer, allocatable :: n_blurred(:)
+    integer :: next, n_known, first, last
 
     d => of_handle(handle)
-    call find_cycles(d%search, state(1, :), state(2, :), closeness, d%attractors)
-    known = size(d%attractors)
-  end function search_cycles
+    n_known = size(d%attractors)
+    first = 2 + packed_cycle_size(d%search%max_period)
+    last = first + d%search%max_period - 1
+    next = nint(found(1)) + 1
+    n_blurred = nint(found(first:last))
+    call find_cycle(d%search, state(1, :), state(2, :), closeness, next, n_blurred, d%attractors)
+    found(1) = next - 1
+    found(first:last) = n_blurred
+    call take_new(d, n_known, found(2))
+  end subroutine search_cycle
 
-  function search_chaos(handle, state) bind(C, name='kz_dynamics_find_chaos') result(known)
+  subroutine search_chaos(handle, state, found) bind(C, name='kz_dynamics_find_chaos')
     type(c_ptr), value :: handle
     real(dp), intent(in) :: state(2)
-    integer(c_int64_t) :: known
+    real(dp), intent(inout) :: found(*)
     type(dynamics_t), pointer :: d
+    integer :: n_known
 
     d => of_handle(handle)
+    n_known = size(d%attractors)
     call find_chaos(d%search, d%regions, state(1), state(2), d%attractors)
-    known = size(d%attractors)
-  end function search_chaos
+    call take_new(d, n_known, found)
+  end subroutine search_chaos
+
+  !> Takes the attractors beyond the first n_known out of the catalogue, packed.
+  subroutine take_new(d, n_known, flat)
+    type(dynamics_t), intent(inout) :: d
+    integer, intent(in) :: n_known
+    real(dp), intent(inout) :: flat(*)
+
+    associate (new => packed(d%attractors(n_known + 1:)))
+      flat(:size(new)) = new
+    end associate
+    d%attractors = d%attractors(:n_known)
+  end subroutine take_new
+
+  subroutine adopt(handle, flat) bind(C, name='kz_dynamics_adopt')
+    type(c_ptr), value :: handle
+    type(c_ptr), value :: flat
+    type(dynamics_t), pointer :: d
+    real(dp), pointer :: values(:)
+    integer :: i
+
+    d => of_handle(handle)
+    call c_f_pointer(flat, values, [max(packed_cycle_size(d%search%max_period), packed_chaos_size())])
+    associate (new => unpacked(values))
+      do i = 1, size(new)
+        call append(d%attractors, new(i))
+      end do
+    end associate
+  end subroutine adopt
 
   function packed_size(handle) bind(C, name='kz_dynamics_packed_size') result(n)
     type(c_ptr), value :: handle

@@ -1,15 +1,19 @@
 !> The catalogue of attractors: its order, which depends on the attractors alone, and its travel between ranks as doubles.
 module kz_dynamics_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double
+  use, intrinsic :: iso_fortran_env, only: int64
   use kz_kernel_map, only: PI
   use kz_dynamics_cycles, only: attractor_t
+  use kz_dynamics_regions, only: COVER
   use kz_dynamics_states, only: rounded
   implicit none
   private
-  public :: order_of, packed, unpacked
+  public :: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
 
   !> Doubles in front of the arrays of an attractor.
   integer, parameter :: HEAD = 15
+  !> Cells of a cover in a double, one bit each; doubles of a cover.
+  integer, parameter :: BITS = 32, COVER_SIZE = COVER**2/BITS
 
 contains
 
@@ -64,33 +68,81 @@ contains
   function packed(attractors) result(flat)
     type(attractor_t), intent(in) :: attractors(:)
     real(dp), allocatable :: flat(:)
-    integer :: i, n_cover
+    integer :: i, covered
 
     flat = [real(size(attractors), dp)]
     do i = 1, size(attractors)
       associate (a => attractors(i))
-        n_cover = 0
-        if (allocated(a%cover)) n_cover = size(a%cover)
-        flat = [flat, real([a%period, a%winding, merge(1, 0, a%symmetric), a%mirror, a%centre, n_cover], dp), &
+        covered = 0
+        if (allocated(a%cover)) covered = min(1, size(a%cover))
+        flat = [flat, real([a%period, a%winding, merge(1, 0, a%symmetric), a%mirror, a%centre, covered], dp), &
                 a%mean, a%mean_velocity, a%amplitude, a%lyapunov, a%lyapunov_error, &
                 real(a%multiplier(1), dp), aimag(a%multiplier(1)), real(a%multiplier(2), dp), aimag(a%multiplier(2))]
         if (a%period > 0) flat = [flat, a%u, a%v, reshape(a%form, [3*a%period])]
-        if (n_cover > 0) flat = [flat, real(a%cover, dp)]
+        if (covered > 0) flat = [flat, as_bits(a%cover)]
       end associate
     end do
   end function packed
 
+  !> Doubles that a catalogue of one cycle up to this period and its mirror image takes at most.
+  pure function packed_cycle_size(max_period) result(n)
+    integer, intent(in) :: max_period
+    integer :: n
+
+    n = 1 + 2*(HEAD + 5*max_period)
+  end function packed_cycle_size
+
+  !> The same of a chaotic attractor and its mirror image.
+  pure function packed_chaos_size() result(n)
+    integer :: n
+
+    n = 1 + 2*(HEAD + COVER_SIZE)
+  end function packed_chaos_size
+
+  !> A list of cells as a bit for each cell of the cover.
+  pure function as_bits(cells) result(flat)
+    integer, intent(in) :: cells(:)
+    real(dp) :: flat(COVER_SIZE)
+    integer(int64) :: words(COVER_SIZE)
+    integer :: i, word
+
+    words = 0
+    do i = 1, size(cells)
+      word = 1 + (cells(i) - 1)/BITS
+      words(word) = ibset(words(word), mod(cells(i) - 1, BITS))
+    end do
+    flat = real(words, dp)
+  end function as_bits
+
+  pure function of_bits(flat) result(cells)
+    real(dp), intent(in) :: flat(COVER_SIZE)
+    integer, allocatable :: cells(:)
+    integer(int64) :: words(COVER_SIZE)
+    integer :: word, bit, n
+
+    words = nint(flat, int64)
+    allocate (cells(sum(popcnt(words))))
+    n = 0
+    do word = 1, COVER_SIZE
+      do bit = 0, BITS - 1
+        if (.not. btest(words(word), bit)) cycle
+        n = n + 1
+        cells(n) = BITS*(word - 1) + bit + 1
+      end do
+    end do
+  end function of_bits
+
   function unpacked(flat) result(attractors)
     real(dp), intent(in) :: flat(:)
     type(attractor_t), allocatable :: attractors(:)
-    integer :: i, p, n, n_cover
+    integer :: i, p, n, covered
 
     allocate (attractors(nint(flat(1))))
     p = 1
     do i = 1, size(attractors)
       associate (a => attractors(i))
         n = nint(flat(p + 1))
-        n_cover = nint(flat(p + 6))
+        covered = nint(flat(p + 6))
         a%period = n
         a%winding = nint(flat(p + 2))
         a%symmetric = nint(flat(p + 3)) == 1
@@ -107,8 +159,10 @@ contains
         allocate (a%v, source=flat(p + n + 1:p + 2*n))
         allocate (a%form, source=reshape(flat(p + 2*n + 1:p + 5*n), [3, n]))
         p = p + 5*n
-        allocate (a%cover, source=nint(flat(p + 1:p + n_cover)))
-        p = p + n_cover
+        if (covered > 0) then
+          a%cover = of_bits(flat(p + 1:p + COVER_SIZE))
+          p = p + COVER_SIZE
+        end if
       end associate
     end do
   end function unpacked

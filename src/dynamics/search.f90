@@ -11,7 +11,7 @@ module kz_dynamics_search
   use kz_dynamics_states, only: separation, same_state
   implicit none
   private
-  public :: search_t, find_cycles, add_with_mirror
+  public :: search_t, find_cycle, add_with_mirror, append
 
   !> What a search works with.
   type :: search_t
@@ -32,17 +32,21 @@ module kz_dynamics_search
 
 contains
 
-  !> Looks at states (at most WIDTH) whose orbits may have settled on unknown cycles; appends the cycles that it finds, with
-  !> their mirror images.
-  subroutine find_cycles(search, u, v, closeness, attractors)
+  !> Looks at states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until one is found; it is
+  !> appended, with its mirror image.
+  subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: u(:)
     real(dp), intent(in) :: v(:)
     !> how near an orbit must come back to itself, rad
     real(dp), intent(in) :: closeness
+    !> in and out: the state to go on from; size(u) + 1 where all have been looked at
+    integer, intent(inout) :: next
+    !> in and out: for every period up to max_period, how often its cycle has been found blurred among these states; 0 at first
+    integer, intent(inout) :: n_blurred(:)
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     real(dp) :: orbit_u(size(u), 0:search%max_period), orbit_v(size(u), 0:search%max_period)
-    integer :: n_blurred(search%max_period), lane, n
+    integer :: lane, n, n_known
 
     do lane = 1, size(u)
       call search%flow%put(lane, u(lane), v(lane))
@@ -54,11 +58,12 @@ contains
       orbit_u(:, n) = search%flow%u(:size(u))
       orbit_v(:, n) = search%flow%v(:size(u))
     end do
-    n_blurred = 0
-    do lane = 1, size(u)
-      call try_recurrences(search, orbit_u(lane, :), orbit_v(lane, :), closeness, n_blurred, attractors)
+    n_known = size(attractors)
+    do while (next <= size(u) .and. size(attractors) == n_known)
+      call try_recurrences(search, orbit_u(next, :), orbit_v(next, :), closeness, n_blurred, attractors)
+      next = next + 1
     end do
-  end subroutine find_cycles
+  end subroutine find_cycle
 
   !> Polishes the closest recurrences of one orbit until one gives an attracting cycle.
   subroutine try_recurrences(search, u, v, closeness, n_blurred, attractors)
@@ -160,6 +165,7 @@ contains
     attractors(size(attractors))%mirror = size(attractors) - 1
   end subroutine add_with_mirror
 
+  !> One attractor more, its strobe points listed from the lowest.
   subroutine append(attractors, attractor)
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     type(attractor_t), intent(in) :: attractor

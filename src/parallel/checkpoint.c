@@ -19,18 +19,25 @@ static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan
   kz_hold hold = {.file = -1};
   KZ_TRY(kz_hold_take(plan->path, plan->resume || plan->force, &hold));
   checkpoint->file = hold.file;
-  checkpoint->fresh = !hold.existed;
   bool anew = !hold.existed || plan->force;
   if (!anew) KZ_TRY(kz_header_read(checkpoint, plan->fingerprint, &anew));
   if (anew) KZ_TRY(kz_header_write(checkpoint, plan->fingerprint));
   return kz_hold_share(plan->path, hold.file);
 }
 
-/* A file that holds no work of this run or an earlier one is not left behind. */
-static void abandon(kz_checkpoint *checkpoint, int rank) {
-  if (rank == 0 && checkpoint->file >= 0 && !kz_checkpoint_holds_work(checkpoint) &&
+bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint) {
+  return checkpoint->file >= 0 && checkpoint->ours && kz_header_is_marked(checkpoint);
+}
+
+void kz_checkpoint_forget(const kz_checkpoint *checkpoint) {
+  if (checkpoint->file >= 0 && checkpoint->ours && !kz_header_is_marked(checkpoint) &&
       kz_hold_names(checkpoint->path, checkpoint->file))
     unlink(checkpoint->path);
+}
+
+/* A file that holds no work of this run or an earlier one is not left behind. */
+static void abandon(kz_checkpoint *checkpoint, int rank) {
+  if (rank == 0) kz_checkpoint_forget(checkpoint);
   kz_checkpoint_release(checkpoint);
 }
 
@@ -44,9 +51,18 @@ kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan) {
     status = team->rank != 0 ? kz_hold_join(plan->path, &checkpoint->file) : KZ_OK;
     status = kz_team_agree(team, status);
   }
-  if (status == KZ_OK) status = kz_team_broadcast(team, &checkpoint->fresh, sizeof checkpoint->fresh);
+  if (status == KZ_OK) status = kz_team_broadcast(team, &checkpoint->ours, sizeof checkpoint->ours);
   if (status != KZ_OK) abandon(checkpoint, team->rank);
   return status;
+}
+
+void kz_checkpoint_clear(const char *path, const char *fingerprint) {
+  kz_checkpoint checkpoint = {.file = -1, .path = (char *)path};
+  bool unfinished;
+  if (!kz_hold_try(path, &checkpoint.file)) return;
+  if (kz_header_read(&checkpoint, fingerprint, &unfinished) == KZ_OK && !unfinished) unlink(path);
+  kz_message_clear();
+  close(checkpoint.file);
 }
 
 static kz_status remove_file(const kz_checkpoint *checkpoint) {

@@ -1,6 +1,6 @@
 /* The checkpoint: one regular, locked file of finished records.
  *
- *   header            magic, format, fingerprint, checksum; whole pages
+ *   header            magic, format, fingerprint, checksum, whether any record follows; whole pages
  *   section, one per kept stage in the order of the run:
  *     head            name, tiles, bytes of a record, checksum; one page
  *     slot per tile   tile number, checksum, record; whole pages, so that two writers never share one
@@ -17,7 +17,8 @@
 typedef struct {
   int file; /* -1: none is open */
   char *path;
-  bool fresh;    /* begun by this run */
+  bool ours;     /* begun by this run, or by one with the same fingerprint */
+  bool marked;   /* this rank has said in the header that the file holds records */
   uint64_t seed; /* checksum of the header */
   int64_t end;   /* offset of the next section */
   int64_t n_sections;
@@ -28,11 +29,10 @@ static inline int64_t kz_whole_pages(int64_t bytes) {
   return (bytes + KZ_PAGE - 1) / KZ_PAGE * KZ_PAGE;
 }
 
-/* True where an open checkpoint holds, or may hold, records of this run or of an earlier one. */
-static inline bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint) {
-  return checkpoint->file >= 0 && (!checkpoint->fresh || checkpoint->n_sections > 0);
-}
-
+/* True where an open checkpoint holds finished records, of any rank of this run or of an earlier one. */
+bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint);
+/* Removes an open checkpoint that is ours and holds none, unless another file has its name now. */
+void kz_checkpoint_forget(const kz_checkpoint *checkpoint);
 /* Closes this rank's file, which gives its locks back. The file stays. */
 void kz_checkpoint_release(kz_checkpoint *checkpoint);
 
@@ -43,6 +43,8 @@ typedef struct kz_hold {
   bool existed;
 } kz_hold;
 kz_status kz_hold_take(const char *path, bool may_exist, kz_hold *hold);
+/* Takes hold of an existing file at once; false where there is none, or where another process holds it. */
+bool kz_hold_try(const char *path, int *file);
 /* Lets the other ranks of this run in. */
 kz_status kz_hold_share(const char *path, int file);
 /* Joins as another rank of this run. */
@@ -55,5 +57,9 @@ kz_status kz_header_write(kz_checkpoint *checkpoint, const char *fingerprint);
 /* Reads it back: `unfinished` where the run that created the file ended before its header was written; a damaged header
  * or another fingerprint is refused. */
 kz_status kz_header_read(kz_checkpoint *checkpoint, const char *fingerprint, bool *unfinished);
+/* Says in the header that the file holds a finished record. Any rank; 0, or -1 with errno. */
+int kz_header_mark(kz_checkpoint *checkpoint);
+/* Whether it says so. */
+bool kz_header_is_marked(const kz_checkpoint *checkpoint);
 
 #endif

@@ -8,7 +8,7 @@
 #include "bytes.h"
 #include "checkpoint.h"
 
-enum { FORMAT = 1 };
+enum { FORMAT = 2 };
 static const int64_t TEXT_MAX = (int64_t)1 << 28;
 
 typedef struct {
@@ -16,6 +16,7 @@ typedef struct {
   int64_t format;
   int64_t text_bytes; /* of the fingerprint that follows */
   uint64_t checksum;  /* of format, text_bytes and the text */
+  int64_t marked;     /* 1 once a finished record follows */
 } kz_header;
 
 static const char MAGIC[8] = "kzcheck";
@@ -26,6 +27,7 @@ static uint64_t checksum(const kz_header *header, const char *text) {
 }
 
 static void adopt(kz_checkpoint *checkpoint, const kz_header *header) {
+  checkpoint->ours = true;
   checkpoint->seed = header->checksum;
   checkpoint->end = kz_whole_pages((int64_t)sizeof *header + header->text_bytes);
 }
@@ -34,7 +36,6 @@ kz_status kz_header_write(kz_checkpoint *checkpoint, const char *fingerprint) {
   kz_header header = {.format = FORMAT, .text_bytes = (int64_t)strlen(fingerprint)};
   header.checksum = checksum(&header, fingerprint);
   adopt(checkpoint, &header);
-  checkpoint->fresh = true;
   const int file = checkpoint->file;
   if (ftruncate(file, 0) != 0 || kz_bytes_write(file, fingerprint, (size_t)header.text_bytes, sizeof header) != 0 ||
       kz_bytes_write(file, &header, sizeof header, 0) != 0 || kz_bytes_write(file, MAGIC, sizeof MAGIC, 0) != 0)
@@ -65,8 +66,21 @@ static kz_status read_text(kz_checkpoint *checkpoint, const kz_header *header, c
   if (kz_bytes_read(checkpoint->file, text, (size_t)n, sizeof *header) != n || checksum(header, text) != header->checksum)
     return damaged(checkpoint);
   text[n] = '\0';
+  KZ_TRY(kz_fingerprint_compare(checkpoint->path, text, fingerprint));
   adopt(checkpoint, header);
-  return kz_fingerprint_compare(checkpoint->path, text, fingerprint);
+  return KZ_OK;
+}
+
+int kz_header_mark(kz_checkpoint *checkpoint) {
+  const int64_t marked = 1;
+  if (checkpoint->marked) return 0;
+  checkpoint->marked = kz_bytes_write(checkpoint->file, &marked, sizeof marked, offsetof(kz_header, marked)) == 0;
+  return checkpoint->marked ? 0 : -1;
+}
+
+bool kz_header_is_marked(const kz_checkpoint *checkpoint) {
+  int64_t marked;
+  return kz_bytes_read(checkpoint->file, &marked, sizeof marked, offsetof(kz_header, marked)) == sizeof marked && marked == 1;
 }
 
 kz_status kz_header_read(kz_checkpoint *checkpoint, const char *fingerprint, bool *unfinished) {

@@ -28,21 +28,22 @@ static bool is_held(int error) {
 
 bool kz_hold_names(const char *path, int file) {
   struct stat named, opened;
-  return stat(path, &named) == 0 && fstat(file, &opened) == 0 && named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+  return lstat(path, &named) == 0 && fstat(file, &opened) == 0 && named.st_dev == opened.st_dev &&
+         named.st_ino == opened.st_ino;
 }
 
+/* KZ_OK with file < 0 where somebody else created it between two looks. A link is refused: it may lead to anybody's file. */
 static kz_status open_or_create(const char *path, kz_hold *hold) {
-  do {
-    hold->existed = true;
-    hold->file = open(path, O_RDWR | O_CLOEXEC);
-    if (hold->file < 0 && errno == ENOENT) {
-      hold->existed = false;
-      hold->file = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    }
-  } while (hold->file < 0 && errno == EEXIST);
+  hold->existed = true;
+  hold->file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+  if (hold->file < 0 && errno == ENOENT) {
+    hold->existed = false;
+    hold->file = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (hold->file < 0 && errno == EEXIST) return KZ_OK;
+  }
   struct stat facts;
   if (hold->file >= 0 && fstat(hold->file, &facts) == 0 && S_ISREG(facts.st_mode)) return KZ_OK;
-  const char *reason = hold->file < 0 ? strerror(errno) : "not a regular file";
+  const char *reason = hold->file >= 0 ? "not a regular file" : errno == ELOOP ? "a link" : strerror(errno);
   if (hold->file >= 0) close(hold->file);
   hold->file = -1;
   return kz_fail(KZ_REFUSED, "%s: cannot be used as checkpoint: %s", path, reason);
@@ -51,6 +52,7 @@ static kz_status open_or_create(const char *path, kz_hold *hold) {
 /* One attempt: KZ_OK with file < 0 where another process holds it, or where it was replaced meanwhile. */
 static kz_status attempt(const char *path, bool may_exist, kz_hold *hold) {
   KZ_TRY(open_or_create(path, hold));
+  if (hold->file < 0) return KZ_OK;
   kz_status status = KZ_OK;
   if (hold->existed && !may_exist)
     status = kz_fail(KZ_REFUSED, "%s: a checkpoint is there; use --resume to go on from it or --force to discard it", path);
@@ -72,13 +74,22 @@ kz_status kz_hold_take(const char *path, bool may_exist, kz_hold *hold) {
   return kz_fail(KZ_REFUSED, "%s: is held by another process; wait until that run has ended", path);
 }
 
+bool kz_hold_try(const char *path, int *file) {
+  *file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+  if (*file < 0) return false;
+  if (lock(*file, F_WRLCK, OWNER, 2) == 0 && kz_hold_names(path, *file)) return true;
+  close(*file);
+  *file = -1;
+  return false;
+}
+
 kz_status kz_hold_share(const char *path, int file) {
   if (lock(file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
   return kz_fail(KZ_FAILED, "%s: cannot be shared: %s", path, strerror(errno));
 }
 
 kz_status kz_hold_join(const char *path, int *file) {
-  *file = open(path, O_RDWR | O_CLOEXEC);
+  *file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
   if (*file >= 0 && lock(*file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
   const int error = errno;
   if (*file >= 0) close(*file);

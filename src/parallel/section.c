@@ -85,12 +85,12 @@ static bool is_gone(int file) {
   return fstat(file, &facts) == 0 && facts.st_nlink == 0;
 }
 
-kz_status kz_section_save(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, const void *record) {
+kz_status kz_section_save(kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, const void *record) {
   const int64_t offset = section->slots + tile * section->stride;
   const kz_slot_head slot = {.tile = tile, .checksum = slot_checksum(section, tile, record)};
   if (is_gone(checkpoint->file)) return kz_fail(KZ_FAILED, "%s: was removed during the run", checkpoint->path);
   if (kz_bytes_write(checkpoint->file, record, section->record_bytes, offset + (int64_t)sizeof slot) != 0 ||
-      kz_bytes_write(checkpoint->file, &slot, sizeof slot, offset) != 0)
+      kz_bytes_write(checkpoint->file, &slot, sizeof slot, offset) != 0 || kz_header_mark(checkpoint) != 0)
     return kz_fail(KZ_FAILED, "%s: cannot be written: %s", checkpoint->path, strerror(errno));
   return KZ_OK;
 }

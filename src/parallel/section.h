@@ -20,6 +20,6 @@ kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage
 /* Counts the opened section as part of the checkpoint. Every rank. */
 void kz_section_adopt(kz_checkpoint *checkpoint, const kz_section *section);
 /* Writes one finished record. Any rank, any time. */
-kz_status kz_section_save(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, const void *record);
+kz_status kz_section_save(kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, const void *record);
 
 #endif

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bytes.h"
 #include "harvest.h"
 #include "progress.h"
 #include "section.h"
@@ -83,6 +84,30 @@ static kz_status work(kz_shift *shift) {
   }
 }
 
+/* A tile by all ranks. Sections of the stages that it runs count for this tile alone; those of the next tile take their place. */
+static kz_status do_together(kz_shift *shift, int64_t tile) {
+  const kz_stage *stage = shift->stage;
+  kz_checkpoint *checkpoint = &shift->team->checkpoint;
+  const kz_checkpoint outside = *checkpoint;
+  void *record = memset(shift->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
+  checkpoint->seed = kz_bytes_checksum(checkpoint->seed, &tile, sizeof tile);
+  kz_status status = kz_team_agree(shift->team, stage->work(stage->context, tile, record));
+  checkpoint->seed = outside.seed;
+  checkpoint->end = outside.end;
+  checkpoint->n_sections = outside.n_sections;
+  if (status == KZ_OK && shift->kept && shift->team->rank == 0)
+    status = kz_section_save(checkpoint, &shift->section, tile, record);
+  return kz_team_agree(shift->team, status);
+}
+
+static kz_status work_together(kz_shift *shift) {
+  for (int64_t i = 0; i < shift->n_left; ++i) {
+    kz_meter_show(&shift->meter, shift->stage->n_tiles - shift->n_left + i);
+    KZ_TRY(do_together(shift, shift->left ? shift->left[i] : i));
+  }
+  return KZ_OK;
+}
+
 static kz_status deliver(kz_shift *shift) {
   const kz_stage *stage = shift->stage;
   KZ_TRY(kz_harvest_deliver(&shift->harvest, shift->team, shift->buffer, shift->records));
@@ -94,8 +119,9 @@ static kz_status run(kz_shift *shift) {
   KZ_TRY(kz_team_agree(shift->team, prepare(shift)));
   if (shift->kept) KZ_TRY(recall(shift));
   kz_meter_begin(&shift->meter, shift->team, shift->stage->name, shift->stage->n_tiles, shift->stage->n_tiles - shift->n_left);
-  const kz_status status = kz_team_agree(shift->team, work(shift));
+  const kz_status status = kz_team_agree(shift->team, (shift->stage->together ? work_together : work)(shift));
   kz_meter_end(&shift->meter, status == KZ_OK);
+  if (status == KZ_STOPPED && !shift->stage->together) return kz_team_stopped(shift->team);
   KZ_TRY(status);
   return deliver(shift);
 }

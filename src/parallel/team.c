@@ -83,7 +83,7 @@ const char *kz_team_saved(const kz_team *team) {
 }
 
 void kz_team_forget(const kz_team *team) {
-  if (team->checkpoint.file >= 0 && !kz_checkpoint_holds_work(&team->checkpoint)) unlink(team->checkpoint.path);
+  kz_checkpoint_forget(&team->checkpoint);
 }
 
 int kz_team_rank(const kz_team *team) {
@@ -143,10 +143,17 @@ void kz_team_set_time_limit(kz_team *team, double seconds) {
 }
 
 kz_status kz_team_interrupted(const kz_team *team) {
-  const char *saved = kz_team_saved(team), *where = saved ? "; finished work is in " : "", *path = saved ? saved : "";
   const char *signal = kz_signals_caught();
-  if (signal) return kz_fail(KZ_STOPPED, "stopped by %s%s%s", signal, where, path);
+  if (signal) return kz_fail(KZ_STOPPED, "stopped by %s", signal);
   if (team->limit > 0 && kz_clock() - team->start >= team->limit)
-    return kz_fail(KZ_STOPPED, "stopped by the time limit of %g s%s%s", team->limit, where, path);
+    return kz_fail(KZ_STOPPED, "stopped by the time limit of %g s", team->limit);
   return KZ_OK;
+}
+
+kz_status kz_team_stopped(const kz_team *team) {
+  char reason[MESSAGE_BYTES];
+  const char *saved = kz_team_saved(team);
+  snprintf(reason, sizeof reason, "%s", kz_message());
+  kz_message_clear();
+  return kz_fail(KZ_STOPPED, "%s; %s%s", reason, saved ? "finished work is in " : "nothing was saved", saved ? saved : "");
 }

@@ -48,5 +48,7 @@ kz_status kz_counter_halt(kz_team *team);
 
 /* KZ_STOPPED with its message where a signal or the time limit asks for a stop, else KZ_OK. */
 kz_status kz_team_interrupted(const kz_team *team);
+/* The same, once all ranks have left their work: the message tells whether and where that work was saved. */
+kz_status kz_team_stopped(const kz_team *team);
 
 #endif

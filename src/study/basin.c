@@ -16,18 +16,19 @@
 #include "kapitza/trial.h"
 
 enum {
-  CELLS = 4096, /* per part of a tile */
-  PARTS = 4,    /* of a tile of hybrid: the few orbits that it integrates must fill vectors */
+  CELLS = 4096, /* of a tile, at most */
+  PARTS = 4,    /* times as many in a tile of hybrid: the few orbits that it integrates must fill vectors */
   ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
 
 /* What a label rests on, as the file says it. */
 enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3, UNDECIDED = 4 };
 
+/* A cell. */
 typedef struct {
-  int16_t owner[CELLS]; /* number of kz_dynamics, 0 = not settled */
-  uint32_t periods[CELLS];
-  uint8_t evidence[CELLS]; /* FOLLOWED; INTEGRATED in part, because the table was not trusted; UNDECIDED */
+  uint32_t periods;
+  int16_t owner;    /* number of kz_dynamics, 0 = not settled */
+  uint8_t evidence; /* FOLLOWED; INTEGRATED in part, because the table was not trusted; UNDECIDED */
 } labelled;
 
 typedef struct {
@@ -75,9 +76,9 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
     find_undecided(b, n, start, owner, undecided);
   }
   for (int64_t i = 0; i < n; i++) {
-    out[i / CELLS].owner[i % CELLS] = (int16_t)owner[i];
-    out[i / CELLS].periods[i % CELLS] = (uint32_t)periods[i];
-    out[i / CELLS].evidence[i % CELLS] = undecided[i] ? UNDECIDED : integrated[i] > 0 ? INTEGRATED : FOLLOWED;
+    out[i].owner = (int16_t)owner[i];
+    out[i].periods = (uint32_t)periods[i];
+    out[i].evidence = undecided[i] ? UNDECIDED : integrated[i] > 0 ? INTEGRATED : FOLLOWED;
   }
   return KZ_OK;
 }
@@ -88,7 +89,7 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
   snprintf(name, sizeof name, "cells %d", round + 1);
   kz_stage stage = {.name = name,
                     .n_tiles = (b->n_open + b->tile - 1) / b->tile,
-                    .record_bytes = (size_t)(b->tile / CELLS) * sizeof(labelled),
+                    .record_bytes = (size_t)b->tile * sizeof(labelled),
                     .work = label_tile,
                     .context = b,
                     .keep = true};
@@ -100,9 +101,9 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
   if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
   for (int64_t i = 0; status == KZ_OK && records && i < b->n_open; i++) {
     int64_t f = b->open ? b->open[i] : i;
-    b->owner[f] = records[i / CELLS].owner[i % CELLS];
-    b->periods[f] = records[i / CELLS].periods[i % CELLS];
-    b->evidence[f] = records[i / CELLS].evidence[i % CELLS];
+    b->owner[f] = records[i].owner;
+    b->periods[f] = records[i].periods;
+    b->evidence[f] = records[i].evidence;
   }
   free(records);
   return status;
@@ -211,7 +212,8 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
                         .table_velocity = plan->table_velocity},
              .total = plan->theta.count * plan->velocity.count};
   b.own = kz_own_cells(plan);
-  b.tile = plan->method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD ? PARTS * CELLS : CELLS;
+  const bool wide = plan->method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD;
+  b.tile = kz_tile_cells(scene, wide ? PARTS * CELLS : CELLS);
   b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_team_agree(team, status);

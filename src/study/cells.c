@@ -63,3 +63,14 @@ void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int
   else
     kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, owner, periods, integrated);
 }
+
+int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {
+  static const double tile_kicks = 4e9; /* of double precision: some seconds, where all cells take max_periods */
+  static const double cost[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1, [KZ_QUAD] = 2500};
+  enum { FEWEST = 16 };
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  const double kicks = cost[scene->numerics.precision] * scheme.kicks * scene->numerics.steps_per_period;
+  const double enough = tile_kicks / (kicks * (double)scene->basin.max_periods);
+  return (int64_t)fmax(FEWEST, fmin((double)most, FEWEST * floor(enough / FEWEST)));
+}

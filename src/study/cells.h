@@ -16,6 +16,9 @@ double kz_cell_size(const kz_basin_plan *plan);
 
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
 
+/* Cells of a tile of labels, at most `most`: few where each may take long, so that a stop loses seconds of work. */
+int64_t kz_tile_cells(const kz_scene *scene, int64_t most);
+
 /* Cells that are labelled; the others of a window that is its own mirror image mirror them: cell f mirrors cell total - 1 - f. */
 int64_t kz_own_cells(const kz_basin_plan *plan);
 

@@ -10,9 +10,11 @@
 enum {
   FIRST_LENGTH = 128, /* periods of the first round; a round that finds nothing doubles it */
   TILE = 256,         /* starts per tile */
-  CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycles takes */
+  CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycle takes */
   CHUNKS = 16,        /* searches per round */
   SCOUTS = 512,       /* starts that are followed before there is a table */
+  STRETCH = 1024,     /* periods of a tile at least */
+  STRETCHES = 64,     /* of a round, about */
   CHAOS_TRIES = 4,
   CHAOS_PERIODS = 512 /* to see which open starts a chaotic attractor's cover captures */
 };
@@ -23,7 +25,9 @@ static const double CLOSENESS = 0.02, LAST_CLOSENESS = 0.3;
 typedef struct {
   kz_dynamics *dynamics;
   int64_t periods, n, *open; /* open [n]: which starts are followed */
-  double *state;
+  double *state;             /* [all] */
+  int32_t *owner;            /* [all] */
+  int64_t all;
 } following;
 
 typedef struct {
@@ -39,6 +43,10 @@ kz_status kz_stage_run_with(kz_team *team, const kz_stage *stage, void *records)
   return KZ_OK;
 }
 
+static kz_status agree(kz_team *team, kz_status status) {
+  return team != NULL ? kz_team_agree(team, status) : status;
+}
+
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const following *f = context;
   followed *out = record;
@@ -49,105 +57,153 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* The starts without owner, into open [n]; returns how many. */
-static int64_t list_open(int64_t n, const int32_t *owner, int64_t *open) {
-  int64_t n_open = 0;
-  for (int64_t i = 0; i < n; i++)
-    if (owner[i] == 0) open[n_open++] = i;
-  return n_open;
+/* The starts without owner become the open ones. */
+static void list_open(following *f) {
+  f->n = 0;
+  for (int64_t i = 0; i < f->all; i++)
+    if (f->owner[i] == 0) f->open[f->n++] = i;
 }
 
-/* Follows the open starts for some periods; those that are trapped get their owner. */
-static kz_status follow_open(kz_team *team, following *f, int32_t *owner) {
+/* Follows the open starts for f->periods; those that are trapped get their owner. */
+static kz_status follow_stretch(kz_team *team, following *f) {
   kz_stage stage = {.name = "attractors",
                     .n_tiles = (f->n + TILE - 1) / TILE,
                     .record_bytes = sizeof(followed),
                     .work = follow_tile,
                     .context = f,
+                    .keep = true,
                     .everywhere = true};
   followed *records = malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
-  kz_status status = records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n);
-  if (team != NULL) status = kz_team_agree(team, status);
+  kz_status status = agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n));
   if (status == KZ_OK) status = kz_stage_run_with(team, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
     const followed *record = records + i / TILE;
     memcpy(f->state + 2 * f->open[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
-    owner[f->open[i]] = record->owner[i % TILE];
+    f->owner[f->open[i]] = record->owner[i % TILE];
   }
   free(records);
+  if (status == KZ_OK) list_open(f);
   return status;
 }
 
-/* The catalogue of rank 0 on every rank. */
-static kz_status share_catalogue(kz_team *team, kz_dynamics *dynamics) {
-  if (team == NULL) return KZ_OK;
-  int64_t size = kz_dynamics_packed_size(dynamics);
-  KZ_TRY(kz_team_broadcast(team, &size, sizeof size));
-  double *flat = malloc((size_t)size * sizeof *flat);
-  KZ_TRY(kz_team_agree(team, flat ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
-  if (kz_team_rank(team) == 0) kz_dynamics_pack(dynamics, size, flat);
-  kz_status status = kz_team_broadcast(team, flat, (size_t)size * sizeof *flat);
-  if (status == KZ_OK && kz_team_rank(team) != 0) kz_dynamics_unpack(dynamics, size, flat);
-  free(flat);
-  return status;
-}
-
-static bool leads(const kz_team *team) {
-  return team == NULL || kz_team_rank(team) == 0;
-}
-
-static void search_open(const following *f, double closeness) {
-  double state[2 * CHUNK];
-  for (int64_t first = 0; first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
-    int64_t n = f->n - first < CHUNK ? f->n - first : CHUNK;
-    for (int64_t i = 0; i < n; i++) memcpy(state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
-    kz_dynamics_find_cycles(f->dynamics, n, state, closeness);
-  }
-}
-
-/* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
-static kz_status find_chaos(kz_team *team, following *f, int64_t n, int32_t *owner) {
-  for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0; attempt++) {
-    int64_t known = kz_dynamics_count(f->dynamics);
-    if (leads(team)) kz_dynamics_find_chaos(f->dynamics, f->state + 2 * f->open[(attempt * 7) % f->n]);
-    KZ_TRY(share_catalogue(team, f->dynamics));
-    if (kz_dynamics_count(f->dynamics) == known) continue;
-    kz_dynamics_update(f->dynamics);
-    f->periods = CHAOS_PERIODS;
-    KZ_TRY(follow_open(team, f, owner));
-    f->n = list_open(n, owner, f->open);
+/* The same for any number of periods, in stretches: what is done is kept, and a stop request is heard. */
+static kz_status follow_open(kz_team *team, following *f, int64_t periods) {
+  const int64_t share = periods / STRETCHES, stretch = share > STRETCH ? share : STRETCH;
+  for (int64_t done = 0; done < periods && f->n > 0; done += f->periods) {
+    f->periods = periods - done < stretch ? periods - done : stretch;
+    KZ_TRY(follow_stretch(team, f));
   }
   return KZ_OK;
 }
 
-static kz_status discover(kz_team *team, following *f, int64_t max_periods, int64_t n, int32_t *owner) {
+typedef struct {
+  kz_dynamics *dynamics;
+  int64_t n;               /* states; 0 = a chaotic attractor is looked for, from one state */
+  double state[2 * CHUNK]; /* of the starts */
+  double closeness;        /* rad */
+  double *found;           /* [size] what was found before, then what is found */
+  int64_t size;
+} seeking;
+
+static kz_status seek_tile(void *context, int64_t tile, void *record) {
+  const seeking *s = context;
+  (void)tile;
+  memcpy(record, s->found, (size_t)s->size * sizeof(double));
+  if (s->n > 0)
+    kz_dynamics_find_cycle(s->dynamics, s->n, s->state, s->closeness, record);
+  else
+    kz_dynamics_find_chaos(s->dynamics, s->state, record);
+  return KZ_OK;
+}
+
+/* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: room. */
+static kz_status seek(kz_team *team, seeking *s, double *record) {
+  const kz_stage stage = {.name = s->n > 0 ? "cycles" : "chaos",
+                          .n_tiles = 1,
+                          .record_bytes = (size_t)s->size * sizeof(double),
+                          .work = seek_tile,
+                          .context = s,
+                          .keep = true,
+                          .everywhere = true};
+  KZ_TRY(kz_stage_run_with(team, &stage, record));
+  memcpy(s->found, record, (size_t)s->size * sizeof(double));
+  kz_dynamics_adopt(s->dynamics, s->found + (s->n > 0 ? 1 : 0));
+  return KZ_OK;
+}
+
+/* Room for what is found and for a record of it, freed by the caller. */
+static kz_status make_room(kz_team *team, seeking *s) {
+  s->found = calloc(2 * (size_t)s->size, sizeof(double));
+  return agree(team, s->found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors"));
+}
+
+/* Looks for cycles among the first open starts. */
+static kz_status find_cycles(kz_team *team, const following *f, double closeness) {
+  seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
+  kz_status status = make_room(team, &s);
+  for (int64_t first = 0; first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
+    s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
+    for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
+    if (status == KZ_OK) memset(s.found, 0, (size_t)s.size * sizeof(double));
+    while (status == KZ_OK && (int64_t)s.found[0] < s.n) status = seek(team, &s, s.found + s.size);
+  }
+  free(s.found);
+  return status;
+}
+
+/* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
+static kz_status find_chaos(kz_team *team, following *f) {
+  seeking s = {.dynamics = f->dynamics, .size = kz_dynamics_chaos_size()};
+  kz_status status = make_room(team, &s);
+  for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
+    const int64_t known = kz_dynamics_count(f->dynamics);
+    memcpy(s.state, f->state + 2 * f->open[(attempt * 7) % f->n], 2 * sizeof(double));
+    status = seek(team, &s, s.found + s.size);
+    if (status != KZ_OK || kz_dynamics_count(f->dynamics) == known) continue;
+    kz_dynamics_update(f->dynamics);
+    status = follow_open(team, f, CHAOS_PERIODS);
+  }
+  free(s.found);
+  return status;
+}
+
+static kz_status discover(kz_team *team, following *f, int64_t max_periods) {
   int64_t length = FIRST_LENGTH, done = 0;
   for (;;) {
     kz_dynamics_update(f->dynamics);
-    f->periods = length;
-    KZ_TRY(follow_open(team, f, owner));
+    KZ_TRY(follow_open(team, f, length));
     done += length;
-    f->n = list_open(n, owner, f->open);
     if (f->n == 0) return KZ_OK;
-    int64_t known = kz_dynamics_count(f->dynamics);
-    if (leads(team)) search_open(f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS);
-    KZ_TRY(share_catalogue(team, f->dynamics));
+    const int64_t known = kz_dynamics_count(f->dynamics);
+    KZ_TRY(find_cycles(team, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
     if (kz_dynamics_count(f->dynamics) > known) continue;
     if (done >= max_periods) break;
     length = 2 * length < max_periods - done ? 2 * length : max_periods - done;
   }
-  return find_chaos(team, f, n, owner);
+  return find_chaos(team, f);
+}
+
+/* All starts are open. */
+static kz_status open_all(kz_team *team, following *f) {
+  f->open = malloc((size_t)(f->all + 1) * sizeof *f->open);
+  KZ_TRY(agree(team, f->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->all)));
+  memset(f->owner, 0, (size_t)f->all * sizeof *f->owner);
+  list_open(f);
+  return KZ_OK;
+}
+
+kz_status kz_settle(kz_team *team, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *owner) {
+  following f = {.dynamics = dynamics, .all = n, .state = state, .owner = owner};
+  kz_status status = open_all(team, &f);
+  if (status == KZ_OK) status = follow_open(team, &f, periods);
+  free(f.open);
+  return status;
 }
 
 kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *owner) {
-  following f = {.dynamics = dynamics, .n = n, .state = state, .open = malloc((size_t)(n + 1) * sizeof *f.open)};
-  kz_status status = f.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
-  if (team != NULL) status = kz_team_agree(team, status);
-  if (status == KZ_OK) {
-    memset(owner, 0, (size_t)n * sizeof *owner);
-    list_open(n, owner, f.open);
-    status = discover(team, &f, max_periods, n, owner);
-  }
+  following f = {.dynamics = dynamics, .all = n, .state = state, .owner = owner};
+  kz_status status = open_all(team, &f);
+  if (status == KZ_OK) status = discover(team, &f, max_periods);
   free(f.open);
   return status;
 }

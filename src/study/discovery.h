@@ -24,6 +24,10 @@ kz_status kz_search_window(kz_team *team, kz_dynamics *dynamics, const kz_search
  * from 1, 0 where the start has not settled on any. Collective; team NULL = this rank alone. */
 kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *owner);
 
+/* Follows n starts (state [n][2], in and out) up to `periods` periods: owner [n] = attractor, 0 where the start has not settled. In kept
+ * stages. Collective. */
+kz_status kz_settle(kz_team *team, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *owner);
+
 /* Runs a stage with the team; team NULL = this rank alone, in order. */
 kz_status kz_stage_run_with(kz_team *team, const kz_stage *stage, void *records);
 

@@ -49,20 +49,20 @@ static kz_status make_dynamics(const kz_judge *judge, kz_dynamics **dynamics) {
 
 /* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. */
 typedef struct {
-  double *state;    /* [2 * most] */
-  int32_t *owner;   /* [most] */
-  int64_t *periods; /* [most] */
+  double *state;  /* [2 * most] */
+  int32_t *owner; /* [most] */
   int64_t most;
 } probes;
 
-/* The states of probes that do not settle, packed to the front; returns how many. */
-static int64_t unsettled(const kz_judge *judge, kz_dynamics *dynamics, probes *p) {
-  int64_t n = judge->total < PROBES ? judge->total : PROBES, open = 0;
+/* The states of probes that do not settle, packed to the front: *open of them. */
+static kz_status follow_probes(const kz_judge *judge, kz_team *team, kz_dynamics *dynamics, probes *p, int64_t *open) {
+  const int64_t n = judge->total < PROBES ? judge->total : PROBES;
+  *open = 0;
   for (int64_t i = 0; i < n; i++) kz_cell_state(judge->plan, kz_judge_cell(judge, i), p->state + 2 * i);
-  kz_dynamics_follow(dynamics, n, judge->plan->max_periods, p->state, p->owner, p->periods);
+  KZ_TRY(kz_settle(team, dynamics, judge->plan->max_periods, n, p->state, p->owner));
   for (int64_t i = 0; i < n; i++)
-    if (p->owner[i] == 0) memcpy(p->state + 2 * open++, p->state + 2 * i, 2 * sizeof(double));
-  return open;
+    if (p->owner[i] == 0) memcpy(p->state + 2 * (*open)++, p->state + 2 * i, 2 * sizeof(double));
+  return KZ_OK;
 }
 
 static kz_status find_attractors(const kz_judge *judge, kz_team *team, kz_dynamics *dynamics, probes *p) {
@@ -76,7 +76,9 @@ static kz_status find_attractors(const kz_judge *judge, kz_team *team, kz_dynami
                             .reach = judge->reach};
   KZ_TRY(kz_search_window(team, dynamics, &search, p->state, p->owner));
   for (int round = 0; round < ROUNDS; round++) {
-    const int64_t known = kz_dynamics_count(dynamics), n = unsettled(judge, dynamics, p);
+    const int64_t known = kz_dynamics_count(dynamics);
+    int64_t n;
+    KZ_TRY(follow_probes(judge, team, dynamics, p, &n));
     if (n == 0) break;
     KZ_TRY(kz_discover(team, dynamics, plan->max_periods, n, p->state, p->owner));
     if (kz_dynamics_count(dynamics) == known) break;
@@ -91,15 +93,12 @@ static kz_status prepare(kz_judge *judge, kz_team *team, kz_dynamics *dynamics) 
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
   p.owner = malloc((size_t)p.most * sizeof *p.owner);
-  p.periods = malloc((size_t)p.most * sizeof *p.periods);
-  kz_status status =
-      p.state && p.owner && p.periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
+  kz_status status = p.state && p.owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
   status = kz_team_agree(team, status);
   judge->reach = kz_dynamics_reach(dynamics, &window);
   if (status == KZ_OK) status = find_attractors(judge, team, dynamics, &p);
   free(p.state);
   free(p.owner);
-  free(p.periods);
   KZ_TRY(kz_team_agree(team, status));
   judge->packed_size = kz_dynamics_packed_size(dynamics);
   judge->packed = malloc((size_t)judge->packed_size * sizeof(double) + 1);

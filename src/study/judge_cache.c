@@ -1,4 +1,5 @@
 /* The judge's verdicts in a text file beside the result: what they are for, one line a cell, a checksum. */
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,11 +73,20 @@ static kz_status cannot_write(const char *path) {
   return kz_fail(KZ_FAILED, "%s: cannot be written", path);
 }
 
+/* A file of our own; one that a killed run left, or a link, is not written into. */
+static FILE *create(const char *path) {
+  unlink(path);
+  const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  FILE *out = file < 0 ? NULL : fdopen(file, "w");
+  if (file >= 0 && !out) close(file);
+  return out;
+}
+
 /* Writes `text` beside `path` and renames it. */
 static kz_status write_all(const char *path, const char *text) {
   char part[4200];
   if (snprintf(part, sizeof part, "%s.part", path) >= (int)sizeof part) return cannot_write(path);
-  FILE *out = fopen(part, "w");
+  FILE *out = create(part);
   if (!out) return cannot_write(path);
   bool written = fputs(text, out) >= 0 && fflush(out) == 0 && fsync(fileno(out)) == 0;
   written = fclose(out) == 0 && written && rename(part, path) == 0;

@@ -27,6 +27,7 @@ kz_status kz_map_table_make(kz_team *team, kz_dynamics *dynamics, int64_t n_thet
                     .record_bytes = ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double),
                     .work = table_tile,
                     .context = &t,
+                    .keep = true,
                     .everywhere = true};
   double *rows = malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table");

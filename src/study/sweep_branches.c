@@ -115,6 +115,7 @@ static kz_status walk_round(walking *w, kz_team *team, task *tasks, int64_t *n) 
                           .record_bytes = sizeof *outcomes,
                           .work = walk_tile,
                           .context = w,
+                          .keep = true,
                           .everywhere = true};
   if (status == KZ_OK) status = kz_stage_run(team, &stage, outcomes);
   int64_t left = 0, added;

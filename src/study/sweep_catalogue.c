@@ -1,4 +1,5 @@
-/* What attracts at each value of a sweep, and how much of the starts or of the cells each attractor takes: one tile a value. */
+/* What attracts at each value of a sweep, and how much of the starts or of the cells each attractor takes. A value may
+ * take long: all ranks work on it together, and what they have done is kept. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@ enum {
 /* One value at work. */
 typedef struct {
   const kz_scene *scene;
+  kz_team *team;
   kz_dynamics *dynamics;
   int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
   double *state;             /* [starts or cells][2] */
@@ -50,39 +52,68 @@ static void end(searching *s) {
   free(s->hits);
 }
 
-/* The next cells from *cell on that have not settled: their states and places; returns how many. */
-static int64_t next_cells(const searching *s, int64_t most, int64_t *cell, int64_t *place) {
-  int64_t n = 0;
-  for (; *cell < s->n_cells && n < most; ++*cell)
-    if (s->cell[*cell] == 0) {
-      place[n] = *cell;
-      kz_cell_state(&s->scene->basin, *cell, s->state + 2 * n++);
-    }
-  return n;
+typedef struct {
+  searching *s;
+  int64_t n, *open; /* [n] cells that have not settled */
+  int64_t tile;     /* cells of a tile */
+} labelling;
+
+static kz_status label_tile(void *context, int64_t tile, void *record) {
+  const labelling *l = context;
+  const kz_basin_plan *basin = &l->s->scene->basin;
+  double state[2 * CHUNK];
+  int64_t periods[CHUNK], integrated[CHUNK];
+  const int64_t first = tile * l->tile, n = l->n - first < l->tile ? l->n - first : l->tile;
+  for (int64_t i = 0; i < n; i++) kz_cell_state(basin, l->open[first + i], state + 2 * i);
+  kz_follow(l->s->dynamics, basin->method, basin->interpolation, n, basin->max_periods, state, record, periods, integrated);
+  return KZ_OK;
 }
 
-static void follow_cells(searching *s) {
-  const kz_basin_plan *basin = &s->scene->basin;
-  int64_t place[CHUNK], periods[CHUNK], integrated[CHUNK], cell = 0, n;
-  while ((n = next_cells(s, CHUNK, &cell, place)) > 0) {
-    kz_follow(s->dynamics, basin->method, basin->interpolation, n, basin->max_periods, s->state, s->owner, periods, integrated);
-    for (int64_t i = 0; i < n; i++) s->cell[place[i]] = s->owner[i];
-  }
+/* The cells that have not settled, into l->open. */
+static void list_open(labelling *l) {
+  l->n = 0;
+  for (int64_t i = 0; i < l->s->n_cells; i++)
+    if (l->s->cell[i] == 0) l->open[l->n++] = i;
+}
+
+/* Labels the open cells on every rank. */
+static kz_status label_open(labelling *l) {
+  const kz_stage stage = {.name = "sweep cells",
+                          .n_tiles = (l->n + l->tile - 1) / l->tile,
+                          .record_bytes = (size_t)l->tile * sizeof(int32_t),
+                          .work = label_tile,
+                          .context = l,
+                          .keep = true,
+                          .everywhere = true};
+  int32_t *owner = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  kz_status status = kz_team_agree(l->s->team, owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
+  if (status == KZ_OK) status = kz_stage_run(l->s->team, &stage, owner);
+  for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->open[i]] = owner[i];
+  free(owner);
+  if (status == KZ_OK) list_open(l);
+  return status;
 }
 
 /* Labels the grid; cells that end nowhere known are searched and labelled once more. */
-static kz_status label_grid(searching *s) {
-  const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
-  int64_t *place = malloc(most * sizeof *place);
-  kz_status status = place ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep");
-  for (int round = 0; status == KZ_OK; round++) {
-    int64_t cell = 0, n, known = kz_dynamics_count(s->dynamics);
-    follow_cells(s);
-    if (round == ROUNDS - 1 || (n = next_cells(s, s->n_starts, &cell, place)) == 0) break;
-    status = kz_discover(NULL, s->dynamics, s->scene->basin.max_periods, n, s->state, s->owner);
-    if (kz_dynamics_count(s->dynamics) == known) break;
+static kz_status label_rounds(labelling *l) {
+  searching *s = l->s;
+  list_open(l);
+  for (int round = 0;; round++) {
+    const int64_t known = kz_dynamics_count(s->dynamics);
+    KZ_TRY(label_open(l));
+    if (round == ROUNDS - 1 || l->n == 0) return KZ_OK;
+    const int64_t n = l->n < s->n_starts ? l->n : s->n_starts;
+    for (int64_t i = 0; i < n; i++) kz_cell_state(&s->scene->basin, l->open[i], s->state + 2 * i);
+    KZ_TRY(kz_discover(s->team, s->dynamics, s->scene->basin.max_periods, n, s->state, s->owner));
+    if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
   }
-  free(place);
+}
+
+static kz_status label_grid(searching *s) {
+  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .open = malloc((size_t)s->n_cells * sizeof *l.open)};
+  kz_status status = kz_team_agree(s->team, l.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
+  if (status == KZ_OK) status = label_rounds(&l);
+  free(l.open);
   return status;
 }
 
@@ -153,35 +184,43 @@ static kz_status discover(searching *s) {
       .table_theta = basin ? basin->table_theta : 0,
       .table_velocity = basin ? basin->table_velocity : 0};
   search.reach = kz_dynamics_reach(s->dynamics, &search.window);
-  return kz_search_window(NULL, s->dynamics, &search, s->state, s->owner);
+  return kz_search_window(s->team, s->dynamics, &search, s->state, s->owner);
 }
 
 static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
   KZ_TRY(discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
-  if (!s->hits) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  KZ_TRY(kz_team_agree(s->team, s->hits ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
   catalogue->samples = count_hits(s);
   return collect(s, catalogue);
 }
 
+typedef struct {
+  const kz_scene *scene;
+  kz_team *team;
+} sweeping;
+
 static kz_status work(void *context, int64_t tile, void *record) {
-  searching s = {.scene = context};
+  const sweeping *sweep = context;
+  searching s = {.scene = sweep->scene, .team = sweep->team};
   kz_pendulum pendulum;
   if (!kz_sweep_pendulum(s.scene, kz_sweep_value(&s.scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  kz_status status = begin(&pendulum, &s);
+  kz_status status = kz_team_agree(s.team, begin(&pendulum, &s));
   if (status == KZ_OK) status = search(&s, record);
   end(&s);
   return status;
 }
 
 kz_status kz_sweep_catalogues(const kz_scene *scene, kz_team *team, kz_sweep_catalogue *catalogue) {
+  sweeping sweep = {scene, team};
   const kz_stage stage = {.name = "sweep attractors",
                           .n_tiles = scene->sweep.values.count,
                           .record_bytes = sizeof *catalogue,
                           .work = work,
-                          .context = (void *)scene,
+                          .context = &sweep,
                           .keep = true,
-                          .everywhere = true};
+                          .everywhere = true,
+                          .together = true};
   return kz_stage_run(team, &stage, catalogue);
 }

@@ -5,16 +5,41 @@
 #include "kapitza/analysis.h"
 #include "sweep.h"
 
-/* The critical value is looked for within the range and as far again on both sides, in so many pieces. */
-enum { PIECES = 300 };
+enum {
+  PIECES = 300, /* of the range and as far again on both sides: in each a critical value is looked for */
+  GROUP = 15,   /* pieces that are tried before flutter is followed from what they hold */
+  LEG = 32      /* values of a tile */
+};
 /* Flutter is first looked for at this share of the range from the critical value, then farther. */
 static const double FIRST_SHARE = 1e-4, LAST_SHARE = 0.05;
 
+/* Flutter beside a critical value. */
+typedef struct {
+  int32_t found;
+  double at, birth; /* values: where it was found; how far towards the critical one it reaches */
+  kz_branch_point flutter;
+} beginning;
+
+/* Flutter carried along some values. */
+typedef struct {
+  double at;
+  kz_branch_point flutter; /* there */
+  int32_t lost;            /* 1 = it ends before the next value */
+  double amplitude[LEG];   /* NaN = none */
+} leg;
+
 typedef struct {
   const kz_scene *scene;
+  kz_team *team;
   kz_path path;
   double critical; /* NaN = none */
   double *amplitude;
+  /* what tiles work on */
+  int side; /* of the critical value: 1 above, -1 below */
+  beginning begun;
+  leg before;
+  int64_t piece; /* the first of the group */
+  int64_t step;  /* the first value of the leg, counted in the direction of `side` */
 } fluttering;
 
 /* The range and its neighbourhood, kept on one side of zero where the range is. */
@@ -26,65 +51,129 @@ static void neighbourhood(const kz_axis *range, double *low, double *high) {
   if (range->max < 0 && *high >= 0) *high = range->max / 16;
 }
 
-/* Carries flutter to every value of the range beyond `from`, upwards or downwards. */
-static void fill_from(fluttering *f, double from, kz_branch_point flutter, bool up) {
-  const kz_sweep_plan *plan = &f->scene->sweep;
-  const int64_t n = plan->values.count;
-  for (int64_t step = 0; step < n; step++) {
-    const int64_t i = up ? step : n - 1 - step;
-    const double value = kz_sweep_value(plan, i);
-    if (up ? value < from : value > from) continue;
-    from = kz_walk(&f->path, from, value, &flutter);
-    if (from != value) return;
-    f->amplitude[i] = flutter.amplitude;
-  }
+static kz_status find_critical(void *context, int64_t tile, void *record) {
+  const fluttering *f = context;
+  const double piece = (double)(f->piece + tile);
+  double low, high;
+  neighbourhood(&f->scene->sweep.values, &low, &high);
+  *(double *)record =
+      kz_flutter_critical(&f->path, low + (high - low) * piece / PIECES, low + (high - low) * (piece + 1) / PIECES);
+  return KZ_OK;
 }
 
-/* Flutter beside the critical value, on the side where there is any; *at = where. */
-static bool begin(const fluttering *f, double side, kz_branch_point *flutter, double *at) {
+/* Flutter beside the critical value, on one side. */
+static kz_status begin(void *context, int64_t tile, void *record) {
+  const fluttering *f = context;
   const kz_axis *range = &f->scene->sweep.values;
+  beginning *out = record;
   kz_pendulum pendulum;
-  for (double share = FIRST_SHARE; share < LAST_SHARE; share *= 2) {
-    *at = f->critical + side * share * (range->max - range->min);
-    if (f->path.pendulum(f->path.context, *at, &pendulum) && kz_flutter_find(&pendulum, flutter)) return true;
+  (void)tile;
+  for (double share = FIRST_SHARE; share < LAST_SHARE && !out->found; share *= 2) {
+    out->at = f->critical + f->side * share * (range->max - range->min);
+    out->found = f->path.pendulum(f->path.context, out->at, &pendulum) && kz_flutter_find(&pendulum, &out->flutter);
   }
-  return false;
+  kz_branch_point back = out->flutter;
+  if (out->found) out->birth = kz_walk(&f->path, out->at, f->critical, &back);
+  return KZ_OK;
 }
 
-/* From a critical value to all the flutter that it begins; true where that reaches the range. */
-static bool follow(fluttering *f) {
-  const kz_axis *range = &f->scene->sweep.values;
-  kz_branch_point flutter, back;
-  double at;
-  for (int side = 1; side >= -1; side -= 2) {
-    if (!begin(f, side, &flutter, &at)) continue;
-    back = flutter;
-    fill_from(f, at, flutter, side > 0);
-    /* values that lie between the critical one and the place where flutter was found */
-    const double birth = kz_walk(&f->path, at, f->critical, &back);
-    for (int64_t i = 0; i < range->count; i++) {
-      const double value = kz_sweep_value(&f->scene->sweep, i);
-      if ((value - birth) * (value - at) >= 0) continue;
-      back = flutter;
-      if (kz_walk(&f->path, at, value, &back) == value) f->amplitude[i] = back.amplitude;
-    }
+/* The value at a step away from the critical one. */
+static int64_t value_at(const fluttering *f, int64_t step) {
+  return f->side > 0 ? step : f->scene->sweep.values.count - 1 - step;
+}
+
+/* Carries flutter on to the next values of the range. */
+static kz_status follow_leg(void *context, int64_t tile, void *record) {
+  const fluttering *f = context;
+  const kz_sweep_plan *plan = &f->scene->sweep;
+  leg *out = record;
+  (void)tile;
+  *out = f->before;
+  for (int64_t i = 0; i < LEG; i++) out->amplitude[i] = NAN;
+  for (int64_t i = 0; i < LEG && f->step + i < plan->values.count; i++) {
+    const double value = kz_sweep_value(plan, value_at(f, f->step + i));
+    if (f->side > 0 ? value < out->at : value > out->at) continue;
+    out->at = kz_walk(&f->path, out->at, value, &out->flutter);
+    out->lost = out->at != value;
+    if (out->lost) return KZ_OK;
+    out->amplitude[i] = out->flutter.amplitude;
   }
-  for (int64_t i = 0; i < range->count; i++)
-    if (!isnan(f->amplitude[i])) return true;
-  return false;
+  return KZ_OK;
+}
+
+/* Values that lie between the critical one and the place where flutter was found. */
+static kz_status follow_back(void *context, int64_t tile, void *record) {
+  const fluttering *f = context;
+  const kz_sweep_plan *plan = &f->scene->sweep;
+  double *amplitude = record;
+  for (int64_t i = 0; i < LEG; i++) amplitude[i] = NAN;
+  for (int64_t i = 0; i < LEG && tile * LEG + i < plan->values.count; i++) {
+    const double value = kz_sweep_value(plan, tile * LEG + i);
+    if ((value - f->begun.birth) * (value - f->begun.at) >= 0) continue;
+    kz_branch_point back = f->begun.flutter;
+    if (kz_walk(&f->path, f->begun.at, value, &back) == value) amplitude[i] = back.amplitude;
+  }
+  return KZ_OK;
+}
+
+static kz_status run(fluttering *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
+  const kz_stage stage = {
+      .name = name, .n_tiles = n_tiles, .record_bytes = bytes, .work = work, .context = f, .keep = true, .everywhere = true};
+  return kz_stage_run(f->team, &stage, records);
+}
+
+/* From where flutter was found to all values of the range beyond. */
+static kz_status follow_on(fluttering *f) {
+  leg after;
+  f->before = (leg){.at = f->begun.at, .flutter = f->begun.flutter};
+  for (f->step = 0; f->step < f->scene->sweep.values.count && !f->before.lost; f->step += LEG) {
+    KZ_TRY(run(f, "flutter", follow_leg, 1, sizeof after, &after));
+    for (int64_t i = 0; i < LEG; i++)
+      if (!isnan(after.amplitude[i])) f->amplitude[value_at(f, f->step + i)] = after.amplitude[i];
+    f->before = after;
+  }
+  return KZ_OK;
+}
+
+static kz_status return_to_birth(fluttering *f) {
+  const int64_t count = f->scene->sweep.values.count, n = (count + LEG - 1) / LEG;
+  double *amplitude = malloc((size_t)(n * LEG) * sizeof *amplitude);
+  kz_status status = kz_team_agree(f->team, amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
+  if (status == KZ_OK) status = run(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
+  for (int64_t i = 0; status == KZ_OK && i < count; i++)
+    if (!isnan(amplitude[i])) f->amplitude[i] = amplitude[i];
+  free(amplitude);
+  return status;
+}
+
+/* From a critical value to all the flutter that it begins; *reaches = that comes to the range. */
+static kz_status follow(fluttering *f, bool *reaches) {
+  for (f->side = 1; f->side >= -1; f->side -= 2) {
+    KZ_TRY(run(f, "flutter's beginning", begin, 1, sizeof f->begun, &f->begun));
+    if (!f->begun.found) continue;
+    KZ_TRY(follow_on(f));
+    KZ_TRY(return_to_birth(f));
+  }
+  *reaches = false;
+  for (int64_t i = 0; i < f->scene->sweep.values.count; i++) *reaches = *reaches || !isnan(f->amplitude[i]);
+  return KZ_OK;
 }
 
 /* The lowest critical value whose flutter reaches the range; the lowest of all where none does. */
-static void find_critical(fluttering *f) {
-  double low, high, first = NAN;
-  neighbourhood(&f->scene->sweep.values, &low, &high);
-  for (int piece = 0; piece < PIECES; piece++) {
-    f->critical = kz_flutter_critical(&f->path, low + (high - low) * piece / PIECES, low + (high - low) * (piece + 1) / PIECES);
-    if (isnan(f->critical)) continue;
-    if (isnan(first)) first = f->critical;
-    if (follow(f)) return;
+static kz_status find_flutter(fluttering *f) {
+  double critical[GROUP], first = NAN;
+  bool reaches = false;
+  for (f->piece = 0; f->piece < PIECES && !reaches; f->piece += GROUP) {
+    KZ_TRY(run(f, "critical values", find_critical, GROUP, sizeof *critical, critical));
+    for (int i = 0; i < GROUP && !reaches; i++) {
+      f->critical = critical[i];
+      if (isnan(f->critical)) continue;
+      if (isnan(first)) first = f->critical;
+      KZ_TRY(follow(f, &reaches));
+    }
   }
-  f->critical = first;
+  if (!reaches) f->critical = first;
+  return KZ_OK;
 }
 
 /* Points of the fit: (distance from the critical value, amplitude^2); returns how many. */
@@ -147,17 +236,17 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
 }
 
 kz_status kz_sweep_flutter(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  if (kz_team_rank(team) != 0) return kz_team_agree(team, KZ_OK);
   const int64_t n = scene->sweep.values.count;
-  fluttering f = {
-      .scene = scene, .path = kz_sweep_path(scene), .critical = NAN, .amplitude = malloc((size_t)n * sizeof(double))};
-  kz_status status = f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep");
+  fluttering f = {.scene = scene,
+                  .team = team,
+                  .path = kz_sweep_path(scene),
+                  .critical = NAN,
+                  .amplitude = malloc((size_t)n * sizeof(double))};
+  kz_status status = kz_team_agree(team, f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
   for (int64_t i = 0; status == KZ_OK && i < n; i++) f.amplitude[i] = NAN;
-  if (status == KZ_OK) {
-    find_critical(&f);
-    status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
-  }
-  if (status == KZ_OK) status = write_fit(&f, store, summary);
+  if (status == KZ_OK) status = find_flutter(&f);
+  if (status == KZ_OK && store) status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
+  if (status == KZ_OK && store) status = write_fit(&f, store, summary);
   free(f.amplitude);
   return kz_team_agree(team, status);
 }

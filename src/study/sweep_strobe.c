@@ -11,35 +11,102 @@ enum { WALKS = 2 };
  * stable. */
 static const double PUSH = 1e-6;
 
-/* One walk: [values][2][samples] angles, then velocities, in the order of the values. */
+/* Drive periods of a tile: about a second. */
+enum { LEG_PERIODS = 100000 };
+
+typedef struct {
+  double theta, velocity;
+} strobe_state;
+
+/* Both walks on their way; a tile carries one of them through one leg: some values, or a part of a long transient. */
+typedef struct {
+  const kz_scene *scene;
+  strobe_state state[WALKS];
+  int64_t first, values; /* of the leg, in the order of the walk */
+  int64_t skip;          /* periods of the transient, which begins at the first value where `pushed` */
+  bool pushed;
+  int64_t samples; /* at each value; 0 = the transient goes on */
+} walking;
+
+/* Value of a step of a walk. */
+static int64_t value_at(const kz_sweep_plan *plan, int64_t walk, int64_t step) {
+  return walk == 0 ? step : plan->values.count - 1 - step;
+}
+
+/* out: [samples] angles, then velocities. */
+static void record_value(const walking *w, const kz_plan *map, bool pushed, strobe_state *state, double *out) {
+  int64_t turns = 0;
+  if (pushed) state->theta += PUSH;
+  kz_advance(map, 1, w->skip, &state->theta, &state->velocity, &turns);
+  for (int64_t s = 0; s < w->samples; s++) {
+    kz_advance(map, 1, 1, &state->theta, &state->velocity, &turns);
+    out[s] = state->theta >= M_PI ? -M_PI : state->theta;
+    out[w->samples + s] = state->velocity;
+  }
+}
+
+/* record: the state after the leg, then [values][2][samples] angles and velocities. */
 static kz_status work(void *context, int64_t tile, void *record) {
-  const kz_scene *scene = context;
-  const kz_sweep_plan *plan = &scene->sweep;
-  const int64_t values = plan->values.count;
-  double theta = plan->start_theta, velocity = plan->start_velocity;
-  for (int64_t step = 0; step < values; step++) {
-    const int64_t i = tile == 0 ? step : values - 1 - step;
-    double *out = (double *)record + i * 2 * plan->samples;
+  const walking *w = context;
+  const kz_sweep_plan *plan = &w->scene->sweep;
+  strobe_state state = w->state[tile];
+  double *out = (double *)((strobe_state *)record + 1);
+  for (int64_t i = 0; i < w->values && w->first + i < plan->values.count; i++, out += 2 * w->samples) {
     kz_pendulum pendulum;
-    int64_t turns = 0;
-    if (!kz_sweep_pendulum(scene, kz_sweep_value(plan, i), &pendulum)) continue;
-    kz_plan *map = kz_plan_create(&pendulum, &scene->numerics);
+    if (!kz_sweep_pendulum(w->scene, kz_sweep_value(plan, value_at(plan, tile, w->first + i)), &pendulum)) continue;
+    kz_plan *map = kz_plan_create(&pendulum, &w->scene->numerics);
     if (!map) return kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep");
-    theta += PUSH;
-    kz_advance(map, 1, plan->transient, &theta, &velocity, &turns);
-    for (int64_t s = 0; s < plan->samples; s++) {
-      kz_advance(map, 1, 1, &theta, &velocity, &turns);
-      out[s] = theta >= M_PI ? -M_PI : theta;
-      out[plan->samples + s] = velocity;
-    }
+    record_value(w, map, i > 0 || w->pushed, &state, out);
     kz_plan_free(map);
+  }
+  *(strobe_state *)record = state;
+  return KZ_OK;
+}
+
+/* One leg of both walks; its points go to their places in `points` [walks][values][2][samples]. */
+static kz_status run_leg(walking *w, kz_team *team, double *points) {
+  const kz_sweep_plan *plan = &w->scene->sweep;
+  const size_t value = (size_t)(2 * w->samples) * sizeof(double);
+  const kz_stage stage = {.name = "sweep strobe",
+                          .n_tiles = WALKS,
+                          .record_bytes = sizeof(strobe_state) + (size_t)w->values * value,
+                          .work = work,
+                          .context = w,
+                          .keep = true,
+                          .everywhere = true};
+  char *records = malloc(WALKS * stage.record_bytes);
+  kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
+  if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
+  for (int64_t walk = 0; status == KZ_OK && walk < WALKS; walk++) {
+    const char *record = records + (size_t)walk * stage.record_bytes;
+    memcpy(w->state + walk, record, sizeof *w->state);
+    for (int64_t i = 0; w->samples > 0 && i < w->values && w->first + i < plan->values.count; i++)
+      memcpy(points + (walk * plan->values.count + value_at(plan, walk, w->first + i)) * 2 * w->samples,
+             record + sizeof(strobe_state) + (size_t)i * value, value);
+  }
+  free(records);
+  return status;
+}
+
+/* All values, in legs. */
+static kz_status walk(const kz_scene *scene, kz_team *team, double *points) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  const strobe_state start = {plan->start_theta, plan->start_velocity};
+  const int64_t at_once = LEG_PERIODS / (plan->transient + plan->samples);
+  walking w = {.scene = scene, .state = {start, start}, .values = at_once > 0 ? at_once : 1};
+  for (w.first = 0; w.first < plan->values.count; w.first += w.values) {
+    int64_t left = plan->transient;
+    for (w.pushed = true, w.samples = 0, w.skip = LEG_PERIODS; left > LEG_PERIODS; left -= LEG_PERIODS, w.pushed = false)
+      KZ_TRY(run_leg(&w, team, NULL));
+    w.skip = left;
+    w.samples = plan->samples;
+    KZ_TRY(run_leg(&w, team, points));
   }
   return KZ_OK;
 }
 
 /* The walks side by side: [values][up, then down]. */
-static kz_status write_strobe(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
-  const double *points = records;
+static kz_status write_strobe(const kz_scene *scene, const double *points, kz_store *store, FILE *summary) {
   const int64_t values = scene->sweep.values.count, samples = scene->sweep.samples, all = WALKS * samples;
   double *theta = malloc((size_t)(values * all) * sizeof *theta), *velocity = malloc((size_t)(values * all) * sizeof *velocity);
   int8_t *walk = malloc((size_t)all);
@@ -62,7 +129,10 @@ static kz_status write_strobe(const kz_scene *scene, const void *records, kz_sto
 }
 
 kz_status kz_sweep_strobe(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  const size_t bytes = (size_t)(scene->sweep.values.count * 2 * scene->sweep.samples) * sizeof(double);
-  const kz_stage stage = {.name = "sweep strobe", .n_tiles = WALKS, .record_bytes = bytes, .work = work};
-  return kz_sweep_stage(scene, team, &stage, write_strobe, store, summary);
+  double *points = calloc((size_t)(WALKS * scene->sweep.values.count * 2 * scene->sweep.samples), sizeof *points);
+  kz_status status = kz_team_agree(team, points ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
+  if (status == KZ_OK) status = walk(scene, team, points);
+  if (status == KZ_OK && store) status = write_strobe(scene, points, store, summary);
+  free(points);
+  return kz_team_agree(team, status);
 }

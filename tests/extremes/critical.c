@@ -6,6 +6,7 @@
 
 #include <math.h>
 
+#include "../tools/find.h"
 #include "kapitza/dynamics.h"
 
 enum { SPLIT6 = 2, RK4 = 0, STATES = 64, MOST = 64 };
@@ -68,7 +69,7 @@ static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *num
     state[2 * i + 1] = centre[1] + share * largest[1];
   }
   kz_dynamics_settle(d, STATES, 100, state, owner, periods);
-  kz_dynamics_find_cycles(d, STATES, state, 0.02);
+  find_cycles(d, STATES, state, 0.02);
   return d;
 }
 
@@ -138,7 +139,7 @@ static void attractors_close_together_are_told_apart(void **unused) {
       state[2 * i + 1] = (i - STATES / 2) * apart / 20;
     }
     kz_dynamics_outline(d, 3);
-    kz_dynamics_find_cycles(d, STATES, state, 0.02);
+    find_cycles(d, STATES, state, 0.02);
     kz_dynamics_update(d);
     kz_dynamics_follow(d, STATES, 2000, state, owner, periods);
     const int64_t count = kz_dynamics_count(d);

@@ -52,14 +52,15 @@ static kz_status open_with(const char *fingerprint, bool resume, bool force) {
   return kz_checkpoint_open(team, &plan);
 }
 
-/* A run that does some tiles and fails; how many it did. */
+/* A run that does some tiles and fails; how many it did. A checkpoint stays where it did any. */
 static int64_t leave_partial(int64_t failing) {
   job j = {.failing = failing};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   assert_all(run_named("first", &j) == (failing < 0 ? KZ_OK : KZ_FAILED));
   assert_all(kz_checkpoint_close(team, false) == KZ_OK);
-  assert_all(!first() || access(path, R_OK) == 0);
-  return sum(j.done);
+  const int64_t done = sum(j.done);
+  assert_all(!first() || (access(path, R_OK) == 0) == (done > 0));
+  return done;
 }
 
 /* A resumed run to the end; how many tiles it did. */
@@ -210,6 +211,42 @@ static void a_wrong_path_is_refused(void **state) {
   assert_all(kz_checkpoint_open(team, &directory) == KZ_REFUSED);
 }
 
+/* A link in the checkpoint's place, where it may lead nowhere, is neither followed nor removed. */
+static void a_link_is_refused(void **state) {
+  (void)state;
+  const char *const targets[] = {"/nowhere/at/all", "/dev/null", path};
+  for (size_t i = 0; i < sizeof targets / sizeof *targets; ++i) {
+    assert_all(!first() || symlink(targets[i], path) == 0);
+    assert_all(open_with(FINGERPRINT, true, false) == KZ_REFUSED && strstr(kz_message(), "a link"));
+    assert_all(open_with(FINGERPRINT, false, true) == KZ_REFUSED);
+    if (first()) kz_checkpoint_clear(path, FINGERPRINT);
+    assert_all(!first() || unlink(path) == 0);
+  }
+}
+
+static void only_the_own_checkpoint_is_cleared(void **state) {
+  (void)state;
+  leave_partial(20);
+  if (first()) kz_checkpoint_clear(path, "version: 1\nk: 0.26\nsteps: 24\n");
+  assert_all(!first() || access(path, F_OK) == 0);
+  assert_all(open_with(FINGERPRINT, true, false) == KZ_OK);
+  if (first()) kz_checkpoint_clear(path, FINGERPRINT); /* it is in use */
+  assert_all(!first() || access(path, F_OK) == 0);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  if (first()) kz_checkpoint_clear(path, FINGERPRINT);
+  assert_all(!first() || access(path, F_OK) != 0);
+}
+
+static void a_run_without_records_leaves_nothing(void **state) {
+  (void)state;
+  job j = {.failing = 0};
+  assert_all(open_with(FINGERPRINT, false, false) == KZ_OK);
+  assert_all(kz_team_size(team) > 1 || run_named("first", &j) == KZ_FAILED);
+  assert_all(!first() || access(path, F_OK) == 0);
+  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(!first() || access(path, F_OK) != 0);
+}
+
 static kz_status remove_and_fill(void *context, int64_t tile, void *bytes) {
   if (tile == N_TILES / 2) unlink(path);
   return fill(context, tile, bytes);
@@ -251,6 +288,9 @@ int main(void) {
       cmocka_unit_test(sections_follow_each_other),
       cmocka_unit_test(nothing_kept_leaves_nothing),
       cmocka_unit_test(a_wrong_path_is_refused),
+      cmocka_unit_test(a_link_is_refused),
+      cmocka_unit_test(only_the_own_checkpoint_is_cleared),
+      cmocka_unit_test(a_run_without_records_leaves_nothing),
       cmocka_unit_test(a_removed_file_is_noticed),
       cmocka_unit_test(too_large_for_the_disk_is_known_early),
   };

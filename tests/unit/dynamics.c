@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include "../tools/find.h"
 #include "kapitza/dynamics.h"
 #include "kapitza/truth.h"
 
@@ -36,8 +37,7 @@ static kz_dynamics *explored(double m, int64_t seed, double reach) {
         open++;
       }
     n = open;
-    for (int64_t first = 0; first < n; first += 64)
-      kz_dynamics_find_cycles(d, n - first < 64 ? n - first : 64, state + 2 * first, 0.02);
+    for (int64_t first = 0; first < n; first += 64) find_cycles(d, n - first < 64 ? n - first : 64, state + 2 * first, 0.02);
   }
   assert_int_equal(n, 0);
   free(state);
@@ -318,7 +318,12 @@ static void test_chaos(void **state) {
   kz_attractor row;
   kz_dynamics_starts(&WINDOW, 1, N, x);
   kz_dynamics_outline(d, 4.0 * 199 / 195); /* the top of a table of 200 nodes that reaches 4 */
-  assert_int_equal(kz_dynamics_find_chaos(d, x), 1);
+  double *found = calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
+  kz_dynamics_find_chaos(d, x, found);
+  assert_int_equal(kz_dynamics_count(d), 0);
+  kz_dynamics_adopt(d, found);
+  free(found);
+  assert_int_equal(kz_dynamics_count(d), 1);
   kz_dynamics_update(d);
   kz_dynamics_attractor(d, 1, &row, NULL, NULL);
   assert_int_equal(row.period, 0);

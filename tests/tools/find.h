@@ -1,0 +1,19 @@
+/* Searches whose finds join the catalogue at once. */
+#ifndef KAPITZA_TESTS_FIND_H
+#define KAPITZA_TESTS_FIND_H
+
+#include <stdlib.h>
+
+#include "kapitza/dynamics.h"
+
+/* All cycles near n <= 64 states. */
+static inline void find_cycles(kz_dynamics *d, int64_t n, const double *state, double closeness) {
+  double *found = calloc((size_t)kz_dynamics_cycle_size(d), sizeof *found);
+  while ((int64_t)found[0] < n) {
+    kz_dynamics_find_cycle(d, n, state, closeness, found);
+    kz_dynamics_adopt(d, found + 1);
+  }
+  free(found);
+}
+
+#endif
