@@ -5,7 +5,7 @@ module kz_test_counted
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_tables, only: pendulum_t, numerics_t
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_search, only: search_t, find_cycles
+  use kz_dynamics_search, only: search_t, find_cycle
   implicit none
   private
 
@@ -34,7 +34,8 @@ contains
     type(search_t) :: search
     type(counted_t), allocatable :: fine
     type(attractor_t), allocatable :: attractors(:)
-    integer :: i
+    integer, allocatable :: n_blurred(:)
+    integer :: i, next
 
     search%pendulum = pendulum
     call make_flow(pendulum, NUMERICS, .true., search%flow)
@@ -49,7 +50,14 @@ contains
     do i = 1, int(settle)
       call search%flow%advance(WIDTH)
     end do
-    call find_cycles(search, search%flow%u, search%flow%v, closeness, attractors)
+    next = 1
+    allocate (n_blurred(search%max_period))
+    n_blurred = 0
+    associate (u => real(search%flow%u, dp), v => real(search%flow%v, dp))
+      do while (next <= WIDTH)
+        call find_cycle(search, u, v, closeness, next, n_blurred, attractors)
+      end do
+    end associate
     known = size(attractors)
     periods = count_of(search%fine)
   end function newton_periods
