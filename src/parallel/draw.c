@@ -60,8 +60,10 @@ static void *serve(void *context) {
     if (draw->mpi_error != MPI_SUCCESS) draw->halted = true;
     more = draw->asking > 0 && draw->mpi_error == MPI_SUCCESS;
     pthread_mutex_unlock(&draw->team->mutex);
-    if (found) heard = kz_clock();
-    else rest(kz_clock() - heard);
+    if (found)
+      heard = kz_clock();
+    else
+      rest(kz_clock() - heard);
   }
   return NULL;
 }
@@ -73,8 +75,8 @@ static bool start_thread(kz_draw *draw) {
   if (draw->team->thread_level < MPI_THREAD_SERIALIZED || pthread_attr_init(&attributes) != 0) return false;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  const bool started = pthread_attr_setstacksize(&attributes, STACK_BYTES) == 0 &&
-                       pthread_create(&draw->thread, &attributes, serve, draw) == 0;
+  const bool started =
+      pthread_attr_setstacksize(&attributes, STACK_BYTES) == 0 && pthread_create(&draw->thread, &attributes, serve, draw) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   pthread_attr_destroy(&attributes);
   return started;

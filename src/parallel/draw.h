@@ -20,15 +20,15 @@ typedef struct {
 typedef struct {
   kz_team *team;
   int64_t n_done;
-  double busy;      /* s, between a tile and the next request for one */
-  double handed;    /* s, kz_clock: when the present tile was handed out; 0 = there is none */
-  kz_batch batch;   /* in hand */
-  kz_batch granted; /* the answer to a request that is under way */
+  double busy;        /* s, between a tile and the next request for one */
+  double handed;      /* s, kz_clock: when the present tile was handed out; 0 = there is none */
+  kz_batch batch;     /* in hand */
+  kz_batch granted;   /* the answer to a request that is under way */
   MPI_Request answer; /* MPI_REQUEST_NULL: none is awaited */
   /* rank 0 alone; under team->mutex while the thread runs */
   kz_schedule schedule;
-  int asking;     /* ranks that will ask once more */
-  bool halted;    /* nobody gets any more */
+  int asking;  /* ranks that will ask once more */
+  bool halted; /* nobody gets any more */
   bool threaded;
   pthread_t thread;
   int mpi_error; /* of the thread, MPI_SUCCESS */

@@ -13,8 +13,8 @@ struct kz_team {
   int rank, size;
   int thread_level;      /* of MPI, MPI_THREAD_SINGLE ... */
   pthread_mutex_t mutex; /* rank 0: who holds it may use MPI while two threads run */
-  double start;    /* s, kz_clock */
-  double limit;    /* s after start; 0 = none */
+  double start;          /* s, kz_clock */
+  double limit;          /* s after start; 0 = none */
   kz_progress progress;
   FILE *terminal; /* /dev/tty once opened, else NULL */
   kz_checkpoint checkpoint;

@@ -114,7 +114,8 @@ static void take_terminal(void) {
     exit(WIFEXITED(status) ? WEXITSTATUS(status) : 1);
   }
   signal(SIGHUP, SIG_IGN);
-  if (second == 0 && setsid() > 0 && openpty(&here, &there, NULL, NULL, NULL) == 0 && ioctl(there, TIOCSCTTY, 0) != 0) here = -1;
+  if (second == 0 && setsid() > 0 && openpty(&here, &there, NULL, NULL, NULL) == 0 && ioctl(there, TIOCSCTTY, 0) != 0)
+    here = -1;
 }
 
 int main(void) {
