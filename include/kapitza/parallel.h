@@ -36,6 +36,9 @@ void kz_team_forget(const kz_team *team);
 int kz_team_rank(const kz_team *team);
 int kz_team_size(const kz_team *team);
 
+/* The sum of `mine` over the ranks that share this rank's memory, and how many they are. Collective. */
+kz_status kz_team_node(kz_team *team, double mine, double *sum, int *ranks);
+
 /* The worst status of all ranks (failed, refused, stopped, done), with that rank's message on every rank. Collective. */
 kz_status kz_team_agree(kz_team *team, kz_status mine);
 

@@ -95,6 +95,15 @@ int kz_team_size(const kz_team *team) {
   return team->size;
 }
 
+kz_status kz_team_node(kz_team *team, double mine, double *sum, int *ranks) {
+  MPI_Comm node;
+  KZ_MPI(MPI_Comm_split_type(team->comm, MPI_COMM_TYPE_SHARED, team->rank, MPI_INFO_NULL, &node));
+  KZ_MPI(MPI_Comm_size(node, ranks));
+  KZ_MPI(MPI_Allreduce(&mine, sum, 1, MPI_DOUBLE, MPI_SUM, node));
+  KZ_MPI(MPI_Comm_free(&node));
+  return KZ_OK;
+}
+
 static int severity(kz_status status) {
   const kz_status order[] = {KZ_OK, KZ_STOPPED, KZ_REFUSED, KZ_FAILED};
   int place = 3;
