@@ -9,6 +9,7 @@ import argparse
 import heapq
 
 BATCH_SECONDS, SECONDS_A_RANK = 0.1, 1e-4  # as in src/parallel/schedule.c
+WAIT = -1
 
 
 class Schedule:
@@ -59,7 +60,7 @@ def simulate(tiles, shortest, slower, ranks, message, answer):
         rank.answer = desk + message, first, n, schedule.next < schedule.end
 
     def take(rank, time):
-        """The next tile: when it begins, and which."""
+        """The next tile (None: no more); WAIT until the time returned where the answer is not there yet."""
         if rank.number == 0:
             schedule.note(0, rank.busy / rank.done if rank.done else 0)
             if not rank.n and schedule.next < schedule.end:
@@ -67,8 +68,9 @@ def simulate(tiles, shortest, slower, ranks, message, answer):
         while rank.number and not rank.n and rank.more:
             if not rank.answer:
                 ask(rank, time, False)
-            (arrives, rank.first, rank.n, rank.more), rank.answer = rank.answer, None
-            time = max(time, arrives)
+            if rank.answer[0] > time:
+                return rank.answer[0], WAIT
+            (_, rank.first, rank.n, rank.more), rank.answer = rank.answer, None
         if not rank.n:
             return time, None
         rank.first, rank.n = rank.first + 1, rank.n - 1
@@ -83,7 +85,9 @@ def simulate(tiles, shortest, slower, ranks, message, answer):
         time, number = heapq.heappop(queue)
         begins, tile = take(team[number], time)
         end = max(end, begins)
-        if tile is not None:
+        if tile == WAIT:
+            heapq.heappush(queue, (begins, number))
+        elif tile is not None:
             spent = seconds_of(tile, number)
             team[number].busy += spent
             team[number].done += 1
