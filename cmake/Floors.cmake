@@ -1,6 +1,7 @@
 # One static library per folder of src/, one set of flags for all of them.
 
-set(KAPITZA_WARNINGS -Wall -Wextra -Werror)
+# Large arrays belong to the heap: users and batch systems limit the stack (kz_app, src/app/main.c).
+set(KAPITZA_WARNINGS -Wall -Wextra -Werror -Wframe-larger-than=163840)
 set(KAPITZA_FLAGS_C ${KAPITZA_WARNINGS} -Wshadow -Wstrict-prototypes -Wvla -ffp-contract=off)
 set(KAPITZA_FLAGS_FORTRAN ${KAPITZA_WARNINGS} -Wimplicit-interface -fimplicit-none -ffree-line-length-none
     -ffp-contract=fast -fno-trapping-math -fno-math-errno)

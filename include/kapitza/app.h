@@ -62,8 +62,12 @@ void kz_abandon_team(kz_team *team, const char *path);
 
 /* The sum of what the wanted studies cost; the memory is that of the most demanding one. */
 kz_cost kz_cost_of(const kz_scene *scene);
-/* KZ_REFUSED where the ranks of this node need more memory than it has, or this process may not have its share. */
-kz_status kz_cost_check(const kz_cost *cost);
+/* KZ_REFUSED where the ranks of this node need more memory than it has, or this process may not have its share. `team` NULL: one
+ * rank alone. Collective. */
+kz_status kz_cost_check(const kz_cost *cost, kz_team *team);
+/* The lowest limit, in bytes, of the memory control group of this process and of all that it is in; infinity where there is none.
+ * `groups` is /proc/self/cgroup (version 1 or 2), `mount` the folder /sys/fs/cgroup. Source: cgroups(7). */
+double kz_memory_limit(const char *groups, const char *mount);
 /* "12.3 MB" in text [32]. */
 void kz_cost_print_bytes(double bytes, char *text);
 

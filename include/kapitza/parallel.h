@@ -1,7 +1,7 @@
 /* parallel: who works on which tile; progress, stop requests, checkpoints (MPI; floor 2).
  *
- * One mechanism: a stage is n_tiles independent pieces of work, each giving one record of fixed size. Ranks draw tiles from
- * a shared counter. The result depends on the tiles alone, never on who did them. */
+ * One mechanism: a stage is n_tiles independent pieces of work, each giving one record of fixed size. Ranks draw tiles in
+ * batches from rank 0. The result depends on the tiles alone, never on who did them. */
 #ifndef KAPITZA_PARALLEL_H
 #define KAPITZA_PARALLEL_H
 
@@ -14,7 +14,7 @@
 
 typedef struct kz_team kz_team;
 
-/* What can be known without starting MPI: this process's rank as its launcher tells it (-1: none does), and the library. */
+/* What can be known without starting MPI: this process's rank as its launcher told it at the first call (-1: none did), and the library. */
 int kz_launch_rank(void);
 const char *kz_parallel_library(void);
 
@@ -27,7 +27,7 @@ kz_status kz_team_start(int *argc, char ***argv, kz_team **team);
 void kz_team_end(kz_team *team);
 
 /* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `team` may be NULL. */
-void kz_team_abandon(const kz_team *team, kz_status status) __attribute__((noreturn));
+void kz_team_abandon(kz_team *team, kz_status status) __attribute__((noreturn));
 /* The path of the checkpoint where it holds finished work, else NULL. */
 const char *kz_team_saved(const kz_team *team);
 /* Removes a checkpoint that holds none. */
@@ -35,6 +35,9 @@ void kz_team_forget(const kz_team *team);
 
 int kz_team_rank(const kz_team *team);
 int kz_team_size(const kz_team *team);
+
+/* The sum of `mine` over the ranks that share this rank's memory, and how many they are. Collective. */
+kz_status kz_team_node(kz_team *team, double mine, double *sum, int *ranks);
 
 /* The worst status of all ranks (failed, refused, stopped, done), with that rank's message on every rank. Collective. */
 kz_status kz_team_agree(kz_team *team, kz_status mine);

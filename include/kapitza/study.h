@@ -170,7 +170,8 @@ bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulu
 typedef struct {
   int64_t cells;
   double disk_bytes;   /* result file and checkpoint */
-  double memory_bytes; /* of the largest rank */
+  double memory_bytes; /* of every rank */
+  double first_bytes;  /* of rank 0 besides */
   double core_seconds; /* rough, on one core */
 } kz_cost;
 

@@ -1,6 +1,7 @@
 /* The entry, compiled for plain x86-64: it looks at the CPU before anything that was built for a newer one runs. */
 #include <fcntl.h>
 #include <stdio.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "kapitza/app.h"
@@ -22,6 +23,14 @@ static void fill_streams(void) {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", modes[stream]) == -1) _exit(KZ_FAILED);
 }
 
+/* Half of this is what the deepest calls need, MPI and HDF5 included. */
+static const rlim_t STACK_BYTES = 512 << 10;
+
+static bool has_stack(void) {
+  struct rlimit stack;
+  return getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= STACK_BYTES;
+}
+
 /* One line whatever the message holds: control characters become '?'. */
 static void print_message(kz_status status) {
   fputs(status == KZ_STOPPED ? "kapitza: " : "kapitza: error: ", stderr);
@@ -39,6 +48,12 @@ int main(int argc, char **argv) {
   if (missing) {
     fprintf(stderr, "kapitza: error: this program was built for %s, which this CPU lacks; a build with -DKAPITZA_ARCH=x86-64\n",
             missing);
+    return KZ_REFUSED;
+  }
+  if (!has_stack()) {
+    if (kz_launch_rank() <= 0)
+      fprintf(stderr, "kapitza: error: the stack is limited to less than %d kB; ulimit -s %d\n", (int)(STACK_BYTES >> 10),
+              (int)(STACK_BYTES >> 10));
     return KZ_REFUSED;
   }
   kz_abandon_arm();

@@ -145,6 +145,7 @@ static kz_status read_options(const command_row *command, int argc, char **argv,
   struct option longs[N_ROWS + 1];
   char shorts[2 * N_ROWS + 2];
   describe(command, longs, shorts);
+  unsetenv("POSIXLY_CORRECT"); /* options may follow the scene, whatever that says */
   opterr = 0;
   optind = 0;
   for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {

@@ -39,18 +39,19 @@ static void print_duration(double seconds) {
 }
 
 static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved) {
-  char disk[32], memory[32];
+  char disk[32], memory[32], first[32];
   const kz_cost cost = kz_cost_of(scene);
   kz_cost_print_bytes(cost.disk_bytes, disk);
   kz_cost_print_bytes(cost.memory_bytes, memory);
+  kz_cost_print_bytes(cost.first_bytes, first);
   const kz_pendulum *p = &scene->parameters.pendulum;
   printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
   if (!isnan(p->k)) printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   fputs("studies         ", stdout);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);
-  printf("\ncells            %lld\ndisk             %s\nmemory per rank  %s\nestimated time   ", (long long)cost.cells, disk,
-         memory);
+  printf("\ncells            %lld\ndisk             %s\nmemory per rank  %s, on the first %s more\nestimated time   ",
+         (long long)cost.cells, disk, memory, first);
   print_duration(cost.core_seconds);
   puts(" on one core, divided by the number of ranks");
 }
@@ -58,7 +59,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
 static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   char *resolved = kz_scene_resolved(scene);
   const kz_cost cost = kz_cost_of(scene);
-  kz_status status = resolved ? kz_cost_check(&cost) : kz_fail(KZ_FAILED, "out of memory");
+  kz_status status = resolved ? kz_cost_check(&cost, NULL) : kz_fail(KZ_FAILED, "out of memory");
   if (status == KZ_OK) status = kz_steps_check(scene);
   if (status == KZ_OK && options->speaks) {
     print_check(options, scene, resolved);

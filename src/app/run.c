@@ -65,7 +65,7 @@ static kz_status prepare(job *j, bool *complete) {
   KZ_TRY(agree_on_scene(j));
   KZ_TRY(check_output(j, complete));
   const kz_cost cost = kz_cost_of(&j->scene);
-  KZ_TRY(kz_team_agree(j->team, kz_cost_check(&cost)));
+  KZ_TRY(kz_team_agree(j->team, kz_cost_check(&cost, j->team)));
   KZ_TRY(kz_team_agree(j->team, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK));
   if (j->first && !*complete) kz_settling_warn(&j->scene, stderr);
   return KZ_OK;

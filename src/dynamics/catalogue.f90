@@ -67,7 +67,7 @@ contains
   !> The whole catalogue as doubles; integers are exact in them.
   function packed(attractors) result(flat)
     type(attractor_t), intent(in) :: attractors(:)
-    real(dp), allocatable :: flat(:)
+    real(dp), allocatable :: flat(:), bits(:)
     integer :: i, covered
 
     flat = [real(size(attractors), dp)]
@@ -79,7 +79,9 @@ contains
                 a%mean, a%mean_velocity, a%amplitude, a%lyapunov, a%lyapunov_error, &
                 real(a%multiplier(1), dp), aimag(a%multiplier(1)), real(a%multiplier(2), dp), aimag(a%multiplier(2))]
         if (a%period > 0) flat = [flat, a%u, a%v, reshape(a%form, [3*a%period])]
-        if (covered > 0) flat = [flat, as_bits(a%cover)]
+        if (covered == 0) cycle
+        bits = as_bits(a%cover) ! not on the stack
+        flat = [flat, bits]
       end associate
     end do
   end function packed

@@ -33,6 +33,12 @@ static const char *clock_text(double seconds, char text[CLOCK_BYTES]) {
   return text;
 }
 
+/* Only what runs in the foreground of a terminal may draw there: this process, or the launcher that started it in a group of its own. */
+static bool has_terminal(FILE *terminal) {
+  const pid_t foreground = tcgetpgrp(fileno(terminal));
+  return foreground > 0 && (foreground == getpgrp() || (kz_launch_rank() >= 0 && foreground == getpgid(getppid())));
+}
+
 static void draw(const kz_meter *meter, int64_t done, double elapsed) {
   char bar[BAR_CELLS + 1] = "", spent[CLOCK_BYTES], left[CLOCK_BYTES] = "?";
   const double share = (double)done / (double)meter->total;
@@ -52,13 +58,17 @@ void kz_meter_show(kz_meter *meter, int64_t done) {
   const double now = kz_clock();
   if (now < meter->due) return;
   meter->due = now + (meter->live ? BAR_PERIOD : meter->last ? LINE_PERIOD_ALWAYS : LINE_PERIOD);
+  if (meter->live && !has_terminal(meter->out)) return;
   meter->shown = true;
   draw(meter, done < meter->total ? done : meter->total, now - meter->begun);
 }
 
-void kz_meter_end(kz_meter *meter, bool complete) {
+void kz_meter_end(kz_meter *meter, bool complete, double idle) {
+  char spent[CLOCK_BYTES];
   if (!meter->out) return;
-  if (meter->live && meter->shown) fputs("\r\033[K", meter->out);
-  if (meter->last && complete) draw(meter, meter->total, kz_clock() - meter->begun);
+  if (meter->live && meter->shown && has_terminal(meter->out)) fputs("\r\033[K", meter->out);
+  if (meter->last && complete)
+    fprintf(meter->out, "kapitza: %s: 100 %%, %s, ranks idle %.1f %%\n", meter->name,
+            clock_text(kz_clock() - meter->begun, spent), 100 * idle);
   fflush(meter->out);
 }

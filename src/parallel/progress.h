@@ -18,7 +18,7 @@ typedef struct {
 void kz_meter_begin(kz_meter *meter, kz_team *team, const char *name, int64_t total, int64_t first);
 /* Shows `done` tiles where the time for it has come. */
 void kz_meter_show(kz_meter *meter, int64_t done);
-/* Removes the bar, or tells the end. */
-void kz_meter_end(kz_meter *meter, bool complete);
+/* Removes the bar, or tells the end with the share of their time that ranks were idle. */
+void kz_meter_end(kz_meter *meter, bool complete, double idle);
 
 #endif

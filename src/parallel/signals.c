@@ -51,10 +51,20 @@ static void handle(int number, void (*handler)(int)) {
   sigaction(number, &action, NULL);
 }
 
+/* Whoever starts a program with a signal ignored (trap '' INT) wants that: it stays so. */
+static bool is_ignored(int number) {
+  struct sigaction present;
+  return sigaction(number, NULL, &present) == 0 && present.sa_handler == SIG_IGN;
+}
+
 void kz_signals_catch(void) {
-  for (int i = 0; i < N_STOP_SIGNALS; ++i) handle(STOP_SIGNALS[i].number, note);
+  static bool known, ignored[N_STOP_SIGNALS]; /* before MPI, which may have handlers of its own */
+  for (int i = 0; !known && i < N_STOP_SIGNALS; ++i) ignored[i] = is_ignored(STOP_SIGNALS[i].number);
+  known = true;
+  for (int i = 0; i < N_STOP_SIGNALS; ++i) handle(STOP_SIGNALS[i].number, ignored[i] ? SIG_IGN : note);
   handle(SIGALRM, ring);
   handle(SIGXFSZ, SIG_IGN); /* a write beyond the size limit shall return EFBIG */
+  handle(SIGTTOU, SIG_IGN); /* progress is no reason to stop either, where the terminal would (stty tostop) */
   handle(SIGPIPE, SIG_IGN); /* nobody reads the progress any more: no reason to stop */
 }
 

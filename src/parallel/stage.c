@@ -1,12 +1,17 @@
 /* A stage: tiles are drawn, worked, kept and delivered. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "bytes.h"
+#include "draw.h"
 #include "harvest.h"
 #include "progress.h"
 #include "section.h"
 #include "team.h"
+
+/* Offsets of records and slots must not overflow. */
+static const int64_t TILES_MAX = (int64_t)1 << 44;
 
 typedef struct {
   kz_team *team;
@@ -18,12 +23,13 @@ typedef struct {
   int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
   kz_harvest harvest;
   void *buffer; /* of the delivery, rank 0 */
+  kz_draw draw;
   kz_meter meter;
 } kz_shift;
 
 static kz_status check(const kz_shift *shift) {
   const kz_stage *stage = shift->stage;
-  if (stage->n_tiles < 0 || stage->n_tiles >= KZ_COUNTER_MAX || stage->record_bytes > KZ_RECORD_MAX)
+  if (stage->n_tiles < 0 || stage->n_tiles > TILES_MAX || stage->record_bytes > KZ_RECORD_MAX)
     return kz_fail(KZ_FAILED, "stage %s: %lld tiles of %zu bytes are too many", stage->name, (long long)stage->n_tiles,
                    stage->record_bytes);
   if (!shift->records && stage->n_tiles > 0 && (shift->team->rank == 0 || stage->everywhere))
@@ -37,7 +43,7 @@ static kz_status prepare(kz_shift *shift) {
   kz_harvest_begin(&shift->harvest, shift->stage->record_bytes);
   if (team->rank == 0 && team->size > 1 && !(shift->buffer = malloc(kz_harvest_message_bytes(&shift->harvest))))
     return kz_fail(KZ_FAILED, "stage %s: out of memory", shift->stage->name);
-  return kz_counter_reset(team);
+  return KZ_OK;
 }
 
 /* Tiles whose records are in the checkpoint are not done again. Collective. */
@@ -69,16 +75,16 @@ static kz_status do_tile(kz_shift *shift, int64_t tile) {
 }
 
 /* Draws and does tiles until none is left; whoever cannot go on halts all ranks. */
-static kz_status work(kz_shift *shift) {
+static kz_status do_tiles(kz_shift *shift) {
   for (;;) {
     int64_t drawn;
-    KZ_TRY(kz_counter_draw(shift->team, &drawn));
-    if (drawn >= shift->n_left) return KZ_OK;
+    KZ_TRY(kz_draw_next(&shift->draw, &drawn));
+    if (drawn < 0) return KZ_OK;
     kz_meter_show(&shift->meter, shift->stage->n_tiles - shift->n_left + drawn);
     kz_status status = kz_team_interrupted(shift->team);
     if (status == KZ_OK) status = do_tile(shift, shift->left ? shift->left[drawn] : drawn);
     if (status != KZ_OK) {
-      KZ_TRY(kz_counter_halt(shift->team));
+      KZ_TRY(kz_draw_halt(&shift->draw));
       return status;
     }
   }
@@ -108,6 +114,25 @@ static kz_status work_together(kz_shift *shift) {
   return KZ_OK;
 }
 
+static kz_status work(kz_shift *shift) {
+  kz_status status = kz_team_agree(shift->team, kz_draw_prepare(&shift->draw, shift->team, shift->n_left));
+  if (status == KZ_OK) {
+    kz_draw_begin(&shift->draw);
+    status = do_tiles(shift);
+  }
+  const kz_status ended = kz_draw_end(&shift->draw);
+  return kz_team_agree(shift->team, status == KZ_OK ? ended : status);
+}
+
+/* The share of its time that a rank had nothing to do, of all ranks together; on rank 0. */
+static kz_status measure_idle(kz_shift *shift, double *idle) {
+  const double seconds = kz_clock() - shift->meter.begun;
+  double busy = 0;
+  KZ_MPI(MPI_Reduce(&shift->draw.busy, &busy, 1, MPI_DOUBLE, MPI_SUM, 0, shift->team->comm));
+  *idle = seconds > 0 ? fmax(0, 1 - busy / (seconds * shift->team->size)) : 0;
+  return KZ_OK;
+}
+
 static kz_status deliver(kz_shift *shift) {
   const kz_stage *stage = shift->stage;
   KZ_TRY(kz_harvest_deliver(&shift->harvest, shift->team, shift->buffer, shift->records));
@@ -119,9 +144,12 @@ static kz_status run(kz_shift *shift) {
   KZ_TRY(kz_team_agree(shift->team, prepare(shift)));
   if (shift->kept) KZ_TRY(recall(shift));
   kz_meter_begin(&shift->meter, shift->team, shift->stage->name, shift->stage->n_tiles, shift->stage->n_tiles - shift->n_left);
-  const kz_status status = kz_team_agree(shift->team, (shift->stage->together ? work_together : work)(shift));
-  kz_meter_end(&shift->meter, status == KZ_OK);
-  if (status == KZ_STOPPED && !shift->stage->together) return kz_team_stopped(shift->team);
+  double idle = 0;
+  const bool together = shift->stage->together;
+  kz_status status = together ? kz_team_agree(shift->team, work_together(shift)) : work(shift);
+  if (status == KZ_OK && !together) status = measure_idle(shift, &idle);
+  kz_meter_end(&shift->meter, status == KZ_OK, idle);
+  if (status == KZ_STOPPED && !together) return kz_team_stopped(shift->team);
   KZ_TRY(status);
   return deliver(shift);
 }

@@ -32,18 +32,19 @@ static kz_status connect_ranks(kz_team *team) {
   KZ_MPI(MPI_Comm_set_errhandler(team->comm, MPI_ERRORS_RETURN));
   KZ_MPI(MPI_Comm_rank(team->comm, &team->rank));
   KZ_MPI(MPI_Comm_size(team->comm, &team->size));
-  return kz_counter_create(team);
+  return KZ_OK;
 }
 
 kz_status kz_team_start(int *argc, char ***argv, kz_team **team) {
   kz_signals_catch();
+  kz_launch_rank();
   kz_team *started = calloc(1, sizeof *started); /* before MPI: a rank that never joins keeps nobody waiting */
   if (!started) return kz_fail(KZ_FAILED, "out of memory while starting");
   started->comm = MPI_COMM_NULL;
-  started->counter = MPI_WIN_NULL;
+  started->mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
   started->checkpoint.file = -1;
   *team = started;
-  KZ_MPI(MPI_Init(argc, argv));
+  KZ_MPI(MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &started->thread_level));
   kz_signals_catch();
   started->start = kz_clock();
   return connect_ranks(started);
@@ -53,7 +54,6 @@ void kz_team_end(kz_team *team) {
   if (team) {
     kz_checkpoint_release(&team->checkpoint);
     if (team->terminal) fclose(team->terminal);
-    kz_counter_free(team);
     if (team->comm != MPI_COMM_NULL) MPI_Comm_free(&team->comm);
     free(team);
   }
@@ -68,11 +68,12 @@ static void give_up(int number) {
   _exit(KZ_FAILED);
 }
 
-void kz_team_abandon(const kz_team *team, kz_status status) {
+void kz_team_abandon(kz_team *team, kz_status status) {
   int ended = 1;
   if (team && MPI_Finalized(&ended) == MPI_SUCCESS && !ended && team->size > 1) {
     signal(SIGALRM, give_up); /* MPI may lack what this rank lacks */
     alarm(ABANDON_SECONDS);
+    pthread_mutex_lock(&team->mutex);
     MPI_Abort(MPI_COMM_WORLD, status);
   }
   _exit(status);
@@ -92,6 +93,15 @@ int kz_team_rank(const kz_team *team) {
 
 int kz_team_size(const kz_team *team) {
   return team->size;
+}
+
+kz_status kz_team_node(kz_team *team, double mine, double *sum, int *ranks) {
+  MPI_Comm node;
+  KZ_MPI(MPI_Comm_split_type(team->comm, MPI_COMM_TYPE_SHARED, team->rank, MPI_INFO_NULL, &node));
+  KZ_MPI(MPI_Comm_size(node, ranks));
+  KZ_MPI(MPI_Allreduce(&mine, sum, 1, MPI_DOUBLE, MPI_SUM, node));
+  KZ_MPI(MPI_Comm_free(&node));
+  return KZ_OK;
 }
 
 static int severity(kz_status status) {

@@ -3,6 +3,7 @@
 #define KAPITZA_PARALLEL_TEAM_H
 
 #include <mpi.h>
+#include <pthread.h>
 
 #include "checkpoint.h"
 #include "kapitza/parallel.h"
@@ -10,9 +11,10 @@
 struct kz_team {
   MPI_Comm comm; /* own duplicate of the world, errors are returned */
   int rank, size;
-  MPI_Win counter; /* one int64 on rank 0: the next draw */
-  double start;    /* s, kz_clock */
-  double limit;    /* s after start; 0 = none */
+  int thread_level;      /* of MPI, MPI_THREAD_SINGLE ... */
+  pthread_mutex_t mutex; /* rank 0: who holds it may use MPI while two threads run */
+  double start;          /* s, kz_clock */
+  double limit;          /* s after start; 0 = none */
   kz_progress progress;
   FILE *terminal; /* /dev/tty once opened, else NULL */
   kz_checkpoint checkpoint;
@@ -33,18 +35,6 @@ double kz_clock(void);
 void kz_signals_catch(void);
 /* The name of the signal that asked for a stop, NULL if none came. */
 const char *kz_signals_caught(void);
-
-/* The shared counter. Create, free and reset are for all ranks at quiet times: no rank may be drawing. */
-kz_status kz_counter_create(kz_team *team);
-kz_status kz_counter_free(kz_team *team);
-/* Rank 0 sets the counter back to 0; the others do nothing. They may draw after the next collective call. */
-kz_status kz_counter_reset(kz_team *team);
-/* The next number, from 0; a very large one once any rank has halted the stage. */
-kz_status kz_counter_draw(kz_team *team, int64_t *drawn);
-/* Every later draw of any rank is larger than any tile. Once per rank and stage. */
-kz_status kz_counter_halt(kz_team *team);
-/* More tiles than this cannot be counted. */
-#define KZ_COUNTER_MAX ((int64_t)1 << 44)
 
 /* KZ_STOPPED with its message where a signal or the time limit asks for a stop, else KZ_OK. */
 kz_status kz_team_interrupted(const kz_team *team);

@@ -31,9 +31,18 @@ typedef struct {
   uint8_t evidence; /* FOLLOWED; INTEGRATED in part, because the table was not trusted; UNDECIDED */
 } labelled;
 
+/* Arrays of one tile: too large for the stack. */
+typedef struct {
+  double start[2 * PARTS * CELLS], state[2 * PARTS * CELLS];
+  int32_t owner[PARTS * CELLS], to[PARTS * CELLS];
+  int64_t periods[PARTS * CELLS], integrated[PARTS * CELLS], place[PARTS * CELLS];
+  bool undecided[PARTS * CELLS];
+} workspace;
+
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
+  workspace *work;       /* of this rank */
   kz_search search;      /* of the starts */
   int64_t tile;          /* cells of a tile */
   int64_t total, own;    /* cells of the window; those that are labelled, the others mirror them */
@@ -45,41 +54,38 @@ typedef struct {
 } basin;
 
 /* Integrates the marked ones of n starts from one unit in the last place beside; marked: those that end elsewhere then. */
-static void find_undecided(const basin *b, int64_t n, const double *start, const int32_t *owner, bool *marked) {
-  double state[2 * PARTS * CELLS];
-  int32_t to[PARTS * CELLS];
-  int64_t place[PARTS * CELLS], periods[PARTS * CELLS], asked = 0;
+static void find_undecided(const basin *b, int64_t n) {
+  workspace *w = b->work;
+  int64_t asked = 0;
   for (int64_t i = 0; i < n; i++) {
-    if (!marked[i]) continue;
-    for (int c = 0; c < 2; c++) state[2 * asked + c] = nextafter(start[2 * i + c], copysign(INFINITY, start[2 * i + c]));
-    place[asked++] = i;
+    if (!w->undecided[i]) continue;
+    for (int c = 0; c < 2; c++)
+      w->state[2 * asked + c] = nextafter(w->start[2 * i + c], copysign(INFINITY, w->start[2 * i + c]));
+    w->place[asked++] = i;
   }
-  kz_dynamics_follow(b->dynamics, asked, b->plan->max_periods, state, to, periods);
-  for (int64_t i = 0; i < asked; i++) marked[place[i]] = to[i] != owner[place[i]];
+  kz_dynamics_follow(b->dynamics, asked, b->plan->max_periods, w->state, w->to, w->periods);
+  for (int64_t i = 0; i < asked; i++) w->undecided[w->place[i]] = w->to[i] != w->owner[w->place[i]];
 }
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
   const basin *b = context;
   const kz_basin_plan *plan = b->plan;
   labelled *out = record;
-  double start[2 * PARTS * CELLS], state[2 * PARTS * CELLS];
-  int32_t owner[PARTS * CELLS];
-  int64_t periods[PARTS * CELLS], integrated[PARTS * CELLS];
-  bool undecided[PARTS * CELLS] = {false};
+  workspace *w = b->work;
   const int64_t first = tile * b->tile, left = b->n_open - first, n = left < b->tile ? left : b->tile;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(plan, b->open ? b->open[first + i] : first + i, start + 2 * i);
-  memcpy(state, start, 2 * (size_t)n * sizeof *state);
-  kz_follow(b->dynamics, plan->method, plan->interpolation, n, plan->max_periods, state, owner, periods, integrated);
-  if (plan->flag_undecided) {
-    for (int64_t i = 0; i < n; i++)
-      undecided[i] = owner[i] > 0 && periods[i] > 0 && (integrated[i] > 0 || plan->method == KZ_METHOD_DIRECT);
-    find_undecided(b, n, start, owner, undecided);
-  }
+  for (int64_t i = 0; i < n; i++) kz_cell_state(plan, b->open ? b->open[first + i] : first + i, w->start + 2 * i);
+  memcpy(w->state, w->start, 2 * (size_t)n * sizeof *w->state);
+  kz_follow(b->dynamics, plan->method, plan->interpolation, n, plan->max_periods, w->state, w->owner, w->periods,
+            w->integrated);
   for (int64_t i = 0; i < n; i++) {
-    out[i].owner = (int16_t)owner[i];
-    out[i].periods = (uint32_t)periods[i];
-    out[i].evidence = undecided[i] ? UNDECIDED : integrated[i] > 0 ? INTEGRATED : FOLLOWED;
+    w->undecided[i] = plan->flag_undecided && w->owner[i] > 0 && w->periods[i] > 0 &&
+                      (w->integrated[i] > 0 || plan->method == KZ_METHOD_DIRECT);
+    out[i].owner = (int16_t)w->owner[i];
+    out[i].periods = (uint32_t)w->periods[i];
   }
+  if (plan->flag_undecided) find_undecided(b, n);
+  for (int64_t i = 0; i < n; i++)
+    out[i].evidence = w->undecided[i] ? UNDECIDED : w->integrated[i] > 0 ? INTEGRATED : FOLLOWED;
   return KZ_OK;
 }
 
@@ -167,11 +173,12 @@ static kz_status model(basin *b, kz_team *team) {
 }
 
 static kz_status allocate(basin *b, bool leads) {
+  b->work = malloc(sizeof *b->work);
   b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
   b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
   b->periods = leads ? calloc((size_t)b->own, sizeof *b->periods) : NULL;
   b->evidence = leads ? calloc((size_t)b->own, sizeof *b->evidence) : NULL;
-  if (b->reached && (!leads || (b->owner && b->periods && b->evidence))) return KZ_OK;
+  if (b->work && b->reached && (!leads || (b->owner && b->periods && b->evidence))) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->own);
 }
 
@@ -233,6 +240,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
     kz_labels_free(&labels);
   }
   if (b.dynamics) kz_dynamics_free(b.dynamics);
+  free(b.work);
   free(b.owner);
   free(b.periods);
   free(b.evidence);
@@ -297,7 +305,8 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 7e-8);
   kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
                   .disk_bytes = 14 * cells,
-                  .memory_bytes = 27 * cells + 100 * nodes,
+                  .memory_bytes = 100 * nodes,
+                  .first_bytes = 27 * cells,
                   .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
                                   nodes / 2 * (table_period + 1e-6) + cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);

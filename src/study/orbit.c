@@ -30,7 +30,7 @@ kz_cost kz_orbit_cost(const kz_scene *scene) {
   double samples = fmax(96, (double)plan->samples_per_period) * periods;
   return (kz_cost){.cells = 0,
                    .disk_bytes = 32 * rows + 300 * periods,
-                   .memory_bytes = 80 * samples + 32 * rows,
+                   .first_bytes = 80 * samples + 32 * rows,
                    .core_seconds = 1e-4 * (periods + (double)plan->transient + ahead)};
 }
 

@@ -22,7 +22,7 @@ bool kz_potential_wanted(const kz_scene *scene) {
 
 kz_cost kz_potential_cost(const kz_scene *scene) {
   double points = (double)scene->potential.drive_amplitudes.count * (double)scene->potential.theta_count;
-  return (kz_cost){.disk_bytes = 24 * points, .memory_bytes = 24 * points, .core_seconds = 2e-6 * points};
+  return (kz_cost){.disk_bytes = 24 * points, .first_bytes = 24 * points, .core_seconds = 2e-6 * points};
 }
 
 static kz_status allocate(curves *c) {

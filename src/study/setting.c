@@ -10,10 +10,17 @@
 
 enum { CHUNK = 16384 }; /* cells labelled at a time */
 
+/* Arrays of one chunk: too large for the stack. */
+typedef struct {
+  double state[2 * CHUNK];
+  int64_t periods[CHUNK], integrated[CHUNK];
+} workspace;
+
 typedef struct {
   const kz_setting *setting;
   const kz_judge *judge;
   kz_dynamics *dynamics;
+  workspace *work;
 } gauge;
 
 /* Processor time of this thread: what others do on the machine does not count. */
@@ -26,13 +33,12 @@ static double seconds(void) {
 /* Labels [n] of the first n cells of the judge's order. */
 static void label(const gauge *g, int64_t n, int32_t *owner) {
   const kz_setting *s = g->setting;
-  double state[2 * CHUNK];
-  int64_t periods[CHUNK], integrated[CHUNK];
+  workspace *w = g->work;
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
-    for (int64_t i = 0; i < some; i++) kz_cell_state(g->judge->plan, kz_judge_cell(g->judge, first + i), state + 2 * i);
-    kz_follow(g->dynamics, s->method, s->interpolation, some, g->judge->plan->max_periods, state, owner + first, periods,
-              integrated);
+    for (int64_t i = 0; i < some; i++) kz_cell_state(g->judge->plan, kz_judge_cell(g->judge, first + i), w->state + 2 * i);
+    kz_follow(g->dynamics, s->method, s->interpolation, some, g->judge->plan->max_periods, w->state, owner + first, w->periods,
+              w->integrated);
   }
 }
 
@@ -84,11 +90,14 @@ kz_status kz_setting_measure(const kz_setting *setting, const kz_judge *judge, i
   int64_t n = timed > judge->samples ? timed : judge->samples;
   if (n > judge->total) n = judge->total;
   g.dynamics = kz_dynamics_create(&judge->pendulum, &numerics, judge->plan->max_period);
+  g.work = malloc(sizeof *g.work);
   int32_t *owner = malloc((size_t)n * sizeof *owner + 1);
   int64_t *surplus = calloc(INT16_MAX + 1, sizeof *surplus);
-  kz_status status = g.dynamics && owner && surplus ? measure(&g, n, owner, surplus, measured)
-                                                    : kz_fail(KZ_FAILED, "no memory for the setting %s", setting->label);
+  kz_status status = g.dynamics && g.work && owner && surplus
+                         ? measure(&g, n, owner, surplus, measured)
+                         : kz_fail(KZ_FAILED, "no memory for the setting %s", setting->label);
   if (g.dynamics) kz_dynamics_free(g.dynamics);
+  free(g.work);
   free(owner);
   free(surplus);
   return status;

@@ -35,7 +35,7 @@ kz_cost kz_stability_cost(const kz_scene *scene) {
   double stiffness = highest_k + highest_m + (plan->quality_factor > 0 ? highest_k / pow(plan->quality_factor, 2) : 0);
   return (kz_cost){.cells = (int64_t)points,
                    .disk_bytes = 34 * points + 32 * curves,
-                   .memory_bytes = 34 * points + 32 * curves,
+                   .first_bytes = 34 * points + 32 * curves,
                    .core_seconds = 1e-7 * (1 + sqrt(stiffness + beta * beta)) * points + 1e-4 * curves};
 }
 

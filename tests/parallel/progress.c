@@ -2,10 +2,15 @@
 #define _GNU_SOURCE
 #include <poll.h>
 #include <pty.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <sys/wait.h>
+#include <termios.h>
 
 #include "ranks.h"
 
 static char shown[100000];
+static int here = -1, there = -1; /* the ends of a terminal whose foreground is this process; -1: a machine without terminals */
 
 static kz_status fill(void *context, int64_t tile, void *bytes) {
   (void)context;
@@ -46,11 +51,8 @@ static void show_in_pipe(kz_progress progress, int64_t n_tiles) {
 
 /* Skips the test on a machine without pseudo-terminals: a bare chroot has none. */
 static void show_on_terminal(kz_progress progress, int64_t n_tiles) {
-  int here, there;
-  if (openpty(&here, &there, NULL, NULL, NULL) != 0) skip();
+  if (here < 0) skip();
   show(progress, n_tiles, there, here);
-  close(here);
-  close(there);
 }
 
 static void a_terminal_gets_a_bar(void **state) {
@@ -65,6 +67,7 @@ static void a_file_gets_lines(void **state) {
   (void)state;
   show_in_pipe(KZ_PROGRESS_ALWAYS, 70);
   assert_non_null(strstr(shown, "kapitza: cells: 100 %"));
+  assert_non_null(strstr(shown, "ranks idle "));
   assert_ptr_not_equal(strstr(shown, "kapitza: cells:"), strstr(shown, "kapitza: cells: 100 %"));
   assert_null(strchr(shown, '\r'));
 }
@@ -85,13 +88,45 @@ static void a_terminal_is_left_alone_too(void **state) {
   assert_string_equal(shown, "");
 }
 
+/* Another group has the terminal, which stops whoever else writes to it (stty tostop): the stage ends all the same, without a bar. */
+static void a_terminal_of_others_is_left_alone(void **state) {
+  (void)state;
+  if (here < 0) skip();
+  const pid_t other = fork();
+  if (other == 0) pause();
+  struct termios settings;
+  assert_int_equal(setpgid(other, other) | tcgetattr(there, &settings), 0);
+  settings.c_lflag |= TOSTOP;
+  assert_int_equal(tcsetattr(there, TCSANOW, &settings) | tcsetpgrp(there, other), 0);
+  show(KZ_PROGRESS_AUTO, 60, there, here);
+  kill(other, SIGKILL);
+  waitpid(other, NULL, 0);
+  assert_int_equal(tcsetpgrp(there, getpgrp()), 0); /* of a process in the background: allowed, since SIGTTOU is ignored */
+  assert_string_equal(shown, "");
+}
+
+/* Goes on in a session of its own, in the foreground of its terminal; the first process hands the status of the second on. */
+static void take_terminal(void) {
+  const pid_t second = fork();
+  if (second > 0) {
+    int status = 1;
+    waitpid(second, &status, 0);
+    exit(WIFEXITED(status) ? WEXITSTATUS(status) : 1);
+  }
+  signal(SIGHUP, SIG_IGN);
+  if (second == 0 && setsid() > 0 && openpty(&here, &there, NULL, NULL, NULL) == 0 && ioctl(there, TIOCSCTTY, 0) != 0)
+    here = -1;
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_terminal_gets_a_bar),
       cmocka_unit_test(a_file_gets_lines),
       cmocka_unit_test(nothing_is_nothing),
       cmocka_unit_test(a_terminal_is_left_alone_too),
+      cmocka_unit_test(a_terminal_of_others_is_left_alone),
   };
+  take_terminal();
   if (unsetenv("OMPI_COMM_WORLD_RANK") != 0) return 1;
   return run_ranks(tests, sizeof tests / sizeof *tests);
 }

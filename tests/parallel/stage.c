@@ -1,4 +1,5 @@
 /* Stages: every record arrives, whoever did it; a failure ends all ranks. */
+#include <fcntl.h>
 #include <sys/resource.h>
 
 #include "ranks.h"
@@ -154,6 +155,43 @@ static void memory_that_runs_out_on_one_rank_ends_all(void **state) {
   free(records);
 }
 
+/* Tiles done by all ranks, as the length of a file that they share; -1: it cannot be had. */
+typedef struct {
+  char path[64];
+  int file;
+} tally;
+
+static int64_t count(const tally *t) {
+  return lseek(t->file, 0, SEEK_END);
+}
+
+/* The first tile ends once all others are done, whoever has it: rank 0. */
+static kz_status wait_for_others(void *context, int64_t tile, void *bytes) {
+  const tally *t = context;
+  const double begun = now();
+  memset(bytes, 1, 1);
+  while (tile == 0 && count(t) < N_TILES - 1 && now() - begun < 20) pause_for(0.001);
+  if (tile == 0 && count(t) < N_TILES - 1) return kz_fail(KZ_FAILED, "%lld tiles are done", (long long)count(t));
+  pause_for(0.001);
+  return write(t->file, "x", 1) == 1 ? KZ_OK : kz_fail(KZ_FAILED, "no tally");
+}
+
+static void rank_0_answers_amid_its_own_tile(void **state) {
+  (void)state;
+  if (kz_team_size(team) == 1) skip();
+  tally t = {.path = "/tmp/kapitza-tally-XXXXXX"};
+  t.file = kz_team_rank(team) == 0 ? mkstemp(t.path) : -1;
+  kz_team_broadcast(team, t.path, sizeof t.path);
+  if (kz_team_rank(team) > 0) t.file = open(t.path, O_WRONLY);
+  assert_all(fcntl(t.file, F_SETFL, O_APPEND) == 0);
+  const kz_stage stage = {.name = "wait", .n_tiles = N_TILES, .record_bytes = 1, .work = wait_for_others, .context = &t};
+  char records[N_TILES];
+  const kz_status status = kz_stage_run(team, &stage, records);
+  assert_all(kz_team_rank(team) != 0 || unlink(t.path) == 0);
+  assert_all(status == KZ_OK && count(&t) == N_TILES);
+  close(t.file);
+}
+
 static void the_worst_status_wins(void **state) {
   (void)state;
   const int last = kz_team_size(team) - 1, rank = kz_team_rank(team);
@@ -182,6 +220,7 @@ int main(void) {
       cmocka_unit_test(a_failing_tile_ends_all_ranks),
       cmocka_unit_test(a_missing_array_ends_all_ranks),
       cmocka_unit_test(records_beyond_a_message_arrive),
+      cmocka_unit_test(rank_0_answers_amid_its_own_tile),
       cmocka_unit_test(the_worst_status_wins),
       cmocka_unit_test(broadcast_reaches_all),
       cmocka_unit_test(memory_that_runs_out_on_one_rank_ends_all),

@@ -55,7 +55,7 @@ static void a_signal_to_one_rank_stops_all(void **state) {
   const kz_status status = run(&done, true);
   assert_all(status == KZ_STOPPED && strstr(kz_message(), "SIGUSR1") && strstr(kz_message(), path));
   assert_all(now() - begun < 10);
-  assert_all(done <= 21);
+  assert_all(done < N_TILES / 4); /* the others hear of it with their next batch */
   assert_all(run(&done, true) == KZ_STOPPED);
   assert_all(kz_checkpoint_close(team, false) == KZ_OK);
   assert_all(kz_team_rank(team) != 0 || unlink(path) == 0);

@@ -9,3 +9,9 @@ add_library(failing_memory MODULE tools/failing_memory.c)
 target_compile_options(failing_memory PRIVATE ${KAPITZA_FLAGS_C} -fno-builtin)
 target_link_libraries(failing_memory PRIVATE ${CMAKE_DL_LIBS})
 set_target_properties(failing_memory PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+
+# A load that sleeps, to measure how long ranks are idle (no test: what it tells depends on the machine).
+add_executable(uneven tools/uneven.c)
+target_compile_options(uneven PRIVATE ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
+target_link_libraries(uneven PRIVATE kapitza_parallel)
+set_target_properties(uneven PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

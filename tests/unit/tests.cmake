@@ -1,6 +1,7 @@
 kapitza_test(branches LABEL unit FLOOR dynamics)
 kapitza_test(dynamics LABEL unit FLOOR dynamics TIMEOUT 600)
 kapitza_test(kernel LABEL unit FLOOR kernel)
+kapitza_test(memory_limit LABEL unit FLOOR app)
 kapitza_test(models LABEL unit FLOOR kernel)
 kapitza_test(scene LABEL unit FLOOR app)
 kapitza_test(scene_fuzz LABEL unit FLOOR app)

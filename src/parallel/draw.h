@@ -1,0 +1,48 @@
+/* Tiles are drawn by plain messages: rank 0 gives them away in batches, from a thread of its own, so that it answers amid its own tiles.
+ *
+ *   rank -> 0   ask: seconds it takes for a tile; whether it still works, is idle, or cannot go on
+ *   0 -> rank   tiles first .. first + n - 1; whether asking again makes sense
+ *
+ * A rank begins with the tile of its own number, unasked, and asks for the next batch before the last tile of the present one. */
+#ifndef KAPITZA_PARALLEL_DRAW_H
+#define KAPITZA_PARALLEL_DRAW_H
+
+#include <pthread.h>
+
+#include "schedule.h"
+#include "team.h"
+
+typedef struct {
+  int64_t first, n; /* tiles */
+  int64_t more;     /* 0: there are no others */
+} kz_batch;
+
+typedef struct {
+  kz_team *team;
+  int64_t n_done;
+  double busy;        /* s, between a tile and the next request for one */
+  double handed;      /* s, kz_clock: when the present tile was handed out; 0 = there is none */
+  kz_batch batch;     /* in hand */
+  kz_batch granted;   /* the answer to a request that is under way */
+  MPI_Request answer; /* MPI_REQUEST_NULL: none is awaited */
+  /* rank 0 alone; under team->mutex while the thread runs */
+  kz_schedule schedule;
+  int asking;  /* ranks that will ask once more */
+  bool halted; /* nobody gets any more */
+  bool threaded;
+  pthread_t thread;
+  int mpi_error; /* of the thread, MPI_SUCCESS */
+} kz_draw;
+
+/* Prepares for `n_tiles` tiles; no messages. To be ended on every rank, whatever it returns. */
+kz_status kz_draw_prepare(kz_draw *draw, kz_team *team, int64_t n_tiles);
+/* Rank 0 answers from here on; no rank but through kz_draw may use MPI before kz_draw_end. */
+void kz_draw_begin(kz_draw *draw);
+/* The next tile of this rank; -1 where none is left, or a rank has halted. */
+kz_status kz_draw_next(kz_draw *draw, int64_t *tile);
+/* This rank cannot go on, and no other gets more than it has. */
+kz_status kz_draw_halt(kz_draw *draw);
+/* Rank 0 waits until all others know that nothing is left. */
+kz_status kz_draw_end(kz_draw *draw);
+
+#endif

@@ -1,0 +1,41 @@
+#include "schedule.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* A batch lasts long beside a message, and short beside what a person waits for. Rank 0 answers some 10^5 requests a second: with
+ * very many ranks batches last longer, so that they ask no more than a tenth of that. */
+static const double BATCH_SECONDS = 0.1, SECONDS_A_RANK = 1e-4;
+
+bool kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks) {
+  *schedule = (kz_schedule){.next = ranks < n_tiles ? ranks : n_tiles, .end = n_tiles, .ranks = ranks};
+  schedule->seconds = calloc((size_t)ranks, sizeof *schedule->seconds);
+  return schedule->seconds != NULL;
+}
+
+void kz_schedule_end(kz_schedule *schedule) {
+  free(schedule->seconds);
+  schedule->seconds = NULL;
+}
+
+void kz_schedule_note(kz_schedule *schedule, int rank, double seconds) {
+  double *known = &schedule->seconds[rank];
+  if (seconds <= 0) return;
+  schedule->rate += 1 / seconds - (*known > 0 ? 1 / *known : 0);
+  *known = seconds;
+}
+
+int64_t kz_schedule_grant(kz_schedule *schedule, int rank, bool early, int64_t *first) {
+  const int64_t left = schedule->end - schedule->next;
+  const double seconds = schedule->seconds[rank];
+  double tiles = 1;
+  if (seconds > 0) {
+    const double rest = (double)left / fmax(schedule->rate, 1 / seconds); /* s, of all ranks together */
+    if (early && rest < 2 * seconds) return 0;
+    tiles = fmin(rest / 2, fmax(BATCH_SECONDS, SECONDS_A_RANK * schedule->ranks)) / seconds;
+  }
+  const int64_t n = tiles >= (double)left ? left : tiles > 1 ? (int64_t)tiles : left > 0;
+  *first = schedule->next;
+  schedule->next += n;
+  return n;
+}

@@ -1,0 +1,80 @@
+/* Who gets how many tiles: batches shrink, nobody gets more than a share, the last tiles go to whoever is done with them first. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "schedule.h"
+
+enum { RANKS = 4 };
+static const double FAST = 1e-4, SLOW = 1e-3; /* s a tile */
+
+/* Four ranks, the last one ten times slower, with `left` tiles to give away. */
+static kz_schedule begin(int64_t left) {
+  kz_schedule schedule;
+  assert_true(kz_schedule_begin(&schedule, RANKS + left, RANKS));
+  for (int rank = 0; rank < RANKS; ++rank) kz_schedule_note(&schedule, rank, rank == RANKS - 1 ? SLOW : FAST);
+  return schedule;
+}
+
+static void every_tile_is_given_once_in_shrinking_batches(void **state) {
+  (void)state;
+  kz_schedule schedule = begin(2000);
+  int64_t next = RANKS, before = INT64_MAX, n, first, batches = 0;
+  while ((n = kz_schedule_grant(&schedule, 1, false, &first)) > 0) {
+    assert_true(first == next && n <= before);
+    next += before = n;
+    ++batches;
+  }
+  assert_true(next == RANKS + 2000 && before == 1 && batches < 60);
+  kz_schedule_end(&schedule);
+}
+
+static void a_slow_rank_gets_a_tenth(void **state) {
+  (void)state;
+  kz_schedule schedule = begin(2000);
+  int64_t first;
+  const int64_t fast = kz_schedule_grant(&schedule, 0, false, &first), slow = kz_schedule_grant(&schedule, 3, false, &first);
+  assert_true(fast > 200 && fast < 1000 && slow >= fast / 20 && slow <= fast / 9);
+  kz_schedule_end(&schedule);
+}
+
+static void a_batch_lasts_a_tenth_of_a_second(void **state) {
+  (void)state;
+  kz_schedule schedule = begin(1000000000);
+  int64_t first;
+  assert_int_equal(kz_schedule_grant(&schedule, 0, false, &first), 1000);
+  assert_int_equal(kz_schedule_grant(&schedule, 3, true, &first), 100);
+  kz_schedule_end(&schedule);
+}
+
+static void who_still_works_leaves_the_last_tiles_to_others(void **state) {
+  (void)state;
+  kz_schedule schedule = begin(30); /* 1 ms of all ranks, a tile of the slow one */
+  int64_t first;
+  assert_int_equal(kz_schedule_grant(&schedule, 3, true, &first), 0);
+  assert_true(kz_schedule_grant(&schedule, 0, true, &first) > 0);
+  assert_int_equal(kz_schedule_grant(&schedule, 3, false, &first), 1);
+  kz_schedule_end(&schedule);
+}
+
+static void few_tiles_are_not_asked_for(void **state) {
+  (void)state;
+  kz_schedule schedule;
+  int64_t first;
+  assert_true(kz_schedule_begin(&schedule, 3, RANKS));
+  assert_int_equal(kz_schedule_grant(&schedule, 2, false, &first), 0);
+  kz_schedule_end(&schedule);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_tile_is_given_once_in_shrinking_batches),
+      cmocka_unit_test(a_slow_rank_gets_a_tenth),
+      cmocka_unit_test(a_batch_lasts_a_tenth_of_a_second),
+      cmocka_unit_test(who_still_works_leaves_the_last_tiles_to_others),
+      cmocka_unit_test(few_tiles_are_not_asked_for),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

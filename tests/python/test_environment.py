@@ -1,0 +1,106 @@
+"""What a user's shell, batch system and control groups leave to the program: limits, ignored signals, variables."""
+
+import os
+import resource
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from conftest import PROGRAM, ROOT
+
+SMALL = ROOT / "scenes" / "small.yaml"
+FEW = ["--set", "basin.theta.count=9", "--set", "basin.velocity.count=9", "--set", "basin.icm={theta: 40, velocity: 40}"]
+LONG = ["--set", "basin.method=direct", "--set", "basin.theta.count=600", "--set", "basin.velocity.count=600"]
+
+
+def run(words, folder, **more):
+    """A run to its end."""
+    return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, timeout=120, **more)
+
+
+@pytest.mark.parametrize("method", ["icm", "direct", "hybrid"])
+def test_a_small_stack_is_enough(tmp_path, method):
+    words = [PROGRAM, "run", SMALL, *FEW, "--set", f"basin.method={method}"]
+    done = run(["bash", "-c", 'ulimit -s 512; exec "$@"', "limited", *words], tmp_path)
+    assert done.returncode == 0, done.stderr
+
+
+def test_a_stack_that_is_too_small_is_refused(tmp_path):
+    done = run(["bash", "-c", 'ulimit -s 500; exec mpirun -n 2 "$@"', "limited", PROGRAM, "run", SMALL, *FEW], tmp_path)
+    assert done.returncode == 2 and "ulimit -s 512" in done.stderr and done.stderr.count("kapitza: error") == 1, done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_few_descriptors_end_a_rank_with_a_word(tmp_path):
+    """mpirun itself needs more than a rank: it is not limited here."""
+    words = ["mpirun", "-n", "2", "bash", "-c", 'ulimit -n 18; exec "$@"', "limited", PROGRAM, "run", SMALL, *FEW]
+    done = run(words, tmp_path)
+    assert done.returncode == 2 and "Too many open files" in done.stderr and not list(tmp_path.iterdir()), done.stderr
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGUSR1"])
+def test_an_ignored_signal_stays_ignored(tmp_path, name):
+    """As below nohup, or after `trap '' INT`."""
+    number = getattr(signal, name)
+    process = subprocess.Popen([PROGRAM, "run", SMALL, *FEW], cwd=tmp_path, stderr=subprocess.PIPE, text=True,
+                               preexec_fn=lambda: signal.signal(number, signal.SIG_IGN))
+    while process.poll() is None:
+        process.send_signal(number)
+        time.sleep(0.01)
+    assert process.wait() == 0 and (tmp_path / "small.h5").exists(), process.stderr.read()
+
+
+def test_a_batch_systems_variables_invent_no_ranks(tmp_path):
+    """A lone process in a job: it speaks, and shares its memory with nobody."""
+    job = os.environ | {"SLURM_PROCID": "3", "SLURM_NTASKS_PER_NODE": "100000"}
+    done = run([PROGRAM, "run", "missing.yaml"], tmp_path, env=job)
+    assert done.returncode == 2 and "missing.yaml" in done.stderr
+    done = run([PROGRAM, "run", SMALL, *FEW], tmp_path, env=job)
+    assert done.returncode == 0 and "written to small.h5" in done.stdout, done.stderr
+
+
+def test_options_may_follow_the_scene_whatever_posix_says(tmp_path):
+    done = run([PROGRAM, "run", SMALL, *FEW], tmp_path, env=os.environ | {"POSIXLY_CORRECT": "1"})
+    assert done.returncode == 0, done.stderr
+
+
+def test_memory_for_the_cells_is_asked_of_rank_0_alone(tmp_path):
+    """Twice what four ranks would have if each held every cell; nothing is run."""
+    physical = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    count = int((physical / 2 / 27) ** 0.5)
+    limit = resource.getrlimit(resource.RLIMIT_AS)[0]
+    if limit != resource.RLIM_INFINITY:
+        pytest.skip("the address space of this shell is limited")
+    words = [PROGRAM, "run", SMALL, "--set", f"basin.theta.count={count}", "--set", f"basin.velocity.count={count}",
+             "--set", "numerics.steps_per_period=1", "-o", "x.h5"]
+    done = run(["mpirun", "-n", "4", *words], tmp_path)
+    assert done.returncode == 2 and "of memory" not in done.stderr, done.stderr
+
+
+@pytest.fixture
+def group():
+    """A memory control group of our own: the folder, and its file for a limit."""
+    kinds = {"/sys/fs/cgroup/memory": "memory.limit_in_bytes", "/sys/fs/cgroup": "memory.max"}
+    for root, name in kinds.items():
+        folder = Path(root) / f"kapitza-test-{os.getpid()}"
+        try:
+            folder.mkdir()
+        except OSError:
+            continue
+        if (folder / name).exists():
+            yield folder, folder / name
+            folder.rmdir()
+            return
+        folder.rmdir()
+    pytest.skip("making a memory control group needs more rights than this user has")
+
+
+def test_the_control_group_of_the_process_counts(tmp_path, group):
+    folder, limit = group
+    limit.write_text("70000000")
+    words = ["bash", "-c", f'echo $$ > {folder}/cgroup.procs && exec "$@"', "grouped", PROGRAM, "check", SMALL]
+    assert run(words, tmp_path).returncode == 0
+    done = run([*words, "--set", "basin.theta.count=2000", "--set", "basin.velocity.count=2000"], tmp_path)
+    assert done.returncode == 2 and "70.0 MB" in done.stderr, done.stderr
