@@ -147,15 +147,17 @@ contains
     do i = lanes + 1, WIDTH
       call flow%put(i, 0.0_c_double, 0.0_c_double)
     end do
+    call flow%enter(lanes)
   end subroutine load
 
   subroutine unload(flow, lanes, theta, velocity, turns)
-    class(flow_t), intent(in) :: flow
+    class(flow_t), intent(inout) :: flow
     integer, intent(in) :: lanes
     real(c_double), intent(inout) :: theta(*)
     real(c_double), intent(inout) :: velocity(*)
     integer(c_int64_t), intent(inout) :: turns(*)
 
+    call flow%leave(lanes)
     theta(:lanes) = flow%u(:lanes)*PI
     velocity(:lanes) = flow%v(:lanes)
     turns(:lanes) = turns(:lanes) + flow%turns(:lanes)

@@ -2,10 +2,12 @@
 module kz_kernel_plan
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_kernel_map, only: flow_t
+  use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed
+  use kz_kernel_schemes, only: SCHEMES, PROCESSED
   use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
-  use kz_kernel_r32, only: make_tile_r32 => make_tile
-  use kz_kernel_r64, only: make_tile_r64 => make_tile
-  use kz_kernel_r128, only: make_tile_r128 => make_tile
+  use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
+  use kz_kernel_r64, only: make_tile_r64 => make_tile, make_processed_r64 => make_processed_tile
+  use kz_kernel_r128, only: make_tile_r128 => make_tile, make_processed_r128 => make_processed_tile
   implicit none
   private
   public :: make_flow, fine_numerics, FINE
@@ -29,13 +31,17 @@ contains
 
   !> The map of one drive period. Steps that are joined are faster; sampling within the period needs them apart. (A subroutine:
   !> gfortran 12 does not free what a polymorphic function returns.)
-  subroutine make_flow(pendulum, numerics, joined, flow)
+  recursive subroutine make_flow(pendulum, numerics, joined, flow)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     logical, intent(in) :: joined
     class(flow_t), allocatable, intent(out) :: flow
     type(period_t) :: period
 
+    if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
+      call make_processed_flow(pendulum, numerics, flow)
+      return
+    end if
     call make_period(pendulum, numerics, joined, period)
     select case (numerics%precision)
     case (SINGLE)
@@ -46,5 +52,33 @@ contains
       call make_tile_r128(period, flow)
     end select
   end subroutine make_flow
+
+  !> The processed splitting with a given number of steps.
+  recursive subroutine make_processed_flow(pendulum, numerics, flow)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    class(flow_t), allocatable, intent(out) :: flow
+    type(numerics_t) :: fine
+    type(series_t) :: series
+    type(processed_t) :: table
+    class(flow_t), allocatable :: fallback
+    real(c_double), parameter :: FASTEST = 3
+    integer, parameter :: N_DRIFT = 3
+    integer, parameter :: N_KICK(0:2) = [7, 10, 12]
+
+    fine = fine_numerics(pendulum)
+    fine%precision = numerics%precision
+    call make_flow(pendulum, fine, .false., fallback)
+    call make_processed_series(pendulum, numerics%precision == QUAD, series)
+    call make_processed(pendulum, series, int(numerics%steps_per_period), N_DRIFT, N_KICK(numerics%precision), FASTEST, table)
+    select case (numerics%precision)
+    case (SINGLE)
+      call make_processed_r32(table, FASTEST, fallback, flow)
+    case (DOUBLE)
+      call make_processed_r64(table, FASTEST, fallback, flow)
+    case default
+      call make_processed_r128(table, FASTEST, fallback, flow)
+    end select
+  end subroutine make_processed_flow
 
 end module kz_kernel_plan
