@@ -2,7 +2,7 @@
 module kz_kernel_plan
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_kernel_map, only: flow_t
-  use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed
+  use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, MOST_DRIFTS
   use kz_kernel_schemes, only: SCHEMES, PROCESSED
   use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
   use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
@@ -10,7 +10,7 @@ module kz_kernel_plan
   use kz_kernel_r128, only: make_tile_r128 => make_tile, make_processed_r128 => make_processed_tile
   implicit none
   private
-  public :: make_flow, fine_numerics, FINE
+  public :: make_flow, make_processed_flow, fine_numerics, FINE
 
   !> The codes of numerics_t%precision.
   integer, parameter, public :: SINGLE = 0, DOUBLE = 1, QUAD = 2
@@ -37,9 +37,12 @@ contains
     logical, intent(in) :: joined
     class(flow_t), allocatable, intent(out) :: flow
     type(period_t) :: period
+    type(series_t), allocatable :: series
 
     if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
-      call make_processed_flow(pendulum, numerics, flow)
+      allocate (series)
+      call make_processed_series(pendulum, numerics%precision == QUAD, series)
+      call make_processed_flow(pendulum, series, numerics, flow)
       return
     end if
     call make_period(pendulum, numerics, joined, period)
@@ -53,31 +56,39 @@ contains
     end select
   end subroutine make_flow
 
-  !> The processed splitting with a given number of steps.
-  recursive subroutine make_processed_flow(pendulum, numerics, flow)
+  !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
+  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted)
     type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
     type(numerics_t), intent(in) :: numerics
     class(flow_t), allocatable, intent(out) :: flow
+    !> the drift is fitted up to this speed; the fastest, if left out
+    real(c_double), intent(in), optional :: fitted
+    integer, parameter :: MOST_KICKS(SINGLE:QUAD) = [7, 10, 12]
     type(numerics_t) :: fine
-    type(series_t) :: series
     type(processed_t) :: table
     class(flow_t), allocatable :: fallback
-    real(c_double), parameter :: FASTEST = 3
-    integer, parameter :: N_DRIFT = 3
-    integer, parameter :: N_KICK(0:2) = [7, 10, 12]
+    real(c_double) :: fastest, fit
+    integer :: drifts, kicks
 
-    fine = fine_numerics(pendulum)
-    fine%precision = numerics%precision
-    call make_flow(pendulum, fine, .false., fallback)
-    call make_processed_series(pendulum, numerics%precision == QUAD, series)
-    call make_processed(pendulum, series, int(numerics%steps_per_period), N_DRIFT, N_KICK(numerics%precision), FASTEST, table)
+    drifts = merge(int(numerics%drift_terms), MOST_DRIFTS, numerics%drift_terms > 0)
+    kicks = merge(int(numerics%kick_terms), MOST_KICKS(numerics%precision), numerics%kick_terms > 0)
+    fastest = merge(numerics%fastest, 3.0_c_double, numerics%fastest > 0)
+    fit = fastest
+    if (present(fitted)) fit = fitted
+    if (fastest < huge(fastest)) then
+      fine = fine_numerics(pendulum)
+      fine%precision = numerics%precision
+      call make_flow(pendulum, fine, .false., fallback)
+    end if
+    call make_processed(pendulum, series, int(numerics%steps_per_period), drifts, kicks, fit, table)
     select case (numerics%precision)
     case (SINGLE)
-      call make_processed_r32(table, FASTEST, fallback, flow)
+      call make_processed_r32(table, fastest, fallback, flow)
     case (DOUBLE)
-      call make_processed_r64(table, FASTEST, fallback, flow)
+      call make_processed_r64(table, fastest, fallback, flow)
     case default
-      call make_processed_r128(table, FASTEST, fallback, flow)
+      call make_processed_r128(table, fastest, fallback, flow)
     end select
   end subroutine make_processed_flow
 

@@ -45,12 +45,13 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     logical, intent(in) :: in_quad
     type(series_t), intent(out) :: series
-    type(series_r64_t) :: rounded
+    type(series_r64_t), allocatable :: rounded
 
     if (in_quad) then
       call make_series(real(pendulum%k, qp), real(pendulum%beta, qp), real(pendulum%m, qp), series)
       return
     end if
+    allocate (rounded)
     call make_series_r64(pendulum%k, pendulum%beta, pendulum%m, rounded)
     series%kick_cosine = rounded%kick_cosine
     series%kick_sine = rounded%kick_sine
@@ -81,7 +82,7 @@ contains
     table%decay = exp(-2*PI*beta)
     allocate (table%row(n_drift + n_kick, n_steps), table%last(n_drift))
     harmonics = harmonic_polynomials(n_kick)
-    drift = fitted_drift(series, h, real(fastest, qp), n_drift)
+    drift = fitted_drift(series, h, fastest + abs(real(pendulum%k, qp)) + abs(pendulum%m), n_drift)
     do s = 0, n_steps
       time = (s - merge(0.0_qp, 0.5_qp, s == 0))*h
       do i = 1, n_drift
@@ -124,8 +125,14 @@ contains
     real(qp) :: cosine(0:HARMONICS), sine(0:HARMONICS)
     integer :: q, j, l
 
-    cosine = [(cos(l*time), l=0, HARMONICS)]
-    sine = [(sin(l*time), l=0, HARMONICS)]
+    cosine(0) = 1
+    sine(0) = 0
+    cosine(1) = cos(time)
+    sine(1) = sin(time)
+    do l = 2, HARMONICS
+      cosine(l) = cosine(l - 1)*cosine(1) - sine(l - 1)*sine(1)
+      sine(l) = sine(l - 1)*cosine(1) + cosine(l - 1)*sine(1)
+    end do
     kick = 0
     do q = 2, ORDER, 2
       do j = 1, q/2

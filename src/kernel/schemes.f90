@@ -57,6 +57,8 @@ module kz_kernel_schemes
     scheme_t('processed', 12, 1, 44, PROCESSED, 0, 0, O, O, &
              'one modified kick a step between two changes of coordinates (docs/theory.md)')]
 
+  integer, public, parameter :: PROCESSED_ROW = size(SCHEMES)
+
 contains
 
   !> All entries of one step of a split scheme, in order.

@@ -24,7 +24,7 @@ static void starts(double *theta, double *velocity, int64_t *turns) {
 }
 
 static kz_plan *plan_of(int scheme, int steps, int precision) {
-  kz_numerics numerics = {scheme, steps, precision};
+  kz_numerics numerics = {.scheme = scheme, .steps_per_period = steps, .precision = precision};
   kz_plan *plan = kz_plan_create(&PENDULUM, &numerics);
   assert_non_null(plan);
   return plan;
