@@ -5,7 +5,7 @@ module kz_kernel_processed_choice
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_processed_flow, QUAD
-  use kz_kernel_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_DAMPING, ORDER
+  use kz_kernel_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_kernel_schemes, only: PROCESSED_ROW
   use kz_kernel_tables, only: pendulum_t, numerics_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period
@@ -16,8 +16,8 @@ module kz_kernel_processed_choice
   integer(c_int32_t), parameter :: OK = 0, REFUSED = 2
   !> Numbers of steps are multiples of STRIDE; KZ_MOST_PROCESSED_STEPS of kernel.h.
   integer, parameter :: STRIDE = 4, FEWEST_STEPS = 12, MOST_STEPS = 160
-  !> Coefficients of a kick that are of use in each kind, and least of all.
-  integer, parameter :: MOST_KICKS(0:2) = [7, 10, 12], FEWEST_KICKS = 4
+  !> Coefficients of a kick, least of all.
+  integer, parameter :: FEWEST_KICKS = 4
   !> Operations of a step besides the terms of drift and kick.
   integer, parameter :: OTHER_OPERATIONS = 6
   !> Probes: states with speeds up to the fastest, both ends included, and how much more than their largest error is assumed.
@@ -131,13 +131,13 @@ contains
     real(c_double) :: trial_error
     integer :: fewest, drifts, kicks
 
-    numerics%drift_terms = MOST_DRIFTS
+    numerics%drift_terms = MOST_DRIFTS(numerics%precision)
     numerics%kick_terms = MOST_KICKS(numerics%precision)
     call climb_steps(pendulum, series, probes, tolerance, FEWEST_STEPS, MOST_STEPS, numerics, error)
     if (error > tolerance) return
     fewest = numerics%steps_per_period
     trial = numerics
-    do drifts = MOST_DRIFTS, 1, -1
+    do drifts = MOST_DRIFTS(numerics%precision), 1, -1
       do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
         trial%drift_terms = drifts
         trial%kick_terms = kicks
@@ -205,12 +205,12 @@ contains
     real(c_double) :: trial_error, enough
     integer :: drifts, kicks
 
-    numerics%drift_terms = MOST_DRIFTS
+    numerics%drift_terms = MOST_DRIFTS(numerics%precision)
     numerics%kick_terms = MOST_KICKS(numerics%precision)
     error = measure(pendulum, series, probes, numerics)
     enough = max(tolerance, 1.2_c_double*error)
     trial = numerics
-    do drifts = MOST_DRIFTS, 1, -1
+    do drifts = MOST_DRIFTS(numerics%precision), 1, -1
       do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
         trial%drift_terms = drifts
         trial%kick_terms = kicks
