@@ -24,8 +24,8 @@ typedef struct {
   int32_t steps_per_period; /* whole compositions a period, >= 1 */
   int32_t precision;        /* KZ_SINGLE, KZ_DOUBLE, KZ_QUAD */
   /* Of the processed splitting, as kz_numerics_choose finds them: */
-  int32_t drift_terms; /* powers of the velocity in a drift, 1 to 3 (5 in quad); 0 = all */
-  int32_t kick_terms;  /* coefficients of a kick, 4 to 10 (22 in quad); 0 = as many as the kind can use */
+  int32_t drift_terms; /* powers of the velocity in a drift, 1 to 4 (6 in quad); 0 = all */
+  int32_t kick_terms;  /* coefficients of a kick, 4 to 11 (22 in quad); 0 = as many as the kind can use */
   double fastest;      /* rad per drive radian: faster states are advanced by split6; 0 = 3 */
 } kz_numerics;
 

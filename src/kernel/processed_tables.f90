@@ -13,8 +13,8 @@ module kz_kernel_processed_tables
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
   !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in single, double and quad precision.
-  integer, parameter, public :: MOST_DRIFTS(0:2) = [3, 3, ORDER/2 - 1]
-  integer, parameter, public :: MOST_KICKS(0:2) = [7, 10, 22]
+  integer, parameter, public :: MOST_DRIFTS(0:2) = [2, 4, ORDER/2 - 1]
+  integer, parameter, public :: MOST_KICKS(0:2) = [7, 11, 22]
   !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
   real(qp), parameter, public :: MOST_DAMPING = 16/(2*PI)
 

@@ -54,7 +54,7 @@ module kz_kernel_schemes
              [0.0414649985182624_qp, 0.198128671918067_qp, -0.0400061921041533_qp, 0.0752539843015807_qp, &
               -0.0115113874206879_qp, O], &
              BLANES_MOAN//'SRKN, 11 stages, order 6'), &
-    scheme_t('processed', 12, 1, 44, PROCESSED, 0, 0, O, O, &
+    scheme_t('processed', 14, 1, 40, PROCESSED, 0, 0, O, O, &
              'one modified kick a step between two changes of coordinates (docs/theory.md)')]
 
   integer, public, parameter :: PROCESSED_ROW = size(SCHEMES)
