@@ -23,6 +23,10 @@ typedef struct {
   int32_t scheme;           /* row of the table of schemes */
   int32_t steps_per_period; /* whole compositions a period, >= 1 */
   int32_t precision;        /* KZ_SINGLE, KZ_DOUBLE, KZ_QUAD */
+  /* Of the processed splitting, as kz_numerics_choose finds them: */
+  int32_t drift_terms; /* powers of the velocity in a drift, 1 to 4 (6 in quad); 0 = all */
+  int32_t kick_terms;  /* coefficients of a kick, 4 to 11 (22 in quad); 0 = as many as the kind can use */
+  double fastest;      /* rad per drive radian: faster states are advanced by split6; 0 = 3 */
 } kz_numerics;
 
 /* The table of schemes. Rows 0 .. kz_scheme_count() - 1. */
@@ -32,9 +36,16 @@ typedef struct {
   int32_t kicks;         /* sines per step */
   int32_t default_steps; /* steps per period where the scene gives none */
 } kz_scheme;
-enum { KZ_SPLIT6 = 2 }; /* the row that published values and judges rest on */
+enum { KZ_SPLIT6 = 2, KZ_PROCESSED = 4 }; /* the row that published values rest on; the fastest */
 int32_t kz_scheme_count(void);
 void kz_scheme_row(int32_t row, kz_scheme *scheme);
+
+/* The cheapest processed splitting whose error of one period, measured against quad-precision Taylor series at speeds up to `fastest`
+ * (rad per drive radian), is at most `tolerance` (rad, angle and velocity together). steps_per_period: 0 = to be chosen, else kept.
+ * Fills *numerics (precision as it comes) and *error, the measured one. KZ_REFUSED, without a message, where no number of steps up to
+ * KZ_MOST_PROCESSED_STEPS reaches it: fast starts, strong drives. */
+enum { KZ_MOST_PROCESSED_STEPS = 160 };
+kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics, double *error);
 
 /* A plan: pendulum and numerics turned into tables. Opaque; free with kz_plan_free. NULL where memory ran out. */
 typedef struct kz_plan kz_plan;

@@ -3,7 +3,7 @@ module kz_kernel_border
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
                                          c_f_pointer
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_flow, SINGLE, DOUBLE
+  use kz_kernel_plan, only: make_flow, sampling_numerics, SINGLE, DOUBLE
   use kz_kernel_schemes, only: SCHEMES
   use kz_kernel_tables, only: pendulum_t, numerics_t
   use kz_kernel_r32, only: sine_r32 => sine
@@ -66,7 +66,7 @@ contains
     allocate (plan, stat=status)
     if (status /= 0) return
     call make_flow(pendulum, numerics, .true., plan%joined)
-    call make_flow(pendulum, numerics, .false., plan%apart)
+    call make_flow(pendulum, sampling_numerics(pendulum, numerics), .false., plan%apart)
     handle = c_loc(plan)
   end function plan_create
 
@@ -95,9 +95,11 @@ contains
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
       call load(flow, lanes, theta(first:), velocity(first:))
+      call flow%enter(lanes)
       do period = 1, periods
         call flow%advance(lanes)
       end do
+      call flow%leave(lanes)
       call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
     end do
   end subroutine advance
@@ -124,9 +126,11 @@ contains
       tangent = 0
       tangent(1, 1, :) = 1
       tangent(2, 2, :) = 1
+      call flow%enter(lanes, tangent)
       do period = 1, periods
         call flow%advance_tangent(lanes, tangent)
       end do
+      call flow%leave(lanes, tangent)
       call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
       do i = 1, lanes
         matrix(:, :, first + i - 1) = transpose(tangent(:, :, i))

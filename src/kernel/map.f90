@@ -40,8 +40,13 @@ module kz_kernel_map
   contains
     !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.
     procedure(advance_tangent_i), deferred :: advance_tangent
-    !> Advances lane 1 by one period, shown at n equal times; u(n) is not yet wrapped.
+    !> Advances lane 1 by one period, shown at n equal times in physical coordinates; u(n) is not yet wrapped.
     procedure(sample_i), deferred :: sample
+    !> Takes the lanes 1 .. n from physical coordinates (angle, velocity) to those in which the flow advances them, and back. The
+    !> maps in both coordinates are conjugate: same cycles, multipliers, windings and basins. matrix(:, :, lane), if present, is
+    !> multiplied by the derivative of the change.
+    procedure :: enter => same_coordinates
+    procedure :: leave => same_coordinates
   end type flow_t
 
   abstract interface
@@ -68,6 +73,15 @@ module kz_kernel_map
   end interface
 
 contains
+
+  subroutine same_coordinates(self, n, matrix)
+    class(flow_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(c_double), intent(inout), optional :: matrix(2, 2, WIDTH)
+
+    associate (unused => self, unused_too => n, unused_matrix => matrix)
+    end associate
+  end subroutine same_coordinates
 
   subroutine put_state(self, lane, u, v)
     class(map_t), intent(inout) :: self

@@ -2,13 +2,16 @@
 module kz_kernel_plan
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_kernel_map, only: flow_t
+  use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
+                                        MOST_DRIFTS, MOST_KICKS
+  use kz_kernel_schemes, only: SCHEMES, PROCESSED
   use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
-  use kz_kernel_r32, only: make_tile_r32 => make_tile
-  use kz_kernel_r64, only: make_tile_r64 => make_tile
-  use kz_kernel_r128, only: make_tile_r128 => make_tile
+  use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
+  use kz_kernel_r64, only: make_tile_r64 => make_tile, make_processed_r64 => make_processed_tile
+  use kz_kernel_r128, only: make_tile_r128 => make_tile, make_processed_r128 => make_processed_tile
   implicit none
   private
-  public :: make_flow, fine_numerics, FINE
+  public :: make_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE
 
   !> The codes of numerics_t%precision.
   integer, parameter, public :: SINGLE = 0, DOUBLE = 1, QUAD = 2
@@ -27,15 +30,37 @@ contains
     numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_c_double, abs(pendulum%k) + abs(pendulum%m))))
   end function fine_numerics
 
+  !> With which numerics motions are shown within a period: the scene's, or fine steps in place of the processed splitting, whose
+  !> states are physical at the strobe alone. Steps are a multiple of the scene's.
+  pure function sampling_numerics(pendulum, numerics) result(sampling)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    type(numerics_t) :: sampling, fine
+
+    sampling = numerics
+    if (SCHEMES(numerics%scheme + 1)%form /= PROCESSED) return
+    fine = fine_numerics(pendulum)
+    sampling%scheme = fine%scheme
+    sampling%steps_per_period = numerics%steps_per_period &
+                                *((fine%steps_per_period + numerics%steps_per_period - 1)/numerics%steps_per_period)
+  end function sampling_numerics
+
   !> The map of one drive period. Steps that are joined are faster; sampling within the period needs them apart. (A subroutine:
   !> gfortran 12 does not free what a polymorphic function returns.)
-  subroutine make_flow(pendulum, numerics, joined, flow)
+  recursive subroutine make_flow(pendulum, numerics, joined, flow)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     logical, intent(in) :: joined
     class(flow_t), allocatable, intent(out) :: flow
     type(period_t) :: period
+    type(series_t), allocatable :: series
 
+    if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
+      allocate (series)
+      call make_processed_series(pendulum, numerics%precision == QUAD, series)
+      call make_processed_flow(pendulum, series, numerics, flow)
+      return
+    end if
     call make_period(pendulum, numerics, joined, period)
     select case (numerics%precision)
     case (SINGLE)
@@ -46,5 +71,40 @@ contains
       call make_tile_r128(period, flow)
     end select
   end subroutine make_flow
+
+  !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
+  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(numerics_t), intent(in) :: numerics
+    class(flow_t), allocatable, intent(out) :: flow
+    !> the drift is fitted up to this speed; the fastest, if left out
+    real(c_double), intent(in), optional :: fitted
+    type(numerics_t) :: fine
+    type(processed_t) :: table
+    class(flow_t), allocatable :: fallback
+    real(c_double) :: fastest, fit
+    integer :: drifts, kicks
+
+    drifts = merge(int(numerics%drift_terms), MOST_DRIFTS(numerics%precision), numerics%drift_terms > 0)
+    kicks = merge(int(numerics%kick_terms), MOST_KICKS(numerics%precision), numerics%kick_terms > 0)
+    fastest = merge(numerics%fastest, 3.0_c_double, numerics%fastest > 0)
+    fit = fastest
+    if (present(fitted)) fit = fitted
+    if (fastest < huge(fastest)) then
+      fine = fine_numerics(pendulum)
+      fine%precision = numerics%precision
+      call make_flow(pendulum, fine, .false., fallback)
+    end if
+    call make_processed(pendulum, series, int(numerics%steps_per_period), drifts, kicks, fit, table)
+    select case (numerics%precision)
+    case (SINGLE)
+      call make_processed_r32(table, fastest, fallback, flow)
+    case (DOUBLE)
+      call make_processed_r64(table, fastest, fallback, flow)
+    case default
+      call make_processed_r128(table, fastest, fallback, flow)
+    end select
+  end subroutine make_processed_flow
 
 end module kz_kernel_plan

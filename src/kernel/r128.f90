@@ -1,13 +1,14 @@
 !> The tile in quad precision.
 module kz_kernel_r128
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH
+  use kz_kernel_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
   use kz_kernel_tables, only: period_t, INVERSE_PI_QUAD
   implicit none
   private
-  public :: tile_t, make_tile, sine
+  public :: make_tile, make_processed_tile, sine
 
   integer, parameter :: ik = selected_int_kind(38)
   !> Each lane costs; only those in use are advanced.
@@ -32,5 +33,28 @@ module kz_kernel_r128
     2.898000241925418772355479264841694691025e-17_rk]
 
   include 'tile.inc'
+  include 'processed_tile.inc'
+
+  !> The stages of a period of the processed splitting for the lanes 1 .. n.
+  subroutine stages(n_drift, n_kick, n_stages, row, n, u, v)
+    integer(c_int32_t), value :: n_drift
+    integer(c_int32_t), value :: n_kick
+    integer(c_int64_t), value :: n_stages
+    real(rk), intent(in) :: row(n_drift + n_kick, n_stages)
+    integer(c_int64_t), value :: n
+    real(rk), intent(inout) :: u(WIDTH)
+    real(rk), intent(inout) :: v(WIDTH)
+    real(rk) :: r
+    integer(c_int64_t) :: s
+    integer :: i
+
+    do s = 1, n_stages
+      do i = 1, int(n)
+        u(i) = u(i) + v(i)*polynomial(row(:n_drift, s), v(i)**2)
+        r = u(i) - 2*((0.5_rk*u(i) + MAGIC) - MAGIC)
+        v(i) = v(i) - (r - r**3)*polynomial(row(n_drift + 1:, s), r**2)
+      end do
+    end do
+  end subroutine stages
 
 end module kz_kernel_r128

@@ -11,7 +11,7 @@ module kz_kernel_schemes
   integer, parameter :: qp = real128
 
   !> What a step begins with. RUNGE_KUTTA rows have no split coefficients.
-  integer, parameter, public :: RUNGE_KUTTA = 0, KICK_FIRST = 1, DRIFT_FIRST = 2
+  integer, parameter, public :: RUNGE_KUTTA = 0, KICK_FIRST = 1, DRIFT_FIRST = 2, PROCESSED = 3
 
   type :: scheme_t
     character(16) :: name
@@ -53,7 +53,11 @@ module kz_kernel_schemes
               0.357208872795928_qp, O, O], &
              [0.0414649985182624_qp, 0.198128671918067_qp, -0.0400061921041533_qp, 0.0752539843015807_qp, &
               -0.0115113874206879_qp, O], &
-             BLANES_MOAN//'SRKN, 11 stages, order 6')]
+             BLANES_MOAN//'SRKN, 11 stages, order 6'), &
+    scheme_t('processed', 14, 1, 40, PROCESSED, 0, 0, O, O, &
+             'one modified kick a step between two changes of coordinates (docs/theory.md)')]
+
+  integer, public, parameter :: PROCESSED_ROW = size(SCHEMES)
 
 contains
 

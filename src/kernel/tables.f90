@@ -21,6 +21,11 @@ module kz_kernel_tables
     integer(c_int32_t) :: scheme
     integer(c_int32_t) :: steps_per_period
     integer(c_int32_t) :: precision
+    !> of the processed splitting: powers of the velocity in a drift and coefficients of a kick; 0 = enough for every step
+    integer(c_int32_t) :: drift_terms = 0
+    integer(c_int32_t) :: kick_terms = 0
+    !> and the speed up to which it serves, rad per drive radian; 0 = 3
+    real(c_double) :: fastest = 0
   end type numerics_t
 
   !> Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi u); after the last one a drift more.

@@ -64,7 +64,7 @@ static int32_t scheme_row(const char *name) {
 }
 
 kz_numerics kz_setting_numerics(const kz_setting *setting) {
-  return (kz_numerics){scheme_row(setting->scheme), setting->steps, setting->precision};
+  return (kz_numerics){.scheme = scheme_row(setting->scheme), .steps_per_period = setting->steps, .precision = setting->precision};
 }
 
 void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {

@@ -13,7 +13,7 @@ enum { SPLIT6 = 2, RK4 = 0, STATES = 64, MOST = 64 };
 
 static const double PI = 3.14159265358979323846;
 /* The steps of published values, and of scenes. */
-static const kz_numerics fine = {SPLIT6, 96, KZ_DOUBLE}, usual = {SPLIT6, 24, KZ_DOUBLE}, rk4 = {RK4, 100, KZ_DOUBLE};
+static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 96, .precision = KZ_DOUBLE}, usual = {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_DOUBLE}, rk4 = {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE};
 
 static kz_pendulum blackburn(double m) {
   return (kz_pendulum){1.0 / 121, 1.0 / 55, m};
@@ -100,7 +100,7 @@ static void a_flip_is_never_mistaken(void **unused) {
 /* Beyond the pitchfork of `down` two mirror images attract, so far apart. */
 static void mirror_images_are_two(void **unused) {
   (void)unused;
-  const kz_numerics steps = {SPLIT6, 192, KZ_DOUBLE};
+  const kz_numerics steps = {.scheme = SPLIT6, .steps_per_period = 192, .precision = KZ_DOUBLE};
   const double begin = critical(second_tongue, &steps, 0, 0.995, 0.996), centre[2] = {0, 0};
   for (double apart = 1e-3; apart > 5e-7; apart /= 10) { /* rounding may leave open where the nearest pair is */
     const kz_pendulum pendulum = second_tongue(begin + pow(apart / 5.04, 2));

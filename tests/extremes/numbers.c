@@ -12,7 +12,7 @@
 
 enum { SPLIT6 = 2, RK4 = 0, N = 8 };
 
-static const kz_numerics fine = {SPLIT6, 24, KZ_DOUBLE};
+static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_DOUBLE};
 
 static void advance(const kz_pendulum *pendulum, const kz_numerics *numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
@@ -67,9 +67,9 @@ static void the_trial_tells_the_true_error(void **unused) {
     kz_pendulum pendulum;
     kz_numerics numerics;
     double speed;
-  } cases[] = {{{0.01, 0.05, 0.3}, {RK4, 100, KZ_DOUBLE}, 20}, {{0.01, 0.05, 0.3}, {RK4, 100, KZ_DOUBLE}, 200},
-               {{0.01, 0.05, 20}, {RK4, 100, KZ_DOUBLE}, 1},   {{0.01, 0.05, 0.3}, {SPLIT6, 24, KZ_DOUBLE}, 50},
-               {{0.01, 0.05, 0.3}, {SPLIT6, 1, KZ_DOUBLE}, 2}, {{0.01, 0.05, 1}, {SPLIT6, 4, KZ_DOUBLE}, 5}};
+  } cases[] = {{{0.01, 0.05, 0.3}, {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE}, 20}, {{0.01, 0.05, 0.3}, {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE}, 200},
+               {{0.01, 0.05, 20}, {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE}, 1},   {{0.01, 0.05, 0.3}, {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_DOUBLE}, 50},
+               {{0.01, 0.05, 0.3}, {.scheme = SPLIT6, .steps_per_period = 1, .precision = KZ_DOUBLE}, 2}, {{0.01, 0.05, 1}, {.scheme = SPLIT6, .steps_per_period = 4, .precision = KZ_DOUBLE}, 5}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     const double truth = true_error(&cases[i].pendulum, &cases[i].numerics, cases[i].speed);
     const double speed[] = {cases[i].speed * 0.9, cases[i].speed * 1.1};
@@ -84,11 +84,11 @@ static void what_diverges_is_told(void **unused) {
   const struct {
     kz_pendulum pendulum;
     kz_numerics numerics;
-  } cases[] = {{{0.01, 50, 0.3}, {RK4, 100, KZ_DOUBLE}},
-               {{0.01, 1e3, 0.3}, {RK4, 100, KZ_DOUBLE}},
-               {{0.01, 1e4, 0.3}, {SPLIT6, 24, KZ_DOUBLE}},
-               {{0.01, 1e300, 0.3}, {SPLIT6, 24, KZ_DOUBLE}},
-               {{0.01, 1e4, 0.3}, {SPLIT6, 24, KZ_SINGLE}}};
+  } cases[] = {{{0.01, 50, 0.3}, {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE}},
+               {{0.01, 1e3, 0.3}, {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE}},
+               {{0.01, 1e4, 0.3}, {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_DOUBLE}},
+               {{0.01, 1e300, 0.3}, {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_DOUBLE}},
+               {{0.01, 1e4, 0.3}, {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_SINGLE}}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     const double speed[] = {0, 2};
     double error;
@@ -103,7 +103,7 @@ static void lost_angles_are_not_numbers(void **unused) {
   const kz_pendulum pendulum = {0, 0, 0};
   const double too_fast[] = {[KZ_SINGLE] = 1e9, [KZ_DOUBLE] = 1e17, [KZ_QUAD] = 1e17};
   for (int32_t precision = KZ_SINGLE; precision <= KZ_QUAD; precision++) {
-    const kz_numerics numerics = {SPLIT6, 24, precision};
+    const kz_numerics numerics = {.scheme = SPLIT6, .steps_per_period = 24, .precision = precision};
     double theta[N], velocity[N];
     put_starts(too_fast[precision], theta, velocity);
     advance(&pendulum, &numerics, theta, velocity);

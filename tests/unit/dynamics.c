@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const kz_numerics NUMERICS = {2, 16, KZ_DOUBLE};
+static const kz_numerics NUMERICS = {.scheme = KZ_SPLIT6, .steps_per_period = 16, .precision = KZ_DOUBLE};
 static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
 
 enum { STARTS = 1024 };

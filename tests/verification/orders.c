@@ -9,6 +9,7 @@
 #include "kapitza/kernel.h"
 
 enum { N = 16 };
+static const double FASTEST = 0.6; /* a processed drift is fitted up to it */
 
 static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
@@ -21,7 +22,7 @@ static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta
 
 static double error_of(const kz_pendulum *pendulum, kz_numerics numerics) {
   double theta[N], velocity[N], exact[N], exact_velocity[N], sum = 0;
-  kz_numerics truth = {2, 300, KZ_QUAD};
+  kz_numerics truth = {.scheme = KZ_SPLIT6, .steps_per_period = 300, .precision = KZ_QUAD};
   fly(pendulum, numerics, theta, velocity);
   fly(pendulum, truth, exact, exact_velocity);
   for (int i = 0; i < N; i++) sum += pow(theta[i] - exact[i], 2) + pow(velocity[i] - exact_velocity[i], 2);
@@ -33,28 +34,28 @@ static void check_orders(int precision, const int *steps, double tolerance) {
   for (int row = 0; row < kz_scheme_count(); row++) {
     kz_scheme scheme;
     kz_scheme_row(row, &scheme);
-    double coarse = error_of(&pendulum, (kz_numerics){row, steps[row], precision});
-    double fine = error_of(&pendulum, (kz_numerics){row, 2 * steps[row], precision});
+    double coarse = error_of(&pendulum, (kz_numerics){.scheme = row, .steps_per_period = steps[row], .precision = precision, .fastest = FASTEST});
+    double fine = error_of(&pendulum, (kz_numerics){.scheme = row, .steps_per_period = 2 * steps[row], .precision = precision, .fastest = FASTEST});
     double order = log2(coarse / fine);
     print_message("kind %d, %-9s order %.2f (errors %.1e, %.1e)\n", precision, scheme.name, order, coarse, fine);
-    assert_true(fabs(order - scheme.order) < tolerance);
+    assert_true(fabs(order - scheme.order) < tolerance * (row == KZ_PROCESSED ? 2.5 : 1)); /* its errors fall to rounding at once */
     if (precision == KZ_SINGLE) assert_true(order > scheme.order - 1.6 || fine < 3e-6);
   }
 }
 
 static void test_single(void **state) {
   (void)state;
-  check_orders(KZ_SINGLE, (const int[]){8, 3, 2, 2}, HUGE_VAL); /* rounding ends it early: see that errors reach it */
+  check_orders(KZ_SINGLE, (const int[]){8, 3, 2, 2, 6}, HUGE_VAL); /* rounding ends it early: see that errors reach it */
 }
 
 static void test_double(void **state) {
   (void)state;
-  check_orders(KZ_DOUBLE, (const int[]){100, 20, 12, 12}, 0.4);
+  check_orders(KZ_DOUBLE, (const int[]){100, 20, 12, 12, 11}, 0.4);
 }
 
 static void test_quad(void **state) {
   (void)state;
-  check_orders(KZ_QUAD, (const int[]){100, 20, 12, 12}, 0.4);
+  check_orders(KZ_QUAD, (const int[]){100, 20, 12, 12, 14}, 0.4);
 }
 
 /* Undamped, the split schemes conserve area through 1e5 periods and stay where they belong. */
@@ -62,7 +63,7 @@ static void test_undamped(void **state) {
   (void)state;
   const kz_pendulum pendulum = {1.0 / 121, 0, 0.3};
   for (int row = 1; row < kz_scheme_count(); row++) {
-    kz_numerics numerics = {row, 24, KZ_DOUBLE};
+    kz_numerics numerics = {.scheme = row, .steps_per_period = 24, .precision = KZ_DOUBLE};
     kz_plan *plan = kz_plan_create(&pendulum, &numerics);
     double theta = 3.0, velocity = 0, matrix[4];
     int64_t turns = 0;

@@ -63,7 +63,7 @@ static void nonlinear_tangent_map_agrees(void **unused) {
   (void)unused;
   for (int i = 0; i < 6; i++) {
     kz_pendulum pendulum = {random_between(-0.5, 1.5), random_between(0, 0.4), random_between(-1, 1)};
-    kz_numerics fine = {0, 64, KZ_QUAD};
+    kz_numerics fine = {.scheme = 0, .steps_per_period = 64, .precision = KZ_QUAD};
     for (int32_t row = 0; row < kz_scheme_count(); row++) {
       kz_scheme scheme;
       kz_scheme_row(row, &scheme);

@@ -89,7 +89,7 @@ static void agrees_with_the_split_scheme(void **unused) {
     assert_true(row < kz_scheme_count());
   }
   const kz_pendulum pendulum = Q5_11(0.3);
-  const kz_numerics numerics = {row, 600, KZ_QUAD};
+  const kz_numerics numerics = {.scheme = row, .steps_per_period = 600, .precision = KZ_QUAD};
   kz_plan *plan = kz_plan_create(&pendulum, &numerics);
   assert_non_null(plan);
   for (int i = 0; i < 6; i++) {

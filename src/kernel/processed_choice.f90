@@ -1,0 +1,226 @@
+!> The cheapest processed splitting that carries a pendulum: the error of one period is measured against quad-precision Taylor series,
+!> never estimated.
+module kz_kernel_processed_choice
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: real128
+  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_kernel_plan, only: make_processed_flow, QUAD
+  use kz_kernel_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
+  use kz_kernel_schemes, only: PROCESSED_ROW
+  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_kernel_taylor, only: drive_t, make_drive, advance_period
+  implicit none
+  private
+
+  !> Codes of status.h.
+  integer(c_int32_t), parameter :: OK = 0, REFUSED = 2
+  !> Numbers of steps are multiples of STRIDE; KZ_MOST_PROCESSED_STEPS of kernel.h.
+  integer, parameter :: STRIDE = 4, FEWEST_STEPS = 12, MOST_STEPS = 160
+  !> Coefficients of a kick, least of all.
+  integer, parameter :: FEWEST_KICKS = 4
+  !> Operations of a step besides the terms of drift and kick.
+  integer, parameter :: OTHER_OPERATIONS = 6
+  !> Probes: states with speeds up to the fastest, both ends included, and how much more than their largest error is assumed.
+  integer, parameter :: N_PROBES = 2*WIDTH
+  real(c_double), parameter :: MARGIN = 1.5_c_double
+
+  !> Starts and true ends of the probes.
+  type :: probes_t
+    real(c_double) :: start(2, N_PROBES) !< half-turns, rad per drive radian
+    real(c_double) :: image(2, N_PROBES)
+  end type probes_t
+
+contains
+
+  !> kz_numerics_choose of kernel.h.
+  function choose(pendulum, tolerance, fastest, numerics, error) bind(C, name='kz_numerics_choose') result(status)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), value :: tolerance
+    real(c_double), value :: fastest
+    type(numerics_t), intent(inout) :: numerics
+    real(c_double), intent(out) :: error
+    integer(c_int32_t) :: status
+    type(series_t), allocatable :: series
+    type(probes_t) :: probes
+
+    status = REFUSED
+    error = huge(error)
+    if (pendulum%beta > MOST_DAMPING) return
+    allocate (series)
+    call make_processed_series(pendulum, numerics%precision == QUAD, series)
+    call make_probes(pendulum, fastest, probes)
+    numerics%scheme = PROCESSED_ROW - 1
+    numerics%fastest = fastest
+    if (numerics%steps_per_period > 0) then
+      call fit_terms(pendulum, series, probes, tolerance, numerics, error)
+      status = OK
+    else
+      call climb(pendulum, series, probes, tolerance, numerics, error)
+      if (error <= tolerance) status = OK
+    end if
+  end function choose
+
+  subroutine make_probes(pendulum, fastest, probes)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), intent(in) :: fastest
+    type(probes_t), intent(out) :: probes
+    real(c_double), parameter :: GOLDEN = 0.61803398874989484820_c_double
+    !> steps of the series, which halves them where they are too few
+    integer, parameter :: STEPS = 16
+    type(drive_t) :: drive
+    real(real128), parameter :: PI_QUAD = acos(-1.0_real128)
+    real(real128) :: theta(N_PROBES), velocity(N_PROBES)
+    integer(c_int64_t) :: turns(N_PROBES)
+    integer :: i
+
+    do i = 1, N_PROBES
+      probes%start(:, i) = [2*modulo(i*GOLDEN, 1.0_c_double) - 1, fastest*(i - 1)/(N_PROBES - 1)]
+    end do
+    theta = probes%start(1, :)*PI_QUAD
+    velocity = probes%start(2, :)
+    turns = 0
+    call make_drive(drive, pendulum%k, pendulum%beta, pendulum%m, STEPS)
+    call advance_period(drive, theta, velocity, turns)
+    probes%image(1, :) = real(theta/PI_QUAD, c_double)
+    probes%image(2, :) = real(velocity, c_double)
+  end subroutine make_probes
+
+  !> The largest error of one period, rad.
+  function measure(pendulum, series, probes, numerics) result(error)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(probes_t), intent(in) :: probes
+    type(numerics_t), intent(in) :: numerics
+    real(c_double) :: error
+    class(flow_t), allocatable :: flow
+    type(numerics_t) :: unbounded
+    real(c_double) :: distance
+    integer :: first, lane
+
+    unbounded = numerics
+    unbounded%fastest = huge(unbounded%fastest)
+    call make_processed_flow(pendulum, series, unbounded, flow, numerics%fastest)
+    error = 0
+    do first = 0, N_PROBES - WIDTH, WIDTH
+      do lane = 1, WIDTH
+        call flow%put(lane, probes%start(1, first + lane), probes%start(2, first + lane))
+      end do
+      call flow%enter(WIDTH)
+      call flow%advance(WIDTH)
+      call flow%leave(WIDTH)
+      do lane = 1, WIDTH
+        distance = hypot(PI*(modulo(flow%u(lane) - probes%image(1, first + lane) + 1, 2.0_c_double) - 1), &
+                         flow%v(lane) - probes%image(2, first + lane))
+        if (.not. distance <= error) error = distance ! NaN too
+      end do
+    end do
+    error = MARGIN*error
+    if (.not. error <= huge(error)) error = huge(error)
+  end function measure
+
+  !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, tells how
+  !> many steps the method needs at least.
+  subroutine climb(pendulum, series, probes, tolerance, numerics, error)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(probes_t), intent(in) :: probes
+    real(c_double), intent(in) :: tolerance
+    type(numerics_t), intent(inout) :: numerics
+    real(c_double), intent(out) :: error
+    type(numerics_t) :: trial
+    real(c_double) :: trial_error
+    integer :: fewest, drifts, kicks
+
+    numerics%drift_terms = MOST_DRIFTS(numerics%precision)
+    numerics%kick_terms = MOST_KICKS(numerics%precision)
+    call climb_steps(pendulum, series, probes, tolerance, FEWEST_STEPS, MOST_STEPS, numerics, error)
+    if (error > tolerance) return
+    fewest = numerics%steps_per_period
+    trial = numerics
+    do drifts = MOST_DRIFTS(numerics%precision), 1, -1
+      do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
+        trial%drift_terms = drifts
+        trial%kick_terms = kicks
+        if (cheaper_steps(numerics, trial) < fewest) cycle
+        call climb_steps(pendulum, series, probes, tolerance, fewest, cheaper_steps(numerics, trial), trial, trial_error)
+        if (trial_error > tolerance) exit
+        numerics = trial
+        error = trial_error
+      end do
+    end do
+  end subroutine climb
+
+  !> How many steps of a trial cost less than what is chosen.
+  pure function cheaper_steps(chosen, trial) result(steps)
+    type(numerics_t), intent(in) :: chosen
+    type(numerics_t), intent(in) :: trial
+    integer :: steps
+
+    steps = (chosen%steps_per_period*operations(chosen) - 1)/operations(trial)
+  end function cheaper_steps
+
+  pure function operations(numerics) result(n)
+    type(numerics_t), intent(in) :: numerics
+    integer :: n
+
+    n = numerics%drift_terms + numerics%kick_terms + OTHER_OPERATIONS
+  end function operations
+
+  !> The fewest steps that reach the tolerance, found from the order; more than `most`, or where more steps no longer help: the error
+  !> comes back as above the tolerance.
+  subroutine climb_steps(pendulum, series, probes, tolerance, fewest, most, numerics, error)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(probes_t), intent(in) :: probes
+    real(c_double), intent(in) :: tolerance
+    integer, intent(in) :: fewest
+    integer, intent(in) :: most
+    type(numerics_t), intent(inout) :: numerics
+    real(c_double), intent(out) :: error
+    real(c_double) :: factor, former
+    integer :: n
+
+    error = huge(error)
+    n = fewest
+    do while (n <= most)
+      former = error
+      numerics%steps_per_period = int(n, c_int32_t)
+      error = measure(pendulum, series, probes, numerics)
+      if (error <= tolerance) exit
+      if (error > 0.9_c_double*former .and. former < 1e-3_c_double) return
+      factor = min(2.0_c_double, max(1.0_c_double, (min(error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER)))
+      n = max(n + STRIDE, STRIDE*int(n*factor/STRIDE))
+    end do
+  end subroutine climb_steps
+
+  !> A given number of steps: as few terms as cost no accuracy that the tolerance asks for, or that the steps have.
+  subroutine fit_terms(pendulum, series, probes, tolerance, numerics, error)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(probes_t), intent(in) :: probes
+    real(c_double), intent(in) :: tolerance
+    type(numerics_t), intent(inout) :: numerics
+    real(c_double), intent(out) :: error
+    type(numerics_t) :: trial
+    real(c_double) :: trial_error, enough
+    integer :: drifts, kicks
+
+    numerics%drift_terms = MOST_DRIFTS(numerics%precision)
+    numerics%kick_terms = MOST_KICKS(numerics%precision)
+    error = measure(pendulum, series, probes, numerics)
+    enough = max(tolerance, 1.2_c_double*error)
+    trial = numerics
+    do drifts = MOST_DRIFTS(numerics%precision), 1, -1
+      do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
+        trial%drift_terms = drifts
+        trial%kick_terms = kicks
+        if (operations(trial) >= operations(numerics)) cycle
+        trial_error = measure(pendulum, series, probes, trial)
+        if (trial_error > enough) exit
+        numerics = trial
+        error = trial_error
+      end do
+    end do
+  end subroutine fit_terms
+
+end module kz_kernel_processed_choice
