@@ -1,4 +1,4 @@
-/* analysis: spectra of orbits (FFTW), their turning points and names; roots and characteristic values (GSL). C; floor 1.
+/* analysis: spectra of orbits (FFTW), their turning points and names; roots and characteristic values (GSL). C; layer 1.
  *
  * Angles in rad from the DOWN position, times in drive radians; a drive period is 2 pi. Nothing here is collective. */
 #ifndef KAPITZA_ANALYSIS_H
@@ -33,18 +33,18 @@ double kz_spectrum_rotation(const kz_record *record, const double *theta);
 
 /* Lines of a record: theta - centre - rotation t = a0 + sum_j A_j cos(j t/periods + phase_j).
  * theta [periods * samples_per_period] unwrapped; amplitude, phase [n_lines], line j at j/periods drive frequencies; line 0 is
- * abs(a0), phase 0 or pi, a0 in [-pi, pi] but of a velocity. A closed record gives the Fourier coefficients to rounding. An open one is seen
- * through the four-term Blackman-Harris window (Harris, Proc. IEEE 66 (1978) 51): side lobes below -92 dB, a line is eight
- * bins wide, its top up to 0.83 dB low between bins, its phase right at bin centres alone. 2 n_lines must not exceed
- * the samples (KZ_REFUSED); KZ_FAILED where memory ran out. */
+ * abs(a0), phase 0 or pi, a0 in [-pi, pi] but of a velocity. A closed record gives the Fourier coefficients to rounding. An
+ * open one is seen through the four-term Blackman-Harris window (Harris, Proc. IEEE 66 (1978) 51): side lobes below -92 dB, a
+ * line is eight bins wide, its top up to 0.83 dB low between bins, its phase right at bin centres alone. 2 n_lines must not
+ * exceed the samples (KZ_REFUSED); KZ_FAILED where memory ran out. */
 kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase);
 
 /* The largest line j >= 1; 0 where all are under KZ_LINE_FLOOR. */
 int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude);
 
 /* The period n that the lines tell: the smallest n whose multiples of 1/n hold every line that matters and whose
- * n-fold rotation is whole. Closed record: n divides `periods`; lines above 1e-9 of the largest matter. Open record: peaks above 1e-3
- * of the largest matter, n <= periods/8, and 0 where no n fits (aperiodic, not settled, or the record too short). */
+ * n-fold rotation is whole. Closed record: n divides `periods`; lines above 1e-9 of the largest matter. Open record: peaks
+ * above 1e-3 of the largest matter, n <= periods/8, and 0 where no n fits (aperiodic, not settled, or the record too short). */
 int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const double *amplitude);
 
 /* True where a closed orbit is its own mirror image (theta, v) -> (-theta, -v): no turns, and only odd lines of an even n, or

@@ -1,4 +1,4 @@
-/* app: the command line, what its commands do, and messages for people (C; floor 4). */
+/* app: the command line, what its commands do, and messages for people (C; layer 4). */
 #ifndef KAPITZA_APP_H
 #define KAPITZA_APP_H
 

@@ -1,4 +1,4 @@
-/* branches: one cycle of the stroboscopic map carried from parameters to parameters (Fortran; floor 1, folder dynamics).
+/* branches: one cycle of the stroboscopic map carried from parameters to parameters (Fortran; layer 1, folder dynamics).
  *
  * Angles in rad from the DOWN position, velocities in rad per drive radian. The map is the one of published values (split6, 96
  * steps or more), whatever the scene's numerics. Nothing here is collective. */
@@ -20,9 +20,9 @@ typedef struct {
   int32_t period, winding, centre, symmetric; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
 } kz_branch_point;
 
-/* The cycle of `pendulum` that continues `from` (whose point, period, winding and symmetry count): Newton's method from its strobe
- * point, each step at most half the last one, which keeps it from leaving for another cycle; symmetric cycles are solved on
- * the half map (BSG's flutter: -F(x) = x). Returns 1 where one of the same period, winding and symmetry lies within `reach`
+/* The cycle of `pendulum` that continues `from` (whose point, period, winding and symmetry count): Newton's method from its
+ * strobe point, each step at most half the last one, which keeps it from leaving for another cycle; symmetric cycles are solved
+ * on the half map (BSG's flutter: -F(x) = x). Returns 1 where one of the same period, winding and symmetry lies within `reach`
  * rad, else 0 and *to is undefined. It need not attract. from == to is allowed. */
 int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *from, double reach, kz_branch_point *to);
 

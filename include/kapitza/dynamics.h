@@ -1,4 +1,4 @@
-/* dynamics: attractors of the stroboscopic map, the map table (ICM), trapping regions, labels, measures (Fortran; floor 1).
+/* dynamics: attractors of the stroboscopic map, the map table (ICM), trapping regions, labels, measures (Fortran; layer 1).
  *
  * Attractors are numbered from 1 in the order of their discovery; kz_dynamics_order gives the order of the file. States are
  * pairs (half-turns, velocity): theta/pi in [-1, 1], and rad per drive radian. */
@@ -48,24 +48,25 @@ void kz_dynamics_follow_hybrid(kz_dynamics *dynamics, int32_t points, int64_t n,
 void kz_dynamics_measure_table(kz_dynamics *dynamics, int32_t points);
 
 /* kz_dynamics_follow with the error of each orbit beside it, from the last place of its start, its steps and rounding (Fortran:
- * covariance.f90): owner [n] = KZ_DOUBTFUL where that outgrows what a label bears. Any other label, 0 too, is decided: the errors do not
- * change it. An orbit is trapped once a trapping region holds it with its error. */
+ * covariance.f90): owner [n] = KZ_DOUBTFUL where that outgrows what a label bears. Any other label, 0 too, is decided: the
+ * errors do not change it. An orbit is trapped once a trapping region holds it with its error. */
 enum { KZ_DOUBTFUL = -1 };
 void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner,
                                    int64_t *periods);
 
-/* kz_dynamics_follow in quad precision, by Taylor series (truth.h) of n_steps steps a period, from start [n][2] in rad and rad per drive
- * radian, both taken as exact. */
+/* kz_dynamics_follow in quad precision, by Taylor series (truth.h) of n_steps steps a period, from start [n][2] in rad and rad
+ * per drive radian, both taken as exact. */
 void kz_dynamics_follow_truth(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                               int32_t *owner, int64_t *periods);
 
-/* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all have
- * been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from found[1] on what
- * kz_dynamics_adopt takes: the cycle and its mirror image, or nothing. The catalogue itself stays as it is. */
+/* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
+ * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from
+ * found[1] on what kz_dynamics_adopt takes: the cycle and its mirror image, or nothing. The catalogue itself stays as it is. */
 void kz_dynamics_find_cycle(kz_dynamics *dynamics, int64_t n, const double *state, double closeness, double *found);
 int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
 /* Follows a bundle of orbits from one state through 60,000 periods, where neighbours part in its first 2000. found
- * [kz_dynamics_chaos_size]: what kz_dynamics_adopt takes: a chaotic attractor, where they diverge and are never trapped, or nothing. */
+ * [kz_dynamics_chaos_size]: what kz_dynamics_adopt takes: a chaotic attractor, where they diverge and are never trapped, or
+ * nothing. */
 void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
 int64_t kz_dynamics_chaos_size(void);
 /* The attractors that were found join the catalogue. */

@@ -1,4 +1,4 @@
-/* kernel: tiles of trajectories of the shaken pendulum through whole drive periods (Fortran; floor 0).
+/* kernel: tiles of trajectories of the shaken pendulum through whole drive periods (Fortran; layer 0).
  *
  * theta'' + beta theta' + (k - m cos t) sin theta = 0   (BSG Eq. 2, BUT Eq. 9 in drive time)
  * theta in rad from the DOWN position, t in drive radians, velocity in rad per drive radian. A period is 2 pi; every period
@@ -40,12 +40,13 @@ enum { KZ_SPLIT6 = 2, KZ_PROCESSED = 4 }; /* the row that published values rest 
 int32_t kz_scheme_count(void);
 void kz_scheme_row(int32_t row, kz_scheme *scheme);
 
-/* The cheapest processed splitting whose error of one period, measured against quad-precision Taylor series at speeds up to `fastest`
- * (rad per drive radian), is at most `tolerance` (rad, angle and velocity together). steps_per_period: 0 = to be chosen, else kept.
- * Fills *numerics (precision as it comes) and *error, the measured one. KZ_REFUSED, without a message, where no number of steps up to
- * KZ_MOST_PROCESSED_STEPS reaches it: fast starts, strong drives. */
+/* The cheapest processed splitting whose error of one period, measured against quad-precision Taylor series at speeds up to
+ * `fastest` (rad per drive radian), is at most `tolerance` (rad, angle and velocity together). steps_per_period: 0 = to be
+ * chosen, else kept. Fills *numerics (precision as it comes) and *error, the measured one. KZ_REFUSED, without a message, where
+ * no number of steps up to KZ_MOST_PROCESSED_STEPS reaches it: fast starts, strong drives. */
 enum { KZ_MOST_PROCESSED_STEPS = 160 };
-kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics, double *error);
+kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics,
+                             double *error);
 
 /* A plan: pendulum and numerics turned into tables. Opaque; free with kz_plan_free. NULL where memory ran out. */
 typedef struct kz_plan kz_plan;

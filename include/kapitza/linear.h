@@ -1,4 +1,4 @@
-/* linear: the pendulum near an equilibrium, a lane per parameter point (Fortran; floor 0, part of the kernel).
+/* linear: the pendulum near an equilibrium, a lane per parameter point (Fortran; layer 0, part of the kernel).
  *
  * u'' + beta u' + (k - m cos t) u = 0   (BUT Eq. 23; beta = 0: Mathieu's equation with a = 4k, q = 2m)
  * t in drive radians; about the inverted state k is negative. With u = exp(-beta t/2) w the damping leaves the equation,

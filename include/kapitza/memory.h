@@ -1,5 +1,5 @@
-/* Memory of the Fortran floors. Code that gfortran makes for automatic arrays, temporaries and assignments does not look
- * whether there was memory: the build renames malloc, calloc and realloc in those floors to the functions here, which do. */
+/* Memory of the Fortran layers. Code that gfortran makes for automatic arrays, temporaries and assignments does not look
+ * whether there was memory: the build renames malloc, calloc and realloc in those layers to the functions here, which do. */
 #ifndef KAPITZA_MEMORY_H
 #define KAPITZA_MEMORY_H
 

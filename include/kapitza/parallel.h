@@ -1,4 +1,4 @@
-/* parallel: who works on which tile; progress, stop requests, checkpoints (MPI; floor 2).
+/* parallel: who works on which tile; progress, stop requests, checkpoints (MPI; layer 2).
  *
  * One mechanism: a stage is n_tiles independent pieces of work, each giving one record of fixed size. Ranks draw tiles in
  * batches from rank 0. The result depends on the tiles alone, never on who did them. */
@@ -14,14 +14,15 @@
 
 typedef struct kz_team kz_team;
 
-/* What can be known without starting MPI: this process's rank as its launcher told it at the first call (-1: none did), and the library. */
+/* What can be known without starting MPI: this process's rank as its launcher told it at the first call (-1: none did), and the
+ * library. */
 int kz_launch_rank(void);
 const char *kz_parallel_library(void);
 
 typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;
 
-/* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and makes the team of all ranks. `team`
- * is NULL or must be ended also where this fails. Collective. */
+/* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and makes the team of all
+ * ranks. `team` is NULL or must be ended also where this fails. Collective. */
 kz_status kz_team_start(int *argc, char ***argv, kz_team **team);
 /* Frees the team (NULL too), its hold on the checkpoint, and leaves through MPI_Finalize. Collective. */
 void kz_team_end(kz_team *team);
@@ -54,8 +55,8 @@ void kz_team_set_progress(kz_team *team, kz_progress progress);
 /* Stop (KZ_STOPPED) once `seconds` have passed since kz_team_start; 0 = no limit. */
 void kz_team_set_time_limit(kz_team *team, double seconds);
 
-/* Between two tiles a stop request is heard. Where that takes more than 6 s, `leave` must end the process; it is called by a signal
- * handler, with "stopped by SIGUSR1" or the like. NULL: no longer. After kz_team_set_time_limit. */
+/* Between two tiles a stop request is heard. Where that takes more than 6 s, `leave` must end the process; it is called by a
+ * signal handler, with "stopped by SIGUSR1" or the like. NULL: no longer. After kz_team_set_time_limit. */
 void kz_team_set_overdue(kz_team *team, void (*leave)(const char *reason));
 
 /* Checkpoint of a run: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is
@@ -72,7 +73,8 @@ kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan);
 kz_status kz_checkpoint_close(kz_team *team, bool complete);
 /* Removes a checkpoint that outlived its complete file: only one that no process holds and that has this fingerprint. */
 void kz_checkpoint_clear(const char *path, const char *fingerprint);
-/* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that differs. */
+/* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that
+ * differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
 /* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, no kz_team call. */

@@ -1,4 +1,4 @@
-/* scene: from the YAML text of a user to kz_scene and back (C; floor 4).
+/* scene: from the YAML text of a user to kz_scene and back (C; layer 4).
  *
  * ONE table, kz_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/scene.md
  * all come from its rows: a new key is a new row. */
@@ -38,7 +38,7 @@ typedef struct {
   double low, high;                /* accepted values, ends included */
   const char *fallback;            /* default as YAML text; "" = may be left out without one; NULL = required */
   const char *words;               /* "icm|direct" */
-  const char *(*words_from)(void); /* the same where another floor knows them */
+  const char *(*words_from)(void); /* the same where another layer knows them */
   char form;                       /* keys of one mapping with different forms exclude each other; 0 = none */
   size_t offset;                   /* of the field in kz_scene */
   const char *chosen_by;           /* path of a number instead of which the key is given; NULL = none */
@@ -125,7 +125,7 @@ void kz_reading_rules(kz_reading *reading);
 /* Text of a scene, and of --set options ("KEY=VALUE"), into a scene that the caller frees. KZ_REFUSED names the first error. */
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene);
 void kz_scene_free(kz_scene *scene);
-/* A refusal or failure "KEY|KEY: what is wrong" that another floor made gets the place of the first of its keys that was given
+/* A refusal or failure "KEY|KEY: what is wrong" that another layer made gets the place of the first of its keys that was given
  * (else of the last one's mapping); others stay as they are. Returns `status`. */
 kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets);
 /* YAML with every default; reading it gives the same scene. `flat` = one "path: value" a line instead. */

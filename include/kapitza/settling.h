@@ -1,4 +1,4 @@
-/* settling: how long motions take to settle, from the damping alone (C; floor 3, study). Not collective. */
+/* settling: how long motions take to settle, from the damping alone (C; layer 3, study). Not collective. */
 #ifndef KAPITZA_SETTLING_H
 #define KAPITZA_SETTLING_H
 

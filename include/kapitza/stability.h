@@ -1,4 +1,4 @@
-/* stability: transition curves of the (damped) Mathieu equation and the effective potential (GSL). C; floor 1, analysis.
+/* stability: transition curves of the (damped) Mathieu equation and the effective potential (GSL). C; layer 1, analysis.
  *
  * u'' + beta u' + (k - m cos t) u = 0; k of any sign (negative about the inverted state), curves as m >= 0 over k. BSG =
  * Blackburn et al. 1992, BUT = Butikov 2018; equations as corrected in docs/theory.md. Nothing here is collective. */

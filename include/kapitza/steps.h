@@ -1,14 +1,16 @@
-/* steps: whether the numerics can carry a scene, asked before anything is labelled (C; floor 3, study). Not collective. */
+/* steps: whether the numerics can carry a scene, asked before anything is labelled (C; layer 3, study). Not collective. */
 #ifndef KAPITZA_STEPS_H
 #define KAPITZA_STEPS_H
 
 #include "kapitza/study.h"
 
-/* rad: what one drive period of a basin's window may be off by without a word: a hundredth of a cell (kz_cell_size), 1e-4 at most. */
+/* rad: what one drive period of a basin's window may be off by without a word: a hundredth of a cell (kz_cell_size), 1e-4 at
+ * most. */
 double kz_steps_tolerance(const kz_basin_plan *plan);
 
 /* numerics.steps_per_period where a scene leaves it out: the scheme's own number, or as many more as the small cells of a damped
- * basin need (smaller than 0.01 rad); left as it is where no number would do (kz_steps_check says so then), and where basin.accuracy chooses. */
+ * basin need (smaller than 0.01 rad); left as it is where no number would do (kz_steps_check says so then), and where
+ * basin.accuracy chooses. */
 void kz_steps_choose(kz_scene *scene);
 
 /* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
@@ -31,7 +33,8 @@ double kz_steps_warn_basin(const kz_scene *scene, FILE *summary);
 /* The same for the worst of a sweep's values. */
 void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary);
 
-/* KZ_REFUSED where one period of the map table (`defect`, rad) is off by more than a cell: the message tells the nodes that would do. */
+/* KZ_REFUSED where one period of the map table (`defect`, rad) is off by more than a cell: the message tells the nodes that
+ * would do. */
 kz_status kz_steps_check_table(const kz_basin_plan *plan, double defect);
 /* A line where it is off by more than kz_steps_tolerance. */
 void kz_steps_warn_table(const kz_basin_plan *plan, double defect, FILE *summary);

@@ -1,5 +1,5 @@
-/* store: the result file (HDF5, netCDF-4 readable; floor 2). Names, types, units and long names of every dataset of the
- * file's contract are stated once, in a table of this floor. Written by one rank with the serial library.
+/* store: the result file (HDF5, netCDF-4 readable; layer 2). Names, types, units and long names of every dataset of the
+ * file's contract are stated once, in a table of this layer. Written by one rank with the serial library.
  *
  * The file grows in memory; PATH.part is made at once, so that a wrong path is known early, and is written, saved and renamed
  * to PATH when complete. */

@@ -1,4 +1,4 @@
-/* study: what a scene can ask for, one file per study (C; floor 3). The scene arrives as plain structs; the results go to
+/* study: what a scene can ask for, one file per study (C; layer 3). The scene arrives as plain structs; the results go to
  * the store and, for people, to a summary. */
 #ifndef KAPITZA_STUDY_H
 #define KAPITZA_STUDY_H
@@ -163,7 +163,8 @@ extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, joined by '|'. */
 const char *kz_sweep_words(void);
 
-/* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping, less inertia than a point). */
+/* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping, less inertia than
+ * a point). */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
 
 /* What a study would cost. */

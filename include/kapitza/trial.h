@@ -1,4 +1,4 @@
-/* trial: what the numerics can carry, measured on a few thousand states before anything is labelled (Fortran; floor 1, dynamics).
+/* trial: what the numerics can carry, measured on a few thousand states before anything is labelled (Fortran; layer 1, dynamics).
  * Nothing here is collective. */
 #ifndef KAPITZA_TRIAL_H
 #define KAPITZA_TRIAL_H

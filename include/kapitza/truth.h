@@ -1,4 +1,4 @@
-/* truth: whole drive periods in quad precision (Fortran; floor 0). States in real128, moved by Taylor series of order 56 whose
+/* truth: whole drive periods in quad precision (Fortran; layer 0). States in real128, moved by Taylor series of order 56 whose
  * steps follow the motion; independent of the schemes of kernel.h. It is what labels are judged by: some 1e-32 a period,
  * where double precision leaves 1e-16. */
 #ifndef KAPITZA_TRUTH_H

@@ -1,4 +1,4 @@
-/* Compiled, like all floors, for the instruction set of the build: what the compiler says here is what the program uses. */
+/* Compiled, like all layers, for the instruction set of the build: what the compiler says here is what the program uses. */
 #include <string.h>
 
 #include "kapitza/app.h"

@@ -1,4 +1,4 @@
-/* The inside of a team: what the files of this floor share. */
+/* The inside of a team: what the files of this layer share. */
 #ifndef KAPITZA_PARALLEL_TEAM_H
 #define KAPITZA_PARALLEL_TEAM_H
 

@@ -7,9 +7,9 @@
 
 #include <cmocka.h>
 
-#include "../../src/analysis/mathieu.h"
 #include "kapitza/linear.h"
 #include "kapitza/stability.h"
+#include "mathieu.h"
 
 #define PI 3.14159265358979323846
 

@@ -1,1 +1,1 @@
-kapitza_test(stability LABEL literature FLOOR analysis)
+kapitza_test(stability LABEL literature LAYER analysis)

@@ -1,13 +1,13 @@
 foreach(ranks 1 2 3 5)
-  kapitza_test(stage LABEL parallel FLOOR parallel RANKS ${ranks} TIMEOUT 60)
-  kapitza_test(checkpoint LABEL parallel FLOOR parallel RANKS ${ranks} TIMEOUT 60)
-  kapitza_test(stop LABEL parallel FLOOR parallel RANKS ${ranks} TIMEOUT 60)
+  kapitza_test(stage LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
+  kapitza_test(checkpoint LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
+  kapitza_test(stop LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
 endforeach()
-kapitza_test(schedule LABEL parallel FLOOR parallel)
+kapitza_test(schedule LABEL parallel LAYER parallel)
 target_include_directories(test_parallel_schedule PRIVATE ${PROJECT_SOURCE_DIR}/src/parallel)
-kapitza_test(hold LABEL parallel FLOOR parallel RANKS 2 TIMEOUT 60)
-kapitza_test(stage LABEL parallel FLOOR parallel TIMEOUT 60) # and without mpirun
-kapitza_test(progress LABEL parallel FLOOR parallel TIMEOUT 60)
+kapitza_test(hold LABEL parallel LAYER parallel RANKS 2 TIMEOUT 60)
+kapitza_test(stage LABEL parallel LAYER parallel TIMEOUT 60) # and without mpirun
+kapitza_test(progress LABEL parallel LAYER parallel TIMEOUT 60)
 
 # A small program that is killed at random moments and resumed.
 add_executable(worker parallel/worker.c)

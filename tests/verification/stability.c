@@ -9,11 +9,11 @@
 
 #include <cmocka.h>
 
-#include "../../src/analysis/hill.h"
-#include "../../src/analysis/mathieu.h"
+#include "hill.h"
 #include "kapitza/kernel.h"
 #include "kapitza/linear.h"
 #include "kapitza/stability.h"
+#include "mathieu.h"
 
 #define PI 3.14159265358979323846
 enum { POINTS = 400 };
@@ -112,7 +112,8 @@ static void gsl_and_tridiagonal_agree(void **unused) {
     }
 }
 
-/* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue 1) or +1 (others). */
+/* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue 1) or +1
+ * (others). */
 static void damped_edges_have_multiplier_one(void **unused) {
   (void)unused;
   const char *names[] = {"damped_0", "damped_1", "damped_2", "damped_1_upper", "damped_2_upper"};

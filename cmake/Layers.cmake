@@ -16,9 +16,9 @@ if(KAPITZA_SANITIZE)
   link_libraries(${KAPITZA_SANITIZERS})
 endif()
 
-# kapitza_floor(name FLOORS lower... LIBRARIES targets...): src/name becomes the library kapitza_name.
-function(kapitza_floor name)
-  cmake_parse_arguments(arg "" "" "FLOORS;LIBRARIES" ${ARGN})
+# kapitza_layer(name LAYERS lower... LIBRARIES targets...): src/name becomes the library kapitza_name.
+function(kapitza_layer name)
+  cmake_parse_arguments(arg "" "" "LAYERS;LIBRARIES" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90)
   list(FILTER sources EXCLUDE REGEX "/main\\.c$")
   add_library(kapitza_${name} STATIC ${sources})
@@ -30,8 +30,8 @@ function(kapitza_floor name)
     -march=${KAPITZA_ARCH} ${KAPITZA_SANITIZERS}
     $<$<COMPILE_LANGUAGE:C>:${KAPITZA_FLAGS_C}>
     $<$<COMPILE_LANGUAGE:Fortran>:${KAPITZA_FLAGS_FORTRAN}>)
-  foreach(floor ${arg_FLOORS})
-    target_link_libraries(kapitza_${name} PUBLIC kapitza_${floor})
+  foreach(layer ${arg_LAYERS})
+    target_link_libraries(kapitza_${name} PUBLIC kapitza_${layer})
   endforeach()
   target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} gfortran m)
   list(FILTER sources INCLUDE REGEX "\\.f90$")
