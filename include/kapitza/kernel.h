@@ -54,7 +54,7 @@ kz_plan *kz_plan_create(const kz_pendulum *pendulum, const kz_numerics *numerics
 void kz_plan_free(kz_plan *plan);
 
 /* Advances n states through `periods` whole periods. theta [n] comes back wrapped to [-pi, pi], turns [n] gains the net
- * number of turns (counterclockwise +). Any n; all kinds behind one border of doubles. */
+ * number of turns (counterclockwise +). Any n; the interface is in doubles for every kind. */
 void kz_advance(const kz_plan *plan, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns);
 
 /* The same with the tangent map: matrix [n][4] = row-major d(theta, velocity)/d(theta0, velocity0) over the periods. */

@@ -1,4 +1,4 @@
-!> The truth's border to C: include/kapitza/truth.h. Quads stay inside, doubles come out.
+!> The C interface of the quad-precision reference: include/kapitza/truth.h. Quads stay inside, doubles come out.
 module kz_kernel_truth
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
   use kz_kernel_tables, only: pendulum_t

@@ -1,5 +1,5 @@
-!> The kernel's border to C: include/kapitza/kernel.h. Thin entries of doubles and integers.
-module kz_kernel_border
+!> The C interface of the kernel: include/kapitza/kernel.h. Thin entries of doubles and integers.
+module kz_kernel_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
                                          c_f_pointer
   use kz_kernel_map, only: flow_t, WIDTH, PI
@@ -208,4 +208,4 @@ contains
     end select
   end subroutine sine_of_half_turns
 
-end module kz_kernel_border
+end module kz_kernel_api

@@ -1,5 +1,5 @@
-!> The border of dynamics to C: include/kapitza/dynamics.h, and the table's defect of include/kapitza/trial.h.
-module kz_dynamics_border
+!> The C interface of dynamics: include/kapitza/dynamics.h, and the table's defect of include/kapitza/trial.h.
+module kz_dynamics_api
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_kernel_map, only: WIDTH, PI
   use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
@@ -354,4 +354,4 @@ contains
     number(:size(d%attractors)) = order_of(d%attractors)
   end subroutine attractor_order
 
-end module kz_dynamics_border
+end module kz_dynamics_api

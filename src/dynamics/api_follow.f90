@@ -1,5 +1,5 @@
-!> The border of dynamics to C: starts followed until they are trapped (include/kapitza/dynamics.h).
-module kz_dynamics_border_follow
+!> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics.h).
+module kz_dynamics_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_kernel_map, only: map_t
   use kz_kernel_plan, only: make_flow, DOUBLE
@@ -140,4 +140,4 @@ contains
     call follow(map, d%regions, d%attractors, state(1, :), state(2, :), owner, periods)
   end subroutine follow_with
 
-end module kz_dynamics_border_follow
+end module kz_dynamics_api_follow
