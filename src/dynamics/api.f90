@@ -1,4 +1,4 @@
-!> The C interface of dynamics: include/kapitza/dynamics.h, and the table's defect of include/kapitza/trial.h.
+!> The C interface of dynamics: include/kapitza/dynamics.h, and the table's defect of include/kapitza/step_error.h.
 module kz_dynamics_api
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_kernel_map, only: WIDTH, PI
@@ -11,7 +11,7 @@ module kz_dynamics_api
   use kz_dynamics_regions, only: make_regions, draw_attractors
   use kz_dynamics_search, only: find_cycle, append
   use kz_dynamics_tables, only: make_table, table_row, set_table_rows, table_map_t, make_table_map
-  use kz_dynamics_trial, only: table_defect
+  use kz_dynamics_step_error, only: table_defect
   implicit none
   private
 

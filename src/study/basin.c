@@ -12,8 +12,8 @@
 #include "catalogue.h"
 #include "discovery.h"
 #include "kapitza/settling.h"
+#include "kapitza/step_error.h"
 #include "kapitza/steps.h"
-#include "kapitza/trial.h"
 
 enum {
   CELLS = 4096, /* of a tile, at most */
@@ -84,8 +84,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
     out[i].periods = (uint32_t)w->periods[i];
   }
   if (plan->flag_undecided) find_undecided(b, n);
-  for (int64_t i = 0; i < n; i++)
-    out[i].evidence = w->undecided[i] ? UNDECIDED : w->integrated[i] > 0 ? INTEGRATED : FOLLOWED;
+  for (int64_t i = 0; i < n; i++) out[i].evidence = w->undecided[i] ? UNDECIDED : w->integrated[i] > 0 ? INTEGRATED : FOLLOWED;
   return KZ_OK;
 }
 
@@ -308,7 +307,8 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
                   .memory_bytes = 100 * nodes,
                   .first_bytes = 27 * cells,
                   .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
-                                  nodes / 2 * (table_period + 1e-6) + cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period};
+                                  nodes / 2 * (table_period + 1e-6) + cells * periods * cell_period +
+                                  (double)kz_doubt_cells(plan) * periods * 4 * period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

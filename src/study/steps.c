@@ -13,7 +13,7 @@ enum {
   DOUBLINGS = 8,       /* of the steps that are tried as advice */
   MOST_STEPS = 100000, /* that a scene can ask for */
   SWEEP_VALUES = 17,   /* of a sweep that are tried, fewer where they take many steps */
-  SWEEP_STEPS = 20000  /* that those trials take together */
+  SWEEP_STEPS = 20000  /* that these values take together */
 };
 
 /* rad, of one drive period: from LOOSE on a user is warned, from LOST on labels would be chance. */
@@ -26,8 +26,8 @@ double kz_steps_tolerance(const kz_basin_plan *plan) {
 }
 
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
-  const kz_step_trial trial = kz_try_steps(pendulum, numerics, fastest);
-  return kz_worst_error(&trial) <= LOST;
+  const kz_step_trial classes = kz_try_steps(pendulum, numerics, fastest);
+  return kz_worst_error(&classes) <= LOST;
 }
 
 /* Motions of one study: what they are tried with, and the keys that a user could change. */
@@ -100,17 +100,17 @@ static void describe_error(const motions *m, double error, size_t bytes, char *t
 }
 
 static kz_status check(const motions *m) {
-  const kz_step_trial trial = kz_try_steps(&m->pendulum, &m->numerics, m->fastest);
-  const int worst = kz_worst_class(&trial);
-  if (trial.error[worst] <= m->lost) return KZ_OK;
+  const kz_step_trial classes = kz_try_steps(&m->pendulum, &m->numerics, m->fastest);
+  const int worst = kz_worst_class(&classes);
+  if (classes.error[worst] <= m->lost) return KZ_OK;
   char what[120], help[160];
   kz_scheme scheme;
   kz_scheme_row(m->numerics.scheme, &scheme);
-  describe_error(m, trial.error[worst], sizeof what, what);
+  describe_error(m, classes.error[worst], sizeof what, what);
   advice(m, sizeof help, help);
   return kz_fail(KZ_REFUSED, "%s: %swith numerics.steps_per_period = %d of %s, motions at speeds from %.3g to %.3g %s; %s",
-                 m->keys, m->where, (int)m->numerics.steps_per_period, scheme.name, trial.speed[worst], trial.speed[worst + 1],
-                 what, help);
+                 m->keys, m->where, (int)m->numerics.steps_per_period, scheme.name, classes.speed[worst],
+                 classes.speed[worst + 1], what, help);
 }
 
 /* Without damping nothing is labelled. */
@@ -175,34 +175,34 @@ kz_status kz_steps_check(const kz_scene *scene) {
   return check_sweep(scene);
 }
 
-static void warn(const motions *m, const kz_step_trial *trial, FILE *summary) {
+static void warn(const motions *m, const kz_step_trial *classes, FILE *summary) {
   char help[160];
   for (int c = 0; c < KZ_SPEED_CLASSES; c++)
-    if (trial->error[c] > m->loose)
+    if (classes->error[c] > m->loose)
       fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by up to %.2g rad\n", m->where,
-              trial->speed[c], trial->speed[c + 1], trial->error[c]);
-  if (kz_worst_error(trial) <= m->loose) return;
+              classes->speed[c], classes->speed[c + 1], classes->error[c]);
+  if (kz_worst_error(classes) <= m->loose) return;
   advice(m, sizeof help, help);
   fprintf(summary, "warning: to get below %.2g rad per period at every speed: numerics.steps_per_period: %s\n", m->loose, help);
 }
 
 void kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary) {
   const motions m = motions_of(scene, fastest, "");
-  const kz_step_trial trial = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
-  warn(&m, &trial, summary);
+  const kz_step_trial classes = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
+  warn(&m, &classes, summary);
 }
 
 double kz_steps_warn_basin(const kz_scene *scene, FILE *summary) {
   const motions m = motions_of_basin(scene);
-  const kz_step_trial trial = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
-  const double worst = kz_worst_error(&trial);
+  const kz_step_trial classes = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
+  const double worst = kz_worst_error(&classes);
   kz_scheme scheme;
   kz_scheme_row(m.numerics.scheme, &scheme);
   fprintf(summary, "%s, %d steps a drive period", scheme.name, (int)m.numerics.steps_per_period);
   if (m.numerics.steps_per_period != scheme.default_steps)
     fprintf(summary, " (its own number is %d)", (int)scheme.default_steps);
   fprintf(summary, ": a period is off by at most %.2g rad, %.2g of a cell\n", worst, worst / m.cell);
-  warn(&m, &trial, summary);
+  warn(&m, &classes, summary);
   return worst;
 }
 
@@ -213,11 +213,11 @@ void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary) {
   kz_step_trial worst_trial;
   for (int64_t i = 0; i < n; i++) {
     if (!motions_at(scene, i, n, &m)) continue;
-    const kz_step_trial trial = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
-    if (kz_worst_error(&trial) <= largest) continue;
-    largest = kz_worst_error(&trial);
+    const kz_step_trial classes = kz_try_steps(&m.pendulum, &m.numerics, m.fastest);
+    if (kz_worst_error(&classes) <= largest) continue;
+    largest = kz_worst_error(&classes);
     worst = m;
-    worst_trial = trial;
+    worst_trial = classes;
   }
   if (largest > 0) warn(&worst, &worst_trial, summary);
 }

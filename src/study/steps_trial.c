@@ -3,8 +3,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "kapitza/step_error.h"
 #include "kapitza/steps.h"
-#include "kapitza/trial.h"
 
 /* rad: above it the error of a period in double precision is that of the steps, not of rounding. */
 static const double ROUNDED = 1e-10;
@@ -17,49 +17,49 @@ static double quad_error(const kz_pendulum *pendulum, const kz_numerics *numeric
   double error;
   kz_scheme_row(numerics->scheme, &scheme);
   for (;; fewer.steps_per_period /= 2) {
-    kz_trial_step_errors(pendulum, &fewer, 1, speed, &error);
+    kz_step_errors(pendulum, &fewer, 1, speed, &error);
     if (error > ROUNDED || fewer.steps_per_period == 1) break;
   }
   return error < DBL_MAX ? error * pow((double)fewer.steps_per_period / numerics->steps_per_period, scheme.order) : error;
 }
 
-static void find_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int first, int n, kz_step_trial *trial) {
+static void find_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int first, int n, kz_step_trial *classes) {
   if (numerics->precision == KZ_QUAD)
-    for (int c = first; c < first + n; c++) trial->error[c] = quad_error(pendulum, numerics, trial->speed + c);
+    for (int c = first; c < first + n; c++) classes->error[c] = quad_error(pendulum, numerics, classes->speed + c);
   else
-    kz_trial_step_errors(pendulum, numerics, n, trial->speed + first, trial->error + first);
+    kz_step_errors(pendulum, numerics, n, classes->speed + first, classes->error + first);
 }
 
 kz_step_trial kz_try_steps(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
-  kz_step_trial trial = {{0}, {0}};
+  kz_step_trial classes = {{0}, {0}};
   double top = fmax(fmax(fastest, 1.5), 2 * sqrt(fabs(pendulum->k) + fabs(pendulum->m)));
-  for (int c = 1; c <= KZ_SPEED_CLASSES; c++) trial.speed[c] = ldexp(top, c - KZ_SPEED_CLASSES);
-  find_errors(pendulum, numerics, 0, KZ_SPEED_CLASSES, &trial);
-  return trial;
+  for (int c = 1; c <= KZ_SPEED_CLASSES; c++) classes.speed[c] = ldexp(top, c - KZ_SPEED_CLASSES);
+  find_errors(pendulum, numerics, 0, KZ_SPEED_CLASSES, &classes);
+  return classes;
 }
 
-int kz_worst_class(const kz_step_trial *trial) {
+int kz_worst_class(const kz_step_trial *classes) {
   int worst = 0;
   for (int c = 1; c < KZ_SPEED_CLASSES; c++)
-    if (trial->error[c] > trial->error[worst]) worst = c;
+    if (classes->error[c] > classes->error[worst]) worst = c;
   return worst;
 }
 
-double kz_worst_error(const kz_step_trial *trial) {
-  return trial->error[kz_worst_class(trial)];
+double kz_worst_error(const kz_step_trial *classes) {
+  return classes->error[kz_worst_class(classes)];
 }
 
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
-  kz_step_trial trial = kz_try_steps(pendulum, numerics, fastest);
-  for (int worst; worst = kz_worst_class(&trial), trial.error[worst] > tolerance;) {
+  kz_step_trial classes = kz_try_steps(pendulum, numerics, fastest);
+  for (int worst; worst = kz_worst_class(&classes), classes.error[worst] > tolerance;) {
     do { /* the worst class alone: where nothing helps, that is soon known */
-      const double before = trial.error[worst];
+      const double before = classes.error[worst];
       if (numerics->steps_per_period > most / 2) return false;
       numerics->steps_per_period *= 2;
-      find_errors(pendulum, numerics, worst, 1, &trial);
-      if (before < ROUNDED && trial.error[worst] > before / 2) return false; /* only rounding is left */
-    } while (trial.error[worst] > tolerance);
-    trial = kz_try_steps(pendulum, numerics, fastest);
+      find_errors(pendulum, numerics, worst, 1, &classes);
+      if (before < ROUNDED && classes.error[worst] > before / 2) return false; /* only rounding is left */
+    } while (classes.error[worst] > tolerance);
+    classes = kz_try_steps(pendulum, numerics, fastest);
   }
   return true;
 }

@@ -16,7 +16,7 @@ typedef struct {
 kz_step_trial kz_try_steps(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
 
 /* The class of the largest error, and that error, rad. */
-int kz_worst_class(const kz_step_trial *trial);
-double kz_worst_error(const kz_step_trial *trial);
+int kz_worst_class(const kz_step_trial *classes);
+double kz_worst_error(const kz_step_trial *classes);
 
 #endif

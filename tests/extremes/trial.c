@@ -1,4 +1,5 @@
-/* The stated error of a drive period is an upper estimate: held against the largest one of a dense sample, pendulum by pendulum. */
+/* The stated error of a drive period is an upper estimate: held against the largest one of a dense sample, pendulum by
+ * pendulum. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kapitza/trial.h"
+#include "kapitza/step_error.h"
 
 enum { ANGLES = 128, SPEEDS = 64, N = ANGLES * SPEEDS, CLASSES = 4, PENDULUMS = 12, MORE = 150, FINE = 192 };
 
@@ -64,7 +65,7 @@ static void the_stated_error_is_an_upper_estimate(void **unused) {
     const double top = pow(10, 1.3 * drawn());
     double speed[CLASSES + 1] = {0}, stated[CLASSES];
     for (int c = 1; c <= CLASSES; c++) speed[c] = ldexp(top, c - CLASSES);
-    kz_trial_step_errors(&pendulum, &numerics, CLASSES, speed, stated);
+    kz_step_errors(&pendulum, &numerics, CLASSES, speed, stated);
     for (int c = 0; c < CLASSES; c++) {
       const double error = dense_error(&pendulum, &numerics, speed + c, c);
       if (error > ROUNDING && !(stated[c] >= error && stated[c] <= 3 * error))

@@ -1,6 +1,6 @@
-!> A trial of the numerics before anything is labelled: the error of one drive period by step doubling, for each class of
-!> speeds, and the interpolation error of the map table.
-module kz_dynamics_trial
+!> The error of one drive period, measured before anything is labelled: by step doubling, for each class of speeds; and the
+!> interpolation error of the map table.
+module kz_dynamics_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
@@ -13,7 +13,8 @@ module kz_dynamics_trial
 
   !> States of a class of speeds.
   integer, parameter :: STATES = 8*WIDTH
-  !> Such a sample has seen more than the inverse of this of the largest error (tests/extremes/trial.c holds it against dense ones).
+  !> Such a sample has seen more than the inverse of this of the largest error (tests/extremes/trial.c holds it against dense
+  !> ones).
   real(dp), parameter :: SAFETY = 2
 
 contains
@@ -21,7 +22,7 @@ contains
   !> error(c) = an upper estimate of the error of one period of states with speeds from speed(c) to speed(c + 1), in rad (velocity
   !> and angle together): the largest of STATES, SAFETY times; huge where a state is lost: not finite, or faster than friction and
   !> drive can make it.
-  subroutine step_errors(pendulum, numerics, n, speed, error) bind(C, name='kz_trial_step_errors')
+  subroutine step_errors(pendulum, numerics, n, speed, error) bind(C, name='kz_step_errors')
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     integer(c_int64_t), value :: n
@@ -116,4 +117,4 @@ contains
     end do
   end function table_defect
 
-end module kz_dynamics_trial
+end module kz_dynamics_step_error
