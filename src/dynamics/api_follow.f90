@@ -8,7 +8,7 @@ module kz_dynamics_api_follow
   use kz_dynamics_handle, only: dynamics_t, of_handle
   use kz_dynamics_labels, only: follow
   use kz_dynamics_tables, only: table_map_t, make_table_map
-  use kz_dynamics_trust, only: tracked_map_t, measure_defects, make_tracked_map, follow_trusted
+  use kz_dynamics_hybrid_map, only: hybrid_map_t, measure_defects, make_hybrid_map, follow_hybrid_map
   use kz_dynamics_truths, only: truth_map_t, make_truth_map
   implicit none
   private
@@ -80,12 +80,12 @@ contains
     integer(c_int64_t), intent(out) :: periods(n)
     integer(c_int64_t), intent(out) :: integrated(n)
     type(dynamics_t), pointer :: d
-    type(tracked_map_t) :: map
+    type(hybrid_map_t) :: map
 
     d => of_handle(handle)
     call measure_table(handle, points)
-    call make_tracked_map(d%table, int(points), d%search%flow, d%defect, map)
-    call follow_trusted(map, d%flow, d%regions, d%attractors, max_periods, state(1, :), state(2, :), owner, &
+    call make_hybrid_map(d%table, int(points), d%search%flow, d%defect, map)
+    call follow_hybrid_map(map, d%flow, d%regions, d%attractors, max_periods, state(1, :), state(2, :), owner, &
                         periods, integrated)
   end subroutine follow_hybrid
 

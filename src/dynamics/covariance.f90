@@ -1,6 +1,6 @@
-!> Orbits with their errors. Beside each state goes the covariance P of its error: a period carries it to J P J^T + d**2 1, with the
-!> tangent map J and the error d that steps and rounding make within the period. An orbit whose error grows large is doubtful: its
-!> label is not decided. It is trapped once a trapping region holds the whole ellipse of P.
+!> Orbits with their errors. Beside each state goes the covariance P of its error: a period carries it to J P J^T + d**2 1, with
+!> the tangent map J and the error d that steps and rounding make within the period. An orbit whose error grows large is
+!> doubtful: its label is not decided. It is trapped once a trapping region holds the whole ellipse of P.
 module kz_dynamics_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
@@ -11,9 +11,9 @@ module kz_dynamics_covariance
   private
   public :: covariant_map_t, make_covariant_map, spread, largest_error
 
-  !> rad: the standard deviation of a state that a label bears. Of 1657 wrong labels (quad truth; epsilon = 0.3 and 0.46, Q = 20, rk4,
-  !> single precision) 0.03 found all and 0.1 all but one; twice as many labels are doubtful as are wrong.
-  real(dp), parameter :: BEARABLE = 0.03_dp
+  !> rad: the standard deviation of a state that a label bears. Of 1657 wrong labels (quad truth; epsilon = 0.3 and 0.46, Q =
+  !> 20, rk4, single precision) 0.03 found all and 0.1 all but one; twice as many labels are doubtful as are wrong.
+  real(dp), parameter :: TOLERABLE = 0.03_dp
   !> Half-axes of the ellipse, in standard deviations, and points of its rim that must lie in the trapping region.
   real(dp), parameter :: DEVIATIONS = 3
   integer, parameter :: RIM = 8
@@ -90,7 +90,7 @@ contains
                     rounding(self)*hypot(PI, self%v(lane)))
       call spread(tangent(:, :, lane), error, self%p(:, lane))
       self%straddling(lane) = .false.
-      if (.not. largest_error(self%p(:, lane)) <= BEARABLE) then
+      if (.not. largest_error(self%p(:, lane)) <= TOLERABLE) then
         self%doubtful(lane) = .true.
         self%p(:, lane) = 0
       else if (captor(lane) > 0) then

@@ -8,7 +8,7 @@ module kz_dynamics_labels
   private
   public :: follow, DOUBTFUL
 
-  !> Owner of a start that the map gave up as doubtful.
+  !> Label of a start whose error on the map has become too large.
   integer, parameter :: DOUBTFUL = -1
   !> An orbit belongs to a chaotic attractor once it has stayed in its cover for so many periods.
   integer, parameter :: STAY = 64

@@ -28,7 +28,7 @@ enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3, UNDECIDED = 4 };
 typedef struct {
   uint32_t periods;
   int16_t owner;    /* number of kz_dynamics, 0 = not settled */
-  uint8_t evidence; /* FOLLOWED; INTEGRATED in part, because the table was not trusted; UNDECIDED */
+  uint8_t evidence; /* FOLLOWED; INTEGRATED in part, because the table's error was too large; UNDECIDED */
 } labelled;
 
 /* Arrays of one tile: too large for the stack. */

@@ -1,7 +1,7 @@
-!> Orbits on the map table as far as it can be trusted. The error that interpolation leaves in every period is carried along with
-!> the orbit and stretched by the tangent map. Where it has outgrown what a label can bear, the orbit goes back to where it came
-!> upon the table, is integrated up to here, and goes on with the table and no error.
-module kz_dynamics_trust
+!> The hybrid map: orbits follow the map table while its error is small enough. The interpolation error of every period is added
+!> to the orbit's error and stretched by the tangent map. Where the sum exceeds what a label tolerates, the orbit returns to its
+!> last state without error, is integrated over the same periods, and continues on the table with error 0.
+module kz_dynamics_hybrid_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t
@@ -11,25 +11,26 @@ module kz_dynamics_trust
   use kz_dynamics_tables, only: table_t, table_map_t, make_table_map, place_t, locate, displace
   implicit none
   private
-  public :: measure_defects, tracked_map_t, make_tracked_map, follow_trusted
+  public :: measure_defects, hybrid_map_t, make_hybrid_map, follow_hybrid_map
 
   !> Cells along an axis that share one defect: an even number, for a block's middle is that of a cell.
   integer, parameter :: BLOCK = 4
-  !> rad: the error of a state that a label can bear.
-  real(dp), parameter :: BEARABLE = 0.1_dp
+  !> rad: the largest error of a state that a label tolerates.
+  real(dp), parameter :: TOLERABLE = 0.1_dp
 
-  type, extends(table_map_t) :: tracked_map_t
+  type, extends(table_map_t) :: hybrid_map_t
     real(dp), pointer :: defect(:, :, :) => null() !< of measure_defects
     real(dp) :: error(2, WIDTH) = 0 !< of the state since the lane was put: sheared half-turns, rad per drive radian
   contains
     procedure :: put
     procedure :: move
     procedure :: advance
-  end type tracked_map_t
+  end type hybrid_map_t
 
 contains
 
-  !> defect(:, i, j) = the error of one period from the middle cell of block (i, j), from 0: sheared half-turns, rad per drive radian.
+  !> defect(:, i, j) = the error of one period from the middle cell of block (i, j), from 0: sheared half-turns, rad per drive
+  !> radian.
   subroutine measure_defects(map, defect)
     type(table_map_t), intent(inout) :: map
     real(dp), allocatable, intent(out) :: defect(:, :, :)
@@ -67,19 +68,19 @@ contains
     end function middle
   end subroutine measure_defects
 
-  subroutine make_tracked_map(table, points, flow, defect, map)
+  subroutine make_hybrid_map(table, points, flow, defect, map)
     type(table_t), target, intent(in) :: table
     integer, intent(in) :: points
     class(flow_t), intent(in) :: flow
     real(dp), target, intent(in) :: defect(:, 0:, 0:)
-    type(tracked_map_t), intent(out) :: map
+    type(hybrid_map_t), intent(out) :: map
 
     map%table_map_t = make_table_map(table, points, flow)
     map%defect(1:, 0:, 0:) => defect
-  end subroutine make_tracked_map
+  end subroutine make_hybrid_map
 
   subroutine put(self, lane, u, v)
-    class(tracked_map_t), intent(inout) :: self
+    class(hybrid_map_t), intent(inout) :: self
     integer, intent(in) :: lane
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
@@ -89,7 +90,7 @@ contains
   end subroutine put
 
   subroutine move(self, from, to)
-    class(tracked_map_t), intent(inout) :: self
+    class(hybrid_map_t), intent(inout) :: self
     integer, intent(in) :: from
     integer, intent(in) :: to
 
@@ -98,9 +99,9 @@ contains
   end subroutine move
 
   !> One period of n lanes and of their errors: the tangent map, by differences of the nodes around each state, and the defect.
-  !> Errors of mirror images are mirror images. A doubtful lane carries none any more.
+  !> Errors of mirror images are mirror images. The error of a doubtful lane is reset to 0.
   subroutine advance(self, n)
-    class(tracked_map_t), intent(inout) :: self
+    class(hybrid_map_t), intent(inout) :: self
     integer, intent(in) :: n
     type(place_t) :: place
     real(dp) :: along(2), across(2), error(2)
@@ -116,7 +117,7 @@ contains
         across = (shift(:, i, j + 1) - shift(:, i, j))*((table%n_velocity - 1)/(2*table%top))
         error = self%error(:, lane)
         error = error + along*error(1) + across*error(2) + place%fold(lane)*self%defect(:, i/BLOCK, (j - 1)/BLOCK)
-        if ((PI*error(1))**2 + error(2)**2 > BEARABLE**2) then
+        if ((PI*error(1))**2 + error(2)**2 > TOLERABLE**2) then
           self%doubtful(lane) = .true.
           error = 0
         end if
@@ -125,10 +126,10 @@ contains
     end associate
   end subroutine advance
 
-  !> As `follow`, for max_periods at most: with the table as far as it can be trusted. integrated(i) = periods of start i that
-  !> were integrated because it could not.
-  subroutine follow_trusted(map, flow, regions, attractors, max_periods, u, v, owner, periods, integrated)
-    type(tracked_map_t), intent(inout) :: map
+  !> As `follow`, for max_periods at most: with the table while its error is tolerable. integrated(i) = periods of start i that
+  !> were integrated instead.
+  subroutine follow_hybrid_map(map, flow, regions, attractors, max_periods, u, v, owner, periods, integrated)
+    type(hybrid_map_t), intent(inout) :: map
     class(flow_t), intent(inout) :: flow
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
@@ -172,6 +173,6 @@ contains
       v(open) = merge(y, v(open), sure)
       periods(open) = periods(open) + merge(spent, 0_c_int64_t, sure)
     end subroutine go_on
-  end subroutine follow_trusted
+  end subroutine follow_hybrid_map
 
-end module kz_dynamics_trust
+end module kz_dynamics_hybrid_map
