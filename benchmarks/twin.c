@@ -54,7 +54,7 @@ static void look(const kz_catalogue *c, tile *t) {
 }
 
 /* The lane's label once it is captured, -1 once it is too old, -2 while it goes on. */
-static int verdict(const kz_catalogue *c, tile *t, int i) {
+static int label_of(const kz_catalogue *c, tile *t, int i) {
   int near = t->near[i];
   t->running[i] = near < 0 ? 0 : near == t->expected[i] ? t->running[i] + 1 : 1;
   t->expected[i] = near < 0 ? -1 : c->points[near].next;
@@ -81,7 +81,7 @@ long label_states(const kz_catalogue *catalogue, long n, const double *theta, co
     look(catalogue, &t);
     for (int i = 0; i < LANES; i++) {
       if (t.cell[i] < 0) continue;
-      int label = verdict(catalogue, &t, i);
+      int label = label_of(catalogue, &t, i);
       if (label == -2) continue;
       labels[t.cell[i]] = label;
       t.cell[i] = -1;

@@ -20,10 +20,10 @@ from kapitza_file import BadFile, Result, run
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "tools"))
 
-import truth_check  # noqa: E402
+import reference_check  # noqa: E402
 
 PROGRAM = ROOT / "build" / "kapitza"
-TRUTH_CACHE = ROOT / "results" / "benchmark-truth"
+LABEL_CACHE = ROOT / "results" / "benchmark-truth"
 TWIN = "RK4-100, SIMD twin"
 # name | program in build/benchmarks | cells timed
 TEXTBOOK = [("RK4-100, textbook", "textbook", 2000), (TWIN, "twin", 100_000)]
@@ -51,7 +51,7 @@ def pinned(command, core, **options):
 
 def textbook_run(program, catalogue, theta, velocity, core):
     """Labels (attractor ids) and seconds a cell."""
-    text = catalogue.text(2000) + truth_check.states_text(theta, velocity)
+    text = catalogue.text(2000) + reference_check.states_text(theta, velocity)
     output, _ = pinned([ROOT / "build" / "benchmarks" / program], core, input=text)
     head, labels = output.split("\n", 1)
     return catalogue.ids(np.array(labels.split(), dtype=np.int64)), float(head.split()[0]) / len(theta)
@@ -74,13 +74,13 @@ class Ours:
         """Labels of some cells in the ids of the reference catalogue."""
         result = Result(self.file)
         numbers = result.group("basin")["attractor"].values[cells].astype(np.int64)
-        return translation(truth_check.Catalogue(result), reference)[numbers]
+        return translation(reference_check.Catalogue(result), reference)[numbers]
 
 
 def translation(catalogue, reference):
     """Reference ids by a catalogue's own ids; the last entry is for -1. The same attractor = same period, same strobe point."""
     ids = np.full(len(catalogue.period) + 1, UNKNOWN)
-    ids[-1] = truth_check.NONE
+    ids[-1] = reference_check.NONE
     for index in catalogue.periodic:
         gap = np.hypot(np.sin((reference.theta[:, 0] - catalogue.theta[index, 0]) / 2),
                        reference.velocity[:, 0] - catalogue.velocity[index, 0])
@@ -91,12 +91,12 @@ def translation(catalogue, reference):
     return ids
 
 
-def cached_truth(catalogue, theta, velocity):
+def cached_labels(catalogue, theta, velocity):
     """True labels; those of an earlier run where everything is the same."""
-    key = hashlib.sha256((catalogue.text(4000) + truth_check.states_text(theta, velocity)).encode()).hexdigest()[:16]
-    path = TRUTH_CACHE / f"{key}.npy"
+    key = hashlib.sha256((catalogue.text(4000) + reference_check.states_text(theta, velocity)).encode()).hexdigest()[:16]
+    path = LABEL_CACHE / f"{key}.npy"
     if not path.exists():
-        labels = truth_check.truth_labels(catalogue, theta, velocity, processes=os.cpu_count())
+        labels = reference_check.reference_labels(catalogue, theta, velocity, processes=os.cpu_count())
         path.parent.mkdir(parents=True, exist_ok=True)
         np.save(path, labels)
     return np.load(path)
@@ -121,31 +121,31 @@ def rounds_of(arguments, ours, catalogue, states):
 def measure(arguments, folder):
     """One row per contestant: time a cell, ratio to the twin, wrong labels."""
     ours = [Ours(setting, arguments.scene, folder) for setting in OURS + arguments.try_]
-    for setting in ours:  # once unmeasured: files come into memory, `accuracy` hears its truth
+    for setting in ours:  # once unmeasured: files come into memory, `accuracy` computes its reference labels
         setting.seconds_per_cell(arguments.core)
     result = Result(ours[0].file)
-    basin, catalogue = result.group("basin"), truth_check.Catalogue(result)
+    basin, catalogue = result.group("basin"), reference_check.Catalogue(result)
 
     def states(count, seed):
-        row, column = truth_check.sample_cells(basin["attractor"].shape, count, seed)
+        row, column = reference_check.sample_cells(basin["attractor"].shape, count, seed)
         return basin["theta"].values[column], basin["velocity"].values[row]
 
     seconds = rounds_of(arguments, ours, catalogue, states)
-    print(f"benchmark: the truth of {arguments.cells} cells", file=sys.stderr, flush=True)
-    judged, cells = states(arguments.cells, 0), truth_check.sample_cells(basin["attractor"].shape, arguments.cells, 0)
-    truth = cached_truth(catalogue, *judged)
-    labels = {name: textbook_run(program, catalogue, *judged, arguments.core)[0] for name, program, _ in TEXTBOOK}
+    print(f"benchmark: the true_labels of {arguments.cells} cells", file=sys.stderr, flush=True)
+    compared, cells = states(arguments.cells, 0), reference_check.sample_cells(basin["attractor"].shape, arguments.cells, 0)
+    true_labels = cached_labels(catalogue, *compared)
+    labels = {name: textbook_run(program, catalogue, *compared, arguments.core)[0] for name, program, _ in TEXTBOOK}
     labels |= {setting.name: setting.labels(cells, catalogue) for setting in ours}
-    return rows_of(seconds, lambda name: truth_check.judge(labels[name], truth, catalogue))
+    return rows_of(seconds, lambda name: reference_check.compare(labels[name], true_labels, catalogue))
 
 
-def rows_of(seconds, verdict):
-    """The table's rows from the seconds a cell of every round, by name, and verdict(name)."""
+def rows_of(seconds, counts):
+    """The table's rows from the seconds a cell of every round, by name, and the counts of wrong labels by name."""
     rows = []
     for name, taken in seconds.items():
         ratio = np.array(seconds[TWIN]) / np.array(taken)
         rows.append({"name": name, "microseconds_per_cell": spread(1e6 * np.array(taken)), "times_faster_than_twin": spread(ratio)}
-                    | verdict(name))
+                    | counts(name))
     return rows
 
 
@@ -162,7 +162,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scene", type=Path, default=ROOT / "scenes" / "blackburn-fig12.yaml")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--cells", type=int, default=8000, help="cells judged by quad precision")
+    parser.add_argument("--cells", type=int, default=8000, help="cells compared with quad precision")
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="the core that all run on")
     parser.add_argument("--try", dest="try_", action="append", default=[], metavar="'NAME: KEY=VALUE ...'",
                         help="one more setting of this program")

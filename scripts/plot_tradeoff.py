@@ -108,7 +108,7 @@ def main():
     trade = result.group("tradeoff")
     figure = draw(trade, arguments.per_cell)
     parameters = [f"{symbol} = {result.pendulum[name]:.6g}" for symbol, name in (("k", "k"), ("β", "beta"), ("m", "m"))]
-    entitle(figure, result, ",  ".join(parameters), f"{int(trade.attrs['samples'])} cells judged by quad precision")
+    entitle(figure, result, ",  ".join(parameters), f"{int(trade.attrs['samples'])} cells compared with quad precision")
     style.save(figure, arguments.output, arguments.dpi)
 
 

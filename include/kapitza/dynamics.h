@@ -54,10 +54,10 @@ enum { KZ_DOUBTFUL = -1 };
 void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner,
                                    int64_t *periods);
 
-/* kz_dynamics_follow in quad precision, by Taylor series (truth.h) of n_steps steps a period, from start [n][2] in rad and rad
- * per drive radian, both taken as exact. */
-void kz_dynamics_follow_truth(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
-                              int32_t *owner, int64_t *periods);
+/* kz_dynamics_follow in quad precision, by Taylor series (reference.h) of n_steps steps a period, from start [n][2] in rad and
+ * rad per drive radian, both taken as exact. */
+void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
+                                  int32_t *owner, int64_t *periods);
 
 /* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
  * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from

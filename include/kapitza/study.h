@@ -80,7 +80,7 @@ typedef struct {
 
 /* Study `tradeoff`: on the window of the basin. */
 typedef struct {
-  int64_t samples;      /* cells judged by quad precision */
+  int64_t samples;      /* cells compared with quad precision */
   kz_integers settings; /* indices in the table of settings; none = all */
 } kz_tradeoff_plan;
 

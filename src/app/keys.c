@@ -8,7 +8,7 @@
 
 /* One row: the first four of every type, then what the type needs. */
 #define ROW(path_, type_, fallback_, offset_, help_, ...) \
-  { .path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__ }
+  {.path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__}
 #define MAPPING(path, fallback, offset, help) ROW(path, KZ_KEY_MAPPING, fallback, offset, help, .unit = "")
 /* Keys that basin.accuracy answers. */
 #define CHOSEN .chosen_by = "basin.accuracy", .chooser = AT(basin.accuracy)
@@ -105,8 +105,8 @@ const kz_key kz_keys[] = {
          "followed in quad precision shows to be as right (95 % bound)."),
 
     MAPPING("tradeoff", "", AT(has_tradeoff),
-            "Study: time and wrong labels of many settings on the basin's window, judged by quad precision."),
-    INTEGER("tradeoff.samples", 10, 1e6, "4000", tradeoff.samples, "Random cells that are judged."),
+            "Study: time and wrong labels of many settings on the basin's window, compared with quad precision."),
+    INTEGER("tradeoff.samples", 10, 1e6, "4000", tradeoff.samples, "Random cells that are compared."),
     WORDS("tradeoff.settings", kz_tradeoff_words, "", tradeoff.settings, "What is compared; left out: all of them."),
 
     MAPPING("attractors", "", AT(has_attractors), "Study: the attractors of a window of starts, without a grid."),

@@ -26,7 +26,7 @@ typedef struct {
   size_t n_words;
 } job;
 
-/* Every rank has the bytes that rank 0 read, so that all come to the same verdict on them. */
+/* Every rank has the bytes that rank 0 read, so that all come to the same result. */
 static kz_status share_text(job *j) {
   size_t length = 0;
   KZ_TRY(kz_team_agree(j->team, j->first ? kz_scene_load(j->options->scene, &j->text, &length) : KZ_OK));

@@ -9,7 +9,7 @@ module kz_dynamics_api_follow
   use kz_dynamics_labels, only: follow
   use kz_dynamics_tables, only: table_map_t, make_table_map
   use kz_dynamics_hybrid_map, only: hybrid_map_t, measure_defects, make_hybrid_map, follow_hybrid_map
-  use kz_dynamics_truths, only: truth_map_t, make_truth_map
+  use kz_dynamics_reference_map, only: reference_map_t, make_reference_map
   implicit none
   private
 
@@ -108,7 +108,7 @@ contains
     call follow_with(map, d, max_periods, state, owner, periods)
   end subroutine follow_covariance
 
-  subroutine follow_truth(handle, n_steps, n, max_periods, start, owner, periods) bind(C, name='kz_dynamics_follow_truth')
+  subroutine follow_reference(handle, n_steps, n, max_periods, start, owner, periods) bind(C, name='kz_dynamics_follow_reference')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: n_steps
     integer(c_int64_t), value :: n
@@ -117,16 +117,16 @@ contains
     integer(c_int32_t), intent(out) :: owner(n)
     integer(c_int64_t), intent(out) :: periods(n)
     type(dynamics_t), pointer :: d
-    type(truth_map_t), allocatable :: map
+    type(reference_map_t), allocatable :: map
     real(dp), allocatable :: u(:), v(:)
 
     d => of_handle(handle)
     allocate (map, u(n))
     allocate (v, source=start(2, :))
-    call make_truth_map(map, d%search%pendulum, int(n_steps), start, u)
+    call make_reference_map(map, d%search%pendulum, int(n_steps), start, u)
     periods = max_periods
     call follow(map, d%regions, d%attractors, u, v, owner, periods)
-  end subroutine follow_truth
+  end subroutine follow_reference
 
   subroutine follow_with(map, d, max_periods, state, owner, periods)
     class(map_t), intent(inout) :: map

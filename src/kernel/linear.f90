@@ -54,7 +54,7 @@ contains
     end do
   end subroutine half_periods
 
-  !> Largest multiplier, its angle and the verdict for n points.
+  !> Largest multiplier, its angle and the stability of n points.
   subroutine floquet(n, k, beta, m, log_multiplier, angle, stable) bind(C, name='kz_linear_floquet')
     integer(c_int64_t), value :: n
     !> stiffness [n]
@@ -78,7 +78,7 @@ contains
       call half_tile(lanes, k(first:), beta(first:), m(first:), half)
       do i = 1, lanes
         j = first + i - 1
-        call verdict(half(i), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
+        call classify(half(i), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
       end do
     end do
   end subroutine floquet
@@ -86,7 +86,7 @@ contains
   !> Multiplier, angle and stability of one point. With growth mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus
   !> sinh(mu/2)**2 = s c' or -c s'; between the tongues sin(pi angle)**2 = -s c'. A product of rounding errors alone is on the
   !> edge, as at k = n**2/4, m = 0.
-  pure subroutine verdict(half, beta, rounding, log_multiplier, angle, stable)
+  pure subroutine classify(half, beta, rounding, log_multiplier, angle, stable)
     type(half_period_t), intent(in) :: half
     real(rk), intent(in) :: beta
     real(rk), intent(in) :: rounding
@@ -109,7 +109,7 @@ contains
     end if
     log_multiplier = growth - PI*beta
     stable = merge(1_c_int8_t, 0_c_int8_t, log_multiplier < 0 .or. (beta <= 0 .and. plus < 0 .and. minus < 0))
-  end subroutine verdict
+  end subroutine classify
 
   !> The size that a product of two zeros of the solutions has by rounding.
   pure function rounding_of(k, beta, m) result(rounding)

@@ -1,4 +1,4 @@
-!> Taylor series of one step for a few orbits at once: the inner loops of the quad-precision truth.
+!> Taylor series of one step for a few orbits at once: the inner loops of the quad-precision reference.
 !>
 !> With w = h theta', s = sin theta, c = cos theta over t = t0 + h x, 0 <= x <= 1, the scaled coefficients obey
 !>   (n+1) w_(n+1) = -beta h w_n - sum_i f_i s_(n-i),  (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),

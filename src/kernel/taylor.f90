@@ -1,4 +1,4 @@
-!> The truth: whole periods of theta'' + beta theta' + (k - m cos t) sin theta = 0 in quad precision (real128), by Taylor
+!> The reference: whole periods of theta'' + beta theta' + (k - m cos t) sin theta = 0 in quad precision (real128), by Taylor
 !> series of fixed order (series.f90) in steps that are halved until the series of every step is complete.
 module kz_kernel_taylor
   use, intrinsic :: iso_fortran_env, only: real64, real128, int64

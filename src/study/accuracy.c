@@ -10,7 +10,7 @@
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double ROOM = 3;
 
-/* Cells that are judged for an accuracy. */
+/* Cells with reference labels for an accuracy. */
 static int64_t samples_for(double accuracy) {
   const double n = ROOM * (double)kz_share_sample(1 - accuracy);
   return (int64_t)fmax(1000, ceil(n));
@@ -25,17 +25,17 @@ enum { MOST = 32 }; /* candidates */
 
 /* The candidates from the cheapest to the dearest on these cells. */
 typedef struct {
-  const kz_judge *judge;
+  const kz_reference_labels *reference;
   const kz_setting *ladder[MOST];
   int64_t count, first;
 } walk;
 
-static void order(const kz_judge *judge, walk *w) {
+static void order(const kz_reference_labels *reference, walk *w) {
   double cost[MOST];
   const kz_setting *candidate[MOST];
   int64_t rank[MOST];
-  const double mean_periods = kz_judge_sum(judge).mean_periods, cells = (double)kz_own_cells(judge->plan);
-  *w = (walk){.judge = judge};
+  const double mean_periods = kz_reference_labels_sum(reference).mean_periods, cells = (double)kz_own_cells(reference->plan);
+  *w = (walk){.reference = reference};
   for (int i = 0; i < kz_setting_count && w->count < MOST; i++) {
     if (!kz_settings[i].candidate) continue;
     cost[w->count] = kz_setting_cost(kz_settings + i, cells, mean_periods);
@@ -47,14 +47,14 @@ static void order(const kz_judge *judge, walk *w) {
 
 static kz_status try_setting(void *context, int64_t tile, void *record) {
   const walk *w = context;
-  return kz_setting_measure(w->ladder[w->first + tile], w->judge, 0, record);
+  return kz_setting_measure(w->ladder[w->first + tile], w->reference, 0, record);
 }
 
 /* Walks the ladder upwards, two settings at a time; the first that meets the accuracy is chosen. `best`: fewest wrong. */
 static kz_status climb(walk *w, kz_team *team, double accuracy, kz_choice *choice, int64_t *best) {
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
   kz_measured measured[2];
-  *best = w->judge->samples;
+  *best = w->reference->samples;
   for (w->first = 0; w->first < w->count && !choice->setting; w->first += step) {
     const int64_t left = w->count - w->first;
     kz_stage stage = {.name = "settings",
@@ -69,7 +69,7 @@ static kz_status climb(walk *w, kz_team *team, double accuracy, kz_choice *choic
       choice->tried++;
       choice->wrong = measured[i].wrong;
       if (measured[i].wrong < *best) *best = measured[i].wrong;
-      if (kz_share_of(measured[i].wrong, w->judge->samples).high <= 1 - accuracy) choice->setting = w->ladder[w->first + i];
+      if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy) choice->setting = w->ladder[w->first + i];
     }
   }
   return KZ_OK;
@@ -94,24 +94,24 @@ static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
           100 * wrong.high, 100 * flips.share);
 }
 
-static kz_status choose(const kz_judge *judge, kz_team *team, double accuracy, kz_choice *choice) {
+static kz_status choose(const kz_reference_labels *reference, kz_team *team, double accuracy, kz_choice *choice) {
   int64_t best;
   walk w;
-  order(judge, &w);
-  *choice = (kz_choice){.samples = judge->samples, .flipped = kz_judge_sum(judge).flipped};
+  order(reference, &w);
+  *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
   KZ_TRY(climb(&w, team, accuracy, choice, &best));
   return choice->setting ? KZ_OK : refuse(accuracy, choice, best);
 }
 
 kz_status kz_accuracy_choose(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary, kz_choice *choice) {
   const double accuracy = scene->basin.accuracy;
-  kz_judge judge = {0};
-  char *path = kz_truth_path(store);
-  kz_status status = kz_judge_make(scene, team, samples_for(accuracy), path, &judge);
-  if (status == KZ_OK) status = choose(&judge, team, accuracy, choice);
-  if (status == KZ_OK && path) status = kz_judge_save(&judge, path);
+  kz_reference_labels reference = {0};
+  char *path = kz_reference_path(store);
+  kz_status status = kz_reference_labels_make(scene, team, samples_for(accuracy), path, &reference);
+  if (status == KZ_OK) status = choose(&reference, team, accuracy, choice);
+  if (status == KZ_OK && path) status = kz_reference_labels_save(&reference, path);
   if (status == KZ_OK && summary) tell(choice, accuracy, summary);
-  kz_judge_free(&judge);
+  kz_reference_labels_free(&reference);
   free(path);
   return kz_team_agree(team, status);
 }

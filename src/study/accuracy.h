@@ -10,7 +10,7 @@ typedef struct {
   int64_t samples, wrong, flipped, tried;
 } kz_choice;
 
-/* The cheapest setting by kz_setting_cost whose share of wrong labels of the judge's sample is at most 1 - accuracy at the upper
+/* The cheapest setting by kz_setting_cost whose share of wrong labels of the sample is at most 1 - accuracy at the upper
  * end of its 95 % interval. KZ_REFUSED tells the best share reached and the floor. Collective. */
 kz_status kz_accuracy_choose(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary, kz_choice *choice);
 

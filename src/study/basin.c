@@ -198,8 +198,8 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
   return status;
 }
 
-/* What the labels stand on, in numbers and as warnings. */
-static void judge_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
+/* The errors of the numerics behind the labels, and warnings about them. */
+static void measure_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
   labels->step_error = kz_steps_warn_basin(scene, summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
@@ -232,7 +232,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   if (status == KZ_OK && kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};
     kz_labels labels = {.trapped_share = kz_dynamics_trapped_share(b.dynamics), .doubt = doubt};
-    judge_numerics(scene, &b, &labels, summary);
+    measure_numerics(scene, &b, &labels, summary);
     status = finish(&b, &catalogue, &labels);
     if (status == KZ_OK) status = kz_basin_write(scene, &catalogue, &labels, store, summary);
     kz_catalogue_free(&catalogue);

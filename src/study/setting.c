@@ -1,4 +1,4 @@
-/* One setting measured: its own dynamics with the judge's attractors, its labels of the judge's cells, its time. */
+/* One setting measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
 #include "setting.h"
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@ typedef struct {
 
 typedef struct {
   const kz_setting *setting;
-  const kz_judge *judge;
+  const kz_reference_labels *reference;
   kz_dynamics *dynamics;
   workspace *work;
 } gauge;
@@ -30,45 +30,46 @@ static double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Labels [n] of the first n cells of the judge's order. */
+/* Labels [n] of the first n cells in the order of the sample. */
 static void label(const gauge *g, int64_t n, int32_t *owner) {
   const kz_setting *s = g->setting;
   workspace *w = g->work;
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
-    for (int64_t i = 0; i < some; i++) kz_cell_state(g->judge->plan, kz_judge_cell(g->judge, first + i), w->state + 2 * i);
-    kz_follow(g->dynamics, s->method, s->interpolation, some, g->judge->plan->max_periods, w->state, owner + first, w->periods,
-              w->integrated);
+    for (int64_t i = 0; i < some; i++)
+      kz_cell_state(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
+    kz_follow(g->dynamics, s->method, s->interpolation, some, g->reference->plan->max_periods, w->state, owner + first,
+              w->periods, w->integrated);
   }
 }
 
 /* The largest difference between the counts of one attractor among labels and among true ones. */
-static int64_t astray(const kz_judge *judge, const int32_t *owner, int64_t *surplus, int64_t known) {
+static int64_t astray(const kz_reference_labels *reference, const int32_t *owner, int64_t *surplus, int64_t known) {
   int64_t largest = 0;
   memset(surplus, 0, (size_t)(known + 1) * sizeof *surplus);
-  for (int64_t i = 0; i < judge->samples; i++) {
+  for (int64_t i = 0; i < reference->samples; i++) {
     surplus[owner[i]]++;
-    surplus[judge->verdicts[i].label]--;
+    surplus[reference->labels[i].label]--;
   }
   for (int64_t a = 1; a <= known; a++)
     if (llabs(surplus[a]) > largest) largest = llabs(surplus[a]);
   return largest;
 }
 
-static void compare(const kz_judge *judge, const int32_t *owner, kz_measured *m) {
-  int64_t at[KZ_JUDGE_FAR + 1] = {0}, seen = 0;
-  for (int64_t i = 0; i < judge->samples; i++)
-    if (owner[i] != judge->verdicts[i].label) at[judge->verdicts[i].distance]++;
-  for (int distance = 1; distance <= KZ_JUDGE_FAR; distance++) m->wrong += at[distance];
+static void compare(const kz_reference_labels *reference, const int32_t *owner, kz_measured *m) {
+  int64_t at[KZ_REFERENCE_FAR + 1] = {0}, seen = 0;
+  for (int64_t i = 0; i < reference->samples; i++)
+    if (owner[i] != reference->labels[i].label) at[reference->labels[i].distance]++;
+  for (int distance = 1; distance <= KZ_REFERENCE_FAR; distance++) m->wrong += at[distance];
   m->inside = m->wrong - at[1];
-  for (int distance = 1; distance <= KZ_JUDGE_FAR && m->wrong > 0 && m->distance == 0; distance++)
+  for (int distance = 1; distance <= KZ_REFERENCE_FAR && m->wrong > 0 && m->distance == 0; distance++)
     if (2 * (seen += at[distance]) >= m->wrong) m->distance = distance;
 }
 
 static kz_status set_up(gauge *g) {
   const kz_setting *s = g->setting;
-  kz_dynamics_unpack(g->dynamics, g->judge->packed_size, g->judge->packed);
-  KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->judge->reach));
+  kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
+  KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->reach));
   if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil[s->interpolation]);
   return KZ_OK;
 }
@@ -79,17 +80,18 @@ static kz_status measure(gauge *g, int64_t n, int32_t *owner, int64_t *surplus, 
   const double ready = seconds();
   label(g, n, owner);
   *m = (kz_measured){.set_up = ready - start, .cell = (seconds() - ready) / (double)n};
-  compare(g->judge, owner, m);
-  m->astray = astray(g->judge, owner, surplus, kz_dynamics_count(g->dynamics));
+  compare(g->reference, owner, m);
+  m->astray = astray(g->reference, owner, surplus, kz_dynamics_count(g->dynamics));
   return KZ_OK;
 }
 
-kz_status kz_setting_measure(const kz_setting *setting, const kz_judge *judge, int64_t timed, kz_measured *measured) {
-  gauge g = {.setting = setting, .judge = judge};
+kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
+                             kz_measured *measured) {
+  gauge g = {.setting = setting, .reference = reference};
   const kz_numerics numerics = kz_setting_numerics(setting);
-  int64_t n = timed > judge->samples ? timed : judge->samples;
-  if (n > judge->total) n = judge->total;
-  g.dynamics = kz_dynamics_create(&judge->pendulum, &numerics, judge->plan->max_period);
+  int64_t n = timed > reference->samples ? timed : reference->samples;
+  if (n > reference->total) n = reference->total;
+  g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
   g.work = malloc(sizeof *g.work);
   int32_t *owner = malloc((size_t)n * sizeof *owner + 1);
   int64_t *surplus = calloc(INT16_MAX + 1, sizeof *surplus);

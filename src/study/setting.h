@@ -1,8 +1,8 @@
-/* Settings: ways to label the cells of a window, from quick to right; what each costs by count, and how wrong it is by a judge. */
+/* Settings: ways to label the cells of a window, from quick to right; what each costs by count, and how wrong its labels are. */
 #ifndef KAPITZA_STUDY_SETTING_H
 #define KAPITZA_STUDY_SETTING_H
 
-#include "judge.h"
+#include "reference_labels.h"
 
 typedef struct {
   const char *label;
@@ -27,9 +27,9 @@ void kz_setting_apply(const kz_setting *setting, kz_scene *scene);
  * `mean_periods` each on a table of 1000 nodes. */
 double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods);
 
-/* One setting on the cells of a judge. */
+/* One setting on the sampled cells. */
 typedef struct {
-  int64_t wrong;    /* sampled cells labelled unlike the truth */
+  int64_t wrong;    /* sampled cells whose label differs from the reference */
   int64_t inside;   /* of these, those without another label next to them */
   int64_t distance; /* median distance of the wrong ones from another label, cells; 0 where none is wrong */
   int64_t astray;   /* the largest surplus or lack of cells of one attractor */
@@ -37,7 +37,8 @@ typedef struct {
   double cell;      /* processor seconds a cell */
 } kz_measured;
 
-/* Labels the judge's sample, and of the cells that follow it as many as a clock needs (`timed`), on this rank alone. */
-kz_status kz_setting_measure(const kz_setting *setting, const kz_judge *judge, int64_t timed, kz_measured *measured);
+/* Labels the sample and, for a clock that needs more cells, those that follow it up to `timed`; on this rank alone. */
+kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
+                             kz_measured *measured);
 
 #endif

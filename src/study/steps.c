@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "cells.h"
-#include "judge.h"
+#include "reference_labels.h"
 #include "steps_trial.h"
 #include "sweep.h"
 
@@ -119,7 +119,8 @@ static kz_status check_basin(const kz_scene *scene) {
   if (!scene->has_basin || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   const motions m = motions_of_basin(scene);
   if (isnan(scene->basin.accuracy)) KZ_TRY(check(&m));
-  return scene->has_tradeoff || !isnan(scene->basin.accuracy) ? kz_judge_numerics(&scene->basin, &m.pendulum, &fine) : KZ_OK;
+  return scene->has_tradeoff || !isnan(scene->basin.accuracy) ? kz_reference_labels_numerics(&scene->basin, &m.pendulum, &fine)
+                                                              : KZ_OK;
 }
 
 static kz_status check_attractors(const kz_scene *scene) {

@@ -1,6 +1,6 @@
 /* Study `tradeoff`: many settings on the cells of one basin, each with its time and its share of wrong labels.
  *
- * judge (attractors, true labels of a sample) -> one tile per setting, done by one rank alone -> table, file. */
+ * reference labels of a sample -> one tile per setting, done by one rank alone -> table, file. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 enum { TIMED = 16384 }; /* cells that a clock needs */
 
 typedef struct {
-  const kz_judge *judge;
+  const kz_reference_labels *reference;
   const kz_trade *trade;
 } measuring;
 
@@ -29,7 +29,7 @@ static const kz_setting *setting_at(const kz_tradeoff_plan *plan, int64_t i) {
 }
 
 kz_cost kz_tradeoff_cost(const kz_scene *scene) {
-  static const double kick_seconds = 1e-9, mean_periods = 30, truth_seconds = 3e-4;
+  static const double kick_seconds = 1e-9, mean_periods = 30, reference_seconds = 3e-4;
   double kicks = 0, nodes = 0;
   for (int64_t i = 0; i < count_settings(&scene->tradeoff); i++) {
     const kz_setting *setting = setting_at(&scene->tradeoff, i);
@@ -38,10 +38,10 @@ kz_cost kz_tradeoff_cost(const kz_scene *scene) {
   }
   return (kz_cost){.disk_bytes = 1e6,
                    .memory_bytes = 120 * nodes,
-                   .core_seconds = kicks * kick_seconds + truth_seconds * mean_periods * (double)scene->tradeoff.samples};
+                   .core_seconds = kicks * kick_seconds + reference_seconds * mean_periods * (double)scene->tradeoff.samples};
 }
 
-char *kz_truth_path(const kz_store *store) {
+char *kz_reference_path(const kz_store *store) {
   static const char ending[] = ".truth";
   if (!store) return NULL;
   const char *path = kz_store_path(store);
@@ -52,7 +52,7 @@ char *kz_truth_path(const kz_store *store) {
 
 static kz_status measure_tile(void *context, int64_t tile, void *record) {
   const measuring *m = context;
-  return kz_setting_measure(m->trade->settings[tile], m->judge, TIMED, record);
+  return kz_setting_measure(m->trade->settings[tile], m->reference, TIMED, record);
 }
 
 static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
@@ -78,20 +78,20 @@ static void free_trade(kz_trade *trade) {
 }
 
 /* What follows from the counts and the clocks. */
-static void rate(const kz_judge *judge, kz_trade *trade) {
-  const double cells = (double)kz_own_cells(judge->plan);
+static void rate(const kz_reference_labels *reference, kz_trade *trade) {
+  const double cells = (double)kz_own_cells(reference->plan);
   trade->best_wrong = NAN;
   for (int64_t i = 0; i < trade->count; i++) {
     const kz_measured *m = trade->measured + i;
-    trade->wrong[i] = kz_share_of(m->wrong, judge->samples).share;
+    trade->wrong[i] = kz_share_of(m->wrong, reference->samples).share;
     trade->seconds[i] = m->set_up + m->cell * cells;
     if (trade->settings[i]->precision == KZ_DOUBLE) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
   }
   kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
 }
 
-static kz_status run_settings(const kz_judge *judge, kz_trade *trade, kz_team *team) {
-  measuring m = {judge, trade};
+static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, kz_team *team) {
+  measuring m = {reference, trade};
   kz_stage stage = {.name = "settings",
                     .n_tiles = trade->count,
                     .record_bytes = sizeof(kz_measured),
@@ -100,20 +100,20 @@ static kz_status run_settings(const kz_judge *judge, kz_trade *trade, kz_team *t
                     .keep = true,
                     .everywhere = true};
   KZ_TRY(kz_stage_run(team, &stage, trade->measured));
-  rate(judge, trade);
+  rate(reference, trade);
   return KZ_OK;
 }
 
 static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  kz_judge judge = {0};
+  kz_reference_labels reference = {0};
   kz_trade trade = {0};
-  char *path = kz_truth_path(store);
+  char *path = kz_reference_path(store);
   kz_status status = kz_team_agree(team, allocate(&scene->tradeoff, &trade));
-  if (status == KZ_OK) status = kz_judge_make(scene, team, scene->tradeoff.samples, path, &judge);
-  if (status == KZ_OK) status = kz_team_agree(team, path ? kz_judge_save(&judge, path) : KZ_OK);
-  if (status == KZ_OK) status = run_settings(&judge, &trade, team);
-  if (status == KZ_OK && store) status = kz_tradeoff_write(&judge, &trade, store, summary);
-  kz_judge_free(&judge);
+  if (status == KZ_OK) status = kz_reference_labels_make(scene, team, scene->tradeoff.samples, path, &reference);
+  if (status == KZ_OK) status = kz_team_agree(team, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
+  if (status == KZ_OK) status = run_settings(&reference, &trade, team);
+  if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);
+  kz_reference_labels_free(&reference);
   free_trade(&trade);
   free(path);
   return kz_team_agree(team, status);

@@ -5,7 +5,7 @@
 #include "setting.h"
 #include "share.h"
 
-/* Settings measured on one judge's sample. */
+/* Settings measured on one sample of reference labels. */
 typedef struct {
   int64_t count;
   const kz_setting **settings; /* [count] */
@@ -17,10 +17,10 @@ typedef struct {
 } kz_trade;
 
 /* Group /tradeoff and its table in the summary. Rank 0. */
-kz_status kz_tradeoff_write(const kz_judge *judge, const kz_trade *trade, kz_store *store, FILE *summary);
+kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary);
 
 /* The name of the cache of true labels beside the result, freed by the caller; NULL without a store or memory. */
-char *kz_truth_path(const kz_store *store);
+char *kz_reference_path(const kz_store *store);
 
 bool kz_tradeoff_wanted(const kz_scene *scene);
 kz_cost kz_tradeoff_cost(const kz_scene *scene);

@@ -32,7 +32,7 @@ static void advance(const kz_pendulum *pendulum, kz_numerics numerics, double *t
   kz_plan_free(plan);
 }
 
-/* The largest error of one period on the grid of one class, rad: split6 with many more steps is the truth. */
+/* The largest error of one period on the grid of one class, rad: split6 with many more steps is the reference. */
 static double dense_error(const kz_pendulum *pendulum, const kz_numerics *numerics, const double *speed, int class) {
   static double theta[N], velocity[N], theta_true[N], velocity_true[N];
   const kz_numerics fine = {.scheme = KZ_SPLIT6, .steps_per_period = FINE, .precision = KZ_DOUBLE};

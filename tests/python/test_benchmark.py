@@ -5,7 +5,7 @@ import subprocess
 import benchmark
 import numpy as np
 import pytest
-import truth_check
+import reference_check
 from conftest import ROOT, write_result
 
 POINTS = [[[0.0, 0.0]], [[3.0, 1.1]], [[-3.0, -1.1]], [[0.1, 0.3], [0.2, -0.4]]]
@@ -15,17 +15,17 @@ ROWS = [{"period": len(points), "winding": round(points[0][1]) if len(points) ==
 
 def catalogue_of(path, rows):
     write_result(path, rows, np.zeros(1), np.zeros(1), np.zeros((1, 1), dtype=int), np.zeros((1, 1)))
-    return truth_check.Catalogue(truth_check.Result(path))
+    return reference_check.Catalogue(reference_check.Result(path))
 
 
 def test_labels_are_translated_between_catalogues(tmp_path):
     order = [2, 0, 3, 1]
     reference = catalogue_of(tmp_path / "a.h5", ROWS)
     ids = benchmark.translation(catalogue_of(tmp_path / "b.h5", [ROWS[i] for i in order]), reference)
-    assert ids.tolist() == [*order, truth_check.NONE]
-    assert ids[np.array([-1, 0])].tolist() == [truth_check.NONE, 2]
+    assert ids.tolist() == [*order, reference_check.NONE]
+    assert ids[np.array([-1, 0])].tolist() == [reference_check.NONE, 2]
     fewer = catalogue_of(tmp_path / "c.h5", ROWS[:3])
-    assert benchmark.translation(reference, fewer).tolist() == [0, 1, 2, benchmark.UNKNOWN, truth_check.NONE]
+    assert benchmark.translation(reference, fewer).tolist() == [0, 1, 2, benchmark.UNKNOWN, reference_check.NONE]
 
 
 def test_ratios_are_of_one_round():
@@ -48,7 +48,7 @@ def test_textbook_programs_agree_with_the_truth(built, tmp_path, fig12_attractor
     theta, velocity = generator.uniform(-np.pi, np.pi, 60), generator.uniform(-2, 2, 60)
     core = min(benchmark.os.sched_getaffinity(0))
     scalar, lanes = (benchmark.textbook_run(name, fig12_catalogue, theta, velocity, core)[0] for name in ("textbook", "twin"))
-    truth = truth_check.truth_labels(fig12_catalogue, theta, velocity)
+    true_labels = reference_check.reference_labels(fig12_catalogue, theta, velocity)
     assert np.count_nonzero(scalar != lanes) <= 1
-    assert np.count_nonzero(lanes != truth) <= 3
-    assert len(np.unique(truth)) >= 4 and (truth >= 0).all()
+    assert np.count_nonzero(lanes != true_labels) <= 3
+    assert len(np.unique(true_labels)) >= 4 and (true_labels >= 0).all()

@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "tests" / "tools"))
-from truth_coverage import Kapitza  # noqa: E402
+from reference_coverage import Kapitza  # noqa: E402
 from truth_doubt import compare  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"

@@ -37,7 +37,7 @@ PENDULUMS = ["{k: 0.1, damping: 0.1, m: 1.5}", "{quality_factor: 5, drive_freque
 
 @pytest.mark.parametrize("pendulum", PENDULUMS if os.environ.get("KAPITZA_EXTENSIVE") else PENDULUMS[:1])
 def test_no_more_wrong_than_direct(kapitza, tmp_path, pendulum):
-    """On the same cells, quad precision the judge: p of direct + 0.2 p + 0.1 %."""
+    """On the same cells, compared with quad precision: p of direct + 0.2 p + 0.1 %."""
     trade = "tradeoff={samples: 1000, settings: [icm-1000, hybrid-1000, direct-24]}"
     grid = "basin={theta: {count: 200}, velocity: {min: -2, max: 2, count: 200}}"
     kapitza("run", SMALL, "-o", "trade.h5", "--set", f"pendulum={pendulum}", "--set", grid, "--set", trade, folder=tmp_path)
@@ -62,7 +62,8 @@ FLAGGED = ("--set", "basin.flag_undecided=true", "--set", "basin.theta.count=200
 
 
 def test_cells_that_double_precision_cannot_decide_are_flagged(kapitza, tmp_path):
-    """Few of them, known to both methods, about as many as the judge's floor of 0.85 %; no label changes for being asked."""
+    """Few of them, known to both methods, about as many as the share of 0.85 % that quad precision finds; no label changes for
+    being asked."""
     hybrid, direct = (labelled(kapitza, tmp_path, method, 0.46, *FLAGGED) for method in ("hybrid", "direct"))
     for method, cells in (("hybrid", hybrid), ("direct", direct)):
         flagged = cells["evidence"] == 4

@@ -12,16 +12,16 @@ import h5py
 import matplotlib.image
 import numpy as np
 import pytest
-import truth_coverage
+import reference_coverage
 from conftest import PROGRAM, ROOT, datasets
 from kapitza_file import Result
 
 sys.path.insert(0, str(ROOT / "tests" / "tools"))
-from truth_check import Catalogue, truth_labels  # noqa: E402
+from reference_check import Catalogue, reference_labels  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"
 SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, hybrid-250]}"
-COVERAGE = ROOT / "tests" / "tools" / "truth_coverage.py"
+COVERAGE = ROOT / "tests" / "tools" / "reference_coverage.py"
 TIMING = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells", "tradeoff/pareto"}
 WINDOW = ("--set", "basin={theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, accuracy: %s, "
                    "attractors: {starts: 2048}}")
@@ -160,16 +160,16 @@ def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):
 
 @pytest.mark.parametrize("amplitude", [0.3, 0.46])
 def test_true_labels_agree_with_the_independent_judge(kapitza, tmp_path, amplitude):
-    """Every cell of a small grid: truth stopped by trapping regions against truth followed into small circles."""
+    """Every cell of a small grid: quad precision stopped by trapping regions against quad precision followed into small circles."""
     trade(kapitza, tmp_path, "all.h5", "--set", "basin={theta: {count: 16}, velocity: {min: -2, max: 2, count: 16}}",
           "--set", "tradeoff={samples: 256, settings: [direct-24]}", amplitude=amplitude)
     lines = (tmp_path / "all.h5.truth").read_text().splitlines()[1:-1]
     result = Result(tmp_path / "all.h5")
     basin = result.group("basin")
     theta, velocity = np.meshgrid(basin["theta"].values, basin["velocity"].values)
-    truth = truth_labels(Catalogue(result), theta.ravel(), velocity.ravel())
+    true_labels = reference_labels(Catalogue(result), theta.ravel(), velocity.ravel())
     assert len(lines) == 256
-    assert sorted(Counter(line.split()[0] for line in lines).values()) == sorted(Counter(truth.tolist()).values())
+    assert sorted(Counter(line.split()[0] for line in lines).values()) == sorted(Counter(true_labels.tolist()).values())
 
 
 def test_the_picture(reference, tmp_path):
@@ -181,7 +181,7 @@ def test_the_picture(reference, tmp_path):
 
 
 def covered(real, chosen_real=0.02):
-    """A row of truth_coverage: stated 1 .. 3 % for the setting and for the chosen one, of which at most 4 % was asked."""
+    """A row of reference_coverage: stated 1 .. 3 % for the setting and for the chosen one, of which at most 4 % was asked."""
     stated = [0.02, 0.01, 0.03]
     return {"stated": {"direct-24": stated}, "real": {"direct-24": real, "icm-500": chosen_real},
             "chosen": {"setting": "icm-500", "asked": 0.04, "samples": 1000, "stated": stated}}
@@ -189,7 +189,7 @@ def covered(real, chosen_real=0.02):
 
 def test_coverage_counts_what_holds():
     rows = [covered(0.02), covered(0.009), covered(0.031, 0.005), covered(0.01, 0.035), covered(0.03, 0.05)]
-    counts = {name: sum(hits) for name, hits in truth_coverage.tallies(rows).items()}
+    counts = {name: sum(hits) for name, hits in reference_coverage.tallies(rows).items()}
     assert counts == {"direct-24": 3, "all of these": 3, "chosen by accuracy: in its interval": 2,
                       "chosen by accuracy: below its bound": 3, "chosen by accuracy: as right as asked": 4}
 
@@ -203,7 +203,7 @@ def test_coverage_of_a_small_window(tmp_path):
     (row,) = (json.loads(path.read_text()) for path in (tmp_path / "rows").iterdir())
     assert row["way"] == {"samples": 60, "truth": 200, "cells": 60, "settings": ["direct-24"]}
     assert row["chosen"]["stated"][2] <= row["chosen"]["asked"]
-    hits = truth_coverage.tallies([row])
+    hits = reference_coverage.tallies([row])
     assert [run.returncode for run in done] == [int(not all(map(all, hits.values())))] * 2
     assert all(f"{name:38} {sum(hit):4} of 1\n" in done[0].stdout for name, hit in hits.items())
 

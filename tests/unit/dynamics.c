@@ -6,7 +6,7 @@
 
 #include "../tools/find.h"
 #include "kapitza/dynamics.h"
-#include "kapitza/truth.h"
+#include "kapitza/reference.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -160,8 +160,8 @@ static void test_mirrored_labels(void **state) {
   kz_dynamics_free(d);
 }
 
-/* A coarse table, whatever its interpolation: the hybrid labels nearly all starts as integration does where the table fails, does not
- * integrate what it need not, and says what it did. */
+/* A coarse table, whatever its interpolation: the hybrid labels nearly all starts as integration does where the table fails,
+ * does not integrate what it need not, and says what it did. */
 static void test_hybrid(void **state) {
   (void)state;
   enum { N = 4096 };
@@ -204,17 +204,17 @@ static void test_regions_are_right(void **state) {
     kz_dynamics *d = explored(drives[c], 1, 3.0), *plain = explored(drives[c], 1, 3.0);
     with_table(d, 400, 3.0);
     double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
-    int32_t owner[N], truth[N];
+    int32_t owner[N], expected[N];
     int64_t periods[N], late[N];
     int inside = 0;
     kz_dynamics_starts(&WINDOW, 9, N, x);
     memcpy(y, x, 2 * N * sizeof *y);
     kz_dynamics_follow(d, N, 1, x, owner, periods);
-    kz_dynamics_follow(plain, N, 3000, y, truth, late);
+    kz_dynamics_follow(plain, N, 3000, y, expected, late);
     for (int i = 0; i < N; i++) {
       if (owner[i] == 0 || periods[i] > 0) continue;
       inside++;
-      assert_int_equal(owner[i], truth[i]);
+      assert_int_equal(owner[i], expected[i]);
     }
     print_message("m = %.2f: %d of %d starts inside, none wrong\n", drives[c], inside, N);
     assert_true(inside > N / 20);
@@ -225,13 +225,13 @@ static void test_regions_are_right(void **state) {
   }
 }
 
-/* With its error beside it an orbit ends where it ends alone, or its label is doubtful: every wrong one is (quad truth), and hardly three
- * times as many as are wrong. */
+/* With its error beside it an orbit ends where it ends alone, or its label is doubtful: every wrong one is (quad truth), and
+ * hardly three times as many as are wrong. */
 static void test_wrong_labels_are_doubtful(void **state) {
   (void)state;
   enum { N = 4000 };
   static double start[2 * N], x[2 * N], y[2 * N];
-  static int32_t direct[N], followed[N], truth[N];
+  static int32_t direct[N], followed[N], expected[N];
   static int64_t periods[N], late[N];
   kz_dynamics *d = explored(0.46, 1, 3);
   with_table(d, 400, 3);
@@ -241,13 +241,13 @@ static void test_wrong_labels_are_doubtful(void **state) {
   memcpy(y, x, sizeof x);
   kz_dynamics_follow(d, N, 2000, x, direct, periods);
   kz_dynamics_follow_covariance(d, N, 2000, y, followed, late);
-  kz_dynamics_follow_truth(d, KZ_TRUTH_STEPS, N, 2000, start, truth, periods);
+  kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, expected, periods);
   for (int i = 0; i < N; i++) {
     doubtful += followed[i] == KZ_DOUBTFUL;
-    wrong += truth[i] != direct[i];
+    wrong += expected[i] != direct[i];
     if (followed[i] == KZ_DOUBTFUL) continue;
     assert_int_equal(followed[i], direct[i]);
-    assert_int_equal(followed[i], truth[i]);
+    assert_int_equal(followed[i], expected[i]);
   }
   print_message("%d of %d labels wrong, %d doubtful\n", wrong, N, doubtful);
   assert_true(wrong > N / 100 && doubtful < 3 * wrong);
@@ -343,16 +343,11 @@ static void test_chaos(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_catalogue),
-      cmocka_unit_test(test_interpolation),
-      cmocka_unit_test(test_mirrored_labels),
-      cmocka_unit_test(test_hybrid),
-      cmocka_unit_test(test_regions_are_right),
-      cmocka_unit_test(test_wrong_labels_are_doubtful),
-      cmocka_unit_test(test_measures),
-      cmocka_unit_test(test_measures_leave_unsettled_cells_out),
-      cmocka_unit_test(test_packing),
-      cmocka_unit_test(test_chaos),
+      cmocka_unit_test(test_catalogue),         cmocka_unit_test(test_interpolation),
+      cmocka_unit_test(test_mirrored_labels),   cmocka_unit_test(test_hybrid),
+      cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_wrong_labels_are_doubtful),
+      cmocka_unit_test(test_measures),          cmocka_unit_test(test_measures_leave_unsettled_cells_out),
+      cmocka_unit_test(test_packing),           cmocka_unit_test(test_chaos),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Every scheme converges with its order, in every kind, to one quad-precision truth. */
+/* Every scheme converges with its order, in every kind, to one quad-precision reference. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,9 +22,9 @@ static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta
 
 static double error_of(const kz_pendulum *pendulum, kz_numerics numerics) {
   double theta[N], velocity[N], exact[N], exact_velocity[N], sum = 0;
-  kz_numerics truth = {.scheme = KZ_SPLIT6, .steps_per_period = 300, .precision = KZ_QUAD};
+  kz_numerics expected = {.scheme = KZ_SPLIT6, .steps_per_period = 300, .precision = KZ_QUAD};
   fly(pendulum, numerics, theta, velocity);
-  fly(pendulum, truth, exact, exact_velocity);
+  fly(pendulum, expected, exact, exact_velocity);
   for (int i = 0; i < N; i++) sum += pow(theta[i] - exact[i], 2) + pow(velocity[i] - exact_velocity[i], 2);
   return sqrt(sum / N);
 }
@@ -34,11 +34,15 @@ static void check_orders(int precision, const int *steps, double tolerance) {
   for (int row = 0; row < kz_scheme_count(); row++) {
     kz_scheme scheme;
     kz_scheme_row(row, &scheme);
-    double coarse = error_of(&pendulum, (kz_numerics){.scheme = row, .steps_per_period = steps[row], .precision = precision, .fastest = FASTEST});
-    double fine = error_of(&pendulum, (kz_numerics){.scheme = row, .steps_per_period = 2 * steps[row], .precision = precision, .fastest = FASTEST});
+    double coarse = error_of(
+        &pendulum, (kz_numerics){.scheme = row, .steps_per_period = steps[row], .precision = precision, .fastest = FASTEST});
+    double fine =
+        error_of(&pendulum,
+                 (kz_numerics){.scheme = row, .steps_per_period = 2 * steps[row], .precision = precision, .fastest = FASTEST});
     double order = log2(coarse / fine);
     print_message("kind %d, %-9s order %.2f (errors %.1e, %.1e)\n", precision, scheme.name, order, coarse, fine);
-    assert_true(fabs(order - scheme.order) < tolerance * (row == KZ_PROCESSED ? 2.5 : 1)); /* its errors fall to rounding at once */
+    assert_true(fabs(order - scheme.order) <
+                tolerance * (row == KZ_PROCESSED ? 2.5 : 1)); /* its errors fall to rounding at once */
     if (precision == KZ_SINGLE) assert_true(order > scheme.order - 1.6 || fine < 3e-6);
   }
 }

@@ -1,3 +1,3 @@
 kapitza_test(orders LABEL verification LAYER kernel)
-kapitza_test(truth LABEL verification LAYER kernel)
+kapitza_test(reference LABEL verification LAYER kernel)
 kapitza_test(stability LABEL verification LAYER analysis)

@@ -1,4 +1,4 @@
-"""The judge of labels: intervals, sampling, and verdicts on a file whose wrong cells are known."""
+"""The check of labels: intervals, sampling, and the counts of a file whose wrong cells are known."""
 
 import json
 import subprocess
@@ -6,35 +6,35 @@ import sys
 
 import numpy as np
 import pytest
-import truth_check
+import reference_check
 from conftest import write_result
 from hypothesis import given
 from hypothesis import strategies as st
 from kapitza_file import BadFile
 
-NEEDS_TOOL = pytest.mark.skipif(not truth_check.TRUTH_LABEL.exists(), reason="build/tests/truth_label is not built")
+NEEDS_TOOL = pytest.mark.skipif(not reference_check.REFERENCE_LABEL.exists(), reason="build/tests/reference_label is not built")
 
 
 @given(st.integers(1, 10**6), st.floats(0, 1))
 def test_interval_holds_the_share(n, share):
     wrong = round(n * share)
-    low, high = truth_check.wilson(wrong, n)
+    low, high = reference_check.wilson(wrong, n)
     assert 0 <= low <= wrong / n + 1e-15 and wrong / n - 1e-15 <= high <= 1
-    mirrored = truth_check.wilson(n - wrong, n)
+    mirrored = reference_check.wilson(n - wrong, n)
     assert np.allclose(mirrored, (1 - high, 1 - low), atol=1e-12)
 
 
 def test_interval_published():
     """Newcombe 1998, table I: 81 of 263, 15 of 148, 0 of 20, 1 of 29."""
     for wrong, n, low, high in [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0, 0.1611), (1, 29, 0.0061, 0.1718)]:
-        assert truth_check.wilson(wrong, n) == pytest.approx((low, high), abs=5e-5)
+        assert reference_check.wilson(wrong, n) == pytest.approx((low, high), abs=5e-5)
 
 
 @given(st.integers(1, 40), st.integers(1, 40), st.integers(1, 2000), st.integers(0, 99))
 def test_sampled_cells_differ_and_repeat(rows, columns, count, seed):
-    row, column = truth_check.sample_cells((rows, columns), count, seed)
+    row, column = reference_check.sample_cells((rows, columns), count, seed)
     assert len(set(zip(row.tolist(), column.tolist(), strict=True))) == min(count, rows * columns)
-    again = truth_check.sample_cells((rows, columns), count, seed)
+    again = reference_check.sample_cells((rows, columns), count, seed)
     assert np.array_equal(row, again[0]) and np.array_equal(column, again[1])
 
 
@@ -49,40 +49,40 @@ def fig12_file(tmp_path, fig12_attractors):
         return path
 
     write(np.zeros((5, 6), dtype=int))
-    catalogue = truth_check.Catalogue(truth_check.Result(path))
+    catalogue = reference_check.Catalogue(reference_check.Result(path))
     grid = np.meshgrid(theta, velocity)
-    truth = truth_check.truth_labels(catalogue, grid[0].ravel(), grid[1].ravel())
-    return write, truth.reshape(5, 6), fig12_attractors
+    true_labels = reference_check.reference_labels(catalogue, grid[0].ravel(), grid[1].ravel())
+    return write, true_labels.reshape(5, 6), fig12_attractors
 
 
 @NEEDS_TOOL
 def test_verdict_counts_wrong_and_unsettled_cells(fig12_file):
-    write, truth, _ = fig12_file
-    assert (truth >= 0).all() and len(np.unique(truth)) >= 4
-    labels = truth.copy()
+    write, true_labels, _ = fig12_file
+    assert (true_labels >= 0).all() and len(np.unique(true_labels)) >= 4
+    labels = true_labels.copy()
     labels[0, 0] = (labels[0, 0] + 1) % 4
-    labels[4, 5] = truth_check.NONE
+    labels[4, 5] = reference_check.NONE
     path = write(labels)
-    tool = [sys.executable, truth_check.__file__, str(path), "--cells", "30", "--json"]
-    verdict = json.loads(subprocess.run(tool, check=True, capture_output=True, text=True).stdout)
-    assert (verdict["cells"], verdict["wrong"], verdict["unsettled"], verdict["homeless"]) == (30, 2, 1, 0)
+    tool = [sys.executable, reference_check.__file__, str(path), "--cells", "30", "--json"]
+    counts = json.loads(subprocess.run(tool, check=True, capture_output=True, text=True).stdout)
+    assert (counts["cells"], counts["wrong"], counts["unsettled"], counts["homeless"]) == (30, 2, 1, 0)
 
 
 @NEEDS_TOOL
 def test_mirrored_cells_have_mirrored_truth(fig12_file):
-    _, truth, attractors = fig12_file
+    _, true_labels, attractors = fig12_file
     winding = np.array([row["winding"] for row in attractors])
-    assert np.array_equal(winding[truth], -winding[truth[::-1, ::-1]])
+    assert np.array_equal(winding[true_labels], -winding[true_labels[::-1, ::-1]])
 
 
 @NEEDS_TOOL
 def test_attractor_missing_from_the_file_is_noticed(fig12_file):
-    write, truth, attractors = fig12_file
-    last = np.unique(truth)[0]
+    write, true_labels, attractors = fig12_file
+    last = np.unique(true_labels)[0]
     kept = [row for index, row in enumerate(attractors) if index != last]
-    path = write(np.maximum(truth - 1, 0), kept)
-    verdict, _ = truth_check.check_file(path, 30, 1, 2, 300)
-    assert verdict["homeless"] == np.count_nonzero(truth == last) > 0
+    path = write(np.maximum(true_labels - 1, 0), kept)
+    counts, _ = reference_check.check_file(path, 30, 1, 2, 300)
+    assert counts["homeless"] == np.count_nonzero(true_labels == last) > 0
 
 
 def test_undamped_file_is_refused(tmp_path):
@@ -91,4 +91,4 @@ def test_undamped_file_is_refused(tmp_path):
     write_result(path, attractors, np.zeros(1), np.zeros(1), np.full((1, 1), -1), np.zeros((1, 1)),
                  pendulum={"k": 0.1, "beta": 0.0, "m": 0.1})
     with pytest.raises(BadFile, match="undamped"):
-        truth_check.check_file(path, 1, 1, 1, 10)
+        reference_check.check_file(path, 1, 1, 1, 10)

@@ -1,16 +1,16 @@
-!> The truth as a stroboscopic map: states in quad precision, seen by the trapping regions as doubles.
-module kz_dynamics_truths
+!> The reference as a stroboscopic map: states in quad precision, seen by the trapping regions as doubles.
+module kz_dynamics_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_kernel_tables, only: pendulum_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
   private
-  public :: truth_map_t, make_truth_map
+  public :: reference_map_t, make_reference_map
 
   real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
 
-  type, extends(map_t) :: truth_map_t
+  type, extends(map_t) :: reference_map_t
     private
     type(drive_t) :: drive
     real(qp) :: theta(WIDTH) = 0    !< rad
@@ -22,13 +22,13 @@ module kz_dynamics_truths
     procedure :: put
     procedure :: move
     procedure :: advance
-  end type truth_map_t
+  end type reference_map_t
 
 contains
 
   !> A map of starts given in rad: they are put in their order, each by its half-turns u, and moved as exact numbers.
-  subroutine make_truth_map(map, pendulum, n_steps, start, u)
-    type(truth_map_t), intent(out) :: map
+  subroutine make_reference_map(map, pendulum, n_steps, start, u)
+    type(reference_map_t), intent(out) :: map
     type(pendulum_t), intent(in) :: pendulum
     !> Steps a period where the motion is gentle.
     integer, intent(in) :: n_steps
@@ -42,11 +42,11 @@ contains
     u = start(1, :)/PI
     u = u - 2*anint(0.5_dp*u)
     allocate (map%start_u, source=u)
-  end subroutine make_truth_map
+  end subroutine make_reference_map
 
   !> Puts the next start that looks like (u, v).
   subroutine put(self, lane, u, v)
-    class(truth_map_t), intent(inout) :: self
+    class(reference_map_t), intent(inout) :: self
     integer, intent(in) :: lane
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
@@ -62,7 +62,7 @@ contains
   end subroutine put
 
   subroutine move(self, from, to)
-    class(truth_map_t), intent(inout) :: self
+    class(reference_map_t), intent(inout) :: self
     integer, intent(in) :: from
     integer, intent(in) :: to
 
@@ -72,7 +72,7 @@ contains
   end subroutine move
 
   subroutine advance(self, n)
-    class(truth_map_t), intent(inout) :: self
+    class(reference_map_t), intent(inout) :: self
     integer, intent(in) :: n
     integer(c_int64_t) :: turns(WIDTH)
 
@@ -83,4 +83,4 @@ contains
     self%v(:n) = real(self%velocity(:n), dp)
   end subroutine advance
 
-end module kz_dynamics_truths
+end module kz_dynamics_reference_map

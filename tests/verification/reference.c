@@ -1,4 +1,4 @@
-/* The quad-precision truth against published cycles, exact solutions, itself with other steps, and the split scheme. */
+/* The quad-precision reference against published cycles, exact solutions, itself with other steps, and the split scheme. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "kapitza/truth.h"
+#include "kapitza/reference.h"
 
 #define PI 3.14159265358979323846
 #define Q5_11(m_) {1.0 / 121, 1.0 / 55, m_}
@@ -18,11 +18,11 @@ typedef struct {
 } motion;
 
 static motion carried(kz_pendulum pendulum, int32_t steps, int64_t periods, double theta, double velocity) {
-  kz_truth_state state;
+  kz_reference_state state;
   motion end;
-  kz_truth_start(1, &theta, &velocity, &state);
-  kz_truth_advance(&pendulum, steps, 1, periods, &state);
-  kz_truth_read(1, &state, &end.theta, &end.velocity, &end.turns);
+  kz_reference_start(1, &theta, &velocity, &state);
+  kz_reference_advance(&pendulum, steps, 1, periods, &state);
+  kz_reference_read(1, &state, &end.theta, &end.velocity, &end.turns);
   return end;
 }
 
@@ -44,7 +44,7 @@ static void published_cycles_close(void **unused) {
       {{0.02, 0.011785113019775792, 0.412}, 3, 0, 0.06180411278639920, 0.29743888564254975},
   };
   for (size_t i = 0; i < sizeof cycles / sizeof *cycles; i++) {
-    motion end = carried(cycles[i].pendulum, KZ_TRUTH_STEPS, cycles[i].period, cycles[i].theta, cycles[i].velocity);
+    motion end = carried(cycles[i].pendulum, KZ_REFERENCE_STEPS, cycles[i].period, cycles[i].theta, cycles[i].velocity);
     assert_true(between(end.theta, cycles[i].theta) < 4e-15);
     assert_true(fabs(end.velocity - cycles[i].velocity) < 4e-15);
     double net = 2 * PI * (double)end.turns + end.theta - cycles[i].theta;
@@ -56,7 +56,7 @@ static void published_cycles_close(void **unused) {
 static void free_rotor_is_exact(void **unused) {
   (void)unused;
   const double beta = 0.05, theta = 0.3, velocity = 1.7;
-  motion end = carried((kz_pendulum){0, beta, 0}, KZ_TRUTH_STEPS, 3, theta, velocity);
+  motion end = carried((kz_pendulum){0, beta, 0}, KZ_REFERENCE_STEPS, 3, theta, velocity);
   assert_true(between(end.theta, theta - velocity * expm1(-6 * PI * beta) / beta) < 1e-14);
   assert_true(fabs(end.velocity - velocity * exp(-6 * PI * beta)) < 1e-15);
   assert_int_equal(end.turns, 3); /* 21.05 rad */
@@ -95,7 +95,7 @@ static void agrees_with_the_split_scheme(void **unused) {
   for (int i = 0; i < 6; i++) {
     double theta = 0.9 * i - 2.2, velocity = 1.1 - 0.5 * i;
     int64_t turns = 0;
-    motion end = carried(pendulum, KZ_TRUTH_STEPS, 1, theta, velocity);
+    motion end = carried(pendulum, KZ_REFERENCE_STEPS, 1, theta, velocity);
     kz_advance(plan, 1, 1, &theta, &velocity, &turns);
     assert_true(between(end.theta, theta) < 3e-14);
     assert_true(fabs(end.velocity - velocity) < 3e-14);
@@ -105,8 +105,8 @@ static void agrees_with_the_split_scheme(void **unused) {
 
 static void mirror_is_exact(void **unused) {
   (void)unused;
-  motion end = carried((kz_pendulum)Q5_11(0.46), KZ_TRUTH_STEPS, 20, 2.7, -1.3);
-  motion mirrored = carried((kz_pendulum)Q5_11(0.46), KZ_TRUTH_STEPS, 20, -2.7, 1.3);
+  motion end = carried((kz_pendulum)Q5_11(0.46), KZ_REFERENCE_STEPS, 20, 2.7, -1.3);
+  motion mirrored = carried((kz_pendulum)Q5_11(0.46), KZ_REFERENCE_STEPS, 20, -2.7, 1.3);
   assert_true(end.theta == -mirrored.theta && end.velocity == -mirrored.velocity && end.turns == -mirrored.turns);
 }
 
@@ -116,11 +116,11 @@ static void odd_starts(void **unused) {
   const kz_pendulum level = {0.3, 0.05, 0.3};
   motion a = carried(level, 9, 2, 1, 0), b = carried(level, 31, 2, 1, 0);
   assert_true(fabs(a.theta - b.theta) < 1e-15 && fabs(a.theta - 1) > 1e-3);
-  motion rest = carried(level, KZ_TRUTH_STEPS, 5, 0, 0);
+  motion rest = carried(level, KZ_REFERENCE_STEPS, 5, 0, 0);
   assert_true(rest.theta == 0 && rest.velocity == 0 && rest.turns == 0);
-  motion tiny = carried(level, KZ_TRUTH_STEPS, 1, 0, 1e-300), small = carried(level, KZ_TRUTH_STEPS, 1, 0, 1e-100);
+  motion tiny = carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e-300), small = carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e-100);
   assert_true(fabs(tiny.velocity * 1e200 / small.velocity - 1) < 1e-14);
-  assert_true(isnan(carried(level, KZ_TRUTH_STEPS, 1, 0, 1e300).theta));
+  assert_true(isnan(carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e300).theta));
 }
 
 /* Many states in one call, and their quads kept between calls, move as one state at a time does. */
@@ -130,16 +130,16 @@ static void batches_and_calls_do_not_matter(void **unused) {
   const kz_pendulum pendulum = Q5_11(0.46);
   double theta[N], velocity[N], theta0[N], velocity0[N];
   int64_t turns[N];
-  kz_truth_state states[N];
+  kz_reference_state states[N];
   for (int i = 0; i < N; i++) {
     theta0[i] = theta[i] = i - 2.1;
     velocity0[i] = velocity[i] = 0.3 * i - 0.7;
   }
-  kz_truth_start(N, theta, velocity, states);
-  for (int call = 0; call < 10; call++) kz_truth_advance(&pendulum, KZ_TRUTH_STEPS, N, 3, states);
-  kz_truth_read(N, states, theta, velocity, turns);
+  kz_reference_start(N, theta, velocity, states);
+  for (int call = 0; call < 10; call++) kz_reference_advance(&pendulum, KZ_REFERENCE_STEPS, N, 3, states);
+  kz_reference_read(N, states, theta, velocity, turns);
   for (int i = 0; i < N; i++) {
-    motion alone = carried(pendulum, KZ_TRUTH_STEPS, 30, theta0[i], velocity0[i]);
+    motion alone = carried(pendulum, KZ_REFERENCE_STEPS, 30, theta0[i], velocity0[i]);
     assert_true(alone.theta == theta[i] && alone.velocity == velocity[i] && alone.turns == turns[i]);
   }
 }

@@ -1,5 +1,5 @@
-!> The C interface of the quad-precision reference: include/kapitza/truth.h. Quads stay inside, doubles come out.
-module kz_kernel_truth
+!> The C interface of the quad-precision reference: include/kapitza/reference.h. Quads stay inside, doubles come out.
+module kz_kernel_reference
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
   use kz_kernel_tables, only: pendulum_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
@@ -7,31 +7,31 @@ module kz_kernel_truth
   private
 
   !> A state in quad precision: theta in rad, wrapped to [-pi, pi]; turns counted apart.
-  type, bind(C) :: truth_state_t
+  type, bind(C) :: reference_state_t
     real(c_float128) :: theta
     real(c_float128) :: velocity
     integer(c_int64_t) :: turns
-  end type truth_state_t
+  end type reference_state_t
 
 contains
 
-  subroutine start(n, theta, velocity, states) bind(C, name='kz_truth_start')
+  subroutine start(n, theta, velocity, states) bind(C, name='kz_reference_start')
     integer(c_int64_t), value :: n
     real(c_double), intent(in) :: theta(n)
     real(c_double), intent(in) :: velocity(n)
-    type(truth_state_t), intent(out) :: states(n)
+    type(reference_state_t), intent(out) :: states(n)
 
     states%theta = real(theta, qp)
     states%velocity = real(velocity, qp)
     states%turns = 0
   end subroutine start
 
-  subroutine advance(pendulum, n_steps, n, periods, states) bind(C, name='kz_truth_advance')
+  subroutine advance(pendulum, n_steps, n, periods, states) bind(C, name='kz_reference_advance')
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int32_t), value :: n_steps
     integer(c_int64_t), value :: n
     integer(c_int64_t), value :: periods
-    type(truth_state_t), intent(inout) :: states(n)
+    type(reference_state_t), intent(inout) :: states(n)
     type(drive_t) :: drive
     real(qp) :: theta(n), velocity(n)
     integer(c_int64_t) :: turns(n), period
@@ -48,9 +48,9 @@ contains
     states%turns = turns
   end subroutine advance
 
-  subroutine read_states(n, states, theta, velocity, turns) bind(C, name='kz_truth_read')
+  subroutine read_states(n, states, theta, velocity, turns) bind(C, name='kz_reference_read')
     integer(c_int64_t), value :: n
-    type(truth_state_t), intent(in) :: states(n)
+    type(reference_state_t), intent(in) :: states(n)
     real(c_double), intent(out) :: theta(n)
     real(c_double), intent(out) :: velocity(n)
     integer(c_int64_t), intent(out) :: turns(n)
@@ -60,4 +60,4 @@ contains
     turns = states%turns
   end subroutine read_states
 
-end module kz_kernel_truth
+end module kz_kernel_reference

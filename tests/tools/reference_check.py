@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Judges the labels of a basin file by quad precision: the share of wrong ones among random cells, with its 95 % interval.
+"""Compares the labels of a basin file with quad precision: the share of wrong ones among random cells, with its 95 % interval.
 
-    tests/tools/truth_check.py blackburn-fig12.h5 --cells 1000 --seed 7
+    tests/tools/reference_check.py blackburn-fig12.h5 --cells 1000 --seed 7
 
-Every sampled cell is followed by build/tests/truth_label to an attractor of the file's catalogue. Unsettled cells are wrong.
+Every sampled cell is followed by build/tests/reference_label to an attractor of the file's catalogue. Unsettled cells are wrong.
 A cell whose true orbit comes to none of the periodic attractors belongs to the chaotic ones; without any it is wrong.
 """
 
@@ -21,7 +21,7 @@ sys.path.insert(0, str(ROOT / "scripts"))
 
 from kapitza_file import BadFile, Result, run  # noqa: E402
 
-TRUTH_LABEL = ROOT / "build" / "tests" / "truth_label"
+REFERENCE_LABEL = ROOT / "build" / "tests" / "reference_label"
 NONE = -1
 
 
@@ -33,7 +33,7 @@ def wilson(wrong, n, z=1.959963984540054):
 
 
 class Catalogue:
-    """A pendulum and the strobe points of its attractors, as text for truth_label and for the textbook programs."""
+    """A pendulum and the strobe points of its attractors, as text for reference_label and for the textbook programs."""
 
     def __init__(self, result):
         self.pendulum = [result.pendulum[name] for name in ("k", "beta", "m")]
@@ -60,17 +60,17 @@ def states_text(theta, velocity):
     return "".join(f"{a!r} {b!r}\n" for a, b in zip(theta.tolist(), velocity.tolist(), strict=True))
 
 
-def truth_labels(catalogue, theta, velocity, max_periods=4000, processes=2):
-    """True attractor ids of states (NONE: captured by no periodic attractor), by `processes` copies of truth_label."""
+def reference_labels(catalogue, theta, velocity, max_periods=4000, processes=2):
+    """True attractor ids of states (NONE: captured by no periodic attractor), by `processes` copies of reference_label."""
     head = catalogue.text(max_periods)
     parts = np.array_split(np.arange(len(theta)), processes)
-    running = [subprocess.Popen([TRUTH_LABEL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) for _ in parts]
+    running = [subprocess.Popen([REFERENCE_LABEL], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) for _ in parts]
     for process, part in zip(running, parts, strict=True):
         process.stdin.write(head + states_text(theta[part], velocity[part]))
         process.stdin.close()
     answers = [np.loadtxt(process.stdout, dtype=np.int64, ndmin=2) for process in running]
     if any(process.wait() for process in running):
-        raise BadFile(f"{TRUTH_LABEL.name} failed")
+        raise BadFile(f"{REFERENCE_LABEL.name} failed")
     return catalogue.ids(np.concatenate([answer.reshape(-1, 2)[:, 0] for answer in answers]))
 
 
@@ -80,10 +80,10 @@ def sample_cells(shape, count, seed):
     return np.unravel_index(np.random.default_rng(seed).choice(total, min(count, total), replace=False), shape)
 
 
-def judge(labels, truth, catalogue):
-    """Counts of the labels against the truth."""
-    homeless = (truth == NONE) & (len(catalogue.chaotic) == 0)
-    right = np.where(truth == NONE, np.isin(labels, catalogue.chaotic), labels == truth)
+def compare(labels, true_labels, catalogue):
+    """Counts of the labels that differ from the true ones."""
+    homeless = (true_labels == NONE) & (len(catalogue.chaotic) == 0)
+    right = np.where(true_labels == NONE, np.isin(labels, catalogue.chaotic), labels == true_labels)
     wrong, n = int(np.count_nonzero(~right)), len(labels)
     low, high = wilson(wrong, n)
     return {"cells": n, "wrong": wrong, "share": wrong / n, "low": low, "high": high,
@@ -91,7 +91,7 @@ def judge(labels, truth, catalogue):
 
 
 def check_file(path, count, seed, processes, max_periods):
-    """The verdict on a result file, and where it is wrong."""
+    """The counts of a result file, and the cells compared."""
     result = Result(path)
     basin, catalogue = result.group("basin"), Catalogue(result)
     if not catalogue.pendulum[1] > 0:
@@ -99,9 +99,9 @@ def check_file(path, count, seed, processes, max_periods):
     row, column = sample_cells(basin["attractor"].shape, count, seed)
     theta, velocity = basin["theta"].values[column], basin["velocity"].values[row]
     labels = basin["attractor"].values[row, column].astype(np.int64)
-    truth = truth_labels(catalogue, theta, velocity, max_periods, processes)
-    verdict = judge(labels, truth, catalogue) | {"file": str(path), "method": basin.attrs.get("method", ""), "seed": seed}
-    return verdict, (theta, velocity, labels, truth)
+    true_labels = reference_labels(catalogue, theta, velocity, max_periods, processes)
+    counts = compare(labels, true_labels, catalogue) | {"file": str(path), "method": basin.attrs.get("method", ""), "seed": seed}
+    return counts, (theta, velocity, labels, true_labels)
 
 
 def main():
@@ -114,17 +114,17 @@ def main():
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--list", action="store_true", help="also print every wrong cell")
     arguments = parser.parse_args()
-    verdict, cells = check_file(arguments.file, arguments.cells, arguments.seed, arguments.processes, arguments.max_periods)
+    counts, cells = check_file(arguments.file, arguments.cells, arguments.seed, arguments.processes, arguments.max_periods)
     if arguments.json:
-        print(json.dumps(verdict))
+        print(json.dumps(counts))
     else:
         print("{file}: {method}: {wrong} of {cells} cells wrong, {0:.3f} % (95 %: {1:.3f} .. {2:.3f} %); {unsettled} unsettled, "
-              "{homeless} come to no attractor of the file".format(*(100 * verdict[key] for key in ("share", "low", "high")),
-                                                                 **verdict))
+              "{homeless} come to no attractor of the file".format(*(100 * counts[key] for key in ("share", "low", "high")),
+                                                                 **counts))
     if arguments.list:
-        for theta, velocity, label, truth in zip(*(part.tolist() for part in cells), strict=True):
-            if label != truth:
-                print(f"  theta {theta!r} velocity {velocity!r} labelled {label}, in truth {truth}")
+        for theta, velocity, label, true_labels in zip(*(part.tolist() for part in cells), strict=True):
+            if label != true_labels:
+                print(f"  theta {theta!r} velocity {velocity!r} labelled {label}, truly {true_labels}")
 
 
 if __name__ == "__main__":

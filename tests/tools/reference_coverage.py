@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """How often the stated 95 % intervals hold: random pendulums of no scene, small samples against large ones.
 
-    tests/tools/truth_coverage.py                              20 pendulums
-    tests/tools/truth_coverage.py --pendulums 40 --seed 2 --ranks 2 --rows rows      goes on where the folder rows ends
+    tests/tools/reference_coverage.py                              20 pendulums
+    tests/tools/reference_coverage.py --pendulums 40 --seed 2 --ranks 2 --rows rows      goes on where the folder rows ends
 
 For each pendulum the program runs three times: `tradeoff` on a sample; `basin.accuracy` with a random accuracy, on a sample of
 its own; `tradeoff` on a large sample, which stands for the real shares. Each run has its own seed, for its cells and for its

@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "catalogue.h"
-#include "kapitza/truth.h"
+#include "kapitza/reference.h"
 
 enum { BATCH = 256 };
 static const double widest_circle = 1e-2; /* rad */
@@ -19,7 +19,7 @@ static const double at_rest = 1e-8; /* as good as on the attractor */
 typedef struct {
   kz_catalogue catalogue;
   double circle; /* radius, rad */
-} judge;
+} labeller;
 
 typedef struct {
   int label;
@@ -37,14 +37,14 @@ static double circle_of(const kz_catalogue *c) {
   return circle;
 }
 
-static int point_within(const judge *j, double theta, double velocity) {
+static int point_within(const labeller *j, double theta, double velocity) {
   for (int i = 0; i < j->catalogue.n_points; i++)
     if (kz_point_distance(theta, velocity, &j->catalogue.points[i]) < j->circle) return i;
   return -1;
 }
 
 /* Takes note of the orbit's strobe state after another period; true where it is settled or out of time. */
-static bool settled(const judge *j, orbit *o, double theta, double velocity) {
+static bool settled(const labeller *j, orbit *o, double theta, double velocity) {
   double d = o->expected >= 0 ? kz_point_distance(theta, velocity, &j->catalogue.points[o->expected]) : INFINITY;
   if (d > j->circle) {
     o->expected = point_within(j, theta, velocity);
@@ -60,11 +60,11 @@ static bool settled(const judge *j, orbit *o, double theta, double velocity) {
 }
 
 /* Follows n orbits together, each until it settles: the first `left` ones are still under way. */
-static void follow(const judge *j, int n, kz_truth_state *states, orbit **under_way) {
+static void follow(const labeller *j, int n, kz_reference_state *states, orbit **under_way) {
   double theta[BATCH], velocity[BATCH];
   int64_t turns[BATCH];
-  for (int left = n; left > 0; kz_truth_advance(&j->catalogue.pendulum, KZ_TRUTH_STEPS, left, 1, states)) {
-    kz_truth_read(left, states, theta, velocity, turns);
+  for (int left = n; left > 0; kz_reference_advance(&j->catalogue.pendulum, KZ_REFERENCE_STEPS, left, 1, states)) {
+    kz_reference_read(left, states, theta, velocity, turns);
     for (int i = left - 1; i >= 0; i--)
       if (settled(j, under_way[i], theta[i], velocity[i])) {
         left--;
@@ -75,8 +75,8 @@ static void follow(const judge *j, int n, kz_truth_state *states, orbit **under_
 }
 
 /* Labels the next batch of stdin; its size, 0 at the end. */
-static int label_batch(const judge *j) {
-  static kz_truth_state states[BATCH];
+static int label_batch(const labeller *j) {
+  static kz_reference_state states[BATCH];
   double theta[BATCH], velocity[BATCH];
   orbit orbits[BATCH], *under_way[BATCH];
   int n = 0;
@@ -85,16 +85,16 @@ static int label_batch(const judge *j) {
     under_way[n] = &orbits[n];
     n++;
   }
-  kz_truth_start(n, theta, velocity, states);
+  kz_reference_start(n, theta, velocity, states);
   follow(j, n, states, under_way);
   for (int i = 0; i < n; i++) printf("%d %ld\n", orbits[i].label, orbits[i].periods);
   return n;
 }
 
 int main(void) {
-  judge j;
+  labeller j;
   if (!kz_catalogue_read(stdin, &j.catalogue)) {
-    fputs("truth_label: error: stdin: not a catalogue\n", stderr);
+    fputs("reference_label: error: stdin: not a catalogue\n", stderr);
     kz_catalogue_free(&j.catalogue);
     return 2;
   }

@@ -1,11 +1,11 @@
-/* The judge's verdicts in a text file beside the result: what they are for, one line a cell, a checksum. */
+/* Reference labels in a text file beside the result: a line with what they depend on, one line per cell, a checksum. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "judge.h"
+#include "reference_labels.h"
 
 /* FNV-1a of 64 bits (Fowler, Noll & Vo). */
 static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
@@ -13,13 +13,13 @@ static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
   return sum;
 }
 
-/* What the verdicts depend on, one line. */
-static void print_key(const kz_judge *judge, char *key, size_t bytes) {
-  const kz_basin_plan *p = judge->plan;
-  const uint64_t attractors = checksum(judge->packed, (size_t)judge->packed_size * sizeof(double), 0xcbf29ce484222325u);
-  snprintf(key, bytes, "kapitza truth 1: %a %a %a; %a %a %lld; %a %a %lld; %lld %lld; %016llx\n", judge->pendulum.k,
-           judge->pendulum.beta, judge->pendulum.m, p->theta.min, p->theta.max, (long long)p->theta.count, p->velocity.min,
-           p->velocity.max, (long long)p->velocity.count, (long long)p->seed, (long long)p->max_periods,
+/* What the labels depend on, one line. */
+static void print_key(const kz_reference_labels *reference, char *key, size_t bytes) {
+  const kz_basin_plan *p = reference->plan;
+  const uint64_t attractors = checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
+  snprintf(key, bytes, "kapitza truth 1: %a %a %a; %a %a %lld; %a %a %lld; %lld %lld; %016llx\n", reference->pendulum.k,
+           reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max, (long long)p->theta.count,
+           p->velocity.min, p->velocity.max, (long long)p->velocity.count, (long long)p->seed, (long long)p->max_periods,
            (unsigned long long)attractors);
 }
 
@@ -46,13 +46,13 @@ static char *verified(char *text, const char *key) {
   return checksum(text, (size_t)(last - text), 0xcbf29ce484222325u) == sum ? text + strlen(key) : NULL;
 }
 
-int64_t kz_judge_recall(const char *path, kz_judge *judge) {
+int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *reference) {
   char key[512];
-  print_key(judge, key, sizeof key);
+  print_key(reference, key, sizeof key);
   char *text = read_all(path), *line = text ? verified(text, key) : NULL;
   int64_t n = 0;
-  for (; line && n < judge->samples; n++) {
-    kz_verdict *v = judge->verdicts + n;
+  for (; line && n < reference->samples; n++) {
+    kz_reference_label *v = reference->labels + n;
     if (sscanf(line, "%hd %hd %hhu %hhu %u", &v->label, &v->flipped, &v->distance, &v->agrees, &v->periods) != 5) break;
     line = strchr(line, '\n') + 1;
   }
@@ -60,7 +60,7 @@ int64_t kz_judge_recall(const char *path, kz_judge *judge) {
   return n;
 }
 
-/* How many verdicts of this judge the file holds. */
+/* How many labels the file holds for this key. */
 static int64_t count_held(const char *path, const char *key) {
   char *text = read_all(path), *line = text ? verified(text, key) : NULL;
   int64_t n = 0;
@@ -95,16 +95,16 @@ static kz_status write_all(const char *path, const char *text) {
   return cannot_write(path);
 }
 
-kz_status kz_judge_save(const kz_judge *judge, const char *path) {
+kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path) {
   char key[512], *text = NULL;
   size_t bytes = 0;
-  print_key(judge, key, sizeof key);
-  if (count_held(path, key) >= judge->samples) return KZ_OK;
+  print_key(reference, key, sizeof key);
+  if (count_held(path, key) >= reference->samples) return KZ_OK;
   FILE *out = open_memstream(&text, &bytes);
   if (!out) return kz_fail(KZ_FAILED, "no memory for %s", path);
   fputs(key, out);
-  for (int64_t i = 0; i < judge->samples; i++) {
-    const kz_verdict *v = judge->verdicts + i;
+  for (int64_t i = 0; i < reference->samples; i++) {
+    const kz_reference_label *v = reference->labels + i;
     fprintf(out, "%d %d %d %d %u\n", v->label, v->flipped, v->distance, v->agrees, v->periods);
   }
   fflush(out);
