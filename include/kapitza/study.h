@@ -80,11 +80,11 @@ typedef struct {
 
 /* Study `tradeoff`: on the window of the basin. */
 typedef struct {
-  int64_t samples;      /* cells compared with quad precision */
-  kz_integers settings; /* indices in the table of settings; none = all */
+  int64_t samples;     /* cells compared with quad precision */
+  kz_integers configs; /* indices in the table of configurations; none = all */
 } kz_tradeoff_plan;
 
-/* The labels of the settings that a trade-off compares, joined by '|'. */
+/* The labels of the configurations that a trade-off compares, joined by '|'. */
 const char *kz_tradeoff_words(void);
 
 /* What a sweep measures, and which key of the pendulum mapping it walks along: indices of the words of the scene. */

@@ -26,50 +26,50 @@ enum { MOST = 32 }; /* candidates */
 /* The candidates from the cheapest to the dearest on these cells. */
 typedef struct {
   const kz_reference_labels *reference;
-  const kz_setting *ladder[MOST];
+  const kz_config *ladder[MOST];
   int64_t count, first;
 } walk;
 
 static void order(const kz_reference_labels *reference, walk *w) {
   double cost[MOST];
-  const kz_setting *candidate[MOST];
+  const kz_config *candidate[MOST];
   int64_t rank[MOST];
   const double mean_periods = kz_reference_labels_sum(reference).mean_periods, cells = (double)kz_own_cells(reference->plan);
   *w = (walk){.reference = reference};
-  for (int i = 0; i < kz_setting_count && w->count < MOST; i++) {
-    if (!kz_settings[i].candidate) continue;
-    cost[w->count] = kz_setting_cost(kz_settings + i, cells, mean_periods);
-    candidate[w->count++] = kz_settings + i;
+  for (int i = 0; i < kz_config_count && w->count < MOST; i++) {
+    if (!kz_configs[i].candidate) continue;
+    cost[w->count] = kz_config_cost(kz_configs + i, cells, mean_periods);
+    candidate[w->count++] = kz_configs + i;
   }
   kz_cost_order(w->count, cost, rank);
   for (int64_t i = 0; i < w->count; i++) w->ladder[i] = candidate[rank[i]];
 }
 
-static kz_status try_setting(void *context, int64_t tile, void *record) {
+static kz_status try_config(void *context, int64_t tile, void *record) {
   const walk *w = context;
-  return kz_setting_measure(w->ladder[w->first + tile], w->reference, 0, record);
+  return kz_config_measure(w->ladder[w->first + tile], w->reference, 0, record);
 }
 
-/* Walks the ladder upwards, two settings at a time; the first that meets the accuracy is chosen. `best`: fewest wrong. */
+/* Walks the ladder upwards, two configurations at a time; the first that meets the accuracy is chosen. `best`: fewest wrong. */
 static kz_status climb(walk *w, kz_team *team, double accuracy, kz_choice *choice, int64_t *best) {
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
   kz_measured measured[2];
   *best = w->reference->samples;
-  for (w->first = 0; w->first < w->count && !choice->setting; w->first += step) {
+  for (w->first = 0; w->first < w->count && !choice->config; w->first += step) {
     const int64_t left = w->count - w->first;
     kz_stage stage = {.name = "settings",
                       .n_tiles = left < step ? left : step,
                       .record_bytes = sizeof *measured,
-                      .work = try_setting,
+                      .work = try_config,
                       .context = w,
                       .keep = true,
                       .everywhere = true};
     KZ_TRY(kz_stage_run(team, &stage, measured));
-    for (int64_t i = 0; i < stage.n_tiles && !choice->setting; i++) {
+    for (int64_t i = 0; i < stage.n_tiles && !choice->config; i++) {
       choice->tried++;
       choice->wrong = measured[i].wrong;
       if (measured[i].wrong < *best) *best = measured[i].wrong;
-      if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy) choice->setting = w->ladder[w->first + i];
+      if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy) choice->config = w->ladder[w->first + i];
     }
   }
   return KZ_OK;
@@ -90,7 +90,7 @@ static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
   fprintf(summary,
           "accuracy %.10g: %s, the cheapest of %lld settings tried that meets it: %lld of %lld cells wrong, at most %.3f %% "
           "(95 %%); the last place of the start alone flips %.3f %%\n",
-          accuracy, choice->setting->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
+          accuracy, choice->config->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
           100 * wrong.high, 100 * flips.share);
 }
 
@@ -100,7 +100,7 @@ static kz_status choose(const kz_reference_labels *reference, kz_team *team, dou
   order(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
   KZ_TRY(climb(&w, team, accuracy, choice, &best));
-  return choice->setting ? KZ_OK : refuse(accuracy, choice, best);
+  return choice->config ? KZ_OK : refuse(accuracy, choice, best);
 }
 
 kz_status kz_accuracy_choose(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary, kz_choice *choice) {
@@ -119,7 +119,7 @@ kz_status kz_accuracy_choose(const kz_scene *scene, kz_team *team, kz_store *sto
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store) {
   const kz_share wrong = kz_share_of(choice->wrong, choice->samples);
   KZ_TRY(kz_store_real(store, "basin", "accuracy", accuracy));
-  KZ_TRY(kz_store_text(store, "basin", "setting", choice->setting->label));
+  KZ_TRY(kz_store_text(store, "basin", "setting", choice->config->label));
   KZ_TRY(kz_store_integer(store, "basin", "samples", choice->samples));
   KZ_TRY(kz_store_real(store, "basin", "wrong", wrong.share));
   KZ_TRY(kz_store_real(store, "basin", "wrong_low", wrong.low));

@@ -274,7 +274,7 @@ static kz_status run_accurate(const kz_scene *scene, kz_team *team, kz_store *st
   kz_choice choice;
   kz_scene chosen = *scene;
   KZ_TRY(kz_accuracy_choose(scene, team, store, summary, &choice));
-  kz_setting_apply(choice.setting, &chosen);
+  kz_config_apply(choice.config, &chosen);
   KZ_TRY(run_damped(&chosen, team, store, summary));
   return kz_team_agree(team, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
 }

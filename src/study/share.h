@@ -1,4 +1,4 @@
-/* Shares seen in a sample, and settings that no other beats. Pure arithmetic. */
+/* Shares seen in a sample, and configurations that no other beats. Pure arithmetic. */
 #ifndef KAPITZA_STUDY_SHARE_H
 #define KAPITZA_STUDY_SHARE_H
 
@@ -9,7 +9,8 @@ typedef struct {
   double share, low, high;
 } kz_share;
 kz_share kz_share_of(int64_t hits, int64_t n);
-/* The same for n different ones of `total`: the variance is smaller by (total - n)/(total - 1), and none is left for all of them. */
+/* The same for n different ones of `total`: the variance is smaller by (total - n)/(total - 1), and none is left for all of
+ * them. */
 kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 
 /* The smallest sample whose upper bound is at most `share` where no hit is seen. */

@@ -1,6 +1,6 @@
-/* Study `tradeoff`: many settings on the cells of one basin, each with its time and its share of wrong labels.
+/* Study `tradeoff`: many configurations on the cells of one basin, each with its time and its share of wrong labels.
  *
- * reference labels of a sample -> one tile per setting, done by one rank alone -> table, file. */
+ * reference labels of a sample -> one tile per configuration, done by one rank alone -> table, file. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -20,21 +20,21 @@ bool kz_tradeoff_wanted(const kz_scene *scene) {
   return scene->has_tradeoff;
 }
 
-static int64_t count_settings(const kz_tradeoff_plan *plan) {
-  return plan->settings.count > 0 ? plan->settings.count : kz_setting_count;
+static int64_t count_configs(const kz_tradeoff_plan *plan) {
+  return plan->configs.count > 0 ? plan->configs.count : kz_config_count;
 }
 
-static const kz_setting *setting_at(const kz_tradeoff_plan *plan, int64_t i) {
-  return kz_settings + (plan->settings.count > 0 ? plan->settings.values[i] : i);
+static const kz_config *config_at(const kz_tradeoff_plan *plan, int64_t i) {
+  return kz_configs + (plan->configs.count > 0 ? plan->configs.values[i] : i);
 }
 
 kz_cost kz_tradeoff_cost(const kz_scene *scene) {
   static const double kick_seconds = 1e-9, mean_periods = 30, reference_seconds = 3e-4;
   double kicks = 0, nodes = 0;
-  for (int64_t i = 0; i < count_settings(&scene->tradeoff); i++) {
-    const kz_setting *setting = setting_at(&scene->tradeoff, i);
-    kicks += kz_setting_cost(setting, TIMED, mean_periods);
-    nodes = fmax(nodes, (double)setting->nodes * (double)setting->nodes);
+  for (int64_t i = 0; i < count_configs(&scene->tradeoff); i++) {
+    const kz_config *config = config_at(&scene->tradeoff, i);
+    kicks += kz_config_cost(config, TIMED, mean_periods);
+    nodes = fmax(nodes, (double)config->nodes * (double)config->nodes);
   }
   return (kz_cost){.disk_bytes = 1e6,
                    .memory_bytes = 120 * nodes,
@@ -52,25 +52,25 @@ char *kz_reference_path(const kz_store *store) {
 
 static kz_status measure_tile(void *context, int64_t tile, void *record) {
   const measuring *m = context;
-  return kz_setting_measure(m->trade->settings[tile], m->reference, TIMED, record);
+  return kz_config_measure(m->trade->configs[tile], m->reference, TIMED, record);
 }
 
 static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
-  const size_t n = (size_t)count_settings(plan);
+  const size_t n = (size_t)count_configs(plan);
   *trade = (kz_trade){.count = (int64_t)n,
-                      .settings = calloc(n, sizeof *trade->settings),
+                      .configs = calloc(n, sizeof *trade->configs),
                       .measured = calloc(n, sizeof *trade->measured),
                       .seconds = calloc(n, sizeof(double)),
                       .wrong = calloc(n, sizeof(double)),
                       .pareto = calloc(n, sizeof(int8_t))};
-  if (!trade->settings || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
+  if (!trade->configs || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
     return kz_fail(KZ_FAILED, "no memory for %lld settings", (long long)n);
-  for (int64_t i = 0; i < trade->count; i++) trade->settings[i] = setting_at(plan, i);
+  for (int64_t i = 0; i < trade->count; i++) trade->configs[i] = config_at(plan, i);
   return KZ_OK;
 }
 
 static void free_trade(kz_trade *trade) {
-  free(trade->settings);
+  free(trade->configs);
   free(trade->measured);
   free(trade->seconds);
   free(trade->wrong);
@@ -85,7 +85,7 @@ static void rate(const kz_reference_labels *reference, kz_trade *trade) {
     const kz_measured *m = trade->measured + i;
     trade->wrong[i] = kz_share_of(m->wrong, reference->samples).share;
     trade->seconds[i] = m->set_up + m->cell * cells;
-    if (trade->settings[i]->precision == KZ_DOUBLE) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
+    if (trade->configs[i]->precision == KZ_DOUBLE) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
   }
   kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
 }

@@ -9,8 +9,8 @@
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)
 
-static kz_status write_settings(const kz_trade *trade, kz_store *store) {
-  const kz_setting *const *s = trade->settings;
+static kz_status write_configs(const kz_trade *trade, kz_store *store) {
+  const kz_config *const *s = trade->configs;
   COLUMN(const char *, "label", s[i]->label);
   COLUMN(int8_t, "method", s[i]->method);
   COLUMN(int8_t, "precision", s[i]->precision);
@@ -29,7 +29,7 @@ static kz_status write_measures(const kz_reference_labels *reference, const kz_t
   COLUMN(double, "wrong_high", kz_share_of(m[i].wrong, reference->samples).high);
   COLUMN(double, "wrong_inside", (double)m[i].inside / n);
   COLUMN(double, "wrong_distance", m[i].wrong > 0 ? (double)m[i].distance : NAN);
-  COLUMN(double, "fraction_error", (double)m[i].astray / n);
+  COLUMN(double, "fraction_error", (double)m[i].count_error / n);
   COLUMN(double, "seconds", trade->seconds[i]);
   COLUMN(double, "seconds_per_million_cells", 1e6 * m[i].cell);
   COLUMN(int8_t, "pareto", trade->pareto[i]);
@@ -51,24 +51,24 @@ static kz_status write_attributes(const kz_reference_labels *reference, const kz
 }
 
 static void print_row(const kz_reference_labels *reference, const kz_trade *trade, int64_t i, FILE *summary) {
-  const kz_setting *s = trade->settings[i];
+  const kz_config *s = trade->configs[i];
   const kz_measured *m = trade->measured + i;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
   fprintf(summary, "%c %-20s %-7s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
           trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], kz_precision_names[s->precision], s->scheme,
           s->steps, s->method == KZ_METHOD_DIRECT ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes,
-          100 * wrong.share, 100 * wrong.low, 100 * wrong.high, 100 * (double)m->astray / (double)reference->samples,
+          100 * wrong.share, 100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples,
           trade->seconds[i], 1e6 * m->cell);
 }
 
-/* Settings whose labels are chance here. */
+/* Configurations whose labels are chance here. */
 static void warn(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   const double fastest = kz_axis_fastest(&reference->plan->velocity);
   const char *before = "warning: steps that do not carry the motions of this window: ";
   for (int64_t i = 0; i < trade->count; i++) {
-    const kz_numerics numerics = kz_setting_numerics(trade->settings[i]);
+    const kz_numerics numerics = kz_config_numerics(trade->configs[i]);
     if (kz_steps_carry(&reference->pendulum, &numerics, fastest)) continue;
-    fprintf(summary, "%s%s", before, trade->settings[i]->label);
+    fprintf(summary, "%s%s", before, trade->configs[i]->label);
     before = ", ";
   }
   if (before[0] == ',') fprintf(summary, "\n");
@@ -95,7 +95,7 @@ static void print(const kz_reference_labels *reference, const kz_trade *trade, F
 
 kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary) {
   KZ_TRY(kz_store_dimension(store, "tradeoff", "setting", trade->count, NULL));
-  KZ_TRY(write_settings(trade, store));
+  KZ_TRY(write_configs(trade, store));
   KZ_TRY(write_measures(reference, trade, store));
   KZ_TRY(write_attributes(reference, trade, store));
   print(reference, trade, summary);

@@ -1,5 +1,5 @@
-/* One setting measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
-#include "setting.h"
+/* One configuration measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
+#include "config.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,11 +17,11 @@ typedef struct {
 } workspace;
 
 typedef struct {
-  const kz_setting *setting;
+  const kz_config *config;
   const kz_reference_labels *reference;
   kz_dynamics *dynamics;
   workspace *work;
-} gauge;
+} measurement;
 
 /* Processor time of this thread: what others do on the machine does not count. */
 static double seconds(void) {
@@ -31,8 +31,8 @@ static double seconds(void) {
 }
 
 /* Labels [n] of the first n cells in the order of the sample. */
-static void label(const gauge *g, int64_t n, int32_t *owner) {
-  const kz_setting *s = g->setting;
+static void label_cells(const measurement *g, int64_t n, int32_t *owner) {
+  const kz_config *s = g->config;
   workspace *w = g->work;
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
@@ -44,7 +44,8 @@ static void label(const gauge *g, int64_t n, int32_t *owner) {
 }
 
 /* The largest difference between the counts of one attractor among labels and among true ones. */
-static int64_t astray(const kz_reference_labels *reference, const int32_t *owner, int64_t *surplus, int64_t known) {
+static int64_t largest_count_error(const kz_reference_labels *reference, const int32_t *owner, int64_t *surplus,
+                                   int64_t known) {
   int64_t largest = 0;
   memset(surplus, 0, (size_t)(known + 1) * sizeof *surplus);
   for (int64_t i = 0; i < reference->samples; i++) {
@@ -66,29 +67,29 @@ static void compare(const kz_reference_labels *reference, const int32_t *owner, 
     if (2 * (seen += at[distance]) >= m->wrong) m->distance = distance;
 }
 
-static kz_status set_up(gauge *g) {
-  const kz_setting *s = g->setting;
+static kz_status set_up(measurement *g) {
+  const kz_config *s = g->config;
   kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
   KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->reach));
   if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil[s->interpolation]);
   return KZ_OK;
 }
 
-static kz_status measure(gauge *g, int64_t n, int32_t *owner, int64_t *surplus, kz_measured *m) {
+static kz_status measure(measurement *g, int64_t n, int32_t *owner, int64_t *surplus, kz_measured *m) {
   const double start = seconds();
   KZ_TRY(set_up(g));
   const double ready = seconds();
-  label(g, n, owner);
+  label_cells(g, n, owner);
   *m = (kz_measured){.set_up = ready - start, .cell = (seconds() - ready) / (double)n};
   compare(g->reference, owner, m);
-  m->astray = astray(g->reference, owner, surplus, kz_dynamics_count(g->dynamics));
+  m->count_error = largest_count_error(g->reference, owner, surplus, kz_dynamics_count(g->dynamics));
   return KZ_OK;
 }
 
-kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
-                             kz_measured *measured) {
-  gauge g = {.setting = setting, .reference = reference};
-  const kz_numerics numerics = kz_setting_numerics(setting);
+kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *reference, int64_t timed,
+                            kz_measured *measured) {
+  measurement g = {.config = config, .reference = reference};
+  const kz_numerics numerics = kz_config_numerics(config);
   int64_t n = timed > reference->samples ? timed : reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
@@ -97,7 +98,7 @@ kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_label
   int64_t *surplus = calloc(INT16_MAX + 1, sizeof *surplus);
   kz_status status = g.dynamics && g.work && owner && surplus
                          ? measure(&g, n, owner, surplus, measured)
-                         : kz_fail(KZ_FAILED, "no memory for the setting %s", setting->label);
+                         : kz_fail(KZ_FAILED, "no memory for the setting %s", config->label);
   if (g.dynamics) kz_dynamics_free(g.dynamics);
   free(g.work);
   free(owner);

@@ -1,8 +1,8 @@
-/* The table of settings. */
+/* The table of configurations. */
 #include <math.h>
 #include <string.h>
 
-#include "setting.h"
+#include "config.h"
 
 #define DIRECT(label, scheme, steps, precision, candidate) \
   {label, KZ_METHOD_DIRECT, scheme, steps, precision, KZ_QUINTIC, 1000, candidate}
@@ -10,7 +10,7 @@
   {label, KZ_METHOD_ICM, "split6", 24, KZ_DOUBLE, interpolation, nodes, interpolation == KZ_QUINTIC}
 #define HYBRID(label, nodes, steps) {label, KZ_METHOD_HYBRID, "split6", steps, KZ_DOUBLE, KZ_QUINTIC, nodes, true}
 
-const kz_setting kz_settings[] = {
+const kz_config kz_configs[] = {
     DIRECT("direct-rk4-100-1992", "rk4", 100, KZ_DOUBLE, false),
     DIRECT("direct-rk4-400", "rk4", 400, KZ_DOUBLE, false),
     DIRECT("direct-split4-24", "split4", 24, KZ_DOUBLE, false),
@@ -41,14 +41,14 @@ const kz_setting kz_settings[] = {
     HYBRID("hybrid-1000-48", 1000, 48),
     HYBRID("hybrid-1000-96", 1000, 96),
 };
-const int kz_setting_count = sizeof kz_settings / sizeof kz_settings[0];
+const int kz_config_count = sizeof kz_configs / sizeof kz_configs[0];
 
 const char *kz_tradeoff_words(void) {
   static char words[1024];
   words[0] = '\0';
-  for (int i = 0; i < kz_setting_count; i++) {
+  for (int i = 0; i < kz_config_count; i++) {
     if (i > 0) strncat(words, "|", sizeof words - strlen(words) - 1);
-    strncat(words, kz_settings[i].label, sizeof words - strlen(words) - 1);
+    strncat(words, kz_configs[i].label, sizeof words - strlen(words) - 1);
   }
   return words;
 }
@@ -63,18 +63,18 @@ static int32_t scheme_row(const char *name) {
   return row;
 }
 
-kz_numerics kz_setting_numerics(const kz_setting *setting) {
-  return (kz_numerics){.scheme = scheme_row(setting->scheme), .steps_per_period = setting->steps, .precision = setting->precision};
+kz_numerics kz_config_numerics(const kz_config *config) {
+  return (kz_numerics){.scheme = scheme_row(config->scheme), .steps_per_period = config->steps, .precision = config->precision};
 }
 
-void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
-  scene->numerics = kz_setting_numerics(setting);
-  scene->basin.method = setting->method;
-  scene->basin.interpolation = setting->interpolation;
-  scene->basin.table_theta = scene->basin.table_velocity = setting->nodes;
+void kz_config_apply(const kz_config *config, kz_scene *scene) {
+  scene->numerics = kz_config_numerics(config);
+  scene->basin.method = config->method;
+  scene->basin.interpolation = config->interpolation;
+  scene->basin.table_theta = scene->basin.table_velocity = config->nodes;
 }
 
-double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods) {
+double kz_config_cost(const kz_config *config, double cells, double mean_periods) {
   /* Measured weights, in kicks in double precision: a look-up in the table with its captor, what it takes to track its error, the
    * share of the periods that hybrid integrates (0 to 0.35), the growth of a node's region. Coarse cells trap less: periods go as
    * nodes^-0.4. */
@@ -82,11 +82,11 @@ double kz_setting_cost(const kz_setting *setting, double cells, double mean_peri
                       look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, tracking = 15, integrated = 0.15,
                       growth = 700;
   kz_scheme scheme;
-  kz_scheme_row(scheme_row(setting->scheme), &scheme);
-  const double nodes = (double)setting->nodes, period = kind[setting->precision] * scheme.kicks * setting->steps;
-  const double mapped = look_up[setting->interpolation];
-  const double cell = setting->method == KZ_METHOD_DIRECT ? period
-                      : setting->method == KZ_METHOD_ICM  ? mapped
-                                                          : mapped + tracking + integrated * period;
+  kz_scheme_row(scheme_row(config->scheme), &scheme);
+  const double nodes = (double)config->nodes, period = kind[config->precision] * scheme.kicks * config->steps;
+  const double mapped = look_up[config->interpolation];
+  const double cell = config->method == KZ_METHOD_DIRECT ? period
+                      : config->method == KZ_METHOD_ICM  ? mapped
+                                                         : mapped + tracking + integrated * period;
   return 0.5 * nodes * nodes * (period + growth) + cells * mean_periods * pow(1000 / nodes, 0.4) * cell;
 }
