@@ -6,7 +6,7 @@ module kz_dynamics_branches
   use kz_kernel_tables, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t, orbit_of
   use kz_dynamics_newton, only: eigenvalues, n_periods, solved, minimal_period
-  use kz_dynamics_portraits, only: portray
+  use kz_dynamics_features, only: find_features
   use kz_dynamics_states, only: apart, separation
   implicit none
   private
@@ -148,7 +148,7 @@ contains
     call defect(flow, point, x, residual, matrix)
     call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*map_periods(point))), point%half_re, point%half_im)
     call make_flow(pendulum, fine_numerics(pendulum), .false., sampled)
-    call portray(sampled, pendulum, cycle, x(1), x(2), n)
+    call find_features(sampled, pendulum, cycle, x(1), x(2), n)
     point%winding = cycle%winding
     point%centre = cycle%centre
     point%amplitude = cycle%amplitude

@@ -4,7 +4,7 @@ module kz_dynamics_chaos
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_portraits, only: portray
+  use kz_dynamics_features, only: find_features
   use kz_dynamics_regions, only: regions_t, captors, cover_cell, COVER
   use kz_dynamics_search, only: search_t, add_with_mirror
   implicit none
@@ -12,7 +12,7 @@ module kz_dynamics_chaos
   public :: find_chaos
 
   !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
-  integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, PORTRAIT_PERIODS = 500
+  integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, FEATURE_PERIODS = 500
   !> Before all that: neighbours of a chaotic orbit part so much within so many periods. Where they do not, an orbit is only slow.
   integer, parameter :: PARTING_PERIODS = 2000
   real(dp), parameter :: PARTED = 100
@@ -54,7 +54,7 @@ contains
     call exponent(search%flow, WIDTH, EXPONENT_PERIODS, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     call set_cover(attractor, visits_of)
-    call portray(search%apart, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), PORTRAIT_PERIODS)
+    call find_features(search%apart, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
       attractor%mean_velocity = 0

@@ -6,7 +6,7 @@ module kz_dynamics_search
   use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
   use kz_dynamics_ellipses, only: find_ellipses
   use kz_dynamics_newton, only: n_periods, eigenvalues
-  use kz_dynamics_portraits, only: portray
+  use kz_dynamics_features, only: find_features
   use kz_dynamics_regions, only: ellipse_captor
   use kz_dynamics_states, only: separation, same_state
   implicit none
@@ -32,8 +32,8 @@ module kz_dynamics_search
 
 contains
 
-  !> Looks at states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until one is found; it is
-  !> appended, with its mirror image.
+  !> Looks at states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until one is found;
+  !> it is appended, with its mirror image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: u(:)
@@ -104,8 +104,8 @@ contains
     end subroutine try
   end subroutine try_recurrences
 
-  !> Would a cycle of n periods near (u, v) repel? Recurrences on a chaotic set lead to such cycles without end: their map, once with
-  !> the scene's steps, costs hundreds of times less than Newton's method with fine ones.
+  !> Would a cycle of n periods near (u, v) repel? Recurrences on a chaotic set lead to such cycles without end: their map, once
+  !> with the scene's steps, costs hundreds of times less than Newton's method with fine ones.
   function repels(search, n, u, v)
     type(search_t), intent(inout) :: search
     integer, intent(in) :: n
@@ -147,7 +147,7 @@ contains
     known = .false.
   end function known
 
-  !> Completes an attractor (trapping ellipses, portrait) and appends it, and its mirror image where that is another one.
+  !> Completes an attractor (trapping ellipses, features) and appends it, and its mirror image where that is another one.
   subroutine add_with_mirror(search, attractor, attractors)
     type(search_t), intent(inout) :: search
     type(attractor_t), intent(inout) :: attractor
@@ -155,7 +155,7 @@ contains
 
     if (attractor%period > 0) then
       call find_ellipses(search%flow, search%fine, attractor, attractors)
-      call portray(search%apart, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
+      call find_features(search%apart, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if
     attractor%mirror = size(attractors) + 1
     if (.not. attractor%symmetric) attractor%mirror = size(attractors) + 2

@@ -108,8 +108,8 @@ static kz_status look_ahead(kz_orbit *orbit, const kz_mover *mover) {
   return kz_settles_on(mover, end, fastest, orbit->settles_on);
 }
 
-/* The same in double precision whatever the record has: what comes is asked for its kind alone. Motions so fast that this takes long
- * are left without an answer. */
+/* The same in double precision whatever the record has: what comes is asked for its kind alone. Motions so fast that this takes
+ * long are left without an answer. */
 static kz_status look_ahead_in_double(kz_orbit *orbit) {
   kz_mover mover = orbit->mover;
   if (mover.numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
@@ -121,7 +121,7 @@ static kz_status look_ahead_in_double(kz_orbit *orbit) {
   return status;
 }
 
-/* The motion after the transient, recorded and portrayed. */
+/* The motion after the transient: its record and its features. */
 static kz_status follow(kz_orbit *orbit) {
   const bool closed = orbit->plan->closed;
   const kz_state from = orbit->cycle.state;
@@ -137,10 +137,10 @@ static kz_status follow(kz_orbit *orbit) {
     orbit->lyapunov_error = 0;
   }
   if (orbit->mover.plan && !closed) KZ_TRY(look_ahead_in_double(orbit));
-  return kz_portrait_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->portrait);
+  return kz_orbit_features_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->features);
 }
 
-static kz_status portray(kz_orbit *orbit, kz_store *store, FILE *summary) {
+static kz_status find_features(kz_orbit *orbit, kz_store *store, FILE *summary) {
   KZ_TRY(follow(orbit));
   KZ_TRY(kz_orbit_write(orbit, store));
   kz_orbit_print(orbit, summary);
@@ -151,13 +151,13 @@ static kz_status model(kz_orbit *orbit, const kz_scene *scene, kz_team *team, kz
   KZ_TRY(kz_team_agree(team, kz_mover_make(scene, &orbit->mover)));
   KZ_TRY(start(orbit, team, store));
   KZ_TRY(skip_transient(orbit, team));
-  return kz_team_rank(team) == 0 ? portray(orbit, store, summary) : KZ_OK;
+  return kz_team_rank(team) == 0 ? find_features(orbit, store, summary) : KZ_OK;
 }
 
 kz_status kz_orbit_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
   kz_orbit orbit = {.plan = &scene->orbit, .pendulum = scene->parameters.pendulum, .lyapunov = NAN, .lyapunov_error = NAN};
   kz_status status = model(&orbit, scene, team, store, summary);
-  kz_portrait_free(&orbit.portrait);
+  kz_orbit_features_free(&orbit.features);
   kz_motion_free(&orbit.motion);
   kz_mover_free(&orbit.mover);
   return status;

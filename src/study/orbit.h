@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_ORBIT_H
 #define KAPITZA_STUDY_ORBIT_H
 
-#include "portrait.h"
+#include "orbit_features.h"
 
 typedef struct {
   const kz_orbit_plan *plan;
@@ -10,7 +10,7 @@ typedef struct {
   kz_mover mover;
   kz_cycle cycle; /* of a closed orbit; period 0 = open */
   kz_motion motion;
-  kz_portrait portrait;
+  kz_orbit_features features;
   double lyapunov, lyapunov_error; /* per drive period, largest exponent along the record; NaN but of the pendulum */
   bool parting;                    /* neighbours of an open record part for good */
   char settles_on[KZ_NAME_LENGTH]; /* the attractor that an open record of the pendulum leads to; empty where none is known */

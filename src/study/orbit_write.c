@@ -51,25 +51,25 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
 }
 
 /* What the lines are of. */
-static kz_status write_quantity(const kz_portrait *portrait, kz_store *store) {
-  KZ_TRY(kz_store_text(store, GROUP, "line_quantity", portrait->chaotic ? "velocity" : "angle"));
-  return kz_store_text(store, GROUP, "line_units", portrait->chaotic ? "rad per drive radian" : "rad");
+static kz_status write_quantity(const kz_orbit_features *features, kz_store *store) {
+  KZ_TRY(kz_store_text(store, GROUP, "line_quantity", features->chaotic ? "velocity" : "angle"));
+  return kz_store_text(store, GROUP, "line_units", features->chaotic ? "rad per drive radian" : "rad");
 }
 
-static kz_status write_portrait(const kz_portrait *portrait, kz_store *store) {
-  const double *turning = &portrait->turning->time; /* pairs (time, angle) */
-  int64_t n = portrait->n_turning;
+static kz_status write_features(const kz_orbit_features *features, kz_store *store) {
+  const double *turning = &features->turning->time; /* pairs (time, angle) */
+  int64_t n = features->n_turning;
   KZ_TRY(put(store, "maximum_time", true, n, every(turning, 2, n)));
   KZ_TRY(put(store, "maximum_angle", false, n, every(turning + 1, 2, n)));
-  KZ_TRY(put(store, "line_frequency", true, portrait->n_lines, ramp(1, portrait->record_periods, portrait->n_lines)));
-  KZ_TRY(write_quantity(portrait, store));
-  KZ_TRY(kz_store_variable(store, GROUP, "line_amplitude", portrait->amplitude));
-  return kz_store_variable(store, GROUP, "line_phase", portrait->phase);
+  KZ_TRY(put(store, "line_frequency", true, features->n_lines, ramp(1, features->record_periods, features->n_lines)));
+  KZ_TRY(write_quantity(features, store));
+  KZ_TRY(kz_store_variable(store, GROUP, "line_amplitude", features->amplitude));
+  return kz_store_variable(store, GROUP, "line_phase", features->phase);
 }
 
 static kz_status write_attributes(const kz_orbit *orbit, kz_store *store) {
   static const char *const MODEL[] = {"pendulum", "mathieu", "effective"};
-  const kz_portrait *p = &orbit->portrait;
+  const kz_orbit_features *p = &orbit->features;
   const struct {
     const char *name;
     int64_t value;
@@ -89,7 +89,7 @@ static kz_status write_attributes(const kz_orbit *orbit, kz_store *store) {
 }
 
 static void print_open(const kz_orbit *orbit, FILE *summary) {
-  const kz_portrait *p = &orbit->portrait;
+  const kz_orbit_features *p = &orbit->features;
   fprintf(summary, "orbit: %sopen record of %" PRId64 " period%s", p->chaotic ? "chaotic, " : "", orbit->motion.periods,
           orbit->motion.periods > 1 ? "s" : "");
   if (p->period > 0)
@@ -101,7 +101,7 @@ static void print_open(const kz_orbit *orbit, FILE *summary) {
 }
 
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
-  const kz_portrait *p = &orbit->portrait;
+  const kz_orbit_features *p = &orbit->features;
   if (p->closed)
     fprintf(summary, "orbit: %s, closes after %" PRId64 " period%s", p->name, p->period, p->period > 1 ? "s" : "");
   else
@@ -117,6 +117,6 @@ void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
 
 kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store) {
   KZ_TRY(write_series(orbit, store));
-  KZ_TRY(write_portrait(&orbit->portrait, store));
+  KZ_TRY(write_features(&orbit->features, store));
   return write_attributes(orbit, store);
 }

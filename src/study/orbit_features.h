@@ -1,6 +1,6 @@
-/* What an orbit shows: centre, period, winding, lines, turning points, strobe points. */
-#ifndef KAPITZA_STUDY_PORTRAIT_H
-#define KAPITZA_STUDY_PORTRAIT_H
+/* Features of an orbit: centre, period, winding, lines, turning points, strobe points. */
+#ifndef KAPITZA_STUDY_ORBIT_FEATURES_H
+#define KAPITZA_STUDY_ORBIT_FEATURES_H
 
 #include "motion.h"
 
@@ -20,11 +20,11 @@ typedef struct {
   double *amplitude, *phase;
   int64_t n_turning;
   kz_turning_point *turning;
-} kz_portrait;
+} kz_orbit_features;
 
-/* The portrait of a record; `period` = n of a closed orbit (the record's first n periods are one cycle), 0 = open; `parting` = its
- * neighbours part for good. KZ_FAILED where memory ran out, or where the lines of a closed orbit contradict n. */
-kz_status kz_portrait_make(const kz_motion *motion, int64_t period, bool parting, kz_portrait *portrait);
-void kz_portrait_free(kz_portrait *portrait);
+/* The features of a record; `period` = n of a closed orbit (the record's first n periods are one cycle), 0 = open; `parting` =
+ * its neighbours part for good. KZ_FAILED where memory ran out, or where the lines of a closed orbit contradict n. */
+kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool parting, kz_orbit_features *features);
+void kz_orbit_features_free(kz_orbit_features *features);
 
 #endif

@@ -1,5 +1,5 @@
-!> What an attractor looks like over continuous time: mean, amplitude, centre.
-module kz_dynamics_portraits
+!> Features of an attractor over continuous time: mean, amplitude, centre.
+module kz_dynamics_features
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_tables, only: pendulum_t
@@ -7,7 +7,7 @@ module kz_dynamics_portraits
   use kz_dynamics_states, only: apart
   implicit none
   private
-  public :: portray, SAMPLES
+  public :: find_features, SAMPLES
 
   !> Samples per drive period.
   integer, parameter :: SAMPLES = 96
@@ -16,7 +16,7 @@ module kz_dynamics_portraits
 contains
 
   !> Fills mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic one that starts at (u, v).
-  subroutine portray(apart_flow, pendulum, attractor, u, v, periods)
+  subroutine find_features(apart_flow, pendulum, attractor, u, v, periods)
     !> a fine flow whose steps are not joined
     class(flow_t), intent(inout) :: apart_flow
     type(pendulum_t), intent(in) :: pendulum
@@ -41,7 +41,7 @@ contains
     attractor%mean_velocity = PI*(angle(periods*SAMPLES) - angle(0))/(2*PI*periods)
     call place(attractor, pendulum, angle, velocity)
     attractor%mean = apart(attractor%mean, 0.0_dp)
-  end subroutine portray
+  end subroutine find_features
 
   !> Centre: down or inverted where the motion stays within pi of it and its mean within pi/4.
   subroutine place(attractor, pendulum, angle, velocity)
@@ -108,4 +108,4 @@ contains
     extremum = c(0) + s*(c(1) + s*(c(2) + s*(c(3) + s*(c(4) + s*c(5)))))
   end function turning_angle
 
-end module kz_dynamics_portraits
+end module kz_dynamics_features
