@@ -15,8 +15,8 @@ typedef struct {
   double amplitude;                          /* rad from its centre over continuous time; 0 for rotations */
   double multiplier_re[2], multiplier_im[2]; /* over the period: larger modulus first, + imaginary first */
   double half_re[2], half_im[2]; /* of the half map x -> -F^(n/2)(x) of a symmetric cycle (n = 1: -F); of the map F^n else */
-  double halves_apart; /* rad, between strobe points half a period apart, the nearest pair; HUGE_VAL for odd periods */
-  double mirror_apart; /* rad, between the cycle and its mirror image: the strobe point's nearest; 0 if symmetric */
+  double halves_distance; /* rad, between strobe points half a period apart, the nearest pair; HUGE_VAL for odd periods */
+  double mirror_distance; /* rad, between the cycle and its mirror image: the strobe point's nearest; 0 if symmetric */
   int32_t period, winding, centre, symmetric; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
 } kz_branch_point;
 

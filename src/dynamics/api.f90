@@ -49,7 +49,7 @@ contains
     d%search%max_period = int(max_period)
     call make_flow(pendulum, coarse, .true., d%search%flow)
     call make_flow(pendulum, fine_numerics(pendulum), .true., d%search%fine)
-    call make_flow(pendulum, fine_numerics(pendulum), .false., d%search%apart)
+    call make_flow(pendulum, fine_numerics(pendulum), .false., d%search%sampling_flow)
     allocate (d%attractors(0))
     handle = c_loc(d)
   end function create

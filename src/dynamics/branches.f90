@@ -7,13 +7,13 @@ module kz_dynamics_branches
   use kz_dynamics_cycles, only: attractor_t, orbit_of
   use kz_dynamics_newton, only: eigenvalues, n_periods, solved, minimal_period
   use kz_dynamics_features, only: find_features
-  use kz_dynamics_states, only: apart, separation
+  use kz_dynamics_states, only: angle_difference, separation
   implicit none
   private
 
   type, bind(C) :: branch_point_t
     real(dp) :: theta, velocity, amplitude, multiplier_re(2), multiplier_im(2), half_re(2), half_im(2)
-    real(dp) :: halves_apart, mirror_apart
+    real(dp) :: halves_distance, mirror_distance
     integer(c_int32_t) :: period, winding, centre, symmetric
   end type branch_point_t
 
@@ -47,8 +47,8 @@ contains
     point = from
     call describe(flow, pendulum, x, point)
     if (point%winding /= from%winding) return
-    if (from%symmetric == 0 .and. point%mirror_apart < MERGED) return
-    if (point%halves_apart < MERGED) return
+    if (from%symmetric == 0 .and. point%mirror_distance < MERGED) return
+    if (point%halves_distance < MERGED) return
     found = 1
     to = point
   end function continue_cycle
@@ -111,7 +111,7 @@ contains
       before = length
       if (length < FLOOR) exit
     end do
-    x(1) = apart(x(1), 0.0_dp)
+    x(1) = angle_difference(x(1), 0.0_dp)
     converged = converged .and. separation(x(1), x(2), start(1), start(2)) <= reach
   end function solves
 
@@ -125,7 +125,7 @@ contains
 
     call n_periods(flow, map_periods(cycle), x, residual, matrix)
     if (cycle%symmetric == 0) return
-    residual = [PI*apart(-flow%u(1), x(1)), -flow%v(1) - x(2)]
+    residual = [PI*angle_difference(-flow%u(1), x(1)), -flow%v(1) - x(2)]
     matrix = -matrix
   end subroutine defect
 
@@ -152,9 +152,9 @@ contains
     point%winding = cycle%winding
     point%centre = cycle%centre
     point%amplitude = cycle%amplitude
-    point%halves_apart = halves_apart(cycle)
-    point%mirror_apart = 0
-    if (point%symmetric == 0) point%mirror_apart = nearest_point(cycle, -x)
+    point%halves_distance = halves_distance(cycle)
+    point%mirror_distance = 0
+    if (point%symmetric == 0) point%mirror_distance = nearest_point(cycle, -x)
   end subroutine describe
 
   subroutine set_pair(values, re, im)
@@ -167,7 +167,7 @@ contains
   end subroutine set_pair
 
   !> The strobe points of a cycle of even period that are half a period apart: how near the nearest such pair is, rad.
-  function halves_apart(cycle) result(least)
+  function halves_distance(cycle) result(least)
     type(attractor_t), intent(in) :: cycle
     real(dp) :: least
     integer :: half
@@ -176,7 +176,7 @@ contains
     half = cycle%period/2
     if (2*half /= cycle%period) return
     least = minval(separation(cycle%u(:half), cycle%v(:half), cycle%u(half + 1:), cycle%v(half + 1:)))
-  end function halves_apart
+  end function halves_distance
 
   !> From a state to the nearest strobe point, rad.
   function nearest_point(cycle, x) result(least)

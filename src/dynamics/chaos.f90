@@ -54,7 +54,7 @@ contains
     call exponent(search%flow, WIDTH, EXPONENT_PERIODS, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     call set_cover(attractor, visits_of)
-    call find_features(search%apart, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
+    call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
       attractor%mean_velocity = 0

@@ -6,7 +6,7 @@ module kz_dynamics_covariance
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_regions, only: regions_t, captors
-  use kz_dynamics_states, only: apart, separation
+  use kz_dynamics_states, only: angle_difference, separation
   implicit none
   private
   public :: covariant_map_t, make_covariant_map, spread, largest_error
@@ -146,7 +146,7 @@ contains
     end associate
     do i = 1, RIM
       angle = 2*PI*i/RIM
-      u(i) = apart(self%u(lane) + DEVIATIONS*along*cos(angle)/PI, 0.0_dp)
+      u(i) = angle_difference(self%u(lane) + DEVIATIONS*along*cos(angle)/PI, 0.0_dp)
       v(i) = self%v(lane) + DEVIATIONS*(slant*cos(angle) + across*sin(angle))
     end do
     call captors(self%regions, self%attractors, RIM, u, v, owner)

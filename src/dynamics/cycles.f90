@@ -3,7 +3,7 @@ module kz_dynamics_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_dynamics_newton, only: newton, minimal_period, eigenvalues
-  use kz_dynamics_states, only: apart, same_state, rounded
+  use kz_dynamics_states, only: angle_difference, same_state, rounded
   implicit none
   private
   public :: attractor_t, close_cycle, polish_cycle, orbit_of, mirror_image, listed_from_lowest
@@ -121,7 +121,7 @@ contains
     half = n/2
     cycle%symmetric = same_state(cycle%u(1), cycle%v(1), -cycle%u(half + 1), -cycle%v(half + 1))
     if (.not. cycle%symmetric) return
-    cycle%u(:half) = apart(cycle%u(:half) - 0.5_dp*apart(cycle%u(:half), -cycle%u(half + 1:)), 0.0_dp)
+    cycle%u(:half) = angle_difference(cycle%u(:half) - 0.5_dp*angle_difference(cycle%u(:half), -cycle%u(half + 1:)), 0.0_dp)
     cycle%v(:half) = 0.5_dp*(cycle%v(:half) - cycle%v(half + 1:))
     cycle%u(half + 1:) = -cycle%u(:half)
     cycle%v(half + 1:) = -cycle%v(:half)

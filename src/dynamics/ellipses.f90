@@ -7,7 +7,7 @@ module kz_dynamics_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_states, only: apart
+  use kz_dynamics_states, only: angle_difference
   implicit none
   private
   public :: find_ellipses, in_ellipse
@@ -48,14 +48,14 @@ contains
     logical :: inside
     real(dp) :: du, dv
 
-    du = apart(u, attractor%u(j))
+    du = angle_difference(u, attractor%u(j))
     dv = v - attractor%v(j)
     inside = attractor%form(1, j)*du**2 + 2*attractor%form(2, j)*du*dv + attractor%form(3, j)*dv**2 < 1 &
              .and. attractor%form(1, j) > 0
   end function in_ellipse
 
-  !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking shows
-  !> above rounding and above the distance by which the map's own cycle misses the fine one.
+  !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking
+  !> shows above rounding and above the distance by which the map's own cycle misses the fine one.
   function ellipse(flow, fine, attractor, j, others) result(form)
     class(flow_t), intent(inout) :: flow
     class(flow_t), intent(inout) :: fine
@@ -90,8 +90,8 @@ contains
   end function ellipse
 
   !> Distance, in the norm of the ellipse, from strobe point j to the nearest one of another attractor, its mirror image included.
-  !> An ellipse that reaches so far is none: the scene's map has another motion there than the fine one. Nor is one whose first ring
-  !> is not small against it: which of the two an orbit ends at would be open.
+  !> An ellipse that reaches so far is none: the scene's map has another motion there than the fine one. Nor is one whose first
+  !> ring is not small against it: which of the two an orbit ends at would be open.
   pure function clearance(attractor, j, inverse, others) result(distance)
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
@@ -116,7 +116,7 @@ contains
 
       shortest = huge(1.0_dp)
       do i = 1, size(u)
-        shortest = min(shortest, norm2(matmul(inverse, [PI*apart(u(i), attractor%u(j)), v(i) - attractor%v(j)])))
+        shortest = min(shortest, norm2(matmul(inverse, [PI*angle_difference(u(i), attractor%u(j)), v(i) - attractor%v(j)])))
       end do
     end function to_points
 
@@ -170,7 +170,7 @@ contains
     bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
     inside = .true.
     do i = 1, WIDTH
-      x = [PI*apart(flow%u(i), attractor%u(j)), flow%v(i) - attractor%v(j)]
+      x = [PI*angle_difference(flow%u(i), attractor%u(j)), flow%v(i) - attractor%v(j)]
       inside = inside .and. norm2(matmul(inverse, x)) < bound
     end do
   end function carried_inside

@@ -4,7 +4,7 @@ module kz_dynamics_features
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_tables, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_states, only: apart
+  use kz_dynamics_states, only: angle_difference
   implicit none
   private
   public :: find_features, SAMPLES
@@ -16,9 +16,9 @@ module kz_dynamics_features
 contains
 
   !> Fills mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic one that starts at (u, v).
-  subroutine find_features(apart_flow, pendulum, attractor, u, v, periods)
-    !> a fine flow whose steps are not joined
-    class(flow_t), intent(inout) :: apart_flow
+  subroutine find_features(sampling_flow, pendulum, attractor, u, v, periods)
+    !> a fine flow whose steps are not fused
+    class(flow_t), intent(inout) :: sampling_flow
     type(pendulum_t), intent(in) :: pendulum
     type(attractor_t), intent(inout) :: attractor
     real(dp), intent(in) :: u
@@ -29,18 +29,18 @@ contains
     integer :: i
 
     allocate (angle(0:periods*SAMPLES), velocity(0:periods*SAMPLES))
-    call apart_flow%put(1, u, v)
+    call sampling_flow%put(1, u, v)
     angle(0) = u
     velocity(0) = v
     do i = 0, periods - 1
-      turns = apart_flow%turns(1)
-      call apart_flow%sample(SAMPLES, angle(i*SAMPLES + 1:(i + 1)*SAMPLES), velocity(i*SAMPLES + 1:(i + 1)*SAMPLES))
+      turns = sampling_flow%turns(1)
+      call sampling_flow%sample(SAMPLES, angle(i*SAMPLES + 1:(i + 1)*SAMPLES), velocity(i*SAMPLES + 1:(i + 1)*SAMPLES))
       angle(i*SAMPLES + 1:(i + 1)*SAMPLES) = angle(i*SAMPLES + 1:(i + 1)*SAMPLES) + 2*turns
     end do
     attractor%mean = sum(angle(1:))/(periods*SAMPLES)
     attractor%mean_velocity = PI*(angle(periods*SAMPLES) - angle(0))/(2*PI*periods)
     call place(attractor, pendulum, angle, velocity)
-    attractor%mean = apart(attractor%mean, 0.0_dp)
+    attractor%mean = angle_difference(attractor%mean, 0.0_dp)
   end subroutine find_features
 
   !> Centre: down or inverted where the motion stays within pi of it and its mean within pi/4.

@@ -7,7 +7,7 @@ module kz_dynamics_hybrid_map
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_labels, only: follow, DOUBTFUL
   use kz_dynamics_regions, only: regions_t
-  use kz_dynamics_states, only: apart, sheared
+  use kz_dynamics_states, only: angle_difference, sheared
   use kz_dynamics_tables, only: table_t, table_map_t, make_table_map, place_t, locate, displace
   implicit none
   private
@@ -46,7 +46,7 @@ contains
       do first = 0, n_blocks(1) - 1, WIDTH
         n = min(WIDTH, n_blocks(1) - first)
         do lane = 1, n
-          u = apart(2*middle(first + lane - 1)/map%table%n_circle, sheared(0.0_dp, v))
+          u = angle_difference(2*middle(first + lane - 1)/map%table%n_circle, sheared(0.0_dp, v))
           call flow%put(lane, u, v)
           call map%put(lane, u, v)
         end do
@@ -54,7 +54,7 @@ contains
         call map%advance(n)
         do lane = 1, n
           defect(2, first + lane - 1, j) = map%v(lane) - flow%v(lane)
-          defect(1, first + lane - 1, j) = sheared(apart(map%u(lane), flow%u(lane)), defect(2, first + lane - 1, j))
+          defect(1, first + lane - 1, j) = sheared(angle_difference(map%u(lane), flow%u(lane)), defect(2, first + lane - 1, j))
         end do
       end do
     end do

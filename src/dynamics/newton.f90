@@ -2,7 +2,7 @@
 module kz_dynamics_newton
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_dynamics_states, only: apart, same_state
+  use kz_dynamics_states, only: angle_difference, same_state
   implicit none
   private
   public :: newton, n_periods, solved, minimal_period, eigenvalues
@@ -45,15 +45,15 @@ contains
       if (size_now < 1e-15_dp) exit
       size_before = size_now
     end do
-    x(1) = apart(x(1), 0.0_dp)
+    x(1) = angle_difference(x(1), 0.0_dp)
     if (size_now >= SMALL) return
     blurred = max(size_now, uncertainty(flow, n, x, matrix)) >= PLACED
     found = .not. blurred
   end subroutine newton
 
   !> How far x may lie from the fixed point of the n-period map, rad: so far from x ends Newton's method that starts a few
-  !> roundings beside it. Near a bifurcation, where matrix - 1 is nearly singular, the rounding of F^n is amplified by the inverse,
-  !> and by chance any state there comes back to the last bit: Newton's own last step says nothing.
+  !> roundings beside it. Near a bifurcation, where matrix - 1 is nearly singular, the rounding of F^n is amplified by the
+  !> inverse, and by chance any state there comes back to the last bit: Newton's own last step says nothing.
   function uncertainty(flow, n, x, matrix) result(farthest)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: n
@@ -74,7 +74,7 @@ contains
     end do
     farthest = 0
     do i = 1, BESIDE
-      residual = [PI*apart(flow%u(i), start(1, i)), flow%v(i) - start(2, i)]
+      residual = [PI*angle_difference(flow%u(i), start(1, i)), flow%v(i) - start(2, i)]
       farthest = max(farthest, norm2([PI, 1.0_dp]*(start(:, i) - x) - solved(matrix, residual)))
     end do
   end function uncertainty
@@ -94,7 +94,7 @@ contains
     do i = 1, n
       call flow%advance_tangent(1, tangent)
     end do
-    residual = [PI*apart(flow%u(1), x(1)), flow%v(1) - x(2)]
+    residual = [PI*angle_difference(flow%u(1), x(1)), flow%v(1) - x(2)]
     matrix = tangent(:, :, 1)
   end subroutine n_periods
 

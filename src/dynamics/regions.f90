@@ -1,10 +1,10 @@
-!> Where an orbit is known to be trapped: a grid of cells over the half plane of sheared angles 0 .. pi, each owned by an attractor,
-!> touched by trapping ellipses, or open.
+!> Where an orbit is known to be trapped: a grid of cells over the half plane of sheared angles 0 .. pi, each owned by an
+!> attractor, touched by trapping ellipses, or open.
 module kz_dynamics_regions
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_ellipses, only: in_ellipse
-  use kz_dynamics_states, only: apart, sheared
+  use kz_dynamics_states, only: angle_difference, sheared
   implicit none
   private
   public :: regions_t, make_regions, draw_attractors, captors, ellipse_captor, fold_cell, cover_cell, coverer
@@ -118,7 +118,7 @@ contains
     half_v = sqrt(form(1)/(form(1)*form(3) - form(2)**2))
     per_u = 0.5_dp*regions%n_circle
     per_v = regions%n_velocity/(2*regions%top)
-    u = apart(sheared(attractor%u(j), attractor%v(j)), 0.0_dp) + turn
+    u = angle_difference(sheared(attractor%u(j), attractor%v(j)), 0.0_dp) + turn
     v = attractor%v(j)
     do l = max(0, floor((v - half_v + regions%top)*per_v)), &
            min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))

@@ -17,9 +17,9 @@ module kz_dynamics_search
   type :: search_t
     type(pendulum_t) :: pendulum
     integer :: max_period = 48
-    class(flow_t), allocatable :: flow  !< the scene's map
-    class(flow_t), allocatable :: fine  !< the map of published values
-    class(flow_t), allocatable :: apart !< the same with its steps apart
+    class(flow_t), allocatable :: flow !< the scene's map
+    class(flow_t), allocatable :: fine !< the map of published values
+    class(flow_t), allocatable :: sampling_flow !< the same with separate steps, for samples within a period
   end type search_t
 
   !> Newton is tried for so many recurrences of a state, the closest first,
@@ -155,7 +155,7 @@ contains
 
     if (attractor%period > 0) then
       call find_ellipses(search%flow, search%fine, attractor, attractors)
-      call find_features(search%apart, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
+      call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if
     attractor%mirror = size(attractors) + 1
     if (.not. attractor%symmetric) attractor%mirror = size(attractors) + 2

@@ -1,10 +1,10 @@
-!> States of the stroboscopic map, (half-turns, rad per drive radian): how far they are apart, when two are one.
+!> States of the stroboscopic map, (half-turns, rad per drive radian): their distance, and when two count as one.
 module kz_dynamics_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: PI
   implicit none
   private
-  public :: apart, separation, same_state, sheared, rounded
+  public :: angle_difference, separation, same_state, sheared, rounded
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
@@ -12,14 +12,14 @@ module kz_dynamics_states
 contains
 
   !> Shortest difference of two angles in half-turns, in [-1, 1].
-  elemental function apart(a, b) result(d)
+  elemental function angle_difference(a, b) result(d)
     real(dp), intent(in) :: a
     real(dp), intent(in) :: b
     real(dp) :: d
 
     d = a - b
     d = d - 2*anint(0.5_dp*d)
-  end function apart
+  end function angle_difference
 
   !> From (u1, v1) to (u2, v2), rad and rad per drive radian together.
   elemental function separation(u1, v1, u2, v2) result(d)
@@ -29,7 +29,7 @@ contains
     real(dp), intent(in) :: v2
     real(dp) :: d
 
-    d = hypot(PI*apart(u1, u2), v1 - v2)
+    d = hypot(PI*angle_difference(u1, u2), v1 - v2)
   end function separation
 
   !> Are (u1, v1) and (u2, v2) one state?
@@ -40,11 +40,12 @@ contains
     real(dp), intent(in) :: v2
     logical :: one
 
-    one = abs(apart(u1, u2)) + abs(v1 - v2) < SAME
+    one = abs(angle_difference(u1, u2)) + abs(v1 - v2) < SAME
   end function same_state
 
-  !> The angle at mid-period of a free flight from (u, v), in half-turns, not wrapped. The map table and the regions are grids over it
-  !> and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs 2**order less.
+  !> The angle at mid-period of a free flight from (u, v), in half-turns, not wrapped. The map table and the regions are grids
+  !> over it and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs
+  !> 2**order less.
   elemental function sheared(u, v) result(w)
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v

@@ -14,8 +14,8 @@ module kz_kernel_api
   private
 
   type :: plan_t
-    class(flow_t), allocatable :: joined
-    class(flow_t), allocatable :: apart
+    class(flow_t), allocatable :: fused
+    class(flow_t), allocatable :: unfused
   end type plan_t
 
   type, bind(C) :: scheme_row_t
@@ -65,8 +65,8 @@ contains
     handle = c_null_ptr
     allocate (plan, stat=status)
     if (status /= 0) return
-    call make_flow(pendulum, numerics, .true., plan%joined)
-    call make_flow(pendulum, sampling_numerics(pendulum, numerics), .false., plan%apart)
+    call make_flow(pendulum, numerics, .true., plan%fused)
+    call make_flow(pendulum, sampling_numerics(pendulum, numerics), .false., plan%unfused)
     handle = c_loc(plan)
   end function plan_create
 
@@ -91,7 +91,7 @@ contains
     integer :: lanes
 
     call c_f_pointer(handle, plan)
-    allocate (flow, source=plan%joined)
+    allocate (flow, source=plan%fused)
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
       call load(flow, lanes, theta(first:), velocity(first:))
@@ -119,7 +119,7 @@ contains
     integer :: lanes, i
 
     call c_f_pointer(handle, plan)
-    allocate (flow, source=plan%joined)
+    allocate (flow, source=plan%fused)
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
       call load(flow, lanes, theta(first:), velocity(first:))
@@ -178,7 +178,7 @@ contains
     integer(c_int64_t) :: period, first, last, turns
 
     call c_f_pointer(handle, plan)
-    allocate (flow, source=plan%apart)
+    allocate (flow, source=plan%unfused)
     call flow%put(1, theta/PI, velocity)
     theta_out(0) = theta
     velocity_out(0) = velocity

@@ -45,12 +45,12 @@ contains
                                 *((fine%steps_per_period + numerics%steps_per_period - 1)/numerics%steps_per_period)
   end function sampling_numerics
 
-  !> The map of one drive period. Steps that are joined are faster; sampling within the period needs them apart. (A subroutine:
-  !> gfortran 12 does not free what a polymorphic function returns.)
-  recursive subroutine make_flow(pendulum, numerics, joined, flow)
+  !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
+  !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
+  recursive subroutine make_flow(pendulum, numerics, fused, flow)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
-    logical, intent(in) :: joined
+    logical, intent(in) :: fused
     class(flow_t), allocatable, intent(out) :: flow
     type(period_t) :: period
     type(series_t), allocatable :: series
@@ -61,7 +61,7 @@ contains
       call make_processed_flow(pendulum, series, numerics, flow)
       return
     end if
-    call make_period(pendulum, numerics, joined, period)
+    call make_period(pendulum, numerics, fused, period)
     select case (numerics%precision)
     case (SINGLE)
       call make_tile_r32(period, flow)

@@ -33,7 +33,7 @@ module kz_kernel_tables
   type :: period_t
     logical :: split
     integer :: n_steps
-    !> the last stage of every step (n_steps); of use where the steps are not joined
+    !> the last stage of every step (n_steps); of use where the steps are not fused
     integer, allocatable :: step_end(:)
     real(qp), allocatable :: drift(:)
     real(qp), allocatable :: decay(:)
@@ -44,11 +44,12 @@ module kz_kernel_tables
 
 contains
 
-  !> The tables of one period. `joined` merges neighbouring entries of neighbouring steps; without it every step stands alone.
-  subroutine make_period(pendulum, numerics, joined, period)
+  !> The tables of one period. `fused` merges neighbouring entries of neighbouring steps; without it every step is complete in
+  !> itself.
+  subroutine make_period(pendulum, numerics, fused, period)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
-    logical, intent(in) :: joined
+    logical, intent(in) :: fused
     type(period_t), intent(out) :: period
 
     period%n_steps = numerics%steps_per_period
@@ -56,7 +57,7 @@ contains
     period%step = 2*PI/period%n_steps
     period%split = SCHEMES(numerics%scheme + 1)%form /= RUNGE_KUTTA
     if (period%split) then
-      call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), joined)
+      call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), fused)
     else
       call rk4_tables(period, pendulum)
     end if
@@ -73,12 +74,13 @@ contains
     end do
   end subroutine rk4_tables
 
-  !> Walks through all entries of all steps. Joined, a kick that follows a kick adds to it; else every step ends for itself.
-  subroutine split_tables(period, pendulum, stages, joined)
+  !> Walks through all entries of all steps. Fused: a kick that follows a kick is added to it; else every step is complete in
+  !> itself.
+  subroutine split_tables(period, pendulum, stages, fused)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stage_t), intent(in) :: stages(:)
-    logical, intent(in) :: joined
+    logical, intent(in) :: fused
     real(qp) :: shift, clock, kick
     integer :: n, i, s
 
@@ -95,13 +97,13 @@ contains
           cycle
         end if
         kick = stages(s)%share*period%step*force(pendulum, (i + clock)/period%n_steps)
-        if (joined .and. n > 0 .and. s == 1) then
+        if (fused .and. n > 0 .and. s == 1) then
           period%kick(n) = period%kick(n) + kick
         else
           call append(kick)
         end if
       end do
-      if (.not. joined .and. shift > 0) call append(0.0_qp)
+      if (.not. fused .and. shift > 0) call append(0.0_qp)
       period%step_end(i + 1) = n
     end do
     period%kick = period%kick(:n)

@@ -66,8 +66,8 @@ int kz_end_kind(const kz_branch_point *end) {
   if (hypot(re, end->multiplier_im[0]) < 1 - NEUTRAL) return KZ_END_NOT_LOCATED;
   if (end->multiplier_im[0] != 0) return KZ_END_NEIMARK_SACKER;
   if (re < 0) return KZ_END_PERIOD_DOUBLING;
-  if (end->symmetric ? end->half_re[0] < 0 : end->mirror_apart < MERGING) return KZ_END_SYMMETRY_BREAKING;
-  return end->halves_apart < MERGING ? KZ_END_PERIOD_DOUBLING : KZ_END_FOLD;
+  if (end->symmetric ? end->half_re[0] < 0 : end->mirror_distance < MERGING) return KZ_END_SYMMETRY_BREAKING;
+  return end->halves_distance < MERGING ? KZ_END_PERIOD_DOUBLING : KZ_END_FOLD;
 }
 
 /* 1 + trace + det: the characteristic polynomial at -1 of the one-period map about inverted. NaN without a pendulum. */

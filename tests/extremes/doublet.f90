@@ -1,4 +1,5 @@
-!> A made-up map with two attracting fixed points, mirror images so far apart, and a saddle between them: dynamics on it for tests.
+!> A made-up map with two attracting fixed points, mirror images so far apart, and a saddle between them: dynamics on it for
+!> tests.
 module kz_test_doublet
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_loc
   use kz_kernel_map, only: flow_t, WIDTH, PI
@@ -30,7 +31,7 @@ contains
     allocate (d%flow, source=doublet_t(half=apart/2))
     allocate (d%search%flow, source=d%flow)
     allocate (d%search%fine, source=d%flow)
-    allocate (d%search%apart, source=d%flow)
+    allocate (d%search%sampling_flow, source=d%flow)
     allocate (d%attractors(0))
     handle = c_loc(d)
   end function create

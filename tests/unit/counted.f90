@@ -21,8 +21,8 @@ module kz_test_counted
 
 contains
 
-  !> Periods that Newton's method takes to look for cycles of up to 48 periods from WIDTH orbits that have run for `settle` periods;
-  !> `known` = the attractors that it finds.
+  !> Periods that Newton's method takes to look for cycles of up to 48 periods from WIDTH orbits that have run for `settle`
+  !> periods; `known` = the attractors that it finds.
   function newton_periods(pendulum, settle, closeness, known) bind(C, name='kz_test_newton_periods') result(periods)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int64_t), value :: settle
@@ -39,7 +39,7 @@ contains
 
     search%pendulum = pendulum
     call make_flow(pendulum, NUMERICS, .true., search%flow)
-    call make_flow(pendulum, NUMERICS, .false., search%apart)
+    call make_flow(pendulum, NUMERICS, .false., search%sampling_flow)
     allocate (fine)
     call make_flow(pendulum, NUMERICS, .true., fine%inner)
     call move_alloc(fine, search%fine)
