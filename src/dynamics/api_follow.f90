@@ -3,11 +3,11 @@ module kz_dynamics_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_kernel_map, only: map_t
   use kz_kernel_plan, only: make_flow, DOUBLE
-  use kz_kernel_tables, only: numerics_t
+  use kz_kernel_step_table, only: numerics_t
   use kz_dynamics_covariance, only: covariant_map_t, make_covariant_map
   use kz_dynamics_handle, only: dynamics_t, of_handle
   use kz_dynamics_labels, only: follow
-  use kz_dynamics_tables, only: table_map_t, make_table_map
+  use kz_dynamics_map_table, only: table_map_t, make_table_map
   use kz_dynamics_hybrid_map, only: hybrid_map_t, measure_defects, make_hybrid_map, follow_hybrid_map
   use kz_dynamics_reference_map, only: reference_map_t, make_reference_map
   implicit none

@@ -3,7 +3,7 @@ module kz_dynamics_branches
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
-  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_step_table, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t, orbit_of
   use kz_dynamics_newton, only: eigenvalues, n_periods, solved, minimal_period
   use kz_dynamics_features, only: find_features

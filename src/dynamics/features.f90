@@ -2,7 +2,7 @@
 module kz_dynamics_features
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, PI
-  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_step_table, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_states, only: angle_difference
   implicit none

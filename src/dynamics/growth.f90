@@ -10,7 +10,7 @@ module kz_dynamics_growth
   use kz_dynamics_images, only: image_t, cell_image, extent
   use kz_dynamics_regions, only: regions_t, fold_cell
   use kz_dynamics_states, only: sheared
-  use kz_dynamics_tables, only: table_t, table_map_t, fill_ghosts
+  use kz_dynamics_map_table, only: table_t, table_map_t, fill_ghosts
   implicit none
   private
   public :: make_later, grow_regions

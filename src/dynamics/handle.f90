@@ -2,11 +2,11 @@
 module kz_dynamics_handle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
   use kz_kernel_map, only: flow_t
-  use kz_kernel_tables, only: numerics_t
+  use kz_kernel_step_table, only: numerics_t
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_regions, only: regions_t
   use kz_dynamics_search, only: search_t
-  use kz_dynamics_tables, only: table_t
+  use kz_dynamics_map_table, only: table_t
   implicit none
   private
   public :: dynamics_t, of_handle

@@ -8,7 +8,7 @@ module kz_dynamics_hybrid_map
   use kz_dynamics_labels, only: follow, DOUBTFUL
   use kz_dynamics_regions, only: regions_t
   use kz_dynamics_states, only: angle_difference, sheared
-  use kz_dynamics_tables, only: table_t, table_map_t, make_table_map, place_t, locate, displace
+  use kz_dynamics_map_table, only: table_t, table_map_t, make_table_map, place_t, locate, displace
   implicit none
   private
   public :: measure_defects, hybrid_map_t, make_hybrid_map, follow_hybrid_map

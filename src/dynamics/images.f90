@@ -2,7 +2,7 @@
 !> bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell.
 module kz_dynamics_images
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_dynamics_tables, only: table_t
+  use kz_dynamics_map_table, only: table_t
   implicit none
   private
   public :: image_t, cell_image, extent

@@ -2,7 +2,7 @@
 module kz_dynamics_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
-  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_step_table, only: pendulum_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
   private

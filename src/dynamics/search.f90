@@ -2,7 +2,7 @@
 module kz_dynamics_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, PI
-  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_step_table, only: pendulum_t
   use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
   use kz_dynamics_ellipses, only: find_ellipses
   use kz_dynamics_newton, only: n_periods, eigenvalues

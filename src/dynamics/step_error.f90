@@ -5,7 +5,7 @@ module kz_dynamics_step_error
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow, DOUBLE
-  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_dynamics_states, only: separation
   implicit none
   private

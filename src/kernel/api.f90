@@ -5,7 +5,7 @@ module kz_kernel_api
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow, sampling_numerics, SINGLE, DOUBLE
   use kz_kernel_schemes, only: SCHEMES
-  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_kernel_r32, only: sine_r32 => sine
   use kz_kernel_r64, only: sine_r64 => sine
   use kz_kernel_r128, only: sine_r128 => sine

@@ -5,7 +5,7 @@ module kz_kernel_plan
   use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
                                         MOST_DRIFTS, MOST_KICKS
   use kz_kernel_schemes, only: SCHEMES, PROCESSED
-  use kz_kernel_tables, only: pendulum_t, numerics_t, period_t, make_period
+  use kz_kernel_step_table, only: pendulum_t, numerics_t, period_t, make_period
   use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
   use kz_kernel_r64, only: make_tile_r64 => make_tile, make_processed_r64 => make_processed_tile
   use kz_kernel_r128, only: make_tile_r128 => make_tile, make_processed_r128 => make_processed_tile

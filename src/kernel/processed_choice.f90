@@ -1,5 +1,5 @@
-!> The cheapest processed splitting that carries a pendulum: the error of one period is measured against quad-precision Taylor series,
-!> never estimated.
+!> The cheapest processed splitting that carries a pendulum: the error of one period is measured against quad-precision Taylor
+!> series, never estimated.
 module kz_kernel_processed_choice
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
@@ -7,7 +7,7 @@ module kz_kernel_processed_choice
   use kz_kernel_plan, only: make_processed_flow, QUAD
   use kz_kernel_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_kernel_schemes, only: PROCESSED_ROW
-  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period
   implicit none
   private
@@ -118,8 +118,8 @@ contains
     if (.not. error <= huge(error)) error = huge(error)
   end function measure
 
-  !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, tells how
-  !> many steps the method needs at least.
+  !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, tells
+  !> how many steps the method needs at least.
   subroutine climb(pendulum, series, probes, tolerance, numerics, error)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
@@ -166,8 +166,8 @@ contains
     n = numerics%drift_terms + numerics%kick_terms + OTHER_OPERATIONS
   end function operations
 
-  !> The fewest steps that reach the tolerance, found from the order; more than `most`, or where more steps no longer help: the error
-  !> comes back as above the tolerance.
+  !> The fewest steps that reach the tolerance, found from the order; more than `most`, or where more steps no longer help: the
+  !> error comes back as above the tolerance.
   subroutine climb_steps(pendulum, series, probes, tolerance, fewest, most, numerics, error)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series

@@ -5,14 +5,15 @@ module kz_kernel_processed_tables
   use, intrinsic :: iso_fortran_env, only: real64, real128
   use kz_kernel_processed_series_r64, only: series_r64_t => series_t, make_series_r64 => make_series
   use kz_kernel_processed_series_r128, only: series_t, make_series, ORDER, HARMONICS
-  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_step_table, only: pendulum_t
   implicit none
   private
   public :: series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS
 
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
-  !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in single, double and quad precision.
+  !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in single, double and quad
+  !> precision.
   integer, parameter, public :: MOST_DRIFTS(0:2) = [2, 4, ORDER/2 - 1]
   integer, parameter, public :: MOST_KICKS(0:2) = [7, 11, 22]
   !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
@@ -40,8 +41,8 @@ module kz_kernel_processed_tables
 
 contains
 
-  !> The series of a pendulum, in quad precision or (a hundredth of the time) in double: then each coefficient is right to 1e-15 of the
-  !> force itself.
+  !> The series of a pendulum, in quad precision or (a hundredth of the time) in double: then each coefficient is right to 1e-15
+  !> of the force itself.
   subroutine make_processed_series(pendulum, in_quad, series)
     type(pendulum_t), intent(in) :: pendulum
     logical, intent(in) :: in_quad
@@ -143,8 +144,8 @@ contains
     end do
   end function kick_harmonics
 
-  !> sin(pi j r)/(r (1 - r**2)) as polynomials in r**2 of n coefficients, interpolated at the Chebyshev nodes of [0, 1]: the kick is 0
-  !> at the two rest positions, exactly.
+  !> sin(pi j r)/(r (1 - r**2)) as polynomials in r**2 of n coefficients, interpolated at the Chebyshev nodes of [0, 1]: the
+  !> kick is 0 at the two rest positions, exactly.
   pure function harmonic_polynomials(n) result(polynomial)
     integer, intent(in) :: n
     real(qp) :: polynomial(HARMONICS, n)

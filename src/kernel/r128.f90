@@ -5,7 +5,7 @@ module kz_kernel_r128
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH
   use kz_kernel_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
-  use kz_kernel_tables, only: period_t, INVERSE_PI_QUAD
+  use kz_kernel_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
   private
   public :: make_tile, make_processed_tile, sine

@@ -1,7 +1,7 @@
 !> The C interface of the quad-precision reference: include/kapitza/reference.h. Quads stay inside, doubles come out.
 module kz_kernel_reference
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
-  use kz_kernel_tables, only: pendulum_t
+  use kz_kernel_step_table, only: pendulum_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
   private

@@ -3,7 +3,7 @@ module kz_test_counted
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, WIDTH
   use kz_kernel_plan, only: make_flow, DOUBLE
-  use kz_kernel_tables, only: pendulum_t, numerics_t
+  use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_search, only: search_t, find_cycle
   implicit none

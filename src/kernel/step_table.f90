@@ -1,5 +1,5 @@
 !> One drive period of a pendulum as a list of drifts and kicks, in quad precision; each kind rounds it to its own.
-module kz_kernel_tables
+module kz_kernel_step_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_kernel_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
@@ -167,4 +167,4 @@ contains
     f = real(pendulum%k, qp) - pendulum%m*cos(2*PI*turn)
   end function force
 
-end module kz_kernel_tables
+end module kz_kernel_step_table

@@ -2,7 +2,7 @@
 !>
 !> Its angle is that of a free flight at mid-period (`sheared`). The mirror symmetry halves the table: only angles 0 .. pi are
 !> stored; a state is folded there, and its image unfolded.
-module kz_dynamics_tables
+module kz_dynamics_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, WIDTH
   use kz_dynamics_states, only: sheared
@@ -264,4 +264,4 @@ contains
     end select
   end subroutine lagrange
 
-end module kz_dynamics_tables
+end module kz_dynamics_map_table
