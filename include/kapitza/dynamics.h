@@ -31,33 +31,33 @@ void kz_dynamics_outline(kz_dynamics *dynamics, double reach);
 /* Draws the ellipses and covers of new attractors into the regions; over a map table's cells the regions are grown outwards. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
-/* Follows n starts (state [n][2], in and out) by direct integration until each is trapped: owner [n] = attractor, 0 where it
+/* Follows n starts (state [n][2], in and out) by direct integration until each is trapped: label [n] = attractor, 0 where it
  * has not settled; periods [n] = first period inside a trapping region, max_periods where none. */
-void kz_dynamics_follow(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner, int64_t *periods);
+void kz_dynamics_follow(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *label, int64_t *periods);
 /* The same in double precision at most: enough for a search. */
-void kz_dynamics_settle(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner, int64_t *periods);
+void kz_dynamics_settle(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *label, int64_t *periods);
 /* The same by interpolated cell mapping over `points` (2, 4, 6) nodes an axis of the map table. */
 void kz_dynamics_follow_table(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
-                              int32_t *owner, int64_t *periods);
+                              int32_t *label, int64_t *periods);
 
 /* The same by interpolated cell mapping as far as the table's error, carried along with the orbit, is bearable, by integration
  * beyond: integrated [n] = periods that were integrated. */
 void kz_dynamics_follow_hybrid(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
-                               int32_t *owner, int64_t *periods, int64_t *integrated);
+                               int32_t *label, int64_t *periods, int64_t *integrated);
 /* What that needs and does itself, once: the error of the map table all over. */
 void kz_dynamics_measure_table(kz_dynamics *dynamics, int32_t points);
 
 /* kz_dynamics_follow with the error of each orbit beside it, from the last place of its start, its steps and rounding (Fortran:
- * covariance.f90): owner [n] = KZ_DOUBTFUL where that outgrows what a label bears. Any other label, 0 too, is decided: the
+ * covariance.f90): label [n] = KZ_DOUBTFUL where that outgrows what a label bears. Any other label, 0 too, is decided: the
  * errors do not change it. An orbit is trapped once a trapping region holds it with its error. */
 enum { KZ_DOUBTFUL = -1 };
-void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *owner,
+void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *label,
                                    int64_t *periods);
 
 /* kz_dynamics_follow in quad precision, by Taylor series (reference.h) of n_steps steps a period, from start [n][2] in rad and
  * rad per drive radian, both taken as exact. */
 void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
-                                  int32_t *owner, int64_t *periods);
+                                  int32_t *label, int64_t *periods);
 
 /* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
  * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from

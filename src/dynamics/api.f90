@@ -285,7 +285,7 @@ contains
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    share = count(d%regions%owner > 0)/real(size(d%regions%owner), dp)
+    share = count(d%regions%label > 0)/real(size(d%regions%label), dp)
   end function trapped_share
 
   !> Sampled over the speeds of the window and what one period adds, without the table's margin.

@@ -5,7 +5,7 @@ module kz_dynamics_chaos
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_features, only: find_features
-  use kz_dynamics_regions, only: regions_t, captors, cover_cell, COVER
+  use kz_dynamics_regions, only: regions_t, find_regions, cover_cell, COVER
   use kz_dynamics_search, only: search_t, add_with_mirror
   implicit none
   private
@@ -34,7 +34,7 @@ contains
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     type(attractor_t) :: attractor
     integer, allocatable :: visits_of(:)
-    integer :: captor(WIDTH), period, lane
+    integer :: region(WIDTH), period, lane
 
     if (2*PI*search%pendulum%beta*(SETTLE + VISITS) < SHRUNK) return
     if (.not. neighbours_part(search%flow, u, v)) return
@@ -44,8 +44,8 @@ contains
     allocate (visits_of(COVER**2), source=0)
     do period = 1, SETTLE + VISITS
       call search%flow%advance(WIDTH)
-      call captors(regions, attractors, WIDTH, search%flow%u, search%flow%v, captor)
-      if (any(captor > 0)) return
+      call find_regions(regions, attractors, WIDTH, search%flow%u, search%flow%v, region)
+      if (any(region > 0)) return
       if (period <= SETTLE) cycle
       do lane = 1, WIDTH
         call visit(search%flow%u(lane), search%flow%v(lane))

@@ -5,7 +5,7 @@ module kz_dynamics_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_regions, only: regions_t, captors
+  use kz_dynamics_regions, only: regions_t, find_regions
   use kz_dynamics_states, only: angle_difference, separation
   implicit none
   private
@@ -73,7 +73,7 @@ contains
     class(covariant_map_t), intent(inout) :: self
     integer, intent(in) :: n
     real(dp) :: tangent(2, 2, WIDTH), error
-    integer :: captor(WIDTH), lane
+    integer :: region(WIDTH), lane
 
     do lane = 1, n
       tangent(:, :, lane) = reshape([1, 0, 0, 1], [2, 2])
@@ -84,7 +84,7 @@ contains
     self%u(:n) = self%flow%u(:n)
     self%v(:n) = self%flow%v(:n)
     self%turns(:n) = self%flow%turns(:n)
-    call captors(self%regions, self%attractors, n, self%u, self%v, captor)
+    call find_regions(self%regions, self%attractors, n, self%u, self%v, region)
     do lane = 1, n
       error = hypot(separation(self%u(lane), self%v(lane), self%finer%u(lane), self%finer%v(lane)), &
                     rounding(self)*hypot(PI, self%v(lane)))
@@ -93,8 +93,8 @@ contains
       if (.not. largest_error(self%p(:, lane)) <= TOLERABLE) then
         self%doubtful(lane) = .true.
         self%p(:, lane) = 0
-      else if (captor(lane) > 0) then
-        self%straddling(lane) = .not. holds(self, lane, captor(lane))
+      else if (region(lane) > 0) then
+        self%straddling(lane) = .not. holds(self, lane, region(lane))
       end if
     end do
   end subroutine advance
@@ -137,7 +137,7 @@ contains
     integer, intent(in) :: a
     logical :: inside
     real(dp) :: u(RIM), v(RIM), angle, along, across, slant
-    integer :: owner(RIM), i
+    integer :: label(RIM), i
 
     associate (p => self%p(:, lane))
       along = sqrt(p(1))
@@ -149,8 +149,8 @@ contains
       u(i) = angle_difference(self%u(lane) + DEVIATIONS*along*cos(angle)/PI, 0.0_dp)
       v(i) = self%v(lane) + DEVIATIONS*(slant*cos(angle) + across*sin(angle))
     end do
-    call captors(self%regions, self%attractors, RIM, u, v, owner)
-    inside = all(owner == a)
+    call find_regions(self%regions, self%attractors, RIM, u, v, label)
+    inside = all(label == a)
   end function holds
 
 end module kz_dynamics_covariance

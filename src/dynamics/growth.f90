@@ -104,24 +104,24 @@ contains
 
     mirrors(0) = 0
     mirrors(1:) = attractors%mirror
-    allocate (waiting(0:size(regions%owner) - 1), next(0:size(regions%owner) - 1), stack(size(regions%owner)), &
-              progress(0:size(regions%owner) - 1))
+    allocate (waiting(0:size(regions%label) - 1), next(0:size(regions%label) - 1), stack(size(regions%label)), &
+              progress(0:size(regions%label) - 1))
     waiting = NEVER
     n_stack = 0
-    do cell = size(regions%owner) - 1, 0, -1
+    do cell = size(regions%label) - 1, 0, -1
       n_stack = n_stack + 1
       stack(n_stack) = cell
     end do
     do while (n_stack > 0)
       cell = stack(n_stack)
       n_stack = n_stack - 1
-      if (owner_of(cell) > 0) cycle
+      if (label_of(cell) > 0) cycle
       call first_corner(regions, mirrors, table, field, mod(cell, regions%n_theta), cell/regions%n_theta, answer, blocker)
       if (answer /= 0) &
         call ask(regions, attractors, mirrors, cell_image(table, field, mod(cell, regions%n_theta), cell/regions%n_theta), &
                  progress(cell), answer, blocker)
       if (answer > 0) then
-        regions%owner(mod(cell, regions%n_theta), cell/regions%n_theta) = answer
+        regions%label(mod(cell, regions%n_theta), cell/regions%n_theta) = answer
         do while (waiting(cell) /= NEVER)
           n_stack = n_stack + 1
           stack(n_stack) = waiting(cell)
@@ -133,12 +133,12 @@ contains
       end if
     end do
   contains
-    function owner_of(number) result(a)
+    function label_of(number) result(a)
       integer, intent(in) :: number
       integer :: a
 
-      a = regions%owner(mod(number, regions%n_theta), number/regions%n_theta)
-    end function owner_of
+      a = regions%label(mod(number, regions%n_theta), number/regions%n_theta)
+    end function label_of
   end subroutine grow
 
   !> Most cells that must wait are known by the image of their corner of lowest angle and velocity: answer = 0 and blocker = its
@@ -163,7 +163,8 @@ contains
     if (answer == 0) blocker = stored
   end subroutine first_corner
 
-  !> What is known of cell (column, row), any column: answer = its owner, 0 open, -touch; stored = the number of the stored cell.
+  !> What is known of cell (column, row), any column: answer = its label, 0 open, -overlap; stored = the number of the stored
+  !> cell.
   pure subroutine look(regions, mirrors, column, row, answer, stored)
     type(regions_t), intent(in) :: regions
     integer, intent(in) :: mirrors(0:)
@@ -178,11 +179,11 @@ contains
     l = row
     call fold_cell(regions, i, l, mirrored)
     stored = i + regions%n_theta*l
-    answer = regions%owner(i, l)
+    answer = regions%label(i, l)
     if (mirrored .and. answer > 0) answer = mirrors(answer)
   end subroutine look
 
-  !> answer > 0: the attractor that owns the whole image. Else blocker: a stored cell that is open, or NEVER.
+  !> answer > 0: the attractor of the whole image. Else blocker: a stored cell that is open, or NEVER.
   subroutine ask(regions, attractors, mirrors, image, progress, answer, blocker)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
@@ -221,7 +222,7 @@ contains
     end do
   end subroutine ask
 
-  !> Does an ellipse touch the cell of the image's first corner?
+  !> Does an ellipse overlap the cell of the image's first corner?
   function touched(regions, image)
     type(regions_t), intent(in) :: regions
     type(image_t), intent(in) :: image
@@ -232,7 +233,7 @@ contains
     i = floor(image%x(1))
     l = int(image%y(1))
     call fold_cell(regions, i, l, mirrored)
-    touched = regions%owner(i, l) < 0
+    touched = regions%label(i, l) < 0
   end function touched
 
   !> The attractor one of whose ellipses holds the box around the image; 0 = none.
@@ -246,14 +247,14 @@ contains
     i = floor(image%x(1))
     l = int(image%y(1))
     call fold_cell(regions, i, l, mirrored)
-    t = -regions%owner(i, l)
+    t = -regions%label(i, l)
     do while (t > 0)
-      a = regions%touch(t)%attractor
-      if (holds(regions, attractors(a), regions%touch(t)%point, image, mirrored)) then
+      a = regions%overlaps(t)%attractor
+      if (holds(regions, attractors(a), regions%overlaps(t)%point, image, mirrored)) then
         if (mirrored) a = attractors(a)%mirror
         return
       end if
-      t = regions%touch(t)%next
+      t = regions%overlaps(t)%next
     end do
     a = 0
   end function ellipse_around

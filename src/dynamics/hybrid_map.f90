@@ -128,7 +128,7 @@ contains
 
   !> As `follow`, for max_periods at most: with the table while its error is tolerable. integrated(i) = periods of start i that
   !> were integrated instead.
-  subroutine follow_hybrid_map(map, flow, regions, attractors, max_periods, u, v, owner, periods, integrated)
+  subroutine follow_hybrid_map(map, flow, regions, attractors, max_periods, u, v, label, periods, integrated)
     type(hybrid_map_t), intent(inout) :: map
     class(flow_t), intent(inout) :: flow
     type(regions_t), intent(in) :: regions
@@ -136,25 +136,25 @@ contains
     integer(c_int64_t), intent(in) :: max_periods
     real(dp), intent(inout) :: u(:)
     real(dp), intent(inout) :: v(:)
-    integer(c_int32_t), intent(out) :: owner(:)
+    integer(c_int32_t), intent(out) :: label(:)
     integer(c_int64_t), intent(out) :: periods(:)
     integer(c_int64_t), intent(out) :: integrated(:)
     integer(c_int64_t), allocatable :: spent(:)
     integer, allocatable :: open(:)
     integer :: i
 
-    owner = 0
+    label = 0
     periods = 0
     integrated = 0
     allocate (open, source=[(i, i=1, size(u))])
     do while (size(open) > 0)
       spent = max_periods - periods(open)
       call go_on(map)
-      spent = pack(spent, owner(open) == DOUBTFUL)
-      open = pack(open, owner(open) == DOUBTFUL)
+      spent = pack(spent, label(open) == DOUBTFUL)
+      open = pack(open, label(open) == DOUBTFUL)
       call go_on(flow)
       integrated(open) = integrated(open) + spent
-      open = pack(open, owner(open) == 0 .and. periods(open) < max_periods)
+      open = pack(open, label(open) == 0 .and. periods(open) < max_periods)
     end do
   contains
     !> The open starts for `spent` periods at most; a doubtful one stays where it was.
@@ -168,7 +168,7 @@ contains
       y = v(open)
       call follow(with, regions, attractors, x, y, to, spent)
       sure = to /= DOUBTFUL
-      owner(open) = to
+      label(open) = to
       u(open) = merge(x, u(open), sure)
       v(open) = merge(y, v(open), sure)
       periods(open) = periods(open) + merge(spent, 0_c_int64_t, sure)

@@ -3,7 +3,7 @@ module kz_dynamics_labels
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_kernel_map, only: map_t, WIDTH
   use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_regions, only: regions_t, captors, coverer
+  use kz_dynamics_regions, only: regions_t, find_regions, chaos_region
   implicit none
   private
   public :: follow, DOUBTFUL
@@ -22,28 +22,28 @@ module kz_dynamics_labels
 
 contains
 
-  !> Follows start i for periods(i) at most. owner(i) = attractor (from 1) that it ends on, 0 where it has not settled, DOUBTFUL;
+  !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled, DOUBTFUL;
   !> periods(i) becomes its first period inside a trapping region, or the periods followed; (u, v) become the states where the
   !> orbits were left.
-  subroutine follow(map, regions, attractors, u, v, owner, periods)
+  subroutine follow(map, regions, attractors, u, v, label, periods)
     class(map_t), intent(inout) :: map
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     real(dp), intent(inout) :: u(:)
     real(dp), intent(inout) :: v(:)
-    integer(c_int32_t), intent(out) :: owner(:)
+    integer(c_int32_t), intent(out) :: label(:)
     integer(c_int64_t), intent(inout) :: periods(:)
     type(lane_t) :: lanes(WIDTH)
     integer(c_int64_t) :: next
-    integer :: captor(WIDTH), active, lane
+    integer :: region(WIDTH), active, lane
 
-    call captors(regions, attractors, size(u), u, v, owner)
-    where (owner > 0) periods = 0
+    call find_regions(regions, attractors, size(u), u, v, label)
+    where (label > 0) periods = 0
     active = 0
     next = 1
     do
       do while (active < WIDTH .and. next <= size(u))
-        if (owner(next) == 0) then
+        if (label(next) == 0) then
           active = active + 1
           lanes(active) = lane_t(start=next)
           call map%put(active, u(next), v(next))
@@ -52,17 +52,17 @@ contains
       end do
       if (active == 0) return
       call map%advance(active)
-      call captors(regions, attractors, active, map%u, map%v, captor)
+      call find_regions(regions, attractors, active, map%u, map%v, region)
       do lane = active, 1, -1
         lanes(lane)%age = lanes(lane)%age + 1
-        if (map%straddling(lane)) captor(lane) = merge(DOUBTFUL, 0, lanes(lane)%age >= periods(lanes(lane)%start))
-        if (captor(lane) /= 0) then
+        if (map%straddling(lane)) region(lane) = merge(DOUBTFUL, 0, lanes(lane)%age >= periods(lanes(lane)%start))
+        if (region(lane) /= 0) then
           lanes(lane)%guest_of = 0
         else if (size(regions%covered) > 0) then
           call visit(lanes(lane), lane)
         end if
-        if (map%doubtful(lane) .and. lanes(lane)%guest_of == 0) captor(lane) = DOUBTFUL
-        if (captor(lane) == 0 .and. lanes(lane)%age < periods(lanes(lane)%start)) cycle
+        if (map%doubtful(lane) .and. lanes(lane)%guest_of == 0) region(lane) = DOUBTFUL
+        if (region(lane) == 0 .and. lanes(lane)%age < periods(lanes(lane)%start)) cycle
         call leave(lanes(lane), lane)
         call map%move(active, lane)
         lanes(lane) = lanes(active)
@@ -76,11 +76,11 @@ contains
       integer, intent(in) :: at
       integer :: host
 
-      host = coverer(regions, map%u(at), map%v(at))
+      host = chaos_region(regions, map%u(at), map%v(at))
       l%stay = merge(l%stay + 1, 1, host == l%guest_of)
       l%guest_of = host
       if (host == 0 .or. l%stay < STAY) return
-      captor(at) = host
+      region(at) = host
       l%age = l%age - STAY + 1
     end subroutine visit
 
@@ -88,7 +88,7 @@ contains
       type(lane_t), intent(in) :: l
       integer, intent(in) :: at
 
-      owner(l%start) = captor(at)
+      label(l%start) = region(at)
       periods(l%start) = l%age
       u(l%start) = map%u(at)
       v(l%start) = map%v(at)

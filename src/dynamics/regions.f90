@@ -1,5 +1,5 @@
-!> Where an orbit is known to be trapped: a grid of cells over the half plane of sheared angles 0 .. pi, each owned by an
-!> attractor, touched by trapping ellipses, or open.
+!> Where an orbit is known to be trapped: a grid of cells over the half plane of sheared angles 0 .. pi, each labelled with an
+!> attractor, overlapped by trapping ellipses, or open.
 module kz_dynamics_regions
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_dynamics_cycles, only: attractor_t
@@ -7,23 +7,23 @@ module kz_dynamics_regions
   use kz_dynamics_states, only: angle_difference, sheared
   implicit none
   private
-  public :: regions_t, make_regions, draw_attractors, captors, ellipse_captor, fold_cell, cover_cell, coverer
+  public :: regions_t, make_regions, draw_attractors, find_regions, ellipse_at, fold_cell, cover_cell, chaos_region
 
-  !> An ellipse that touches a cell, and the next one.
-  type :: touch_t
+  !> An ellipse that overlaps a cell, and the next one of that cell.
+  type :: ellipse_overlap_t
     integer :: attractor
     integer :: point
     integer :: next
-  end type touch_t
+  end type ellipse_overlap_t
 
   type :: regions_t
     integer :: n_circle = 0   !< cells on the whole circle
     integer :: n_theta = 0    !< cells from 0 to pi
     integer :: n_velocity = 0 !< cells from -top to top
     real(dp) :: top = 0
-    integer, allocatable :: owner(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -touch; 0 open
-    type(touch_t), allocatable :: touch(:)
-    integer :: n_touch = 0
+    integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
+    type(ellipse_overlap_t), allocatable :: overlaps(:)
+    integer :: n_overlaps = 0
     integer :: n_drawn = 0    !< attractors that have been drawn
     integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
   end type regions_t
@@ -47,8 +47,8 @@ contains
     regions%n_theta = (n_circle + 1)/2
     regions%n_velocity = n_velocity
     regions%top = top
-    allocate (regions%owner(0:regions%n_theta - 1, 0:n_velocity - 1), source=0)
-    allocate (regions%touch(64), regions%covered(0))
+    allocate (regions%label(0:regions%n_theta - 1, 0:n_velocity - 1), source=0)
+    allocate (regions%overlaps(64), regions%covered(0))
   end function make_regions
 
   !> Draws the ellipses and covers of the attractors that are new since the last time.
@@ -90,7 +90,7 @@ contains
   end function cover_cell
 
   !> The chaotic attractor whose cover holds (u, v); 0 = none.
-  pure function coverer(regions, u, v) result(a)
+  pure function chaos_region(regions, u, v) result(a)
     type(regions_t), intent(in) :: regions
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
@@ -98,7 +98,7 @@ contains
 
     a = cover_cell(regions, u, v)
     if (a > 0) a = regions%covered(a)
-  end function coverer
+  end function chaos_region
 
   !> Draws the ellipse of strobe point j, moved by `turn` half-turns.
   subroutine draw(regions, attractor, a, j, turn)
@@ -124,10 +124,10 @@ contains
            min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))
       do i = max(0, floor((u - half_u)*per_u)), min(regions%n_theta - 1, floor((u + half_u)*per_u))
         if (within(form, [i/per_u - u, (i + 1)/per_u - u], [l/per_v - regions%top - v, (l + 1)/per_v - regions%top - v])) then
-          regions%owner(i, l) = a
-        else if (regions%owner(i, l) <= 0) then
-          call add_touch(regions, touch_t(a, j, -regions%owner(i, l)))
-          regions%owner(i, l) = -regions%n_touch
+          regions%label(i, l) = a
+        else if (regions%label(i, l) <= 0) then
+          call add_overlap(regions, ellipse_overlap_t(a, j, -regions%label(i, l)))
+          regions%label(i, l) = -regions%n_overlaps
         end if
       end do
     end do
@@ -149,36 +149,36 @@ contains
     end do
   end function within
 
-  subroutine add_touch(regions, touch)
+  subroutine add_overlap(regions, overlap)
     type(regions_t), intent(inout) :: regions
-    type(touch_t), intent(in) :: touch
-    type(touch_t), allocatable :: longer(:)
+    type(ellipse_overlap_t), intent(in) :: overlap
+    type(ellipse_overlap_t), allocatable :: longer(:)
 
-    if (regions%n_touch == size(regions%touch)) then
-      allocate (longer(2*regions%n_touch))
-      longer(:regions%n_touch) = regions%touch
-      call move_alloc(longer, regions%touch)
+    if (regions%n_overlaps == size(regions%overlaps)) then
+      allocate (longer(2*regions%n_overlaps))
+      longer(:regions%n_overlaps) = regions%overlaps
+      call move_alloc(longer, regions%overlaps)
     end if
-    regions%n_touch = regions%n_touch + 1
-    regions%touch(regions%n_touch) = touch
-  end subroutine add_touch
+    regions%n_overlaps = regions%n_overlaps + 1
+    regions%overlaps(regions%n_overlaps) = overlap
+  end subroutine add_overlap
 
-  !> owner(i) = the attractor (from 1) whose trapping region holds (u(i), v(i)), u in [-1, 1]; 0 = none.
-  subroutine captors(regions, attractors, n, u, v, owner)
+  !> label(i) = the attractor (from 1) whose trapping region holds (u(i), v(i)), u in [-1, 1]; 0 = none.
+  subroutine find_regions(regions, attractors, n, u, v, label)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     integer, intent(in) :: n
     real(dp), intent(in) :: u(n)
     real(dp), intent(in) :: v(n)
-    integer, intent(out) :: owner(n)
+    integer, intent(out) :: label(n)
     integer :: i
 
-    call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%owner, n, u, v, owner)
+    call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%label, n, u, v, label)
     do i = 1, n
-      if (owner(i) < 0) owner(i) = captor(regions, attractors, owner(i), u(i), v(i))
-      if (owner(i) > 0 .and. is_mirrored(mid_angle(u(i), v(i)), v(i))) owner(i) = attractors(owner(i))%mirror
+      if (label(i) < 0) label(i) = find_region(regions, attractors, label(i), u(i), v(i))
+      if (label(i) > 0 .and. is_mirrored(mid_angle(u(i), v(i)), v(i))) label(i) = attractors(label(i))%mirror
     end do
-  end subroutine captors
+  end subroutine find_regions
 
   !> What the grid says of the states, folded to the stored half; OUTSIDE beyond its velocities.
   pure subroutine look_up(n_theta, n_velocity, per_u, top, grid, n, u, v, entry)
@@ -210,8 +210,8 @@ contains
     end do
   end subroutine look_up
 
-  !> The attractor that holds (u, v), folded, where the grid's entry is a touch or OUTSIDE.
-  function captor(regions, attractors, entry, u, v) result(a)
+  !> The attractor that holds (u, v), folded, where the grid's entry is an overlap or OUTSIDE.
+  function find_region(regions, attractors, entry, u, v) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     integer, intent(in) :: entry
@@ -222,11 +222,11 @@ contains
 
     fold = merge(-1.0_dp, 1.0_dp, is_mirrored(mid_angle(u, v), v))
     if (entry == OUTSIDE) then
-      a = ellipse_captor(attractors, fold*u, fold*v)
+      a = ellipse_at(attractors, fold*u, fold*v)
     else
-      a = touch_captor(regions, attractors, -entry, fold*u, fold*v)
+      a = overlap_at(regions, attractors, -entry, fold*u, fold*v)
     end if
-  end function captor
+  end function find_region
 
   !> The sheared angle, wrapped to [-1, 1].
   elemental function mid_angle(u, v) result(w)
@@ -248,8 +248,8 @@ contains
     mirrored = .not. (u > 0 .or. (.not. u < 0 .and. v >= 0))
   end function is_mirrored
 
-  !> The first ellipse of the list that begins with touch `first`, and holds (u, v), says whose.
-  function touch_captor(regions, attractors, first, u, v) result(a)
+  !> The first ellipse of the list that begins with overlap `first`, and holds (u, v), says whose.
+  function overlap_at(regions, attractors, first, u, v) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     integer, intent(in) :: first
@@ -259,15 +259,15 @@ contains
 
     t = first
     do while (t > 0)
-      a = regions%touch(t)%attractor
-      if (in_ellipse(attractors(a), regions%touch(t)%point, u, v)) return
-      t = regions%touch(t)%next
+      a = regions%overlaps(t)%attractor
+      if (in_ellipse(attractors(a), regions%overlaps(t)%point, u, v)) return
+      t = regions%overlaps(t)%next
     end do
     a = 0
-  end function touch_captor
+  end function overlap_at
 
   !> The attractor one of whose ellipses holds (u, v), 0 = none: every ellipse is asked.
-  pure function ellipse_captor(attractors, u, v) result(a)
+  pure function ellipse_at(attractors, u, v) result(a)
     type(attractor_t), intent(in) :: attractors(:)
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
@@ -279,7 +279,7 @@ contains
       end do
     end do
     a = 0
-  end function ellipse_captor
+  end function ellipse_at
 
   !> Brings cell (i, l), i any integer, to the stored half; `mirrored` where the stored one is its mirror image.
   pure subroutine fold_cell(regions, i, l, mirrored)

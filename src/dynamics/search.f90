@@ -7,7 +7,7 @@ module kz_dynamics_search
   use kz_dynamics_ellipses, only: find_ellipses
   use kz_dynamics_newton, only: n_periods, eigenvalues
   use kz_dynamics_features, only: find_features
-  use kz_dynamics_regions, only: ellipse_captor
+  use kz_dynamics_regions, only: ellipse_at
   use kz_dynamics_states, only: separation, same_state
   implicit none
   private
@@ -80,7 +80,7 @@ contains
     integer :: tries, n
 
     n = ubound(u, 1)
-    if (ellipse_captor(attractors, u(n), v(n)) > 0) return
+    if (ellipse_at(attractors, u(n), v(n)) > 0) return
     distance = separation(u(1:), v(1:), u(0), v(0))
     do tries = 1, MOST_TRIES
       n = first_of_the_closest(distance)

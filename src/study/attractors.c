@@ -13,7 +13,7 @@ typedef struct {
   const kz_attractors_plan *plan;
   kz_dynamics *dynamics;
   double *state;    /* [starts][2] */
-  int32_t *owner;   /* [starts] */
+  int32_t *label;   /* [starts] */
   int64_t *reached; /* [numbers from 1] */
   int64_t max_periods;
 } finding;
@@ -36,8 +36,8 @@ static kz_status allocate(const kz_scene *scene, finding *s) {
   size_t n = (size_t)scene->attractors.starts;
   s->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
   s->state = malloc(2 * n * sizeof *s->state);
-  s->owner = malloc(n * sizeof *s->owner);
-  if (s->dynamics && s->state && s->owner) return KZ_OK;
+  s->label = malloc(n * sizeof *s->label);
+  if (s->dynamics && s->state && s->label) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
 }
 
@@ -47,10 +47,10 @@ static kz_status discover(kz_team *team, finding *s) {
                       .seed = s->plan->seed,
                       .max_periods = s->max_periods};
   search.reach = kz_dynamics_reach(s->dynamics, &search.window);
-  KZ_TRY(kz_search_window(team, s->dynamics, &search, s->state, s->owner));
+  KZ_TRY(kz_search_window(team, s->dynamics, &search, s->state, s->label));
   s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
   if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
-  for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->owner[i]]++;
+  for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->label[i]]++;
   return KZ_OK;
 }
 
@@ -83,7 +83,7 @@ kz_status kz_attractors_run(const kz_scene *scene, kz_team *team, kz_store *stor
   if (status == KZ_OK && kz_team_rank(team) == 0) status = publish(scene, &s, store, summary);
   if (s.dynamics) kz_dynamics_free(s.dynamics);
   free(s.state);
-  free(s.owner);
+  free(s.label);
   free(s.reached);
   return status;
 }

@@ -27,14 +27,14 @@ enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3, UNDECIDED = 4 };
 /* A cell. */
 typedef struct {
   uint32_t periods;
-  int16_t owner;    /* number of kz_dynamics, 0 = not settled */
+  int16_t label;    /* number of kz_dynamics, 0 = not settled */
   uint8_t evidence; /* FOLLOWED; INTEGRATED in part, because the table's error was too large; UNDECIDED */
 } labelled;
 
 /* Arrays of one tile: too large for the stack. */
 typedef struct {
   double start[2 * PARTS * CELLS], state[2 * PARTS * CELLS];
-  int32_t owner[PARTS * CELLS], to[PARTS * CELLS];
+  int32_t label[PARTS * CELLS], to[PARTS * CELLS];
   int64_t periods[PARTS * CELLS], integrated[PARTS * CELLS], place[PARTS * CELLS];
   bool undecided[PARTS * CELLS];
 } workspace;
@@ -46,7 +46,7 @@ typedef struct {
   kz_search search;      /* of the starts */
   int64_t tile;          /* cells of a tile */
   int64_t total, own;    /* cells of the window; those that are labelled, the others mirror them */
-  int16_t *owner;        /* [own], rank 0 */
+  int16_t *label;        /* [own], rank 0 */
   uint32_t *periods;     /* [own], rank 0 */
   int64_t n_open, *open; /* cells of the present stage; NULL = all own ones */
   uint8_t *evidence;     /* [own], rank 0, as in labelled */
@@ -64,7 +64,7 @@ static void find_undecided(const basin *b, int64_t n) {
     w->place[asked++] = i;
   }
   kz_dynamics_follow(b->dynamics, asked, b->plan->max_periods, w->state, w->to, w->periods);
-  for (int64_t i = 0; i < asked; i++) w->undecided[w->place[i]] = w->to[i] != w->owner[w->place[i]];
+  for (int64_t i = 0; i < asked; i++) w->undecided[w->place[i]] = w->to[i] != w->label[w->place[i]];
 }
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
@@ -75,12 +75,12 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   const int64_t first = tile * b->tile, left = b->n_open - first, n = left < b->tile ? left : b->tile;
   for (int64_t i = 0; i < n; i++) kz_cell_state(plan, b->open ? b->open[first + i] : first + i, w->start + 2 * i);
   memcpy(w->state, w->start, 2 * (size_t)n * sizeof *w->state);
-  kz_follow(b->dynamics, plan->method, plan->interpolation, n, plan->max_periods, w->state, w->owner, w->periods,
+  kz_follow(b->dynamics, plan->method, plan->interpolation, n, plan->max_periods, w->state, w->label, w->periods,
             w->integrated);
   for (int64_t i = 0; i < n; i++) {
-    w->undecided[i] = plan->flag_undecided && w->owner[i] > 0 && w->periods[i] > 0 &&
+    w->undecided[i] = plan->flag_undecided && w->label[i] > 0 && w->periods[i] > 0 &&
                       (w->integrated[i] > 0 || plan->method == KZ_METHOD_DIRECT);
-    out[i].owner = (int16_t)w->owner[i];
+    out[i].label = (int16_t)w->label[i];
     out[i].periods = (uint32_t)w->periods[i];
   }
   if (plan->flag_undecided) find_undecided(b, n);
@@ -106,7 +106,7 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
   if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
   for (int64_t i = 0; status == KZ_OK && records && i < b->n_open; i++) {
     int64_t f = b->open ? b->open[i] : i;
-    b->owner[f] = records[i].owner;
+    b->label[f] = records[i].label;
     b->periods[f] = records[i].periods;
     b->evidence[f] = records[i].evidence;
   }
@@ -117,7 +117,7 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
 /* The cells that have not settled, as the open ones of every rank. */
 static kz_status open_unsettled(basin *b, kz_team *team) {
   int64_t n = 0;
-  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += b->owner[f] == 0;
+  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += b->label[f] == 0;
   KZ_TRY(kz_team_broadcast(team, &n, sizeof n));
   free(b->open);
   b->open = malloc((size_t)n * sizeof *b->open + 1);
@@ -125,7 +125,7 @@ static kz_status open_unsettled(basin *b, kz_team *team) {
   KZ_TRY(kz_team_agree(team, b->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)n)));
   n = 0;
   for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++)
-    if (b->owner[f] == 0) b->open[n++] = f;
+    if (b->label[f] == 0) b->open[n++] = f;
   return kz_team_broadcast(team, b->open, (size_t)b->n_open * sizeof *b->open);
 }
 
@@ -134,18 +134,18 @@ static kz_status discover(basin *b, kz_team *team, bool again) {
   const kz_basin_plan *plan = b->plan;
   const int64_t n = again && b->n_open < plan->starts ? b->n_open : plan->starts;
   double *state = malloc((size_t)n * 2 * sizeof *state);
-  int32_t *owner = malloc((size_t)n * sizeof *owner);
+  int32_t *label = malloc((size_t)n * sizeof *label);
   kz_status status =
-      kz_team_agree(team, state && owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+      kz_team_agree(team, state && label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cell_state(plan, b->open[i * b->n_open / n], state + 2 * i);
   if (status == KZ_OK)
-    status = again ? kz_discover(team, b->dynamics, plan->max_periods, n, state, owner)
-                   : kz_search_window(team, b->dynamics, &b->search, state, owner);
+    status = again ? kz_discover(team, b->dynamics, plan->max_periods, n, state, label)
+                   : kz_search_window(team, b->dynamics, &b->search, state, label);
   if (status == KZ_OK && kz_dynamics_count(b->dynamics) > INT16_MAX)
     status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) b->reached[owner[i]]++;
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) b->reached[label[i]]++;
   free(state);
-  free(owner);
+  free(label);
   return status;
 }
 
@@ -174,22 +174,22 @@ static kz_status model(basin *b, kz_team *team) {
 static kz_status allocate(basin *b, bool leads) {
   b->work = malloc(sizeof *b->work);
   b->reached = calloc(INT16_MAX + 1, sizeof *b->reached);
-  b->owner = leads ? calloc((size_t)b->own, sizeof *b->owner) : NULL;
+  b->label = leads ? calloc((size_t)b->own, sizeof *b->label) : NULL;
   b->periods = leads ? calloc((size_t)b->own, sizeof *b->periods) : NULL;
   b->evidence = leads ? calloc((size_t)b->own, sizeof *b->evidence) : NULL;
-  if (b->work && b->reached && (!leads || (b->owner && b->periods && b->evidence))) return KZ_OK;
+  if (b->work && b->reached && (!leads || (b->label && b->periods && b->evidence))) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->own);
 }
 
 /* From numbers of own cells to ids of all cells. */
 static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
   KZ_TRY(kz_labels_allocate(b->total, labels));
-  for (int64_t f = 0; f < b->own; f++) b->reached[b->owner[f]]++;
+  for (int64_t f = 0; f < b->own; f++) b->reached[b->label[f]]++;
   kz_status status = kz_catalogue_make(b->dynamics, b->reached, catalogue);
   for (int64_t f = 0; status == KZ_OK && f < b->total; f++) {
     bool mirrored = f >= b->own;
     int64_t own = mirrored ? b->total - 1 - f : f;
-    int32_t id = b->owner[own] > 0 ? catalogue->id_of[b->owner[own]] : -1;
+    int32_t id = b->label[own] > 0 ? catalogue->id_of[b->label[own]] : -1;
     labels->attractor[f] = (int16_t)(mirrored && id >= 0 ? catalogue->entries[id].mirror : id);
     labels->settling_time[f] = b->periods[own];
     labels->evidence[f] = id < 0 ? UNSETTLED : b->periods[own] == 0 ? INSIDE : b->evidence[own];
@@ -228,7 +228,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
     status = model(&b, team);
   }
   kz_doubt doubt = {0};
-  if (status == KZ_OK) status = kz_doubt_measure(plan, team, b.dynamics, b.owner, &doubt);
+  if (status == KZ_OK) status = kz_doubt_measure(plan, team, b.dynamics, b.label, &doubt);
   if (status == KZ_OK && kz_team_rank(team) == 0) {
     kz_catalogue catalogue = {0};
     kz_labels labels = {.trapped_share = kz_dynamics_trapped_share(b.dynamics), .doubt = doubt};
@@ -240,7 +240,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   }
   if (b.dynamics) kz_dynamics_free(b.dynamics);
   free(b.work);
-  free(b.owner);
+  free(b.label);
   free(b.periods);
   free(b.evidence);
   free(b.open);

@@ -53,15 +53,15 @@ const char *const kz_interpolation_names[] = {[KZ_LINEAR] = "linear", [KZ_CUBIC]
 const char *const kz_precision_names[] = {[KZ_SINGLE] = "single", [KZ_DOUBLE] = "double", [KZ_QUAD] = "quad"};
 
 void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
-               int32_t *owner, int64_t *periods, int64_t *integrated) {
+               int32_t *label, int64_t *periods, int64_t *integrated) {
   const int32_t points = kz_stencil[interpolation];
   memset(integrated, 0, (size_t)n * sizeof *integrated);
   if (method == KZ_METHOD_DIRECT)
-    kz_dynamics_follow(dynamics, n, max_periods, state, owner, periods);
+    kz_dynamics_follow(dynamics, n, max_periods, state, label, periods);
   else if (method == KZ_METHOD_ICM)
-    kz_dynamics_follow_table(dynamics, points, n, max_periods, state, owner, periods);
+    kz_dynamics_follow_table(dynamics, points, n, max_periods, state, label, periods);
   else
-    kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, owner, periods, integrated);
+    kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, label, periods, integrated);
 }
 
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {

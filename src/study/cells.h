@@ -10,8 +10,8 @@ double kz_axis_centre(const kz_axis *axis, int64_t i);
 /* The largest speed on an axis of velocities. */
 double kz_axis_fastest(const kz_axis *velocity);
 
-/* The smaller side of a cell: rad, or rad per drive radian. An axis that is narrower than the last place of 1 as a whole is a point
- * to all motions and does not count; INFINITY where both are. */
+/* The smaller side of a cell: rad, or rad per drive radian. An axis that is narrower than the last place of 1 as a whole is a
+ * point to all motions and does not count; INFINITY where both are. */
 double kz_cell_size(const kz_basin_plan *plan);
 
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
@@ -35,6 +35,6 @@ extern const char *const kz_method_names[], *const kz_interpolation_names[], *co
 
 /* kz_dynamics_follow by a method (KZ_METHOD_ICM, ...); integrated [n]: periods for which hybrid left the table. */
 void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
-               int32_t *owner, int64_t *periods, int64_t *integrated);
+               int32_t *label, int64_t *periods, int64_t *integrated);
 
 #endif

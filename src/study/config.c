@@ -31,25 +31,25 @@ static double seconds(void) {
 }
 
 /* Labels [n] of the first n cells in the order of the sample. */
-static void label_cells(const measurement *g, int64_t n, int32_t *owner) {
+static void label_cells(const measurement *g, int64_t n, int32_t *label) {
   const kz_config *s = g->config;
   workspace *w = g->work;
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
     for (int64_t i = 0; i < some; i++)
       kz_cell_state(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
-    kz_follow(g->dynamics, s->method, s->interpolation, some, g->reference->plan->max_periods, w->state, owner + first,
+    kz_follow(g->dynamics, s->method, s->interpolation, some, g->reference->plan->max_periods, w->state, label + first,
               w->periods, w->integrated);
   }
 }
 
 /* The largest difference between the counts of one attractor among labels and among true ones. */
-static int64_t largest_count_error(const kz_reference_labels *reference, const int32_t *owner, int64_t *surplus,
+static int64_t largest_count_error(const kz_reference_labels *reference, const int32_t *label, int64_t *surplus,
                                    int64_t known) {
   int64_t largest = 0;
   memset(surplus, 0, (size_t)(known + 1) * sizeof *surplus);
   for (int64_t i = 0; i < reference->samples; i++) {
-    surplus[owner[i]]++;
+    surplus[label[i]]++;
     surplus[reference->labels[i].label]--;
   }
   for (int64_t a = 1; a <= known; a++)
@@ -57,10 +57,10 @@ static int64_t largest_count_error(const kz_reference_labels *reference, const i
   return largest;
 }
 
-static void compare(const kz_reference_labels *reference, const int32_t *owner, kz_measured *m) {
+static void compare(const kz_reference_labels *reference, const int32_t *label, kz_measured *m) {
   int64_t at[KZ_REFERENCE_FAR + 1] = {0}, seen = 0;
   for (int64_t i = 0; i < reference->samples; i++)
-    if (owner[i] != reference->labels[i].label) at[reference->labels[i].distance]++;
+    if (label[i] != reference->labels[i].label) at[reference->labels[i].distance]++;
   for (int distance = 1; distance <= KZ_REFERENCE_FAR; distance++) m->wrong += at[distance];
   m->inside = m->wrong - at[1];
   for (int distance = 1; distance <= KZ_REFERENCE_FAR && m->wrong > 0 && m->distance == 0; distance++)
@@ -75,14 +75,14 @@ static kz_status set_up(measurement *g) {
   return KZ_OK;
 }
 
-static kz_status measure(measurement *g, int64_t n, int32_t *owner, int64_t *surplus, kz_measured *m) {
+static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *surplus, kz_measured *m) {
   const double start = seconds();
   KZ_TRY(set_up(g));
   const double ready = seconds();
-  label_cells(g, n, owner);
+  label_cells(g, n, label);
   *m = (kz_measured){.set_up = ready - start, .cell = (seconds() - ready) / (double)n};
-  compare(g->reference, owner, m);
-  m->count_error = largest_count_error(g->reference, owner, surplus, kz_dynamics_count(g->dynamics));
+  compare(g->reference, label, m);
+  m->count_error = largest_count_error(g->reference, label, surplus, kz_dynamics_count(g->dynamics));
   return KZ_OK;
 }
 
@@ -94,14 +94,14 @@ kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
   g.work = malloc(sizeof *g.work);
-  int32_t *owner = malloc((size_t)n * sizeof *owner + 1);
+  int32_t *label = malloc((size_t)n * sizeof *label + 1);
   int64_t *surplus = calloc(INT16_MAX + 1, sizeof *surplus);
-  kz_status status = g.dynamics && g.work && owner && surplus
-                         ? measure(&g, n, owner, surplus, measured)
+  kz_status status = g.dynamics && g.work && label && surplus
+                         ? measure(&g, n, label, surplus, measured)
                          : kz_fail(KZ_FAILED, "no memory for the setting %s", config->label);
   if (g.dynamics) kz_dynamics_free(g.dynamics);
   free(g.work);
-  free(owner);
+  free(label);
   free(surplus);
   return status;
 }

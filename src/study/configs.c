@@ -75,7 +75,7 @@ void kz_config_apply(const kz_config *config, kz_scene *scene) {
 }
 
 double kz_config_cost(const kz_config *config, double cells, double mean_periods) {
-  /* Measured weights, in kicks in double precision: a look-up in the table with its captor, what it takes to track its error, the
+  /* Measured weights, in kicks in double precision: a look-up in the table with its region, what it takes to track its error, the
    * share of the periods that hybrid integrates (0 to 0.35), the growth of a node's region. Coarse cells trap less: periods go as
    * nodes^-0.4. */
   static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1},

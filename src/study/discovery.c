@@ -26,13 +26,13 @@ typedef struct {
   kz_dynamics *dynamics;
   int64_t periods, n, *open; /* open [n]: which starts are followed */
   double *state;             /* [all] */
-  int32_t *owner;            /* [all] */
+  int32_t *label;            /* [all] */
   int64_t all;
 } following;
 
 typedef struct {
   double state[2 * TILE];
-  int32_t owner[TILE];
+  int32_t label[TILE];
 } followed;
 
 kz_status kz_stage_run_with(kz_team *team, const kz_stage *stage, void *records) {
@@ -53,18 +53,18 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   int64_t periods[TILE];
   int64_t first = tile * TILE, n = f->n - first < TILE ? f->n - first : TILE;
   for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
-  kz_dynamics_settle(f->dynamics, n, f->periods, out->state, out->owner, periods);
+  kz_dynamics_settle(f->dynamics, n, f->periods, out->state, out->label, periods);
   return KZ_OK;
 }
 
-/* The starts without owner become the open ones. */
+/* The starts without label become the open ones. */
 static void list_open(following *f) {
   f->n = 0;
   for (int64_t i = 0; i < f->all; i++)
-    if (f->owner[i] == 0) f->open[f->n++] = i;
+    if (f->label[i] == 0) f->open[f->n++] = i;
 }
 
-/* Follows the open starts for f->periods; those that are trapped get their owner. */
+/* Follows the open starts for f->periods; those that are trapped get their label. */
 static kz_status follow_stretch(kz_team *team, following *f) {
   kz_stage stage = {.name = "attractors",
                     .n_tiles = (f->n + TILE - 1) / TILE,
@@ -79,7 +79,7 @@ static kz_status follow_stretch(kz_team *team, following *f) {
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
     const followed *record = records + i / TILE;
     memcpy(f->state + 2 * f->open[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
-    f->owner[f->open[i]] = record->owner[i % TILE];
+    f->label[f->open[i]] = record->label[i % TILE];
   }
   free(records);
   if (status == KZ_OK) list_open(f);
@@ -187,33 +187,33 @@ static kz_status discover(kz_team *team, following *f, int64_t max_periods) {
 static kz_status open_all(kz_team *team, following *f) {
   f->open = malloc((size_t)(f->all + 1) * sizeof *f->open);
   KZ_TRY(agree(team, f->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->all)));
-  memset(f->owner, 0, (size_t)f->all * sizeof *f->owner);
+  memset(f->label, 0, (size_t)f->all * sizeof *f->label);
   list_open(f);
   return KZ_OK;
 }
 
-kz_status kz_settle(kz_team *team, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *owner) {
-  following f = {.dynamics = dynamics, .all = n, .state = state, .owner = owner};
+kz_status kz_settle(kz_team *team, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label) {
+  following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
   kz_status status = open_all(team, &f);
   if (status == KZ_OK) status = follow_open(team, &f, periods);
   free(f.open);
   return status;
 }
 
-kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *owner) {
-  following f = {.dynamics = dynamics, .all = n, .state = state, .owner = owner};
+kz_status kz_discover(kz_team *team, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
+  following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
   kz_status status = open_all(team, &f);
   if (status == KZ_OK) status = discover(team, &f, max_periods);
   free(f.open);
   return status;
 }
 
-kz_status kz_search_window(kz_team *team, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *owner) {
+kz_status kz_search_window(kz_team *team, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
   const bool table = search->table_theta > 0;
   const int64_t scouts = table && search->starts > SCOUTS ? SCOUTS : search->starts, rest = search->starts - scouts;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_outline(dynamics, search->reach);
-  KZ_TRY(kz_discover(team, dynamics, search->max_periods, scouts, state, owner));
+  KZ_TRY(kz_discover(team, dynamics, search->max_periods, scouts, state, label));
   if (table) KZ_TRY(kz_map_table_make(team, dynamics, search->table_theta, search->table_velocity, search->reach));
-  return rest > 0 ? kz_discover(team, dynamics, search->max_periods, rest, state + 2 * scouts, owner + scouts) : KZ_OK;
+  return rest > 0 ? kz_discover(team, dynamics, search->max_periods, rest, state + 2 * scouts, label + scouts) : KZ_OK;
 }

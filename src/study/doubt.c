@@ -29,27 +29,27 @@ int64_t kz_doubt_cells(const kz_basin_plan *plan) {
 
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const sample *s = context;
-  int32_t *owner = record;
+  int32_t *label = record;
   double state[2 * TILE];
   int64_t periods[TILE];
   const int64_t first = tile * TILE, n = s->n - first < TILE ? s->n - first : TILE;
   for (int64_t i = 0; i < n; i++) kz_cell_state(s->plan, cell_of(s, first + i), state + 2 * i);
-  kz_dynamics_follow_covariance(s->dynamics, n, s->plan->max_periods, state, owner, periods);
+  kz_dynamics_follow_covariance(s->dynamics, n, s->plan->max_periods, state, label, periods);
   return KZ_OK;
 }
 
-static void count(const sample *s, const int32_t *followed, const int16_t *owner, kz_doubt *doubt) {
+static void count(const sample *s, const int32_t *followed, const int16_t *label, kz_doubt *doubt) {
   int64_t doubtful = 0, differing = 0;
   for (int64_t i = 0; i < s->n; i++) {
     if (followed[i] == KZ_DOUBTFUL)
       doubtful++;
     else
-      differing += followed[i] != owner[cell_of(s, i)];
+      differing += followed[i] != label[cell_of(s, i)];
   }
   *doubt = (kz_doubt){s->n, kz_share_of_part(doubtful, s->n, s->of), kz_share_of_part(differing, s->n, s->of)};
 }
 
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *owner,
+kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *label,
                            kz_doubt *doubt) {
   sample s = {.plan = plan, .dynamics = dynamics, .n = kz_doubt_cells(plan), .of = kz_own_cells(plan)};
   kz_stage stage = {.name = "doubt",
@@ -64,7 +64,7 @@ kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics
     status = kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s.n);
   status = kz_team_agree(team, status);
   if (status == KZ_OK) status = kz_stage_run(team, &stage, followed);
-  if (status == KZ_OK && followed) count(&s, followed, owner, doubt);
+  if (status == KZ_OK && followed) count(&s, followed, label, doubt);
   free(followed);
   return status;
 }

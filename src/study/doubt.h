@@ -1,4 +1,5 @@
-/* How many labels of a basin its numerics do not decide: a random sample of cells, each integrated again with the error of its orbit. */
+/* How many labels of a basin its numerics do not decide: a random sample of cells, each integrated again with the error of its
+ * orbit. */
 #ifndef KAPITZA_STUDY_DOUBT_H
 #define KAPITZA_STUDY_DOUBT_H
 
@@ -15,9 +16,9 @@ typedef struct {
 /* Cells of the sample. */
 int64_t kz_doubt_cells(const kz_basin_plan *plan);
 
-/* Follows the sample, which depends on the window, its cells and the seed alone. owner [kz_own_cells] on rank 0: the labels, as numbers of
- * `dynamics`. `doubt` is filled on rank 0. Its stage is kept by a checkpoint. Collective. */
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *owner,
+/* Follows the sample, which depends on the window, its cells and the seed alone. label [kz_own_cells] on rank 0: the labels, as
+ * numbers of `dynamics`. `doubt` is filled on rank 0. Its stage is kept by a checkpoint. Collective. */
+kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *label,
                            kz_doubt *doubt);
 
 /* Attributes of /basin, and what people read of them. Rank 0. */

@@ -50,7 +50,7 @@ static kz_status make_dynamics(const kz_reference_labels *reference, kz_dynamics
 /* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. */
 typedef struct {
   double *state;  /* [2 * most] */
-  int32_t *owner; /* [most] */
+  int32_t *label; /* [most] */
   int64_t most;
 } probes;
 
@@ -60,9 +60,9 @@ static kz_status follow_probes(const kz_reference_labels *reference, kz_team *te
   const int64_t n = reference->total < PROBES ? reference->total : PROBES;
   *open = 0;
   for (int64_t i = 0; i < n; i++) kz_cell_state(reference->plan, kz_reference_labels_cell(reference, i), p->state + 2 * i);
-  KZ_TRY(kz_settle(team, dynamics, reference->plan->max_periods, n, p->state, p->owner));
+  KZ_TRY(kz_settle(team, dynamics, reference->plan->max_periods, n, p->state, p->label));
   for (int64_t i = 0; i < n; i++)
-    if (p->owner[i] == 0) memcpy(p->state + 2 * (*open)++, p->state + 2 * i, 2 * sizeof(double));
+    if (p->label[i] == 0) memcpy(p->state + 2 * (*open)++, p->state + 2 * i, 2 * sizeof(double));
   return KZ_OK;
 }
 
@@ -75,13 +75,13 @@ static kz_status find_attractors(const kz_reference_labels *reference, kz_team *
                             .table_theta = NODES,
                             .table_velocity = NODES,
                             .reach = reference->reach};
-  KZ_TRY(kz_search_window(team, dynamics, &search, p->state, p->owner));
+  KZ_TRY(kz_search_window(team, dynamics, &search, p->state, p->label));
   for (int round = 0; round < ROUNDS; round++) {
     const int64_t known = kz_dynamics_count(dynamics);
     int64_t n;
     KZ_TRY(follow_probes(reference, team, dynamics, p, &n));
     if (n == 0) break;
-    KZ_TRY(kz_discover(team, dynamics, plan->max_periods, n, p->state, p->owner));
+    KZ_TRY(kz_discover(team, dynamics, plan->max_periods, n, p->state, p->label));
     if (kz_dynamics_count(dynamics) == known) break;
   }
   kz_dynamics_update(dynamics);
@@ -93,13 +93,13 @@ static kz_status prepare(kz_reference_labels *reference, kz_team *team, kz_dynam
   probes p = {.most = plan->starts > PROBES ? plan->starts : PROBES};
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
-  p.owner = malloc((size_t)p.most * sizeof *p.owner);
-  kz_status status = p.state && p.owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
+  p.label = malloc((size_t)p.most * sizeof *p.label);
+  kz_status status = p.state && p.label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
   status = kz_team_agree(team, status);
   reference->reach = kz_dynamics_reach(dynamics, &window);
   if (status == KZ_OK) status = find_attractors(reference, team, dynamics, &p);
   free(p.state);
-  free(p.owner);
+  free(p.label);
   KZ_TRY(kz_team_agree(team, status));
   reference->packed_size = kz_dynamics_packed_size(dynamics);
   reference->packed = malloc((size_t)reference->packed_size * sizeof(double) + 1);
@@ -119,7 +119,7 @@ typedef struct {
 static void find_distances(const reference_job *h, int64_t n, const int64_t *cell, kz_reference_label *labels) {
   const kz_basin_plan *plan = h->reference->plan;
   double state[8 * TILE];
-  int32_t owner[4 * TILE];
+  int32_t label[4 * TILE];
   int64_t periods[4 * TILE];
   for (int64_t i = 0; i < n; i++) labels[i].distance = KZ_REFERENCE_FAR;
   for (int distance = KZ_REFERENCE_FAR / 2; distance > 0; distance /= 2) {
@@ -129,20 +129,20 @@ static void find_distances(const reference_job *h, int64_t n, const int64_t *cel
       kz_start_state(kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]),
                      kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]), state + 2 * i);
     }
-    kz_dynamics_follow(h->dynamics, 4 * n, plan->max_periods, state, owner, periods);
+    kz_dynamics_follow(h->dynamics, 4 * n, plan->max_periods, state, label, periods);
     for (int64_t i = 0; i < 4 * n; i++)
-      if (owner[i] != labels[i / 4].label) labels[i / 4].distance = (uint8_t)distance;
+      if (label[i] != labels[i / 4].label) labels[i / 4].distance = (uint8_t)distance;
   }
 }
 
-static void follow(const reference_job *h, int32_t steps, int64_t n, const double *start, int32_t *owner, int64_t *periods) {
-  kz_dynamics_follow_reference(h->dynamics, steps, n, h->reference->plan->max_periods, start, owner, periods);
+static void follow(const reference_job *h, int32_t steps, int64_t n, const double *start, int32_t *label, int64_t *periods) {
+  kz_dynamics_follow_reference(h->dynamics, steps, n, h->reference->plan->max_periods, start, label, periods);
 }
 
 /* Does every ASKED-th cell come out the same with another number of steps? */
 static void compare_steps(const reference_job *h, int64_t first, int64_t n, const double *start, kz_reference_label *labels) {
   double asked[2 * TILE];
-  int32_t owner[TILE];
+  int32_t label[TILE];
   int64_t periods[TILE], place[TILE], n_asked = 0;
   for (int64_t i = 0; i < n; i++) {
     labels[i].agrees = 2;
@@ -150,8 +150,8 @@ static void compare_steps(const reference_job *h, int64_t first, int64_t n, cons
     memcpy(asked + 2 * n_asked, start + 2 * i, 2 * sizeof(double));
     place[n_asked++] = i;
   }
-  follow(h, OTHER_STEPS, n_asked, asked, owner, periods);
-  for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = owner[i] == labels[place[i]].label;
+  follow(h, OTHER_STEPS, n_asked, asked, label, periods);
+  for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = label[i] == labels[place[i]].label;
 }
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
@@ -159,7 +159,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   const kz_basin_plan *plan = h->reference->plan;
   kz_reference_label *labels = record;
   double start[2 * TILE] = {0};
-  int32_t owner[TILE];
+  int32_t label[TILE];
   int64_t cell[TILE], periods[TILE], first = tile * TILE;
   int64_t n = h->reference->samples - first < TILE ? h->reference->samples - first : TILE;
   memcpy(labels, h->reference->labels + first, (size_t)n * sizeof *labels);
@@ -169,16 +169,16 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
     start[2 * i] = kz_axis_centre(&plan->theta, cell[i] % plan->theta.count);
     start[2 * i + 1] = kz_axis_centre(&plan->velocity, cell[i] / plan->theta.count);
   }
-  follow(h, KZ_REFERENCE_STEPS, n, start, owner, periods);
+  follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
   for (int64_t i = 0; i < n; i++) {
-    labels[i].label = (int16_t)owner[i];
+    labels[i].label = (int16_t)label[i];
     labels[i].periods = (uint32_t)periods[i];
   }
   compare_steps(h, first, n, start, labels);
   find_distances(h, n, cell, labels);
   for (int64_t i = 0; i < 2 * n; i++) start[i] = nextafter(start[i], copysign(INFINITY, start[i]));
-  follow(h, KZ_REFERENCE_STEPS, n, start, owner, periods);
-  for (int64_t i = 0; i < n; i++) labels[i].flipped = (int16_t)owner[i];
+  follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
+  for (int64_t i = 0; i < n; i++) labels[i].flipped = (int16_t)label[i];
   return KZ_OK;
 }
 

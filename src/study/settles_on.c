@@ -29,12 +29,12 @@ kz_status kz_settles_on(const kz_mover *mover, kz_state state, double fastest, c
   const double periods = fmin(MOST_STEPS / mover->numerics.steps_per_period, fmax(LEAST_PERIODS, SHRUNK / (2 * M_PI * beta)));
   const kz_window window = {-M_PI, M_PI, -fastest, fastest};
   double start[2] = {remainder(state.theta, 2 * M_PI) / M_PI, state.velocity};
-  int32_t owner;
+  int32_t label;
   kz_dynamics *dynamics = kz_dynamics_create(&mover->pendulum, &mover->numerics, LONGEST_CYCLE);
   if (!dynamics) return kz_fail(KZ_FAILED, "out of memory for the attractor of an orbit");
   kz_dynamics_outline(dynamics, kz_dynamics_reach(dynamics, &window));
-  kz_status status = kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &owner);
-  if (status == KZ_OK && owner > 0) status = name_attractor(dynamics, owner, name);
+  kz_status status = kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &label);
+  if (status == KZ_OK && label > 0) status = name_attractor(dynamics, label, name);
   kz_dynamics_free(dynamics);
   return status;
 }

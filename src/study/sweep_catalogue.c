@@ -21,7 +21,7 @@ typedef struct {
   kz_dynamics *dynamics;
   int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
   double *state;             /* [starts or cells][2] */
-  int32_t *owner, *cell;     /* [starts]; [cells] number of kz_dynamics, 0 = not settled */
+  int32_t *label, *cell;     /* [starts]; [cells] number of kz_dynamics, 0 = not settled */
   int64_t *hits;             /* [numbers from 1] */
   int64_t max_periods;       /* after which a start counts as not settled; of the cells the basin's own number */
 } searching;
@@ -38,16 +38,16 @@ static kz_status begin(const kz_pendulum *pendulum, searching *s) {
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
   s->state = malloc(2 * most * sizeof *s->state);
-  s->owner = malloc(most * sizeof *s->owner);
+  s->label = malloc(most * sizeof *s->label);
   s->cell = calloc((size_t)s->n_cells + 1, sizeof *s->cell);
-  if (s->dynamics && s->state && s->owner && s->cell) return KZ_OK;
+  if (s->dynamics && s->state && s->label && s->cell) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for the starts of a sweep");
 }
 
 static void end(searching *s) {
   if (s->dynamics) kz_dynamics_free(s->dynamics);
   free(s->state);
-  free(s->owner);
+  free(s->label);
   free(s->cell);
   free(s->hits);
 }
@@ -85,11 +85,11 @@ static kz_status label_open(labelling *l) {
                           .context = l,
                           .keep = true,
                           .everywhere = true};
-  int32_t *owner = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  kz_status status = kz_team_agree(l->s->team, owner ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
-  if (status == KZ_OK) status = kz_stage_run(l->s->team, &stage, owner);
-  for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->open[i]] = owner[i];
-  free(owner);
+  int32_t *label = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  kz_status status = kz_team_agree(l->s->team, label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
+  if (status == KZ_OK) status = kz_stage_run(l->s->team, &stage, label);
+  for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->open[i]] = label[i];
+  free(label);
   if (status == KZ_OK) list_open(l);
   return status;
 }
@@ -104,7 +104,7 @@ static kz_status label_rounds(labelling *l) {
     if (round == ROUNDS - 1 || l->n == 0) return KZ_OK;
     const int64_t n = l->n < s->n_starts ? l->n : s->n_starts;
     for (int64_t i = 0; i < n; i++) kz_cell_state(&s->scene->basin, l->open[i], s->state + 2 * i);
-    KZ_TRY(kz_discover(s->team, s->dynamics, s->scene->basin.max_periods, n, s->state, s->owner));
+    KZ_TRY(kz_discover(s->team, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
     if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
   }
 }
@@ -122,7 +122,7 @@ static int64_t count_hits(const searching *s) {
   kz_attractor row;
   double *points = s->state; /* room for strobe points: at least CHUNK pairs */
   const int64_t total = s->scene->basin.theta.count * s->scene->basin.velocity.count;
-  for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->owner[i]]++;
+  for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->label[i]]++;
   if (s->n_cells == 0) return s->n_starts;
   for (int64_t i = 0; i < s->n_cells; i++) {
     s->hits[s->cell[i]]++;
@@ -184,7 +184,7 @@ static kz_status discover(searching *s) {
       .table_theta = basin ? basin->table_theta : 0,
       .table_velocity = basin ? basin->table_velocity : 0};
   search.reach = kz_dynamics_reach(s->dynamics, &search.window);
-  return kz_search_window(s->team, s->dynamics, &search, s->state, s->owner);
+  return kz_search_window(s->team, s->dynamics, &search, s->state, s->label);
 }
 
 static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {

@@ -13,7 +13,9 @@ enum { SPLIT6 = 2, RK4 = 0, STATES = 64, MOST = 64 };
 
 static const double PI = 3.14159265358979323846;
 /* The steps of published values, and of scenes. */
-static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 96, .precision = KZ_DOUBLE}, usual = {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_DOUBLE}, rk4 = {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE};
+static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 96, .precision = KZ_DOUBLE},
+                         usual = {.scheme = SPLIT6, .steps_per_period = 24, .precision = KZ_DOUBLE},
+                         rk4 = {.scheme = RK4, .steps_per_period = 100, .precision = KZ_DOUBLE};
 
 static kz_pendulum blackburn(double m) {
   return (kz_pendulum){1.0 / 121, 1.0 / 55, m};
@@ -58,7 +60,7 @@ static void the_flip_is_where_it_should_be(void **unused) {
 static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *numerics, const double centre[2],
                              const double largest[2], double smallest) {
   double state[2 * STATES];
-  int32_t owner[STATES];
+  int32_t label[STATES];
   int64_t periods[STATES];
   kz_dynamics *d = kz_dynamics_create(pendulum, numerics, 12);
   assert_non_null(d);
@@ -68,7 +70,7 @@ static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *num
     state[2 * i] = (centre[0] + share * largest[0]) / PI;
     state[2 * i + 1] = centre[1] + share * largest[1];
   }
-  kz_dynamics_settle(d, STATES, 100, state, owner, periods);
+  kz_dynamics_settle(d, STATES, 100, state, label, periods);
   find_cycles(d, STATES, state, 0.02);
   return d;
 }
@@ -132,7 +134,7 @@ static void attractors_close_together_are_told_apart(void **unused) {
   for (double apart = 1e-2; apart > 1e-9; apart /= 2) {
     kz_dynamics *d = kz_test_doublet_create(apart);
     double state[2 * STATES];
-    int32_t owner[STATES];
+    int32_t label[STATES];
     int64_t periods[STATES];
     for (int i = 0; i < STATES; i++) {
       state[2 * i] = 0;
@@ -141,15 +143,15 @@ static void attractors_close_together_are_told_apart(void **unused) {
     kz_dynamics_outline(d, 3);
     find_cycles(d, STATES, state, 0.02);
     kz_dynamics_update(d);
-    kz_dynamics_follow(d, STATES, 2000, state, owner, periods);
+    kz_dynamics_follow(d, STATES, 2000, state, label, periods);
     const int64_t count = kz_dynamics_count(d);
     assert_int_equal(count, apart > 1e-7 ? 2 : 1);
     for (int i = 0; i < STATES && count == 2; i++) {
       kz_attractor row;
       double theta[MOST], velocity[MOST];
-      if (apart > 4e-7) assert_int_equal(owner[i] > 0, i != STATES / 2); /* nearer ones may stay unsettled */
-      if (owner[i] == 0) continue;
-      kz_dynamics_attractor(d, owner[i], &row, theta, velocity);
+      if (apart > 4e-7) assert_int_equal(label[i] > 0, i != STATES / 2); /* nearer ones may stay unsettled */
+      if (label[i] == 0) continue;
+      kz_dynamics_attractor(d, label[i], &row, theta, velocity);
       if (!(velocity[0] * (i - STATES / 2) > 0)) fail_msg("apart %g: start %d goes to %g", apart, i, velocity[0]);
     }
     kz_dynamics_free(d);

@@ -22,17 +22,17 @@ static kz_dynamics *explored(double m, int64_t seed, double reach) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
   kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 12);
   double *state = malloc(2 * STARTS * sizeof *state);
-  int32_t *owner = malloc(STARTS * sizeof *owner);
+  int32_t *label = malloc(STARTS * sizeof *label);
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
   assert_non_null(d);
   kz_dynamics_starts(&WINDOW, seed, n, state);
   kz_dynamics_outline(d, reach);
   for (int round = 0; n > 0 && round < 12; round++) {
     kz_dynamics_update(d);
-    kz_dynamics_follow(d, n, 128, state, owner, periods);
+    kz_dynamics_follow(d, n, 128, state, label, periods);
     int64_t open = 0;
     for (int64_t i = 0; i < n; i++)
-      if (owner[i] == 0) {
+      if (label[i] == 0) {
         memmove(state + 2 * open, state + 2 * i, 2 * sizeof *state);
         open++;
       }
@@ -41,7 +41,7 @@ static kz_dynamics *explored(double m, int64_t seed, double reach) {
   }
   assert_int_equal(n, 0);
   free(state);
-  free(owner);
+  free(label);
   free(periods);
   return d;
 }
@@ -102,14 +102,14 @@ static void test_interpolation(void **state) {
     for (int fine = 0; fine < 2; fine++) {
       kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 4);
       double x[2 * N], y[2 * N];
-      int32_t owner[N];
+      int32_t label[N];
       int64_t periods[N];
       kz_dynamics_starts(&WINDOW, 3, N, x);
       memcpy(y, x, sizeof y);
       kz_dynamics_outline(d, 3);
       with_table(d, fine ? 401 : 201, 3);
-      kz_dynamics_follow(d, N, 1, x, owner, periods);
-      kz_dynamics_follow_table(d, points, N, 1, y, owner, periods);
+      kz_dynamics_follow(d, N, 1, x, label, periods);
+      kz_dynamics_follow_table(d, points, N, 1, y, label, periods);
       for (int i = 0; i < N; i++) {
         double du = x[2 * i] - y[2 * i];
         error[fine] += fabs(du - 2 * rint(du / 2)) + fabs(x[2 * i + 1] - y[2 * i + 1]);
@@ -204,17 +204,17 @@ static void test_regions_are_right(void **state) {
     kz_dynamics *d = explored(drives[c], 1, 3.0), *plain = explored(drives[c], 1, 3.0);
     with_table(d, 400, 3.0);
     double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
-    int32_t owner[N], expected[N];
+    int32_t label[N], expected[N];
     int64_t periods[N], late[N];
     int inside = 0;
     kz_dynamics_starts(&WINDOW, 9, N, x);
     memcpy(y, x, 2 * N * sizeof *y);
-    kz_dynamics_follow(d, N, 1, x, owner, periods);
+    kz_dynamics_follow(d, N, 1, x, label, periods);
     kz_dynamics_follow(plain, N, 3000, y, expected, late);
     for (int i = 0; i < N; i++) {
-      if (owner[i] == 0 || periods[i] > 0) continue;
+      if (label[i] == 0 || periods[i] > 0) continue;
       inside++;
-      assert_int_equal(owner[i], expected[i]);
+      assert_int_equal(label[i], expected[i]);
     }
     print_message("m = %.2f: %d of %d starts inside, none wrong\n", drives[c], inside, N);
     assert_true(inside > N / 20);
@@ -313,7 +313,7 @@ static void test_chaos(void **state) {
   kz_pendulum pendulum = {0.25, 0.05, 0.5};
   kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 48);
   double x[2 * N];
-  int32_t owner[N];
+  int32_t label[N];
   int64_t periods[N], integrated[N];
   kz_attractor row;
   kz_dynamics_starts(&WINDOW, 1, N, x);
@@ -329,15 +329,15 @@ static void test_chaos(void **state) {
   assert_int_equal(row.period, 0);
   assert_int_equal(row.symmetric, 1);
   assert_true(row.lyapunov > 0.8 && row.lyapunov < 0.9 && row.lyapunov_error < 0.02);
-  kz_dynamics_follow(d, N, 2000, x, owner, periods);
-  for (int i = 0; i < N; i++) assert_int_equal(owner[i], 1);
+  kz_dynamics_follow(d, N, 2000, x, label, periods);
+  for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
   kz_dynamics_starts(&WINDOW, 1, N, x); /* errors grow on it, but who comes to it stays */
-  kz_dynamics_follow_covariance(d, N, 2000, x, owner, periods);
-  for (int i = 0; i < N; i++) assert_int_equal(owner[i], 1);
+  kz_dynamics_follow_covariance(d, N, 2000, x, label, periods);
+  for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
   with_table(d, 200, 4);
   kz_dynamics_starts(&WINDOW, 1, N, x);
-  kz_dynamics_follow_hybrid(d, 6, N, 2000, x, owner, periods, integrated);
-  for (int i = 0; i < N; i++) assert_int_equal(owner[i], 1);
+  kz_dynamics_follow_hybrid(d, 6, N, 2000, x, label, periods, integrated);
+  for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
   kz_dynamics_free(d);
 }
 
