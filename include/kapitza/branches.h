@@ -22,9 +22,9 @@ typedef struct {
 
 /* The cycle of `pendulum` that continues `from` (whose point, period, winding and symmetry count): Newton's method from its
  * strobe point, each step at most half the last one, which keeps it from leaving for another cycle; symmetric cycles are solved
- * on the half map (BSG's flutter: -F(x) = x). Returns 1 where one of the same period, winding and symmetry lies within `reach`
- * rad, else 0 and *to is undefined. It need not attract. from == to is allowed. */
-int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *from, double reach, kz_branch_point *to);
+ * on the half map (BSG's flutter: -F(x) = x). Returns 1 where one of the same period, winding and symmetry lies within
+ * `max_distance` rad, else 0 and *to is undefined. It need not attract. from == to is allowed. */
+int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *from, double max_distance, kz_branch_point *to);
 
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
 int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);

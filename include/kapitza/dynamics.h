@@ -24,10 +24,10 @@ void kz_dynamics_free(kz_dynamics *dynamics);
 void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
 
 /* The velocity that a map table of this window must reach: the largest within one period of its starts. */
-double kz_dynamics_reach(kz_dynamics *dynamics, const kz_window *window);
+double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
 
-/* A coarse open grid for trapping regions up to velocity `reach`: enough for a search. A map table brings a finer one. */
-void kz_dynamics_outline(kz_dynamics *dynamics, double reach);
+/* A coarse open grid for trapping regions up to velocity `max_velocity`: enough for a search. A map table brings a finer one. */
+void kz_dynamics_outline(kz_dynamics *dynamics, double max_velocity);
 /* Draws the ellipses and covers of new attractors into the regions; over a map table's cells the regions are grown outwards. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
@@ -78,13 +78,13 @@ void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
 /* The cycle near a state, by Newton's method on the strobe map of `numerics`: n = a period that closes it; returns its smallest
- * period, 0 where none lies within `reach` (rad). theta, velocity become its point there; re, im [2] its Floquet multipliers
- * over the smallest period, larger modulus first, + imaginary first. It need not attract. */
-int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double reach,
+ * period, 0 where none lies within `max_distance` (rad). theta, velocity become its point there; re, im [2] its Floquet
+ * multipliers over the smallest period, larger modulus first, + imaginary first. It need not attract. */
+int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double max_distance,
                                 double *theta, double *velocity, double *re, double *im);
 
-/* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `reach`. */
-void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach);
+/* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `max_velocity`. */
+void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
 int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics);               /* doubles per row */
 void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift); /* integrates row 0 .. n_velocity - 1 */
 /* Takes all rows, in order; the trapping regions are grown over its cells. */

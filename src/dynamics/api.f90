@@ -81,7 +81,7 @@ contains
     end do
   end subroutine starts
 
-  function reach(handle, window) bind(C, name='kz_dynamics_reach') result(top)
+  function max_velocity(handle, window) bind(C, name='kz_dynamics_max_velocity') result(top)
     type(c_ptr), value :: handle
     type(window_t), intent(in) :: window
     real(dp) :: top
@@ -101,7 +101,7 @@ contains
       call d%search%flow%advance(WIDTH)
       top = max(top, maxval(abs(d%search%flow%v)))
     end do
-  end function reach
+  end function max_velocity
 
   subroutine outline_regions(handle, top) bind(C, name='kz_dynamics_outline')
     type(c_ptr), value :: handle

@@ -25,13 +25,13 @@ module kz_dynamics_branches
 
 contains
 
-  function continue_cycle(pendulum, from, reach, to) bind(C, name='kz_branch_continue') result(found)
+  function continue_cycle(pendulum, from, max_distance, to) bind(C, name='kz_branch_continue') result(found)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> the cycle at other parameters
     type(branch_point_t), intent(in) :: from
     !> farthest that the new strobe point may lie from the old one, rad
-    real(dp), value :: reach
+    real(dp), value :: max_distance
     !> the cycle at these
     type(branch_point_t), intent(inout) :: to
     integer(c_int32_t) :: found
@@ -42,7 +42,7 @@ contains
     found = 0
     call make_flow(pendulum, fine_numerics(pendulum), .true., flow)
     x = [from%theta/PI, from%velocity]
-    if (.not. solves(flow, from, reach, x)) return
+    if (.not. solves(flow, from, max_distance, x)) return
     if (minimal_period(flow, int(from%period), x) /= from%period) return
     point = from
     call describe(flow, pendulum, x, point)
@@ -87,10 +87,10 @@ contains
   end function map_periods
 
   !> x becomes the fixed point near it; true where the steps shrink by half at least until rounding.
-  function solves(flow, cycle, reach, x) result(converged)
+  function solves(flow, cycle, max_distance, x) result(converged)
     class(flow_t), intent(inout) :: flow
     type(branch_point_t), intent(in) :: cycle
-    real(dp), intent(in) :: reach
+    real(dp), intent(in) :: max_distance
     real(dp), intent(inout) :: x(2)
     logical :: converged
     real(dp), parameter :: FLOOR = 1e-13_dp, ENOUGH = 1e-7_dp
@@ -98,7 +98,7 @@ contains
     integer :: i
 
     start = x
-    before = 2*reach
+    before = 2*max_distance
     converged = .false.
     do i = 1, NEWTON_STEPS
       call defect(flow, cycle, x, residual, matrix)
@@ -112,7 +112,7 @@ contains
       if (length < FLOOR) exit
     end do
     x(1) = angle_difference(x(1), 0.0_dp)
-    converged = converged .and. separation(x(1), x(2), start(1), start(2)) <= reach
+    converged = converged .and. separation(x(1), x(2), start(1), start(2)) <= max_distance
   end function solves
 
   !> residual = G(x) - x (rad) and G's derivative, G = F^n, or of symmetric cycles -F^(n/2).

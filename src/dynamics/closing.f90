@@ -10,7 +10,7 @@ module kz_dynamics_closing
 
 contains
 
-  function close_near(pendulum, numerics, n, reach, theta, velocity, re, im) &
+  function close_near(pendulum, numerics, n, max_distance, theta, velocity, re, im) &
     bind(C, name='kz_dynamics_close_cycle') result(period)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
@@ -19,7 +19,7 @@ contains
     !> a period that closes the cycle
     integer(c_int64_t), value :: n
     !> farthest that the cycle may lie from the start
-    real(dp), value :: reach
+    real(dp), value :: max_distance
     !> start, then the cycle's point; rad
     real(dp), intent(inout) :: theta
     !> the same, rad per drive radian
@@ -34,7 +34,7 @@ contains
     logical :: found, blurred
 
     call make_flow(pendulum, numerics, .true., flow)
-    call close_cycle(flow, pendulum%beta, int(n), theta/PI, velocity, reach, cycle, found, blurred)
+    call close_cycle(flow, pendulum%beta, int(n), theta/PI, velocity, max_distance, cycle, found, blurred)
     period = 0
     if (.not. found) return
     period = cycle%period

@@ -31,16 +31,16 @@ module kz_dynamics_cycles
 
 contains
 
-  !> Newton's method on the n-period map from (u, v), with a fine flow. `found` only where it converges within `reach` of the
-  !> start; the cycle, attracting or not, then has its true (minimal) period. `blurred` where it converges, but rounding leaves
-  !> open where to: too near a bifurcation.
-  subroutine close_cycle(flow, beta, n, u, v, reach, cycle, found, blurred)
+  !> Newton's method on the n-period map from (u, v), with a fine flow. `found` only where it converges within `max_distance` of
+  !> the start; the cycle, attracting or not, then has its true (minimal) period. `blurred` where it converges, but rounding
+  !> leaves open where to: too near a bifurcation.
+  subroutine close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: beta
     integer, intent(in) :: n
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
-    real(dp), intent(in) :: reach
+    real(dp), intent(in) :: max_distance
     type(attractor_t), intent(out) :: cycle
     logical, intent(out) :: found
     logical, intent(out) :: blurred
@@ -48,28 +48,28 @@ contains
     integer :: period
 
     x = [u, v]
-    call newton(flow, n, reach, x, found, blurred)
+    call newton(flow, n, max_distance, x, found, blurred)
     if (.not. found) return
     period = minimal_period(flow, n, x)
-    if (period < n) call newton(flow, period, reach, x, found, blurred)
+    if (period < n) call newton(flow, period, max_distance, x, found, blurred)
     if (.not. found) return
     call orbit_of(flow, period, x, cycle, matrix)
     cycle%multiplier = eigenvalues(matrix, exp(-2*PI*beta*period))
   end subroutine close_cycle
 
   !> close_cycle, `found` only where the cycle attracts.
-  subroutine polish_cycle(flow, beta, n, u, v, reach, cycle, found, blurred)
+  subroutine polish_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: beta
     integer, intent(in) :: n
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
-    real(dp), intent(in) :: reach
+    real(dp), intent(in) :: max_distance
     type(attractor_t), intent(out) :: cycle
     logical, intent(out) :: found
     logical, intent(out) :: blurred
 
-    call close_cycle(flow, beta, n, u, v, reach, cycle, found, blurred)
+    call close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
     if (.not. found) return
     found = abs(cycle%multiplier(1)) < 1
     if (.not. found) return

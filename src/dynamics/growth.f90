@@ -9,7 +9,7 @@ module kz_dynamics_growth
   use kz_dynamics_ellipses, only: in_ellipse
   use kz_dynamics_images, only: image_t, cell_image, extent
   use kz_dynamics_regions, only: regions_t, fold_cell
-  use kz_dynamics_states, only: sheared
+  use kz_dynamics_states, only: midperiod_angle
   use kz_dynamics_map_table, only: table_t, table_map_t, fill_ghosts
   implicit none
   private
@@ -68,7 +68,7 @@ contains
         do lane = 1, n
           i = first + lane - 1
           v = velocity(j) + field(2, i, j)
-          u = 2*real(i, dp)/map%table%n_circle + field(1, i, j) - sheared(0.0_dp, v)
+          u = 2*real(i, dp)/map%table%n_circle + field(1, i, j) - midperiod_angle(0.0_dp, v)
           turns(lane) = anint(0.5_dp*u)
           call map%put(lane, u - 2*turns(lane), v)
         end do
@@ -77,7 +77,7 @@ contains
         end do
         do lane = 1, n
           i = first + lane - 1
-          u = sheared(map%u(lane) + 2*(turns(lane) + map%turns(lane)), map%v(lane))
+          u = midperiod_angle(map%u(lane) + 2*(turns(lane) + map%turns(lane)), map%v(lane))
           more(:, i, j) = [u - 2*real(i, dp)/map%table%n_circle, map%v(lane) - velocity(j)]
         end do
       end do
@@ -279,7 +279,7 @@ contains
     inside = .true.
     do b = 1, 2
       do a = 1, 2
-        inside = inside .and. in_ellipse(attractor, j, u(a) - sheared(0.0_dp, v(b)), v(b))
+        inside = inside .and. in_ellipse(attractor, j, u(a) - midperiod_angle(0.0_dp, v(b)), v(b))
       end do
     end do
   end function holds

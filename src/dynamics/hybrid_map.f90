@@ -7,7 +7,7 @@ module kz_dynamics_hybrid_map
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_labels, only: follow, DOUBTFUL
   use kz_dynamics_regions, only: regions_t
-  use kz_dynamics_states, only: angle_difference, sheared
+  use kz_dynamics_states, only: angle_difference, midperiod_angle
   use kz_dynamics_map_table, only: table_t, table_map_t, make_table_map, place_t, locate, displace
   implicit none
   private
@@ -20,7 +20,7 @@ module kz_dynamics_hybrid_map
 
   type, extends(table_map_t) :: hybrid_map_t
     real(dp), pointer :: defect(:, :, :) => null() !< of measure_defects
-    real(dp) :: error(2, WIDTH) = 0 !< of the state since the lane was put: sheared half-turns, rad per drive radian
+    real(dp) :: error(2, WIDTH) = 0 !< of the state since the lane was put: half-turns at mid-period, rad per drive radian
   contains
     procedure :: put
     procedure :: move
@@ -29,8 +29,8 @@ module kz_dynamics_hybrid_map
 
 contains
 
-  !> defect(:, i, j) = the error of one period from the middle cell of block (i, j), from 0: sheared half-turns, rad per drive
-  !> radian.
+  !> defect(:, i, j) = the error of one period from the middle cell of block (i, j), from 0: half-turns at mid-period, rad per
+  !> drive radian.
   subroutine measure_defects(map, defect)
     type(table_map_t), intent(inout) :: map
     real(dp), allocatable, intent(out) :: defect(:, :, :)
@@ -46,7 +46,7 @@ contains
       do first = 0, n_blocks(1) - 1, WIDTH
         n = min(WIDTH, n_blocks(1) - first)
         do lane = 1, n
-          u = angle_difference(2*middle(first + lane - 1)/map%table%n_circle, sheared(0.0_dp, v))
+          u = angle_difference(2*middle(first + lane - 1)/map%table%n_circle, midperiod_angle(0.0_dp, v))
           call flow%put(lane, u, v)
           call map%put(lane, u, v)
         end do
@@ -54,7 +54,7 @@ contains
         call map%advance(n)
         do lane = 1, n
           defect(2, first + lane - 1, j) = map%v(lane) - flow%v(lane)
-          defect(1, first + lane - 1, j) = sheared(angle_difference(map%u(lane), flow%u(lane)), defect(2, first + lane - 1, j))
+          defect(1, first + lane - 1, j) = midperiod_angle(angle_difference(map%u(lane), flow%u(lane)), defect(2, first + lane - 1, j))
         end do
       end do
     end do

@@ -1,11 +1,11 @@
 !> The map table of interpolated cell mapping: the displacement F(x) - x on a grid of nodes, and the map that interpolates it.
 !>
-!> Its angle is that of a free flight at mid-period (`sheared`). The mirror symmetry halves the table: only angles 0 .. pi are
-!> stored; a state is folded there, and its image unfolded.
+!> Its angle is that of a free flight at mid-period (`midperiod_angle`). The mirror symmetry halves the table: only angles 0 ..
+!> pi are stored; a state is folded there, and its image unfolded.
 module kz_dynamics_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, WIDTH
-  use kz_dynamics_states, only: sheared
+  use kz_dynamics_states, only: midperiod_angle
   implicit none
   private
   public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map, &
@@ -16,12 +16,12 @@ module kz_dynamics_map_table
   real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
 
   type :: table_t
-    integer :: n_circle = 0   !< nodes on the whole circle of sheared angles
+    integer :: n_circle = 0   !< nodes on the whole circle of mid-period angles
     integer :: n_theta = 0    !< cells from angle 0 to pi (the last may reach beyond)
     integer :: n_own = 0      !< nodes from 0 to pi: 0 .. n_own
     integer :: n_velocity = 0 !< nodes of the velocity
     real(dp) :: top = 0       !< largest velocity; the smallest is -top
-    !> displacement over a period (sheared half-turns, rad per drive radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
+    !> displacement over a period (half-turns at mid-period, rad per drive radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
     real(dp), allocatable :: shift(:, :, :)
   end type table_t
 
@@ -46,18 +46,18 @@ module kz_dynamics_map_table
 
 contains
 
-  !> An empty table whose inner part (where every stencil fits) reaches the velocity `reach`.
-  function make_table(n_circle, n_velocity, reach) result(table)
+  !> An empty table whose inner part (where every stencil fits) reaches the velocity `max_velocity`.
+  function make_table(n_circle, n_velocity, max_velocity) result(table)
     integer, intent(in) :: n_circle
     integer, intent(in) :: n_velocity
-    real(dp), intent(in) :: reach
+    real(dp), intent(in) :: max_velocity
     type(table_t) :: table
 
     table%n_circle = n_circle
     table%n_theta = (n_circle + 1)/2
     table%n_own = n_circle/2
     table%n_velocity = n_velocity
-    table%top = reach*(n_velocity - 1)/(n_velocity - 1 - 2*GHOSTS)
+    table%top = max_velocity*(n_velocity - 1)/(n_velocity - 1 - 2*GHOSTS)
     allocate (table%shift(2, -GHOSTS:table%n_theta + GHOSTS, n_velocity))
     table%shift = 0
   end function make_table
@@ -84,12 +84,12 @@ contains
     do first = 0, table%n_own, WIDTH
       n = min(WIDTH, table%n_own - first + 1)
       do i = 1, n
-        call flow%put(i, 2*real(first + i - 1, dp)/table%n_circle - sheared(0.0_dp, v), v)
+        call flow%put(i, 2*real(first + i - 1, dp)/table%n_circle - midperiod_angle(0.0_dp, v), v)
       end do
       call flow%advance(n)
       do i = 1, n
         u = 2*real(first + i - 1, dp)/table%n_circle
-        shift(:, first + i - 1) = [sheared(flow%u(i) + 2*flow%turns(i), flow%v(i)) - u, flow%v(i) - v]
+        shift(:, first + i - 1) = [midperiod_angle(flow%u(i) + 2*flow%turns(i), flow%v(i)) - u, flow%v(i) - v]
       end do
     end do
   end subroutine table_row
@@ -151,7 +151,7 @@ contains
     lowest = self%points/2 - 1
     highest = self%table%n_velocity - 1 - lowest
     do lane = 1, WIDTH
-      w = sheared(self%u(lane), self%v(lane))
+      w = midperiod_angle(self%u(lane), self%v(lane))
       w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
       place%fold(lane) = merge(1.0_dp, -1.0_dp, w > 0 .or. (.not. w < 0 .and. self%v(lane) >= 0))
       if (.not. abs(self%v(lane)) > 0 .and. (.not. abs(w) > 0 .or. abs(w) >= 1)) place%fold(lane) = 0
@@ -192,7 +192,7 @@ contains
         call quintic_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
       end select
       do lane = 1, n
-        x(lane) = self%u(lane) + p%fold(lane)*(shift(1, lane) - sheared(0.0_dp, shift(2, lane)))
+        x(lane) = self%u(lane) + p%fold(lane)*(shift(1, lane) - midperiod_angle(0.0_dp, shift(2, lane)))
         y(lane) = self%v(lane) + p%fold(lane)*shift(2, lane)
       end do
     end associate

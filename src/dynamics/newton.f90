@@ -14,10 +14,10 @@ contains
 
   !> x = (half-turns, velocity) becomes the fixed point of the n-period map near it: `found` where it is placed well enough,
   !> `blurred` where the steps end at more than that.
-  subroutine newton(flow, n, reach, x, found, blurred)
+  subroutine newton(flow, n, max_distance, x, found, blurred)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: n
-    real(dp), intent(in) :: reach
+    real(dp), intent(in) :: max_distance
     real(dp), intent(inout) :: x(2)
     logical, intent(out) :: found
     logical, intent(out) :: blurred
@@ -41,7 +41,7 @@ contains
       if (size_now < SMALL .and. size_now >= 0.9_dp*size_before) stalls = stalls + 1
       if (stalls > MOST_STALLS) exit
       x = x - [step(1)/PI, step(2)]
-      if (norm2([PI, 1.0_dp]*(x - start)) > reach) return
+      if (norm2([PI, 1.0_dp]*(x - start)) > max_distance) return
       if (size_now < 1e-15_dp) exit
       size_before = size_now
     end do

@@ -1,10 +1,10 @@
-!> Where an orbit is known to be trapped: a grid of cells over the half plane of sheared angles 0 .. pi, each labelled with an
+!> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi, each labelled with an
 !> attractor, overlapped by trapping ellipses, or open.
 module kz_dynamics_regions
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_dynamics_cycles, only: attractor_t
   use kz_dynamics_ellipses, only: in_ellipse
-  use kz_dynamics_states, only: angle_difference, sheared
+  use kz_dynamics_states, only: angle_difference, midperiod_angle
   implicit none
   private
   public :: regions_t, make_regions, draw_attractors, find_regions, ellipse_at, fold_cell, cover_cell, chaos_region
@@ -112,13 +112,13 @@ contains
 
     form = attractor%form(:, j)
     if (form(1) <= 0) return
-    slope = sheared(0.0_dp, 1.0_dp)
+    slope = midperiod_angle(0.0_dp, 1.0_dp)
     form = [form(1), form(2) - slope*form(1), form(3) - 2*slope*form(2) + slope**2*form(1)]
     half_u = sqrt(form(3)/(form(1)*form(3) - form(2)**2))
     half_v = sqrt(form(1)/(form(1)*form(3) - form(2)**2))
     per_u = 0.5_dp*regions%n_circle
     per_v = regions%n_velocity/(2*regions%top)
-    u = angle_difference(sheared(attractor%u(j), attractor%v(j)), 0.0_dp) + turn
+    u = angle_difference(midperiod_angle(attractor%u(j), attractor%v(j)), 0.0_dp) + turn
     v = attractor%v(j)
     do l = max(0, floor((v - half_v + regions%top)*per_v)), &
            min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))
@@ -176,7 +176,7 @@ contains
     call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%label, n, u, v, label)
     do i = 1, n
       if (label(i) < 0) label(i) = find_region(regions, attractors, label(i), u(i), v(i))
-      if (label(i) > 0 .and. is_mirrored(mid_angle(u(i), v(i)), v(i))) label(i) = attractors(label(i))%mirror
+      if (label(i) > 0 .and. is_mirrored(wrapped_midperiod_angle(u(i), v(i)), v(i))) label(i) = attractors(label(i))%mirror
     end do
   end subroutine find_regions
 
@@ -196,7 +196,7 @@ contains
 
     per_v = n_velocity/(2*top)
     do i = 1, n
-      w = mid_angle(u(i), v(i))
+      w = wrapped_midperiod_angle(u(i), v(i))
       y = (merge(-v(i), v(i), is_mirrored(w, v(i))) + top)*per_v
       entry(i) = -1
       if (y >= 0 .and. y < n_velocity .and. abs(w) <= 1) entry(i) = min(int(abs(w)*per_u), n_theta - 1) + n_theta*int(y)
@@ -220,7 +220,7 @@ contains
     integer :: a
     real(dp) :: fold
 
-    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(mid_angle(u, v), v))
+    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(wrapped_midperiod_angle(u, v), v))
     if (entry == OUTSIDE) then
       a = ellipse_at(attractors, fold*u, fold*v)
     else
@@ -228,16 +228,16 @@ contains
     end if
   end function find_region
 
-  !> The sheared angle, wrapped to [-1, 1].
-  elemental function mid_angle(u, v) result(w)
+  !> The mid-period angle, wrapped to [-1, 1].
+  elemental function wrapped_midperiod_angle(u, v) result(w)
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     real(dp) :: w
     real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
 
-    w = sheared(u, v)
+    w = midperiod_angle(u, v)
     w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
-  end function mid_angle
+  end function wrapped_midperiod_angle
 
   !> Does (u, v) lie in the half that is not stored?
   elemental function is_mirrored(u, v) result(mirrored)

@@ -4,7 +4,7 @@ module kz_dynamics_states
   use kz_kernel_map, only: PI
   implicit none
   private
-  public :: angle_difference, separation, same_state, sheared, rounded
+  public :: angle_difference, separation, same_state, midperiod_angle, rounded
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
@@ -46,13 +46,13 @@ contains
   !> The angle at mid-period of a free flight from (u, v), in half-turns, not wrapped. The map table and the regions are grids
   !> over it and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs
   !> 2**order less.
-  elemental function sheared(u, v) result(w)
+  elemental function midperiod_angle(u, v) result(w)
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     real(dp) :: w
 
     w = u + v
-  end function sheared
+  end function midperiod_angle
 
   !> As numbers are compared where an order depends on them: to 1e-9.
   elemental function rounded(x) result(n)

@@ -46,7 +46,7 @@ static kz_status discover(kz_team *team, finding *s) {
                       .starts = s->plan->starts,
                       .seed = s->plan->seed,
                       .max_periods = s->max_periods};
-  search.reach = kz_dynamics_reach(s->dynamics, &search.window);
+  search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
   KZ_TRY(kz_search_window(team, s->dynamics, &search, s->state, s->label));
   s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
   if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");

@@ -224,7 +224,7 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_team_agree(team, status);
   if (status == KZ_OK) {
-    b.search.reach = kz_dynamics_reach(b.dynamics, &b.search.window);
+    b.search.max_velocity = kz_dynamics_max_velocity(b.dynamics, &b.search.window);
     status = model(&b, team);
   }
   kz_doubt doubt = {0};

@@ -70,7 +70,7 @@ static void compare(const kz_reference_labels *reference, const int32_t *label, 
 static kz_status set_up(measurement *g) {
   const kz_config *s = g->config;
   kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
-  KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->reach));
+  KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil[s->interpolation]);
   return KZ_OK;
 }

@@ -5,7 +5,7 @@
 #include "motion.h"
 
 /* A cycle must lie this near to the start (rad), or Newton has gone to another one. */
-static const double REACH = 0.3;
+static const double MAX_DISTANCE = 0.3;
 /* Linear orbits count as closed when they come back to this share of their size. */
 static const double CLOSED = 1e-9;
 enum { MOST_PERIODS = 512 };
@@ -13,7 +13,7 @@ enum { MOST_PERIODS = 512 };
 /* Newton from `start` for period n; the cycle then has its smallest period. */
 static bool close_with(const kz_mover *mover, int64_t n, kz_state start, kz_cycle *cycle) {
   cycle->state = start;
-  cycle->period = kz_dynamics_close_cycle(&mover->pendulum, &mover->numerics, n, REACH, &cycle->state.theta,
+  cycle->period = kz_dynamics_close_cycle(&mover->pendulum, &mover->numerics, n, MAX_DISTANCE, &cycle->state.theta,
                                           &cycle->state.velocity, cycle->re, cycle->im);
   return cycle->period > 0;
 }
@@ -56,7 +56,7 @@ kz_status kz_cycle_close(const kz_mover *mover, int64_t period, kz_state start, 
   if (!close_with(mover, period, start, cycle))
     return kz_fail(KZ_FAILED,
                    "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; a nearer start",
-                   (long long)period, REACH, start.theta, start.velocity);
+                   (long long)period, MAX_DISTANCE, start.theta, start.velocity);
   if (cycle->period == period) return KZ_OK;
   return kz_fail(KZ_FAILED, "orbit.period: %lld, but the cycle found there closes after %lld; that period, or a nearer start",
                  (long long)period, (long long)cycle->period);

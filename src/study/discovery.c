@@ -212,8 +212,8 @@ kz_status kz_search_window(kz_team *team, kz_dynamics *dynamics, const kz_search
   const bool table = search->table_theta > 0;
   const int64_t scouts = table && search->starts > SCOUTS ? SCOUTS : search->starts, rest = search->starts - scouts;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
-  kz_dynamics_outline(dynamics, search->reach);
+  kz_dynamics_outline(dynamics, search->max_velocity);
   KZ_TRY(kz_discover(team, dynamics, search->max_periods, scouts, state, label));
-  if (table) KZ_TRY(kz_map_table_make(team, dynamics, search->table_theta, search->table_velocity, search->reach));
+  if (table) KZ_TRY(kz_map_table_make(team, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
   return rest > 0 ? kz_discover(team, dynamics, search->max_periods, rest, state + 2 * scouts, label + scouts) : KZ_OK;
 }

@@ -12,7 +12,7 @@ typedef struct {
   kz_window window;
   int64_t starts, seed, max_periods;
   int64_t table_theta, table_velocity; /* nodes; 0 = no table is made */
-  double reach;                        /* of kz_dynamics_reach */
+  double max_velocity;                 /* of kz_dynamics_max_velocity */
 } kz_search;
 
 /* Finds the attractors that the starts end on. With a table the first starts are scouts: the regions grow around the attractors

@@ -19,9 +19,9 @@ static kz_status table_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-kz_status kz_map_table_make(kz_team *team, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double reach) {
+kz_status kz_map_table_make(kz_team *team, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity) {
   table t = {dynamics, n_velocity};
-  kz_dynamics_table_create(dynamics, n_theta, n_velocity, reach);
+  kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
   kz_stage stage = {.name = "map table",
                     .n_tiles = (n_velocity + ROWS - 1) / ROWS,
                     .record_bytes = ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double),

@@ -74,7 +74,7 @@ static kz_status find_attractors(const kz_reference_labels *reference, kz_team *
                             .max_periods = plan->max_periods,
                             .table_theta = NODES,
                             .table_velocity = NODES,
-                            .reach = reference->reach};
+                            .max_velocity = reference->max_velocity};
   KZ_TRY(kz_search_window(team, dynamics, &search, p->state, p->label));
   for (int round = 0; round < ROUNDS; round++) {
     const int64_t known = kz_dynamics_count(dynamics);
@@ -96,7 +96,7 @@ static kz_status prepare(kz_reference_labels *reference, kz_team *team, kz_dynam
   p.label = malloc((size_t)p.most * sizeof *p.label);
   kz_status status = p.state && p.label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
   status = kz_team_agree(team, status);
-  reference->reach = kz_dynamics_reach(dynamics, &window);
+  reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
   if (status == KZ_OK) status = find_attractors(reference, team, dynamics, &p);
   free(p.state);
   free(p.label);

@@ -23,9 +23,9 @@ typedef struct {
 typedef struct {
   const kz_basin_plan *plan;
   kz_pendulum pendulum;
-  int64_t total;   /* cells of the window */
-  int64_t samples; /* cells with a reference label: the first of kz_shuffled */
-  double reach;    /* of kz_dynamics_reach */
+  int64_t total;       /* cells of the window */
+  int64_t samples;     /* cells with a reference label: the first of kz_shuffled */
+  double max_velocity; /* of kz_dynamics_max_velocity */
   int64_t packed_size;
   double *packed;             /* the attractors, for kz_dynamics_unpack */
   kz_reference_label *labels; /* [samples] */

@@ -183,7 +183,7 @@ static kz_status discover(searching *s) {
       .max_periods = s->max_periods,
       .table_theta = basin ? basin->table_theta : 0,
       .table_velocity = basin ? basin->table_velocity : 0};
-  search.reach = kz_dynamics_reach(s->dynamics, &search.window);
+  search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
   return kz_search_window(s->team, s->dynamics, &search, s->state, s->label);
 }
 

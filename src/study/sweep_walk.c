@@ -5,7 +5,7 @@
 #include "sweep.h"
 
 /* rad: farthest that a strobe point may move in one step. */
-static const double REACH = 0.3;
+static const double MAX_DISTANCE = 0.3;
 /* Ends are located to this share of the parameter. */
 static const double LOCATED = 1e-10;
 /* rad: at the very end of a branch a cycle this near to another one merges with it. */
@@ -41,7 +41,7 @@ static bool attracts(const kz_branch_point *point) {
 static bool step_to(const kz_path *path, double value, const kz_branch_point *from, kz_branch_point *to) {
   kz_pendulum pendulum;
   return path->pendulum(path->context, value, &pendulum) && pendulum.beta > 0 &&
-         kz_branch_continue(&pendulum, from, REACH, to) && attracts(to);
+         kz_branch_continue(&pendulum, from, MAX_DISTANCE, to) && attracts(to);
 }
 
 double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point) {
@@ -74,7 +74,8 @@ int kz_end_kind(const kz_branch_point *end) {
 static double flip_test(const kz_path *path, double value) {
   kz_pendulum pendulum;
   kz_branch_point rest = {.theta = M_PI, .period = 1, .symmetric = 1, .centre = 1};
-  if (!path->pendulum(path->context, value, &pendulum) || !kz_branch_continue(&pendulum, &rest, REACH, &rest)) return NAN;
+  if (!path->pendulum(path->context, value, &pendulum) || !kz_branch_continue(&pendulum, &rest, MAX_DISTANCE, &rest))
+    return NAN;
   return 1 + rest.multiplier_re[0] + rest.multiplier_re[1] + exp(-2 * M_PI * pendulum.beta);
 }
 

@@ -18,7 +18,7 @@ static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
 enum { STARTS = 1024 };
 
 /* Follows starts and looks for cycles until every start is trapped. */
-static kz_dynamics *explored(double m, int64_t seed, double reach) {
+static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
   kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 12);
   double *state = malloc(2 * STARTS * sizeof *state);
@@ -26,7 +26,7 @@ static kz_dynamics *explored(double m, int64_t seed, double reach) {
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
   assert_non_null(d);
   kz_dynamics_starts(&WINDOW, seed, n, state);
-  kz_dynamics_outline(d, reach);
+  kz_dynamics_outline(d, max_velocity);
   for (int round = 0; n > 0 && round < 12; round++) {
     kz_dynamics_update(d);
     kz_dynamics_follow(d, n, 128, state, label, periods);
@@ -46,8 +46,8 @@ static kz_dynamics *explored(double m, int64_t seed, double reach) {
   return d;
 }
 
-static void with_table(kz_dynamics *d, int64_t nodes, double reach) {
-  kz_dynamics_table_create(d, nodes, nodes, reach);
+static void with_table(kz_dynamics *d, int64_t nodes, double max_velocity) {
+  kz_dynamics_table_create(d, nodes, nodes, max_velocity);
   int64_t size = kz_dynamics_table_row_size(d);
   double *rows = malloc((size_t)(nodes * size) * sizeof *rows);
   for (int64_t row = 0; row < nodes; row++) kz_dynamics_table_row(d, row, rows + row * size);
