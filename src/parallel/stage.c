@@ -5,8 +5,8 @@
 
 #include "bytes.h"
 #include "draw.h"
-#include "harvest.h"
 #include "progress.h"
+#include "record_buffer.h"
 #include "section.h"
 #include "team.h"
 
@@ -21,7 +21,7 @@ typedef struct {
   kz_section section; /* of the checkpoint */
   int64_t n_left;
   int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
-  kz_harvest harvest;
+  kz_record_buffer buffered;
   void *buffer; /* of the delivery, rank 0 */
   kz_draw draw;
   kz_meter meter;
@@ -40,8 +40,8 @@ static kz_status check(const kz_shift *shift) {
 static kz_status prepare(kz_shift *shift) {
   KZ_TRY(check(shift));
   kz_team *team = shift->team;
-  kz_harvest_begin(&shift->harvest, shift->stage->record_bytes);
-  if (team->rank == 0 && team->size > 1 && !(shift->buffer = malloc(kz_harvest_message_bytes(&shift->harvest))))
+  kz_record_buffer_begin(&shift->buffered, shift->stage->record_bytes);
+  if (team->rank == 0 && team->size > 1 && !(shift->buffer = malloc(kz_record_buffer_message_bytes(&shift->buffered))))
     return kz_fail(KZ_FAILED, "stage %s: out of memory", shift->stage->name);
   return KZ_OK;
 }
@@ -68,7 +68,7 @@ static kz_status do_tile(kz_shift *shift, int64_t tile) {
   void *record;
   if (shift->team->rank == 0)
     record = memset(shift->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
-  else if (!(record = kz_harvest_add(&shift->harvest, tile)))
+  else if (!(record = kz_record_buffer_add(&shift->buffered, tile)))
     return kz_fail(KZ_FAILED, "stage %s: out of memory for the records", stage->name);
   KZ_TRY(stage->work(stage->context, tile, record));
   return shift->kept ? kz_section_save(&shift->team->checkpoint, &shift->section, tile, record) : KZ_OK;
@@ -135,7 +135,7 @@ static kz_status measure_idle(kz_shift *shift, double *idle) {
 
 static kz_status deliver(kz_shift *shift) {
   const kz_stage *stage = shift->stage;
-  KZ_TRY(kz_harvest_deliver(&shift->harvest, shift->team, shift->buffer, shift->records));
+  KZ_TRY(kz_record_buffer_deliver(&shift->buffered, shift->team, shift->buffer, shift->records));
   if (!stage->everywhere) return KZ_OK;
   return kz_team_broadcast(shift->team, shift->records, (size_t)stage->n_tiles * stage->record_bytes);
 }
@@ -158,7 +158,7 @@ kz_status kz_stage_run(kz_team *team, const kz_stage *stage, void *records) {
   kz_shift shift = {.team = team, .stage = stage, .records = records, .n_left = stage->n_tiles};
   shift.kept = stage->keep && team->checkpoint.file >= 0;
   const kz_status status = run(&shift);
-  kz_harvest_end(&shift.harvest);
+  kz_record_buffer_end(&shift.buffered);
   free(shift.buffer);
   free(shift.left);
   return status;

@@ -1,6 +1,6 @@
 /* Records that a rank keeps until they are delivered to rank 0: blocks of slots, one block = one message. */
-#ifndef KAPITZA_PARALLEL_HARVEST_H
-#define KAPITZA_PARALLEL_HARVEST_H
+#ifndef KAPITZA_PARALLEL_RECORD_BUFFER_H
+#define KAPITZA_PARALLEL_RECORD_BUFFER_H
 
 #include "team.h"
 
@@ -12,19 +12,19 @@ typedef struct {
   int64_t block_slots; /* slots of a block */
   int64_t n_blocks;
   kz_block *first, *last;
-} kz_harvest;
+} kz_record_buffer;
 
 /* Records larger than this do not fit into a message. */
 #define KZ_RECORD_MAX ((size_t)1 << 30)
 
-void kz_harvest_begin(kz_harvest *harvest, size_t record_bytes);
+void kz_record_buffer_begin(kz_record_buffer *buffered, size_t record_bytes);
 /* Room for the record of `tile`, zeroed and aligned for any type; NULL where memory ran out. */
-void *kz_harvest_add(kz_harvest *harvest, int64_t tile);
+void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile);
 /* Bytes of the largest message. */
-size_t kz_harvest_message_bytes(const kz_harvest *harvest);
+size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered);
 /* Brings the records of all other ranks to `records` [tile][record_bytes] on rank 0, by way of `buffer`
- * [kz_harvest_message_bytes] there. Collective. */
-kz_status kz_harvest_deliver(const kz_harvest *harvest, kz_team *team, void *buffer, char *records);
-void kz_harvest_end(kz_harvest *harvest);
+ * [kz_record_buffer_message_bytes] there. Collective. */
+kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_team *team, void *buffer, char *records);
+void kz_record_buffer_end(kz_record_buffer *buffered);
 
 #endif
