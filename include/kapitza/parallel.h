@@ -24,7 +24,7 @@ typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_prog
 /* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and makes the team of all
  * ranks. `team` is NULL or must be ended also where this fails. Collective. */
 kz_status kz_team_start(int *argc, char ***argv, kz_team **team);
-/* Frees the team (NULL too), its hold on the checkpoint, and leaves through MPI_Finalize. Collective. */
+/* Frees the team (NULL too), its lock of the checkpoint, and leaves through MPI_Finalize. Collective. */
 void kz_team_end(kz_team *team);
 
 /* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `team` may be NULL. */

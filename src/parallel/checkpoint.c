@@ -16,13 +16,13 @@ void kz_checkpoint_release(kz_checkpoint *checkpoint) {
 
 /* Rank 0 decides whether the file is gone on from or begun anew. */
 static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan) {
-  kz_hold hold = {.file = -1};
-  KZ_TRY(kz_hold_take(plan->path, plan->resume || plan->force, &hold));
-  checkpoint->file = hold.file;
-  bool anew = !hold.existed || plan->force;
+  kz_file_lock file_lock = {.file = -1};
+  KZ_TRY(kz_file_lock_take(plan->path, plan->resume || plan->force, &file_lock));
+  checkpoint->file = file_lock.file;
+  bool anew = !file_lock.existed || plan->force;
   if (!anew) KZ_TRY(kz_header_read(checkpoint, plan->fingerprint, &anew));
   if (anew) KZ_TRY(kz_header_write(checkpoint, plan->fingerprint));
-  return kz_hold_share(plan->path, hold.file);
+  return kz_file_lock_share(plan->path, file_lock.file);
 }
 
 bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint) {
@@ -31,7 +31,7 @@ bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint) {
 
 void kz_checkpoint_forget(const kz_checkpoint *checkpoint) {
   if (checkpoint->file >= 0 && checkpoint->ours && !kz_header_is_marked(checkpoint) &&
-      kz_hold_names(checkpoint->path, checkpoint->file))
+      kz_file_lock_names(checkpoint->path, checkpoint->file))
     unlink(checkpoint->path);
 }
 
@@ -48,7 +48,7 @@ kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan) {
   if (status == KZ_OK && team->rank == 0) status = begin(checkpoint, plan);
   status = kz_team_agree(team, status);
   if (status == KZ_OK) {
-    status = team->rank != 0 ? kz_hold_join(plan->path, &checkpoint->file) : KZ_OK;
+    status = team->rank != 0 ? kz_file_lock_join(plan->path, &checkpoint->file) : KZ_OK;
     status = kz_team_agree(team, status);
   }
   if (status == KZ_OK) status = kz_team_broadcast(team, &checkpoint->ours, sizeof checkpoint->ours);
@@ -59,7 +59,7 @@ kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan) {
 void kz_checkpoint_clear(const char *path, const char *fingerprint) {
   kz_checkpoint checkpoint = {.file = -1, .path = (char *)path};
   bool unfinished;
-  if (!kz_hold_try(path, &checkpoint.file)) return;
+  if (!kz_file_lock_try(path, &checkpoint.file)) return;
   if (kz_header_read(&checkpoint, fingerprint, &unfinished) == KZ_OK && !unfinished) unlink(path);
   kz_message_clear();
   close(checkpoint.file);
@@ -71,7 +71,7 @@ static kz_status remove_file(const kz_checkpoint *checkpoint) {
 }
 
 static kz_status keep_file(const kz_checkpoint *checkpoint) {
-  if (!kz_hold_names(checkpoint->path, checkpoint->file))
+  if (!kz_file_lock_names(checkpoint->path, checkpoint->file))
     return kz_fail(KZ_FAILED, "%s: was removed during the run; finished work is lost", checkpoint->path);
   if (fsync(checkpoint->file) == 0) return KZ_OK;
   return kz_fail(KZ_FAILED, "%s: cannot be saved: %s", checkpoint->path, strerror(errno));

@@ -36,21 +36,21 @@ void kz_checkpoint_forget(const kz_checkpoint *checkpoint);
 /* Closes this rank's file, which gives its locks back. The file stays. */
 void kz_checkpoint_release(kz_checkpoint *checkpoint);
 
-/* Takes hold of the file at `path` for rank 0: opens or creates it, locks it against every other run, and waits for
+/* Opens or creates the file at `path` for rank 0, locks it against every other run, and waits for
  * ranks of an earlier run that are still writing. `existed` tells whether it was there. */
-typedef struct kz_hold {
+typedef struct kz_file_lock {
   int file;
   bool existed;
-} kz_hold;
-kz_status kz_hold_take(const char *path, bool may_exist, kz_hold *hold);
+} kz_file_lock;
+kz_status kz_file_lock_take(const char *path, bool may_exist, kz_file_lock *file_lock);
 /* Takes hold of an existing file at once; false where there is none, or where another process holds it. */
-bool kz_hold_try(const char *path, int *file);
+bool kz_file_lock_try(const char *path, int *file);
 /* Lets the other ranks of this run in. */
-kz_status kz_hold_share(const char *path, int file);
+kz_status kz_file_lock_share(const char *path, int file);
 /* Joins as another rank of this run. */
-kz_status kz_hold_join(const char *path, int *file);
+kz_status kz_file_lock_join(const char *path, int *file);
 /* True where `path` still names the open file. */
-bool kz_hold_names(const char *path, int file);
+bool kz_file_lock_names(const char *path, int file);
 
 /* The header of a run with this fingerprint. */
 kz_status kz_header_write(kz_checkpoint *checkpoint, const char *fingerprint);

@@ -5,7 +5,7 @@ foreach(ranks 1 2 3 5)
 endforeach()
 kapitza_test(schedule LABEL parallel LAYER parallel)
 target_include_directories(test_parallel_schedule PRIVATE ${PROJECT_SOURCE_DIR}/src/parallel)
-kapitza_test(hold LABEL parallel LAYER parallel RANKS 2 TIMEOUT 60)
+kapitza_test(file_lock LABEL parallel LAYER parallel RANKS 2 TIMEOUT 60)
 kapitza_test(stage LABEL parallel LAYER parallel TIMEOUT 60) # and without mpirun
 kapitza_test(progress LABEL parallel LAYER parallel TIMEOUT 60)
 

@@ -26,69 +26,69 @@ static bool is_held(int error) {
   return error == EAGAIN || error == EACCES;
 }
 
-bool kz_hold_names(const char *path, int file) {
+bool kz_file_lock_names(const char *path, int file) {
   struct stat named, opened;
   return lstat(path, &named) == 0 && fstat(file, &opened) == 0 && named.st_dev == opened.st_dev &&
          named.st_ino == opened.st_ino;
 }
 
 /* KZ_OK with file < 0 where somebody else created it between two looks. A link is refused: it may lead to anybody's file. */
-static kz_status open_or_create(const char *path, kz_hold *hold) {
-  hold->existed = true;
-  hold->file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
-  if (hold->file < 0 && errno == ENOENT) {
-    hold->existed = false;
-    hold->file = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (hold->file < 0 && errno == EEXIST) return KZ_OK;
+static kz_status open_or_create(const char *path, kz_file_lock *file_lock) {
+  file_lock->existed = true;
+  file_lock->file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
+  if (file_lock->file < 0 && errno == ENOENT) {
+    file_lock->existed = false;
+    file_lock->file = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_lock->file < 0 && errno == EEXIST) return KZ_OK;
   }
   struct stat facts;
-  if (hold->file >= 0 && fstat(hold->file, &facts) == 0 && S_ISREG(facts.st_mode)) return KZ_OK;
-  const char *reason = hold->file >= 0 ? "not a regular file" : errno == ELOOP ? "a link" : strerror(errno);
-  if (hold->file >= 0) close(hold->file);
-  hold->file = -1;
+  if (file_lock->file >= 0 && fstat(file_lock->file, &facts) == 0 && S_ISREG(facts.st_mode)) return KZ_OK;
+  const char *reason = file_lock->file >= 0 ? "not a regular file" : errno == ELOOP ? "a link" : strerror(errno);
+  if (file_lock->file >= 0) close(file_lock->file);
+  file_lock->file = -1;
   return kz_fail(KZ_REFUSED, "%s: cannot be used as checkpoint: %s", path, reason);
 }
 
 /* One attempt: KZ_OK with file < 0 where another process holds it, or where it was replaced meanwhile. */
-static kz_status attempt(const char *path, bool may_exist, kz_hold *hold) {
-  KZ_TRY(open_or_create(path, hold));
-  if (hold->file < 0) return KZ_OK;
+static kz_status attempt(const char *path, bool may_exist, kz_file_lock *file_lock) {
+  KZ_TRY(open_or_create(path, file_lock));
+  if (file_lock->file < 0) return KZ_OK;
   kz_status status = KZ_OK;
-  if (hold->existed && !may_exist)
+  if (file_lock->existed && !may_exist)
     status = kz_fail(KZ_REFUSED, "%s: a checkpoint is there; use --resume to go on from it or --force to discard it", path);
-  else if (lock(hold->file, F_WRLCK, OWNER, 2) == 0 && kz_hold_names(path, hold->file))
+  else if (lock(file_lock->file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, file_lock->file))
     return KZ_OK;
-  else if (!is_held(errno) && kz_hold_names(path, hold->file))
+  else if (!is_held(errno) && kz_file_lock_names(path, file_lock->file))
     status = kz_fail(KZ_REFUSED, "%s: cannot be locked: %s", path, strerror(errno));
-  close(hold->file);
-  hold->file = -1;
+  close(file_lock->file);
+  file_lock->file = -1;
   return status;
 }
 
-kz_status kz_hold_take(const char *path, bool may_exist, kz_hold *hold) {
+kz_status kz_file_lock_take(const char *path, bool may_exist, kz_file_lock *file_lock) {
   for (const double begun = kz_clock(); kz_clock() - begun < WAIT; nanosleep(&PAUSE, NULL)) {
-    KZ_TRY(attempt(path, may_exist, hold));
-    if (hold->file >= 0) return KZ_OK;
+    KZ_TRY(attempt(path, may_exist, file_lock));
+    if (file_lock->file >= 0) return KZ_OK;
     if (kz_signals_caught()) return kz_fail(KZ_STOPPED, "%s: stopped while it was held by another process", path);
   }
   return kz_fail(KZ_REFUSED, "%s: is held by another process; wait until that run has ended", path);
 }
 
-bool kz_hold_try(const char *path, int *file) {
+bool kz_file_lock_try(const char *path, int *file) {
   *file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
   if (*file < 0) return false;
-  if (lock(*file, F_WRLCK, OWNER, 2) == 0 && kz_hold_names(path, *file)) return true;
+  if (lock(*file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, *file)) return true;
   close(*file);
   *file = -1;
   return false;
 }
 
-kz_status kz_hold_share(const char *path, int file) {
+kz_status kz_file_lock_share(const char *path, int file) {
   if (lock(file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
   return kz_fail(KZ_FAILED, "%s: cannot be shared: %s", path, strerror(errno));
 }
 
-kz_status kz_hold_join(const char *path, int *file) {
+kz_status kz_file_lock_join(const char *path, int *file) {
   *file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
   if (*file >= 0 && lock(*file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
   const int error = errno;

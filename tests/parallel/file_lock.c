@@ -8,7 +8,7 @@
 static char path[64];
 
 /* A process that holds the file for a while, as an orphan of a killed run does: byte 1, shared. */
-static pid_t hold_for(double seconds) {
+static pid_t lock_for(double seconds) {
   const int file = open(path, O_RDWR | O_CREAT, 0666);
   struct flock byte = {.l_type = F_RDLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
   if (file < 0 || fcntl(file, F_OFD_SETLK, &byte) != 0) perror(path);
@@ -24,7 +24,7 @@ static pid_t hold_for(double seconds) {
 /* Opens against a holder; the time it took. */
 static double open_against(double seconds, kz_status expected) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
-  const pid_t child = kz_team_rank(team) == 0 ? hold_for(seconds) : 0;
+  const pid_t child = kz_team_rank(team) == 0 ? lock_for(seconds) : 0;
   const double begun = now();
   const kz_status status = kz_checkpoint_open(team, &plan);
   const double took = now() - begun;
