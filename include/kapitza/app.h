@@ -57,14 +57,14 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
 /* A rank that cannot go on ends all ranks with one line and status 1 (75 where a stop was asked), from here to disarming. */
 void kz_abandon_arm(void);
 void kz_abandon_disarm(void);
-/* The team that it ends (NULL: none), and the result whose half file it removes (NULL: there is none). */
-void kz_abandon_team(kz_team *team, const char *path);
+/* The ranks that it ends (NULL: none), and the result whose half file it removes (NULL: there is none). */
+void kz_abandon_ranks(kz_ranks *ranks, const char *path);
 
 /* The sum of what the wanted studies cost; the memory is that of the most demanding one. */
 kz_cost kz_cost_of(const kz_scene *scene);
-/* KZ_REFUSED where the ranks of this node need more memory than it has, or this process may not have its share. `team` NULL: one
+/* KZ_REFUSED where the ranks of this node need more memory than it has, or this process may not have its share. `ranks` NULL: one
  * rank alone. Collective. */
-kz_status kz_cost_check(const kz_cost *cost, kz_team *team);
+kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks);
 /* The lowest limit, in bytes, of the memory control group of this process and of all that it is in; infinity where there is none.
  * `groups` is /proc/self/cgroup (version 1 or 2), `mount` the folder /sys/fs/cgroup. Source: cgroups(7). */
 double kz_memory_limit(const char *groups, const char *mount);

@@ -12,7 +12,7 @@
 
 #include "kapitza/status.h"
 
-typedef struct kz_team kz_team;
+typedef struct kz_ranks kz_ranks;
 
 /* What can be known without starting MPI: this process's rank as its launcher told it at the first call (-1: none did), and the
  * library. */
@@ -21,43 +21,43 @@ const char *kz_parallel_library(void);
 
 typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;
 
-/* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and makes the team of all
- * ranks. `team` is NULL or must be ended also where this fails. Collective. */
-kz_status kz_team_start(int *argc, char ***argv, kz_team **team);
-/* Frees the team (NULL too), its lock of the checkpoint, and leaves through MPI_Finalize. Collective. */
-void kz_team_end(kz_team *team);
+/* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and sets up the ranks.
+ * `ranks` is NULL or must be ended also where this fails. Collective. */
+kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks);
+/* Frees `ranks` (NULL too), its lock of the checkpoint, and leaves through MPI_Finalize. Collective. */
+void kz_ranks_end(kz_ranks *ranks);
 
-/* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `team` may be NULL. */
-void kz_team_abandon(kz_team *team, kz_status status) __attribute__((noreturn));
+/* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `ranks` may be NULL. */
+void kz_ranks_abandon(kz_ranks *ranks, kz_status status) __attribute__((noreturn));
 /* The path of the checkpoint where it holds finished work, else NULL. */
-const char *kz_team_saved(const kz_team *team);
+const char *kz_ranks_saved(const kz_ranks *ranks);
 /* Removes a checkpoint that holds none. */
-void kz_team_forget(const kz_team *team);
+void kz_ranks_forget(const kz_ranks *ranks);
 
-int kz_team_rank(const kz_team *team);
-int kz_team_size(const kz_team *team);
+int kz_ranks_own(const kz_ranks *ranks);
+int kz_ranks_count(const kz_ranks *ranks);
 
 /* The sum of `mine` over the ranks that share this rank's memory, and how many they are. Collective. */
-kz_status kz_team_node(kz_team *team, double mine, double *sum, int *ranks);
+kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *ranks);
 
 /* The worst status of all ranks (failed, refused, stopped, done), with that rank's message on every rank. Collective. */
-kz_status kz_team_agree(kz_team *team, kz_status mine);
+kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine);
 
 /* KZ_REFUSED on every rank where one has another text than rank 0; `what` is said to differ. Collective. */
-kz_status kz_team_compare(kz_team *team, const char *text, const char *what);
+kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what);
 
 /* Bytes of rank 0 to every rank. Collective. */
-kz_status kz_team_broadcast(kz_team *team, void *data, size_t bytes);
+kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes);
 
 /* auto: a bar where a person's terminal is found, else a line every 10 s; always: where no terminal is, a line every
  * second and one at the end of each stage; never: nothing. Stages of one tile are silent. */
-void kz_team_set_progress(kz_team *team, kz_progress progress);
-/* Stop (KZ_STOPPED) once `seconds` have passed since kz_team_start; 0 = no limit. */
-void kz_team_set_time_limit(kz_team *team, double seconds);
+void kz_ranks_set_progress(kz_ranks *ranks, kz_progress progress);
+/* Stop (KZ_STOPPED) once `seconds` have passed since kz_ranks_start; 0 = no limit. */
+void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds);
 
 /* Between two tiles a stop request is heard. Where that takes more than 6 s, `leave` must end the process; it is called by a
- * signal handler, with "stopped by SIGUSR1" or the like. NULL: no longer. After kz_team_set_time_limit. */
-void kz_team_set_overdue(kz_team *team, void (*leave)(const char *reason));
+ * signal handler, with "stopped by SIGUSR1" or the like. NULL: no longer. After kz_ranks_set_time_limit. */
+void kz_ranks_set_overdue(kz_ranks *ranks, void (*leave)(const char *reason));
 
 /* Checkpoint of a run: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is
  * text (scene, version, numerics: one "name: value" a line) that a resumed run must match; a difference is refused naming
@@ -68,16 +68,16 @@ typedef struct {
   bool resume; /* go on from an existing file */
   bool force;  /* discard an existing file */
 } kz_checkpoint_plan;
-kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan);
+kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan);
 /* Closes it; removes the file when `complete`, or where no kept stage has begun. Without an open one: KZ_OK. Collective. */
-kz_status kz_checkpoint_close(kz_team *team, bool complete);
+kz_status kz_checkpoint_close(kz_ranks *ranks, bool complete);
 /* Removes a checkpoint that outlived its complete file: only one that no process holds and that has this fingerprint. */
 void kz_checkpoint_clear(const char *path, const char *fingerprint);
 /* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that
  * differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
-/* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, no kz_team call. */
+/* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, no kz_ranks call. */
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
 
 typedef struct {
@@ -97,6 +97,6 @@ typedef struct {
  * everywhere). The first failing rank stops the others, and all return its status. Collective. KZ_STOPPED: a signal or the
  * time limit came before the last tile was begun; finished kept records are on disk. Kept stages must come in the same
  * order in every run. Without an open checkpoint nothing is kept. */
-kz_status kz_stage_run(kz_team *team, const kz_stage *stage, void *records);
+kz_status kz_stage_run(kz_ranks *ranks, const kz_stage *stage, void *records);
 
 #endif

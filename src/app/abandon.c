@@ -13,7 +13,7 @@
 
 static struct {
   bool armed;
-  kz_team *team;
+  kz_ranks *ranks;
   char part[PATH_MAX + 16]; /* the half file; "" = there is none yet */
 } here;
 
@@ -25,9 +25,9 @@ static bool speaks(void) {
 /* "kapitza: WHAT; finished work is in ...", or OTHERWISE, without a stream: there may be no memory for one. */
 static void say(const char *what, const char *otherwise) {
   char line[PATH_MAX + 256];
-  const char *saved = here.team ? kz_team_saved(here.team) : NULL;
+  const char *saved = here.ranks ? kz_ranks_saved(here.ranks) : NULL;
   here.armed = false;
-  if (here.team) kz_team_forget(here.team);
+  if (here.ranks) kz_ranks_forget(here.ranks);
   snprintf(line, sizeof line, "kapitza: %s%s%s%s\n", what, saved ? "; finished work is in " : otherwise, saved ? saved : "",
            saved ? ", --resume goes on from it" : "");
   if (speaks() && write(STDERR_FILENO, line, strlen(line)) < 0) return; /* nobody listens */
@@ -42,7 +42,7 @@ static void say_error(const char *what) {
 
 static void leave(const char *what) {
   say_error(what);
-  kz_team_abandon(here.team, KZ_FAILED);
+  kz_ranks_abandon(here.ranks, KZ_FAILED);
 }
 
 static void without_memory(void) {
@@ -76,11 +76,11 @@ void kz_abandon_arm(void) {
   signal(SIGABRT, at_abort);
 }
 
-void kz_abandon_team(kz_team *team, const char *path) {
-  here.team = team;
+void kz_abandon_ranks(kz_ranks *ranks, const char *path) {
+  here.ranks = ranks;
   here.part[0] = '\0';
   if (path) snprintf(here.part, sizeof here.part, "%s.part", path);
-  if (team) kz_team_set_overdue(team, path ? overdue : NULL);
+  if (ranks) kz_ranks_set_overdue(ranks, path ? overdue : NULL);
 }
 
 void kz_abandon_disarm(void) {

@@ -42,13 +42,13 @@ static bool may_have(double bytes) {
   return memory != NULL;
 }
 
-kz_status kz_cost_check(const kz_cost *cost, kz_team *team) {
-  const bool first = !team || kz_team_rank(team) == 0;
+kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
+  const bool first = !ranks || kz_ranks_own(ranks) == 0;
   const double mine = cost->memory_bytes + (first ? cost->first_bytes : 0), memory = node_memory();
   double sum = mine;
   int ranks = 1;
   char needed[32], there[32];
-  if (team) KZ_TRY(kz_team_node(team, mine, &sum, &ranks));
+  if (ranks) KZ_TRY(kz_ranks_node(ranks, mine, &sum, &ranks));
   kz_cost_print_bytes(sum > memory ? sum : mine, needed);
   if (sum <= memory) {
     if (may_have(mine)) return KZ_OK;

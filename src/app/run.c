@@ -13,7 +13,7 @@
 
 typedef struct {
   const kz_options *options;
-  kz_team *team;
+  kz_ranks *ranks;
   bool first; /* rank 0: reads, writes and speaks */
   char *text; /* of the scene, `length` bytes and a NUL */
   uint64_t length;
@@ -29,12 +29,12 @@ typedef struct {
 /* Every rank has the bytes that rank 0 read, so that all come to the same result. */
 static kz_status share_text(job *j) {
   size_t length = 0;
-  KZ_TRY(kz_team_agree(j->team, j->first ? kz_scene_load(j->options->scene, &j->text, &length) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(j->ranks, j->first ? kz_scene_load(j->options->scene, &j->text, &length) : KZ_OK));
   j->length = length;
-  KZ_TRY(kz_team_broadcast(j->team, &j->length, sizeof j->length));
+  KZ_TRY(kz_ranks_broadcast(j->ranks, &j->length, sizeof j->length));
   if (!j->first) j->text = calloc(1, j->length + 1);
-  KZ_TRY(kz_team_agree(j->team, j->text ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", j->options->scene)));
-  return kz_team_broadcast(j->team, j->text, j->length);
+  KZ_TRY(kz_ranks_agree(j->ranks, j->text ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", j->options->scene)));
+  return kz_ranks_broadcast(j->ranks, j->text, j->length);
 }
 
 static kz_status read_scene(job *j) {
@@ -48,16 +48,16 @@ static kz_status read_scene(job *j) {
 /* One scene, one program, one name of the result: whatever command line each rank was given. */
 static kz_status agree_on_scene(job *j) {
   KZ_TRY(share_text(j));
-  KZ_TRY(kz_team_agree(j->team, read_scene(j)));
-  KZ_TRY(kz_team_compare(j->team, j->fingerprint, "scene or program"));
-  KZ_TRY(kz_team_agree(j->team, kz_output_name(j->options, j->path, sizeof j->path)));
-  return kz_team_compare(j->team, j->path, "name of the result");
+  KZ_TRY(kz_ranks_agree(j->ranks, read_scene(j)));
+  KZ_TRY(kz_ranks_compare(j->ranks, j->fingerprint, "scene or program"));
+  KZ_TRY(kz_ranks_agree(j->ranks, kz_output_name(j->options, j->path, sizeof j->path)));
+  return kz_ranks_compare(j->ranks, j->path, "name of the result");
 }
 
 /* *complete: there is nothing left to do. */
 static kz_status check_output(job *j, bool *complete) {
-  KZ_TRY(kz_team_agree(j->team, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
-  return kz_team_broadcast(j->team, complete, sizeof *complete);
+  KZ_TRY(kz_ranks_agree(j->ranks, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
+  return kz_ranks_broadcast(j->ranks, complete, sizeof *complete);
 }
 
 /* All that can be refused before modelling. */
@@ -65,8 +65,8 @@ static kz_status prepare(job *j, bool *complete) {
   KZ_TRY(agree_on_scene(j));
   KZ_TRY(check_output(j, complete));
   const kz_cost cost = kz_cost_of(&j->scene);
-  KZ_TRY(kz_team_agree(j->team, kz_cost_check(&cost, j->team)));
-  KZ_TRY(kz_team_agree(j->team, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(j->ranks, kz_cost_check(&cost, j->ranks)));
+  KZ_TRY(kz_ranks_agree(j->ranks, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK));
   if (j->first && !*complete) kz_settling_warn(&j->scene, stderr);
   return KZ_OK;
 }
@@ -77,10 +77,10 @@ static kz_status open_checkpoint(job *j, bool *complete) {
   const kz_options *o = j->options;
   snprintf(name, sizeof name, "%s.checkpoint", j->path);
   KZ_TRY(kz_checkpoint_open(
-      j->team, &(kz_checkpoint_plan){.path = name, .fingerprint = j->fingerprint, .resume = o->resume, .force = o->force}));
+      j->ranks, &(kz_checkpoint_plan){.path = name, .fingerprint = j->fingerprint, .resume = o->resume, .force = o->force}));
   const kz_status status = check_output(j, complete);
   if (status == KZ_OK && !*complete) return KZ_OK;
-  kz_checkpoint_close(j->team, false);
+  kz_checkpoint_close(j->ranks, false);
   return status;
 }
 
@@ -104,7 +104,7 @@ static kz_status write_root(job *j) {
                {"Conventions", "CF-1.8"}};
   for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
     KZ_TRY(kz_store_text(j->store, "/", texts[i].name, texts[i].value));
-  return kz_store_integer(j->store, "/", "ranks", kz_team_size(j->team));
+  return kz_store_integer(j->store, "/", "ranks", kz_ranks_count(j->ranks));
 }
 
 static kz_status write_pendulum(job *j) {
@@ -132,11 +132,11 @@ static kz_status open_outputs(job *j) {
 }
 
 static kz_status run_studies(job *j) {
-  KZ_TRY(kz_team_agree(j->team, j->first ? open_outputs(j) : KZ_OK));
-  kz_abandon_team(j->team, j->path);
+  KZ_TRY(kz_ranks_agree(j->ranks, j->first ? open_outputs(j) : KZ_OK));
+  kz_abandon_ranks(j->ranks, j->path);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(&j->scene))
-      KZ_TRY(kz_team_agree(j->team, kz_studies[i].run(&j->scene, j->team, j->store, j->summary)));
+      KZ_TRY(kz_ranks_agree(j->ranks, kz_studies[i].run(&j->scene, j->ranks, j->store, j->summary)));
   return KZ_OK;
 }
 
@@ -164,9 +164,9 @@ static kz_status finish(job *j, kz_status status) {
     kz_store_discard(j->store);
   }
   j->store = NULL;
-  status = kz_team_agree(j->team, status);
-  kz_abandon_team(j->team, NULL);
-  const kz_status closed = kz_checkpoint_close(j->team, status == KZ_OK || status == KZ_REFUSED);
+  status = kz_ranks_agree(j->ranks, status);
+  kz_abandon_ranks(j->ranks, NULL);
+  const kz_status closed = kz_checkpoint_close(j->ranks, status == KZ_OK || status == KZ_REFUSED);
   if (status == KZ_OK) status = closed;
   if (status == KZ_OK && j->first) print_summary(j);
   return status;
@@ -184,8 +184,8 @@ static kz_status leave_complete(job *j) {
 
 static kz_status carry_out(job *j) {
   bool complete = false;
-  kz_team_set_progress(j->team, j->options->progress);
-  kz_team_set_time_limit(j->team, j->options->time_limit);
+  kz_ranks_set_progress(j->ranks, j->options->progress);
+  kz_ranks_set_time_limit(j->ranks, j->options->time_limit);
   KZ_TRY(prepare(j, &complete));
   if (!complete) KZ_TRY(open_checkpoint(j, &complete));
   return complete ? leave_complete(j) : finish(j, run_studies(j));
@@ -202,16 +202,16 @@ static void free_job(job *j) {
 
 kz_status kz_app_run(const kz_options *options) {
   job j = {.options = options};
-  kz_status status = kz_team_start(NULL, NULL, &j.team);
+  kz_status status = kz_ranks_start(NULL, NULL, &j.ranks);
   if (status == KZ_OK) {
-    kz_abandon_team(j.team, NULL);
-    j.first = kz_team_rank(j.team) == 0;
+    kz_abandon_ranks(j.ranks, NULL);
+    j.first = kz_ranks_own(j.ranks) == 0;
     status = carry_out(&j);
     status = kz_scene_locate(status, j.text, j.length, options->scene, options->n_sets, options->sets);
     if (!j.first) kz_message_clear(); /* all have agreed on it: rank 0 speaks */
   }
-  kz_abandon_team(NULL, NULL);
-  kz_team_end(j.team);
+  kz_abandon_ranks(NULL, NULL);
+  kz_ranks_end(j.ranks);
   free_job(&j);
   return status;
 }

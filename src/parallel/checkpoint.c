@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "team.h"
+#include "ranks.h"
 
 void kz_checkpoint_release(kz_checkpoint *checkpoint) {
   if (checkpoint->file >= 0) close(checkpoint->file);
@@ -41,18 +41,18 @@ static void abandon(kz_checkpoint *checkpoint, int rank) {
   kz_checkpoint_release(checkpoint);
 }
 
-kz_status kz_checkpoint_open(kz_team *team, const kz_checkpoint_plan *plan) {
-  kz_checkpoint *checkpoint = &team->checkpoint;
+kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan) {
+  kz_checkpoint *checkpoint = &ranks->checkpoint;
   checkpoint->path = strdup(plan->path);
   kz_status status = checkpoint->path ? KZ_OK : kz_fail(KZ_FAILED, "%s: out of memory", plan->path);
-  if (status == KZ_OK && team->rank == 0) status = begin(checkpoint, plan);
-  status = kz_team_agree(team, status);
+  if (status == KZ_OK && ranks->rank == 0) status = begin(checkpoint, plan);
+  status = kz_ranks_agree(ranks, status);
   if (status == KZ_OK) {
-    status = team->rank != 0 ? kz_file_lock_join(plan->path, &checkpoint->file) : KZ_OK;
-    status = kz_team_agree(team, status);
+    status = ranks->rank != 0 ? kz_file_lock_join(plan->path, &checkpoint->file) : KZ_OK;
+    status = kz_ranks_agree(ranks, status);
   }
-  if (status == KZ_OK) status = kz_team_broadcast(team, &checkpoint->ours, sizeof checkpoint->ours);
-  if (status != KZ_OK) abandon(checkpoint, team->rank);
+  if (status == KZ_OK) status = kz_ranks_broadcast(ranks, &checkpoint->ours, sizeof checkpoint->ours);
+  if (status != KZ_OK) abandon(checkpoint, ranks->rank);
   return status;
 }
 
@@ -77,15 +77,15 @@ static kz_status keep_file(const kz_checkpoint *checkpoint) {
   return kz_fail(KZ_FAILED, "%s: cannot be saved: %s", checkpoint->path, strerror(errno));
 }
 
-kz_status kz_checkpoint_close(kz_team *team, bool complete) {
-  kz_checkpoint *checkpoint = &team->checkpoint;
+kz_status kz_checkpoint_close(kz_ranks *ranks, bool complete) {
+  kz_checkpoint *checkpoint = &ranks->checkpoint;
   if (checkpoint->file < 0) return KZ_OK;
   kz_status status = KZ_OK;
   if (complete) {
-    if (team->rank == 0) status = remove_file(checkpoint);
+    if (ranks->rank == 0) status = remove_file(checkpoint);
   } else if (kz_checkpoint_holds_work(checkpoint))
     status = keep_file(checkpoint);
-  status = kz_team_agree(team, status);
-  abandon(checkpoint, team->rank);
+  status = kz_ranks_agree(ranks, status);
+  abandon(checkpoint, ranks->rank);
   return status;
 }

@@ -28,7 +28,7 @@ static int answer(kz_draw *draw, int rank, const kz_ask *ask) {
   batch.more = !draw->halted && schedule->next < schedule->end;
   if (!batch.more) --draw->asking;
   if (ask->state == FAILED) return MPI_SUCCESS;
-  return MPI_Send(&batch, sizeof batch, MPI_BYTE, rank, ANSWER_TAG, draw->team->comm);
+  return MPI_Send(&batch, sizeof batch, MPI_BYTE, rank, ANSWER_TAG, draw->ranks->comm);
 }
 
 /* Looks for one request; *found: there was one. */
@@ -36,7 +36,7 @@ static int look(kz_draw *draw, kz_ask *ask, MPI_Request *request, int *found) {
   MPI_Status from;
   int code = MPI_SUCCESS;
   if (*request == MPI_REQUEST_NULL)
-    code = MPI_Irecv(ask, sizeof *ask, MPI_BYTE, MPI_ANY_SOURCE, ASK_TAG, draw->team->comm, request);
+    code = MPI_Irecv(ask, sizeof *ask, MPI_BYTE, MPI_ANY_SOURCE, ASK_TAG, draw->ranks->comm, request);
   if (code == MPI_SUCCESS) code = MPI_Test(request, found, &from);
   return code == MPI_SUCCESS && *found ? answer(draw, from.MPI_SOURCE, ask) : code;
 }
@@ -55,11 +55,11 @@ static void *serve(void *context) {
   double heard = kz_clock();
   for (bool more = draw->asking > 0; more;) {
     int found = 0;
-    pthread_mutex_lock(&draw->team->mutex);
+    pthread_mutex_lock(&draw->ranks->mutex);
     draw->mpi_error = look(draw, &ask, &request, &found);
     if (draw->mpi_error != MPI_SUCCESS) draw->halted = true;
     more = draw->asking > 0 && draw->mpi_error == MPI_SUCCESS;
-    pthread_mutex_unlock(&draw->team->mutex);
+    pthread_mutex_unlock(&draw->ranks->mutex);
     if (found)
       heard = kz_clock();
     else
@@ -72,7 +72,7 @@ static void *serve(void *context) {
 static bool start_thread(kz_draw *draw) {
   pthread_attr_t attributes;
   sigset_t all, before;
-  if (draw->team->thread_level < MPI_THREAD_SERIALIZED || pthread_attr_init(&attributes) != 0) return false;
+  if (draw->ranks->thread_level < MPI_THREAD_SERIALIZED || pthread_attr_init(&attributes) != 0) return false;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   const bool started =
@@ -82,26 +82,26 @@ static bool start_thread(kz_draw *draw) {
   return started;
 }
 
-kz_status kz_draw_prepare(kz_draw *draw, kz_team *team, int64_t n_tiles) {
-  *draw = (kz_draw){.team = team, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
-  draw->batch = (kz_batch){.first = team->rank, .n = team->rank < n_tiles, .more = team->size < n_tiles};
-  if (team->rank != 0) return KZ_OK;
-  draw->asking = draw->batch.more ? team->size - 1 : 0;
-  return kz_schedule_begin(&draw->schedule, n_tiles, team->size) ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for a schedule");
+kz_status kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles) {
+  *draw = (kz_draw){.ranks = ranks, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
+  draw->batch = (kz_batch){.first = ranks->rank, .n = ranks->rank < n_tiles, .more = ranks->size < n_tiles};
+  if (ranks->rank != 0) return KZ_OK;
+  draw->asking = draw->batch.more ? ranks->size - 1 : 0;
+  return kz_schedule_begin(&draw->schedule, n_tiles, ranks->size) ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for a schedule");
 }
 
 void kz_draw_begin(kz_draw *draw) {
-  if (draw->team->rank != 0 || draw->asking == 0) return;
+  if (draw->ranks->rank != 0 || draw->asking == 0) return;
   draw->threaded = start_thread(draw);
   if (!draw->threaded) serve(draw); /* then the others do the work: rank 0 has time for its own once they are done */
 }
 
 static kz_status ask(kz_draw *draw, int64_t state) {
   const kz_ask ask = {.seconds = seconds_a_tile(draw), .state = state};
-  kz_team *team = draw->team;
+  kz_ranks *ranks = draw->ranks;
   if (state != FAILED)
-    KZ_MPI(MPI_Irecv(&draw->granted, sizeof draw->granted, MPI_BYTE, 0, ANSWER_TAG, team->comm, &draw->answer));
-  KZ_MPI(MPI_Send(&ask, sizeof ask, MPI_BYTE, 0, ASK_TAG, team->comm));
+    KZ_MPI(MPI_Irecv(&draw->granted, sizeof draw->granted, MPI_BYTE, 0, ANSWER_TAG, ranks->comm, &draw->answer));
+  KZ_MPI(MPI_Send(&ask, sizeof ask, MPI_BYTE, 0, ASK_TAG, ranks->comm));
   return KZ_OK;
 }
 
@@ -125,13 +125,13 @@ static kz_status next_by_message(kz_draw *draw, int64_t *tile) {
 
 /* Rank 0 takes its tiles one by one: they cost no message. */
 static void next_here(kz_draw *draw, int64_t *tile) {
-  pthread_mutex_lock(&draw->team->mutex);
+  pthread_mutex_lock(&draw->ranks->mutex);
   kz_schedule_note(&draw->schedule, 0, seconds_a_tile(draw));
   if (!draw->halted && draw->batch.n > 0)
     draw->batch.n = *tile = 0;
   else if (!draw->halted && draw->schedule.next < draw->schedule.end)
     *tile = draw->schedule.next++;
-  pthread_mutex_unlock(&draw->team->mutex);
+  pthread_mutex_unlock(&draw->ranks->mutex);
 }
 
 kz_status kz_draw_next(kz_draw *draw, int64_t *tile) {
@@ -141,7 +141,7 @@ kz_status kz_draw_next(kz_draw *draw, int64_t *tile) {
     ++draw->n_done;
   }
   *tile = -1;
-  if (draw->team->rank == 0)
+  if (draw->ranks->rank == 0)
     next_here(draw, tile);
   else
     status = next_by_message(draw, tile);
@@ -150,10 +150,10 @@ kz_status kz_draw_next(kz_draw *draw, int64_t *tile) {
 }
 
 kz_status kz_draw_halt(kz_draw *draw) {
-  if (draw->team->rank == 0) {
-    pthread_mutex_lock(&draw->team->mutex);
+  if (draw->ranks->rank == 0) {
+    pthread_mutex_lock(&draw->ranks->mutex);
     draw->halted = true;
-    pthread_mutex_unlock(&draw->team->mutex);
+    pthread_mutex_unlock(&draw->ranks->mutex);
     return KZ_OK;
   }
   if (draw->answer != MPI_REQUEST_NULL) KZ_TRY(take_answer(draw));

@@ -1,4 +1,5 @@
-/* Tiles are drawn by plain messages: rank 0 gives them away in batches, from a thread of its own, so that it answers amid its own tiles.
+/* Tiles are drawn by plain messages: rank 0 gives them away in batches, from a thread of its own, so that it answers amid its
+ * own tiles.
  *
  *   rank -> 0   ask: seconds it takes for a tile; whether it still works, is idle, or cannot go on
  *   0 -> rank   tiles first .. first + n - 1; whether asking again makes sense
@@ -9,8 +10,8 @@
 
 #include <pthread.h>
 
+#include "ranks.h"
 #include "schedule.h"
-#include "team.h"
 
 typedef struct {
   int64_t first, n; /* tiles */
@@ -18,7 +19,7 @@ typedef struct {
 } kz_batch;
 
 typedef struct {
-  kz_team *team;
+  kz_ranks *ranks;
   int64_t n_done;
   double busy;        /* s, between a tile and the next request for one */
   double handed;      /* s, kz_clock: when the present tile was handed out; 0 = there is none */
@@ -35,7 +36,7 @@ typedef struct {
 } kz_draw;
 
 /* Prepares for `n_tiles` tiles; no messages. To be ended on every rank, whatever it returns. */
-kz_status kz_draw_prepare(kz_draw *draw, kz_team *team, int64_t n_tiles);
+kz_status kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles);
 /* Rank 0 answers from here on; no rank but through kz_draw may use MPI before kz_draw_end. */
 void kz_draw_begin(kz_draw *draw);
 /* The next tile of this rank; -1 where none is left, or a rank has halted. */

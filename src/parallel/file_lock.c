@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "checkpoint.h"
-#include "team.h"
+#include "ranks.h"
 
 static const double WAIT = 15.0; /* s: ranks outlive a killed mpirun by a few seconds */
 static const struct timespec PAUSE = {.tv_nsec = 100000000};

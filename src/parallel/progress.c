@@ -7,17 +7,17 @@ static const double BAR_DELAY = 0.5, BAR_PERIOD = 0.2, LINE_PERIOD = 10.0, LINE_
 enum { BAR_CELLS = 32, CLOCK_BYTES = 24 };
 
 /* Under a launcher neither stderr nor stdout tells whether a person looks on: ask for the terminal itself. */
-static FILE *find_terminal(kz_team *team) {
+static FILE *find_terminal(kz_ranks *ranks) {
   if (isatty(STDERR_FILENO)) return stderr;
-  if (!team->terminal && kz_launch_rank() >= 0) team->terminal = fopen("/dev/tty", "we");
-  return team->terminal;
+  if (!ranks->terminal && kz_launch_rank() >= 0) ranks->terminal = fopen("/dev/tty", "we");
+  return ranks->terminal;
 }
 
-void kz_meter_begin(kz_meter *meter, kz_team *team, const char *name, int64_t total, int64_t first) {
+void kz_meter_begin(kz_meter *meter, kz_ranks *ranks, const char *name, int64_t total, int64_t first) {
   *meter = (kz_meter){.name = name, .total = total, .first = first, .begun = kz_clock()};
-  if (team->rank != 0 || team->progress == KZ_PROGRESS_NEVER || total < 2) return;
-  FILE *terminal = find_terminal(team);
-  const bool always = team->progress == KZ_PROGRESS_ALWAYS;
+  if (ranks->rank != 0 || ranks->progress == KZ_PROGRESS_NEVER || total < 2) return;
+  FILE *terminal = find_terminal(ranks);
+  const bool always = ranks->progress == KZ_PROGRESS_ALWAYS;
   meter->live = terminal != NULL;
   meter->out = terminal ? terminal : stderr;
   meter->last = always && !meter->live;
@@ -33,7 +33,8 @@ static const char *clock_text(double seconds, char text[CLOCK_BYTES]) {
   return text;
 }
 
-/* Only what runs in the foreground of a terminal may draw there: this process, or the launcher that started it in a group of its own. */
+/* Only what runs in the foreground of a terminal may draw there: this process, or the launcher that started it in a group of
+ * its own. */
 static bool has_terminal(FILE *terminal) {
   const pid_t foreground = tcgetpgrp(fileno(terminal));
   return foreground > 0 && (foreground == getpgrp() || (kz_launch_rank() >= 0 && foreground == getpgid(getppid())));

@@ -2,7 +2,7 @@
 #ifndef KAPITZA_PARALLEL_PROGRESS_H
 #define KAPITZA_PARALLEL_PROGRESS_H
 
-#include "team.h"
+#include "ranks.h"
 
 typedef struct {
   const char *name;
@@ -15,7 +15,7 @@ typedef struct {
 } kz_meter;
 
 /* Begins a stage of `total` tiles of which `first` are done. */
-void kz_meter_begin(kz_meter *meter, kz_team *team, const char *name, int64_t total, int64_t first);
+void kz_meter_begin(kz_meter *meter, kz_ranks *ranks, const char *name, int64_t total, int64_t first);
 /* Shows `done` tiles where the time for it has come. */
 void kz_meter_show(kz_meter *meter, int64_t done);
 /* Removes the bar, or tells the end with the share of their time that ranks were idle. */

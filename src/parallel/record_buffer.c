@@ -47,16 +47,16 @@ void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile) {
   return slot + SLOT_HEAD;
 }
 
-static kz_status send_blocks(const kz_record_buffer *buffered, kz_team *team) {
+static kz_status send_blocks(const kz_record_buffer *buffered, kz_ranks *ranks) {
   for (const kz_block *block = buffered->first; block; block = block->next)
-    KZ_MPI(MPI_Send(block->slots, (int)((size_t)block->n_slots * buffered->stride), MPI_BYTE, 0, TAG, team->comm));
+    KZ_MPI(MPI_Send(block->slots, (int)((size_t)block->n_slots * buffered->stride), MPI_BYTE, 0, TAG, ranks->comm));
   return KZ_OK;
 }
 
-static kz_status receive_block(const kz_record_buffer *buffered, kz_team *team, int source, char *buffer, char *records) {
+static kz_status receive_block(const kz_record_buffer *buffered, kz_ranks *ranks, int source, char *buffer, char *records) {
   MPI_Status told;
   int bytes;
-  KZ_MPI(MPI_Recv(buffer, (int)kz_record_buffer_message_bytes(buffered), MPI_BYTE, source, TAG, team->comm, &told));
+  KZ_MPI(MPI_Recv(buffer, (int)kz_record_buffer_message_bytes(buffered), MPI_BYTE, source, TAG, ranks->comm, &told));
   KZ_MPI(MPI_Get_count(&told, MPI_BYTE, &bytes));
   for (const char *slot = buffer; slot < buffer + bytes; slot += buffered->stride) {
     int64_t tile;
@@ -66,15 +66,15 @@ static kz_status receive_block(const kz_record_buffer *buffered, kz_team *team, 
   return KZ_OK;
 }
 
-kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_team *team, void *buffer, char *records) {
-  if (team->rank != 0) {
-    KZ_MPI(MPI_Send(&buffered->n_blocks, 1, MPI_INT64_T, 0, TAG, team->comm));
-    return send_blocks(buffered, team);
+kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_ranks *ranks, void *buffer, char *records) {
+  if (ranks->rank != 0) {
+    KZ_MPI(MPI_Send(&buffered->n_blocks, 1, MPI_INT64_T, 0, TAG, ranks->comm));
+    return send_blocks(buffered, ranks);
   }
-  for (int source = 1; source < team->size; ++source) {
+  for (int source = 1; source < ranks->size; ++source) {
     int64_t n_blocks;
-    KZ_MPI(MPI_Recv(&n_blocks, 1, MPI_INT64_T, source, TAG, team->comm, MPI_STATUS_IGNORE));
-    for (int64_t i = 0; i < n_blocks; ++i) KZ_TRY(receive_block(buffered, team, source, buffer, records));
+    KZ_MPI(MPI_Recv(&n_blocks, 1, MPI_INT64_T, source, TAG, ranks->comm, MPI_STATUS_IGNORE));
+    for (int64_t i = 0; i < n_blocks; ++i) KZ_TRY(receive_block(buffered, ranks, source, buffer, records));
   }
   return KZ_OK;
 }

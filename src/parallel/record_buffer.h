@@ -2,7 +2,7 @@
 #ifndef KAPITZA_PARALLEL_RECORD_BUFFER_H
 #define KAPITZA_PARALLEL_RECORD_BUFFER_H
 
-#include "team.h"
+#include "ranks.h"
 
 typedef struct kz_block kz_block;
 
@@ -24,7 +24,7 @@ void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile);
 size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered);
 /* Brings the records of all other ranks to `records` [tile][record_bytes] on rank 0, by way of `buffer`
  * [kz_record_buffer_message_bytes] there. Collective. */
-kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_team *team, void *buffer, char *records);
+kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_ranks *ranks, void *buffer, char *records);
 void kz_record_buffer_end(kz_record_buffer *buffered);
 
 #endif

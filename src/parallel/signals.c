@@ -1,9 +1,9 @@
-/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. Work that asks for too long is left
- * by a clock. */
+/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. Work that asks for too long is
+ * left by a clock. */
 #include <signal.h>
 #include <unistd.h>
 
-#include "team.h"
+#include "ranks.h"
 
 static const struct {
   int number;
@@ -73,9 +73,9 @@ const char *kz_signals_caught(void) {
   return i < 0 ? NULL : STOP_SIGNALS[i].name;
 }
 
-void kz_team_set_overdue(kz_team *team, void (*leave)(const char *reason)) {
+void kz_ranks_set_overdue(kz_ranks *ranks, void (*leave)(const char *reason)) {
   overdue = leave;
   if (!leave) alarm(0);
   if (leave && caught) wind(GRACE);
-  if (leave && team->limit > 0) wind((unsigned)(team->limit < LONGEST ? team->limit + 1 : LONGEST) + GRACE);
+  if (leave && ranks->limit > 0) wind((unsigned)(ranks->limit < LONGEST ? ranks->limit + 1 : LONGEST) + GRACE);
 }

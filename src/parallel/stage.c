@@ -6,15 +6,15 @@
 #include "bytes.h"
 #include "draw.h"
 #include "progress.h"
+#include "ranks.h"
 #include "record_buffer.h"
 #include "section.h"
-#include "team.h"
 
 /* Offsets of records and slots must not overflow. */
 static const int64_t TILES_MAX = (int64_t)1 << 44;
 
 typedef struct {
-  kz_team *team;
+  kz_ranks *ranks;
   const kz_stage *stage;
   char *records;      /* [n_tiles][record_bytes]: complete on rank 0 */
   bool kept;          /* finished records go to the section */
@@ -32,46 +32,46 @@ static kz_status check(const stage_run *run) {
   if (stage->n_tiles < 0 || stage->n_tiles > TILES_MAX || stage->record_bytes > KZ_RECORD_MAX)
     return kz_fail(KZ_FAILED, "stage %s: %lld tiles of %zu bytes are too many", stage->name, (long long)stage->n_tiles,
                    stage->record_bytes);
-  if (!run->records && stage->n_tiles > 0 && (run->team->rank == 0 || stage->everywhere))
+  if (!run->records && stage->n_tiles > 0 && (run->ranks->rank == 0 || stage->everywhere))
     return kz_fail(KZ_FAILED, "stage %s: no room for the records", stage->name);
   return KZ_OK;
 }
 
 static kz_status prepare(stage_run *run) {
   KZ_TRY(check(run));
-  kz_team *team = run->team;
+  kz_ranks *ranks = run->ranks;
   kz_record_buffer_begin(&run->buffered, run->stage->record_bytes);
-  if (team->rank == 0 && team->size > 1 && !(run->buffer = malloc(kz_record_buffer_message_bytes(&run->buffered))))
+  if (ranks->rank == 0 && ranks->size > 1 && !(run->buffer = malloc(kz_record_buffer_message_bytes(&run->buffered))))
     return kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
   return KZ_OK;
 }
 
 /* Tiles whose records are in the checkpoint are not done again. Collective. */
 static kz_status recall(stage_run *run) {
-  kz_team *team = run->team;
+  kz_ranks *ranks = run->ranks;
   int64_t *left = NULL;
   kz_status status = KZ_OK;
-  if (team->rank == 0)
-    status = kz_section_open(&team->checkpoint, run->stage, run->records, &run->section, &left, &run->n_left);
-  if ((status = kz_team_agree(team, status)) == KZ_OK) status = kz_team_broadcast(team, &run->section, sizeof run->section);
-  if (status == KZ_OK) status = kz_team_broadcast(team, &run->n_left, sizeof run->n_left);
-  if (team->rank != 0 && status == KZ_OK && !(left = malloc((size_t)run->n_left * sizeof *left + 1)))
+  if (ranks->rank == 0)
+    status = kz_section_open(&ranks->checkpoint, run->stage, run->records, &run->section, &left, &run->n_left);
+  if ((status = kz_ranks_agree(ranks, status)) == KZ_OK) status = kz_ranks_broadcast(ranks, &run->section, sizeof run->section);
+  if (status == KZ_OK) status = kz_ranks_broadcast(ranks, &run->n_left, sizeof run->n_left);
+  if (ranks->rank != 0 && status == KZ_OK && !(left = malloc((size_t)run->n_left * sizeof *left + 1)))
     status = kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
   run->left = left;
-  KZ_TRY(kz_team_agree(team, status));
-  kz_section_adopt(&team->checkpoint, &run->section);
-  return kz_team_broadcast(team, left, (size_t)run->n_left * sizeof *left);
+  KZ_TRY(kz_ranks_agree(ranks, status));
+  kz_section_adopt(&ranks->checkpoint, &run->section);
+  return kz_ranks_broadcast(ranks, left, (size_t)run->n_left * sizeof *left);
 }
 
 static kz_status do_tile(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   void *record;
-  if (run->team->rank == 0)
+  if (run->ranks->rank == 0)
     record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   else if (!(record = kz_record_buffer_add(&run->buffered, tile)))
     return kz_fail(KZ_FAILED, "stage %s: out of memory for the records", stage->name);
   KZ_TRY(stage->work(stage->context, tile, record));
-  return run->kept ? kz_section_save(&run->team->checkpoint, &run->section, tile, record) : KZ_OK;
+  return run->kept ? kz_section_save(&run->ranks->checkpoint, &run->section, tile, record) : KZ_OK;
 }
 
 /* Draws and does tiles until none is left; whoever cannot go on halts all ranks. */
@@ -81,7 +81,7 @@ static kz_status do_tiles(stage_run *run) {
     KZ_TRY(kz_draw_next(&run->draw, &drawn));
     if (drawn < 0) return KZ_OK;
     kz_meter_show(&run->meter, run->stage->n_tiles - run->n_left + drawn);
-    kz_status status = kz_team_interrupted(run->team);
+    kz_status status = kz_ranks_interrupted(run->ranks);
     if (status == KZ_OK) status = do_tile(run, run->left ? run->left[drawn] : drawn);
     if (status != KZ_OK) {
       KZ_TRY(kz_draw_halt(&run->draw));
@@ -93,16 +93,16 @@ static kz_status do_tiles(stage_run *run) {
 /* A tile by all ranks. Sections of the stages that it runs count for this tile alone; those of the next tile take their place. */
 static kz_status do_together(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
-  kz_checkpoint *checkpoint = &run->team->checkpoint;
+  kz_checkpoint *checkpoint = &run->ranks->checkpoint;
   const kz_checkpoint outside = *checkpoint;
   void *record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   checkpoint->seed = kz_bytes_checksum(checkpoint->seed, &tile, sizeof tile);
-  kz_status status = kz_team_agree(run->team, stage->work(stage->context, tile, record));
+  kz_status status = kz_ranks_agree(run->ranks, stage->work(stage->context, tile, record));
   checkpoint->seed = outside.seed;
   checkpoint->end = outside.end;
   checkpoint->n_sections = outside.n_sections;
-  if (status == KZ_OK && run->kept && run->team->rank == 0) status = kz_section_save(checkpoint, &run->section, tile, record);
-  return kz_team_agree(run->team, status);
+  if (status == KZ_OK && run->kept && run->ranks->rank == 0) status = kz_section_save(checkpoint, &run->section, tile, record);
+  return kz_ranks_agree(run->ranks, status);
 }
 
 static kz_status work_together(stage_run *run) {
@@ -114,48 +114,48 @@ static kz_status work_together(stage_run *run) {
 }
 
 static kz_status work(stage_run *run) {
-  kz_status status = kz_team_agree(run->team, kz_draw_prepare(&run->draw, run->team, run->n_left));
+  kz_status status = kz_ranks_agree(run->ranks, kz_draw_prepare(&run->draw, run->ranks, run->n_left));
   if (status == KZ_OK) {
     kz_draw_begin(&run->draw);
     status = do_tiles(run);
   }
   const kz_status ended = kz_draw_end(&run->draw);
-  return kz_team_agree(run->team, status == KZ_OK ? ended : status);
+  return kz_ranks_agree(run->ranks, status == KZ_OK ? ended : status);
 }
 
 /* The share of its time that a rank had nothing to do, of all ranks together; on rank 0. */
 static kz_status measure_idle(stage_run *run, double *idle) {
   const double seconds = kz_clock() - run->meter.begun;
   double busy = 0;
-  KZ_MPI(MPI_Reduce(&run->draw.busy, &busy, 1, MPI_DOUBLE, MPI_SUM, 0, run->team->comm));
-  *idle = seconds > 0 ? fmax(0, 1 - busy / (seconds * run->team->size)) : 0;
+  KZ_MPI(MPI_Reduce(&run->draw.busy, &busy, 1, MPI_DOUBLE, MPI_SUM, 0, run->ranks->comm));
+  *idle = seconds > 0 ? fmax(0, 1 - busy / (seconds * run->ranks->size)) : 0;
   return KZ_OK;
 }
 
 static kz_status deliver(stage_run *run) {
   const kz_stage *stage = run->stage;
-  KZ_TRY(kz_record_buffer_deliver(&run->buffered, run->team, run->buffer, run->records));
+  KZ_TRY(kz_record_buffer_deliver(&run->buffered, run->ranks, run->buffer, run->records));
   if (!stage->everywhere) return KZ_OK;
-  return kz_team_broadcast(run->team, run->records, (size_t)stage->n_tiles * stage->record_bytes);
+  return kz_ranks_broadcast(run->ranks, run->records, (size_t)stage->n_tiles * stage->record_bytes);
 }
 
 static kz_status run_stage(stage_run *run) {
-  KZ_TRY(kz_team_agree(run->team, prepare(run)));
+  KZ_TRY(kz_ranks_agree(run->ranks, prepare(run)));
   if (run->kept) KZ_TRY(recall(run));
-  kz_meter_begin(&run->meter, run->team, run->stage->name, run->stage->n_tiles, run->stage->n_tiles - run->n_left);
+  kz_meter_begin(&run->meter, run->ranks, run->stage->name, run->stage->n_tiles, run->stage->n_tiles - run->n_left);
   double idle = 0;
   const bool together = run->stage->together;
-  kz_status status = together ? kz_team_agree(run->team, work_together(run)) : work(run);
+  kz_status status = together ? kz_ranks_agree(run->ranks, work_together(run)) : work(run);
   if (status == KZ_OK && !together) status = measure_idle(run, &idle);
   kz_meter_end(&run->meter, status == KZ_OK, idle);
-  if (status == KZ_STOPPED && !together) return kz_team_stopped(run->team);
+  if (status == KZ_STOPPED && !together) return kz_ranks_stopped(run->ranks);
   KZ_TRY(status);
   return deliver(run);
 }
 
-kz_status kz_stage_run(kz_team *team, const kz_stage *stage, void *records) {
-  stage_run run = {.team = team, .stage = stage, .records = records, .n_left = stage->n_tiles};
-  run.kept = stage->keep && team->checkpoint.file >= 0;
+kz_status kz_stage_run(kz_ranks *ranks, const kz_stage *stage, void *records) {
+  stage_run run = {.ranks = ranks, .stage = stage, .records = records, .n_left = stage->n_tiles};
+  run.kept = stage->keep && ranks->checkpoint.file >= 0;
   const kz_status status = run_stage(&run);
   kz_record_buffer_end(&run.buffered);
   free(run.buffer);

@@ -89,7 +89,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
 }
 
 /* Labels the open cells; on rank 0 they go to their places. */
-static kz_status label_cells(basin *b, kz_team *team, int round) {
+static kz_status label_cells(basin *b, kz_ranks *ranks, int round) {
   char name[32];
   snprintf(name, sizeof name, "cells %d", round + 1);
   kz_stage stage = {.name = name,
@@ -99,11 +99,11 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
                     .context = b,
                     .keep = true};
   labelled *records = NULL;
-  if (kz_team_rank(team) == 0) records = malloc((size_t)stage.n_tiles * stage.record_bytes);
+  if (kz_ranks_own(ranks) == 0) records = malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = KZ_OK;
-  if (kz_team_rank(team) == 0 && !records) status = kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->n_open);
-  status = kz_team_agree(team, status);
-  if (status == KZ_OK) status = kz_stage_run(team, &stage, records);
+  if (kz_ranks_own(ranks) == 0 && !records) status = kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)b->n_open);
+  status = kz_ranks_agree(ranks, status);
+  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
   for (int64_t i = 0; status == KZ_OK && records && i < b->n_open; i++) {
     int64_t f = b->open ? b->open[i] : i;
     b->label[f] = records[i].label;
@@ -115,32 +115,32 @@ static kz_status label_cells(basin *b, kz_team *team, int round) {
 }
 
 /* The cells that have not settled, as the open ones of every rank. */
-static kz_status open_unsettled(basin *b, kz_team *team) {
+static kz_status open_unsettled(basin *b, kz_ranks *ranks) {
   int64_t n = 0;
-  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++) n += b->label[f] == 0;
-  KZ_TRY(kz_team_broadcast(team, &n, sizeof n));
+  for (int64_t f = 0; kz_ranks_own(ranks) == 0 && f < b->own; f++) n += b->label[f] == 0;
+  KZ_TRY(kz_ranks_broadcast(ranks, &n, sizeof n));
   free(b->open);
   b->open = malloc((size_t)n * sizeof *b->open + 1);
   b->n_open = n;
-  KZ_TRY(kz_team_agree(team, b->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)n)));
+  KZ_TRY(kz_ranks_agree(ranks, b->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)n)));
   n = 0;
-  for (int64_t f = 0; kz_team_rank(team) == 0 && f < b->own; f++)
+  for (int64_t f = 0; kz_ranks_own(ranks) == 0 && f < b->own; f++)
     if (b->label[f] == 0) b->open[n++] = f;
-  return kz_team_broadcast(team, b->open, (size_t)b->n_open * sizeof *b->open);
+  return kz_ranks_broadcast(ranks, b->open, (size_t)b->n_open * sizeof *b->open);
 }
 
 /* The attractors that starts over the window end on, or `again` unsettled cells, evenly chosen; what they reach is counted. */
-static kz_status discover(basin *b, kz_team *team, bool again) {
+static kz_status discover(basin *b, kz_ranks *ranks, bool again) {
   const kz_basin_plan *plan = b->plan;
   const int64_t n = again && b->n_open < plan->starts ? b->n_open : plan->starts;
   double *state = malloc((size_t)n * 2 * sizeof *state);
   int32_t *label = malloc((size_t)n * sizeof *label);
   kz_status status =
-      kz_team_agree(team, state && label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+      kz_ranks_agree(ranks, state && label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cell_state(plan, b->open[i * b->n_open / n], state + 2 * i);
   if (status == KZ_OK)
-    status = again ? kz_discover(team, b->dynamics, plan->max_periods, n, state, label)
-                   : kz_search_window(team, b->dynamics, &b->search, state, label);
+    status = again ? kz_discover(ranks, b->dynamics, plan->max_periods, n, state, label)
+                   : kz_search_window(ranks, b->dynamics, &b->search, state, label);
   if (status == KZ_OK && kz_dynamics_count(b->dynamics) > INT16_MAX)
     status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) b->reached[label[i]]++;
@@ -156,17 +156,17 @@ static kz_status check_table(const basin *b) {
 }
 
 /* Everything up to the labels. */
-static kz_status model(basin *b, kz_team *team) {
-  KZ_TRY(discover(b, team, false));
-  KZ_TRY(kz_team_agree(team, check_table(b)));
+static kz_status model(basin *b, kz_ranks *ranks) {
+  KZ_TRY(discover(b, ranks, false));
+  KZ_TRY(kz_ranks_agree(ranks, check_table(b)));
   b->n_open = b->own;
   for (int round = 0;; round++) {
-    KZ_TRY(label_cells(b, team, round));
+    KZ_TRY(label_cells(b, ranks, round));
     if (round == ROUNDS - 1) return KZ_OK;
-    KZ_TRY(open_unsettled(b, team));
+    KZ_TRY(open_unsettled(b, ranks));
     if (b->n_open == 0) return KZ_OK;
     int64_t known = kz_dynamics_count(b->dynamics);
-    KZ_TRY(discover(b, team, true));
+    KZ_TRY(discover(b, ranks, true));
     if (kz_dynamics_count(b->dynamics) == known) return KZ_OK;
   }
 }
@@ -207,7 +207,7 @@ static void measure_numerics(const kz_scene *scene, const basin *b, kz_labels *l
   if (scene->basin.method == KZ_METHOD_ICM) kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
 
-static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   basin b = {.plan = plan,
              .search = {.window = kz_window_of(&plan->theta, &plan->velocity),
@@ -221,15 +221,15 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   const bool wide = plan->method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD;
   b.tile = kz_tile_cells(scene, wide ? PARTS * CELLS : CELLS);
   b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
-  kz_status status = b.dynamics ? allocate(&b, kz_team_rank(team) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
-  status = kz_team_agree(team, status);
+  kz_status status = b.dynamics ? allocate(&b, kz_ranks_own(ranks) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
+  status = kz_ranks_agree(ranks, status);
   if (status == KZ_OK) {
     b.search.max_velocity = kz_dynamics_max_velocity(b.dynamics, &b.search.window);
-    status = model(&b, team);
+    status = model(&b, ranks);
   }
   kz_doubt doubt = {0};
-  if (status == KZ_OK) status = kz_doubt_measure(plan, team, b.dynamics, b.label, &doubt);
-  if (status == KZ_OK && kz_team_rank(team) == 0) {
+  if (status == KZ_OK) status = kz_doubt_measure(plan, ranks, b.dynamics, b.label, &doubt);
+  if (status == KZ_OK && kz_ranks_own(ranks) == 0) {
     kz_catalogue catalogue = {0};
     kz_labels labels = {.trapped_share = kz_dynamics_trapped_share(b.dynamics), .doubt = doubt};
     measure_numerics(scene, &b, &labels, summary);
@@ -245,13 +245,13 @@ static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *stor
   free(b.evidence);
   free(b.open);
   free(b.reached);
-  return kz_team_agree(team, status);
+  return kz_ranks_agree(ranks, status);
 }
 
 /* Without damping areas are conserved and nothing attracts. */
-static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+static kz_status run_undamped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   kz_status status = KZ_OK;
-  if (kz_team_rank(team) == 0) {
+  if (kz_ranks_own(ranks) == 0) {
     kz_catalogue catalogue = {0};
     kz_labels labels = {.step_error = NAN, .table_error = NAN};
     int64_t total = scene->basin.theta.count * scene->basin.velocity.count;
@@ -266,22 +266,22 @@ static kz_status run_undamped(const kz_scene *scene, kz_team *team, kz_store *st
     }
     kz_labels_free(&labels);
   }
-  return kz_team_agree(team, status);
+  return kz_ranks_agree(ranks, status);
 }
 
 /* With basin.accuracy: the scene with what the program chose. */
-static kz_status run_accurate(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+static kz_status run_accurate(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   kz_choice choice;
   kz_scene chosen = *scene;
-  KZ_TRY(kz_accuracy_choose(scene, team, store, summary, &choice));
+  KZ_TRY(kz_accuracy_choose(scene, ranks, store, summary, &choice));
   kz_config_apply(choice.config, &chosen);
-  KZ_TRY(run_damped(&chosen, team, store, summary));
-  return kz_team_agree(team, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
+  KZ_TRY(run_damped(&chosen, ranks, store, summary));
+  return kz_ranks_agree(ranks, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
 }
 
-kz_status kz_basin_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, team, store, summary);
-  return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, team, store, summary);
+kz_status kz_basin_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, ranks, store, summary);
+  return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, ranks, store, summary);
 }
 
 bool kz_basin_wanted(const kz_scene *scene) {

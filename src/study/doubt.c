@@ -49,7 +49,7 @@ static void count(const sample *s, const int32_t *followed, const int16_t *label
   *doubt = (kz_doubt){s->n, kz_share_of_part(doubtful, s->n, s->of), kz_share_of_part(differing, s->n, s->of)};
 }
 
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *label,
+kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, const int16_t *label,
                            kz_doubt *doubt) {
   sample s = {.plan = plan, .dynamics = dynamics, .n = kz_doubt_cells(plan), .of = kz_own_cells(plan)};
   kz_stage stage = {.name = "doubt",
@@ -60,10 +60,10 @@ kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics
                     .keep = true};
   int32_t *followed = NULL;
   kz_status status = KZ_OK;
-  if (kz_team_rank(team) == 0 && !(followed = malloc((size_t)stage.n_tiles * stage.record_bytes)))
+  if (kz_ranks_own(ranks) == 0 && !(followed = malloc((size_t)stage.n_tiles * stage.record_bytes)))
     status = kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s.n);
-  status = kz_team_agree(team, status);
-  if (status == KZ_OK) status = kz_stage_run(team, &stage, followed);
+  status = kz_ranks_agree(ranks, status);
+  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, followed);
   if (status == KZ_OK && followed) count(&s, followed, label, doubt);
   free(followed);
   return status;

@@ -18,7 +18,7 @@ int64_t kz_doubt_cells(const kz_basin_plan *plan);
 
 /* Follows the sample, which depends on the window, its cells and the seed alone. label [kz_own_cells] on rank 0: the labels, as
  * numbers of `dynamics`. `doubt` is filled on rank 0. Its stage is kept by a checkpoint. Collective. */
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_team *team, kz_dynamics *dynamics, const int16_t *label,
+kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, const int16_t *label,
                            kz_doubt *doubt);
 
 /* Attributes of /basin, and what people read of them. Rank 0. */

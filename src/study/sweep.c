@@ -89,33 +89,34 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
                    .core_seconds = all_seconds(scene)};
 }
 
-kz_status kz_sweep_stage(const kz_scene *scene, kz_team *team, const kz_stage *stage, kz_records_fn write, kz_store *store,
+kz_status kz_sweep_stage(const kz_scene *scene, kz_ranks *ranks, const kz_stage *stage, kz_records_fn write, kz_store *store,
                          FILE *summary) {
   kz_stage kept = *stage;
   kept.context = (void *)scene;
   kept.keep = true;
   void *records = malloc((size_t)stage->n_tiles * stage->record_bytes);
-  kz_status status = kz_team_agree(team, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the stage %s", stage->name));
-  if (status == KZ_OK) status = kz_stage_run(team, &kept, records);
-  if (status == KZ_OK && kz_team_rank(team) == 0) status = write(scene, records, store, summary);
+  kz_status status = kz_ranks_agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the stage %s", stage->name));
+  if (status == KZ_OK) status = kz_stage_run(ranks, &kept, records);
+  if (status == KZ_OK && kz_ranks_own(ranks) == 0) status = write(scene, records, store, summary);
   free(records);
-  return kz_team_agree(team, status);
+  return kz_ranks_agree(ranks, status);
 }
 
 /* The catalogues and what joins them. */
-static kz_status run_branches(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+static kz_status run_branches(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
   if (!kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS) && !kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) return KZ_OK;
   kz_sweep_branches branches = {0};
   kz_sweep_catalogue *catalogue = malloc((size_t)plan->values.count * sizeof *catalogue);
   kz_status status = catalogue ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld catalogues", (long long)plan->values.count);
-  status = kz_team_agree(team, status);
-  if (status == KZ_OK) status = kz_sweep_catalogues(scene, team, catalogue);
-  if (status == KZ_OK) status = kz_sweep_branches_make(scene, team, catalogue, &branches);
-  if (status == KZ_OK && kz_team_rank(team) == 0) status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
+  status = kz_ranks_agree(ranks, status);
+  if (status == KZ_OK) status = kz_sweep_catalogues(scene, ranks, catalogue);
+  if (status == KZ_OK) status = kz_sweep_branches_make(scene, ranks, catalogue, &branches);
+  if (status == KZ_OK && kz_ranks_own(ranks) == 0)
+    status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
   kz_sweep_branches_free(&branches);
   free(catalogue);
-  return kz_team_agree(team, status);
+  return kz_ranks_agree(ranks, status);
 }
 
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
@@ -135,17 +136,17 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
   return KZ_OK;
 }
 
-kz_status kz_sweep_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+kz_status kz_sweep_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   static const struct {
     int64_t measure;
-    kz_status (*run)(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary);
+    kz_status (*run)(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
   } parts[] = {{KZ_SWEEP_FLUTTER_AMPLITUDE, kz_sweep_flutter},
                {KZ_SWEEP_FLUTTER_ZONE, kz_sweep_zone},
                {KZ_SWEEP_RELEASE_ANGLE, kz_sweep_release},
                {KZ_SWEEP_STROBE, kz_sweep_strobe}};
-  KZ_TRY(kz_team_agree(team, kz_team_rank(team) == 0 ? write_values(scene, store, summary) : KZ_OK));
-  KZ_TRY(run_branches(scene, team, store, summary));
+  KZ_TRY(kz_ranks_agree(ranks, kz_ranks_own(ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
+  KZ_TRY(run_branches(scene, ranks, store, summary));
   for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-    if (kz_sweep_measures(&scene->sweep, parts[i].measure)) KZ_TRY(parts[i].run(scene, team, store, summary));
+    if (kz_sweep_measures(&scene->sweep, parts[i].measure)) KZ_TRY(parts[i].run(scene, ranks, store, summary));
   return KZ_OK;
 }

@@ -30,7 +30,7 @@ typedef struct {
 
 typedef struct {
   const kz_scene *scene;
-  kz_team *team;
+  kz_ranks *ranks;
   kz_path path;
   double critical; /* NaN = none */
   double *amplitude;
@@ -119,7 +119,7 @@ static kz_status follow_back(void *context, int64_t tile, void *record) {
 static kz_status run(fluttering *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
   const kz_stage stage = {
       .name = name, .n_tiles = n_tiles, .record_bytes = bytes, .work = work, .context = f, .keep = true, .everywhere = true};
-  return kz_stage_run(f->team, &stage, records);
+  return kz_stage_run(f->ranks, &stage, records);
 }
 
 /* From where flutter was found to all values of the range beyond. */
@@ -138,7 +138,7 @@ static kz_status follow_on(fluttering *f) {
 static kz_status return_to_birth(fluttering *f) {
   const int64_t count = f->scene->sweep.values.count, n = (count + LEG - 1) / LEG;
   double *amplitude = malloc((size_t)(n * LEG) * sizeof *amplitude);
-  kz_status status = kz_team_agree(f->team, amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
+  kz_status status = kz_ranks_agree(f->ranks, amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
   if (status == KZ_OK) status = run(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
   for (int64_t i = 0; status == KZ_OK && i < count; i++)
     if (!isnan(amplitude[i])) f->amplitude[i] = amplitude[i];
@@ -235,18 +235,18 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
   return kz_store_real(store, "sweep", "fit_exponent_error", law.exponent_error);
 }
 
-kz_status kz_sweep_flutter(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+kz_status kz_sweep_flutter(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   const int64_t n = scene->sweep.values.count;
   fluttering f = {.scene = scene,
-                  .team = team,
+                  .ranks = ranks,
                   .path = kz_sweep_path(scene),
                   .critical = NAN,
                   .amplitude = malloc((size_t)n * sizeof(double))};
-  kz_status status = kz_team_agree(team, f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
+  kz_status status = kz_ranks_agree(ranks, f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
   for (int64_t i = 0; status == KZ_OK && i < n; i++) f.amplitude[i] = NAN;
   if (status == KZ_OK) status = find_flutter(&f);
   if (status == KZ_OK && store) status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
   if (status == KZ_OK && store) status = write_fit(&f, store, summary);
   free(f.amplitude);
-  return kz_team_agree(team, status);
+  return kz_ranks_agree(ranks, status);
 }

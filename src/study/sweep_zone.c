@@ -138,8 +138,8 @@ static kz_status write_zone(const kz_scene *scene, const void *records, kz_store
   return KZ_OK;
 }
 
-kz_status kz_sweep_zone(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+kz_status kz_sweep_zone(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   const kz_stage stage = {
       .name = "sweep flutter zone", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(zone), .work = work};
-  return kz_sweep_stage(scene, team, &stage, write_zone, store, summary);
+  return kz_sweep_stage(scene, ranks, &stage, write_zone, store, summary);
 }

@@ -90,7 +90,7 @@ static void rate(const kz_reference_labels *reference, kz_trade *trade) {
   kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
 }
 
-static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, kz_team *team) {
+static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, kz_ranks *ranks) {
   measuring m = {reference, trade};
   kz_stage stage = {.name = "settings",
                     .n_tiles = trade->count,
@@ -99,28 +99,28 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
                     .context = &m,
                     .keep = true,
                     .everywhere = true};
-  KZ_TRY(kz_stage_run(team, &stage, trade->measured));
+  KZ_TRY(kz_stage_run(ranks, &stage, trade->measured));
   rate(reference, trade);
   return KZ_OK;
 }
 
-static kz_status run_damped(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
+static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   kz_reference_labels reference = {0};
   kz_trade trade = {0};
   char *path = kz_reference_path(store);
-  kz_status status = kz_team_agree(team, allocate(&scene->tradeoff, &trade));
-  if (status == KZ_OK) status = kz_reference_labels_make(scene, team, scene->tradeoff.samples, path, &reference);
-  if (status == KZ_OK) status = kz_team_agree(team, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
-  if (status == KZ_OK) status = run_settings(&reference, &trade, team);
+  kz_status status = kz_ranks_agree(ranks, allocate(&scene->tradeoff, &trade));
+  if (status == KZ_OK) status = kz_reference_labels_make(scene, ranks, scene->tradeoff.samples, path, &reference);
+  if (status == KZ_OK) status = kz_ranks_agree(ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
+  if (status == KZ_OK) status = run_settings(&reference, &trade, ranks);
   if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);
   kz_reference_labels_free(&reference);
   free_trade(&trade);
   free(path);
-  return kz_team_agree(team, status);
+  return kz_ranks_agree(ranks, status);
 }
 
-kz_status kz_tradeoff_run(const kz_scene *scene, kz_team *team, kz_store *store, FILE *summary) {
-  if (scene->parameters.pendulum.beta > 0) return run_damped(scene, team, store, summary);
+kz_status kz_tradeoff_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta > 0) return run_damped(scene, ranks, store, summary);
   if (summary) fprintf(summary, "tradeoff: without damping nothing attracts, and no label can be wrong\n");
   return KZ_OK;
 }

@@ -24,9 +24,9 @@ static pid_t lock_for(double seconds) {
 /* Opens against a holder; the time it took. */
 static double open_against(double seconds, kz_status expected) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
-  const pid_t child = kz_team_rank(team) == 0 ? lock_for(seconds) : 0;
+  const pid_t child = kz_ranks_own(ranks) == 0 ? lock_for(seconds) : 0;
   const double begun = now();
-  const kz_status status = kz_checkpoint_open(team, &plan);
+  const kz_status status = kz_checkpoint_open(ranks, &plan);
   const double took = now() - begun;
   assert_all(status == expected && (status == KZ_OK || strstr(kz_message(), "held by another process")));
   if (child > 0) waitpid(child, NULL, 0);
@@ -36,24 +36,24 @@ static double open_against(double seconds, kz_status expected) {
 static void orphans_are_waited_for(void **state) {
   (void)state;
   const double took = open_against(1.5, KZ_OK);
-  assert_all(kz_team_rank(team) != 0 || (took > 1.0 && took < 6.0));
-  assert_all(kz_checkpoint_close(team, true) == KZ_OK);
+  assert_all(kz_ranks_own(ranks) != 0 || (took > 1.0 && took < 6.0));
+  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
 }
 
 static void a_running_program_is_refused(void **state) {
   (void)state;
   const double took = open_against(17, KZ_REFUSED);
-  assert_all(kz_team_rank(team) != 0 || (took > 14.0 && took < 17.0));
+  assert_all(kz_ranks_own(ranks) != 0 || (took > 14.0 && took < 17.0));
 }
 
 static void a_rank_of_this_run_holds_it(void **state) {
   (void)state;
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .force = true};
   struct flock byte = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
-  assert_all(kz_checkpoint_open(team, &plan) == KZ_OK);
+  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
   const int other = open(path, O_RDWR);
   assert_all(fcntl(other, F_OFD_SETLK, &byte) == -1);
-  assert_all(kz_checkpoint_close(team, false) == KZ_OK);
+  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
   assert_all(fcntl(other, F_OFD_GETLK, &byte) == 0 && byte.l_type == F_UNLCK);
   close(other);
 }

@@ -26,8 +26,8 @@ static void show(kz_progress progress, int64_t n_tiles, int end, int file) {
   char records[100];
   const int before = dup(STDERR_FILENO);
   dup2(end, STDERR_FILENO);
-  kz_team_set_progress(team, progress);
-  const kz_status status = kz_stage_run(team, &stage, records);
+  kz_ranks_set_progress(ranks, progress);
+  const kz_status status = kz_stage_run(ranks, &stage, records);
   dup2(before, STDERR_FILENO);
   close(before);
   assert_int_equal(status, KZ_OK);
@@ -88,7 +88,8 @@ static void a_terminal_is_left_alone_too(void **state) {
   assert_string_equal(shown, "");
 }
 
-/* Another group has the terminal, which stops whoever else writes to it (stty tostop): the stage ends all the same, without a bar. */
+/* Another group has the terminal, which stops whoever else writes to it (stty tostop): the stage ends all the same, without a
+ * bar. */
 static void a_terminal_of_others_is_left_alone(void **state) {
   (void)state;
   if (here < 0) skip();

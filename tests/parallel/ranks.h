@@ -1,4 +1,4 @@
-/* What the tests of a team share. An assertion that fails on one rank fails on all, so that none waits for it. */
+/* What the tests on several ranks share. An assertion that fails on one rank fails on all, so that none waits for it. */
 #ifndef KAPITZA_TESTS_RANKS_H
 #define KAPITZA_TESTS_RANKS_H
 
@@ -16,14 +16,14 @@
 
 #include "kapitza/parallel.h"
 
-static kz_team *team;
+static kz_ranks *ranks;
 
 #define assert_all(condition) assert_on_all((condition), #condition, __LINE__)
 
 static inline void assert_on_all(int holds, const char *text, int line) {
-  if (!holds) print_error("rank %d: %s is false (line %d); message: %s\n", kz_team_rank(team), text, line, kz_message());
+  if (!holds) print_error("rank %d: %s is false (line %d); message: %s\n", kz_ranks_own(ranks), text, line, kz_message());
   kz_message_clear();
-  const kz_status agreed = kz_team_agree(team, holds ? KZ_OK : KZ_FAILED);
+  const kz_status agreed = kz_ranks_agree(ranks, holds ? KZ_OK : KZ_FAILED);
   kz_message_clear();
   if (agreed != KZ_OK) _fail(__FILE__, line);
 }
@@ -40,10 +40,10 @@ static inline void pause_for(double seconds) {
 }
 
 static inline int run_ranks(const struct CMUnitTest *tests, size_t n) {
-  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
-  kz_team_set_progress(team, KZ_PROGRESS_NEVER);
+  if (kz_ranks_start(NULL, NULL, &ranks) != KZ_OK) return 1;
+  kz_ranks_set_progress(ranks, KZ_PROGRESS_NEVER);
   const int failed = _cmocka_run_group_tests("ranks", tests, n, NULL, NULL);
-  kz_team_end(team);
+  kz_ranks_end(ranks);
   return failed;
 }
 
@@ -51,16 +51,16 @@ static inline int run_ranks(const struct CMUnitTest *tests, size_t n) {
 static inline int run_ranks_with_path(const struct CMUnitTest *tests, size_t n, char *path, size_t bytes) {
   char folder[] = "/tmp/kapitza-ranks-XXXXXX";
   if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
-  if (kz_team_start(NULL, NULL, &team) != KZ_OK) return 1;
-  kz_team_set_progress(team, KZ_PROGRESS_NEVER);
-  kz_team_broadcast(team, folder, sizeof folder);
+  if (kz_ranks_start(NULL, NULL, &ranks) != KZ_OK) return 1;
+  kz_ranks_set_progress(ranks, KZ_PROGRESS_NEVER);
+  kz_ranks_broadcast(ranks, folder, sizeof folder);
   snprintf(path, bytes, "%s/a.checkpoint", folder);
   const int failed = _cmocka_run_group_tests("ranks", tests, n, NULL, NULL);
-  if (kz_team_rank(team) == 0) {
+  if (kz_ranks_own(ranks) == 0) {
     unlink(path);
     rmdir(folder);
   }
-  kz_team_end(team);
+  kz_ranks_end(ranks);
   return failed;
 }
 

@@ -46,9 +46,9 @@ static void records_arrive_on_rank_0(void **state) {
   (void)state;
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
-  record *records = kz_team_rank(team) == 0 ? malloc(N_TILES * sizeof *records) : NULL;
-  assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
-  assert_all(kz_team_rank(team) != 0 || is_right(records, N_TILES));
+  record *records = kz_ranks_own(ranks) == 0 ? malloc(N_TILES * sizeof *records) : NULL;
+  assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
+  assert_all(kz_ranks_own(ranks) != 0 || is_right(records, N_TILES));
   assert_all(j.dirty == 0);
   free(records);
 }
@@ -60,7 +60,7 @@ static void records_arrive_everywhere(void **state) {
   static record records[N_TILES];
   for (int again = 0; again < 3; ++again) {
     memset(records, 0x55, sizeof records);
-    assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+    assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
     assert_all(is_right(records, N_TILES));
   }
 }
@@ -72,7 +72,7 @@ static void few_tiles_are_enough(void **state) {
     job j = {.failing = -1};
     const kz_stage stage = stage_of(&j, n, true);
     memset(records, 0, sizeof records);
-    assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+    assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
     assert_all(is_right(records, n));
     assert_all(j.done <= n);
   }
@@ -83,8 +83,8 @@ static void all_ranks_take_part(void **state) {
   job j = {.failing = -1, .seconds = 0.005};
   const kz_stage stage = stage_of(&j, N_TILES, true);
   static record records[N_TILES];
-  assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
-  assert_all(j.done > 0 && j.done < (kz_team_size(team) == 1 ? N_TILES + 1 : N_TILES));
+  assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
+  assert_all(j.done > 0 && j.done < (kz_ranks_count(ranks) == 1 ? N_TILES + 1 : N_TILES));
 }
 
 static void a_failing_tile_ends_all_ranks(void **state) {
@@ -93,19 +93,19 @@ static void a_failing_tile_ends_all_ranks(void **state) {
   for (int64_t failing = 0; failing < N_TILES; failing += 57) {
     job j = {.failing = failing, .seconds = 0.001};
     const kz_stage stage = stage_of(&j, N_TILES, true);
-    const kz_status status = kz_stage_run(team, &stage, records);
+    const kz_status status = kz_stage_run(ranks, &stage, records);
     char expected[64];
     snprintf(expected, sizeof expected, "tile %lld fails", (long long)failing);
     assert_all(status == KZ_FAILED && strcmp(kz_message(), expected) == 0);
   }
-  records_arrive_everywhere(state); /* and the team is as good as before */
+  records_arrive_everywhere(state); /* and the ranks work as before */
 }
 
 static void a_missing_array_ends_all_ranks(void **state) {
   (void)state;
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
-  assert_all(kz_stage_run(team, &stage, NULL) == KZ_FAILED);
+  assert_all(kz_stage_run(ranks, &stage, NULL) == KZ_FAILED);
   assert_all(j.done == 0);
 }
 
@@ -122,7 +122,7 @@ static void records_beyond_a_message_arrive(void **state) {
   const kz_stage stage = {
       .name = "large", .n_tiles = 7, .record_bytes = n, .work = fill_large, .context = &n, .everywhere = true};
   char *records = malloc(7 * n);
-  assert_all(kz_stage_run(team, &stage, records) == KZ_OK);
+  assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
   int wrong = 0;
   for (int t = 0; t < 7; ++t) wrong += records[(size_t)t * n] != t + 1 || records[(size_t)(t + 1) * n - 1] != t + 1;
   assert_all(wrong == 0);
@@ -145,11 +145,11 @@ static void memory_that_runs_out_on_one_rank_ends_all(void **state) {
   (void)state;
   size_t n = (size_t)16 << 20;
   const kz_stage stage = {.name = "large", .n_tiles = 20, .record_bytes = n, .work = fill_large, .context = &n};
-  const int rank = kz_team_rank(team), last = kz_team_size(team) - 1;
+  const int rank = kz_ranks_own(ranks), last = kz_ranks_count(ranks) - 1;
   char *records = rank == 0 ? malloc(20 * n) : NULL;
   struct rlimit before;
   if (rank == last && rank > 0) limit_memory(&before);
-  const kz_status status = kz_stage_run(team, &stage, records);
+  const kz_status status = kz_stage_run(ranks, &stage, records);
   if (rank == last && rank > 0) setrlimit(RLIMIT_AS, &before);
   assert_all(last == 0 ? status == KZ_OK : status == KZ_FAILED && strstr(kz_message(), "out of memory") != NULL);
   free(records);
@@ -178,36 +178,36 @@ static kz_status wait_for_others(void *context, int64_t tile, void *bytes) {
 
 static void rank_0_answers_amid_its_own_tile(void **state) {
   (void)state;
-  if (kz_team_size(team) == 1) skip();
+  if (kz_ranks_count(ranks) == 1) skip();
   tally t = {.path = "/tmp/kapitza-tally-XXXXXX"};
-  t.file = kz_team_rank(team) == 0 ? mkstemp(t.path) : -1;
-  kz_team_broadcast(team, t.path, sizeof t.path);
-  if (kz_team_rank(team) > 0) t.file = open(t.path, O_WRONLY);
+  t.file = kz_ranks_own(ranks) == 0 ? mkstemp(t.path) : -1;
+  kz_ranks_broadcast(ranks, t.path, sizeof t.path);
+  if (kz_ranks_own(ranks) > 0) t.file = open(t.path, O_WRONLY);
   assert_all(fcntl(t.file, F_SETFL, O_APPEND) == 0);
   const kz_stage stage = {.name = "wait", .n_tiles = N_TILES, .record_bytes = 1, .work = wait_for_others, .context = &t};
   char records[N_TILES];
-  const kz_status status = kz_stage_run(team, &stage, records);
-  assert_all(kz_team_rank(team) != 0 || unlink(t.path) == 0);
+  const kz_status status = kz_stage_run(ranks, &stage, records);
+  assert_all(kz_ranks_own(ranks) != 0 || unlink(t.path) == 0);
   assert_all(status == KZ_OK && count(&t) == N_TILES);
   close(t.file);
 }
 
 static void the_worst_status_wins(void **state) {
   (void)state;
-  const int last = kz_team_size(team) - 1, rank = kz_team_rank(team);
+  const int last = kz_ranks_count(ranks) - 1, rank = kz_ranks_own(ranks);
   const kz_status mine = rank == last ? kz_fail(KZ_REFUSED, "rank %d", rank) : kz_fail(KZ_STOPPED, "stop");
-  const kz_status agreed = kz_team_agree(team, mine);
+  const kz_status agreed = kz_ranks_agree(ranks, mine);
   char expected[32];
   snprintf(expected, sizeof expected, "rank %d", last);
   assert_all(agreed == KZ_REFUSED && strcmp(kz_message(), expected) == 0);
-  assert_all(kz_team_agree(team, KZ_OK) == KZ_OK);
+  assert_all(kz_ranks_agree(ranks, KZ_OK) == KZ_OK);
 }
 
 static void broadcast_reaches_all(void **state) {
   (void)state;
   char text[100000];
-  memset(text, kz_team_rank(team) == 0 ? 'x' : 'y', sizeof text);
-  assert_all(kz_team_broadcast(team, text, sizeof text) == KZ_OK);
+  memset(text, kz_ranks_own(ranks) == 0 ? 'x' : 'y', sizeof text);
+  assert_all(kz_ranks_broadcast(ranks, text, sizeof text) == KZ_OK);
   assert_all(text[0] == 'x' && text[sizeof text - 1] == 'x');
 }
 

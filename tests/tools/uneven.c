@@ -26,18 +26,18 @@ static kz_status rest(void *context, int64_t tile, void *record) {
 }
 
 int main(int n, char **words) {
-  kz_team *team = NULL;
-  kz_status status = n == 4 ? kz_team_start(&n, &words, &team) : KZ_REFUSED;
+  kz_ranks *ranks = NULL;
+  kz_status status = n == 4 ? kz_ranks_start(&n, &words, &ranks) : KZ_REFUSED;
   if (status == KZ_OK) {
     load l = {.n_tiles = atoll(words[1]), .seconds = atof(words[2])};
     const kz_stage stage = {.name = "uneven", .n_tiles = l.n_tiles, .record_bytes = 1, .work = rest, .context = &l};
     void *records = malloc((size_t)l.n_tiles);
-    if (kz_team_size(team) > 1 && kz_team_rank(team) == kz_team_size(team) - 1) l.seconds *= atof(words[3]);
-    kz_team_set_progress(team, KZ_PROGRESS_ALWAYS);
-    status = kz_stage_run(team, &stage, records);
+    if (kz_ranks_count(ranks) > 1 && kz_ranks_own(ranks) == kz_ranks_count(ranks) - 1) l.seconds *= atof(words[3]);
+    kz_ranks_set_progress(ranks, KZ_PROGRESS_ALWAYS);
+    status = kz_stage_run(ranks, &stage, records);
     free(records);
   }
   if (status != KZ_OK) fprintf(stderr, "uneven: %s\n", kz_message());
-  kz_team_end(team);
+  kz_ranks_end(ranks);
   return (int)status;
 }

@@ -1,6 +1,6 @@
-/* The inside of a team: what the files of this layer share. */
-#ifndef KAPITZA_PARALLEL_TEAM_H
-#define KAPITZA_PARALLEL_TEAM_H
+/* The inside of kz_ranks: what the files of this layer share. */
+#ifndef KAPITZA_PARALLEL_RANKS_H
+#define KAPITZA_PARALLEL_RANKS_H
 
 #include <mpi.h>
 #include <pthread.h>
@@ -8,7 +8,7 @@
 #include "checkpoint.h"
 #include "kapitza/parallel.h"
 
-struct kz_team {
+struct kz_ranks {
   MPI_Comm comm; /* own duplicate of the world, errors are returned */
   int rank, size;
   int thread_level;      /* of MPI, MPI_THREAD_SINGLE ... */
@@ -37,8 +37,8 @@ void kz_signals_catch(void);
 const char *kz_signals_caught(void);
 
 /* KZ_STOPPED with its message where a signal or the time limit asks for a stop, else KZ_OK. */
-kz_status kz_team_interrupted(const kz_team *team);
+kz_status kz_ranks_interrupted(const kz_ranks *ranks);
 /* The same, once all ranks have left their work: the message tells whether and where that work was saved. */
-kz_status kz_team_stopped(const kz_team *team);
+kz_status kz_ranks_stopped(const kz_ranks *ranks);
 
 #endif
