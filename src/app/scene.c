@@ -79,10 +79,11 @@ static void print_label(const char *option, char *label) {
 typedef struct {
   kz_node *root;
   option_label *labels;
-} grown;
+} scene_tree;
 
-static kz_status grow(const char *text, size_t length, const char *file, int n_sets, char *const *sets, grown *tree) {
-  *tree = (grown){.labels = calloc((size_t)n_sets + 1, sizeof(option_label))};
+static kz_status build_tree(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
+                            scene_tree *tree) {
+  *tree = (scene_tree){.labels = calloc((size_t)n_sets + 1, sizeof(option_label))};
   if (!tree->labels) return kz_fail(KZ_FAILED, "out of memory while reading the command line");
   KZ_TRY(kz_tree_read(text, length, file, false, &tree->root));
   for (int i = 0; tree->root->kind == KZ_MAPPING && i < n_sets; i++) {
@@ -92,7 +93,7 @@ static kz_status grow(const char *text, size_t length, const char *file, int n_s
   return KZ_OK;
 }
 
-static void fell(grown *tree) {
+static void free_tree(scene_tree *tree) {
   kz_tree_free(tree->root);
   free(tree->labels);
 }
@@ -105,11 +106,11 @@ static kz_status read_tree(kz_node *root, kz_scene *scene) {
 }
 
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene) {
-  grown tree;
+  scene_tree tree;
   memset(scene, 0, sizeof *scene);
-  kz_status status = grow(text, length, file, n_sets, sets, &tree);
+  kz_status status = build_tree(text, length, file, n_sets, sets, &tree);
   if (status == KZ_OK) status = read_tree(tree.root, scene);
-  fell(&tree);
+  free_tree(&tree);
   if (status == KZ_OK && !scene->title) scene->title = strdup("");
   if (status == KZ_OK && !scene->title) status = kz_fail(KZ_FAILED, "out of memory while reading %s", file);
   if (status != KZ_OK) kz_scene_free(scene);
@@ -145,15 +146,15 @@ kz_status kz_scene_locate(kz_status status, const char *text, size_t length, con
   if ((status != KZ_REFUSED && status != KZ_FAILED) || !end) return status;
   *end = '\0';
   if (!are_keys(message)) return status;
-  grown tree;
+  scene_tree tree;
   kz_reading reading = {.keys = kz_keys, .first = INT_MAX};
-  if (grow(text, length, file, n_sets, sets, &tree) == KZ_OK) {
+  if (build_tree(text, length, file, n_sets, sets, &tree) == KZ_OK) {
     reading.root = tree.root;
     complain_first(&reading, message, end + 2);
     kz_message_clear();
     kz_fail(status, "%s", reading.message);
   }
-  fell(&tree);
+  free_tree(&tree);
   return status;
 }
 
