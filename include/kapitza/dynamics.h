@@ -27,7 +27,7 @@ void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double
 double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
 
 /* A coarse open grid for trapping regions up to velocity `max_velocity`: enough for a search. A map table brings a finer one. */
-void kz_dynamics_outline(kz_dynamics *dynamics, double max_velocity);
+void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
 /* Draws the ellipses and covers of new attractors into the regions; over a map table's cells the regions are grown outwards. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 

@@ -15,8 +15,8 @@ module kz_dynamics_api
   implicit none
   private
 
-  !> Cells of the outline's grid along an axis.
-  integer, parameter :: OUTLINE = 256
+  !> Cells of the coarse grid along an axis.
+  integer, parameter :: COARSE_CELLS = 256
 
   type, bind(C) :: window_t
     real(dp) :: theta_min, theta_max, velocity_min, velocity_max
@@ -103,14 +103,14 @@ contains
     end do
   end function max_velocity
 
-  subroutine outline_regions(handle, top) bind(C, name='kz_dynamics_outline')
+  subroutine coarse_regions(handle, top) bind(C, name='kz_dynamics_coarse_regions')
     type(c_ptr), value :: handle
     real(dp), value :: top
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    d%regions = make_regions(OUTLINE, OUTLINE, top)
-  end subroutine outline_regions
+    d%regions = make_regions(COARSE_CELLS, COARSE_CELLS, top)
+  end subroutine coarse_regions
 
   subroutine update_regions(handle) bind(C, name='kz_dynamics_update')
     type(c_ptr), value :: handle

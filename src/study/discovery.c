@@ -12,7 +12,7 @@ enum {
   TILE = 256,         /* starts per tile */
   CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycle takes */
   CHUNKS = 16,        /* searches per round */
-  SCOUTS = 512,       /* starts that are followed before there is a table */
+  PILOT_STARTS = 512, /* starts that are followed before there is a table */
   STRETCH = 1024,     /* periods of a tile at least */
   STRETCHES = 64,     /* of a round, about */
   CHAOS_TRIES = 4,
@@ -210,10 +210,10 @@ kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_period
 
 kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
   const bool table = search->table_theta > 0;
-  const int64_t scouts = table && search->starts > SCOUTS ? SCOUTS : search->starts, rest = search->starts - scouts;
+  const int64_t pilots = table && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
-  kz_dynamics_outline(dynamics, search->max_velocity);
-  KZ_TRY(kz_discover(ranks, dynamics, search->max_periods, scouts, state, label));
+  kz_dynamics_coarse_regions(dynamics, search->max_velocity);
+  KZ_TRY(kz_discover(ranks, dynamics, search->max_periods, pilots, state, label));
   if (table) KZ_TRY(kz_map_table_make(ranks, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
-  return rest > 0 ? kz_discover(ranks, dynamics, search->max_periods, rest, state + 2 * scouts, label + scouts) : KZ_OK;
+  return rest > 0 ? kz_discover(ranks, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
 }

@@ -15,13 +15,13 @@ typedef struct {
   double max_velocity;                 /* of kz_dynamics_max_velocity */
 } kz_search;
 
-/* Finds the attractors that the starts end on. With a table the first starts are scouts: the regions grow around the attractors
+/* Finds the attractors that the starts end on. With a table the first starts are pilots: the regions grow around the attractors
  * of most of the window, and the other starts settle soon. state [starts][2], label [starts] as of kz_discover. */
 kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
 
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
- * they end on; those join the catalogue and the regions (outline or table) of `dynamics` on every rank. label [n] = attractor
- * from 1, 0 where the start has not settled on any. Collective; `ranks` NULL = this rank alone. */
+ * they end on; those join the catalogue and the regions (coarse or of the table) of `dynamics` on every rank. label [n] =
+ * attractor from 1, 0 where the start has not settled on any. Collective; `ranks` NULL = this rank alone. */
 kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label);
 
 /* Follows n starts (state [n][2], in and out) up to `periods` periods: label [n] = attractor, 0 where the start has not

@@ -32,7 +32,7 @@ kz_status kz_settles_on(const kz_mover *mover, kz_state state, double fastest, c
   int32_t label;
   kz_dynamics *dynamics = kz_dynamics_create(&mover->pendulum, &mover->numerics, LONGEST_CYCLE);
   if (!dynamics) return kz_fail(KZ_FAILED, "out of memory for the attractor of an orbit");
-  kz_dynamics_outline(dynamics, kz_dynamics_max_velocity(dynamics, &window));
+  kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
   kz_status status = kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &label);
   if (status == KZ_OK && label > 0) status = name_attractor(dynamics, label, name);
   kz_dynamics_free(dynamics);

@@ -26,7 +26,7 @@ static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
   assert_non_null(d);
   kz_dynamics_starts(&WINDOW, seed, n, state);
-  kz_dynamics_outline(d, max_velocity);
+  kz_dynamics_coarse_regions(d, max_velocity);
   for (int round = 0; n > 0 && round < 12; round++) {
     kz_dynamics_update(d);
     kz_dynamics_follow(d, n, 128, state, label, periods);
@@ -106,7 +106,7 @@ static void test_interpolation(void **state) {
       int64_t periods[N];
       kz_dynamics_starts(&WINDOW, 3, N, x);
       memcpy(y, x, sizeof y);
-      kz_dynamics_outline(d, 3);
+      kz_dynamics_coarse_regions(d, 3);
       with_table(d, fine ? 401 : 201, 3);
       kz_dynamics_follow(d, N, 1, x, label, periods);
       kz_dynamics_follow_table(d, points, N, 1, y, label, periods);
@@ -317,7 +317,7 @@ static void test_chaos(void **state) {
   int64_t periods[N], integrated[N];
   kz_attractor row;
   kz_dynamics_starts(&WINDOW, 1, N, x);
-  kz_dynamics_outline(d, 4.0 * 199 / 195); /* the top of a table of 200 nodes that reaches 4 */
+  kz_dynamics_coarse_regions(d, 4.0 * 199 / 195); /* the top of a table of 200 nodes that reaches 4 */
   double *found = calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
   kz_dynamics_find_chaos(d, x, found);
   assert_int_equal(kz_dynamics_count(d), 0);
