@@ -11,25 +11,25 @@ static const double CLOSED = 1e-9;
 enum { MOST_PERIODS = 512 };
 
 /* Newton from `start` for period n; the cycle then has its smallest period. */
-static bool close_with(const kz_mover *mover, int64_t n, kz_state start, kz_cycle *cycle) {
+static bool close_with(const kz_model *model, int64_t n, kz_state start, kz_cycle *cycle) {
   cycle->state = start;
-  cycle->period = kz_dynamics_close_cycle(&mover->pendulum, &mover->numerics, n, MAX_DISTANCE, &cycle->state.theta,
+  cycle->period = kz_dynamics_close_cycle(&model->pendulum, &model->numerics, n, MAX_DISTANCE, &cycle->state.theta,
                                           &cycle->state.velocity, cycle->re, cycle->im);
   return cycle->period > 0;
 }
 
 /* The shortest return within ever wider distances that Newton confirms. */
-static kz_status find(const kz_mover *mover, kz_state start, kz_cycle *cycle) {
+static kz_status find(const kz_model *model, kz_state start, kz_cycle *cycle) {
   static const double WITHIN[] = {1e-6, 1e-4, 1e-2, 1e-1};
   double back[MOST_PERIODS + 1];
   kz_state x = start;
   for (int n = 1; n <= MOST_PERIODS; n++) {
-    kz_mover_skip(mover, 1, &x);
+    kz_model_skip(model, 1, &x);
     back[n] = hypot(remainder(x.theta - start.theta, 2 * M_PI), x.velocity - start.velocity);
   }
   for (size_t i = 0; i < sizeof WITHIN / sizeof WITHIN[0]; i++) {
     for (int n = 1; n <= MOST_PERIODS; n++)
-      if (back[n] < WITHIN[i] && close_with(mover, n, start, cycle)) return KZ_OK;
+      if (back[n] < WITHIN[i] && close_with(model, n, start, cycle)) return KZ_OK;
   }
   return kz_fail(KZ_FAILED,
                  "orbit.closed: no cycle of up to %d periods near theta = %.9g, velocity = %.9g; a nearer start, "
@@ -38,22 +38,22 @@ static kz_status find(const kz_mover *mover, kz_state start, kz_cycle *cycle) {
 }
 
 /* The linear model scales: its orbits close or not. */
-static kz_status check_linear(const kz_mover *mover, int64_t period, kz_state start, kz_cycle *cycle) {
+static kz_status check_linear(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle) {
   *cycle = (kz_cycle){start, period, {NAN, NAN}, {NAN, NAN}};
   kz_state end = start;
-  kz_mover_skip(mover, period, &end);
+  kz_model_skip(model, period, &end);
   double gap = hypot(end.theta - start.theta, end.velocity - start.velocity);
-  if (gap <= CLOSED * hypot(start.theta - mover->origin, start.velocity)) return KZ_OK;
+  if (gap <= CLOSED * hypot(start.theta - model->origin, start.velocity)) return KZ_OK;
   return kz_fail(KZ_FAILED,
                  "orbit.closed: the linear motion ends %.3g from its start after %lld periods; parameters on a curve of "
                  "this period, or no closed",
                  gap, (long long)period);
 }
 
-kz_status kz_cycle_close(const kz_mover *mover, int64_t period, kz_state start, kz_cycle *cycle) {
-  if (!mover->plan) return check_linear(mover, period, start, cycle);
-  if (period == 0) return find(mover, start, cycle);
-  if (!close_with(mover, period, start, cycle))
+kz_status kz_cycle_close(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle) {
+  if (!model->plan) return check_linear(model, period, start, cycle);
+  if (period == 0) return find(model, start, cycle);
+  if (!close_with(model, period, start, cycle))
     return kz_fail(KZ_FAILED,
                    "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; a nearer start",
                    (long long)period, MAX_DISTANCE, start.theta, start.velocity);

@@ -30,38 +30,38 @@ double kz_orbit_steps(const kz_scene *scene) {
   return multiple(samples_of(scene), fmax(scene->numerics.steps_per_period, scheme.default_steps * speed / 2));
 }
 
-kz_status kz_mover_make(const kz_scene *scene, kz_mover *mover) {
+kz_status kz_model_make(const kz_scene *scene, kz_model *model) {
   const kz_orbit_plan *orbit = &scene->orbit;
   const kz_pendulum *p = &scene->parameters.pendulum;
   bool inverted = orbit->model == KZ_MATHIEU && orbit->about == KZ_ABOUT_INVERTED;
-  *mover = (kz_mover){.model = orbit->model, .pendulum = *p, .samples = (int64_t)samples_of(scene)};
-  if (inverted) mover->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
-  if (inverted) mover->origin = M_PI;
-  if (mover->model != KZ_PENDULUM) return KZ_OK;
-  mover->numerics = scene->numerics;
-  mover->numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);
-  if (orbit->closed && mover->numerics.precision == KZ_SINGLE) mover->numerics.precision = KZ_DOUBLE;
-  mover->plan = kz_plan_create(p, &mover->numerics);
-  return mover->plan ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
+  *model = (kz_model){.kind = orbit->model, .pendulum = *p, .samples = (int64_t)samples_of(scene)};
+  if (inverted) model->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
+  if (inverted) model->origin = M_PI;
+  if (model->kind != KZ_PENDULUM) return KZ_OK;
+  model->numerics = scene->numerics;
+  model->numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);
+  if (orbit->closed && model->numerics.precision == KZ_SINGLE) model->numerics.precision = KZ_DOUBLE;
+  model->plan = kz_plan_create(p, &model->numerics);
+  return model->plan ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
 }
 
-void kz_mover_free(kz_mover *mover) {
-  if (mover->plan) kz_plan_free(mover->plan);
-  mover->plan = NULL;
+void kz_model_free(kz_model *model) {
+  if (model->plan) kz_plan_free(model->plan);
+  model->plan = NULL;
 }
 
 /* Up to CHUNK periods of a simpler model. */
-static void skip_chunk(const kz_mover *mover, int64_t periods, kz_state *state) {
+static void skip_chunk(const kz_model *model, int64_t periods, kz_state *state) {
   double theta[CHUNK + 1], velocity[CHUNK + 1];
-  kz_sample_model(mover->model, &mover->pendulum, periods, 1, state->theta - mover->origin, state->velocity, theta, velocity);
-  *state = (kz_state){theta[periods] + mover->origin, velocity[periods]};
+  kz_sample_model(model->kind, &model->pendulum, periods, 1, state->theta - model->origin, state->velocity, theta, velocity);
+  *state = (kz_state){theta[periods] + model->origin, velocity[periods]};
 }
 
-void kz_mover_skip(const kz_mover *mover, int64_t periods, kz_state *state) {
+void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state) {
   int64_t turns = 0;
-  if (mover->plan) kz_advance(mover->plan, 1, periods, &state->theta, &state->velocity, &turns);
-  for (int64_t done = 0; !mover->plan && done < periods; done += CHUNK)
-    skip_chunk(mover, periods - done < CHUNK ? periods - done : CHUNK, state);
+  if (model->plan) kz_advance(model->plan, 1, periods, &state->theta, &state->velocity, &turns);
+  for (int64_t done = 0; !model->plan && done < periods; done += CHUNK)
+    skip_chunk(model, periods - done < CHUNK ? periods - done : CHUNK, state);
 }
 
 static kz_status check_range(const kz_motion *motion) {
@@ -73,17 +73,17 @@ static kz_status check_range(const kz_motion *motion) {
   return KZ_OK;
 }
 
-kz_status kz_mover_record(const kz_mover *mover, int64_t periods, kz_state start, kz_motion *motion) {
-  size_t n = (size_t)(periods * mover->samples) + 1;
-  *motion = (kz_motion){periods, mover->samples, malloc(n * sizeof(double)), malloc(n * sizeof(double))};
+kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_motion *motion) {
+  size_t n = (size_t)(periods * model->samples) + 1;
+  *motion = (kz_motion){periods, model->samples, malloc(n * sizeof(double)), malloc(n * sizeof(double))};
   if (!motion->theta || !motion->velocity)
     return kz_fail(KZ_FAILED, "out of memory for an orbit of %lld periods", (long long)periods);
-  if (mover->plan) {
-    kz_sample(mover->plan, periods, mover->samples, start.theta, start.velocity, motion->theta, motion->velocity);
+  if (model->plan) {
+    kz_sample(model->plan, periods, model->samples, start.theta, start.velocity, motion->theta, motion->velocity);
   } else {
-    kz_sample_model(mover->model, &mover->pendulum, periods, mover->samples, start.theta - mover->origin, start.velocity,
+    kz_sample_model(model->kind, &model->pendulum, periods, model->samples, start.theta - model->origin, start.velocity,
                     motion->theta, motion->velocity);
-    for (size_t i = 0; i < n; i++) motion->theta[i] += mover->origin;
+    for (size_t i = 0; i < n; i++) motion->theta[i] += model->origin;
   }
   return check_range(motion);
 }

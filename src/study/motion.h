@@ -5,15 +5,15 @@
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
 
-/* Who moves the state: a model with its parameters. */
+/* What moves the state: a model with its parameters. */
 typedef struct {
-  int32_t model;
+  int32_t kind;
   kz_pendulum pendulum; /* of the model: signs turned about the inverted position */
   double origin;        /* rad: the angle that the model counts from, 0 or pi */
   kz_plan *plan;        /* of the pendulum itself; NULL for the other models */
   kz_numerics numerics; /* of the plan; a closed orbit is computed in double at least */
   int64_t samples;      /* per period, of every record; a multiple of the scene's */
-} kz_mover;
+} kz_model;
 
 /* A state at a strobe time: rad from down, rad per drive radian. */
 typedef struct {
@@ -26,15 +26,15 @@ typedef struct {
   double *theta, *velocity;
 } kz_motion;
 
-/* KZ_FAILED where memory ran out. Freed by kz_mover_free. */
-kz_status kz_mover_make(const kz_scene *scene, kz_mover *mover);
-void kz_mover_free(kz_mover *mover);
+/* KZ_FAILED where memory ran out. Freed by kz_model_free. */
+kz_status kz_model_make(const kz_scene *scene, kz_model *model);
+void kz_model_free(kz_model *model);
 
 /* Moves a state ahead by whole periods; theta comes back within a turn for the pendulum. */
-void kz_mover_skip(const kz_mover *mover, int64_t periods, kz_state *state);
+void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state);
 
 /* Records `periods` from a state. KZ_FAILED where memory ran out or the motion left the range of numbers. */
-kz_status kz_mover_record(const kz_mover *mover, int64_t periods, kz_state start, kz_motion *motion);
+kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_motion *motion);
 void kz_motion_free(kz_motion *motion);
 
 /* A closed orbit. */
@@ -47,6 +47,6 @@ typedef struct {
 /* The cycle at or near `start`: of the given period, or (period = 0) of the shortest that the orbit comes back to. Newton's
  * method on the strobe map for the pendulum; for the linear model the orbit itself must close. KZ_FAILED says what was
  * found instead. */
-kz_status kz_cycle_close(const kz_mover *mover, int64_t period, kz_state start, kz_cycle *cycle);
+kz_status kz_cycle_close(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle);
 
 #endif

@@ -61,7 +61,7 @@ static kz_status start(kz_orbit *orbit, kz_ranks *ranks, kz_store *store) {
 }
 
 typedef struct {
-  const kz_mover *mover;
+  const kz_model *model;
   int64_t periods;
   kz_state state;
 } kz_stretch;
@@ -70,7 +70,7 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
   const kz_stretch *stretch = context;
   kz_state state = stretch->state;
   (void)tile;
-  kz_mover_skip(stretch->mover, stretch->periods, &state);
+  kz_model_skip(stretch->model, stretch->periods, &state);
   memcpy(record, &state, sizeof state);
   return KZ_OK;
 }
@@ -82,7 +82,7 @@ static kz_status skip_transient(kz_orbit *orbit, kz_ranks *ranks) {
     char name[32];
     snprintf(name, sizeof name, "transient %" PRId64, done / STRETCH + 1);
     const int64_t periods = transient - done < STRETCH ? transient - done : STRETCH;
-    kz_stretch stretch = {&orbit->mover, periods, orbit->cycle.state};
+    kz_stretch stretch = {&orbit->model, periods, orbit->cycle.state};
     const kz_stage stage = {.name = name,
                             .n_tiles = 1,
                             .record_bytes = sizeof(kz_state),
@@ -96,28 +96,28 @@ static kz_status skip_transient(kz_orbit *orbit, kz_ranks *ranks) {
 }
 
 /* How an open record of the pendulum goes on: in chaos, or to which attractor. */
-static kz_status look_ahead(kz_orbit *orbit, const kz_mover *mover) {
+static kz_status look_ahead(kz_orbit *orbit, const kz_model *model) {
   const kz_motion *motion = &orbit->motion;
   const int64_t last = motion->periods * motion->samples;
   const kz_state end = {remainder(motion->theta[last], 2 * M_PI), motion->velocity[last]};
   double fastest = 0;
   orbit->parting =
-      kz_exponent_positive(orbit->lyapunov, orbit->lyapunov_error) && kz_exponent_stays_positive(mover, end, orbit->lyapunov);
+      kz_exponent_positive(orbit->lyapunov, orbit->lyapunov_error) && kz_exponent_stays_positive(model, end, orbit->lyapunov);
   if (orbit->parting) return KZ_OK;
   for (int64_t i = last - motion->samples; i <= last; i++) fastest = fmax(fastest, fabs(motion->velocity[i]));
-  return kz_settles_on(mover, end, fastest, orbit->settles_on);
+  return kz_settles_on(model, end, fastest, orbit->settles_on);
 }
 
 /* The same in double precision whatever the record has: what comes is asked for its kind alone. Motions so fast that this takes
  * long are left without an answer. */
 static kz_status look_ahead_in_double(kz_orbit *orbit) {
-  kz_mover mover = orbit->mover;
-  if (mover.numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
-  mover.numerics.precision = KZ_DOUBLE;
-  mover.plan = kz_plan_create(&mover.pendulum, &mover.numerics);
-  if (!mover.plan) return kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
-  kz_status status = look_ahead(orbit, &mover);
-  kz_mover_free(&mover);
+  kz_model model = orbit->model;
+  if (model.numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
+  model.numerics.precision = KZ_DOUBLE;
+  model.plan = kz_plan_create(&model.pendulum, &model.numerics);
+  if (!model.plan) return kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
+  kz_status status = look_ahead(orbit, &model);
+  kz_model_free(&model);
   return status;
 }
 
@@ -126,17 +126,17 @@ static kz_status follow(kz_orbit *orbit) {
   const bool closed = orbit->plan->closed;
   const kz_state from = orbit->cycle.state;
   const int64_t period = orbit->cycle.period;
-  if (closed) KZ_TRY(kz_cycle_close(&orbit->mover, period, from, &orbit->cycle));
+  if (closed) KZ_TRY(kz_cycle_close(&orbit->model, period, from, &orbit->cycle));
   int64_t periods = given(orbit->plan->periods, closed ? orbit->cycle.period : OPEN_PERIODS);
   if (periods < orbit->cycle.period) periods = orbit->cycle.period;
-  KZ_TRY(kz_mover_record(&orbit->mover, periods, orbit->cycle.state, &orbit->motion));
-  if (orbit->mover.plan)
-    kz_exponent_along(&orbit->mover, periods, orbit->cycle.state, &orbit->lyapunov, &orbit->lyapunov_error);
-  if (orbit->mover.plan && closed) {
+  KZ_TRY(kz_model_record(&orbit->model, periods, orbit->cycle.state, &orbit->motion));
+  if (orbit->model.plan)
+    kz_exponent_along(&orbit->model, periods, orbit->cycle.state, &orbit->lyapunov, &orbit->lyapunov_error);
+  if (orbit->model.plan && closed) {
     orbit->lyapunov = log(hypot(orbit->cycle.re[0], orbit->cycle.im[0])) / (double)orbit->cycle.period;
     orbit->lyapunov_error = 0;
   }
-  if (orbit->mover.plan && !closed) KZ_TRY(look_ahead_in_double(orbit));
+  if (orbit->model.plan && !closed) KZ_TRY(look_ahead_in_double(orbit));
   return kz_orbit_features_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->features);
 }
 
@@ -148,7 +148,7 @@ static kz_status find_features(kz_orbit *orbit, kz_store *store, FILE *summary) 
 }
 
 static kz_status model(kz_orbit *orbit, const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  KZ_TRY(kz_ranks_agree(ranks, kz_mover_make(scene, &orbit->mover)));
+  KZ_TRY(kz_ranks_agree(ranks, kz_model_make(scene, &orbit->model)));
   KZ_TRY(start(orbit, ranks, store));
   KZ_TRY(skip_transient(orbit, ranks));
   return kz_ranks_own(ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
@@ -159,6 +159,6 @@ kz_status kz_orbit_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, 
   kz_status status = model(&orbit, scene, ranks, store, summary);
   kz_orbit_features_free(&orbit.features);
   kz_motion_free(&orbit.motion);
-  kz_mover_free(&orbit.mover);
+  kz_model_free(&orbit.model);
   return status;
 }

@@ -7,7 +7,7 @@
 typedef struct {
   const kz_orbit_plan *plan;
   kz_pendulum pendulum;
-  kz_mover mover;
+  kz_model model;
   kz_cycle cycle; /* of a closed orbit; period 0 = open */
   kz_motion motion;
   kz_orbit_features features;

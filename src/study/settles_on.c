@@ -22,15 +22,15 @@ static kz_status name_attractor(const kz_dynamics *dynamics, int64_t number, cha
   return status;
 }
 
-kz_status kz_settles_on(const kz_mover *mover, kz_state state, double fastest, char *name) {
-  const double beta = mover->pendulum.beta;
+kz_status kz_settles_on(const kz_model *model, kz_state state, double fastest, char *name) {
+  const double beta = model->pendulum.beta;
   name[0] = '\0';
   if (!(beta > 0)) return KZ_OK;
-  const double periods = fmin(MOST_STEPS / mover->numerics.steps_per_period, fmax(LEAST_PERIODS, SHRUNK / (2 * M_PI * beta)));
+  const double periods = fmin(MOST_STEPS / model->numerics.steps_per_period, fmax(LEAST_PERIODS, SHRUNK / (2 * M_PI * beta)));
   const kz_window window = {-M_PI, M_PI, -fastest, fastest};
   double start[2] = {remainder(state.theta, 2 * M_PI) / M_PI, state.velocity};
   int32_t label;
-  kz_dynamics *dynamics = kz_dynamics_create(&mover->pendulum, &mover->numerics, LONGEST_CYCLE);
+  kz_dynamics *dynamics = kz_dynamics_create(&model->pendulum, &model->numerics, LONGEST_CYCLE);
   if (!dynamics) return kz_fail(KZ_FAILED, "out of memory for the attractor of an orbit");
   kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
   kz_status status = kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &label);
