@@ -65,7 +65,7 @@ static double value_seconds(const kz_scene *scene, const kz_pendulum *pendulum) 
                7e-8 * kz_settling_cells(pendulum->beta, scene->basin.max_periods) *
                    (double)(scene->basin.theta.count * scene->basin.velocity.count);
   if (kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE)) seconds += 0.3;
-  if (kz_sweep_measures(plan, KZ_SWEEP_FLUTTER_ZONE)) seconds += 0.5;
+  if (kz_sweep_measures(plan, KZ_SWEEP_FLUTTER_RANGE)) seconds += 0.5;
   if (kz_sweep_measures(plan, KZ_SWEEP_STROBE)) seconds += 2 * 4 * period * (double)(plan->transient + plan->samples);
   return seconds;
 }
@@ -141,7 +141,7 @@ kz_status kz_sweep_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, 
     int64_t measure;
     kz_status (*run)(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
   } parts[] = {{KZ_SWEEP_FLUTTER_AMPLITUDE, kz_sweep_flutter},
-               {KZ_SWEEP_FLUTTER_ZONE, kz_sweep_zone},
+               {KZ_SWEEP_FLUTTER_RANGE, kz_sweep_flutter_range},
                {KZ_SWEEP_RELEASE_ANGLE, kz_sweep_release},
                {KZ_SWEEP_STROBE, kz_sweep_strobe}};
   KZ_TRY(kz_ranks_agree(ranks, kz_ranks_own(ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));

@@ -92,7 +92,7 @@ kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogu
 /* ---- the other measures: each runs its stage and, on rank 0, writes its variables. Collective. ---- */
 
 kz_status kz_sweep_flutter(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
-kz_status kz_sweep_zone(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_sweep_flutter_range(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
 kz_status kz_sweep_release(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
 

@@ -13,7 +13,7 @@ static const double LOCATED = 1e-6;
 
 typedef struct {
   double onset, asymmetry, end, release_end; /* m; NaN = none */
-} zone;
+} flutter_range;
 
 /* The pendulum of a value with another drive. */
 static bool pendulum_of_drive(const void *context, double m, kz_pendulum *pendulum) {
@@ -58,15 +58,15 @@ static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point
 }
 
 /* Along the cycle: where it loses its mirror symmetry, and where the cycles that take over end. */
-static void follow_cycle(const kz_path *path, zone *z) {
+static void follow_cycle(const kz_path *path, flutter_range *range) {
   kz_branch_point flutter, asymmetric;
   double m;
-  if (!find_flutter(path, z->onset, &m, &flutter)) return;
+  if (!find_flutter(path, range->onset, &m, &flutter)) return;
   const double last = kz_walk(path, m, TOP, &flutter);
   if (last == TOP || kz_end_kind(&flutter) != KZ_END_SYMMETRY_BREAKING) return;
-  z->asymmetry = last;
+  range->asymmetry = last;
   if (!find_asymmetric(path, last, &flutter, &m, &asymmetric)) return;
-  z->end = kz_walk(path, m, TOP, &asymmetric);
+  range->end = kz_walk(path, m, TOP, &asymmetric);
 }
 
 static kz_status release_fails(const kz_path *path, const kz_numerics *numerics, double m, bool *fails) {
@@ -79,8 +79,8 @@ static kz_status release_fails(const kz_path *path, const kz_numerics *numerics,
 }
 
 /* Raises the drive from the onset until a release fails, then halves the bracket. */
-static kz_status follow_releases(const kz_path *path, const kz_numerics *numerics, zone *z) {
-  double inside = z->onset, outside = RELEASE_STEP * ceil(z->onset / RELEASE_STEP);
+static kz_status follow_releases(const kz_path *path, const kz_numerics *numerics, flutter_range *range) {
+  double inside = range->onset, outside = RELEASE_STEP * ceil(range->onset / RELEASE_STEP);
   bool fails = false;
   for (; outside < TOP; outside += RELEASE_STEP) {
     KZ_TRY(release_fails(path, numerics, outside, &fails));
@@ -93,21 +93,21 @@ static kz_status follow_releases(const kz_path *path, const kz_numerics *numeric
     KZ_TRY(release_fails(path, numerics, middle, &here));
     *(here ? &outside : &inside) = middle;
   }
-  if (fails) z->release_end = outside;
+  if (fails) range->release_end = outside;
   return KZ_OK;
 }
 
 static kz_status work(void *context, int64_t tile, void *record) {
   const kz_scene *scene = context;
-  zone *z = record;
+  flutter_range *range = record;
   kz_pendulum pendulum;
   const kz_path path = {pendulum_of_drive, &pendulum};
-  *z = (zone){NAN, NAN, NAN, NAN};
+  *range = (flutter_range){NAN, NAN, NAN, NAN};
   if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  z->onset = find_onset(&path);
-  if (isnan(z->onset)) return KZ_OK;
-  follow_cycle(&path, z);
-  return follow_releases(&path, &scene->numerics, z);
+  range->onset = find_onset(&path);
+  if (isnan(range->onset)) return KZ_OK;
+  follow_cycle(&path, range);
+  return follow_releases(&path, &scene->numerics, range);
 }
 
 static void print_cell(FILE *summary, int width, int digits, double value) {
@@ -119,27 +119,27 @@ static void print_cell(FILE *summary, int width, int digits, double value) {
 
 #define COLUMN(name, expression) KZ_COLUMN(store, "sweep", name, n, double, expression)
 
-static kz_status write_zone(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
-  const zone *zones = records;
+static kz_status write_ranges(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
+  const flutter_range *ranges = records;
   const int64_t n = scene->sweep.values.count;
-  COLUMN("flutter_onset", zones[i].onset);
-  COLUMN("flutter_asymmetry", zones[i].asymmetry);
-  COLUMN("flutter_end", zones[i].end);
-  COLUMN("flutter_release_end", zones[i].release_end);
+  COLUMN("flutter_onset", ranges[i].onset);
+  COLUMN("flutter_asymmetry", ranges[i].asymmetry);
+  COLUMN("flutter_end", ranges[i].end);
+  COLUMN("flutter_release_end", ranges[i].release_end);
   fprintf(summary, "flutter zone over m    value        begins  1 deg release fails  asymmetric from  period doubles at\n");
   for (int64_t i = 0; i < n; i++) {
     fprintf(summary, "%28.9g", kz_sweep_value(&scene->sweep, i));
-    print_cell(summary, 12, 9, zones[i].onset);
-    print_cell(summary, 19, 6, zones[i].release_end);
-    print_cell(summary, 15, 9, zones[i].asymmetry);
-    print_cell(summary, 17, 9, zones[i].end);
+    print_cell(summary, 12, 9, ranges[i].onset);
+    print_cell(summary, 19, 6, ranges[i].release_end);
+    print_cell(summary, 15, 9, ranges[i].asymmetry);
+    print_cell(summary, 17, 9, ranges[i].end);
     fputc('\n', summary);
   }
   return KZ_OK;
 }
 
-kz_status kz_sweep_zone(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_sweep_flutter_range(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
   const kz_stage stage = {
-      .name = "sweep flutter zone", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(zone), .work = work};
-  return kz_sweep_stage(scene, ranks, &stage, write_zone, store, summary);
+      .name = "sweep flutter zone", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(flutter_range), .work = work};
+  return kz_sweep_stage(scene, ranks, &stage, write_ranges, store, summary);
 }
