@@ -19,7 +19,7 @@ endif()
 # kapitza_layer(name LAYERS lower... LIBRARIES targets...): src/name becomes the library kapitza_name.
 function(kapitza_layer name)
   cmake_parse_arguments(arg "" "" "LAYERS;LIBRARIES" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90)
   list(FILTER sources EXCLUDE REGEX "/main\\.c$")
   add_library(kapitza_${name} STATIC ${sources})
   target_include_directories(kapitza_${name} PUBLIC include ${PROJECT_BINARY_DIR}/include PRIVATE src/${name})

@@ -4,9 +4,9 @@
 module kz_dynamics_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_regions, only: regions_t, find_regions
-  use kz_dynamics_states, only: angle_difference, separation
+  use kz_attractors_cycles, only: attractor_t
+  use kz_trapping_grid, only: regions_t, find_regions
+  use kz_maps_states, only: angle_difference, separation
   implicit none
   private
   public :: covariant_map_t, make_covariant_map, spread, largest_error

@@ -4,8 +4,8 @@ module kz_test_counted
   use kz_kernel_map, only: flow_t, WIDTH
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_search, only: search_t, find_cycle
+  use kz_attractors_cycles, only: attractor_t
+  use kz_attractors_cycle_search, only: search_t, find_cycle
   implicit none
   private
 

@@ -1,12 +1,12 @@
 !> The error of one drive period, measured before anything is labelled: by step doubling, for each class of speeds; and the
 !> interpolation error of the map table.
-module kz_dynamics_step_error
+module kz_maps_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_dynamics_states, only: separation
+  use kz_maps_states, only: separation
   implicit none
   private
   public :: table_defect
@@ -117,4 +117,4 @@ contains
     end do
   end function table_defect
 
-end module kz_dynamics_step_error
+end module kz_maps_step_error

@@ -1,12 +1,12 @@
 !> Chaotic attractors: recognised by a positive largest Lyapunov exponent of orbits that nothing traps, known by a cover of small
 !> cells that long orbits on them visit.
-module kz_dynamics_chaos
+module kz_attractors_chaos
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_features, only: find_features
-  use kz_dynamics_regions, only: regions_t, find_regions, cover_cell, COVER
-  use kz_dynamics_search, only: search_t, add_with_mirror
+  use kz_attractors_cycles, only: attractor_t
+  use kz_attractors_features, only: find_features
+  use kz_trapping_grid, only: regions_t, find_regions, cover_cell, COVER
+  use kz_attractors_cycle_search, only: search_t, add_with_mirror
   implicit none
   private
   public :: find_chaos
@@ -125,4 +125,4 @@ contains
     error = sqrt(sum((growth(:n) - mean)**2)/(n*max(n - 1.0_dp, 1.0_dp)))
   end subroutine exponent
 
-end module kz_dynamics_chaos
+end module kz_attractors_chaos

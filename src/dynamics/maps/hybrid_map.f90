@@ -1,14 +1,14 @@
 !> The hybrid map: orbits follow the map table while its error is small enough. The interpolation error of every period is added
 !> to the orbit's error and stretched by the tangent map. Where the sum exceeds what a label tolerates, the orbit returns to its
 !> last state without error, is integrated over the same periods, and continues on the table with error 0.
-module kz_dynamics_hybrid_map
+module kz_maps_hybrid_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_labels, only: follow, DOUBTFUL
-  use kz_dynamics_regions, only: regions_t
-  use kz_dynamics_states, only: angle_difference, midperiod_angle
-  use kz_dynamics_map_table, only: table_t, table_map_t, make_table_map, place_t, locate, displace
+  use kz_attractors_cycles, only: attractor_t
+  use kz_dynamics_label, only: follow, DOUBTFUL
+  use kz_trapping_grid, only: regions_t
+  use kz_maps_states, only: angle_difference, midperiod_angle
+  use kz_maps_map_table, only: table_t, table_map_t, make_table_map, place_t, locate, displace
   implicit none
   private
   public :: measure_defects, hybrid_map_t, make_hybrid_map, follow_hybrid_map
@@ -175,4 +175,4 @@ contains
     end subroutine go_on
   end subroutine follow_hybrid_map
 
-end module kz_dynamics_hybrid_map
+end module kz_maps_hybrid_map

@@ -1,10 +1,10 @@
 !> One cycle near one state, for C: include/kapitza/dynamics.h.
-module kz_dynamics_closing
+module kz_api_close_cycle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow
   use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_dynamics_cycles, only: attractor_t, close_cycle
+  use kz_attractors_cycles, only: attractor_t, close_cycle
   implicit none
   private
 
@@ -44,4 +44,4 @@ contains
     im = aimag(cycle%multiplier)
   end function close_near
 
-end module kz_dynamics_closing
+end module kz_api_close_cycle

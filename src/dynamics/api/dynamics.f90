@@ -1,17 +1,17 @@
 !> The C interface of dynamics: include/kapitza/dynamics.h, and the table's defect of include/kapitza/step_error.h.
-module kz_dynamics_api
+module kz_api_dynamics
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_kernel_map, only: WIDTH, PI
   use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
   use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_dynamics_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
-  use kz_dynamics_chaos, only: find_chaos
-  use kz_dynamics_growth, only: make_later, grow_regions
-  use kz_dynamics_handle, only: dynamics_t, of_handle
-  use kz_dynamics_regions, only: make_regions, draw_attractors
-  use kz_dynamics_search, only: find_cycle, append
-  use kz_dynamics_map_table, only: make_table, table_row, set_table_rows, table_map_t, make_table_map
-  use kz_dynamics_step_error, only: table_defect
+  use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
+  use kz_attractors_chaos, only: find_chaos
+  use kz_trapping_growth, only: make_later, grow_regions
+  use kz_api_handle, only: dynamics_t, of_handle
+  use kz_trapping_grid, only: make_regions, draw_attractors
+  use kz_attractors_cycle_search, only: find_cycle, append
+  use kz_maps_map_table, only: make_table, table_row, set_table_rows, table_map_t, make_table_map
+  use kz_maps_step_error, only: table_defect
   implicit none
   private
 
@@ -354,4 +354,4 @@ contains
     number(:size(d%attractors)) = order_of(d%attractors)
   end subroutine attractor_order
 
-end module kz_dynamics_api
+end module kz_api_dynamics

@@ -1,8 +1,8 @@
 !> Newton's method on the n-period stroboscopic map, and how well it places a fixed point.
-module kz_dynamics_newton
+module kz_attractors_newton
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_dynamics_states, only: angle_difference, same_state
+  use kz_maps_states, only: angle_difference, same_state
   implicit none
   private
   public :: newton, n_periods, solved, minimal_period, eigenvalues
@@ -147,4 +147,4 @@ contains
     end if
   end function eigenvalues
 
-end module kz_dynamics_newton
+end module kz_attractors_newton

@@ -1,13 +1,13 @@
 !> One cycle carried from parameters to parameters: include/kapitza/branches.h.
-module kz_dynamics_branches
+module kz_attractors_continuation
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
   use kz_kernel_step_table, only: pendulum_t
-  use kz_dynamics_cycles, only: attractor_t, orbit_of
-  use kz_dynamics_newton, only: eigenvalues, n_periods, solved, minimal_period
-  use kz_dynamics_features, only: find_features
-  use kz_dynamics_states, only: angle_difference, separation
+  use kz_attractors_cycles, only: attractor_t, orbit_of
+  use kz_attractors_newton, only: eigenvalues, n_periods, solved, minimal_period
+  use kz_attractors_features, only: find_features
+  use kz_maps_states, only: angle_difference, separation
   implicit none
   private
 
@@ -187,4 +187,4 @@ contains
     least = minval(separation(cycle%u, cycle%v, x(1), x(2)))
   end function nearest_point
 
-end module kz_dynamics_branches
+end module kz_attractors_continuation

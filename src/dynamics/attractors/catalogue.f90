@@ -1,11 +1,11 @@
 !> The catalogue of attractors: its order, which depends on the attractors alone, and its travel between ranks as doubles.
-module kz_dynamics_catalogue
+module kz_attractors_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: iso_fortran_env, only: int64
   use kz_kernel_map, only: PI
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_regions, only: COVER
-  use kz_dynamics_states, only: rounded
+  use kz_attractors_cycles, only: attractor_t
+  use kz_trapping_grid, only: COVER
+  use kz_maps_states, only: rounded
   implicit none
   private
   public :: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
@@ -169,4 +169,4 @@ contains
     end do
   end function unpacked
 
-end module kz_dynamics_catalogue
+end module kz_attractors_catalogue

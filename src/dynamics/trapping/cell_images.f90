@@ -1,8 +1,8 @@
 !> The image of a cell of the map table after some periods: the convex hull of its corners' images, widened by a bound on what
 !> bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell.
-module kz_dynamics_images
+module kz_trapping_cell_images
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_dynamics_map_table, only: table_t
+  use kz_maps_map_table, only: table_t
   implicit none
   private
   public :: image_t, cell_image, extent
@@ -78,4 +78,4 @@ contains
     end do
   end subroutine extent
 
-end module kz_dynamics_images
+end module kz_trapping_cell_images

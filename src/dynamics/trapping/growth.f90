@@ -2,15 +2,15 @@
 !> after 1, 2 or 4 periods, lies in cells that have joined it before, or in one of its ellipses.
 !>
 !> A cell that cannot join yet waits for one open cell of its image; the end result does not depend on the order.
-module kz_dynamics_growth
+module kz_trapping_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: WIDTH
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_ellipses, only: in_ellipse
-  use kz_dynamics_images, only: image_t, cell_image, extent
-  use kz_dynamics_regions, only: regions_t, fold_cell
-  use kz_dynamics_states, only: midperiod_angle
-  use kz_dynamics_map_table, only: table_t, table_map_t, fill_ghosts
+  use kz_attractors_cycles, only: attractor_t
+  use kz_trapping_ellipses, only: in_ellipse
+  use kz_trapping_cell_images, only: image_t, cell_image, extent
+  use kz_trapping_grid, only: regions_t, fold_cell
+  use kz_maps_states, only: midperiod_angle
+  use kz_maps_map_table, only: table_t, table_map_t, fill_ghosts
   implicit none
   private
   public :: make_later, grow_regions
@@ -284,4 +284,4 @@ contains
     end do
   end function holds
 
-end module kz_dynamics_growth
+end module kz_trapping_growth

@@ -2,10 +2,10 @@
 !>
 !> Its angle is that of a free flight at mid-period (`midperiod_angle`). The mirror symmetry halves the table: only angles 0 ..
 !> pi are stored; a state is folded there, and its image unfolded.
-module kz_dynamics_map_table
+module kz_maps_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, WIDTH
-  use kz_dynamics_states, only: midperiod_angle
+  use kz_maps_states, only: midperiod_angle
   implicit none
   private
   public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map, &
@@ -264,4 +264,4 @@ contains
     end select
   end subroutine lagrange
 
-end module kz_dynamics_map_table
+end module kz_maps_map_table

@@ -1,10 +1,10 @@
 !> Features of an attractor over continuous time: mean, amplitude, centre.
-module kz_dynamics_features
+module kz_attractors_features
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_step_table, only: pendulum_t
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_states, only: angle_difference
+  use kz_attractors_cycles, only: attractor_t
+  use kz_maps_states, only: angle_difference
   implicit none
   private
   public :: find_features, SAMPLES
@@ -108,4 +108,4 @@ contains
     extremum = c(0) + s*(c(1) + s*(c(2) + s*(c(3) + s*(c(4) + s*c(5)))))
   end function turning_angle
 
-end module kz_dynamics_features
+end module kz_attractors_features

@@ -1,5 +1,5 @@
 !> The reference as a stroboscopic map: states in quad precision, seen by the trapping regions as doubles.
-module kz_dynamics_reference_map
+module kz_maps_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_kernel_step_table, only: pendulum_t
@@ -83,4 +83,4 @@ contains
     self%v(:n) = real(self%velocity(:n), dp)
   end subroutine advance
 
-end module kz_dynamics_reference_map
+end module kz_maps_reference_map

@@ -1,14 +1,14 @@
 !> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
-module kz_dynamics_search
+module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_step_table, only: pendulum_t
-  use kz_dynamics_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
-  use kz_dynamics_ellipses, only: find_ellipses
-  use kz_dynamics_newton, only: n_periods, eigenvalues
-  use kz_dynamics_features, only: find_features
-  use kz_dynamics_regions, only: ellipse_at
-  use kz_dynamics_states, only: separation, same_state
+  use kz_attractors_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
+  use kz_trapping_ellipses, only: find_ellipses
+  use kz_attractors_newton, only: n_periods, eigenvalues
+  use kz_attractors_features, only: find_features
+  use kz_trapping_grid, only: ellipse_at
+  use kz_maps_states, only: separation, same_state
   implicit none
   private
   public :: search_t, find_cycle, add_with_mirror, append
@@ -181,4 +181,4 @@ contains
     call move_alloc(longer, attractors)
   end subroutine append
 
-end module kz_dynamics_search
+end module kz_attractors_cycle_search

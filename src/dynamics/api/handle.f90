@@ -1,12 +1,12 @@
 !> What a handle of include/kapitza/dynamics.h points at.
-module kz_dynamics_handle
+module kz_api_handle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
   use kz_kernel_map, only: flow_t
   use kz_kernel_step_table, only: numerics_t
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_regions, only: regions_t
-  use kz_dynamics_search, only: search_t
-  use kz_dynamics_map_table, only: table_t
+  use kz_attractors_cycles, only: attractor_t
+  use kz_trapping_grid, only: regions_t
+  use kz_attractors_cycle_search, only: search_t
+  use kz_maps_map_table, only: table_t
   implicit none
   private
   public :: dynamics_t, of_handle
@@ -33,4 +33,4 @@ contains
     call c_f_pointer(handle, d)
   end function of_handle
 
-end module kz_dynamics_handle
+end module kz_api_handle

@@ -1,9 +1,9 @@
 !> Cycles of the stroboscopic map: from a state nearby to strobe points and multipliers, symmetry, mirror image.
-module kz_dynamics_cycles
+module kz_attractors_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_dynamics_newton, only: newton, minimal_period, eigenvalues
-  use kz_dynamics_states, only: angle_difference, same_state, rounded
+  use kz_attractors_newton, only: newton, minimal_period, eigenvalues
+  use kz_maps_states, only: angle_difference, same_state, rounded
   implicit none
   private
   public :: attractor_t, close_cycle, polish_cycle, orbit_of, mirror_image, listed_from_lowest
@@ -156,4 +156,4 @@ contains
     cycle%form = cshift(cycle%form, first - 1, dim=2)
   end subroutine listed_from_lowest
 
-end module kz_dynamics_cycles
+end module kz_attractors_cycles

@@ -1,9 +1,9 @@
 !> Follows many starts with any map until each is trapped: lanes are refilled as starts settle.
-module kz_dynamics_labels
+module kz_dynamics_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_kernel_map, only: map_t, WIDTH
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_regions, only: regions_t, find_regions, chaos_region
+  use kz_attractors_cycles, only: attractor_t
+  use kz_trapping_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
   public :: follow, DOUBTFUL
@@ -95,4 +95,4 @@ contains
     end subroutine leave
   end subroutine follow
 
-end module kz_dynamics_labels
+end module kz_dynamics_label

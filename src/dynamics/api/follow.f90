@@ -1,15 +1,15 @@
 !> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics.h).
-module kz_dynamics_api_follow
+module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_kernel_map, only: map_t
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_step_table, only: numerics_t
   use kz_dynamics_covariance, only: covariant_map_t, make_covariant_map
-  use kz_dynamics_handle, only: dynamics_t, of_handle
-  use kz_dynamics_labels, only: follow
-  use kz_dynamics_map_table, only: table_map_t, make_table_map
-  use kz_dynamics_hybrid_map, only: hybrid_map_t, measure_defects, make_hybrid_map, follow_hybrid_map
-  use kz_dynamics_reference_map, only: reference_map_t, make_reference_map
+  use kz_api_handle, only: dynamics_t, of_handle
+  use kz_dynamics_label, only: follow
+  use kz_maps_map_table, only: table_map_t, make_table_map
+  use kz_maps_hybrid_map, only: hybrid_map_t, measure_defects, make_hybrid_map, follow_hybrid_map
+  use kz_maps_reference_map, only: reference_map_t, make_reference_map
   implicit none
   private
 
@@ -140,4 +140,4 @@ contains
     call follow(map, d%regions, d%attractors, state(1, :), state(2, :), label, periods)
   end subroutine follow_with
 
-end module kz_dynamics_api_follow
+end module kz_api_follow

@@ -1,10 +1,10 @@
 !> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi, each labelled with an
 !> attractor, overlapped by trapping ellipses, or open.
-module kz_dynamics_regions
+module kz_trapping_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_dynamics_cycles, only: attractor_t
-  use kz_dynamics_ellipses, only: in_ellipse
-  use kz_dynamics_states, only: angle_difference, midperiod_angle
+  use kz_attractors_cycles, only: attractor_t
+  use kz_trapping_ellipses, only: in_ellipse
+  use kz_maps_states, only: angle_difference, midperiod_angle
   implicit none
   private
   public :: regions_t, make_regions, draw_attractors, find_regions, ellipse_at, fold_cell, cover_cell, chaos_region
@@ -295,4 +295,4 @@ contains
     l = regions%n_velocity - 1 - l
   end subroutine fold_cell
 
-end module kz_dynamics_regions
+end module kz_trapping_grid

@@ -1,5 +1,5 @@
 !> States of the stroboscopic map, (half-turns, rad per drive radian): their distance, and when two count as one.
-module kz_dynamics_states
+module kz_maps_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: PI
   implicit none
@@ -62,4 +62,4 @@ contains
     n = anint(x*1e9_dp)
   end function rounded
 
-end module kz_dynamics_states
+end module kz_maps_states
