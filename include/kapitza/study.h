@@ -1,4 +1,4 @@
-/* study: what a scene can ask for, one file per study (C; layer 3). The scene arrives as plain structs; the results go to
+/* study: what a scene can ask for, one folder per study (C; layer 3). The scene arrives as plain structs; the results go to
  * the store and, for people, to a summary. */
 #ifndef KAPITZA_STUDY_H
 #define KAPITZA_STUDY_H

@@ -1,12 +1,12 @@
 /* What a scene can ask for, in the order in which it is modelled: one row per study. */
-#include "attractors.h"
-#include "basin.h"
+#include "accuracy/tradeoff.h"
+#include "attractors/attractors.h"
+#include "basin/basin.h"
 #include "kapitza/study.h"
-#include "orbit.h"
-#include "potential.h"
-#include "stability.h"
-#include "sweep.h"
-#include "tradeoff.h"
+#include "orbit/orbit.h"
+#include "potential/potential.h"
+#include "stability/stability.h"
+#include "sweep/sweep.h"
 
 const kz_study kz_studies[] = {
     {"basin", kz_basin_wanted, kz_basin_cost, kz_basin_run},

@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-#include "config.h"
-#include "share.h"
+#include "accuracy/config.h"
+#include "common/share.h"
 
 /* Wilson's limits solve (share - p)^2 = z^2 p (1 - p)/n. */
 static void test_wilson_solves_its_equation(void **state) {

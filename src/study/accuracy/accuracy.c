@@ -1,0 +1,128 @@
+#include "accuracy.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "common/cells.h"
+#include "common/share.h"
+#include "tradeoff.h"
+
+/* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
+static const double ROOM = 3;
+
+/* Cells with reference labels for an accuracy. */
+static int64_t samples_for(double accuracy) {
+  const double n = ROOM * (double)kz_share_sample(1 - accuracy);
+  return (int64_t)fmax(1000, ceil(n));
+}
+
+void kz_accuracy_cost(double accuracy, kz_cost *cost) {
+  static const double mean_periods = 30, period_seconds = 2e-4, setting_seconds = 0.5;
+  cost->core_seconds += (double)samples_for(accuracy) * mean_periods * period_seconds + 10 * setting_seconds;
+}
+
+enum { MOST = 32 }; /* candidates */
+
+/* The candidates from the cheapest to the dearest on these cells. */
+typedef struct {
+  const kz_reference_labels *reference;
+  const kz_config *ladder[MOST];
+  int64_t count, first;
+} walk;
+
+static void order(const kz_reference_labels *reference, walk *w) {
+  double cost[MOST];
+  const kz_config *candidate[MOST];
+  int64_t rank[MOST];
+  const double mean_periods = kz_reference_labels_sum(reference).mean_periods, cells = (double)kz_own_cells(reference->plan);
+  *w = (walk){.reference = reference};
+  for (int i = 0; i < kz_config_count && w->count < MOST; i++) {
+    if (!kz_configs[i].candidate) continue;
+    cost[w->count] = kz_config_cost(kz_configs + i, cells, mean_periods);
+    candidate[w->count++] = kz_configs + i;
+  }
+  kz_cost_order(w->count, cost, rank);
+  for (int64_t i = 0; i < w->count; i++) w->ladder[i] = candidate[rank[i]];
+}
+
+static kz_status try_config(void *context, int64_t tile, void *record) {
+  const walk *w = context;
+  return kz_config_measure(w->ladder[w->first + tile], w->reference, 0, record);
+}
+
+/* Walks the ladder upwards, two configurations at a time; the first that meets the accuracy is chosen. `best`: fewest wrong. */
+static kz_status climb(walk *w, kz_ranks *ranks, double accuracy, kz_choice *choice, int64_t *best) {
+  const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
+  kz_measured measured[2];
+  *best = w->reference->samples;
+  for (w->first = 0; w->first < w->count && !choice->config; w->first += step) {
+    const int64_t left = w->count - w->first;
+    kz_stage stage = {.name = "settings",
+                      .n_tiles = left < step ? left : step,
+                      .record_bytes = sizeof *measured,
+                      .work = try_config,
+                      .context = w,
+                      .keep = true,
+                      .everywhere = true};
+    KZ_TRY(kz_stage_run(ranks, &stage, measured));
+    for (int64_t i = 0; i < stage.n_tiles && !choice->config; i++) {
+      choice->tried++;
+      choice->wrong = measured[i].wrong;
+      if (measured[i].wrong < *best) *best = measured[i].wrong;
+      if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy) choice->config = w->ladder[w->first + i];
+    }
+  }
+  return KZ_OK;
+}
+
+static kz_status refuse(double accuracy, const kz_choice *choice, int64_t best) {
+  const kz_share reached = kz_share_of(best, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
+  return kz_fail(
+      KZ_REFUSED,
+      "basin.accuracy: %.10g is out of reach: of %lld cells followed in quad precision the best setting labels %.3f %% "
+      "wrongly, %.3f %% at the end of the 95 %% interval, and the last place of the start alone flips %.3f %%; at most %.4f",
+      accuracy, (long long)choice->samples, 100 * reached.share, 100 * reached.high, 100 * flips.share,
+      floor(1e4 * (1 - reached.high)) / 1e4);
+}
+
+static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
+  const kz_share wrong = kz_share_of(choice->wrong, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
+  fprintf(summary,
+          "accuracy %.10g: %s, the cheapest of %lld settings tried that meets it: %lld of %lld cells wrong, at most %.3f %% "
+          "(95 %%); the last place of the start alone flips %.3f %%\n",
+          accuracy, choice->config->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
+          100 * wrong.high, 100 * flips.share);
+}
+
+static kz_status choose(const kz_reference_labels *reference, kz_ranks *ranks, double accuracy, kz_choice *choice) {
+  int64_t best;
+  walk w;
+  order(reference, &w);
+  *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
+  KZ_TRY(climb(&w, ranks, accuracy, choice, &best));
+  return choice->config ? KZ_OK : refuse(accuracy, choice, best);
+}
+
+kz_status kz_accuracy_choose(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary, kz_choice *choice) {
+  const double accuracy = scene->basin.accuracy;
+  kz_reference_labels reference = {0};
+  char *path = kz_reference_path(store);
+  kz_status status = kz_reference_labels_make(scene, ranks, samples_for(accuracy), path, &reference);
+  if (status == KZ_OK) status = choose(&reference, ranks, accuracy, choice);
+  if (status == KZ_OK && path) status = kz_reference_labels_save(&reference, path);
+  if (status == KZ_OK && summary) tell(choice, accuracy, summary);
+  kz_reference_labels_free(&reference);
+  free(path);
+  return kz_ranks_agree(ranks, status);
+}
+
+kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store) {
+  const kz_share wrong = kz_share_of(choice->wrong, choice->samples);
+  KZ_TRY(kz_store_real(store, "basin", "accuracy", accuracy));
+  KZ_TRY(kz_store_text(store, "basin", "setting", choice->config->label));
+  KZ_TRY(kz_store_integer(store, "basin", "samples", choice->samples));
+  KZ_TRY(kz_store_real(store, "basin", "wrong", wrong.share));
+  KZ_TRY(kz_store_real(store, "basin", "wrong_low", wrong.low));
+  KZ_TRY(kz_store_real(store, "basin", "wrong_high", wrong.high));
+  return kz_store_real(store, "basin", "floor", kz_share_of(choice->flipped, choice->samples).share);
+}

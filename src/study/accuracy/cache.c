@@ -1,0 +1,116 @@
+/* Reference labels in a text file beside the result: a line with what they depend on, one line per cell, a checksum. */
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "reference.h"
+
+/* FNV-1a of 64 bits (Fowler, Noll & Vo). */
+static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
+  for (size_t i = 0; i < bytes; i++) sum = (sum ^ ((const unsigned char *)data)[i]) * 0x100000001b3u;
+  return sum;
+}
+
+/* What the labels depend on, one line. */
+static void print_key(const kz_reference_labels *reference, char *key, size_t bytes) {
+  const kz_basin_plan *p = reference->plan;
+  const uint64_t attractors = checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
+  snprintf(key, bytes, "kapitza truth 1: %a %a %a; %a %a %lld; %a %a %lld; %lld %lld; %016llx\n", reference->pendulum.k,
+           reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max, (long long)p->theta.count,
+           p->velocity.min, p->velocity.max, (long long)p->velocity.count, (long long)p->seed, (long long)p->max_periods,
+           (unsigned long long)attractors);
+}
+
+/* The whole file as text, freed by the caller; NULL where it cannot be had. */
+static char *read_all(const char *path) {
+  FILE *in = fopen(path, "r");
+  char *text = NULL;
+  long length = -1;
+  if (in && fseek(in, 0, SEEK_END) == 0) length = ftell(in);
+  if (length >= 0 && fseek(in, 0, SEEK_SET) == 0) text = calloc(1, (size_t)length + 1);
+  if (text && fread(text, 1, (size_t)length, in) != (size_t)length) {
+    free(text);
+    text = NULL;
+  }
+  if (in) fclose(in);
+  return text;
+}
+
+/* The lines between the key and the checksum's line, or NULL where either is not what it should be. */
+static char *verified(char *text, const char *key) {
+  char *last = strstr(text, "checksum ");
+  unsigned long long sum;
+  if (strncmp(text, key, strlen(key)) != 0 || !last || sscanf(last, "checksum %16llx", &sum) != 1) return NULL;
+  return checksum(text, (size_t)(last - text), 0xcbf29ce484222325u) == sum ? text + strlen(key) : NULL;
+}
+
+int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *reference) {
+  char key[512];
+  print_key(reference, key, sizeof key);
+  char *text = read_all(path), *line = text ? verified(text, key) : NULL;
+  int64_t n = 0;
+  for (; line && n < reference->samples; n++) {
+    kz_reference_label *v = reference->labels + n;
+    if (sscanf(line, "%hd %hd %hhu %hhu %u", &v->label, &v->flipped, &v->distance, &v->agrees, &v->periods) != 5) break;
+    line = strchr(line, '\n') + 1;
+  }
+  free(text);
+  return n;
+}
+
+/* How many labels the file holds for this key. */
+static int64_t count_held(const char *path, const char *key) {
+  char *text = read_all(path), *line = text ? verified(text, key) : NULL;
+  int64_t n = 0;
+  for (; line && (line = strchr(line, '\n')); line++) n++;
+  free(text);
+  return n - (n > 0); /* the checksum's own line */
+}
+
+static kz_status cannot_write(const char *path) {
+  return kz_fail(KZ_FAILED, "%s: cannot be written", path);
+}
+
+/* A file of our own; one that a killed run left, or a link, is not written into. */
+static FILE *create(const char *path) {
+  unlink(path);
+  const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  FILE *out = file < 0 ? NULL : fdopen(file, "w");
+  if (file >= 0 && !out) close(file);
+  return out;
+}
+
+/* Writes `text` beside `path` and renames it. */
+static kz_status write_all(const char *path, const char *text) {
+  char part[4200];
+  if (snprintf(part, sizeof part, "%s.part", path) >= (int)sizeof part) return cannot_write(path);
+  FILE *out = create(part);
+  if (!out) return cannot_write(path);
+  bool written = fputs(text, out) >= 0 && fflush(out) == 0 && fsync(fileno(out)) == 0;
+  written = fclose(out) == 0 && written && rename(part, path) == 0;
+  if (written) return KZ_OK;
+  unlink(part);
+  return cannot_write(path);
+}
+
+kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path) {
+  char key[512], *text = NULL;
+  size_t bytes = 0;
+  print_key(reference, key, sizeof key);
+  if (count_held(path, key) >= reference->samples) return KZ_OK;
+  FILE *out = open_memstream(&text, &bytes);
+  if (!out) return kz_fail(KZ_FAILED, "no memory for %s", path);
+  fputs(key, out);
+  for (int64_t i = 0; i < reference->samples; i++) {
+    const kz_reference_label *v = reference->labels + i;
+    fprintf(out, "%d %d %d %d %u\n", v->label, v->flipped, v->distance, v->agrees, v->periods);
+  }
+  fflush(out);
+  const uint64_t sum = checksum(text, bytes, 0xcbf29ce484222325u);
+  fprintf(out, "checksum %016llx\n", (unsigned long long)sum);
+  kz_status status = fclose(out) == 0 ? write_all(path, text) : kz_fail(KZ_FAILED, "no memory for %s", path);
+  free(text);
+  return status;
+}

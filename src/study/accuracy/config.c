@@ -1,0 +1,107 @@
+/* One configuration measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
+#include "config.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "common/cells.h"
+#include "common/map_table.h"
+
+enum { CHUNK = 16384 }; /* cells labelled at a time */
+
+/* Arrays of one chunk: too large for the stack. */
+typedef struct {
+  double state[2 * CHUNK];
+  int64_t periods[CHUNK], integrated[CHUNK];
+} workspace;
+
+typedef struct {
+  const kz_config *config;
+  const kz_reference_labels *reference;
+  kz_dynamics *dynamics;
+  workspace *work;
+} measurement;
+
+/* Processor time of this thread: what others do on the machine does not count. */
+static double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Labels [n] of the first n cells in the order of the sample. */
+static void label_cells(const measurement *g, int64_t n, int32_t *label) {
+  const kz_config *s = g->config;
+  workspace *w = g->work;
+  for (int64_t first = 0; first < n; first += CHUNK) {
+    const int64_t some = n - first < CHUNK ? n - first : CHUNK;
+    for (int64_t i = 0; i < some; i++)
+      kz_cell_state(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
+    kz_follow(g->dynamics, s->method, s->interpolation, some, g->reference->plan->max_periods, w->state, label + first,
+              w->periods, w->integrated);
+  }
+}
+
+/* The largest difference between the counts of one attractor among labels and among true ones. */
+static int64_t largest_count_error(const kz_reference_labels *reference, const int32_t *label, int64_t *surplus,
+                                   int64_t known) {
+  int64_t largest = 0;
+  memset(surplus, 0, (size_t)(known + 1) * sizeof *surplus);
+  for (int64_t i = 0; i < reference->samples; i++) {
+    surplus[label[i]]++;
+    surplus[reference->labels[i].label]--;
+  }
+  for (int64_t a = 1; a <= known; a++)
+    if (llabs(surplus[a]) > largest) largest = llabs(surplus[a]);
+  return largest;
+}
+
+static void compare(const kz_reference_labels *reference, const int32_t *label, kz_measured *m) {
+  int64_t at[KZ_REFERENCE_FAR + 1] = {0}, seen = 0;
+  for (int64_t i = 0; i < reference->samples; i++)
+    if (label[i] != reference->labels[i].label) at[reference->labels[i].distance]++;
+  for (int distance = 1; distance <= KZ_REFERENCE_FAR; distance++) m->wrong += at[distance];
+  m->inside = m->wrong - at[1];
+  for (int distance = 1; distance <= KZ_REFERENCE_FAR && m->wrong > 0 && m->distance == 0; distance++)
+    if (2 * (seen += at[distance]) >= m->wrong) m->distance = distance;
+}
+
+static kz_status set_up(measurement *g) {
+  const kz_config *s = g->config;
+  kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
+  KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
+  if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil[s->interpolation]);
+  return KZ_OK;
+}
+
+static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *surplus, kz_measured *m) {
+  const double start = seconds();
+  KZ_TRY(set_up(g));
+  const double ready = seconds();
+  label_cells(g, n, label);
+  *m = (kz_measured){.set_up = ready - start, .cell = (seconds() - ready) / (double)n};
+  compare(g->reference, label, m);
+  m->count_error = largest_count_error(g->reference, label, surplus, kz_dynamics_count(g->dynamics));
+  return KZ_OK;
+}
+
+kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *reference, int64_t timed,
+                            kz_measured *measured) {
+  measurement g = {.config = config, .reference = reference};
+  const kz_numerics numerics = kz_config_numerics(config);
+  int64_t n = timed > reference->samples ? timed : reference->samples;
+  if (n > reference->total) n = reference->total;
+  g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
+  g.work = malloc(sizeof *g.work);
+  int32_t *label = malloc((size_t)n * sizeof *label + 1);
+  int64_t *surplus = calloc(INT16_MAX + 1, sizeof *surplus);
+  kz_status status = g.dynamics && g.work && label && surplus
+                         ? measure(&g, n, label, surplus, measured)
+                         : kz_fail(KZ_FAILED, "no memory for the setting %s", config->label);
+  if (g.dynamics) kz_dynamics_free(g.dynamics);
+  free(g.work);
+  free(label);
+  free(surplus);
+  return status;
+}

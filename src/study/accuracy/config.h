@@ -1,0 +1,45 @@
+/* Configurations: ways to label the cells of a window, from quick to right; what each costs by count, and how wrong its labels
+ * are. */
+#ifndef KAPITZA_STUDY_CONFIG_H
+#define KAPITZA_STUDY_CONFIG_H
+
+#include "reference.h"
+
+typedef struct {
+  const char *label;
+  int32_t method;        /* KZ_METHOD_ICM, ... */
+  const char *scheme;    /* of the kernel's table */
+  int32_t steps;         /* per period */
+  int32_t precision;     /* KZ_SINGLE, KZ_DOUBLE */
+  int32_t interpolation; /* KZ_LINEAR, ...; of no meaning to KZ_METHOD_DIRECT */
+  int64_t nodes;         /* of the map table, an axis; the trapping regions have its cells */
+  bool candidate;        /* of basin.accuracy: none of the others is as quick and as right as one of these */
+} kz_config;
+
+/* The ladder. Labels that end in -1992 are what the first maps of these basins were made with. */
+extern const kz_config kz_configs[];
+extern const int kz_config_count;
+
+kz_numerics kz_config_numerics(const kz_config *config);
+/* The scene with the configuration in place of its method, icm and numerics. */
+void kz_config_apply(const kz_config *config, kz_scene *scene);
+
+/* What a configuration costs by count, not by clock: kicks of one trajectory that it is worth, for `cells` cells that take
+ * `mean_periods` each on a table of 1000 nodes. */
+double kz_config_cost(const kz_config *config, double cells, double mean_periods);
+
+/* One configuration on the sampled cells. */
+typedef struct {
+  int64_t wrong;       /* sampled cells whose label differs from the reference */
+  int64_t inside;      /* of these, those without another label next to them */
+  int64_t distance;    /* median distance of the wrong ones from another label, cells; 0 where none is wrong */
+  int64_t count_error; /* the largest surplus or lack of cells of one attractor */
+  double set_up;       /* processor seconds for map table and trapping regions */
+  double cell;         /* processor seconds a cell */
+} kz_measured;
+
+/* Labels the sample and, for a clock that needs more cells, those that follow it up to `timed`; on this rank alone. */
+kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *reference, int64_t timed,
+                            kz_measured *measured);
+
+#endif

@@ -1,0 +1,240 @@
+#include "reference.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/cells.h"
+#include "common/search.h"
+#include "common/share.h"
+#include "kapitza/reference.h"
+#include "kapitza/steps.h"
+
+enum {
+  NODES = 1000,  /* of the map table, an axis */
+  STEPS = 48,    /* of split6 a period, for a gentle drive */
+  DOUBLINGS = 6, /* of STEPS, at most */
+  MOST_STEPS = 20000,
+  PROBES = 8192, /* cells that must settle on known attractors before any is followed in quad precision */
+  ROUNDS = 4,    /* of discovery */
+  TILE = 32,     /* cells */
+  OTHER_STEPS = KZ_REFERENCE_STEPS + 6, /* the other number of steps of the series */
+  ASKED = 8                             /* every so many cells the other number of steps is tried */
+};
+
+static const double FINE = 1e-8; /* rad: error of one period of the reference dynamics */
+
+int64_t kz_reference_labels_cell(const kz_reference_labels *reference, int64_t i) {
+  return kz_shuffled(i, reference->total, reference->plan->seed);
+}
+
+kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics) {
+  const double stiffness = fmax(1, fabs(pendulum->k) + fabs(pendulum->m));
+  const double fastest = kz_axis_fastest(&plan->velocity);
+  const double steps = STEPS * ceil(sqrt(stiffness)), most = fmin(ldexp(steps, DOUBLINGS), MOST_STEPS);
+  *numerics = (kz_numerics){.scheme = KZ_SPLIT6, .steps_per_period = (int32_t)fmin(steps, most), .precision = KZ_DOUBLE};
+  if (steps <= most && kz_steps_enough(pendulum, fastest, FINE, (int32_t)most, numerics)) return KZ_OK;
+  return kz_fail(KZ_REFUSED,
+                 "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough for reference labels; choose "
+                 "slower starts",
+                 (int)numerics->steps_per_period, fastest);
+}
+
+static kz_status make_dynamics(const kz_reference_labels *reference, kz_dynamics **dynamics) {
+  kz_numerics numerics;
+  KZ_TRY(kz_reference_labels_numerics(reference->plan, &reference->pendulum, &numerics));
+  *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
+  return *dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics");
+}
+
+/* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. */
+typedef struct {
+  double *state;  /* [2 * most] */
+  int32_t *label; /* [most] */
+  int64_t most;
+} probes;
+
+/* The states of probes that do not settle, packed to the front: *open of them. */
+static kz_status follow_probes(const kz_reference_labels *reference, kz_ranks *ranks, kz_dynamics *dynamics, probes *p,
+                               int64_t *open) {
+  const int64_t n = reference->total < PROBES ? reference->total : PROBES;
+  *open = 0;
+  for (int64_t i = 0; i < n; i++) kz_cell_state(reference->plan, kz_reference_labels_cell(reference, i), p->state + 2 * i);
+  KZ_TRY(kz_settle(ranks, dynamics, reference->plan->max_periods, n, p->state, p->label));
+  for (int64_t i = 0; i < n; i++)
+    if (p->label[i] == 0) memcpy(p->state + 2 * (*open)++, p->state + 2 * i, 2 * sizeof(double));
+  return KZ_OK;
+}
+
+static kz_status find_attractors(const kz_reference_labels *reference, kz_ranks *ranks, kz_dynamics *dynamics, probes *p) {
+  const kz_basin_plan *plan = reference->plan;
+  const kz_search search = {.window = kz_window_of(&plan->theta, &plan->velocity),
+                            .starts = plan->starts,
+                            .seed = plan->seed,
+                            .max_periods = plan->max_periods,
+                            .table_theta = NODES,
+                            .table_velocity = NODES,
+                            .max_velocity = reference->max_velocity};
+  KZ_TRY(kz_search_window(ranks, dynamics, &search, p->state, p->label));
+  for (int round = 0; round < ROUNDS; round++) {
+    const int64_t known = kz_dynamics_count(dynamics);
+    int64_t n;
+    KZ_TRY(follow_probes(reference, ranks, dynamics, p, &n));
+    if (n == 0) break;
+    KZ_TRY(kz_discover(ranks, dynamics, plan->max_periods, n, p->state, p->label));
+    if (kz_dynamics_count(dynamics) == known) break;
+  }
+  kz_dynamics_update(dynamics);
+  return kz_dynamics_count(dynamics) <= INT16_MAX ? KZ_OK : kz_fail(KZ_FAILED, "more than %d attractors", INT16_MAX);
+}
+
+static kz_status prepare(kz_reference_labels *reference, kz_ranks *ranks, kz_dynamics *dynamics) {
+  const kz_basin_plan *plan = reference->plan;
+  probes p = {.most = plan->starts > PROBES ? plan->starts : PROBES};
+  const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
+  p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
+  p.label = malloc((size_t)p.most * sizeof *p.label);
+  kz_status status = p.state && p.label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
+  status = kz_ranks_agree(ranks, status);
+  reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
+  if (status == KZ_OK) status = find_attractors(reference, ranks, dynamics, &p);
+  free(p.state);
+  free(p.label);
+  KZ_TRY(kz_ranks_agree(ranks, status));
+  reference->packed_size = kz_dynamics_packed_size(dynamics);
+  reference->packed = malloc((size_t)reference->packed_size * sizeof(double) + 1);
+  reference->labels = calloc((size_t)reference->samples + 1, sizeof *reference->labels);
+  if (reference->packed) kz_dynamics_pack(dynamics, reference->packed_size, reference->packed);
+  return kz_ranks_agree(ranks,
+                        reference->packed && reference->labels ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
+}
+
+typedef struct {
+  const kz_reference_labels *reference;
+  kz_dynamics *dynamics;
+  int64_t known; /* labels that were in the cache */
+} reference_job;
+
+/* How far from each of n cells a label differs, along the axes, in double precision. */
+static void find_distances(const reference_job *h, int64_t n, const int64_t *cell, kz_reference_label *labels) {
+  const kz_basin_plan *plan = h->reference->plan;
+  double state[8 * TILE];
+  int32_t label[4 * TILE];
+  int64_t periods[4 * TILE];
+  for (int64_t i = 0; i < n; i++) labels[i].distance = KZ_REFERENCE_FAR;
+  for (int distance = KZ_REFERENCE_FAR / 2; distance > 0; distance /= 2) {
+    const int64_t aside[4][2] = {{-distance, 0}, {distance, 0}, {0, -distance}, {0, distance}};
+    for (int64_t i = 0; i < 4 * n; i++) {
+      const int64_t *by = aside[i % 4], f = cell[i / 4];
+      kz_start_state(kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]),
+                     kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]), state + 2 * i);
+    }
+    kz_dynamics_follow(h->dynamics, 4 * n, plan->max_periods, state, label, periods);
+    for (int64_t i = 0; i < 4 * n; i++)
+      if (label[i] != labels[i / 4].label) labels[i / 4].distance = (uint8_t)distance;
+  }
+}
+
+static void follow(const reference_job *h, int32_t steps, int64_t n, const double *start, int32_t *label, int64_t *periods) {
+  kz_dynamics_follow_reference(h->dynamics, steps, n, h->reference->plan->max_periods, start, label, periods);
+}
+
+/* Does every ASKED-th cell come out the same with another number of steps? */
+static void compare_steps(const reference_job *h, int64_t first, int64_t n, const double *start, kz_reference_label *labels) {
+  double asked[2 * TILE];
+  int32_t label[TILE];
+  int64_t periods[TILE], place[TILE], n_asked = 0;
+  for (int64_t i = 0; i < n; i++) {
+    labels[i].agrees = 2;
+    if ((first + i) % ASKED != 0) continue;
+    memcpy(asked + 2 * n_asked, start + 2 * i, 2 * sizeof(double));
+    place[n_asked++] = i;
+  }
+  follow(h, OTHER_STEPS, n_asked, asked, label, periods);
+  for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = label[i] == labels[place[i]].label;
+}
+
+static kz_status label_tile(void *context, int64_t tile, void *record) {
+  const reference_job *h = context;
+  const kz_basin_plan *plan = h->reference->plan;
+  kz_reference_label *labels = record;
+  double start[2 * TILE] = {0};
+  int32_t label[TILE];
+  int64_t cell[TILE], periods[TILE], first = tile * TILE;
+  int64_t n = h->reference->samples - first < TILE ? h->reference->samples - first : TILE;
+  memcpy(labels, h->reference->labels + first, (size_t)n * sizeof *labels);
+  if (first + n <= h->known) return KZ_OK;
+  for (int64_t i = 0; i < n; i++) {
+    cell[i] = kz_reference_labels_cell(h->reference, first + i);
+    start[2 * i] = kz_axis_centre(&plan->theta, cell[i] % plan->theta.count);
+    start[2 * i + 1] = kz_axis_centre(&plan->velocity, cell[i] / plan->theta.count);
+  }
+  follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
+  for (int64_t i = 0; i < n; i++) {
+    labels[i].label = (int16_t)label[i];
+    labels[i].periods = (uint32_t)periods[i];
+  }
+  compare_steps(h, first, n, start, labels);
+  find_distances(h, n, cell, labels);
+  for (int64_t i = 0; i < 2 * n; i++) start[i] = nextafter(start[i], copysign(INFINITY, start[i]));
+  follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
+  for (int64_t i = 0; i < n; i++) labels[i].flipped = (int16_t)label[i];
+  return KZ_OK;
+}
+
+/* What rank 0 found in the cache, on every rank. */
+static kz_status share_known(kz_ranks *ranks, const char *path, kz_reference_labels *reference, int64_t *known) {
+  *known = kz_ranks_own(ranks) == 0 && path ? kz_reference_labels_recall(path, reference) : 0;
+  KZ_TRY(kz_ranks_broadcast(ranks, known, sizeof *known));
+  return kz_ranks_broadcast(ranks, reference->labels, (size_t)*known * sizeof *reference->labels);
+}
+
+static kz_status follow_samples(kz_reference_labels *reference, kz_ranks *ranks, const char *path, kz_dynamics *dynamics) {
+  reference_job h = {.reference = reference, .dynamics = dynamics};
+  KZ_TRY(share_known(ranks, path, reference, &h.known));
+  kz_stage stage = {.name = "truth",
+                    .n_tiles = (reference->samples + TILE - 1) / TILE,
+                    .record_bytes = TILE * sizeof(kz_reference_label),
+                    .work = label_tile,
+                    .context = &h,
+                    .keep = true,
+                    .everywhere = true};
+  kz_reference_label *records = malloc((size_t)stage.n_tiles * stage.record_bytes);
+  kz_status status = kz_ranks_agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
+  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
+  if (status == KZ_OK) memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);
+  free(records);
+  return status;
+}
+
+kz_status kz_reference_labels_make(const kz_scene *scene, kz_ranks *ranks, int64_t samples, const char *path,
+                                   kz_reference_labels *reference) {
+  const kz_basin_plan *plan = &scene->basin;
+  *reference = (kz_reference_labels){
+      .plan = plan, .pendulum = scene->parameters.pendulum, .total = plan->theta.count * plan->velocity.count};
+  reference->samples = samples < reference->total ? samples : reference->total;
+  kz_dynamics *dynamics = NULL;
+  kz_status status = kz_ranks_agree(ranks, make_dynamics(reference, &dynamics));
+  if (status == KZ_OK) status = prepare(reference, ranks, dynamics);
+  if (status == KZ_OK) status = follow_samples(reference, ranks, path, dynamics);
+  if (dynamics) kz_dynamics_free(dynamics);
+  return status;
+}
+
+void kz_reference_labels_free(kz_reference_labels *reference) {
+  free(reference->packed);
+  free(reference->labels);
+  *reference = (kz_reference_labels){0};
+}
+
+kz_reference_labels_summary kz_reference_labels_sum(const kz_reference_labels *reference) {
+  kz_reference_labels_summary sum = {0};
+  for (int64_t i = 0; i < reference->samples; i++) {
+    const kz_reference_label *v = reference->labels + i;
+    sum.flipped += v->flipped != v->label;
+    sum.disagree += v->agrees == 0;
+    sum.asked += v->agrees != 2;
+    sum.mean_periods += (double)v->periods / (double)reference->samples;
+  }
+  return sum;
+}

@@ -1,0 +1,60 @@
+/* Reference labels: the labels of random cells of a scene's window, followed in quad precision into the trapping regions of one
+ * fixed, fine dynamics (split6 in double precision, 1000 x 1000 nodes), whatever the scene's numerics. Other labels are
+ * compared with these. */
+#ifndef KAPITZA_STUDY_REFERENCE_H
+#define KAPITZA_STUDY_REFERENCE_H
+
+#include "kapitza/dynamics.h"
+#include "kapitza/study.h"
+
+enum {
+  KZ_REFERENCE_FAR = 128 /* distance of a cell whose neighbours agree up to 64 cells away */
+};
+
+/* The reference label of one cell; labels are numbers of its attractors from 1, 0 = not settled within max_periods. */
+typedef struct {
+  int16_t label;    /* of the cell's start */
+  int16_t flipped;  /* of a start one unit in the last place farther out, in angle and velocity */
+  uint8_t distance; /* cells along an axis to a different label, a power of two; KZ_REFERENCE_FAR = none seen */
+  uint8_t agrees;   /* 1 = another number of steps gave the same label, 0 = it did not, 2 = not asked */
+  uint32_t periods; /* that the start was followed */
+} kz_reference_label;
+
+typedef struct {
+  const kz_basin_plan *plan;
+  kz_pendulum pendulum;
+  int64_t total;       /* cells of the window */
+  int64_t samples;     /* cells with a reference label: the first of kz_shuffled */
+  double max_velocity; /* of kz_dynamics_max_velocity */
+  int64_t packed_size;
+  double *packed;             /* the attractors, for kz_dynamics_unpack */
+  kz_reference_label *labels; /* [samples] */
+} kz_reference_labels;
+
+/* Makes the reference labels of a damped scene's basin, of at most `samples` cells, on every rank. `path` (rank 0; NULL = none)
+ * names the cache: labels of the same sample that it holds are not computed again. The stage is kept by a checkpoint.
+ * Collective. */
+kz_status kz_reference_labels_make(const kz_scene *scene, kz_ranks *ranks, int64_t samples, const char *path,
+                                   kz_reference_labels *reference);
+/* Writes the cache where there are more labels than it holds. Rank 0. */
+kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path);
+void kz_reference_labels_free(kz_reference_labels *reference);
+
+/* The labels of a cache that was made for the same pendulum, window, seed, limit and attractors: as many as there are and at
+ * most reference->samples, into reference->labels; returns how many. A missing, damaged or foreign cache gives 0. */
+int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *reference);
+
+/* Steps that are accurate enough for reference labels at every speed of the window. KZ_REFUSED where there are none. */
+kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics);
+
+/* Cell i in the order of the sample. */
+int64_t kz_reference_labels_cell(const kz_reference_labels *reference, int64_t i);
+
+/* Cells flipped by the last place of the start, cells where the step counts disagree, and the mean number of periods followed. */
+typedef struct {
+  int64_t flipped, disagree, asked;
+  double mean_periods;
+} kz_reference_labels_summary;
+kz_reference_labels_summary kz_reference_labels_sum(const kz_reference_labels *reference);
+
+#endif

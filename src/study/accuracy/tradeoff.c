@@ -1,0 +1,126 @@
+/* Study `tradeoff`: many configurations on the cells of one basin, each with its time and its share of wrong labels.
+ *
+ * reference labels of a sample -> one tile per configuration, done by one rank alone -> table, file. */
+#include "tradeoff.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/cells.h"
+
+enum { TIMED = 16384 }; /* cells that a clock needs */
+
+typedef struct {
+  const kz_reference_labels *reference;
+  const kz_trade *trade;
+} measuring;
+
+bool kz_tradeoff_wanted(const kz_scene *scene) {
+  return scene->has_tradeoff;
+}
+
+static int64_t count_configs(const kz_tradeoff_plan *plan) {
+  return plan->configs.count > 0 ? plan->configs.count : kz_config_count;
+}
+
+static const kz_config *config_at(const kz_tradeoff_plan *plan, int64_t i) {
+  return kz_configs + (plan->configs.count > 0 ? plan->configs.values[i] : i);
+}
+
+kz_cost kz_tradeoff_cost(const kz_scene *scene) {
+  static const double kick_seconds = 1e-9, mean_periods = 30, reference_seconds = 3e-4;
+  double kicks = 0, nodes = 0;
+  for (int64_t i = 0; i < count_configs(&scene->tradeoff); i++) {
+    const kz_config *config = config_at(&scene->tradeoff, i);
+    kicks += kz_config_cost(config, TIMED, mean_periods);
+    nodes = fmax(nodes, (double)config->nodes * (double)config->nodes);
+  }
+  return (kz_cost){.disk_bytes = 1e6,
+                   .memory_bytes = 120 * nodes,
+                   .core_seconds = kicks * kick_seconds + reference_seconds * mean_periods * (double)scene->tradeoff.samples};
+}
+
+char *kz_reference_path(const kz_store *store) {
+  static const char ending[] = ".truth";
+  if (!store) return NULL;
+  const char *path = kz_store_path(store);
+  char *name = malloc(strlen(path) + sizeof ending);
+  if (name) strcat(strcpy(name, path), ending);
+  return name;
+}
+
+static kz_status measure_tile(void *context, int64_t tile, void *record) {
+  const measuring *m = context;
+  return kz_config_measure(m->trade->configs[tile], m->reference, TIMED, record);
+}
+
+static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
+  const size_t n = (size_t)count_configs(plan);
+  *trade = (kz_trade){.count = (int64_t)n,
+                      .configs = calloc(n, sizeof *trade->configs),
+                      .measured = calloc(n, sizeof *trade->measured),
+                      .seconds = calloc(n, sizeof(double)),
+                      .wrong = calloc(n, sizeof(double)),
+                      .pareto = calloc(n, sizeof(int8_t))};
+  if (!trade->configs || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
+    return kz_fail(KZ_FAILED, "no memory for %lld settings", (long long)n);
+  for (int64_t i = 0; i < trade->count; i++) trade->configs[i] = config_at(plan, i);
+  return KZ_OK;
+}
+
+static void free_trade(kz_trade *trade) {
+  free(trade->configs);
+  free(trade->measured);
+  free(trade->seconds);
+  free(trade->wrong);
+  free(trade->pareto);
+}
+
+/* What follows from the counts and the clocks. */
+static void rate(const kz_reference_labels *reference, kz_trade *trade) {
+  const double cells = (double)kz_own_cells(reference->plan);
+  trade->best_wrong = NAN;
+  for (int64_t i = 0; i < trade->count; i++) {
+    const kz_measured *m = trade->measured + i;
+    trade->wrong[i] = kz_share_of(m->wrong, reference->samples).share;
+    trade->seconds[i] = m->set_up + m->cell * cells;
+    if (trade->configs[i]->precision == KZ_DOUBLE) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
+  }
+  kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
+}
+
+static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, kz_ranks *ranks) {
+  measuring m = {reference, trade};
+  kz_stage stage = {.name = "settings",
+                    .n_tiles = trade->count,
+                    .record_bytes = sizeof(kz_measured),
+                    .work = measure_tile,
+                    .context = &m,
+                    .keep = true,
+                    .everywhere = true};
+  KZ_TRY(kz_stage_run(ranks, &stage, trade->measured));
+  rate(reference, trade);
+  return KZ_OK;
+}
+
+static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  kz_reference_labels reference = {0};
+  kz_trade trade = {0};
+  char *path = kz_reference_path(store);
+  kz_status status = kz_ranks_agree(ranks, allocate(&scene->tradeoff, &trade));
+  if (status == KZ_OK) status = kz_reference_labels_make(scene, ranks, scene->tradeoff.samples, path, &reference);
+  if (status == KZ_OK) status = kz_ranks_agree(ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
+  if (status == KZ_OK) status = run_settings(&reference, &trade, ranks);
+  if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);
+  kz_reference_labels_free(&reference);
+  free_trade(&trade);
+  free(path);
+  return kz_ranks_agree(ranks, status);
+}
+
+kz_status kz_tradeoff_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta > 0) return run_damped(scene, ranks, store, summary);
+  if (summary) fprintf(summary, "tradeoff: without damping nothing attracts, and no label can be wrong\n");
+  return KZ_OK;
+}

@@ -1,0 +1,29 @@
+/* Study `tradeoff`. */
+#ifndef KAPITZA_STUDY_TRADEOFF_H
+#define KAPITZA_STUDY_TRADEOFF_H
+
+#include "common/share.h"
+#include "config.h"
+
+/* Configurations measured on one sample of reference labels. */
+typedef struct {
+  int64_t count;
+  const kz_config **configs; /* [count] */
+  kz_measured *measured;     /* [count] */
+  double *seconds;           /* [count] for the whole grid of the basin, without the search for attractors */
+  double *wrong;             /* [count] */
+  int8_t *pareto;            /* [count] */
+  double best_wrong;         /* the lowest share of a configuration in double precision; NaN without one */
+} kz_trade;
+
+/* Group /tradeoff and its table in the summary. Rank 0. */
+kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary);
+
+/* The name of the cache of true labels beside the result, freed by the caller; NULL without a store or memory. */
+char *kz_reference_path(const kz_store *store);
+
+bool kz_tradeoff_wanted(const kz_scene *scene);
+kz_cost kz_tradeoff_cost(const kz_scene *scene);
+kz_status kz_tradeoff_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+
+#endif

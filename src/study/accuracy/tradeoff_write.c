@@ -1,0 +1,104 @@
+/* Study `tradeoff`: its group in the file, its table for people. */
+#include <math.h>
+
+#include "common/cells.h"
+#include "common/column.h"
+#include "kapitza/reference.h"
+#include "kapitza/steps.h"
+#include "tradeoff.h"
+
+#define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)
+
+static kz_status write_configs(const kz_trade *trade, kz_store *store) {
+  const kz_config *const *s = trade->configs;
+  COLUMN(const char *, "label", s[i]->label);
+  COLUMN(int8_t, "method", s[i]->method);
+  COLUMN(int8_t, "precision", s[i]->precision);
+  COLUMN(const char *, "scheme", s[i]->scheme);
+  COLUMN(int32_t, "steps_per_period", s[i]->steps);
+  COLUMN(int8_t, "interpolation", s[i]->interpolation);
+  COLUMN(int32_t, "table_nodes", s[i]->nodes);
+  return KZ_OK;
+}
+
+static kz_status write_measures(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store) {
+  const kz_measured *m = trade->measured;
+  const double n = (double)reference->samples;
+  COLUMN(double, "wrong", trade->wrong[i]);
+  COLUMN(double, "wrong_low", kz_share_of(m[i].wrong, reference->samples).low);
+  COLUMN(double, "wrong_high", kz_share_of(m[i].wrong, reference->samples).high);
+  COLUMN(double, "wrong_inside", (double)m[i].inside / n);
+  COLUMN(double, "wrong_distance", m[i].wrong > 0 ? (double)m[i].distance : NAN);
+  COLUMN(double, "fraction_error", (double)m[i].count_error / n);
+  COLUMN(double, "seconds", trade->seconds[i]);
+  COLUMN(double, "seconds_per_million_cells", 1e6 * m[i].cell);
+  COLUMN(int8_t, "pareto", trade->pareto[i]);
+  return KZ_OK;
+}
+
+static kz_status write_attributes(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store) {
+  const kz_reference_labels_summary sum = kz_reference_labels_sum(reference);
+  char method[200];
+  snprintf(
+      method, sizeof method,
+      "quad precision, Taylor series in %d steps a period or more; more steps give the same label in %lld of %lld cells asked",
+      KZ_REFERENCE_STEPS, (long long)(sum.asked - sum.disagree), (long long)sum.asked);
+  KZ_TRY(kz_store_text(store, "tradeoff", "reference", method));
+  KZ_TRY(kz_store_integer(store, "tradeoff", "samples", reference->samples));
+  KZ_TRY(kz_store_real(store, "tradeoff", "floor", kz_share_of(sum.flipped, reference->samples).share));
+  KZ_TRY(kz_store_real(store, "tradeoff", "mean_periods", sum.mean_periods));
+  return kz_store_real(store, "tradeoff", "best_wrong", trade->best_wrong);
+}
+
+static void print_row(const kz_reference_labels *reference, const kz_trade *trade, int64_t i, FILE *summary) {
+  const kz_config *s = trade->configs[i];
+  const kz_measured *m = trade->measured + i;
+  const kz_share wrong = kz_share_of(m->wrong, reference->samples);
+  fprintf(summary, "%c %-20s %-7s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
+          trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], kz_precision_names[s->precision], s->scheme,
+          s->steps, s->method == KZ_METHOD_DIRECT ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes,
+          100 * wrong.share, 100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples,
+          trade->seconds[i], 1e6 * m->cell);
+}
+
+/* Configurations whose labels are chance here. */
+static void warn(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
+  const double fastest = kz_axis_fastest(&reference->plan->velocity);
+  const char *before = "warning: steps that do not carry the motions of this window: ";
+  for (int64_t i = 0; i < trade->count; i++) {
+    const kz_numerics numerics = kz_config_numerics(trade->configs[i]);
+    if (kz_steps_carry(&reference->pendulum, &numerics, fastest)) continue;
+    fprintf(summary, "%s%s", before, trade->configs[i]->label);
+    before = ", ";
+  }
+  if (before[0] == ',') fprintf(summary, "\n");
+}
+
+static void print(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
+  const kz_reference_labels_summary sum = kz_reference_labels_sum(reference);
+  const kz_share flips = kz_share_of(sum.flipped, reference->samples);
+  fprintf(summary,
+          "tradeoff: wrong labels among %lld cells followed in quad precision, %.1f periods each; * = nothing is as quick and "
+          "as right\n"
+          "  setting              method  kind       integrator   table    nodes  wrong %%    95 %% interval    area %%    "
+          "seconds  "
+          "s/1e6 cells\n",
+          (long long)reference->samples, sum.mean_periods);
+  for (int64_t i = 0; i < trade->count; i++) print_row(reference, trade, i, summary);
+  fprintf(
+      summary,
+      "one unit in the last place of the start flips %.3f %% (%.3f .. %.3f); the best in double precision is wrong in %.3f %%; "
+      "another number of steps changed %lld of %lld true labels\n",
+      100 * flips.share, 100 * flips.low, 100 * flips.high, 100 * trade->best_wrong, (long long)sum.disagree,
+      (long long)sum.asked);
+}
+
+kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary) {
+  KZ_TRY(kz_store_dimension(store, "tradeoff", "setting", trade->count, NULL));
+  KZ_TRY(write_configs(trade, store));
+  KZ_TRY(write_measures(reference, trade, store));
+  KZ_TRY(write_attributes(reference, trade, store));
+  print(reference, trade, summary);
+  warn(reference, trade, summary);
+  return KZ_OK;
+}

@@ -1,0 +1,89 @@
+/* Study `attractors`: the catalogue of a window of starts, without a grid. */
+#include "attractors.h"
+
+#include <stdlib.h>
+
+#include "common/catalogue.h"
+#include "common/cells.h"
+#include "common/search.h"
+#include "kapitza/settling.h"
+#include "kapitza/steps.h"
+
+typedef struct {
+  const kz_attractors_plan *plan;
+  kz_dynamics *dynamics;
+  double *state;    /* [starts][2] */
+  int32_t *label;   /* [starts] */
+  int64_t *reached; /* [numbers from 1] */
+  int64_t max_periods;
+} finding;
+
+bool kz_attractors_wanted(const kz_scene *scene) {
+  return scene->has_attractors;
+}
+
+kz_cost kz_attractors_cost(const kz_scene *scene) {
+  kz_scheme scheme;
+  kz_scheme_row(scene->numerics.scheme, &scheme);
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  double starts = (double)scene->attractors.starts, kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
+  return (kz_cost){.disk_bytes = 1e5,
+                   .memory_bytes = 100 * starts,
+                   .core_seconds = kz_settling_search(pendulum, starts, 1e-9 * kicks, kz_settling_periods(pendulum->beta))};
+}
+
+static kz_status allocate(const kz_scene *scene, finding *s) {
+  size_t n = (size_t)scene->attractors.starts;
+  s->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
+  s->state = malloc(2 * n * sizeof *s->state);
+  s->label = malloc(n * sizeof *s->label);
+  if (s->dynamics && s->state && s->label) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
+}
+
+static kz_status discover(kz_ranks *ranks, finding *s) {
+  kz_search search = {.window = kz_window_of(&s->plan->theta, &s->plan->velocity),
+                      .starts = s->plan->starts,
+                      .seed = s->plan->seed,
+                      .max_periods = s->max_periods};
+  search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
+  KZ_TRY(kz_search_window(ranks, s->dynamics, &search, s->state, s->label));
+  s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
+  if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->label[i]]++;
+  return KZ_OK;
+}
+
+static kz_status publish(const kz_scene *scene, const finding *s, kz_store *store, FILE *summary) {
+  kz_catalogue catalogue = {0};
+  kz_steps_warn(scene, kz_axis_fastest(&scene->attractors.velocity), summary);
+  kz_status status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
+  if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
+  if (status == KZ_OK) {
+    kz_catalogue_print(&catalogue, false, summary);
+    fprintf(summary, "%lld of %lld starts did not settle within %lld periods\n", (long long)s->reached[0],
+            (long long)s->plan->starts, (long long)s->max_periods);
+  }
+  kz_catalogue_free(&catalogue);
+  return status;
+}
+
+/* Without damping areas are conserved and nothing attracts. */
+static kz_status run_undamped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  if (kz_ranks_own(ranks) != 0) return KZ_OK;
+  fprintf(summary, "attractors: without damping nothing attracts\n");
+  return kz_catalogue_write(&(kz_catalogue){0}, &scene->parameters.pendulum, false, store);
+}
+
+kz_status kz_attractors_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, ranks, store, summary);
+  finding s = {.plan = &scene->attractors, .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
+  kz_status status = kz_ranks_agree(ranks, allocate(scene, &s));
+  if (status == KZ_OK) status = kz_ranks_agree(ranks, discover(ranks, &s));
+  if (status == KZ_OK && kz_ranks_own(ranks) == 0) status = publish(scene, &s, store, summary);
+  if (s.dynamics) kz_dynamics_free(s.dynamics);
+  free(s.state);
+  free(s.label);
+  free(s.reached);
+  return status;
+}

@@ -1,0 +1,33 @@
+/* Inside of the study `basin`: its parts. */
+#ifndef KAPITZA_STUDY_BASIN_H
+#define KAPITZA_STUDY_BASIN_H
+
+#include "common/catalogue.h"
+#include "common/cells.h"
+#include "common/doubt.h"
+
+/* Labels of all cells, velocity-major, on rank 0. */
+typedef struct {
+  int64_t cells;
+  int16_t *attractor;
+  uint32_t *settling_time;
+  uint8_t *evidence;
+  int64_t undecided;    /* cells whose label the last place of the start changes, where that was asked */
+  double trapped_share; /* of the map table's cells */
+  double step_error;    /* rad, the largest of one drive period in a sample */
+  kz_doubt doubt;       /* of the labels */
+  double table_error;   /* the same of the map table; NaN where labels do not come from it */
+} kz_labels;
+
+kz_status kz_labels_allocate(int64_t cells, kz_labels *labels);
+void kz_labels_free(kz_labels *labels);
+
+/* Measures, groups /attractors and /basin, and the summary. Fractions of the catalogue are filled in. */
+kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
+                         FILE *summary);
+
+bool kz_basin_wanted(const kz_scene *scene);
+kz_cost kz_basin_cost(const kz_scene *scene);
+kz_status kz_basin_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+
+#endif

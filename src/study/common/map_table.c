@@ -1,0 +1,39 @@
+#include "map_table.h"
+
+#include <stdlib.h>
+
+#include "search.h"
+
+enum { ROWS = 4 }; /* per tile */
+
+typedef struct {
+  kz_dynamics *dynamics;
+  int64_t n_velocity;
+} table;
+
+static kz_status table_tile(void *context, int64_t tile, void *record) {
+  const table *t = context;
+  int64_t size = kz_dynamics_table_row_size(t->dynamics);
+  for (int64_t row = tile * ROWS; row < (tile + 1) * ROWS && row < t->n_velocity; row++)
+    kz_dynamics_table_row(t->dynamics, row, (double *)record + (row - tile * ROWS) * size);
+  return KZ_OK;
+}
+
+kz_status kz_map_table_make(kz_ranks *ranks, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity) {
+  table t = {dynamics, n_velocity};
+  kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
+  kz_stage stage = {.name = "map table",
+                    .n_tiles = (n_velocity + ROWS - 1) / ROWS,
+                    .record_bytes = ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double),
+                    .work = table_tile,
+                    .context = &t,
+                    .keep = true,
+                    .everywhere = true};
+  double *rows = malloc((size_t)stage.n_tiles * stage.record_bytes);
+  kz_status status = rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table");
+  if (ranks) status = kz_ranks_agree(ranks, status);
+  if (status == KZ_OK) status = kz_stage_run_with(ranks, &stage, rows);
+  if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);
+  free(rows);
+  return status;
+}

@@ -1,0 +1,219 @@
+/* Rounds of: follow the open starts directly, look for cycles among those that nothing traps yet. What is left at the end is
+ * chaotic, or has not settled. */
+#include "search.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "map_table.h"
+
+enum {
+  FIRST_LENGTH = 128, /* periods of the first round; a round that finds nothing doubles it */
+  TILE = 256,         /* starts per tile */
+  CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycle takes */
+  CHUNKS = 16,        /* searches per round */
+  PILOT_STARTS = 512, /* starts that are followed before there is a table */
+  STRETCH = 1024,     /* periods of a tile at least */
+  STRETCHES = 64,     /* of a round, about */
+  CHAOS_TRIES = 4,
+  CHAOS_PERIODS = 512 /* to see which open starts a chaotic attractor's cover captures */
+};
+
+/* rad: how near an orbit must come back to itself to be tried, and in the last round, where slow spirals remain. */
+static const double CLOSENESS = 0.02, LAST_CLOSENESS = 0.3;
+
+typedef struct {
+  kz_dynamics *dynamics;
+  int64_t periods, n, *open; /* open [n]: which starts are followed */
+  double *state;             /* [all] */
+  int32_t *label;            /* [all] */
+  int64_t all;
+} following;
+
+typedef struct {
+  double state[2 * TILE];
+  int32_t label[TILE];
+} followed;
+
+kz_status kz_stage_run_with(kz_ranks *ranks, const kz_stage *stage, void *records) {
+  if (ranks != NULL) return kz_stage_run(ranks, stage, records);
+  memset(records, 0, (size_t)stage->n_tiles * stage->record_bytes);
+  for (int64_t tile = 0; tile < stage->n_tiles; tile++)
+    KZ_TRY(stage->work(stage->context, tile, (char *)records + (size_t)tile * stage->record_bytes));
+  return KZ_OK;
+}
+
+static kz_status agree(kz_ranks *ranks, kz_status status) {
+  return ranks != NULL ? kz_ranks_agree(ranks, status) : status;
+}
+
+static kz_status follow_tile(void *context, int64_t tile, void *record) {
+  const following *f = context;
+  followed *out = record;
+  int64_t periods[TILE];
+  int64_t first = tile * TILE, n = f->n - first < TILE ? f->n - first : TILE;
+  for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
+  kz_dynamics_settle(f->dynamics, n, f->periods, out->state, out->label, periods);
+  return KZ_OK;
+}
+
+/* The starts without label become the open ones. */
+static void list_open(following *f) {
+  f->n = 0;
+  for (int64_t i = 0; i < f->all; i++)
+    if (f->label[i] == 0) f->open[f->n++] = i;
+}
+
+/* Follows the open starts for f->periods; those that are trapped get their label. */
+static kz_status follow_stretch(kz_ranks *ranks, following *f) {
+  kz_stage stage = {.name = "attractors",
+                    .n_tiles = (f->n + TILE - 1) / TILE,
+                    .record_bytes = sizeof(followed),
+                    .work = follow_tile,
+                    .context = f,
+                    .keep = true,
+                    .everywhere = true};
+  followed *records = malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
+  kz_status status = agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n));
+  if (status == KZ_OK) status = kz_stage_run_with(ranks, &stage, records);
+  for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
+    const followed *record = records + i / TILE;
+    memcpy(f->state + 2 * f->open[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
+    f->label[f->open[i]] = record->label[i % TILE];
+  }
+  free(records);
+  if (status == KZ_OK) list_open(f);
+  return status;
+}
+
+/* The same for any number of periods, in stretches: what is done is kept, and a stop request is heard. */
+static kz_status follow_open(kz_ranks *ranks, following *f, int64_t periods) {
+  const int64_t share = periods / STRETCHES, stretch = share > STRETCH ? share : STRETCH;
+  for (int64_t done = 0; done < periods && f->n > 0; done += f->periods) {
+    f->periods = periods - done < stretch ? periods - done : stretch;
+    KZ_TRY(follow_stretch(ranks, f));
+  }
+  return KZ_OK;
+}
+
+typedef struct {
+  kz_dynamics *dynamics;
+  int64_t n;               /* states; 0 = a chaotic attractor is looked for, from one state */
+  double state[2 * CHUNK]; /* of the starts */
+  double closeness;        /* rad */
+  double *found;           /* [size] what was found before, then what is found */
+  int64_t size;
+} seeking;
+
+static kz_status seek_tile(void *context, int64_t tile, void *record) {
+  const seeking *s = context;
+  (void)tile;
+  memcpy(record, s->found, (size_t)s->size * sizeof(double));
+  if (s->n > 0)
+    kz_dynamics_find_cycle(s->dynamics, s->n, s->state, s->closeness, record);
+  else
+    kz_dynamics_find_chaos(s->dynamics, s->state, record);
+  return KZ_OK;
+}
+
+/* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: room. */
+static kz_status seek(kz_ranks *ranks, seeking *s, double *record) {
+  const kz_stage stage = {.name = s->n > 0 ? "cycles" : "chaos",
+                          .n_tiles = 1,
+                          .record_bytes = (size_t)s->size * sizeof(double),
+                          .work = seek_tile,
+                          .context = s,
+                          .keep = true,
+                          .everywhere = true};
+  KZ_TRY(kz_stage_run_with(ranks, &stage, record));
+  memcpy(s->found, record, (size_t)s->size * sizeof(double));
+  kz_dynamics_adopt(s->dynamics, s->found + (s->n > 0 ? 1 : 0));
+  return KZ_OK;
+}
+
+/* Room for what is found and for a record of it, freed by the caller. */
+static kz_status make_room(kz_ranks *ranks, seeking *s) {
+  s->found = calloc(2 * (size_t)s->size, sizeof(double));
+  return agree(ranks, s->found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors"));
+}
+
+/* Looks for cycles among the first open starts. */
+static kz_status find_cycles(kz_ranks *ranks, const following *f, double closeness) {
+  seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
+  kz_status status = make_room(ranks, &s);
+  for (int64_t first = 0; first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
+    s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
+    for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
+    if (status == KZ_OK) memset(s.found, 0, (size_t)s.size * sizeof(double));
+    while (status == KZ_OK && (int64_t)s.found[0] < s.n) status = seek(ranks, &s, s.found + s.size);
+  }
+  free(s.found);
+  return status;
+}
+
+/* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
+static kz_status find_chaos(kz_ranks *ranks, following *f) {
+  seeking s = {.dynamics = f->dynamics, .size = kz_dynamics_chaos_size()};
+  kz_status status = make_room(ranks, &s);
+  for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
+    const int64_t known = kz_dynamics_count(f->dynamics);
+    memcpy(s.state, f->state + 2 * f->open[(attempt * 7) % f->n], 2 * sizeof(double));
+    status = seek(ranks, &s, s.found + s.size);
+    if (status != KZ_OK || kz_dynamics_count(f->dynamics) == known) continue;
+    kz_dynamics_update(f->dynamics);
+    status = follow_open(ranks, f, CHAOS_PERIODS);
+  }
+  free(s.found);
+  return status;
+}
+
+static kz_status discover(kz_ranks *ranks, following *f, int64_t max_periods) {
+  int64_t length = FIRST_LENGTH, done = 0;
+  for (;;) {
+    kz_dynamics_update(f->dynamics);
+    KZ_TRY(follow_open(ranks, f, length));
+    done += length;
+    if (f->n == 0) return KZ_OK;
+    const int64_t known = kz_dynamics_count(f->dynamics);
+    KZ_TRY(find_cycles(ranks, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
+    if (kz_dynamics_count(f->dynamics) > known) continue;
+    if (done >= max_periods) break;
+    length = 2 * length < max_periods - done ? 2 * length : max_periods - done;
+  }
+  return find_chaos(ranks, f);
+}
+
+/* All starts are open. */
+static kz_status open_all(kz_ranks *ranks, following *f) {
+  f->open = malloc((size_t)(f->all + 1) * sizeof *f->open);
+  KZ_TRY(agree(ranks, f->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->all)));
+  memset(f->label, 0, (size_t)f->all * sizeof *f->label);
+  list_open(f);
+  return KZ_OK;
+}
+
+kz_status kz_settle(kz_ranks *ranks, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label) {
+  following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
+  kz_status status = open_all(ranks, &f);
+  if (status == KZ_OK) status = follow_open(ranks, &f, periods);
+  free(f.open);
+  return status;
+}
+
+kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
+  following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
+  kz_status status = open_all(ranks, &f);
+  if (status == KZ_OK) status = discover(ranks, &f, max_periods);
+  free(f.open);
+  return status;
+}
+
+kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
+  const bool table = search->table_theta > 0;
+  const int64_t pilots = table && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
+  kz_dynamics_starts(&search->window, search->seed, search->starts, state);
+  kz_dynamics_coarse_regions(dynamics, search->max_velocity);
+  KZ_TRY(kz_discover(ranks, dynamics, search->max_periods, pilots, state, label));
+  if (table) KZ_TRY(kz_map_table_make(ranks, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
+  return rest > 0 ? kz_discover(ranks, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
+}

@@ -1,0 +1,34 @@
+/* Discovery of the attractors that a set of starts ends on; shared by the studies that need a catalogue. */
+#ifndef KAPITZA_STUDY_SEARCH_H
+#define KAPITZA_STUDY_SEARCH_H
+
+#include <stdint.h>
+
+#include "kapitza/dynamics.h"
+#include "kapitza/parallel.h"
+
+/* Starts spread over a window, and the map table of its dynamics. */
+typedef struct {
+  kz_window window;
+  int64_t starts, seed, max_periods;
+  int64_t table_theta, table_velocity; /* nodes; 0 = no table is made */
+  double max_velocity;                 /* of kz_dynamics_max_velocity */
+} kz_search;
+
+/* Finds the attractors that the starts end on. With a table the first starts are pilots: the regions grow around the attractors
+ * of most of the window, and the other starts settle soon. state [starts][2], label [starts] as of kz_discover. */
+kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
+
+/* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
+ * they end on; those join the catalogue and the regions (coarse or of the table) of `dynamics` on every rank. label [n] =
+ * attractor from 1, 0 where the start has not settled on any. Collective; `ranks` NULL = this rank alone. */
+kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label);
+
+/* Follows n starts (state [n][2], in and out) up to `periods` periods: label [n] = attractor, 0 where the start has not
+ * settled. In kept stages. Collective. */
+kz_status kz_settle(kz_ranks *ranks, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
+
+/* Runs a stage with all ranks; `ranks` NULL = this rank alone, in order. */
+kz_status kz_stage_run_with(kz_ranks *ranks, const kz_stage *stage, void *records);
+
+#endif

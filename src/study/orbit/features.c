@@ -1,0 +1,89 @@
+#include "features.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Lines up to this many drive frequencies. */
+enum { TOP_FREQUENCY = 8 };
+
+/* Net turns a period: whole turns of a cycle, the fitted rate of an open record that turns at least once. */
+static double rotation_of(const kz_motion *motion, const kz_record *record) {
+  if (record->closed) {
+    double advance = motion->theta[record->periods * record->samples_per_period] - motion->theta[0];
+    return (double)llrint(advance / (2 * M_PI)) / (double)record->periods;
+  }
+  double rotation = kz_spectrum_rotation(record, motion->theta);
+  return fabs(rotation) * (double)record->periods < 1 ? 0 : rotation;
+}
+
+/* Down or inverted: mean within pi/4 of it and amplitude below pi; *origin = the copy of it that the orbit is about. */
+static int centre_of(const kz_motion *motion, int64_t n, double rotation, double *origin) {
+  double mean = 0, amplitude = 0;
+  *origin = 0;
+  if (rotation != 0) return KZ_ROTATING;
+  for (int64_t i = 0; i < n; i++) mean += motion->theta[i] / (double)n;
+  double nearest = rint(mean / M_PI);
+  for (int64_t i = 0; i < n; i++) amplitude = fmax(amplitude, fabs(motion->theta[i] - nearest * M_PI));
+  if (fabs(mean - nearest * M_PI) > M_PI / 4 || amplitude >= M_PI) return KZ_ABOUT_NEITHER;
+  *origin = nearest * M_PI;
+  return fmod(nearest, 2) == 0 ? KZ_ABOUT_DOWN : KZ_ABOUT_INVERTED;
+}
+
+static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz_orbit_features *features) {
+  size_t n = (size_t)(TOP_FREQUENCY * record->periods) + 1;
+  features->n_lines = (int64_t)n;
+  features->record_periods = record->periods;
+  features->amplitude = malloc(n * sizeof(double));
+  features->phase = malloc(n * sizeof(double));
+  if (!features->amplitude || !features->phase) return kz_fail(KZ_FAILED, "out of memory for the lines of an orbit");
+  KZ_TRY(kz_spectrum_lines(record, motion->theta, features->n_lines, features->amplitude, features->phase));
+  features->dominant = kz_spectrum_dominant(features->n_lines, features->amplitude);
+  features->period = kz_spectrum_period(record, features->n_lines, features->amplitude);
+  features->symmetric = record->closed && kz_spectrum_symmetric(record, features->n_lines, features->amplitude);
+  return KZ_OK;
+}
+
+/* The lines of the velocity instead of those of the angle. */
+static kz_status take_velocity(const kz_motion *motion, kz_orbit_features *features) {
+  const kz_record record = {.periods = motion->periods, .samples_per_period = motion->samples, .velocity = true};
+  KZ_TRY(kz_spectrum_lines(&record, motion->velocity, features->n_lines, features->amplitude, features->phase));
+  features->dominant = kz_spectrum_dominant(features->n_lines, features->amplitude);
+  return KZ_OK;
+}
+
+static kz_status make_turning(const kz_motion *motion, kz_orbit_features *features) {
+  int64_t n = motion->periods * motion->samples + 1;
+  features->turning = malloc((size_t)n * sizeof *features->turning);
+  if (!features->turning) return kz_fail(KZ_FAILED, "out of memory for the turning points of an orbit");
+  double step = 2 * M_PI / (double)motion->samples;
+  features->n_turning = kz_turning_points(n, step, motion->theta, motion->velocity, features->turning);
+  for (int64_t i = 0; i < features->n_turning; i++) features->turning[i].angle -= features->origin;
+  return KZ_OK;
+}
+
+kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool parting, kz_orbit_features *features) {
+  *features = (kz_orbit_features){.closed = period > 0};
+  kz_record record = {
+      .periods = period > 0 ? period : motion->periods, .samples_per_period = motion->samples, .closed = period > 0};
+  record.rotation = rotation_of(motion, &record);
+  features->centre = centre_of(motion, record.periods * motion->samples, record.rotation, &features->origin);
+  record.centre = features->origin;
+  KZ_TRY(make_lines(motion, &record, features));
+  if (record.closed && features->period != period)
+    return kz_fail(KZ_FAILED, "orbit: the strobe points close after %lld periods, the lines say %lld; a less degenerate cycle",
+                   (long long)period, (long long)features->period);
+  features->chaotic = parting && features->period == 0;
+  if (features->chaotic) KZ_TRY(take_velocity(motion, features));
+  int64_t span = features->period > 0 ? features->period : record.periods;
+  features->winding = llrint(record.rotation * (double)span);
+  if (features->period > 0 || features->chaotic)
+    kz_orbit_name(features->period, features->winding, features->centre, features->name);
+  return make_turning(motion, features);
+}
+
+void kz_orbit_features_free(kz_orbit_features *features) {
+  free(features->amplitude);
+  free(features->phase);
+  free(features->turning);
+  *features = (kz_orbit_features){0};
+}

@@ -1,0 +1,164 @@
+/* Study `orbit`: one motion, its strobe points, turning points and lines. One motion has no parallel parts: rank 0 records it. */
+#include "orbit.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#include "common/settles_on.h"
+#include "exponent.h"
+
+/* Periods of an open record that the scene does not bound. */
+enum { OPEN_PERIODS = 100 };
+/* Periods that an open record is looked ahead, as a rule, and the most steps a period with which it is. */
+enum { AHEAD_PERIODS = 2000, AHEAD_STEPS = 1500 };
+/* Periods of the transient between two looks at stop requests: a few seconds. */
+enum { STRETCH = 100000 };
+
+bool kz_orbit_wanted(const kz_scene *scene) {
+  return scene->has_orbit;
+}
+
+static int64_t given(int64_t value, int64_t fallback) {
+  return value > 0 ? value : fallback;
+}
+
+kz_cost kz_orbit_cost(const kz_scene *scene) {
+  const kz_orbit_plan *plan = &scene->orbit;
+  double periods = (double)given(plan->periods, OPEN_PERIODS), rows = periods * (double)plan->samples_per_period;
+  double ahead = plan->closed || plan->model != KZ_PENDULUM ? 0 : AHEAD_PERIODS;
+  double samples = fmax(96, (double)plan->samples_per_period) * periods;
+  return (kz_cost){.cells = 0,
+                   .disk_bytes = 32 * rows + 300 * periods,
+                   .first_bytes = 80 * samples + 32 * rows,
+                   .core_seconds = 1e-4 * (periods + (double)plan->transient + ahead)};
+}
+
+/* The state and the period of an attractor, as the study before has written it. */
+static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *period) {
+  int64_t count;
+  double n, *const values[] = {&n, &start->theta, &start->velocity};
+  const char *const names[] = {"period", "strobe_theta", "strobe_velocity"};
+  KZ_TRY(kz_store_length(store, "attractors", "attractor", &count));
+  if (count == 0)
+    return kz_fail(KZ_REFUSED, "orbit.attractor: the catalogue is empty; orbit.start, or damping, or another window");
+  if (id >= count)
+    return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is not in the catalogue, which has %lld; an id below that", (long long)id,
+                   (long long)count);
+  for (int i = 0; i < 3; i++) KZ_TRY(kz_store_number(store, "attractors", names[i], (int64_t[]){id, 0}, values[i]));
+  *period = (int64_t)n;
+  if (n > 0) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is chaotic and never closes; another id, or a start", (long long)id);
+}
+
+/* Where the motion starts, on every rank; `period` of a listed attractor. Collective. */
+static kz_status start(kz_orbit *orbit, kz_ranks *ranks, kz_store *store) {
+  const kz_orbit_plan *plan = orbit->plan;
+  orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
+  const bool recalls = plan->attractor >= 0 && kz_ranks_own(ranks) == 0;
+  KZ_TRY(kz_ranks_agree(ranks, recalls ? recall(store, plan->attractor, &orbit->cycle.state, &orbit->cycle.period) : KZ_OK));
+  return kz_ranks_broadcast(ranks, &orbit->cycle, sizeof orbit->cycle);
+}
+
+typedef struct {
+  const kz_model *model;
+  int64_t periods;
+  kz_state state;
+} kz_stretch;
+
+static kz_status skip_stretch(void *context, int64_t tile, void *record) {
+  const kz_stretch *stretch = context;
+  kz_state state = stretch->state;
+  (void)tile;
+  kz_model_skip(stretch->model, stretch->periods, &state);
+  memcpy(record, &state, sizeof state);
+  return KZ_OK;
+}
+
+/* The transient in stretches, so that a stop request is heard and what is done is kept. Collective. */
+static kz_status skip_transient(kz_orbit *orbit, kz_ranks *ranks) {
+  const int64_t transient = orbit->plan->transient;
+  for (int64_t done = 0; done < transient; done += STRETCH) {
+    char name[32];
+    snprintf(name, sizeof name, "transient %" PRId64, done / STRETCH + 1);
+    const int64_t periods = transient - done < STRETCH ? transient - done : STRETCH;
+    kz_stretch stretch = {&orbit->model, periods, orbit->cycle.state};
+    const kz_stage stage = {.name = name,
+                            .n_tiles = 1,
+                            .record_bytes = sizeof(kz_state),
+                            .work = skip_stretch,
+                            .context = &stretch,
+                            .keep = true,
+                            .everywhere = true};
+    KZ_TRY(kz_stage_run(ranks, &stage, &orbit->cycle.state));
+  }
+  return KZ_OK;
+}
+
+/* How an open record of the pendulum goes on: in chaos, or to which attractor. */
+static kz_status look_ahead(kz_orbit *orbit, const kz_model *model) {
+  const kz_motion *motion = &orbit->motion;
+  const int64_t last = motion->periods * motion->samples;
+  const kz_state end = {remainder(motion->theta[last], 2 * M_PI), motion->velocity[last]};
+  double fastest = 0;
+  orbit->parting =
+      kz_exponent_positive(orbit->lyapunov, orbit->lyapunov_error) && kz_exponent_stays_positive(model, end, orbit->lyapunov);
+  if (orbit->parting) return KZ_OK;
+  for (int64_t i = last - motion->samples; i <= last; i++) fastest = fmax(fastest, fabs(motion->velocity[i]));
+  return kz_settles_on(model, end, fastest, orbit->settles_on);
+}
+
+/* The same in double precision whatever the record has: what comes is asked for its kind alone. Motions so fast that this takes
+ * long are left without an answer. */
+static kz_status look_ahead_in_double(kz_orbit *orbit) {
+  kz_model model = orbit->model;
+  if (model.numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
+  model.numerics.precision = KZ_DOUBLE;
+  model.plan = kz_plan_create(&model.pendulum, &model.numerics);
+  if (!model.plan) return kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
+  kz_status status = look_ahead(orbit, &model);
+  kz_model_free(&model);
+  return status;
+}
+
+/* The motion after the transient: its record and its features. */
+static kz_status follow(kz_orbit *orbit) {
+  const bool closed = orbit->plan->closed;
+  const kz_state from = orbit->cycle.state;
+  const int64_t period = orbit->cycle.period;
+  if (closed) KZ_TRY(kz_cycle_close(&orbit->model, period, from, &orbit->cycle));
+  int64_t periods = given(orbit->plan->periods, closed ? orbit->cycle.period : OPEN_PERIODS);
+  if (periods < orbit->cycle.period) periods = orbit->cycle.period;
+  KZ_TRY(kz_model_record(&orbit->model, periods, orbit->cycle.state, &orbit->motion));
+  if (orbit->model.plan)
+    kz_exponent_along(&orbit->model, periods, orbit->cycle.state, &orbit->lyapunov, &orbit->lyapunov_error);
+  if (orbit->model.plan && closed) {
+    orbit->lyapunov = log(hypot(orbit->cycle.re[0], orbit->cycle.im[0])) / (double)orbit->cycle.period;
+    orbit->lyapunov_error = 0;
+  }
+  if (orbit->model.plan && !closed) KZ_TRY(look_ahead_in_double(orbit));
+  return kz_orbit_features_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->features);
+}
+
+static kz_status find_features(kz_orbit *orbit, kz_store *store, FILE *summary) {
+  KZ_TRY(follow(orbit));
+  KZ_TRY(kz_orbit_write(orbit, store));
+  kz_orbit_print(orbit, summary);
+  return KZ_OK;
+}
+
+static kz_status model(kz_orbit *orbit, const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  KZ_TRY(kz_ranks_agree(ranks, kz_model_make(scene, &orbit->model)));
+  KZ_TRY(start(orbit, ranks, store));
+  KZ_TRY(skip_transient(orbit, ranks));
+  return kz_ranks_own(ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
+}
+
+kz_status kz_orbit_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  kz_orbit orbit = {.plan = &scene->orbit, .pendulum = scene->parameters.pendulum, .lyapunov = NAN, .lyapunov_error = NAN};
+  kz_status status = model(&orbit, scene, ranks, store, summary);
+  kz_orbit_features_free(&orbit.features);
+  kz_motion_free(&orbit.motion);
+  kz_model_free(&orbit.model);
+  return status;
+}

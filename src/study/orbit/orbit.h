@@ -1,0 +1,28 @@
+/* Study `orbit`: its parts. */
+#ifndef KAPITZA_STUDY_ORBIT_H
+#define KAPITZA_STUDY_ORBIT_H
+
+#include "features.h"
+
+typedef struct {
+  const kz_orbit_plan *plan;
+  kz_pendulum pendulum;
+  kz_model model;
+  kz_cycle cycle; /* of a closed orbit; period 0 = open */
+  kz_motion motion;
+  kz_orbit_features features;
+  double lyapunov, lyapunov_error; /* per drive period, largest exponent along the record; NaN but of the pendulum */
+  bool parting;                    /* neighbours of an open record part for good */
+  char settles_on[KZ_NAME_LENGTH]; /* the attractor that an open record of the pendulum leads to; empty where none is known */
+} kz_orbit;
+
+/* Group /orbit of the file. */
+kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store);
+/* A line for people. */
+void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
+
+bool kz_orbit_wanted(const kz_scene *scene);
+kz_cost kz_orbit_cost(const kz_scene *scene);
+kz_status kz_orbit_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+
+#endif

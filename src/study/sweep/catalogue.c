@@ -1,0 +1,226 @@
+/* What attracts at each value of a sweep, and how much of the starts or of the cells each attractor takes. A value may
+ * take long: all ranks work on it together, and what they have done is kept. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/cells.h"
+#include "common/search.h"
+#include "kapitza/settling.h"
+#include "sweep.h"
+
+enum {
+  CHUNK = 4096, /* cells followed at once */
+  ROUNDS = 3    /* of discovery among cells that end nowhere known, at most */
+};
+
+/* One value at work. */
+typedef struct {
+  const kz_scene *scene;
+  kz_ranks *ranks;
+  kz_dynamics *dynamics;
+  int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
+  double *state;             /* [starts or cells][2] */
+  int32_t *label, *cell;     /* [starts]; [cells] number of kz_dynamics, 0 = not settled */
+  int64_t *hits;             /* [numbers from 1] */
+  int64_t max_periods;       /* after which a start counts as not settled; of the cells the basin's own number */
+} searching;
+
+static bool on_grid(const kz_scene *scene) {
+  return scene->has_basin && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
+}
+
+static kz_status begin(const kz_pendulum *pendulum, searching *s) {
+  const kz_scene *scene = s->scene;
+  s->n_starts = scene->sweep.starts;
+  s->max_periods = kz_settling_periods(pendulum->beta);
+  if (on_grid(scene)) s->n_cells = kz_own_cells(&scene->basin);
+  const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
+  s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
+  s->state = malloc(2 * most * sizeof *s->state);
+  s->label = malloc(most * sizeof *s->label);
+  s->cell = calloc((size_t)s->n_cells + 1, sizeof *s->cell);
+  if (s->dynamics && s->state && s->label && s->cell) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for the starts of a sweep");
+}
+
+static void end(searching *s) {
+  if (s->dynamics) kz_dynamics_free(s->dynamics);
+  free(s->state);
+  free(s->label);
+  free(s->cell);
+  free(s->hits);
+}
+
+typedef struct {
+  searching *s;
+  int64_t n, *open; /* [n] cells that have not settled */
+  int64_t tile;     /* cells of a tile */
+} labelling;
+
+static kz_status label_tile(void *context, int64_t tile, void *record) {
+  const labelling *l = context;
+  const kz_basin_plan *basin = &l->s->scene->basin;
+  double state[2 * CHUNK];
+  int64_t periods[CHUNK], integrated[CHUNK];
+  const int64_t first = tile * l->tile, n = l->n - first < l->tile ? l->n - first : l->tile;
+  for (int64_t i = 0; i < n; i++) kz_cell_state(basin, l->open[first + i], state + 2 * i);
+  kz_follow(l->s->dynamics, basin->method, basin->interpolation, n, basin->max_periods, state, record, periods, integrated);
+  return KZ_OK;
+}
+
+/* The cells that have not settled, into l->open. */
+static void list_open(labelling *l) {
+  l->n = 0;
+  for (int64_t i = 0; i < l->s->n_cells; i++)
+    if (l->s->cell[i] == 0) l->open[l->n++] = i;
+}
+
+/* Labels the open cells on every rank. */
+static kz_status label_open(labelling *l) {
+  const kz_stage stage = {.name = "sweep cells",
+                          .n_tiles = (l->n + l->tile - 1) / l->tile,
+                          .record_bytes = (size_t)l->tile * sizeof(int32_t),
+                          .work = label_tile,
+                          .context = l,
+                          .keep = true,
+                          .everywhere = true};
+  int32_t *label = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  kz_status status = kz_ranks_agree(l->s->ranks, label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
+  if (status == KZ_OK) status = kz_stage_run(l->s->ranks, &stage, label);
+  for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->open[i]] = label[i];
+  free(label);
+  if (status == KZ_OK) list_open(l);
+  return status;
+}
+
+/* Labels the grid; cells that end nowhere known are searched and labelled once more. */
+static kz_status label_rounds(labelling *l) {
+  searching *s = l->s;
+  list_open(l);
+  for (int round = 0;; round++) {
+    const int64_t known = kz_dynamics_count(s->dynamics);
+    KZ_TRY(label_open(l));
+    if (round == ROUNDS - 1 || l->n == 0) return KZ_OK;
+    const int64_t n = l->n < s->n_starts ? l->n : s->n_starts;
+    for (int64_t i = 0; i < n; i++) kz_cell_state(&s->scene->basin, l->open[i], s->state + 2 * i);
+    KZ_TRY(kz_discover(s->ranks, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
+    if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
+  }
+}
+
+static kz_status label_grid(searching *s) {
+  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .open = malloc((size_t)s->n_cells * sizeof *l.open)};
+  kz_status status = kz_ranks_agree(s->ranks, l.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
+  if (status == KZ_OK) status = label_rounds(&l);
+  free(l.open);
+  return status;
+}
+
+/* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
+static int64_t count_hits(const searching *s) {
+  kz_attractor row;
+  double *points = s->state; /* room for strobe points: at least CHUNK pairs */
+  const int64_t total = s->scene->basin.theta.count * s->scene->basin.velocity.count;
+  for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->label[i]]++;
+  if (s->n_cells == 0) return s->n_starts;
+  for (int64_t i = 0; i < s->n_cells; i++) {
+    s->hits[s->cell[i]]++;
+    if (total - 1 - i < s->n_cells || s->cell[i] == 0) continue;
+    kz_dynamics_attractor(s->dynamics, s->cell[i], &row, points, points + CHUNK);
+    s->hits[row.mirror]++;
+  }
+  return total;
+}
+
+static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirror) {
+  kz_attractor row;
+  double *theta = s->state, *velocity = s->state + CHUNK;
+  kz_dynamics_attractor(s->dynamics, number, &row, theta, velocity);
+  *mirror = row.mirror;
+  kz_sweep_entry entry = {.hits = s->hits[number],
+                          .point = {.amplitude = row.amplitude,
+                                    .period = row.period,
+                                    .winding = row.winding,
+                                    .centre = row.centre,
+                                    .symmetric = row.symmetric}};
+  entry.point.theta = row.period > 0 ? theta[0] : row.mean;
+  entry.point.velocity = row.period > 0 ? velocity[0] : row.mean_velocity;
+  memcpy(entry.point.multiplier_re, row.multiplier_re, sizeof row.multiplier_re);
+  memcpy(entry.point.multiplier_im, row.multiplier_im, sizeof row.multiplier_im);
+  return entry;
+}
+
+/* The attractors that something ended on, and their mirror images, in the order of the file. */
+static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
+  const int64_t known = kz_dynamics_count(s->dynamics);
+  int64_t *order = malloc((size_t)(known + 1) * sizeof *order);
+  if (!order) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  kz_dynamics_order(s->dynamics, order);
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i < known && status == KZ_OK; i++) {
+    int32_t mirror;
+    const kz_sweep_entry entry = entry_of(s, order[i], &mirror);
+    if (s->hits[order[i]] + s->hits[mirror] == 0) continue;
+    if (catalogue->count == KZ_SWEEP_MOST)
+      status =
+          kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; more damping, or a smaller window", KZ_SWEEP_MOST);
+    else
+      catalogue->entries[catalogue->count++] = entry;
+  }
+  free(order);
+  return status;
+}
+
+/* The attractors of the window of the grid, or without one of the sweep's own. */
+static kz_status discover(searching *s) {
+  const kz_sweep_plan *sweep = &s->scene->sweep;
+  const kz_basin_plan *basin = s->n_cells > 0 ? &s->scene->basin : NULL;
+  kz_search search = {
+      .window = basin ? kz_window_of(&basin->theta, &basin->velocity) : kz_window_of(&sweep->theta, &sweep->velocity),
+      .starts = s->n_starts,
+      .seed = sweep->seed,
+      .max_periods = s->max_periods,
+      .table_theta = basin ? basin->table_theta : 0,
+      .table_velocity = basin ? basin->table_velocity : 0};
+  search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
+  return kz_search_window(s->ranks, s->dynamics, &search, s->state, s->label);
+}
+
+static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
+  KZ_TRY(discover(s));
+  if (s->n_cells > 0) KZ_TRY(label_grid(s));
+  s->hits = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
+  KZ_TRY(kz_ranks_agree(s->ranks, s->hits ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
+  catalogue->samples = count_hits(s);
+  return collect(s, catalogue);
+}
+
+typedef struct {
+  const kz_scene *scene;
+  kz_ranks *ranks;
+} sweeping;
+
+static kz_status work(void *context, int64_t tile, void *record) {
+  const sweeping *sweep = context;
+  searching s = {.scene = sweep->scene, .ranks = sweep->ranks};
+  kz_pendulum pendulum;
+  if (!kz_sweep_pendulum(s.scene, kz_sweep_value(&s.scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
+  kz_status status = kz_ranks_agree(s.ranks, begin(&pendulum, &s));
+  if (status == KZ_OK) status = search(&s, record);
+  end(&s);
+  return status;
+}
+
+kz_status kz_sweep_catalogues(const kz_scene *scene, kz_ranks *ranks, kz_sweep_catalogue *catalogue) {
+  sweeping sweep = {scene, ranks};
+  const kz_stage stage = {.name = "sweep attractors",
+                          .n_tiles = scene->sweep.values.count,
+                          .record_bytes = sizeof *catalogue,
+                          .work = work,
+                          .context = &sweep,
+                          .keep = true,
+                          .everywhere = true,
+                          .together = true};
+  return kz_stage_run(ranks, &stage, catalogue);
+}

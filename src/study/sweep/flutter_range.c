@@ -1,0 +1,145 @@
+/* The upper end of the flutter zone (BSG Fig. 4, dots) at each value: the drive m is raised from where flutter begins, once along
+ * the cycle to its true end, once by releases from rest as the paper did. */
+#include <math.h>
+
+#include "common/column.h"
+#include "sweep.h"
+
+/* The drive is searched up to TOP, in steps of STEP; releases in steps of RELEASE_STEP. */
+static const double TOP = 2, STEP = 0.01, RELEASE_STEP = 0.0005;
+static const double RELEASE_ANGLE = M_PI / 180;
+/* Locates the release limit to this. */
+static const double LOCATED = 1e-6;
+
+typedef struct {
+  double onset, asymmetry, end, release_end; /* m; NaN = none */
+} flutter_range;
+
+/* The pendulum of a value with another drive. */
+static bool pendulum_of_drive(const void *context, double m, kz_pendulum *pendulum) {
+  *pendulum = *(const kz_pendulum *)context;
+  pendulum->m = m;
+  return true;
+}
+
+/* The lowest drive at which a stable inverted state loses its stability by multiplier -1. */
+static double find_onset(const kz_path *path) {
+  double critical = NAN;
+  for (double m = 0; m < TOP && isnan(critical); m += STEP) critical = kz_flutter_critical(path, m, m + STEP);
+  return critical;
+}
+
+static bool find_flutter(const kz_path *path, double onset, double *m, kz_branch_point *flutter) {
+  kz_pendulum pendulum;
+  for (double above = 1e-4; above < 2e-2; above *= 2) {
+    *m = onset + above;
+    if (path->pendulum(path->context, *m, &pendulum) && kz_flutter_find(&pendulum, flutter)) return true;
+  }
+  return false;
+}
+
+/* One of the two asymmetric cycles that a symmetric one gives way to just above m: displaced both ways by a ladder of sizes. */
+static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point *symmetric, double *at,
+                            kz_branch_point *found) {
+  kz_pendulum pendulum;
+  for (double above = 1e-5; above < 5e-3; above *= 2)
+    for (double size = 1e-3; size < 0.3; size *= 1.3)
+      for (int i = 0; i < 8; i++) {
+        kz_branch_point guess = *symmetric;
+        guess.symmetric = 0;
+        guess.theta += size * cos(i * M_PI / 4);
+        guess.velocity += size * sin(i * M_PI / 4);
+        *at = m + above;
+        path->pendulum(path->context, *at, &pendulum);
+        if (kz_branch_continue(&pendulum, &guess, size, found) && hypot(found->multiplier_re[0], found->multiplier_im[0]) < 1)
+          return true;
+      }
+  return false;
+}
+
+/* Along the cycle: where it loses its mirror symmetry, and where the cycles that take over end. */
+static void follow_cycle(const kz_path *path, flutter_range *range) {
+  kz_branch_point flutter, asymmetric;
+  double m;
+  if (!find_flutter(path, range->onset, &m, &flutter)) return;
+  const double last = kz_walk(path, m, TOP, &flutter);
+  if (last == TOP || kz_end_kind(&flutter) != KZ_END_SYMMETRY_BREAKING) return;
+  range->asymmetry = last;
+  if (!find_asymmetric(path, last, &flutter, &m, &asymmetric)) return;
+  range->end = kz_walk(path, m, TOP, &asymmetric);
+}
+
+static kz_status release_fails(const kz_path *path, const kz_numerics *numerics, double m, bool *fails) {
+  kz_pendulum pendulum;
+  uint8_t stays;
+  path->pendulum(path->context, m, &pendulum);
+  KZ_TRY(kz_release(&pendulum, numerics, 1, &RELEASE_ANGLE, &stays));
+  *fails = !stays;
+  return KZ_OK;
+}
+
+/* Raises the drive from the onset until a release fails, then halves the bracket. */
+static kz_status follow_releases(const kz_path *path, const kz_numerics *numerics, flutter_range *range) {
+  double inside = range->onset, outside = RELEASE_STEP * ceil(range->onset / RELEASE_STEP);
+  bool fails = false;
+  for (; outside < TOP; outside += RELEASE_STEP) {
+    KZ_TRY(release_fails(path, numerics, outside, &fails));
+    if (fails) break;
+    inside = outside;
+  }
+  while (fails && outside - inside > LOCATED) {
+    const double middle = (inside + outside) / 2;
+    bool here;
+    KZ_TRY(release_fails(path, numerics, middle, &here));
+    *(here ? &outside : &inside) = middle;
+  }
+  if (fails) range->release_end = outside;
+  return KZ_OK;
+}
+
+static kz_status work(void *context, int64_t tile, void *record) {
+  const kz_scene *scene = context;
+  flutter_range *range = record;
+  kz_pendulum pendulum;
+  const kz_path path = {pendulum_of_drive, &pendulum};
+  *range = (flutter_range){NAN, NAN, NAN, NAN};
+  if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
+  range->onset = find_onset(&path);
+  if (isnan(range->onset)) return KZ_OK;
+  follow_cycle(&path, range);
+  return follow_releases(&path, &scene->numerics, range);
+}
+
+static void print_cell(FILE *summary, int width, int digits, double value) {
+  if (isnan(value))
+    fprintf(summary, "  %*s", width, "-");
+  else
+    fprintf(summary, "  %*.*f", width, digits, value);
+}
+
+#define COLUMN(name, expression) KZ_COLUMN(store, "sweep", name, n, double, expression)
+
+static kz_status write_ranges(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
+  const flutter_range *ranges = records;
+  const int64_t n = scene->sweep.values.count;
+  COLUMN("flutter_onset", ranges[i].onset);
+  COLUMN("flutter_asymmetry", ranges[i].asymmetry);
+  COLUMN("flutter_end", ranges[i].end);
+  COLUMN("flutter_release_end", ranges[i].release_end);
+  fprintf(summary, "flutter zone over m    value        begins  1 deg release fails  asymmetric from  period doubles at\n");
+  for (int64_t i = 0; i < n; i++) {
+    fprintf(summary, "%28.9g", kz_sweep_value(&scene->sweep, i));
+    print_cell(summary, 12, 9, ranges[i].onset);
+    print_cell(summary, 19, 6, ranges[i].release_end);
+    print_cell(summary, 15, 9, ranges[i].asymmetry);
+    print_cell(summary, 17, 9, ranges[i].end);
+    fputc('\n', summary);
+  }
+  return KZ_OK;
+}
+
+kz_status kz_sweep_flutter_range(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  const kz_stage stage = {
+      .name = "sweep flutter zone", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(flutter_range), .work = work};
+  return kz_sweep_stage(scene, ranks, &stage, write_ranges, store, summary);
+}
