@@ -54,7 +54,7 @@ enum { KZ_DOUBTFUL = -1 };
 void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *label,
                                    int64_t *periods);
 
-/* kz_dynamics_follow in quad precision, by Taylor series (reference.h) of n_steps steps a period, from start [n][2] in rad and
+/* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) of n_steps steps a period, from start [n][2] in rad and
  * rad per drive radian, both taken as exact. */
 void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                                   int32_t *label, int64_t *periods);
@@ -112,5 +112,44 @@ void kz_basin_entropy(int64_t n_theta, int64_t n_velocity, const int16_t *label,
 /* Share of cells whose label differs from that of a cell `distance` columns away; circle = 1 where theta closes. */
 void kz_uncertain_share(int64_t n_theta, int64_t n_velocity, const int16_t *label, int64_t distance, int64_t circle,
                         double *share);
+
+/* ---- branches ---- */
+
+/* One cycle of the stroboscopic map carried from parameters to parameters.
+ *
+ * Angles in rad from the DOWN position, velocities in rad per drive radian. The map is the one of published values (split6, 96
+ * steps or more), whatever the scene's numerics. Nothing here is collective. */
+
+/* A cycle at one value of the parameters. */
+typedef struct {
+  double theta, velocity;                    /* the strobe point that is followed; theta in [-pi, pi] */
+  double amplitude;                          /* rad from its centre over continuous time; 0 for rotations */
+  double multiplier_re[2], multiplier_im[2]; /* over the period: larger modulus first, + imaginary first */
+  double half_re[2], half_im[2]; /* of the half map x -> -F^(n/2)(x) of a symmetric cycle (n = 1: -F); of the map F^n else */
+  double halves_distance; /* rad, between strobe points half a period apart, the nearest pair; HUGE_VAL for odd periods */
+  double mirror_distance; /* rad, between the cycle and its mirror image: the strobe point's nearest; 0 if symmetric */
+  int32_t period, winding, centre, symmetric; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
+} kz_branch_point;
+
+/* The cycle of `pendulum` that continues `from` (whose point, period, winding and symmetry count): Newton's method from its
+ * strobe point, each step at most half the last one, which keeps it from leaving for another cycle; symmetric cycles are solved
+ * on the half map (BSG's flutter: -F(x) = x). Returns 1 where one of the same period, winding and symmetry lies within
+ * `max_distance` rad, else 0 and *to is undefined. It need not attract. from == to is allowed. */
+int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *from, double max_distance, kz_branch_point *to);
+
+/* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
+int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);
+
+/* ---- step error ---- */
+
+/* Errors of one drive period, measured on a few thousand states before anything is labelled. Nothing here is collective. */
+
+/* error [n]: an upper estimate of the error of one drive period, by step doubling, for states with speeds from speed[c] to
+ * speed[c + 1] (rad per drive radian, speed [n + 1] ascending), whole circle; rad: twice the largest of 512 states. Huge where a
+ * state diverges. Double precision at most. */
+void kz_step_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *speed, double *error);
+
+/* The largest error of one period of the map table (`points` nodes an axis), rad. Needs the table. */
+double kz_dynamics_table_defect(kz_dynamics *dynamics, int32_t points);
 
 #endif

@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#include "kapitza/status.h"
+#include "kapitza/common.h"
 
 typedef struct {
   double k;    /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */
@@ -77,5 +77,59 @@ void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods
 
 /* The kernel's own sine: sin(pi u) of half-turns u [n], in the given kind (for tests). */
 void kz_sine(int32_t precision, int64_t n, const double *half_turns, double *sine);
+
+/* ---- linear ---- */
+
+/* The pendulum near an equilibrium, a lane per parameter point.
+ *
+ * u'' + beta u' + (k - m cos t) u = 0   (BUT Eq. 23; beta = 0: Mathieu's equation with a = 4k, q = 2m)
+ * t in drive radians; about the inverted state k is negative. With u = exp(-beta t/2) w the damping leaves the equation,
+ * w'' + (k - beta^2/4 - m cos t) w = 0, which is even in t: half a period is enough.
+ *
+ * Half a period: w(pi) = c, s and w'(pi) = c', s' of the two solutions with (w, w') = (1, 0), (0, 1) at t = 0. Over a whole
+ * period trace/2 = 2 c s' - 1 = 2 s c' + 1, so every transition curve is a zero of one of the four numbers. */
+
+/* One point, of Hill's equation without damping: matrix = c, s, c', s' in units of 2^exponent. */
+typedef struct {
+  double c, s, c_dot, s_dot;
+  int64_t exponent; /* 0 unless a number exceeded 2^400 */
+} kz_half_period;
+
+/* Solutions at t = pi for n points k [n], beta [n], m [n]. Relative error about 1e-15 (1 + sqrt(|k| + |m|)). */
+void kz_linear_half_period(int64_t n, const double *k, const double *beta, const double *m, kz_half_period *half);
+
+/* Floquet's answer for n points.
+ * log_multiplier [n]: natural log of the largest |multiplier| over one period.
+ * angle [n]: argument of that multiplier / 2 pi, in [0, 1/2].
+ * stable [n]: 1 where |trace| < 2 (beta = 0), |trace| < 1 + det (beta > 0), else 0. */
+void kz_linear_floquet(int64_t n, const double *k, const double *beta, const double *m, double *log_multiplier, double *angle,
+                       uint8_t *stable);
+
+/* ---- reference ---- */
+
+/* Whole drive periods in quad precision. States in real128, moved by Taylor series of order 56
+ * whose steps follow the motion; independent of the schemes of kernel.h. Labels are compared with it: its error is some 1e-32 a
+ * period, that of double precision 1e-16. */
+
+/* Steps a period that cost least; any other number gives the same motion to some 1e-32 a period. */
+enum { KZ_REFERENCE_STEPS = 18 };
+
+/* A state in quad precision. Opaque: kz_reference_start fills it, kz_reference_read shows it. Owned by the caller. */
+typedef struct {
+  _Alignas(16) unsigned char quads[32];
+  int64_t turns;
+} kz_reference_state;
+
+/* States [n] at t = 0 from doubles: theta [n] in rad, velocity [n] in rad per drive radian, both taken as exact. */
+void kz_reference_start(int64_t n, const double *theta, const double *velocity, kz_reference_state *states);
+
+/* Advances states [n] through `periods` whole periods with `steps` >= 1 a period, halved for a state whose series does not
+ * converge on them. A motion that no halving carries (some 1e7 times faster than the drive) becomes NaN. A state's result
+ * depends neither on its neighbours nor on how periods are shared out to calls; eight states or more go together at best
+ * speed, and tables are made per call. */
+void kz_reference_advance(const kz_pendulum *pendulum, int32_t steps, int64_t n, int64_t periods, kz_reference_state *states);
+
+/* The states rounded to doubles: theta [n] wrapped to [-pi, pi], turns [n] = net turns since kz_reference_start. */
+void kz_reference_read(int64_t n, const kz_reference_state *states, double *theta, double *velocity, int64_t *turns);
 
 #endif

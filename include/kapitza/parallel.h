@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "kapitza/status.h"
+#include "kapitza/common.h"
 
 typedef struct kz_ranks kz_ranks;
 

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "kapitza/status.h"
+#include "kapitza/common.h"
 
 typedef struct kz_store kz_store;
 

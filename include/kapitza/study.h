@@ -186,4 +186,9 @@ typedef struct {
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 
+/* KZ_REFUSED where the steps do not carry a study's motions. The message begins with the keys that a user could change
+ * ("numerics.steps_per_period|basin.velocity: ..."), and says at which speeds, and how many steps would do. A sweep is tried at
+ * both ends and between. */
+kz_status kz_steps_check(const kz_scene *scene);
+
 #endif

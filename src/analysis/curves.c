@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "hill.h"
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
 #include "mathieu.h"
 #include "roots.h"
 #include "tongues.h"

@@ -2,7 +2,7 @@
 #include <gsl/gsl_poly.h>
 #include <math.h>
 
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
 
 /* The slow equation BSG (10) is theta'' + beta theta' = -k sin(theta) - (m^2/2) sin(theta) cos(theta) u/(u^2 + beta^2),
  * u = 1 - k cos(theta). With d(theta)/d(energy) = k sin + ... its energy is
@@ -62,8 +62,8 @@ static double pull(double cosine, const hill_top *top) {
   return top->s.k + 0.5 * top->m * top->m * cosine * bracket(cosine, &top->s);
 }
 
-/* The lowest cosine at which pull changes its sign, 1 where it does nowhere. pull (u^2 + beta^2) is a quadratic in the cosine, here
- * divided by max(1, k^2) so that nothing overflows. */
+/* The lowest cosine at which pull changes its sign, 1 where it does nowhere. pull (u^2 + beta^2) is a quadratic in the cosine,
+ * here divided by max(1, k^2) so that nothing overflows. */
 static double first_balance(const hill_top *top) {
   const double k = top->s.k, beta = top->s.beta, unit = fmax(1, fabs(k));
   const double share = k / unit, drive = 0.5 * (top->m / unit) * (top->m / unit);

@@ -4,8 +4,8 @@
 #include <stdbool.h>
 
 #include "hill.h"
-#include "kapitza/linear.h"
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
+#include "kapitza/kernel.h"
 #include "mathieu.h"
 #include "roots.h"
 

@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "kapitza/app.h"
-#include "kapitza/memory.h"
+#include "app.h"
+#include "kapitza/common.h"
 
 static struct {
   bool armed;

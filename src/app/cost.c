@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 
 /* What a rank of any scene takes: the program, MPI, HDF5. */
 static const double PROCESS_BYTES = 5e7;

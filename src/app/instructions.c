@@ -1,7 +1,7 @@
 /* Compiled, like all layers, for the instruction set of the build: what the compiler says here is what the program uses. */
 #include <string.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 
 enum {
 #define BIT(name, bit, text) name##_BIT = 1u << bit,

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 enum { LONGEST_WORD = 63 };
 

@@ -1,8 +1,8 @@
 /* The table of every key of a scene. A study's keys stand under its own row; the row's field says whether it is wanted. */
 #include <string.h>
 
-#include "kapitza/scene.h"
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
+#include "scene.h"
 
 #define AT(field) offsetof(kz_scene, field)
 

@@ -4,7 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 
 /* The first instruction set that the build uses and this CPU lacks, or NULL. */
 static const char *missing_instruction(void) {
@@ -16,7 +16,8 @@ static const char *missing_instruction(void) {
   return NULL;
 }
 
-/* A file that is opened in the place of a closed standard stream would get what the program prints. What stands there instead fails. */
+/* A file that is opened in the place of a closed standard stream would get what the program prints. What stands there instead
+ * fails. */
 static void fill_streams(void) {
   static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
   for (int stream = 0; stream < 3; stream++)

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 
 /* The one number in a file; infinity where there is none ("max"). */
 static double read_number(const char *path) {
@@ -15,8 +15,8 @@ static double read_number(const char *path) {
   return bytes;
 }
 
-/* The lowest limit of a group and of those that it is in. A container may see its own group as the root: levels that are not there
- * have no limit of their own. */
+/* The lowest limit of a group and of those that it is in. A container may see its own group as the root: levels that are not
+ * there have no limit of their own. */
 static double lowest(const char *mount, char *group, const char *name) {
   double bytes = INFINITY;
   char path[2 * PATH_MAX];

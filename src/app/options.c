@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 #include "kapitza/version.h"
 
 enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8 };

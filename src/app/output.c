@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes) {
   int length;

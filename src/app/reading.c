@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 /* "FILE:LINE:COLUMN" or the option. */
 static void print_place(const kz_node *node, bool at_name, char *text, size_t bytes) {

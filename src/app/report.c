@@ -2,9 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 #include "kapitza/settling.h"
-#include "kapitza/steps.h"
 #include "kapitza/version.h"
 
 static char *write_scene(const kz_scene *scene, bool flat) {

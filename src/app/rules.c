@@ -2,9 +2,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "kapitza/scene.h"
 #include "kapitza/settling.h"
-#include "kapitza/steps.h"
+#include "scene.h"
 
 typedef struct {
   char text[32];
@@ -224,7 +223,7 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    attractors_rules, orbit_rules, stability_rules,  tradeoff_rules,
+static const rule rules[] = {basin_rules,    attractors_rules, orbit_rules, stability_rules,   tradeoff_rules,
                              pendulum_rules, numerics_rules,   sweep_rules, orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {

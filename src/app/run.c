@@ -6,9 +6,8 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 #include "kapitza/settling.h"
-#include "kapitza/steps.h"
 #include "kapitza/version.h"
 
 typedef struct {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 static const char *skip_digits(const char *c) {
   while (isdigit((unsigned char)*c)) c++;

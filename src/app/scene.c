@@ -1,5 +1,5 @@
 /* A scene: file and options -> tree -> kz_scene. */
-#include "kapitza/scene.h"
+#include "scene.h"
 
 #include <errno.h>
 #include <limits.h>

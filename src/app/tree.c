@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 void kz_tree_free(kz_node *root) {
   while (root) {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 static const char *read_text(const kz_key *key, const kz_node *node, void *field) {
   (void)key;

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 /* True where a mapping on the way to `key` is a study that the scene does not hold. */
 static bool is_left_out(const kz_key *keys, const kz_key *key, const void *scene) {

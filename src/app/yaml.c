@@ -4,7 +4,7 @@
 #include <string.h>
 #include <yaml.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 enum { MAX_DEPTH = 16 };
 

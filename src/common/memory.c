@@ -1,4 +1,4 @@
-#include "kapitza/memory.h"
+#include "kapitza/common.h"
 
 #include <stdlib.h>
 

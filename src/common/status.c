@@ -1,4 +1,4 @@
-#include "kapitza/status.h"
+#include "kapitza/common.h"
 
 #include <stdarg.h>
 #include <stdio.h>

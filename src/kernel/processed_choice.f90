@@ -12,7 +12,7 @@ module kz_kernel_processed_choice
   implicit none
   private
 
-  !> Codes of status.h.
+  !> Codes of common.h.
   integer(c_int32_t), parameter :: OK = 0, REFUSED = 2
   !> Numbers of steps are multiples of STRIDE; KZ_MOST_PROCESSED_STEPS of kernel.h.
   integer, parameter :: STRIDE = 4, FEWEST_STEPS = 12, MOST_STEPS = 160

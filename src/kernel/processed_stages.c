@@ -1,6 +1,6 @@
-/* The inner loop of the processed splitting in single and double precision: one text, two kinds of real. Written with the compilers'
- * vector types because gfortran does not keep the states in registers (1.5 times slower). Operations per lane and kick: a drift
- * (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2). */
+/* The inner loop of the processed splitting in single and double precision: one text, two kinds of real. Written with the
+ * compilers' vector types because gfortran does not keep the states in registers (1.5 times slower). Operations per lane and
+ * kick: a drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2). */
 #include <stdint.h>
 
 #if defined __AVX512F__
@@ -27,4 +27,3 @@ enum { WIDTH = 64 };
 #define real float
 #define VECTOR vector_r32
 #define NAMED(name) name##_r32
-#include "processed_stages.inc"

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "kapitza/status.h"
+#include "kapitza/common.h"
 
 typedef struct {
   int file; /* -1: none is open */

@@ -4,7 +4,7 @@
 
 #include <hdf5.h>
 
-#include "kapitza/status.h"
+#include "kapitza/common.h"
 
 /* The failed HDF5 call as a status; `file` and `line` are where it was made. */
 kz_status kz_hdf5_fail(const char *file, int line);

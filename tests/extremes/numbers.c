@@ -7,8 +7,8 @@
 #include <float.h>
 #include <math.h>
 
-#include "kapitza/reference.h"
-#include "kapitza/step_error.h"
+#include "kapitza/dynamics.h"
+#include "kapitza/kernel.h"
 
 enum { SPLIT6 = 2, RK4 = 0, N = 8 };
 

@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "kapitza/linear.h"
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
+#include "kapitza/kernel.h"
 #include "mathieu.h"
 
 #define PI 3.14159265358979323846

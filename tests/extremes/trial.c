@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kapitza/step_error.h"
+#include "kapitza/dynamics.h"
 
 enum { ANGLES = 128, SPEEDS = 64, N = ANGLES * SPEEDS, CLASSES = 4, PENDULUMS = 12, MORE = 150, FINE = 192 };
 

@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "kapitza/linear.h"
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
+#include "kapitza/kernel.h"
 #include "reference.h"
 
 static const reference_span whole_file = {NULL, NULL};

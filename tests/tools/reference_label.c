@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 #include "catalogue.h"
-#include "kapitza/reference.h"
+#include "kapitza/kernel.h"
 
 enum { BATCH = 256 };
 static const double widest_circle = 1e-2; /* rad */

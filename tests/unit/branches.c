@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#include "kapitza/branches.h"
+#include "kapitza/dynamics.h"
 
 static const double PI = 3.14159265358979323846;
 

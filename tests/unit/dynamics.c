@@ -6,7 +6,7 @@
 
 #include "../tools/find.h"
 #include "kapitza/dynamics.h"
-#include "kapitza/reference.h"
+#include "kapitza/kernel.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "kapitza/app.h"
+#include "app.h"
 
 static char folder[] = "/tmp/kapitza-groups-XXXXXX";
 static const char *const folders[] = {"memory", "memory/job", "memory/job/step", "user", "user/a b"};

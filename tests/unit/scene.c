@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 enum { LONGEST = 4096 };
 

@@ -17,21 +17,6 @@
 
 #include "kapitza/store.h"
 
-#include <cmocka.h>
-#include <hdf5.h>
-#include <hdf5_hl.h>
-#include <math.h>
-#include <setjmp.h>
-#include <signal.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 static char folder[] = "/tmp/kapitza-store-XXXXXX";
 static char path[64], part[72];
 

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "kapitza/reference.h"
+#include "kapitza/kernel.h"
 
 #define PI 3.14159265358979323846
 #define Q5_11(m_) {1.0 / 121, 1.0 / 55, m_}

@@ -10,9 +10,8 @@
 #include <cmocka.h>
 
 #include "hill.h"
+#include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
-#include "kapitza/linear.h"
-#include "kapitza/stability.h"
 #include "mathieu.h"
 
 #define PI 3.14159265358979323846

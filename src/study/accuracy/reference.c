@@ -7,8 +7,8 @@
 #include "common/cells.h"
 #include "common/search.h"
 #include "common/share.h"
-#include "kapitza/reference.h"
-#include "kapitza/steps.h"
+#include "common/step_check.h"
+#include "kapitza/kernel.h"
 
 enum {
   NODES = 1000,  /* of the map table, an axis */

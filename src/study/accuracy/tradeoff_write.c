@@ -3,8 +3,8 @@
 
 #include "common/cells.h"
 #include "common/column.h"
-#include "kapitza/reference.h"
-#include "kapitza/steps.h"
+#include "common/step_check.h"
+#include "kapitza/kernel.h"
 #include "tradeoff.h"
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)

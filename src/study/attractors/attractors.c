@@ -6,8 +6,8 @@
 #include "common/catalogue.h"
 #include "common/cells.h"
 #include "common/search.h"
+#include "common/step_check.h"
 #include "kapitza/settling.h"
-#include "kapitza/steps.h"
 
 typedef struct {
   const kz_attractors_plan *plan;

@@ -11,9 +11,9 @@
 #include "accuracy/accuracy.h"
 #include "common/catalogue.h"
 #include "common/search.h"
+#include "common/step_check.h"
+#include "kapitza/dynamics.h"
 #include "kapitza/settling.h"
-#include "kapitza/step_error.h"
-#include "kapitza/steps.h"
 
 enum {
   CELLS = 4096, /* of a tile, at most */

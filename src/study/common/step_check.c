@@ -1,5 +1,5 @@
 /* Whether the numerics can carry a scene: step doubling on a sample of every class of speeds. */
-#include "kapitza/steps.h"
+#include "step_check.h"
 
 #include <float.h>
 #include <math.h>

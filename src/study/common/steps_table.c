@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "cells.h"
-#include "kapitza/steps.h"
+#include "step_check.h"
 
 enum { MOST_NODES = 10000 }; /* an axis, that are advised: 2.5 GB */
 

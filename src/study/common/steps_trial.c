@@ -3,8 +3,8 @@
 #include <float.h>
 #include <math.h>
 
-#include "kapitza/step_error.h"
-#include "kapitza/steps.h"
+#include "kapitza/dynamics.h"
+#include "step_check.h"
 
 /* rad: above it the error of a period in double precision is that of the steps, not of rounding. */
 static const double ROUNDED = 1e-10;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
 
 static const char *const GROUP = "potential";
 

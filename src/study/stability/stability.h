@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_STABILITY_H
 #define KAPITZA_STUDY_STABILITY_H
 
-#include "kapitza/stability.h"
+#include "kapitza/analysis.h"
 #include "kapitza/study.h"
 
 bool kz_stability_wanted(const kz_scene *scene);

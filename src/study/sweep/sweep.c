@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/step_check.h"
 #include "kapitza/settling.h"
-#include "kapitza/steps.h"
 
 #define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
 const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {

@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_SWEEP_H
 #define KAPITZA_STUDY_SWEEP_H
 
-#include "kapitza/branches.h"
+#include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
 /* Value i of the sweep, both ends exact. */

@@ -2,8 +2,8 @@
  *
  * ONE table, kz_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/scene.md
  * all come from its rows: a new key is a new row. */
-#ifndef KAPITZA_SCENE_H
-#define KAPITZA_SCENE_H
+#ifndef KAPITZA_APP_SCENE_H
+#define KAPITZA_APP_SCENE_H
 
 #include <float.h>
 #include <stdbool.h>

@@ -2,8 +2,10 @@
  *
  * A failing function sets the message once, where it knows most (kz_fail), and returns the code; callers carry the code up
  * with KZ_TRY. Only app/main.c prints the message and ends the program. */
-#ifndef KAPITZA_STATUS_H
-#define KAPITZA_STATUS_H
+#ifndef KAPITZA_COMMON_H
+#define KAPITZA_COMMON_H
+
+#include <stddef.h>
 
 /* The value is the exit status of the program. */
 typedef enum {
@@ -26,5 +28,18 @@ void kz_message_clear(void);
     kz_status kz_try_status = (call);                 \
     if (kz_try_status != KZ_OK) return kz_try_status; \
   } while (0)
+
+/* ---- memory ---- */
+
+/* Memory of the Fortran layers. Code that gfortran makes for automatic arrays, temporaries and assignments does not look
+ * whether there was memory: the build renames malloc, calloc and realloc in those layers to the functions here, which do. */
+
+/* As in C, but they return only where there was memory. */
+void *kz_malloc(size_t bytes);
+void *kz_calloc(size_t n, size_t bytes);
+void *kz_realloc(void *old, size_t bytes);
+
+/* What is done where there is none: `leave` must end the process. Without it: abort. */
+void kz_memory_on_failure(void (*leave)(void));
 
 #endif

@@ -1,11 +1,11 @@
 /* app: the command line, what its commands do, and messages for people (C; layer 4). */
-#ifndef KAPITZA_APP_H
-#define KAPITZA_APP_H
+#ifndef KAPITZA_APP_APP_H
+#define KAPITZA_APP_APP_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "kapitza/scene.h"
+#include "scene.h"
 
 /* Instruction sets that this build uses, as bits; the program's entry refuses a CPU that lacks one of them. */
 #define KZ_INSTRUCTION_LIST(X) \
