@@ -52,7 +52,7 @@ def test_all_cells_of_a_small_window_leave_no_interval(kapitza, tmp_path):
 
 def test_wrong_share_is_not_understated(tmp_path):
     """All cells of a small window against the wrong ones of 200: some 13 % are wrong by any method in double precision, up to three
-    times as many doubtful. (tests/unit/dynamics.c compares cell by cell at epsilon = 0.46.)"""
+    times as many doubtful. (tests/unit/dynamics/dynamics.c compares cell by cell at epsilon = 0.46.)"""
     keys = {"quality_factor": 20, "drive_frequency": 8, "drive_amplitude": 0.35}
     basin = {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60}, "attractors": {"starts": 2048}}
     stated, wrong = compare(Kapitza(tmp_path, 1), {"pendulum": keys, "basin": basin}, 200)

@@ -116,8 +116,8 @@ static void test_tangent_lanes(void **state) {
     }
 }
 
-/* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly; the processed one in its own coordinates, in the
- * physical ones but for the truncation of the change of coordinates. */
+/* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly; the processed one in its own coordinates,
+ * in the physical ones but for the truncation of the change of coordinates. */
 static void test_determinant(void **state) {
   (void)state;
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++)
@@ -139,8 +139,8 @@ static void test_determinant(void **state) {
 }
 
 /* The tangent map is the derivative of the map. */
-/* In its own coordinates the processed splitting contracts areas exactly; with steps that are fine enough for the change of coordinates
- * to be inverted exactly, so it does in the physical ones. */
+/* In its own coordinates the processed splitting contracts areas exactly; with steps that are fine enough for the change of
+ * coordinates to be inverted exactly, so it does in the physical ones. */
 static void test_exact_determinant(void **state) {
   (void)state;
   for (int steps = 96; steps <= 160; steps += 32) {
@@ -169,14 +169,19 @@ static void test_rest(void **state) {
   }
 }
 
-/* The number of steps that is chosen keeps its promise on other states than those it was measured on, and fast states go by split6. */
+/* The number of steps that is chosen keeps its promise on other states than those it was measured on, and fast states go by
+ * split6. */
 static void test_choice(void **state) {
   (void)state;
   const struct {
     kz_pendulum pendulum;
     double fastest, tolerance;
-  } cases[] = {{{1.0 / 121, 1.0 / 55, 0.3}, 2, 1e-12}, {{1.0 / 121, 1.0 / 55, 0.46}, 2, 3e-10}, {{0.1, 0.1, 1.5}, 3, 1e-7},
-               {{0, 0, 0.3}, 8, 1e-10},                {{-1, 0.1, 0.6}, 2, 1e-9},           {{0.1, 2.4, 0.5}, 2, 1e-11}};
+  } cases[] = {{{1.0 / 121, 1.0 / 55, 0.3}, 2, 1e-12},
+               {{1.0 / 121, 1.0 / 55, 0.46}, 2, 3e-10},
+               {{0.1, 0.1, 1.5}, 3, 1e-7},
+               {{0, 0, 0.3}, 8, 1e-10},
+               {{-1, 0.1, 0.6}, 2, 1e-9},
+               {{0.1, 2.4, 0.5}, 2, 1e-11}};
   for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
     kz_numerics numerics = {.precision = KZ_DOUBLE};
     const kz_numerics exact = {.scheme = KZ_SPLIT6, .steps_per_period = 600, .precision = KZ_QUAD};
@@ -273,9 +278,12 @@ static void test_subnormals(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_sine),          cmocka_unit_test(test_mirror),      cmocka_unit_test(test_lanes),
-      cmocka_unit_test(test_tangent_lanes), cmocka_unit_test(test_determinant), cmocka_unit_test(test_tangent),
-      cmocka_unit_test(test_sample), cmocka_unit_test(test_exact_determinant), cmocka_unit_test(test_rest), cmocka_unit_test(test_choice),       cmocka_unit_test(test_subnormals),
+      cmocka_unit_test(test_sine),        cmocka_unit_test(test_mirror),
+      cmocka_unit_test(test_lanes),       cmocka_unit_test(test_tangent_lanes),
+      cmocka_unit_test(test_determinant), cmocka_unit_test(test_tangent),
+      cmocka_unit_test(test_sample),      cmocka_unit_test(test_exact_determinant),
+      cmocka_unit_test(test_rest),        cmocka_unit_test(test_choice),
+      cmocka_unit_test(test_subnormals),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <cmocka.h>
 
-#include "../tools/find.h"
+#include "../../tools/find.h"
 #include "kapitza/dynamics.h"
 #include "kapitza/kernel.h"
 
