@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kapitza_file import BadFile
 
-NEEDS_TOOL = pytest.mark.skipif(not reference_check.REFERENCE_LABEL.exists(), reason="build/tests/reference_label is not built")
+NEEDS_TOOL = pytest.mark.skipif(not reference_check.REFERENCE_LABEL.exists(), reason="build/benchmarks/reference_label is not built")
 
 
 @given(st.integers(1, 10**6), st.floats(0, 1))

@@ -16,7 +16,7 @@ import reference_coverage
 from conftest import PROGRAM, ROOT, datasets
 from kapitza_file import Result
 
-sys.path.insert(0, str(ROOT / "tests" / "tools"))
+sys.path.insert(0, str(ROOT / "benchmarks"))
 from reference_check import Catalogue, reference_labels  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"

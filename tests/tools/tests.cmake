@@ -1,9 +1,3 @@
-# Checks of results, used by Python drivers and by the benchmark.
-add_executable(reference_label tools/reference_label.c tools/catalogue.c)
-target_compile_options(reference_label PRIVATE ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
-target_link_libraries(reference_label PRIVATE kapitza_kernel)
-set_target_properties(reference_label PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-
 # A malloc that fails on purpose, for tests/python/test_memory.py.
 add_library(failing_memory MODULE tools/failing_memory.c)
 target_compile_options(failing_memory PRIVATE ${KAPITZA_FLAGS_C} -fno-builtin)

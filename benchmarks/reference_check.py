@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Compares the labels of a basin file with quad precision: the share of wrong ones among random cells, with its 95 % interval.
 
-    tests/tools/reference_check.py blackburn-fig12.h5 --cells 1000 --seed 7
+    benchmarks/reference_check.py blackburn-fig12.h5 --cells 1000 --seed 7
 
-Every sampled cell is followed by build/tests/reference_label to an attractor of the file's catalogue. Unsettled cells are wrong.
+Every sampled cell is followed by build/benchmarks/reference_label to an attractor of the file's catalogue. Unsettled cells are wrong.
 A cell whose true orbit comes to none of the periodic attractors belongs to the chaotic ones; without any it is wrong.
 """
 
@@ -16,12 +16,12 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 
 from kapitza_file import BadFile, Result, run  # noqa: E402
 
-REFERENCE_LABEL = ROOT / "build" / "tests" / "reference_label"
+REFERENCE_LABEL = ROOT / "build" / "benchmarks" / "reference_label"
 NONE = -1
 
 

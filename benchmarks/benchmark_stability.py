@@ -8,16 +8,21 @@ import argparse
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
 
 import mpmath
 import numpy as np
-from kapitza_file import BadFile, Result, run
 from scipy.integrate import solve_ivp
 
-PROGRAM = Path(__file__).resolve().parents[1] / "build" / "kapitza"
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from kapitza_file import BadFile, Result, run  # noqa: E402
+
+PROGRAM = ROOT / "build" / "kapitza"
 SCENE = """\
 pendulum: {{k: 0, damping: 0, m: 0.5}}
 stability:
