@@ -2,7 +2,7 @@
 
 The textbook programs (benchmarks/) label a random subset of the scene's cells and are told the attractors; only their
 labelling is timed. This program labels the whole scene; its time is that of the whole command: start, discovery, table,
-cells, file. All take turns, so that the machine's moods hit all alike; ratios are taken within each round."""
+cells, file. The programs are run alternately, so changes of the machine's speed affect all; ratios are taken within each round."""
 
 import argparse
 import hashlib

@@ -16,7 +16,7 @@ typedef struct {
   double m;    /* drive, any sign */
 } kz_pendulum;
 
-/* Kinds: one text for all three. */
+/* Kinds of real numbers: the same source serves all three. */
 enum { KZ_SINGLE = 0, KZ_DOUBLE = 1, KZ_QUAD = 2 };
 
 typedef struct {

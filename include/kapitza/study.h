@@ -46,7 +46,7 @@ typedef struct {
   int64_t values[KZ_LIST_MAX];
 } kz_integers;
 
-/* Study `attractors`: the axes' counts are of no meaning. */
+/* Study `attractors`: the counts of the axes are not used. */
 typedef struct {
   kz_axis theta, velocity;
   int64_t starts, max_period, seed;
@@ -102,7 +102,7 @@ typedef struct {
   int32_t parameter; /* row of kz_sweep_parameters */
   kz_axis values;    /* both ends included */
   kz_integers measure;
-  kz_axis theta, velocity; /* window of starts; the axes' counts are of no meaning */
+  kz_axis theta, velocity; /* window of starts; the counts of the axes are not used */
   int64_t starts, max_period, seed;
   double start_theta, start_velocity; /* of the bifurcation diagram */
   int64_t transient, samples;         /* drive periods at each value before the record, and of it */
@@ -186,7 +186,7 @@ typedef struct {
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 
-/* KZ_REFUSED where the steps do not carry a study's motions. The message begins with the keys that a user could change
+/* KZ_REFUSED where the steps are too coarse for a study's motions. The message begins with the keys that a user could change
  * ("numerics.steps_per_period|basin.velocity: ..."), and says at which speeds, and how many steps would do. A sweep is tried at
  * both ends and between. */
 kz_status kz_steps_check(const kz_scene *scene);

@@ -30,7 +30,7 @@ static void say(const char *what, const char *otherwise) {
   if (here.ranks) kz_ranks_forget(here.ranks);
   snprintf(line, sizeof line, "kapitza: %s%s%s%s\n", what, saved ? "; finished work is in " : otherwise, saved ? saved : "",
            saved ? ", --resume goes on from it" : "");
-  if (speaks() && write(STDERR_FILENO, line, strlen(line)) < 0) return; /* nobody listens */
+  if (speaks() && write(STDERR_FILENO, line, strlen(line)) < 0) return; /* a failed write cannot be reported */
 }
 
 static void say_error(const char *what) {

@@ -35,7 +35,7 @@ void kz_cost_print_bytes(double bytes, char *text) {
   snprintf(text, 32, i == 0 ? "%.0f %s" : "%.1f %s", bytes, units[i]);
 }
 
-/* Asks for the memory at once and gives it back: limits of this process (ulimit, batch systems) answer before modelling. */
+/* Allocates the memory and frees it at once, so that limits of this process (ulimit, batch systems) show before modelling. */
 static bool may_have(double bytes) {
   void *volatile memory = malloc((size_t)bytes);
   free(memory);
@@ -52,10 +52,11 @@ kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   kz_cost_print_bytes(sum > memory ? sum : mine, needed);
   if (sum <= memory) {
     if (may_have(mine)) return KZ_OK;
-    return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; smaller counts",
+    return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; use smaller counts",
                    needed);
   }
   kz_cost_print_bytes(memory, there);
-  return kz_fail(KZ_REFUSED, "scene: needs %s of memory for %d ranks on this node, which has %s; smaller counts or fewer ranks",
-                 needed, ranks, there);
+  return kz_fail(KZ_REFUSED,
+                 "scene: needs %s of memory for %d ranks on this node, which has %s; use smaller counts or fewer ranks", needed,
+                 ranks, there);
 }

@@ -1,4 +1,4 @@
-/* What can be asked of a row of the table. */
+/* Functions on a row of the table of keys. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -98,7 +98,7 @@ static size_t distance(const char *a, const char *b) {
 }
 
 bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes) {
-  size_t best = strlen(word) / 3 + 1; /* worse is no likeness */
+  size_t best = strlen(word) / 3 + 1; /* a larger distance is no similarity */
   if (best > 3) best = 3;
   bool found = false;
   for (const char *start = words; *start;) {

@@ -16,8 +16,8 @@ static const char *missing_instruction(void) {
   return NULL;
 }
 
-/* A file that is opened in the place of a closed standard stream would get what the program prints. What stands there instead
- * fails. */
+/* Fills closed standard streams with /dev/null, opened so that using them fails: else a file opened later would take the place
+ * of one and receive what the program prints. */
 static void fill_streams(void) {
   static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
   for (int stream = 0; stream < 3; stream++)
@@ -47,7 +47,8 @@ int main(int argc, char **argv) {
   fill_streams();
   const char *missing = missing_instruction();
   if (missing) {
-    fprintf(stderr, "kapitza: error: this program was built for %s, which this CPU lacks; a build with -DKAPITZA_ARCH=x86-64\n",
+    fprintf(stderr,
+            "kapitza: error: this program was built for %s, which this CPU lacks; build it with -DKAPITZA_ARCH=x86-64\n",
             missing);
     return KZ_REFUSED;
   }

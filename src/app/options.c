@@ -26,7 +26,7 @@ static const command_row top = {"", TOP, " COMMAND", NULL, "basins of attraction
 
 static kz_status set_output(kz_options *options, const char *argument) {
   options->output = argument;
-  return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--output: the name is empty; the name of a file");
+  return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--output: the name is empty; give the name of a file");
 }
 
 static kz_status add_set(kz_options *options, const char *argument) {
@@ -57,7 +57,7 @@ static kz_status set_time_limit(kz_options *options, const char *argument) {
   const kz_node node = {.kind = KZ_SCALAR, .text = number, .plain = true};
   const char *wrong = kz_scalar_real(&node, &options->time_limit);
   if (wrong || options->time_limit <= 0.0)
-    return kz_fail(KZ_REFUSED, "--time-limit: \"%s\" %s; a time above 0 such as 90, 30m, 1.5h", argument,
+    return kz_fail(KZ_REFUSED, "--time-limit: \"%s\" %s; give a time above 0, such as 90, 30m or 1.5h", argument,
                    wrong ? wrong : "is not above 0");
   options->time_limit *= unit ? seconds[unit - units] : 1.0;
   return KZ_OK;
@@ -71,7 +71,7 @@ static kz_status set_progress(kz_options *options, const char *argument) {
       options->progress = (kz_progress)i;
       return KZ_OK;
     }
-  return kz_fail(KZ_REFUSED, "--progress: \"%s\" is unknown; one of auto, always, never", argument);
+  return kz_fail(KZ_REFUSED, "--progress: \"%s\" is unknown; it must be auto, always or never", argument);
 }
 
 static const struct {
@@ -175,7 +175,7 @@ static kz_status read_operands(const command_row *command, int argc, char **argv
   if (argc - optind < wanted)
     return kz_fail(KZ_REFUSED, "%s: names no scene; kapitza %s%s", command->name, command->name, command->operand);
   if (wanted) options->scene = argv[optind];
-  if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; one of them");
+  if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; use one of them");
   return KZ_OK;
 }
 
@@ -202,7 +202,7 @@ static kz_status dispatch(int argc, char **argv, kz_options *options) {
   }
   if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);
-  return kz_fail(KZ_REFUSED, "%.80s: unknown command; run, check or keys", argv[1]);
+  return kz_fail(KZ_REFUSED, "%.80s: unknown command; it must be run, check or keys", argv[1]);
 }
 
 /* The words of the command line, with a space between. */

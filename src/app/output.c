@@ -21,7 +21,7 @@ kz_status kz_output_name(const kz_options *options, char *path, size_t bytes) {
     length = snprintf(path, bytes, "%.*s.h5", (int)(yaml ? (size_t)(dot - base) : strlen(base)), base);
   }
   if (length >= 0 && (size_t)length < bytes) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "%.80s...: the name of the output is too long; a shorter one", path);
+  return kz_fail(KZ_REFUSED, "%.80s...: the name of the output is too long; use a shorter one", path);
 }
 
 static kz_status check_folder(const char *path) {
@@ -30,8 +30,8 @@ static kz_status check_folder(const char *path) {
   snprintf(copy, sizeof copy, "%s", path);
   const char *folder = dirname(copy);
   if (stat(folder, &facts) != 0)
-    return kz_fail(KZ_REFUSED, "%s: the folder %s cannot be used: %s; an existing folder", path, folder, strerror(errno));
-  if (!S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: %s is a file; an existing folder", path, folder);
+    return kz_fail(KZ_REFUSED, "%s: the folder %s cannot be used: %s; name an existing folder", path, folder, strerror(errno));
+  if (!S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: %s is a file; name an existing folder", path, folder);
   return KZ_OK;
 }
 
@@ -51,22 +51,22 @@ static kz_status check_names(const char *path, const char *scene, bool *exists) 
     *exists = lstat(name, &file) == 0;
     if (stat(name, &file) == 0) {
       if (!S_ISREG(file.st_mode))
-        return kz_fail(KZ_REFUSED, "%s: is %s; the name of a file", name,
+        return kz_fail(KZ_REFUSED, "%s: is %s; give the name of a file", name,
                        S_ISDIR(file.st_mode) ? "a folder" : "not a regular file");
-      if (is_same_file(&file, scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; another name", name);
+      if (is_same_file(&file, scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; use another name", name);
     } else if (errno != ENOENT) {
-      return kz_fail(KZ_REFUSED, "%s: cannot be used: %s; another name", name, strerror(errno));
+      return kz_fail(KZ_REFUSED, "%s: cannot be used: %s; use another name", name, strerror(errno));
     }
   }
   return KZ_OK;
 }
 
-/* A file is made in the folder and removed again: permissions, read-only mounts and quotas all answer. */
+/* Creates a file in the folder and removes it, which tests permissions, read-only mounts and quotas. */
 static kz_status try_folder(const char *path) {
   char name[PATH_MAX + 16];
   snprintf(name, sizeof name, "%s.XXXXXX", path);
   const int file = mkstemp(name);
-  if (file < 0) return kz_fail(KZ_REFUSED, "%s: cannot be written: %s; a name in a writable folder", path, strerror(errno));
+  if (file < 0) return kz_fail(KZ_REFUSED, "%s: cannot be written: %s; use a name in a writable folder", path, strerror(errno));
   close(file);
   unlink(name);
   return KZ_OK;
@@ -79,11 +79,12 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
   KZ_TRY(check_names(path, options->scene, &exists));
   if (!exists) return try_folder(path);
   if (options->force) return try_folder(path);
-  if (!options->resume) return kz_fail(KZ_REFUSED, "%s: exists; --force to overwrite it, or another name", path);
+  if (!options->resume) return kz_fail(KZ_REFUSED, "%s: exists; use --force to overwrite it, or another name", path);
   char *there = kz_store_fingerprint(path);
   const kz_status status =
       there ? kz_fingerprint_compare(path, there, fingerprint)
-            : kz_fail(KZ_REFUSED, "%s: exists and is no file of this program; --force, or another name", path);
+            : kz_fail(KZ_REFUSED, "%s: exists and is no file of this program; use --force to overwrite it, or another name",
+                      path);
   free(there);
   *complete = status == KZ_OK;
   return status;

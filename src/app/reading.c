@@ -65,9 +65,9 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
   if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
     snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);
   if (node->kind == KZ_SCALAR && node->text[0])
-    kz_complain(reading, node, key->path, "\"%.60s\" %s; %s%s", node->text, wrong, accepted, hint);
+    kz_complain(reading, node, key->path, "\"%.60s\" %s; it must be %s%s", node->text, wrong, accepted, hint);
   else
-    kz_complain(reading, node, key->path, "the value %s; %s", wrong, accepted);
+    kz_complain(reading, node, key->path, "the value %s; it must be %s", wrong, accepted);
 }
 
 static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path) {
@@ -78,7 +78,7 @@ static void complain_unknown(kz_reading *reading, const kz_node *node, const cha
     return;
   }
   kz_key_list(names, list, sizeof list);
-  complain_key(reading, node, path, "unknown key; one of %s", list);
+  complain_key(reading, node, path, "unknown key; the keys are %s", list);
 }
 
 static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent);
@@ -118,7 +118,8 @@ static void read_child(kz_reading *reading, const kz_node *mapping, const kz_nod
   else if (!key)
     complain_unknown(reading, child, parent, path);
   else if (chooser && chooser->form != key->form)
-    complain_key(reading, child, path, "contradicts %s, another way to give the same; the keys of one way", chooser->path);
+    complain_key(reading, child, path, "contradicts %s, which gives the same in another way; use the keys of one way",
+                 chooser->path);
   else
     read_key(reading, key, child);
 }
@@ -154,14 +155,14 @@ static void check_missing(kz_reading *reading, const kz_key *key) {
   const kz_key *chooser = key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
   if (chooser && chooser->form != key->form) return;
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
-  kz_complain(reading, NULL, key->path, "is missing; %s", accepted);
+  kz_complain(reading, NULL, key->path, "is missing; it must be %s", accepted);
 }
 
 /* A key beside the number that answers it. */
 static void check_chosen(kz_reading *reading, const kz_key *key) {
   const kz_node *node = key->chosen_by ? kz_tree_find(reading->root, key->path) : NULL;
   if (node && kz_tree_find(reading->root, key->chosen_by))
-    complain_key(reading, node, key->path, "contradicts %s, which chooses it; one of them", key->chosen_by);
+    complain_key(reading, node, key->path, "contradicts %s, which chooses it; give one of them", key->chosen_by);
 }
 
 /* A top-level mapping with a field is a study: at least one is needed. */
@@ -172,10 +173,10 @@ static void check_studies(kz_reading *reading) {
     if (kz_tree_child(reading->root, key->path)) return;
     snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? ", " : "", key->path);
   }
-  kz_complain(reading, NULL, "scene", "asks for no study; at least one of: %s", names);
+  kz_complain(reading, NULL, "scene", "asks for no study; give at least one of: %s", names);
 }
 
-/* The default of a key, through the same door as a user's value. */
+/* The default of a key, read by the same code as a user's value. */
 static kz_status set_default(const kz_key *key, void *scene) {
   kz_value_clear(key, scene);
   if (key->type == KZ_KEY_MAPPING || !key->fallback || !key->fallback[0]) return KZ_OK;
@@ -200,7 +201,8 @@ kz_status kz_reading_keys(kz_reading *reading) {
   number(reading->root, &next);
   for (const kz_key *key = reading->keys; key->path; key++) KZ_TRY(set_default(key, reading->scene));
   if (reading->root->kind != KZ_MAPPING) {
-    kz_complain(reading, reading->root, "scene", "is not a mapping; lines such as \"pendulum: {k: 0, damping: 0.05, m: 0.5}\"");
+    kz_complain(reading, reading->root, "scene",
+                "is not a mapping; write lines such as \"pendulum: {k: 0, damping: 0.05, m: 0.5}\"");
     return KZ_OK;
   }
   read_mapping(reading, reading->root, "");

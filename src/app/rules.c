@@ -24,11 +24,11 @@ static void check_axis(kz_reading *reading, const kz_axis *axis, const char *pat
   const kz_node *node = kz_tree_find(reading->root, name);
   const double cell = (axis->max - axis->min) / (double)(axis->count > 0 ? axis->count : 1);
   if (axis->max <= axis->min)
-    kz_complain(reading, node, name, "%s is not above min = %s; a larger number", shortest(axis->max).text,
+    kz_complain(reading, node, name, "%s is too small; it must be greater than min = %s", shortest(axis->max).text,
                 shortest(axis->min).text);
   else if (cell < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max)))
     kz_complain(reading, node, name,
-                "%s leaves cells of width %g, too narrow for double precision; a wider window or a smaller count",
+                "%s leaves cells of width %g, too narrow for double precision; use a wider window or a smaller count",
                 shortest(axis->max).text, cell);
 }
 
@@ -38,15 +38,15 @@ static void theta_window(kz_reading *reading, kz_axis *theta, const char *path) 
   snprintf(min, sizeof min, "%s.min", path);
   snprintf(max, sizeof max, "%s.max", path);
   const kz_node *min_node = kz_tree_find(reading->root, min), *max_node = kz_tree_find(reading->root, max);
-  if (min_node && !max_node) kz_complain(reading, NULL, max, "is missing beside min; both or neither");
-  if (max_node && !min_node) kz_complain(reading, NULL, min, "is missing beside max; both or neither");
+  if (min_node && !max_node) kz_complain(reading, NULL, max, "is missing beside min; give both or neither");
+  if (max_node && !min_node) kz_complain(reading, NULL, min, "is missing beside max; give both or neither");
   if (!min_node && !max_node) {
     theta->min = -M_PI;
     theta->max = M_PI;
   }
   check_axis(reading, theta, path);
   if (theta->max - theta->min > 2.0 * M_PI)
-    kz_complain(reading, max_node, max, "%s makes the window %s rad wide; at most 2 pi", shortest(theta->max).text,
+    kz_complain(reading, max_node, max, "%s makes the window %s rad wide; it must be at most 2 pi", shortest(theta->max).text,
                 shortest(theta->max - theta->min).text);
 }
 
@@ -56,7 +56,7 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   check_axis(reading, &scene->basin.velocity, "basin.velocity");
   if (scene->basin.flag_undecided && (scene->basin.method == KZ_METHOD_ICM || !isnan(scene->basin.accuracy)))
     kz_complain(reading, kz_tree_find(reading->root, "basin.flag_undecided"), "basin.flag_undecided",
-                "asks about cells that are integrated; basin.method direct or hybrid");
+                "asks about cells that are integrated; choose basin.method direct or hybrid");
 }
 
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
@@ -65,7 +65,7 @@ static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   check_axis(reading, &scene->attractors.velocity, "attractors.velocity");
   if (scene->has_basin)
     kz_complain(reading, kz_tree_child(reading->root, "attractors"), "attractors",
-                "stands beside basin, which finds the attractors of its window itself; one of them");
+                "stands beside basin, which finds the attractors of its window itself; give one of them");
 }
 
 /* Complains about `name` of the study orbit where it is given. */
@@ -77,15 +77,15 @@ static void orbit_refuse(kz_reading *reading, const char *name, const char *why)
 /* The keys that an attractor answers itself. */
 static void orbit_attractor_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin && !scene->has_attractors)
-    orbit_refuse(reading, "orbit.attractor", "has no catalogue to choose from; a basin or attractors study in the same scene");
-  orbit_refuse(reading, "orbit.start", "contradicts attractor; one of them");
+    orbit_refuse(reading, "orbit.attractor", "has no catalogue to choose from; add a basin or attractors study to the scene");
+  orbit_refuse(reading, "orbit.start", "contradicts attractor; give one of them");
   if (!scene->orbit.closed)
     orbit_refuse(reading, "orbit.closed",
-                 "contradicts attractor, whose orbit is closed; true, or a start instead of attractor");
+                 "contradicts attractor, whose orbit is closed; set true, or give a start instead of attractor");
   scene->orbit.closed = true;
-  orbit_refuse(reading, "orbit.period", "is known with attractor; without it");
+  orbit_refuse(reading, "orbit.period", "is known from attractor; leave it out");
   if (scene->orbit.model != KZ_PENDULUM)
-    orbit_refuse(reading, "orbit.model", "has no attractors of the catalogue; pendulum, or a start");
+    orbit_refuse(reading, "orbit.model", "has no attractors of the catalogue; choose the model pendulum, or give a start");
 }
 
 static void orbit_rules(kz_reading *reading, kz_scene *scene) {
@@ -95,13 +95,14 @@ static void orbit_rules(kz_reading *reading, kz_scene *scene) {
   if (orbit->attractor != KZ_UNSET_INTEGER)
     orbit_attractor_rules(reading, scene);
   else if (!kz_tree_find(reading->root, "orbit.start"))
-    kz_complain(reading, NULL, "orbit.start", "is missing; a mapping of theta, velocity, or an attractor instead");
-  if (!linear) orbit_refuse(reading, "orbit.about", "is a choice of the model mathieu alone; without it");
+    kz_complain(reading, NULL, "orbit.start", "is missing; give a mapping of theta and velocity, or an attractor instead");
+  if (!linear) orbit_refuse(reading, "orbit.about", "belongs to the model mathieu alone; leave it out");
   if (orbit->model == KZ_EFFECTIVE && orbit->closed)
-    orbit_refuse(reading, "orbit.closed", "is not for the model effective, which knows no drive; false");
-  if (!orbit->closed) orbit_refuse(reading, "orbit.period", "is of closed orbits alone; closed: true beside it");
+    orbit_refuse(reading, "orbit.closed", "cannot be used with the model effective, which has no drive; set false");
+  if (!orbit->closed) orbit_refuse(reading, "orbit.period", "belongs to closed orbits alone; add closed: true");
   if (linear && orbit->closed && orbit->period == KZ_UNSET_INTEGER)
-    kz_complain(reading, NULL, "orbit.period", "is missing; the period of a closed orbit of the model mathieu cannot be found");
+    kz_complain(reading, NULL, "orbit.period",
+                "is missing; give the period of the closed orbit, which cannot be found for the model mathieu");
   if (linear && orbit->about == KZ_UNSET_WORD) orbit->about = 0;
 }
 
@@ -111,10 +112,10 @@ static void check_ends(kz_reading *reading, const kz_axis *axis, const char *pat
   snprintf(name, sizeof name, "%s.max", path);
   const kz_node *node = kz_tree_find(reading->root, name);
   if (axis->count == 1 && axis->max != axis->min)
-    kz_complain(reading, node, name, "%s is not min = %s though count is 1; the same number", shortest(axis->max).text,
-                shortest(axis->min).text);
+    kz_complain(reading, node, name, "%s differs from min = %s; they must be equal because count is 1",
+                shortest(axis->max).text, shortest(axis->min).text);
   else if (axis->count > 1 && axis->max <= axis->min)
-    kz_complain(reading, node, name, "%s is not above min = %s; a larger number", shortest(axis->max).text,
+    kz_complain(reading, node, name, "%s is too small; it must be greater than min = %s", shortest(axis->max).text,
                 shortest(axis->min).text);
 }
 
@@ -127,7 +128,7 @@ static void stability_rules(kz_reading *reading, kz_scene *scene) {
 static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_tradeoff || scene->has_basin) return;
   kz_complain(reading, kz_tree_child(reading->root, "tradeoff"), "tradeoff",
-              "has no window to label; a basin study in the same scene");
+              "has no window to label; add a basin study to the scene");
 }
 
 /* One value of the swept key: in the range of the key itself, and a pendulum. */
@@ -156,12 +157,12 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   check_axis(reading, &sweep->values, "sweep");
   if (scene->has_basin && !isnan(scene->basin.accuracy))
     kz_complain(reading, kz_tree_find(reading->root, "basin.accuracy"), "basin.accuracy",
-                "is chosen for one pendulum, a sweep has many; method, icm and numerics instead");
+                "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
   if (sweep->parameter == KZ_UNSET_WORD) return;
   const kz_node *node = kz_tree_find(reading->root, "sweep.parameter");
   snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[sweep->parameter].name);
   if (!kz_tree_find(reading->root, key))
-    kz_complain(reading, node, "sweep.parameter", "%s is not given in the pendulum mapping; a key that is written there",
+    kz_complain(reading, node, "sweep.parameter", "%s is not given in the pendulum mapping; name a key that is written there",
                 kz_sweep_parameters[sweep->parameter].name);
   sweep_value(reading, scene, "sweep.min", sweep->values.min);
   sweep_value(reading, scene, "sweep.max", sweep->values.max);
@@ -208,12 +209,13 @@ static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_orbit || reading->message[0]) return;
   const double steps = kz_orbit_steps(scene), k = scene->parameters.pendulum.k;
   if (steps > KZ_MOST_ORBIT_STEPS)
-    kz_complain(reading, kz_tree_find(reading->root, "orbit"), "orbit",
-                "needs %.3g steps a period for a motion this fast; at most %d: a slower start or weaker forces", steps,
-                KZ_MOST_ORBIT_STEPS);
+    kz_complain(
+        reading, kz_tree_find(reading->root, "orbit"), "orbit",
+        "needs %.3g steps a period for a motion this fast, at most %d are possible; use a slower start or weaker forces", steps,
+        KZ_MOST_ORBIT_STEPS);
   if (scene->orbit.model == KZ_EFFECTIVE && fabs(k) >= 1)
     kz_complain(reading, kz_tree_find(reading->root, "orbit.model"), "orbit.model",
-                "effective averages over a fast drive, abs(k) < 1, but k = %.9g; another model or a faster drive", k);
+                "effective averages over a fast drive, abs(k) < 1, but k = %.9g; use another model or a faster drive", k);
 }
 
 /* As long as the weakest damping needs, where the scene does not say. */

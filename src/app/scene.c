@@ -12,11 +12,11 @@ enum { MAX_BYTES = 1000000 };
 static kz_status check_file(const char *path) {
   struct stat facts;
   if (stat(path, &facts) != 0)
-    return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; the name of a scene file", path, strerror(errno));
-  if (S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is a folder; the name of a scene file", path);
-  if (!S_ISREG(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is not a regular file; the name of a scene file", path);
+    return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give the name of a scene file", path, strerror(errno));
+  if (S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is a folder; give the name of a scene file", path);
+  if (!S_ISREG(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is not a regular file; give the name of a scene file", path);
   if (facts.st_size > MAX_BYTES)
-    return kz_fail(KZ_REFUSED, "%s: has %lld bytes, too many for a scene; at most %d", path, (long long)facts.st_size,
+    return kz_fail(KZ_REFUSED, "%s: has %lld bytes, too many for a scene, which has at most %d", path, (long long)facts.st_size,
                    MAX_BYTES);
   return KZ_OK;
 }
@@ -24,7 +24,7 @@ static kz_status check_file(const char *path) {
 kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   KZ_TRY(check_file(path));
   FILE *file = fopen(path, "rb");
-  if (!file) return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; a readable scene file", path, strerror(errno));
+  if (!file) return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give a readable scene file", path, strerror(errno));
   *text = malloc(MAX_BYTES + 1);
   *length = *text ? fread(*text, 1, MAX_BYTES, file) : 0;
   const bool broken = ferror(file) != 0;
@@ -37,7 +37,7 @@ kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   free(*text);
   *text = NULL;
   if (memory) return kz_fail(KZ_FAILED, "out of memory while reading %s", path);
-  return kz_fail(KZ_REFUSED, "%s: cannot be read: %s; a readable scene file", path, strerror(errno));
+  return kz_fail(KZ_REFUSED, "%s: cannot be read: %s; give a readable scene file", path, strerror(errno));
 }
 
 /* Refuses an option whose key is not in the table, naming the nearest one of its mapping. */
@@ -51,7 +51,7 @@ static kz_status refuse_key(const kz_key *keys, const char *label, const char *p
   if (kz_key_suggest(dot ? dot + 1 : path, names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%s: %s: unknown key; did you mean %s%s%s?", label, path, parent, dot ? "." : "", nearest);
   kz_key_list(names, list, sizeof list);
-  return kz_fail(KZ_REFUSED, "%s: %s: unknown key; one of %s", label, path, list);
+  return kz_fail(KZ_REFUSED, "%s: %s: unknown key; the keys are %s", label, path, list);
 }
 
 /* One option, "KEY=VALUE"; label = the source that its errors name. */
@@ -59,7 +59,7 @@ static kz_status apply_set(const kz_key *keys, kz_node *root, const char *option
   const char *equals = strchr(option, '=');
   char path[256];
   if (!equals || equals == option || equals - option >= (long)sizeof path)
-    return kz_fail(KZ_REFUSED, "%s: is not KEY=VALUE; such as --set basin.theta.count=200", label);
+    return kz_fail(KZ_REFUSED, "%s: is not KEY=VALUE; write for example --set basin.theta.count=200", label);
   snprintf(path, sizeof path, "%.*s", (int)(equals - option), option);
   if (!kz_key_find(keys, path)) return refuse_key(keys, label, path);
   kz_node *value;

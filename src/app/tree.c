@@ -87,6 +87,6 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   const char *source = value->source;
   kz_tree_free(value);
   if (!child) return kz_fail(KZ_FAILED, "out of memory while reading %s", source);
-  return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; a mapping there, or a --set of all of it", source,
-                 (int)length, path);
+  return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; make it one, or --set all of it", source, (int)length,
+                 path);
 }

@@ -21,12 +21,12 @@ static const struct {
   bool in_options_only;
   const char *wrong;
 } refused_tokens[] = {
-    {YAML_ANCHOR_TOKEN, false, "an anchor (&name) stands here; the value written out"},
-    {YAML_ALIAS_TOKEN, false, "an alias (*name) stands here; the value written out"},
-    {YAML_TAG_TOKEN, false, "a tag (!name) stands here; the value without it"},
-    {YAML_TAG_DIRECTIVE_TOKEN, false, "a %TAG directive stands here; YAML without tags"},
-    {YAML_BLOCK_MAPPING_START_TOKEN, true, "is a block mapping; flow text such as {min: -2, max: 2}"},
-    {YAML_BLOCK_SEQUENCE_START_TOKEN, true, "is a block list; flow text such as [1, 2]"},
+    {YAML_ANCHOR_TOKEN, false, "an anchor (&name) stands here; write the value out"},
+    {YAML_ALIAS_TOKEN, false, "an alias (*name) stands here; write the value out"},
+    {YAML_TAG_TOKEN, false, "a tag (!name) stands here; give the value without it"},
+    {YAML_TAG_DIRECTIVE_TOKEN, false, "a %TAG directive stands here; leave tags out"},
+    {YAML_BLOCK_MAPPING_START_TOKEN, true, "is a block mapping; write flow text such as {min: -2, max: 2}"},
+    {YAML_BLOCK_SEQUENCE_START_TOKEN, true, "is a block list; write flow text such as [1, 2]"},
 };
 
 static kz_status refuse(const source_text *source, size_t line, size_t column, const char *wrong) {
@@ -34,7 +34,7 @@ static kz_status refuse(const source_text *source, size_t line, size_t column, c
   return kz_fail(KZ_REFUSED, "%s:%zu:%zu: scene: %s", source->source, line + 1, column + 1, wrong);
 }
 
-/* What libyaml's reader or scanner stumbled over. The reader knows only an offset in bytes. */
+/* Where libyaml's reader or scanner failed. The reader gives only an offset in bytes. */
 static kz_status refuse_problem(const source_text *source, const yaml_parser_t *parser) {
   char wrong[256];
   size_t line = parser->problem_mark.line, column = parser->problem_mark.column;
@@ -46,11 +46,11 @@ static kz_status refuse_problem(const source_text *source, const yaml_parser_t *
       column = source->text[i] == '\n' ? 0 : column + (((unsigned char)source->text[i] & 0xC0) != 0x80);
       line += source->text[i] == '\n';
     }
-    snprintf(wrong, sizeof wrong, "is not text (%s); YAML in UTF-8 without control characters", parser->problem);
+    snprintf(wrong, sizeof wrong, "is not text (%s); save the scene in UTF-8 without control characters", parser->problem);
   } else {
     const size_t at = parser->problem_mark.index;
     const bool tab = at < source->length && source->text[at] == '\t';
-    snprintf(wrong, sizeof wrong, "is not YAML: %s%s%s%s; lines such as \"key: value\", indented with spaces",
+    snprintf(wrong, sizeof wrong, "is not YAML: %s%s%s%s; write lines such as \"key: value\", indented with spaces",
              parser->problem ? parser->problem : "malformed", parser->context ? " " : "",
              parser->context ? parser->context : "", tab ? " (a tab stands here)" : "");
   }
@@ -78,7 +78,7 @@ static kz_status check_token(const source_text *source, const yaml_token_t *toke
   for (size_t i = 0; i < sizeof refused_tokens / sizeof refused_tokens[0]; i++)
     if (token->type == refused_tokens[i].type && (source->option || !refused_tokens[i].in_options_only))
       return refuse(source, at->line, at->column, refused_tokens[i].wrong);
-  if (depth > MAX_DEPTH) return refuse(source, at->line, at->column, "is nested too deeply; at most 16 levels");
+  if (depth > MAX_DEPTH) return refuse(source, at->line, at->column, "is nested too deeply; at most 16 levels are possible");
   return KZ_OK;
 }
 
@@ -189,12 +189,13 @@ static kz_status load(const source_text *source, kz_node **root) {
   kz_node *second = NULL;
   kz_status status = load_next(&parser, source, root);
   if (status == KZ_OK && !*root)
-    status = refuse(source, 0, 0, source->option ? "has no value; a value after =" : "is empty; a pendulum and a study");
+    status =
+        refuse(source, 0, 0, source->option ? "has no value; give a value after =" : "is empty; give a pendulum and a study");
   else if (status == KZ_OK)
     status = load_next(&parser, source, &second);
   if (second)
-    status =
-        refuse(source, (size_t)second->line - 1, (size_t)second->column - 1, "a second YAML document begins here; only one");
+    status = refuse(source, (size_t)second->line - 1, (size_t)second->column - 1,
+                    "a second YAML document begins here; a scene is a single one");
   kz_tree_free(second);
   yaml_parser_delete(&parser);
   if (status == KZ_OK) return KZ_OK;
@@ -207,7 +208,7 @@ kz_status kz_tree_read(const char *text, size_t length, const char *source, bool
   const source_text from = {.text = text, .length = length, .source = source, .option = option};
   *root = NULL;
   if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0)
-    return refuse(&from, 0, 0, "begins with a byte-order mark; UTF-8 without it");
+    return refuse(&from, 0, 0, "begins with a byte-order mark; save it in UTF-8 without one");
   KZ_TRY(scan(&from));
   return load(&from, root);
 }

@@ -70,7 +70,7 @@ contains
       end do
     end do
   contains
-    !> An orbit that has stayed long enough in a cover is captured since it came in.
+    !> An orbit that has stayed in a cover for STAY periods counts as captured from the period in which it entered.
     subroutine visit(l, at)
       type(lane_t), intent(inout) :: l
       integer, intent(in) :: at

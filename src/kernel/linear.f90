@@ -111,7 +111,7 @@ contains
     stable = merge(1_c_int8_t, 0_c_int8_t, log_multiplier < 0 .or. (beta <= 0 .and. plus < 0 .and. minus < 0))
   end subroutine classify
 
-  !> The size that a product of two zeros of the solutions has by rounding.
+  !> The rounding error of a product of two solutions near their zeros.
   pure function rounding_of(k, beta, m) result(rounding)
     real(rk), intent(in) :: k
     real(rk), intent(in) :: beta

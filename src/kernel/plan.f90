@@ -1,4 +1,4 @@
-!> From a pendulum and its numerics to a map of the right kind. The only place that knows all kinds.
+!> From a pendulum and its numerics to a map of the right kind. The only procedure that distinguishes the kinds.
 module kz_kernel_plan
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_kernel_map, only: flow_t

@@ -11,7 +11,7 @@ module kz_kernel_r128
   public :: make_tile, make_processed_tile, sine
 
   integer, parameter :: ik = selected_int_kind(38)
-  !> Each lane costs; only those in use are advanced.
+  !> Quad arithmetic is done lane by lane, so only the lanes in use are advanced.
   integer, parameter :: VECTOR = 1
 
   !> sin(pi r)/r as a polynomial in r**2 on |r| <= 1/2, minimax, relative error 2.0e-37 (Remez exchange in 60 digits).

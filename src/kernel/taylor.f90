@@ -140,7 +140,7 @@ contains
     integer, intent(in) :: halvings
     real(qp), intent(inout) :: theta(LANES)
     real(qp), intent(inout) :: velocity(LANES)
-    !> Which lanes are in use; false where a series was not complete.
+    !> Which lanes are in use; set to false where a series did not converge.
     logical, intent(inout) :: carried(LANES)
     type(series_t) :: series
     type(force_t) :: force

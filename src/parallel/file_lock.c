@@ -94,6 +94,6 @@ kz_status kz_file_lock_join(const char *path, int *file) {
   const int error = errno;
   if (*file >= 0) close(*file);
   *file = -1;
-  return kz_fail(KZ_REFUSED, "%s: cannot be joined by every rank: %s; a folder that all ranks see under that name", path,
-                 strerror(error));
+  return kz_fail(KZ_REFUSED, "%s: cannot be opened by every rank: %s; use a folder that all ranks see under the same name",
+                 path, strerror(error));
 }

@@ -38,7 +38,7 @@ static kz_status connect_ranks(kz_ranks *ranks) {
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   kz_signals_catch();
   kz_launch_rank();
-  kz_ranks *started = calloc(1, sizeof *started); /* before MPI: a rank that never joins keeps nobody waiting */
+  kz_ranks *started = calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
   if (!started) return kz_fail(KZ_FAILED, "out of memory while starting");
   started->comm = MPI_COMM_NULL;
   started->mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
@@ -71,7 +71,7 @@ static void give_up(int number) {
 void kz_ranks_abandon(kz_ranks *ranks, kz_status status) {
   int ended = 1;
   if (ranks && MPI_Finalized(&ended) == MPI_SUCCESS && !ended && ranks->size > 1) {
-    signal(SIGALRM, give_up); /* MPI may lack what this rank lacks */
+    signal(SIGALRM, give_up); /* MPI may also be out of memory */
     alarm(ABANDON_SECONDS);
     pthread_mutex_lock(&ranks->mutex);
     MPI_Abort(MPI_COMM_WORLD, status);
@@ -131,9 +131,10 @@ kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what) 
   const uint64_t own = kz_bytes_checksum(0, text, strlen(text));
   uint64_t first = own;
   KZ_TRY(kz_ranks_broadcast(ranks, &first, sizeof first));
-  return kz_ranks_agree(ranks, own == first ? KZ_OK
-                                            : kz_fail(KZ_REFUSED, "rank %d has another %s than rank 0; the same for every rank",
-                                                      ranks->rank, what));
+  return kz_ranks_agree(
+      ranks, own == first
+                 ? KZ_OK
+                 : kz_fail(KZ_REFUSED, "rank %d has another %s than rank 0; give every rank the same", ranks->rank, what));
 }
 
 kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {

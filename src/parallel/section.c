@@ -35,7 +35,7 @@ static uint64_t slot_checksum(const kz_section *section, int64_t tile, const voi
   return kz_bytes_checksum(kz_bytes_checksum(section->seed, &tile, sizeof tile), record, section->record_bytes);
 }
 
-/* Room is reserved at once, so that a full disk is known before the work is done. */
+/* The space is allocated at once, so that a full disk fails before the work is done. */
 static kz_status reserve(const kz_checkpoint *checkpoint, const kz_section *section) {
   int error;
   do error = posix_fallocate(checkpoint->file, (off_t)checkpoint->end, (off_t)(section->end - checkpoint->end));

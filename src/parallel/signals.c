@@ -1,5 +1,5 @@
-/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. Work that asks for too long is
- * left by a clock. */
+/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. If a tile lasts too long, an
+ * alarm ends the run. */
 #include <signal.h>
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ static int place(void) {
   return -1;
 }
 
-/* The clock rings after so many seconds, unless it was to ring earlier. */
+/* Sets the alarm to so many seconds, unless it is set to an earlier time. */
 static void wind(unsigned seconds) {
   const unsigned left = alarm(seconds);
   if (left > 0 && left < seconds) alarm(left);
@@ -65,7 +65,7 @@ void kz_signals_catch(void) {
   handle(SIGALRM, ring);
   handle(SIGXFSZ, SIG_IGN); /* a write beyond the size limit shall return EFBIG */
   handle(SIGTTOU, SIG_IGN); /* progress is no reason to stop either, where the terminal would (stty tostop) */
-  handle(SIGPIPE, SIG_IGN); /* nobody reads the progress any more: no reason to stop */
+  handle(SIGPIPE, SIG_IGN); /* a closed progress stream is no reason to stop */
 }
 
 const char *kz_signals_caught(void) {

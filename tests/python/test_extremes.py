@@ -45,7 +45,7 @@ def ends(labels, names):
     return {names[label] if label >= 0 else None for label in np.unique(labels)}
 
 
-# What cannot be carried is refused before modelling, with a number of steps that would do, and that number does.
+# A scene whose steps are too coarse is refused before modelling, with a number of steps that would do, and that number does.
 REFUSED = {
     "speed 1e3": [*window(velocity=(-1e3, 1e3, 16))],
     "m = 100": [pendulum(m=100.0)],
@@ -181,7 +181,7 @@ def test_attractors_and_sweeps_warn_of_loose_steps(kapitza, tmp_path):
 
 
 def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
-    """Their labels are chance: measured as wrong, and named."""
+    """Their labels are random: measured as wrong, and named in a warning."""
     (tmp_path / "x.yaml").write_text("numerics: {steps_per_period: 96}\n" + SPRING + "basin: {theta: {count: 8}, velocity: {min: -100, "
                                      "max: 100, count: 8}, icm: {theta: 32, velocity: 32}, attractors: {starts: 16}}\n"
                                      "tradeoff: {samples: 64, settings: [direct-6, direct-96]}\n")

@@ -1,4 +1,4 @@
-"""Hard knocks on the whole program: disks that fill or vanish, damaged checkpoints, memory that runs out, ranks that sleep or
+"""Failures of the whole program's environment: disks that fill or vanish, damaged checkpoints, memory that runs out, ranks that sleep or
 outnumber their tiles, kills. docs/reliability.md says what is promised; tests/tools/kill_loop.py is the long version."""
 
 import os
@@ -101,7 +101,7 @@ def test_a_disk_that_was_full_is_resumed_once_there_is_room(disk, undisturbed):
 
 @pytest.mark.parametrize("victim", ["small.h5.checkpoint", "small.h5.part"])
 def test_files_removed_under_the_run(tmp_path, undisturbed, victim):
-    """Whole results or a clear failure: never a half file, never another result."""
+    """A complete result or a clear failure: never a partial file, never a different result."""
     process = start("run", SMALL, *SLOW, folder=tmp_path)
     wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
     (tmp_path / victim).unlink()

@@ -16,9 +16,10 @@ module kz_attractors_chaos
   !> Before all that: neighbours of a chaotic orbit part so much within so many periods. Where they do not, an orbit is only slow.
   integer, parameter :: PARTING_PERIODS = 2000
   real(dp), parameter :: PARTED = 100
-  !> A positive exponent is believed from so many standard errors on.
+  !> An exponent counts as positive if it exceeds so many standard errors.
   real(dp), parameter :: CONFIDENCE = 5
-  !> Damping has done its work once it has shrunk areas by exp(-SHRUNK); before, conservative chaos looks the same.
+  !> Orbits are examined only where damping shrinks areas by at least exp(-SHRUNK) meanwhile: else conservative chaos looks the
+  !> same.
   real(dp), parameter :: SHRUNK = 30
 
 contains

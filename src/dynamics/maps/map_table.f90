@@ -205,7 +205,7 @@ contains
     end do
   end subroutine displace
 
-  ! One text for the three stencils: the constant lets the compiler unroll it.
+  ! The same source for three stencils: a constant size lets the compiler unroll the loops.
   subroutine linear_stencils(n, n_theta, field, i, j, x, y, shift)
     integer, parameter :: POINTS = 2
     include 'stencil.inc'

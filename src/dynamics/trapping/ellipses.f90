@@ -28,7 +28,7 @@ contains
     !> the map of the published strobe points
     class(flow_t), intent(inout) :: fine
     type(attractor_t), intent(inout) :: attractor
-    !> attractors that no ellipse may take anything from
+    !> attractors whose strobe points no ellipse may contain
     type(attractor_t), intent(in) :: others(:)
     integer :: j, n_own
 
@@ -90,8 +90,8 @@ contains
   end function ellipse
 
   !> Distance, in the norm of the ellipse, from strobe point j to the nearest one of another attractor, its mirror image included.
-  !> An ellipse that reaches so far is none: the scene's map has another motion there than the fine one. Nor is one whose first
-  !> ring is not small against it: which of the two an orbit ends at would be open.
+  !> A larger ellipse is rejected: the scene's map then differs too much from the fine one. So is one whose first ring is not
+  !> small against this distance: it would not decide at which of the two an orbit ends.
   pure function clearance(attractor, j, inverse, others) result(distance)
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
@@ -213,7 +213,7 @@ contains
       basis(:, 2) = real(w, dp)/norm2(real(w, dp))
     end if
     determinant = basis(1, 1)*basis(2, 2) - basis(1, 2)*basis(2, 1)
-    if (abs(determinant) < 1e-6_dp) then ! a (nearly) double multiplier: any norm serves, the rings decide
+    if (abs(determinant) < 1e-6_dp) then ! a (nearly) double multiplier: any norm serves, the test of the rings decides
       basis = reshape([1, 0, 0, 1], [2, 2])
       determinant = 1
     end if

@@ -28,7 +28,7 @@ module kz_trapping_grid
     integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
   end type regions_t
 
-  !> What the grid answers beyond its velocities.
+  !> The grid's entry for velocities outside it.
   integer, parameter :: OUTSIDE = -huge(0)
 
   !> Cells of a chaotic attractor's cover along an axis.
@@ -180,7 +180,7 @@ contains
     end do
   end subroutine find_regions
 
-  !> What the grid says of the states, folded to the stored half; OUTSIDE beyond its velocities.
+  !> The grid's entries for n states, folded to the stored half; OUTSIDE beyond its velocities.
   pure subroutine look_up(n_theta, n_velocity, per_u, top, grid, n, u, v, entry)
     integer, intent(in) :: n_theta
     integer, intent(in) :: n_velocity
@@ -248,7 +248,7 @@ contains
     mirrored = .not. (u > 0 .or. (.not. u < 0 .and. v >= 0))
   end function is_mirrored
 
-  !> The first ellipse of the list that begins with overlap `first`, and holds (u, v), says whose.
+  !> The attractor of the first ellipse that holds (u, v), in the list that begins with overlap `first`; 0 = none.
   function overlap_at(regions, attractors, first, u, v) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
@@ -266,7 +266,7 @@ contains
     a = 0
   end function overlap_at
 
-  !> The attractor one of whose ellipses holds (u, v), 0 = none: every ellipse is asked.
+  !> The attractor one of whose ellipses holds (u, v), 0 = none: every ellipse is tested.
   pure function ellipse_at(attractors, u, v) result(a)
     type(attractor_t), intent(in) :: attractors(:)
     real(dp), intent(in) :: u

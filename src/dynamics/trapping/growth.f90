@@ -92,7 +92,7 @@ contains
     end function velocity
   end subroutine later
 
-  !> Every open cell is asked; one that must wait is put on the list of the cell it waits for.
+  !> Tests every open cell; one whose image has an open cell is put on the waiting list of that cell.
   subroutine grow(regions, attractors, table, field)
     type(regions_t), intent(inout) :: regions
     type(attractor_t), intent(in) :: attractors(:)
@@ -142,7 +142,7 @@ contains
   end subroutine grow
 
   !> Most cells that must wait are known by the image of their corner of lowest angle and velocity: answer = 0 and blocker = its
-  !> open cell; answer = 0 and blocker = NEVER at the rim of the table; else answer is not 0 and the cell is worth asking.
+  !> open cell; answer = 0 and blocker = NEVER at the rim of the table; else answer is not 0 and the whole image must be tested.
   pure subroutine first_corner(regions, mirrors, table, field, i, l, answer, blocker)
     type(regions_t), intent(in) :: regions
     integer, intent(in) :: mirrors(0:)

@@ -23,7 +23,7 @@ void kz_accuracy_cost(double accuracy, kz_cost *cost) {
 
 enum { MOST = 32 }; /* candidates */
 
-/* The candidates from the cheapest to the dearest on these cells. */
+/* The candidates in ascending order of their cost on these cells. */
 typedef struct {
   const kz_reference_labels *reference;
   const kz_config *ladder[MOST];
@@ -50,7 +50,8 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
   return kz_config_measure(w->ladder[w->first + tile], w->reference, 0, record);
 }
 
-/* Walks the ladder upwards, two configurations at a time; the first that meets the accuracy is chosen. `best`: fewest wrong. */
+/* Tries the configurations from the cheapest on, two at a time; the first that meets the accuracy is chosen. `best`: the lowest
+ * number of wrong labels. */
 static kz_status climb(walk *w, kz_ranks *ranks, double accuracy, kz_choice *choice, int64_t *best) {
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
   kz_measured measured[2];

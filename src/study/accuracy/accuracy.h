@@ -11,13 +11,14 @@ typedef struct {
 } kz_choice;
 
 /* The cheapest configuration by kz_config_cost whose share of wrong labels of the sample is at most 1 - accuracy at the upper
- * end of its 95 % interval. KZ_REFUSED tells the best share reached and the floor. Collective. */
+ * end of its 95 % interval. KZ_REFUSED names the best share reached and the share that rounding of the start flips.
+ * Collective. */
 kz_status kz_accuracy_choose(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary, kz_choice *choice);
 
 /* The choice as attributes of /basin. Rank 0. */
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store);
 
-/* Adds to `cost` what the choice takes, before the labels themselves. */
+/* Adds the cost of the choice itself to `cost`. */
 void kz_accuracy_cost(double accuracy, kz_cost *cost);
 
 #endif

@@ -23,7 +23,7 @@ typedef struct {
   workspace *work;
 } measurement;
 
-/* Processor time of this thread: what others do on the machine does not count. */
+/* Processor time of this thread, independent of other processes. */
 static double seconds(void) {
   struct timespec now;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

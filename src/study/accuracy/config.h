@@ -1,4 +1,4 @@
-/* Configurations: ways to label the cells of a window, from quick to right; what each costs by count, and how wrong its labels
+/* Configurations: ways to label the cells of a window, from fast to accurate; what each costs by count, and how wrong its labels
  * are. */
 #ifndef KAPITZA_STUDY_CONFIG_H
 #define KAPITZA_STUDY_CONFIG_H
@@ -11,12 +11,12 @@ typedef struct {
   const char *scheme;    /* of the kernel's table */
   int32_t steps;         /* per period */
   int32_t precision;     /* KZ_SINGLE, KZ_DOUBLE */
-  int32_t interpolation; /* KZ_LINEAR, ...; of no meaning to KZ_METHOD_DIRECT */
+  int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
   int64_t nodes;         /* of the map table, an axis; the trapping regions have its cells */
-  bool candidate;        /* of basin.accuracy: none of the others is as quick and as right as one of these */
+  bool candidate;        /* of basin.accuracy: no other is both as fast and as accurate as one of these */
 } kz_config;
 
-/* The ladder. Labels that end in -1992 are what the first maps of these basins were made with. */
+/* The table. Labels that end in -1992 name the methods of the first published maps of these basins. */
 extern const kz_config kz_configs[];
 extern const int kz_config_count;
 
@@ -24,7 +24,7 @@ kz_numerics kz_config_numerics(const kz_config *config);
 /* The scene with the configuration in place of its method, icm and numerics. */
 void kz_config_apply(const kz_config *config, kz_scene *scene);
 
-/* What a configuration costs by count, not by clock: kicks of one trajectory that it is worth, for `cells` cells that take
+/* The cost of a configuration as a count, which depends on no clock: in kicks of one trajectory, for `cells` cells that take
  * `mean_periods` each on a table of 1000 nodes. */
 double kz_config_cost(const kz_config *config, double cells, double mean_periods);
 

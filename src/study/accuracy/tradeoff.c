@@ -9,7 +9,7 @@
 
 #include "common/cells.h"
 
-enum { TIMED = 16384 }; /* cells that a clock needs */
+enum { TIMED = 16384 }; /* cells that are enough for a measured time */
 
 typedef struct {
   const kz_reference_labels *reference;
@@ -77,7 +77,7 @@ static void free_trade(kz_trade *trade) {
   free(trade->pareto);
 }
 
-/* What follows from the counts and the clocks. */
+/* Shares, times and the Pareto front from the counts and the measured times. */
 static void rate(const kz_reference_labels *reference, kz_trade *trade) {
   const double cells = (double)kz_own_cells(reference->plan);
   trade->best_wrong = NAN;

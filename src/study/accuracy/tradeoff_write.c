@@ -61,7 +61,7 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
           trade->seconds[i], 1e6 * m->cell);
 }
 
-/* Configurations whose labels are chance here. */
+/* Names the configurations whose labels are random here. */
 static void warn(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   const double fastest = kz_axis_fastest(&reference->plan->velocity);
   const char *before = "warning: steps that do not carry the motions of this window: ";
@@ -78,8 +78,8 @@ static void print(const kz_reference_labels *reference, const kz_trade *trade, F
   const kz_reference_labels_summary sum = kz_reference_labels_sum(reference);
   const kz_share flips = kz_share_of(sum.flipped, reference->samples);
   fprintf(summary,
-          "tradeoff: wrong labels among %lld cells followed in quad precision, %.1f periods each; * = nothing is as quick and "
-          "as right\n"
+          "tradeoff: wrong labels among %lld cells followed in quad precision, %.1f periods each; * = no other setting is both "
+          "as fast and as accurate\n"
           "  setting              method  kind       integrator   table    nodes  wrong %%    95 %% interval    area %%    "
           "seconds  "
           "s/1e6 cells\n",

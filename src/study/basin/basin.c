@@ -21,7 +21,7 @@ enum {
   ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
 
-/* What a label rests on, as the file says it. */
+/* How a label was found: the values of the file's variable `evidence`. */
 enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3, UNDECIDED = 4 };
 
 /* A cell. */

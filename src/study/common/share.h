@@ -1,4 +1,4 @@
-/* Shares seen in a sample, and configurations that no other beats. Pure arithmetic. */
+/* Shares counted in a sample and their intervals; the Pareto front of cost and error; the order of a sample. */
 #ifndef KAPITZA_STUDY_SHARE_H
 #define KAPITZA_STUDY_SHARE_H
 
@@ -16,7 +16,8 @@ kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 /* The smallest sample whose upper bound is at most `share` where no hit is seen. */
 int64_t kz_share_sample(double share);
 
-/* front [n] = 1 where no other entry is at most as dear and at most as wrong, and better in one of the two; else 0. */
+/* front [n] = 1 where no other entry costs at most as much, is wrong at most as often, and is better in one of the two; else
+ * 0. */
 void kz_pareto(int64_t n, const double *seconds, const double *wrong, int8_t *front);
 
 /* rank [n]: the indices of `cost` from the lowest to the highest; equal costs keep their order. */

@@ -1,4 +1,4 @@
-/* Whether the numerics can carry a scene: step doubling on a sample of every class of speeds. */
+/* Whether the steps are fine enough for a scene: step doubling on a sample of every class of speeds. */
 #include "step_check.h"
 
 #include <float.h>
@@ -16,7 +16,8 @@ enum {
   SWEEP_STEPS = 20000  /* that these values take together */
 };
 
-/* rad, of one drive period: from LOOSE on a user is warned, from LOST on labels would be chance. */
+/* rad, errors of one drive period: above LOOSE the user is warned; above LOST labels would be random, and the scene is
+ * refused. */
 static const double LOOSE = 1e-4, LOST = 0.1;
 /* The same in cells of a basin, where a hundredth of a cell is less than LOOSE: a picture that is shifted by so much. */
 static const double LOOSE_CELLS = 0.01, LOST_CELLS = 0.1;
@@ -164,7 +165,7 @@ static kz_status check_sweep(const kz_scene *scene) {
   motions m;
   if (!scene->has_sweep) return KZ_OK;
   const int64_t n = tried_values(scene);
-  for (int64_t i = 0; i < n; i++) /* the ends first: one of them is hardest as a rule */
+  for (int64_t i = 0; i < n; i++) /* the ends first: the largest error is usually at one of them */
     if (motions_at(scene, (n - i) % n, n, &m)) KZ_TRY(check(&m));
   return KZ_OK;
 }

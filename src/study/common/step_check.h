@@ -1,4 +1,5 @@
-/* steps: whether the numerics can carry a scene, asked before anything is labelled (C; layer 3, study). Not collective. */
+/* step_check: whether the steps are fine enough for a scene, tested before anything is labelled (C; layer 3, study). Not
+ * collective. */
 #ifndef KAPITZA_STUDY_STEP_CHECK_H
 #define KAPITZA_STUDY_STEP_CHECK_H
 
@@ -17,7 +18,7 @@ void kz_steps_choose(kz_scene *scene);
  * `most` steps: then the last number tried. */
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
 
-/* False where one drive period is off by a tenth of a radian or diverges: labels would be chance. */
+/* False where the error of one drive period exceeds 0.1 rad or the motion diverges: labels would be random. */
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
 
 /* A line for each class of speeds up to `fastest` that is off by more than 1e-4 rad. */

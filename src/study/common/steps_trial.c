@@ -52,7 +52,7 @@ double kz_worst_error(const kz_step_trial *classes) {
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
   kz_step_trial classes = kz_try_steps(pendulum, numerics, fastest);
   for (int worst; worst = kz_worst_class(&classes), classes.error[worst] > tolerance;) {
-    do { /* the worst class alone: where nothing helps, that is soon known */
+    do { /* only the worst class, so that a hopeless case is refused quickly */
       const double before = classes.error[worst];
       if (numerics->steps_per_period > most / 2) return false;
       numerics->steps_per_period *= 2;

@@ -32,8 +32,8 @@ static kz_status find(const kz_model *model, kz_state start, kz_cycle *cycle) {
       if (back[n] < WITHIN[i] && close_with(model, n, start, cycle)) return KZ_OK;
   }
   return kz_fail(KZ_FAILED,
-                 "orbit.closed: no cycle of up to %d periods near theta = %.9g, velocity = %.9g; a nearer start, "
-                 "a longer transient, or the period",
+                 "orbit.closed: no cycle of up to %d periods near theta = %.9g, velocity = %.9g; give a nearer start, a longer "
+                 "transient, or the period",
                  MOST_PERIODS, start.theta, start.velocity);
 }
 
@@ -45,8 +45,8 @@ static kz_status check_linear(const kz_model *model, int64_t period, kz_state st
   double gap = hypot(end.theta - start.theta, end.velocity - start.velocity);
   if (gap <= CLOSED * hypot(start.theta - model->origin, start.velocity)) return KZ_OK;
   return kz_fail(KZ_FAILED,
-                 "orbit.closed: the linear motion ends %.3g from its start after %lld periods; parameters on a curve of "
-                 "this period, or no closed",
+                 "orbit.closed: the linear motion ends %.3g from its start after %lld periods; choose parameters on a curve of "
+                 "this period, or leave closed out",
                  gap, (long long)period);
 }
 
@@ -55,9 +55,10 @@ kz_status kz_cycle_close(const kz_model *model, int64_t period, kz_state start, 
   if (period == 0) return find(model, start, cycle);
   if (!close_with(model, period, start, cycle))
     return kz_fail(KZ_FAILED,
-                   "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; a nearer start",
+                   "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; give a nearer start",
                    (long long)period, MAX_DISTANCE, start.theta, start.velocity);
   if (cycle->period == period) return KZ_OK;
-  return kz_fail(KZ_FAILED, "orbit.period: %lld, but the cycle found there closes after %lld; that period, or a nearer start",
+  return kz_fail(KZ_FAILED,
+                 "orbit.period: %lld, but the cycle found there closes after %lld; give that period, or a nearer start",
                  (long long)period, (long long)cycle->period);
 }

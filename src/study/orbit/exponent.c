@@ -7,7 +7,7 @@ enum { BLOCKS = 10, LEAST_PERIODS = 1000, MOST_PERIODS = 100000 };
 /* An orbit that starts within rounding (1e-16) of an unstable cycle has left it when its neighbours have parted by
  * exp(ESCAPE). */
 static const double ESCAPE = 40;
-/* A positive exponent is believed from so many standard errors on. */
+/* An exponent counts as positive if it exceeds so many standard errors. */
 static const double CONFIDENCE = 5;
 
 /* Carries a unit deviation through one period; returns the logarithm of its growth. */

@@ -41,14 +41,16 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
   const char *const names[] = {"period", "strobe_theta", "strobe_velocity"};
   KZ_TRY(kz_store_length(store, "attractors", "attractor", &count));
   if (count == 0)
-    return kz_fail(KZ_REFUSED, "orbit.attractor: the catalogue is empty; orbit.start, or damping, or another window");
+    return kz_fail(KZ_REFUSED,
+                   "orbit.attractor: the catalogue is empty; give orbit.start, add damping, or choose another window");
   if (id >= count)
-    return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is not in the catalogue, which has %lld; an id below that", (long long)id,
-                   (long long)count);
+    return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is not in the catalogue, which has %lld; choose an id below that",
+                   (long long)id, (long long)count);
   for (int i = 0; i < 3; i++) KZ_TRY(kz_store_number(store, "attractors", names[i], (int64_t[]){id, 0}, values[i]));
   *period = (int64_t)n;
   if (n > 0) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is chaotic and never closes; another id, or a start", (long long)id);
+  return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is chaotic and never closes; choose another id, or give a start",
+                 (long long)id);
 }
 
 /* Where the motion starts, on every rank; `period` of a listed attractor. Collective. */

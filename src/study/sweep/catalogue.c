@@ -163,8 +163,8 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
     const kz_sweep_entry entry = entry_of(s, order[i], &mirror);
     if (s->hits[order[i]] + s->hits[mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
-      status =
-          kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; more damping, or a smaller window", KZ_SWEEP_MOST);
+      status = kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
+                       KZ_SWEEP_MOST);
     else
       catalogue->entries[catalogue->count++] = entry;
   }

@@ -38,7 +38,8 @@ static bool find_flutter(const kz_path *path, double onset, double *m, kz_branch
   return false;
 }
 
-/* One of the two asymmetric cycles that a symmetric one gives way to just above m: displaced both ways by a ladder of sizes. */
+/* One of the two asymmetric cycles that replace a symmetric one just above m: searched from points displaced by growing
+ * distances in eight directions. */
 static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point *symmetric, double *at,
                             kz_branch_point *found) {
   kz_pendulum pendulum;

@@ -31,15 +31,15 @@ typedef struct {
 /* The path of the sweep itself; `scene` must outlive it. */
 kz_path kz_sweep_path(const kz_scene *scene);
 
-/* Carries an attracting cycle from value `from` towards `to` in steps that shrink where it changes fast. Returns the last value
- * where it exists and attracts: `to`, or its end to 1e-10 relative. *point comes back as the cycle there. */
+/* Continues an attracting cycle from value `from` towards `to`, in steps that shrink where it changes fast. Returns the last
+ * value where it exists and attracts: `to`, or its end to 1e-10 relative. *point comes back as the cycle there. */
 double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point);
 
 /* The kind of end that the multipliers of a cycle at its very end tell. */
 int kz_end_kind(const kz_branch_point *end);
 
 /* The attracting symmetric period-2 cycle about inverted (flutter) near the inverted state of a pendulum that has lost its
- * stability by multiplier -1: the first that a ladder of amplitudes along the eigenvector leads to. */
+ * stability by multiplier -1: searched with growing amplitudes along the eigenvector. */
 bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter);
 
 /* The value between low and high where a multiplier of the inverted state passes -1, to rounding: where 1 + trace + det of its

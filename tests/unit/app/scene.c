@@ -122,26 +122,29 @@ static void errors_name_place_key_and_remedy(void **state) {
   (void)state;
   expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
   expect_refused(GOOD "  method: imc\n", NULL,
-                 "s.yaml:4:11: basin.method: \"imc\" is unknown; one of icm, direct, hybrid (did you mean icm?)");
-  expect_refused(GOOD "  max_periods: 1.5x\n", NULL,
-                 "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; an integer from 1 to 4000000000");
+                 "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct, hybrid (did you mean icm?)");
+  expect_refused(
+      GOOD "  max_periods: 1.5x\n", NULL,
+      "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; it must be an integer from 1 to 4000000000");
   expect_refused("basin: {}\n", NULL,
-                 "s.yaml:1:1: pendulum: is missing; a mapping of quality_factor, drive_frequency, "
+                 "s.yaml:1:1: pendulum: is missing; it must be a mapping of quality_factor, drive_frequency, "
                  "drive_amplitude, k, damping, m, mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
-                 "s.yaml:4:16: basin.theta.max: 1 is not above min = 2; a larger number");
+                 "s.yaml:4:16: basin.theta.max: 1 is too small; it must be greater than min = 2");
   expect_refused(GOOD, "basin.theta.cout=2",
                  "--set basin.theta.cout=2: basin.theta.cout: unknown key; did you mean basin.theta.count?");
-  expect_refused(GOOD, "basin.theta.count=x",
-                 "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; an integer from 1 to 1000000");
+  expect_refused(
+      GOOD, "basin.theta.count=x",
+      "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; it must be an integer from 1 to 1000000");
 }
 
 /* An error further up is told first, whichever check finds it; a missing key comes last. */
 static void first_error_in_document_order(void **state) {
   (void)state;
   expect_refused("basin:\n  velocity: {min: 2, max: -2}\npendulum: {k: nan}\n", NULL,
-                 "s.yaml:2:27: basin.velocity.max: -2 is not above min = 2; a larger number");
-  expect_refused("basin:\n  method: xyz\n", NULL, "s.yaml:2:11: basin.method: \"xyz\" is unknown; one of icm, direct, hybrid");
+                 "s.yaml:2:27: basin.velocity.max: -2 is too small; it must be greater than min = 2");
+  expect_refused("basin:\n  method: xyz\n", NULL,
+                 "s.yaml:2:11: basin.method: \"xyz\" is unknown; it must be one of icm, direct, hybrid");
 }
 
 static void scalars_are_strict(void **state) {
@@ -170,16 +173,19 @@ static void scalars_are_strict(void **state) {
 
 static void structure_is_strict(void **state) {
   (void)state;
-  expect_refused("", NULL, "s.yaml:1:1: scene: is empty; a pendulum and a study");
-  expect_refused("a: &x 1\n", NULL, "s.yaml:1:4: scene: an anchor (&name) stands here; the value written out");
-  expect_refused("a: *x\n", NULL, "s.yaml:1:4: scene: an alias (*name) stands here; the value written out");
-  expect_refused(GOOD "---\nb: 1\n", NULL, "s.yaml:5:1: scene: a second YAML document begins here; only one");
-  expect_refused("[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", NULL, "s.yaml:1:17: scene: is nested too deeply; at most 16 levels");
-  expect_refused("a: 1\nb: \xff\n", NULL,
-                 "s.yaml:2:4: scene: is not text (invalid leading UTF-8 octet); YAML in UTF-8 without control characters");
+  expect_refused("", NULL, "s.yaml:1:1: scene: is empty; give a pendulum and a study");
+  expect_refused("a: &x 1\n", NULL, "s.yaml:1:4: scene: an anchor (&name) stands here; write the value out");
+  expect_refused("a: *x\n", NULL, "s.yaml:1:4: scene: an alias (*name) stands here; write the value out");
+  expect_refused(GOOD "---\nb: 1\n", NULL, "s.yaml:5:1: scene: a second YAML document begins here; a scene is a single one");
+  expect_refused("[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", NULL,
+                 "s.yaml:1:17: scene: is nested too deeply; at most 16 levels are possible");
+  expect_refused(
+      "a: 1\nb: \xff\n", NULL,
+      "s.yaml:2:4: scene: is not text (invalid leading UTF-8 octet); save the scene in UTF-8 without control characters");
   expect_refused("title: a\ntitle: b\n" GOOD, NULL, "s.yaml:2:1: title: is given twice; once");
-  expect_refused("pendulum: {k: 0, m: 1, mass: 3}\nbasin: {}\n", NULL,
-                 "s.yaml:1:24: pendulum.mass: contradicts pendulum.k, another way to give the same; the keys of one way");
+  expect_refused(
+      "pendulum: {k: 0, m: 1, mass: 3}\nbasin: {}\n", NULL,
+      "s.yaml:1:24: pendulum.mass: contradicts pendulum.k, which gives the same in another way; use the keys of one way");
 }
 
 /* A table of its own tries the types that hold lists. */
@@ -223,11 +229,12 @@ static void lists_are_read_and_written(void **state) {
   } cases[] = {
       {"s: {}\n", "", "s.r: [0.5]\ns.w: [green, red]\ns.b: false\n"},
       {"s: {r: [1, 2.5], i: [2, 64], w: [red], b: true}\n", "", "s.r: [1, 2.5]\ns.i: [2, 64]\ns.w: [red]\ns.b: true\n"},
-      {"s: {i: [2, 65]}\n", "f:1:12: s.i: \"65\" is out of range; a list of integers from 2 to 64", NULL},
-      {"s: {w: [red, gren]}\n", "f:1:14: s.w: \"gren\" is unknown; a list out of red, green (did you mean green?)", NULL},
-      {"s: {r: []}\n", "f:1:8: s.r: the value is an empty list; a list of numbers from -1 to 9 in rad", NULL},
-      {"s: {r: 1}\n", "f:1:8: s.r: \"1\" is not a list; a list of numbers from -1 to 9 in rad", NULL},
-      {"s: {b: yes}\n", "f:1:8: s.b: \"yes\" is neither true nor false; true or false", NULL}};
+      {"s: {i: [2, 65]}\n", "f:1:12: s.i: \"65\" is out of range; it must be a list of integers from 2 to 64", NULL},
+      {"s: {w: [red, gren]}\n", "f:1:14: s.w: \"gren\" is unknown; it must be a list out of red, green (did you mean green?)",
+       NULL},
+      {"s: {r: []}\n", "f:1:8: s.r: the value is an empty list; it must be a list of numbers from -1 to 9 in rad", NULL},
+      {"s: {r: 1}\n", "f:1:8: s.r: \"1\" is not a list; it must be a list of numbers from -1 to 9 in rad", NULL},
+      {"s: {b: yes}\n", "f:1:8: s.b: \"yes\" is neither true nor false; it must be true or false", NULL}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     lists scene;
     kz_reading reading = {.keys = list_keys, .scene = &scene};
