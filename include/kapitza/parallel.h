@@ -38,7 +38,7 @@ int kz_ranks_own(const kz_ranks *ranks);
 int kz_ranks_count(const kz_ranks *ranks);
 
 /* The sum of `mine` over the ranks that share this rank's memory, and how many they are. Collective. */
-kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *ranks);
+kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *count);
 
 /* The worst status of all ranks (failed, refused, stopped, done), with that rank's message on every rank. Collective. */
 kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine);

@@ -186,6 +186,20 @@ typedef struct {
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 
+/* Drive periods after which nearly all motions are trapped, at least 2000. Where that would be more than a million, 2000 too. */
+int64_t kz_settling_periods(double beta);
+
+/* The same for the weakest damping of a scene: that of its pendulum and of its sweep. */
+int64_t kz_settling_scene(const kz_scene *scene);
+
+/* A line for each study whose max_periods leaves most motions unsettled. It begins with the key to change. */
+void kz_settling_warn(const kz_scene *scene, FILE *out);
+
+/* numerics.steps_per_period where a scene leaves it out: the scheme's own number, or as many more as the small cells of a damped
+ * basin need (smaller than 0.01 rad); left as it is where no number would do (kz_steps_check says so then), and where
+ * basin.accuracy chooses. */
+void kz_steps_choose(kz_scene *scene);
+
 /* KZ_REFUSED where the steps are too coarse for a study's motions. The message begins with the keys that a user could change
  * ("numerics.steps_per_period|basin.velocity: ..."), and says at which speeds, and how many steps would do. A sweep is tried at
  * both ends and between. */

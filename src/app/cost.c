@@ -46,9 +46,9 @@ kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   const bool first = !ranks || kz_ranks_own(ranks) == 0;
   const double mine = cost->memory_bytes + (first ? cost->first_bytes : 0), memory = node_memory();
   double sum = mine;
-  int ranks = 1;
+  int node_ranks = 1;
   char needed[32], there[32];
-  if (ranks) KZ_TRY(kz_ranks_node(ranks, mine, &sum, &ranks));
+  if (ranks) KZ_TRY(kz_ranks_node(ranks, mine, &sum, &node_ranks));
   kz_cost_print_bytes(sum > memory ? sum : mine, needed);
   if (sum <= memory) {
     if (may_have(mine)) return KZ_OK;
@@ -58,5 +58,5 @@ kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   kz_cost_print_bytes(memory, there);
   return kz_fail(KZ_REFUSED,
                  "scene: needs %s of memory for %d ranks on this node, which has %s; use smaller counts or fewer ranks", needed,
-                 ranks, there);
+                 node_ranks, there);
 }

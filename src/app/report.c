@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "kapitza/study.h"
 #include "app.h"
-#include "kapitza/settling.h"
 #include "kapitza/version.h"
 
 static char *write_scene(const kz_scene *scene, bool flat) {

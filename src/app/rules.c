@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "kapitza/settling.h"
+#include "kapitza/study.h"
 #include "scene.h"
 
 typedef struct {

@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <time.h>
 
+#include "kapitza/study.h"
 #include "app.h"
-#include "kapitza/settling.h"
 #include "kapitza/version.h"
 
 typedef struct {

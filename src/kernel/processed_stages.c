@@ -27,3 +27,4 @@ enum { WIDTH = 64 };
 #define real float
 #define VECTOR vector_r32
 #define NAMED(name) name##_r32
+#include "processed_stages.inc"

@@ -95,10 +95,10 @@ int kz_ranks_count(const kz_ranks *ranks) {
   return ranks->size;
 }
 
-kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *ranks) {
+kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *count) {
   MPI_Comm node;
   KZ_MPI(MPI_Comm_split_type(ranks->comm, MPI_COMM_TYPE_SHARED, ranks->rank, MPI_INFO_NULL, &node));
-  KZ_MPI(MPI_Comm_size(node, ranks));
+  KZ_MPI(MPI_Comm_size(node, count));
   KZ_MPI(MPI_Allreduce(&mine, sum, 1, MPI_DOUBLE, MPI_SUM, node));
   KZ_MPI(MPI_Comm_free(&node));
   return KZ_OK;

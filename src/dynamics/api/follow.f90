@@ -4,7 +4,7 @@ module kz_api_follow
   use kz_kernel_map, only: map_t
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_step_table, only: numerics_t
-  use kz_dynamics_covariance, only: covariant_map_t, make_covariant_map
+  use kz_maps_covariance, only: covariant_map_t, make_covariant_map
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_dynamics_label, only: follow
   use kz_maps_map_table, only: table_map_t, make_table_map

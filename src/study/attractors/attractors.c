@@ -7,7 +7,7 @@
 #include "common/cells.h"
 #include "common/search.h"
 #include "common/step_check.h"
-#include "kapitza/settling.h"
+#include "common/settling.h"
 
 typedef struct {
   const kz_attractors_plan *plan;

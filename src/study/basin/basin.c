@@ -13,7 +13,7 @@
 #include "common/search.h"
 #include "common/step_check.h"
 #include "kapitza/dynamics.h"
-#include "kapitza/settling.h"
+#include "common/settling.h"
 
 enum {
   CELLS = 4096, /* of a tile, at most */

@@ -9,11 +9,6 @@
  * most. */
 double kz_steps_tolerance(const kz_basin_plan *plan);
 
-/* numerics.steps_per_period where a scene leaves it out: the scheme's own number, or as many more as the small cells of a damped
- * basin need (smaller than 0.01 rad); left as it is where no number would do (kz_steps_check says so then), and where
- * basin.accuracy chooses. */
-void kz_steps_choose(kz_scene *scene);
-
 /* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
  * `most` steps: then the last number tried. */
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);

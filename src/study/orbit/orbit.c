@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/settles_on.h"
+#include "settles_on.h"
 #include "exponent.h"
 
 /* Periods of an open record that the scene does not bound. */

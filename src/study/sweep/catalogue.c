@@ -6,7 +6,7 @@
 
 #include "common/cells.h"
 #include "common/search.h"
-#include "kapitza/settling.h"
+#include "common/settling.h"
 #include "sweep.h"
 
 enum {

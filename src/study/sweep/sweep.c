@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include "common/step_check.h"
-#include "kapitza/settling.h"
+#include "common/settling.h"
 
-#define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
+#define KEY(name_, unit_) \
+  { #name_, unit_, offsetof(kz_pendulum_keys, name_) }
 const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(quality_factor, "1"),
     KEY(drive_frequency, "1"),

@@ -1,7 +1,7 @@
 !> Orbits with their errors. Beside each state goes the covariance P of its error: a period carries it to J P J^T + d**2 1, with
 !> the tangent map J and the error d that steps and rounding make within the period. An orbit whose error grows large is
 !> doubtful: its label is not decided. It is trapped once a trapping region holds the whole ellipse of P.
-module kz_dynamics_covariance
+module kz_maps_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
   use kz_attractors_cycles, only: attractor_t
@@ -153,4 +153,4 @@ contains
     inside = all(label == a)
   end function holds
 
-end module kz_dynamics_covariance
+end module kz_maps_covariance
