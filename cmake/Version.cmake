@@ -14,6 +14,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
 endif()
 
 set(KAPITZA_GIT_REVISION "@KAPITZA_GIT_REVISION@") # left for the build
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include/kapitza) # before the first build: a missing include folder is an error
 configure_file(cmake/version.h.in ${PROJECT_BINARY_DIR}/version.h.in @ONLY)
 add_custom_target(kapitza_version
   COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D INPUT=${PROJECT_BINARY_DIR}/version.h.in
