@@ -264,7 +264,7 @@ def test_ranks_in_different_folders(tmp_path):
     one, other = (["-n", "1", "-wdir", tmp_path / name, PROGRAM, "run", SMALL] for name in "ab")
     words = ["mpirun", *one, ":", *other]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=60)
-    assert done.returncode == 2 and "cannot be joined by every rank" in done.stderr, done.stderr
+    assert done.returncode == 2 and "cannot be opened by every rank" in done.stderr, done.stderr
     assert not list(tmp_path.glob("*/*"))
 
 
