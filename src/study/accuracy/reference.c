@@ -7,7 +7,7 @@
 #include "common/cells.h"
 #include "common/search.h"
 #include "common/share.h"
-#include "common/step_check.h"
+#include "common/step_error.h"
 #include "kapitza/kernel.h"
 
 enum {

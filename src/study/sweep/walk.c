@@ -13,18 +13,6 @@ static const double MERGING = 1e-3;
 /* A multiplier this near to the unit circle has reached it. */
 static const double NEUTRAL = 0.05;
 
-double kz_sweep_value(const kz_sweep_plan *plan, int64_t i) {
-  const kz_axis *axis = &plan->values;
-  if (i == axis->count - 1) return axis->max;
-  return axis->min + (axis->max - axis->min) * ((double)i / (double)(axis->count - 1));
-}
-
-bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
-  for (int64_t i = 0; i < plan->measure.count; i++)
-    if (plan->measure.values[i] == measure) return true;
-  return false;
-}
-
 static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pendulum) {
   return kz_sweep_pendulum(context, value, pendulum);
 }
