@@ -83,9 +83,10 @@ double kz_flutter_critical(const kz_path *path, double low, double high) {
 
 /* The direction (unit vector) in which the inverted state leaves by its most negative multiplier; false where it has none. */
 static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) {
-  const kz_numerics fine = {.scheme = KZ_SPLIT6, .steps_per_period = 96, .precision = KZ_DOUBLE};
+  kz_numerics fine;
   double theta = M_PI, velocity = 0, matrix[4];
   int64_t turns = 0;
+  kz_numerics_fine(pendulum, &fine);
   kz_plan *plan = kz_plan_create(pendulum, &fine);
   if (!plan) return false;
   kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
