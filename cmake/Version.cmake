@@ -13,6 +13,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include) # gfortran refuses an include folder that is not there yet
 set(KAPITZA_GIT_REVISION "@KAPITZA_GIT_REVISION@") # left for the build
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include/kapitza) # before the first build: a missing include folder is an error
 configure_file(cmake/version.h.in ${PROJECT_BINARY_DIR}/version.h.in @ONLY)

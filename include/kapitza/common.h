@@ -1,4 +1,4 @@
-/* Status codes of every function that can fail, and the one message that a user will see.
+/* common: what every layer may use. Status codes of every function that can fail, and the one message that a user will see.
  *
  * A failing function sets the message once, where it knows most (kz_fail), and returns the code; callers carry the code up
  * with KZ_TRY. Only app/main.c prints the message and ends the program. */
@@ -28,6 +28,20 @@ void kz_message_clear(void);
     kz_status kz_try_status = (call);                 \
     if (kz_try_status != KZ_OK) return kz_try_status; \
   } while (0)
+
+/* Seconds of a clock that never goes back. */
+double kz_clock(void);
+
+/* ---- words ---- */
+
+/* Words of scenes and files, in the order of their codes (KZ_SINGLE ..., KZ_METHOD_ICM ..., KZ_LINEAR ...). */
+#define KZ_PRECISION_WORDS "single", "double", "quad"
+#define KZ_METHOD_WORDS "icm", "direct", "hybrid"
+#define KZ_INTERPOLATION_WORDS "linear", "cubic", "quintic"
+
+/* Such a list of three as one text, "single|double|quad". */
+#define KZ_JOINED(words) KZ_JOINED_OF(words)
+#define KZ_JOINED_OF(first, second, third) first "|" second "|" third
 
 /* ---- memory ---- */
 

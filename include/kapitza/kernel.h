@@ -36,9 +36,14 @@ typedef struct {
   int32_t kicks;         /* sines per step */
   int32_t default_steps; /* steps per period where the scene gives none */
 } kz_scheme;
-enum { KZ_SPLIT6 = 2, KZ_PROCESSED = 4 }; /* the row that published values rest on; the fastest */
 int32_t kz_scheme_count(void);
 void kz_scheme_row(int32_t row, kz_scheme *scheme);
+/* The row of that name; -1 where there is none. */
+int32_t kz_scheme_find(const char *name);
+
+/* The numerics of published values, whatever the scene's: split6 in double precision, 96 steps, more where the torque is
+ * large. */
+void kz_numerics_fine(const kz_pendulum *pendulum, kz_numerics *numerics);
 
 /* The cheapest processed splitting whose error of one period, measured against quad-precision Taylor series at speeds up to
  * `fastest` (rad per drive radian), is at most `tolerance` (rad, angle and velocity together). steps_per_period: 0 = to be

@@ -163,6 +163,9 @@ extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, joined by '|'. */
 const char *kz_sweep_words(void);
 
+/* Value i of the sweep, both ends exact. */
+double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
+
 /* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping, less inertia than
  * a point). */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
@@ -176,15 +179,21 @@ typedef struct {
   double core_seconds; /* rough, on one core */
 } kz_cost;
 
-/* One row per study. `summary` is a stream for people on rank 0, NULL elsewhere; so is `store`. All ranks call run. */
+/* One row per study. `summary` is a stream for people on rank 0, NULL elsewhere; so is `store`. All ranks call run. `check`
+ * (NULL = nothing to check) refuses a scene that the study cannot model, as where the steps are too coarse for its motions. The
+ * message begins with the keys that a user could change ("numerics.steps_per_period|basin.velocity: ..."). */
 typedef struct {
   const char *name;
   bool (*wanted)(const kz_scene *scene);
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+  kz_status (*check)(const kz_scene *scene);
 } kz_study;
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
+
+/* KZ_REFUSED where a study of the scene does not pass its check: the first one's message. */
+kz_status kz_studies_check(const kz_scene *scene);
 
 /* Drive periods after which nearly all motions are trapped, at least 2000. Where that would be more than a million, 2000 too. */
 int64_t kz_settling_periods(double beta);
@@ -196,13 +205,8 @@ int64_t kz_settling_scene(const kz_scene *scene);
 void kz_settling_warn(const kz_scene *scene, FILE *out);
 
 /* numerics.steps_per_period where a scene leaves it out: the scheme's own number, or as many more as the small cells of a damped
- * basin need (smaller than 0.01 rad); left as it is where no number would do (kz_steps_check says so then), and where
+ * basin need (smaller than 0.01 rad); left as it is where no number would do (the basin's check says so then), and where
  * basin.accuracy chooses. */
 void kz_steps_choose(kz_scene *scene);
-
-/* KZ_REFUSED where the steps are too coarse for a study's motions. The message begins with the keys that a user could change
- * ("numerics.steps_per_period|basin.velocity: ..."), and says at which speeds, and how many steps would do. A sweep is tried at
- * both ends and between. */
-kz_status kz_steps_check(const kz_scene *scene);
 
 #endif

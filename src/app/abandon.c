@@ -22,22 +22,47 @@ static bool speaks(void) {
   return !here.part[0] || unlink(here.part) == 0 || errno != ENOENT;
 }
 
-/* "kapitza: WHAT; finished work is in ...", or OTHERWISE, without a stream: there may be no memory for one. */
+/* A line built with calls that a signal handler may make: no stream, no memory. */
+typedef struct {
+  char text[PATH_MAX + 256];
+  size_t length;
+} line;
+
+static void append(line *l, const char *text) {
+  for (; *text && l->length + 1 < sizeof l->text; text++) l->text[l->length++] = *text;
+  l->text[l->length] = '\0';
+}
+
+static void append_number(line *l, unsigned number) {
+  char digits[16] = "";
+  size_t first = sizeof digits - 1;
+  do digits[--first] = (char)('0' + number % 10);
+  while (number /= 10);
+  append(l, digits + first);
+}
+
+/* "kapitza: WHAT; finished work is in ...", or OTHERWISE. */
 static void say(const char *what, const char *otherwise) {
-  char line[PATH_MAX + 256];
+  line l = {.length = 0};
   const char *saved = here.ranks ? kz_ranks_saved(here.ranks) : NULL;
   here.armed = false;
   if (here.ranks) kz_ranks_forget(here.ranks);
-  snprintf(line, sizeof line, "kapitza: %s%s%s%s\n", what, saved ? "; finished work is in " : otherwise, saved ? saved : "",
-           saved ? ", --resume goes on from it" : "");
-  if (speaks() && write(STDERR_FILENO, line, strlen(line)) < 0) return; /* a failed write cannot be reported */
+  append(&l, "kapitza: ");
+  append(&l, what);
+  append(&l, saved ? "; finished work is in " : otherwise);
+  append(&l, saved ? saved : "");
+  append(&l, saved ? ", --resume goes on from it\n" : "\n");
+  if (speaks() && write(STDERR_FILENO, l.text, l.length) < 0) return; /* a failed write cannot be reported */
 }
 
 static void say_error(const char *what) {
-  char text[128];
+  line l = {.length = 0};
   const int rank = kz_launch_rank();
-  snprintf(text, sizeof text, "error: %s on rank %d", what, rank > 0 ? rank : 0);
-  say(text, "");
+  append(&l, "error: ");
+  append(&l, what);
+  append(&l, " on rank ");
+  append_number(&l, rank > 0 ? (unsigned)rank : 0);
+  say(l.text, "");
 }
 
 static void leave(const char *what) {
@@ -70,6 +95,7 @@ static void overdue(const char *reason) {
 }
 
 void kz_abandon_arm(void) {
+  kz_launch_rank(); /* looks into the environment, which a signal handler must not do */
   here.armed = true;
   kz_memory_on_failure(without_memory);
   atexit(at_exit);

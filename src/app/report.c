@@ -59,7 +59,7 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   char *resolved = kz_scene_resolved(scene);
   const kz_cost cost = kz_cost_of(scene);
   kz_status status = resolved ? kz_cost_check(&cost, NULL) : kz_fail(KZ_FAILED, "out of memory");
-  if (status == KZ_OK) status = kz_steps_check(scene);
+  if (status == KZ_OK) status = kz_studies_check(scene);
   if (status == KZ_OK && options->speaks) {
     print_check(options, scene, resolved);
     kz_settling_warn(scene, stdout);

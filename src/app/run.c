@@ -65,7 +65,7 @@ static kz_status prepare(job *j, bool *complete) {
   KZ_TRY(check_output(j, complete));
   const kz_cost cost = kz_cost_of(&j->scene);
   KZ_TRY(kz_ranks_agree(j->ranks, kz_cost_check(&cost, j->ranks)));
-  KZ_TRY(kz_ranks_agree(j->ranks, j->first && !*complete ? kz_steps_check(&j->scene) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(j->ranks, j->first && !*complete ? kz_studies_check(&j->scene) : KZ_OK));
   if (j->first && !*complete) kz_settling_warn(&j->scene, stderr);
   return KZ_OK;
 }

@@ -88,17 +88,26 @@ static bool is_list(const kz_key *key) {
   return key->type >= KZ_KEY_WORDS;
 }
 
-/* kz_reals and kz_integers have one layout: a count and values of eight bytes. */
-static const char *read_list(const kz_key *key, const kz_node *node, kz_integers *list, const kz_node **culprit) {
+/* The count and value i of a list: kz_reals, or kz_integers. */
+static int64_t *count_of(const kz_key *key, void *list) {
+  return key->type == KZ_KEY_REALS ? &((kz_reals *)list)->count : &((kz_integers *)list)->count;
+}
+
+static void *value_of(const kz_key *key, void *list, int64_t i) {
+  return key->type == KZ_KEY_REALS ? (void *)&((kz_reals *)list)->values[i] : (void *)&((kz_integers *)list)->values[i];
+}
+
+static const char *read_list(const kz_key *key, const kz_node *node, void *list, const kz_node **culprit) {
   if (node->kind != KZ_SEQUENCE) return "is not a list";
-  list->count = 0;
+  int64_t *count = count_of(key, list);
+  *count = 0;
   for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
-    if (list->count == KZ_LIST_MAX) return "is one value too many (at most 256)";
-    const char *wrong = readers[key->type](key, *culprit, &list->values[list->count++]);
+    if (*count == KZ_LIST_MAX) return "is one value too many (at most 256)";
+    const char *wrong = readers[key->type](key, *culprit, value_of(key, list, (*count)++));
     if (wrong) return wrong;
   }
   *culprit = node;
-  return list->count > 0 ? NULL : "is an empty list";
+  return *count > 0 ? NULL : "is an empty list";
 }
 
 const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit) {
@@ -129,7 +138,7 @@ void kz_value_clear(const kz_key *key, void *scene) {
       *(double *)field = NAN;
       break;
     default:
-      ((kz_integers *)field)->count = 0;
+      *count_of(key, field) = 0;
   }
 }
 
@@ -149,7 +158,7 @@ static bool is_set(const kz_key *key, const void *field) {
     case KZ_KEY_REAL:
       return !isnan(*(const double *)field);
     default:
-      return ((const kz_integers *)field)->count > 0;
+      return *count_of(key, (void *)field) > 0;
   }
 }
 
@@ -177,13 +186,13 @@ static void print_text(const char *text, FILE *out) {
 }
 
 static void print_list(const kz_key *key, const void *field, FILE *out) {
-  const kz_integers *integers = field;
-  const kz_reals *reals = field;
-  for (int64_t i = 0; i < integers->count; i++) {
+  const int64_t count = *count_of(key, (void *)field);
+  for (int64_t i = 0; i < count; i++) {
+    const void *value = value_of(key, (void *)field, i);
     fputs(i == 0 ? "[" : ", ", out);
-    if (key->type == KZ_KEY_WORDS) print_word(key, integers->values[i], out);
-    if (key->type == KZ_KEY_INTEGERS) fprintf(out, "%" PRId64, integers->values[i]);
-    if (key->type == KZ_KEY_REALS) print_real(reals->values[i], out);
+    if (key->type == KZ_KEY_WORDS) print_word(key, *(const int64_t *)value, out);
+    if (key->type == KZ_KEY_INTEGERS) fprintf(out, "%" PRId64, *(const int64_t *)value);
+    if (key->type == KZ_KEY_REALS) print_real(*(const double *)value, out);
   }
   fputc(']', out);
 }

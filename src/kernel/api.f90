@@ -3,7 +3,7 @@ module kz_kernel_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
                                          c_f_pointer
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_flow, sampling_numerics, SINGLE, DOUBLE
+  use kz_kernel_plan, only: make_flow, fine_numerics, sampling_numerics, SINGLE, DOUBLE
   use kz_kernel_schemes, only: SCHEMES
   use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_kernel_r32, only: sine_r32 => sine
@@ -42,6 +42,13 @@ contains
     scheme%kicks = SCHEMES(row + 1)%kicks
     scheme%default_steps = SCHEMES(row + 1)%default_steps
   end subroutine scheme_row
+
+  subroutine numerics_fine(pendulum, numerics) bind(C, name='kz_numerics_fine')
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(out) :: numerics
+
+    numerics = fine_numerics(pendulum)
+  end subroutine numerics_fine
 
   pure function c_text(text, n) result(chars)
     character(*), intent(in) :: text

@@ -4,7 +4,7 @@ module kz_kernel_plan
   use kz_kernel_map, only: flow_t
   use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
                                         MOST_DRIFTS, MOST_KICKS
-  use kz_kernel_schemes, only: SCHEMES, PROCESSED
+  use kz_kernel_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_kernel_step_table, only: pendulum_t, numerics_t, period_t, make_period
   use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
   use kz_kernel_r64, only: make_tile_r64 => make_tile, make_processed_r64 => make_processed_tile
@@ -17,7 +17,7 @@ module kz_kernel_plan
   integer, parameter, public :: SINGLE = 0, DOUBLE = 1, QUAD = 2
 
   !> What published values are computed with, whatever the scene says: split6, 96 steps.
-  type(numerics_t), parameter :: FINE = numerics_t(2, 96, DOUBLE)
+  type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96, DOUBLE)
 
 contains
 

@@ -49,7 +49,7 @@ contains
     allocate (series)
     call make_processed_series(pendulum, numerics%precision == QUAD, series)
     call make_probes(pendulum, fastest, probes)
-    numerics%scheme = PROCESSED_ROW - 1
+    numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest
     if (numerics%steps_per_period > 0) then
       call fit_terms(pendulum, series, probes, tolerance, numerics, error)

@@ -4,19 +4,12 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "bytes.h"
 
 enum { MESSAGE_BYTES = 2048, ABANDON_SECONDS = 5 };
 static const size_t CHUNK_BYTES = (size_t)1 << 30; /* MPI counts are int */
-
-double kz_clock(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 kz_status kz_mpi_fail(int code, const char *file, int line) {
   char text[MPI_MAX_ERROR_STRING] = "";

@@ -28,9 +28,6 @@ struct kz_ranks {
   } while (0)
 kz_status kz_mpi_fail(int code, const char *file, int line);
 
-/* Seconds of a clock that never goes back. */
-double kz_clock(void);
-
 /* Signals that ask for a stop are noted from here on. Call before MPI_Init and again after it. */
 void kz_signals_catch(void);
 /* The name of the signal that asked for a stop, NULL if none came. */

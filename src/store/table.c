@@ -3,6 +3,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "kapitza/common.h"
+
 #define ANGLE "rad"
 #define VELOCITY "rad per drive radian"
 #define PERIODS "drive periods"
@@ -205,8 +207,8 @@ static const kz_variable variables[] = {
 
     {"tradeoff", "setting", KZ_INT32, {"setting"}, NONE, "place in the list of settings", {0}},
     {"tradeoff", "label", KZ_TEXT, {"setting"}, NONE, "name of the setting", {0}},
-    {"tradeoff", "method", KZ_INT8, {"setting"}, NONE, "how cells are labelled", {"icm", "direct", "hybrid"}},
-    {"tradeoff", "precision", KZ_INT8, {"setting"}, NONE, "kind of the arithmetic", {"single", "double", "quad"}},
+    {"tradeoff", "method", KZ_INT8, {"setting"}, NONE, "how cells are labelled", {KZ_METHOD_WORDS}},
+    {"tradeoff", "precision", KZ_INT8, {"setting"}, NONE, "kind of the arithmetic", {KZ_PRECISION_WORDS}},
     {"tradeoff", "scheme", KZ_TEXT, {"setting"}, NONE, "integrator", {0}},
     {"tradeoff", "steps_per_period", KZ_INT32, {"setting"}, NONE, "steps of the scheme in a drive period", {0}},
     {"tradeoff",
@@ -215,7 +217,7 @@ static const kz_variable variables[] = {
      {"setting"},
      NONE,
      "interpolation of the map table, which a direct label does not use",
-     {"linear", "cubic", "quintic"}},
+     {KZ_INTERPOLATION_WORDS}},
     {"tradeoff", "table_nodes", KZ_INT32, {"setting"}, NONE, "nodes of the map table along each axis", {0}},
     {"tradeoff", "wrong", KZ_REAL, {"setting"}, NONE, "share of cells labelled unlike the reference", {0}},
     {"tradeoff", "wrong_low", KZ_REAL, {"setting"}, NONE, "lower end of its 95 % interval", {0}},

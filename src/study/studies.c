@@ -9,12 +9,18 @@
 #include "sweep/sweep.h"
 
 const kz_study kz_studies[] = {
-    {"basin", kz_basin_wanted, kz_basin_cost, kz_basin_run},
-    {"attractors", kz_attractors_wanted, kz_attractors_cost, kz_attractors_run},
-    {"orbit", kz_orbit_wanted, kz_orbit_cost, kz_orbit_run},
-    {"stability", kz_stability_wanted, kz_stability_cost, kz_stability_run},
-    {"potential", kz_potential_wanted, kz_potential_cost, kz_potential_run},
-    {"sweep", kz_sweep_wanted, kz_sweep_cost, kz_sweep_run},
-    {"tradeoff", kz_tradeoff_wanted, kz_tradeoff_cost, kz_tradeoff_run},
+    {"basin", kz_basin_wanted, kz_basin_cost, kz_basin_run, kz_basin_check},
+    {"attractors", kz_attractors_wanted, kz_attractors_cost, kz_attractors_run, kz_attractors_check},
+    {"orbit", kz_orbit_wanted, kz_orbit_cost, kz_orbit_run, kz_orbit_check},
+    {"stability", kz_stability_wanted, kz_stability_cost, kz_stability_run, NULL},
+    {"potential", kz_potential_wanted, kz_potential_cost, kz_potential_run, NULL},
+    {"sweep", kz_sweep_wanted, kz_sweep_cost, kz_sweep_run, kz_sweep_check},
+    {"tradeoff", kz_tradeoff_wanted, kz_tradeoff_cost, kz_tradeoff_run, kz_tradeoff_check},
 };
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];
+
+kz_status kz_studies_check(const kz_scene *scene) {
+  for (int i = 0; i < kz_study_count; i++)
+    if (kz_studies[i].check && kz_studies[i].wanted(scene)) KZ_TRY(kz_studies[i].check(scene));
+  return KZ_OK;
+}

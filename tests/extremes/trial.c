@@ -35,7 +35,7 @@ static void advance(const kz_pendulum *pendulum, kz_numerics numerics, double *t
 /* The largest error of one period on the grid of one class, rad: split6 with many more steps is the reference. */
 static double dense_error(const kz_pendulum *pendulum, const kz_numerics *numerics, const double *speed, int class) {
   static double theta[N], velocity[N], theta_true[N], velocity_true[N];
-  const kz_numerics fine = {.scheme = KZ_SPLIT6, .steps_per_period = FINE, .precision = KZ_DOUBLE};
+  const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = FINE, .precision = KZ_DOUBLE};
   double largest = 0;
   put_grid(speed, class, theta, velocity);
   put_grid(speed, class, theta_true, velocity_true);

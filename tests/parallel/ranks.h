@@ -28,12 +28,6 @@ static inline void assert_on_all(int holds, const char *text, int line) {
   if (agreed != KZ_OK) _fail(__FILE__, line);
 }
 
-static inline double now(void) {
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 static inline void pause_for(double seconds) {
   const struct timespec time = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
   nanosleep(&time, NULL);

@@ -62,12 +62,7 @@ static void nonlinear_tangent_map_agrees(void **unused) {
   (void)unused;
   for (int i = 0; i < 6; i++) {
     kz_pendulum pendulum = {random_between(-0.5, 1.5), random_between(0, 0.4), random_between(-1, 1)};
-    kz_numerics fine = {.scheme = 0, .steps_per_period = 64, .precision = KZ_QUAD};
-    for (int32_t row = 0; row < kz_scheme_count(); row++) {
-      kz_scheme scheme;
-      kz_scheme_row(row, &scheme);
-      if (strcmp(scheme.name, "split6") == 0) fine.scheme = row;
-    }
+    kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 64, .precision = KZ_QUAD};
     kz_plan *plan = kz_plan_create(&pendulum, &fine);
     double theta = 0, velocity = 0, matrix[4];
     int64_t turns = 0;

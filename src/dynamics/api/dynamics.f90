@@ -10,7 +10,8 @@ module kz_api_dynamics
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_trapping_grid, only: make_regions, draw_attractors
   use kz_attractors_cycle_search, only: find_cycle, append
-  use kz_maps_map_table, only: make_table, table_row, set_table_rows, table_map_t, make_table_map
+  use kz_maps_map_table, only: make_table, table_row, set_table_rows, inner_top, table_map_t, make_table_map
+  use kz_maps_states, only: wrapped
   use kz_maps_step_error, only: table_defect
   implicit none
   private
@@ -75,8 +76,7 @@ contains
     offset = [modulo(0.5_dp + seed*GOLDEN, 1.0_dp), modulo(0.5_dp + seed*GOLDEN**2*PI, 1.0_dp)]
     do i = 1, n
       share = modulo(offset + i*[1/PLASTIC, 1/PLASTIC**2], 1.0_dp)
-      state(1, i) = (window%theta_min + share(1)*(window%theta_max - window%theta_min))/PI
-      state(1, i) = state(1, i) - 2*anint(0.5_dp*state(1, i))
+      state(1, i) = wrapped((window%theta_min + share(1)*(window%theta_max - window%theta_min))/PI)
       state(2, i) = window%velocity_min + share(2)*(window%velocity_max - window%velocity_min)
     end do
   end subroutine starts
@@ -301,7 +301,7 @@ contains
 
     d => of_handle(handle)
     allocate (state(2, SAMPLES))
-    top = d%table%top*(d%table%n_velocity - 5)/(d%table%n_velocity - 1)
+    top = inner_top(d%table)
     call starts(window_t(-PI, PI, -top, top), 2_c_int64_t, SAMPLES, state)
     map = make_table_map(d%table, int(points), d%search%flow)
     largest = table_defect(d%search%flow, map, state)

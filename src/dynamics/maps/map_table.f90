@@ -8,7 +8,7 @@ module kz_maps_map_table
   use kz_maps_states, only: midperiod_angle
   implicit none
   private
-  public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, table_map_t, make_table_map, &
+  public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, node_velocity, inner_top, table_map_t, make_table_map, &
             place_t, locate, displace
 
   integer, parameter :: GHOSTS = 2
@@ -61,6 +61,14 @@ contains
     allocate (table%shift(2, -GHOSTS:table%n_theta + GHOSTS, n_velocity))
     table%shift = 0
   end function make_table
+
+  !> The largest velocity where every stencil fits.
+  pure function inner_top(table) result(v)
+    type(table_t), intent(in) :: table
+    real(dp) :: v
+
+    v = table%top*(table%n_velocity - 1 - 2*GHOSTS)/(table%n_velocity - 1)
+  end function inner_top
 
   !> Velocity of node j = 1 .. n_velocity; node n + 1 - j has exactly the opposite one.
   pure function node_velocity(table, j) result(v)

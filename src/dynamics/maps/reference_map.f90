@@ -3,6 +3,7 @@ module kz_maps_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_kernel_step_table, only: pendulum_t
+  use kz_maps_states, only: wrapped
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
   private
@@ -39,8 +40,7 @@ contains
 
     call make_drive(map%drive, pendulum%k, pendulum%beta, pendulum%m, n_steps)
     allocate (map%start, source=start)
-    u = start(1, :)/PI
-    u = u - 2*anint(0.5_dp*u)
+    u = wrapped(start(1, :)/PI)
     allocate (map%start_u, source=u)
   end subroutine make_reference_map
 

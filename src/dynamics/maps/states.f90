@@ -4,12 +4,20 @@ module kz_maps_states
   use kz_kernel_map, only: PI
   implicit none
   private
-  public :: angle_difference, separation, same_state, midperiod_angle, rounded
+  public :: wrapped, angle_difference, separation, same_state, midperiod_angle, rounded
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
 
 contains
+
+  !> An angle in half-turns, wrapped to [-1, 1].
+  elemental function wrapped(u) result(w)
+    real(dp), intent(in) :: u
+    real(dp) :: w
+
+    w = u - 2*anint(0.5_dp*u)
+  end function wrapped
 
   !> Shortest difference of two angles in half-turns, in [-1, 1].
   elemental function angle_difference(a, b) result(d)
@@ -17,8 +25,7 @@ contains
     real(dp), intent(in) :: b
     real(dp) :: d
 
-    d = a - b
-    d = d - 2*anint(0.5_dp*d)
+    d = wrapped(a - b)
   end function angle_difference
 
   !> From (u1, v1) to (u2, v2), rad and rad per drive radian together.

@@ -10,7 +10,7 @@ module kz_trapping_growth
   use kz_trapping_cell_images, only: image_t, cell_image, extent
   use kz_trapping_grid, only: regions_t, fold_cell
   use kz_maps_states, only: midperiod_angle
-  use kz_maps_map_table, only: table_t, table_map_t, fill_ghosts
+  use kz_maps_map_table, only: table_t, table_map_t, fill_ghosts, node_velocity
   implicit none
   private
   public :: make_later, grow_regions
@@ -67,7 +67,7 @@ contains
         n = min(WIDTH, map%table%n_own - first + 1)
         do lane = 1, n
           i = first + lane - 1
-          v = velocity(j) + field(2, i, j)
+          v = node_velocity(map%table, j) + field(2, i, j)
           u = 2*real(i, dp)/map%table%n_circle + field(1, i, j) - midperiod_angle(0.0_dp, v)
           turns(lane) = anint(0.5_dp*u)
           call map%put(lane, u - 2*turns(lane), v)
@@ -78,18 +78,11 @@ contains
         do lane = 1, n
           i = first + lane - 1
           u = midperiod_angle(map%u(lane) + 2*(turns(lane) + map%turns(lane)), map%v(lane))
-          more(:, i, j) = [u - 2*real(i, dp)/map%table%n_circle, map%v(lane) - velocity(j)]
+          more(:, i, j) = [u - 2*real(i, dp)/map%table%n_circle, map%v(lane) - node_velocity(map%table, j)]
         end do
       end do
     end do
     call fill_ghosts(map%table, more)
-  contains
-    pure function velocity(row) result(node)
-      integer, intent(in) :: row
-      real(dp) :: node
-
-      node = (2*row - map%table%n_velocity - 1)*(map%table%top/(map%table%n_velocity - 1))
-    end function velocity
   end subroutine later
 
   !> Tests every open cell; one whose image has an open cell is put on the waiting list of that cell.

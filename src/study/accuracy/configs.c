@@ -53,18 +53,9 @@ const char *kz_tradeoff_words(void) {
   return words;
 }
 
-static int32_t scheme_row(const char *name) {
-  kz_scheme scheme;
-  int32_t row = 0;
-  for (; row < kz_scheme_count(); row++) {
-    kz_scheme_row(row, &scheme);
-    if (strcmp(scheme.name, name) == 0) break;
-  }
-  return row;
-}
-
 kz_numerics kz_config_numerics(const kz_config *config) {
-  return (kz_numerics){.scheme = scheme_row(config->scheme), .steps_per_period = config->steps, .precision = config->precision};
+  return (kz_numerics){
+      .scheme = kz_scheme_find(config->scheme), .steps_per_period = config->steps, .precision = config->precision};
 }
 
 void kz_config_apply(const kz_config *config, kz_scene *scene) {
@@ -82,7 +73,7 @@ double kz_config_cost(const kz_config *config, double cells, double mean_periods
                       look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, tracking = 15, integrated = 0.15,
                       growth = 700;
   kz_scheme scheme;
-  kz_scheme_row(scheme_row(config->scheme), &scheme);
+  kz_scheme_row(kz_scheme_find(config->scheme), &scheme);
   const double nodes = (double)config->nodes, period = kind[config->precision] * scheme.kicks * config->steps;
   const double mapped = look_up[config->interpolation];
   const double cell = config->method == KZ_METHOD_DIRECT ? period

@@ -41,6 +41,13 @@ kz_cost kz_tradeoff_cost(const kz_scene *scene) {
                    .core_seconds = kicks * kick_seconds + reference_seconds * mean_periods * (double)scene->tradeoff.samples};
 }
 
+/* Without damping there are no reference labels. */
+kz_status kz_tradeoff_check(const kz_scene *scene) {
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  kz_numerics reference;
+  return pendulum->beta > 0 ? kz_reference_labels_numerics(&scene->basin, pendulum, &reference) : KZ_OK;
+}
+
 char *kz_reference_path(const kz_store *store) {
   static const char ending[] = ".truth";
   if (!store) return NULL;

@@ -3,7 +3,7 @@
 
 #include "common/cells.h"
 #include "common/column.h"
-#include "common/step_check.h"
+#include "common/step_error.h"
 #include "kapitza/kernel.h"
 #include "tradeoff.h"
 

@@ -32,6 +32,15 @@ kz_cost kz_attractors_cost(const kz_scene *scene) {
                    .core_seconds = kz_settling_search(pendulum, starts, 1e-9 * kicks, kz_settling_periods(pendulum->beta))};
 }
 
+static kz_motions motions_of_starts(const kz_scene *scene) {
+  return kz_motions_of(scene, kz_axis_fastest(&scene->attractors.velocity), "numerics.steps_per_period|attractors.velocity");
+}
+
+kz_status kz_attractors_check(const kz_scene *scene) {
+  const kz_motions motions = motions_of_starts(scene);
+  return motions.pendulum.beta > 0 ? kz_motions_check(&motions) : KZ_OK;
+}
+
 static kz_status allocate(const kz_scene *scene, finding *s) {
   size_t n = (size_t)scene->attractors.starts;
   s->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
@@ -56,7 +65,8 @@ static kz_status discover(kz_ranks *ranks, finding *s) {
 
 static kz_status publish(const kz_scene *scene, const finding *s, kz_store *store, FILE *summary) {
   kz_catalogue catalogue = {0};
-  kz_steps_warn(scene, kz_axis_fastest(&scene->attractors.velocity), summary);
+  const kz_motions motions = motions_of_starts(scene);
+  kz_motions_warn(&motions, summary);
   kz_status status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
   if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
   if (status == KZ_OK) {

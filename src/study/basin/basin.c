@@ -9,9 +9,10 @@
 #include <string.h>
 
 #include "accuracy/accuracy.h"
+#include "basin_steps.h"
 #include "common/catalogue.h"
 #include "common/search.h"
-#include "common/step_check.h"
+#include "common/step_table.h"
 #include "kapitza/dynamics.h"
 #include "common/settling.h"
 
@@ -200,7 +201,7 @@ static kz_status finish(basin *b, kz_catalogue *catalogue, kz_labels *labels) {
 
 /* The errors of the numerics behind the labels, and warnings about them. */
 static void measure_numerics(const kz_scene *scene, const basin *b, kz_labels *labels, FILE *summary) {
-  labels->step_error = kz_steps_warn_basin(scene, summary);
+  labels->step_error = kz_basin_warn_steps(scene, summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
   labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil[scene->basin.interpolation]);

@@ -28,6 +28,7 @@ kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const k
 
 bool kz_basin_wanted(const kz_scene *scene);
 kz_cost kz_basin_cost(const kz_scene *scene);
+kz_status kz_basin_check(const kz_scene *scene);
 kz_status kz_basin_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
 
 #endif

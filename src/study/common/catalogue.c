@@ -140,8 +140,8 @@ static kz_status write_matrices(const matrices *x, kz_store *store) {
 
 static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *pendulum, matrices *x, kz_store *store) {
   int64_t n = catalogue->count;
-  kz_numerics fine = {.scheme = KZ_SPLIT6, .steps_per_period = SAMPLES, .precision = KZ_DOUBLE};
-  fine.steps_per_period *= (int32_t)ceil(sqrt(fmax(1, fabs(pendulum->k) + fabs(pendulum->m))));
+  kz_numerics fine;
+  kz_numerics_fine(pendulum, &fine);
   kz_plan *plan = kz_plan_create(pendulum, &fine);
   x->theta = nan_filled(n * x->phases);
   x->velocity = nan_filled(n * x->phases);

@@ -48,9 +48,9 @@ void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
 
 const int32_t kz_stencil[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
 
-const char *const kz_method_names[] = {[KZ_METHOD_ICM] = "icm", [KZ_METHOD_DIRECT] = "direct", [KZ_METHOD_HYBRID] = "hybrid"};
-const char *const kz_interpolation_names[] = {[KZ_LINEAR] = "linear", [KZ_CUBIC] = "cubic", [KZ_QUINTIC] = "quintic"};
-const char *const kz_precision_names[] = {[KZ_SINGLE] = "single", [KZ_DOUBLE] = "double", [KZ_QUAD] = "quad"};
+const char *const kz_method_names[] = {KZ_METHOD_WORDS};
+const char *const kz_interpolation_names[] = {KZ_INTERPOLATION_WORDS};
+const char *const kz_precision_names[] = {KZ_PRECISION_WORDS};
 
 void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
                int32_t *label, int64_t *periods, int64_t *integrated) {

@@ -1,33 +1,39 @@
-/* step_check: whether the steps are fine enough for a scene, tested before anything is labelled (C; layer 3, study). Not
- * collective. */
+/* Whether the steps are fine enough for the motions of a study, tested before anything is labelled: step doubling on a sample of
+ * every class of speeds. Not collective. */
 #ifndef KAPITZA_STUDY_STEP_CHECK_H
 #define KAPITZA_STUDY_STEP_CHECK_H
 
 #include "kapitza/study.h"
+#include "step_error.h"
 
-/* rad: what one drive period of a basin's window may be off by without a word: a hundredth of a cell (kz_cell_size), 1e-4 at
+/* Motions of one study: their numerics, the errors that are allowed, the keys that a user could change. */
+typedef struct {
+  kz_pendulum pendulum;
+  kz_numerics numerics;
+  double fastest;     /* start, rad per drive radian */
+  double loose, lost; /* rad, of one drive period: warned of above, refused above */
+  double cell;        /* rad; INFINITY where nothing has cells */
+  const char *keys;   /* "KEY|KEY" */
+  char where[96];     /* "at m = 0.3, ", or "" */
+} kz_motions;
+
+/* Motions with the scene's pendulum and numerics from starts up to speed `fastest` (rad per drive radian). */
+kz_motions kz_motions_of(const kz_scene *scene, double fastest, const char *keys);
+/* The same motions, where they label the cells of a basin: the allowed errors are shares of a cell where that is less. */
+void kz_motions_label_cells(const kz_basin_plan *plan, kz_motions *motions);
+
+/* rad: what one drive period of a basin's window may be off by without a warning: a hundredth of a cell (kz_cell_size), 1e-4 at
  * most. */
 double kz_steps_tolerance(const kz_basin_plan *plan);
 
-/* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
- * `most` steps: then the last number tried. */
-bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
+/* Steps that leave nothing to warn of; where rounding forbids that in small cells, steps that are not refused. False where no
+ * number of steps does: then *numerics has the largest number tried. */
+bool kz_motions_find_steps(const kz_motions *motions, kz_numerics *numerics);
 
-/* False where the error of one drive period exceeds 0.1 rad or the motion diverges: labels would be random. */
-bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
-
-/* A line for each class of speeds up to `fastest` that is off by more than 1e-4 rad. */
-void kz_steps_warn(const kz_scene *scene, double fastest, FILE *summary);
-/* The steps of a basin and their error beside its cells, and a line for each class of speeds that is off by more than
- * kz_steps_tolerance. Returns the largest error of a drive period, rad: an upper estimate. */
-double kz_steps_warn_basin(const kz_scene *scene, FILE *summary);
-/* The same for the worst of a sweep's values. */
-void kz_steps_warn_sweep(const kz_scene *scene, FILE *summary);
-
-/* KZ_REFUSED where one period of the map table (`defect`, rad) is off by more than a cell: the message tells the nodes that
- * would do. */
-kz_status kz_steps_check_table(const kz_basin_plan *plan, double defect);
-/* A line where it is off by more than kz_steps_tolerance. */
-void kz_steps_warn_table(const kz_basin_plan *plan, double defect, FILE *summary);
+/* KZ_REFUSED where one drive period is off by more than `lost`: the message begins with `keys`, and says at which speeds, and
+ * how many steps would do. */
+kz_status kz_motions_check(const kz_motions *motions);
+/* A line for each class of speeds whose error exceeds `loose`, and what would help. */
+void kz_motions_warn(const kz_motions *motions, FILE *summary);
 
 #endif

@@ -5,8 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "settles_on.h"
+#include "common/step_check.h"
 #include "exponent.h"
+#include "settles_on.h"
 
 /* Periods of an open record that the scene does not bound. */
 enum { OPEN_PERIODS = 100 };
@@ -17,6 +18,14 @@ enum { STRETCH = 100000 };
 
 bool kz_orbit_wanted(const kz_scene *scene) {
   return scene->has_orbit;
+}
+
+kz_status kz_orbit_check(const kz_scene *scene) {
+  const double start = scene->orbit.velocity;
+  kz_motions motions = kz_motions_of(scene, isfinite(start) ? fabs(start) : 0, "numerics.steps_per_period|orbit.start|orbit");
+  if (scene->orbit.model != KZ_PENDULUM) return KZ_OK;
+  motions.numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);
+  return kz_motions_check(&motions);
 }
 
 static int64_t given(int64_t value, int64_t fallback) {

@@ -3,48 +3,13 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "common/step_check.h"
 #include "common/settling.h"
 
-#define KEY(name_, unit_) \
-  { #name_, unit_, offsetof(kz_pendulum_keys, name_) }
-const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
-    KEY(quality_factor, "1"),
-    KEY(drive_frequency, "1"),
-    KEY(drive_amplitude, "1"),
-    KEY(k, "1"),
-    KEY(damping, "1"),
-    KEY(m, "1"),
-    KEY(mass, "kg"),
-    KEY(radius, "m"),
-    KEY(inertia, "kg m2"),
-    KEY(friction, "kg m2 s-1"),
-    KEY(gravity, "m s-2"),
-    KEY(pivot_amplitude, "m"),
-    KEY(pivot_frequency, "rad s-1"),
-};
-
-const char *kz_sweep_words(void) {
-  static char words[256];
-  words[0] = '\0';
-  for (int i = 0; i < KZ_SWEEP_PARAMETERS; i++) {
-    if (i > 0) strcat(words, "|");
-    strcat(words, kz_sweep_parameters[i].name);
-  }
-  return words;
-}
-
-bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum) {
-  kz_parameters parameters = scene->parameters;
-  *(double *)((char *)&parameters.written + kz_sweep_parameters[scene->sweep.parameter].offset) = value;
-  if (kz_parameters_resolve(&parameters) != KZ_OK) {
-    kz_message_clear();
-    return false;
-  }
-  *pendulum = parameters.pendulum;
-  return pendulum->beta >= 0 && (isnan(parameters.written.mass) || kz_inertia_is_possible(&parameters.written));
+bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
+  for (int64_t i = 0; i < plan->measure.count; i++)
+    if (plan->measure.values[i] == measure) return true;
+  return false;
 }
 
 bool kz_sweep_wanted(const kz_scene *scene) {
@@ -133,7 +98,7 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
   KZ_TRY(status);
   fprintf(summary, "sweep of %s, %lld values from %.10g to %.10g\n", parameter->name, (long long)plan->values.count,
           plan->values.min, plan->values.max);
-  kz_steps_warn_sweep(scene, summary);
+  kz_sweep_warn_steps(scene, summary);
   return KZ_OK;
 }
 

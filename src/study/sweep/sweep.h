@@ -5,8 +5,6 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* Value i of the sweep, both ends exact. */
-double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
 
 /* ---- walks: one cycle from value to value ---- */
@@ -105,9 +103,13 @@ kz_status kz_sweep_stage(const kz_scene *scene, kz_ranks *ranks, const kz_stage 
 /* Releases from rest at t = 0, `angle` [n] rad from inverted: stays [n] = 1 where the motion stays within half a turn of it. */
 kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays);
 
+/* A line for each class of speeds that is off by more than is good, at the worst of the values. */
+void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
+
 /* One row of kz_studies. */
 bool kz_sweep_wanted(const kz_scene *scene);
 kz_cost kz_sweep_cost(const kz_scene *scene);
+kz_status kz_sweep_check(const kz_scene *scene);
 kz_status kz_sweep_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
 
 #endif

@@ -13,18 +13,6 @@ static const double MERGING = 1e-3;
 /* A multiplier this near to the unit circle has reached it. */
 static const double NEUTRAL = 0.05;
 
-double kz_sweep_value(const kz_sweep_plan *plan, int64_t i) {
-  const kz_axis *axis = &plan->values;
-  if (i == axis->count - 1) return axis->max;
-  return axis->min + (axis->max - axis->min) * ((double)i / (double)(axis->count - 1));
-}
-
-bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
-  for (int64_t i = 0; i < plan->measure.count; i++)
-    if (plan->measure.values[i] == measure) return true;
-  return false;
-}
-
 static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pendulum) {
   return kz_sweep_pendulum(context, value, pendulum);
 }
@@ -95,9 +83,10 @@ double kz_flutter_critical(const kz_path *path, double low, double high) {
 
 /* The direction (unit vector) in which the inverted state leaves by its most negative multiplier; false where it has none. */
 static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) {
-  const kz_numerics fine = {.scheme = KZ_SPLIT6, .steps_per_period = 96, .precision = KZ_DOUBLE};
+  kz_numerics fine;
   double theta = M_PI, velocity = 0, matrix[4];
   int64_t turns = 0;
+  kz_numerics_fine(pendulum, &fine);
   kz_plan *plan = kz_plan_create(pendulum, &fine);
   if (!plan) return false;
   kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);

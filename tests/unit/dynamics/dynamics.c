@@ -12,7 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const kz_numerics NUMERICS = {.scheme = KZ_SPLIT6, .steps_per_period = 16, .precision = KZ_DOUBLE};
+static const kz_numerics *numerics(void) {
+  static kz_numerics numerics = {.steps_per_period = 16, .precision = KZ_DOUBLE};
+  numerics.scheme = kz_scheme_find("split6");
+  return &numerics;
+}
 static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
 
 enum { STARTS = 1024 };
@@ -20,7 +24,7 @@ enum { STARTS = 1024 };
 /* Follows starts and looks for cycles until every start is trapped. */
 static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
-  kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 12);
+  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 12);
   double *state = malloc(2 * STARTS * sizeof *state);
   int32_t *label = malloc(STARTS * sizeof *label);
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
@@ -100,7 +104,7 @@ static void test_interpolation(void **state) {
   for (int points = 2; points <= 6; points += 2) {
     double error[2] = {0, 0};
     for (int fine = 0; fine < 2; fine++) {
-      kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 4);
+      kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 4);
       double x[2 * N], y[2 * N];
       int32_t label[N];
       int64_t periods[N];
@@ -292,7 +296,7 @@ static void test_packing(void **state) {
   (void)state;
   kz_dynamics *a = explored(0.46, 1, 3);
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.46};
-  kz_dynamics *b = kz_dynamics_create(&pendulum, &NUMERICS, 12);
+  kz_dynamics *b = kz_dynamics_create(&pendulum, numerics(), 12);
   int64_t size = kz_dynamics_packed_size(a);
   double *flat = malloc((size_t)size * sizeof *flat), *again = malloc((size_t)size * sizeof *again);
   kz_dynamics_pack(a, size, flat);
@@ -311,7 +315,7 @@ static void test_chaos(void **state) {
   (void)state;
   enum { N = 256 };
   kz_pendulum pendulum = {0.25, 0.05, 0.5};
-  kz_dynamics *d = kz_dynamics_create(&pendulum, &NUMERICS, 48);
+  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 48);
   double x[2 * N];
   int32_t label[N];
   int64_t periods[N], integrated[N];

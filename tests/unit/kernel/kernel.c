@@ -132,7 +132,9 @@ static void test_determinant(void **state) {
         double determinant = matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2];
         double scale = fabs(matrix[i][0] * matrix[i][3]) + fabs(matrix[i][1] * matrix[i][2]);
         double error = fabs(determinant - exp(-2 * M_PI * PENDULUM.beta));
-        assert_true(error <= 400 * EPSILON[kind] * scale + (scheme == 0 ? 1e-9 : scheme == KZ_PROCESSED ? 1e-8 : 0));
+        assert_true(error <= 400 * EPSILON[kind] * scale + (scheme == 0                             ? 1e-9
+                                                            : scheme == kz_scheme_find("processed") ? 1e-8
+                                                                                                    : 0));
       }
       kz_plan_free(plan);
     }
@@ -146,7 +148,7 @@ static void test_exact_determinant(void **state) {
   for (int steps = 96; steps <= 160; steps += 32) {
     double theta[2] = {0, M_PI}, velocity[2] = {0, 0}, matrix[2][4];
     int64_t turns[2] = {0};
-    kz_plan *plan = plan_of(KZ_PROCESSED, steps, KZ_DOUBLE);
+    kz_plan *plan = plan_of(kz_scheme_find("processed"), steps, KZ_DOUBLE);
     kz_advance_tangent(plan, 2, 1, theta, velocity, turns, matrix[0]);
     for (int i = 0; i < 2; i++)
       assert_true(fabs(matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2] - exp(-2 * M_PI * PENDULUM.beta)) < 3e-15);
@@ -159,7 +161,7 @@ static void test_rest(void **state) {
   (void)state;
   const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.3}, {0, 0, 0.46}, {-1, 0.1, 0.6}, {5, 0.1, 0.5}, {0.01, 0.5, 3}};
   for (int i = 0; i < 5; i++) {
-    const kz_numerics numerics = {.scheme = KZ_PROCESSED, .steps_per_period = 40, .precision = KZ_DOUBLE};
+    const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40, .precision = KZ_DOUBLE};
     kz_plan *plan = kz_plan_create(&pendulums[i], &numerics);
     double theta[2] = {M_PI, -M_PI}, velocity[2] = {0, 0};
     int64_t turns[2] = {0};
@@ -184,7 +186,7 @@ static void test_choice(void **state) {
                {{0.1, 2.4, 0.5}, 2, 1e-11}};
   for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
     kz_numerics numerics = {.precision = KZ_DOUBLE};
-    const kz_numerics exact = {.scheme = KZ_SPLIT6, .steps_per_period = 600, .precision = KZ_QUAD};
+    const kz_numerics exact = {.scheme = kz_scheme_find("split6"), .steps_per_period = 600, .precision = KZ_QUAD};
     double error, a[N], va[N], b[N], vb[N];
     int64_t ta[N], tb[N];
     assert_int_equal(kz_numerics_choose(&cases[c].pendulum, cases[c].tolerance, cases[c].fastest, &numerics, &error), KZ_OK);

@@ -1,10 +1,9 @@
-#include "steps_trial.h"
+#include "step_error.h"
 
 #include <float.h>
 #include <math.h>
 
 #include "kapitza/dynamics.h"
-#include "step_check.h"
 
 /* rad: above it the error of a period in double precision is that of the steps, not of rounding. */
 static const double ROUNDED = 1e-10;
@@ -23,34 +22,34 @@ static double quad_error(const kz_pendulum *pendulum, const kz_numerics *numeric
   return error < DBL_MAX ? error * pow((double)fewer.steps_per_period / numerics->steps_per_period, scheme.order) : error;
 }
 
-static void find_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int first, int n, kz_step_trial *classes) {
+static void find_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int first, int n, kz_speed_errors *classes) {
   if (numerics->precision == KZ_QUAD)
     for (int c = first; c < first + n; c++) classes->error[c] = quad_error(pendulum, numerics, classes->speed + c);
   else
     kz_step_errors(pendulum, numerics, n, classes->speed + first, classes->error + first);
 }
 
-kz_step_trial kz_try_steps(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
-  kz_step_trial classes = {{0}, {0}};
+kz_speed_errors kz_step_error_classes(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
+  kz_speed_errors classes = {{0}, {0}};
   double top = fmax(fmax(fastest, 1.5), 2 * sqrt(fabs(pendulum->k) + fabs(pendulum->m)));
   for (int c = 1; c <= KZ_SPEED_CLASSES; c++) classes.speed[c] = ldexp(top, c - KZ_SPEED_CLASSES);
   find_errors(pendulum, numerics, 0, KZ_SPEED_CLASSES, &classes);
   return classes;
 }
 
-int kz_worst_class(const kz_step_trial *classes) {
+int kz_worst_class(const kz_speed_errors *classes) {
   int worst = 0;
   for (int c = 1; c < KZ_SPEED_CLASSES; c++)
     if (classes->error[c] > classes->error[worst]) worst = c;
   return worst;
 }
 
-double kz_worst_error(const kz_step_trial *classes) {
+double kz_worst_error(const kz_speed_errors *classes) {
   return classes->error[kz_worst_class(classes)];
 }
 
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
-  kz_step_trial classes = kz_try_steps(pendulum, numerics, fastest);
+  kz_speed_errors classes = kz_step_error_classes(pendulum, numerics, fastest);
   for (int worst; worst = kz_worst_class(&classes), classes.error[worst] > tolerance;) {
     do { /* only the worst class, so that a hopeless case is refused quickly */
       const double before = classes.error[worst];
@@ -59,7 +58,12 @@ bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double toleran
       find_errors(pendulum, numerics, worst, 1, &classes);
       if (before < ROUNDED && classes.error[worst] > before / 2) return false; /* only rounding is left */
     } while (classes.error[worst] > tolerance);
-    classes = kz_try_steps(pendulum, numerics, fastest);
+    classes = kz_step_error_classes(pendulum, numerics, fastest);
   }
   return true;
+}
+
+bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
+  const kz_speed_errors classes = kz_step_error_classes(pendulum, numerics, fastest);
+  return kz_worst_error(&classes) <= KZ_STEPS_LOST;
 }

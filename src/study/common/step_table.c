@@ -1,4 +1,5 @@
-/* The map table's error beside the cells that it labels. */
+#include "step_table.h"
+
 #include <math.h>
 #include <stdio.h>
 

@@ -1,0 +1,32 @@
+/* Errors of one drive period by classes of speeds, and the steps that make them small enough. */
+#ifndef KAPITZA_STUDY_STEP_ERROR_H
+#define KAPITZA_STUDY_STEP_ERROR_H
+
+#include <stdbool.h>
+
+#include "kapitza/kernel.h"
+
+/* Classes of speeds: the fastest half of all speeds, half of those, and so on; class 0 is what is left. */
+enum { KZ_SPEED_CLASSES = 8 };
+
+typedef struct {
+  double speed[KZ_SPEED_CLASSES + 1]; /* rad per drive radian, from 0 */
+  double error[KZ_SPEED_CLASSES];     /* rad, of one drive period, an upper estimate; DBL_MAX = diverges */
+} kz_speed_errors;
+
+/* Step doubling on a sample of the speeds up to `fastest` (rad per drive radian), and those that rotation and fall bring. */
+kz_speed_errors kz_step_error_classes(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
+
+/* The class of the largest error, and that error, rad. */
+int kz_worst_class(const kz_speed_errors *classes);
+double kz_worst_error(const kz_speed_errors *classes);
+
+/* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
+ * `most` steps: then the last number tried. */
+bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
+
+/* False where the error of one drive period exceeds KZ_STEPS_LOST or the motion diverges: labels would be random. */
+#define KZ_STEPS_LOST 0.1 /* rad */
+bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
+
+#endif
