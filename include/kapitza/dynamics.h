@@ -26,9 +26,12 @@ void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double
 /* The velocity that a map table of this window must reach: the largest within one period of its starts. */
 double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
 
-/* A coarse open grid for trapping regions up to velocity `max_velocity`: enough for a search. A map table brings a finer one. */
+/* A coarse open grid for trapping regions up to velocity `max_velocity`: enough for a search. */
 void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
-/* Draws the ellipses and covers of new attractors into the regions; over a map table's cells the regions are grown outwards. */
+/* In its place a grid of `cells` along the velocity and around the circle (one more where odd), in which the regions are grown
+ * outwards around the attractors known so far: its nodes are integrated through 4 periods. */
+void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
+/* Draws the ellipses and covers of new attractors into the regions, and lets a fine grid's grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
 /* Follows n starts (state [n][2], in and out) by direct integration until each is trapped: label [n] = attractor, 0 where it
@@ -87,7 +90,7 @@ int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
 int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics);               /* doubles per row */
 void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift); /* integrates row 0 .. n_velocity - 1 */
-/* Takes all rows, in order; the trapping regions are grown over its cells. */
+/* Takes all rows, in order. */
 void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);
 /* Share of the cells of the regions' grid that are trapped. */
 double kz_dynamics_trapped_share(const kz_dynamics *dynamics);

@@ -6,7 +6,8 @@ module kz_api_dynamics
   use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
   use kz_attractors_chaos, only: find_chaos
-  use kz_trapping_growth, only: make_later, grow_regions
+  use kz_trapping_growth, only: grow_regions
+  use kz_trapping_cell_images, only: PERIODS, make_images
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_trapping_grid, only: make_regions, draw_attractors
   use kz_attractors_cycle_search, only: find_cycle, append
@@ -109,8 +110,23 @@ contains
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
+    if (allocated(d%images)) deallocate (d%images)
     d%regions = make_regions(COARSE_CELLS, COARSE_CELLS, top)
   end subroutine coarse_regions
+
+  subroutine fine_regions(handle, cells, top) bind(C, name='kz_dynamics_fine_regions')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: cells
+    real(dp), value :: top
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    if (allocated(d%images)) deallocate (d%images)
+    allocate (d%images(size(PERIODS)))
+    d%regions = make_regions(2*((int(cells) + 1)/2), int(cells), top)
+    call make_images(d%regions, d%search%flow, d%images)
+    call update_regions(handle)
+  end subroutine fine_regions
 
   subroutine update_regions(handle) bind(C, name='kz_dynamics_update')
     type(c_ptr), value :: handle
@@ -119,7 +135,7 @@ contains
     d => of_handle(handle)
     if (d%regions%n_drawn == size(d%attractors)) return
     call draw_attractors(d%regions, d%attractors)
-    if (allocated(d%four)) call grow_regions(d%regions, d%attractors, d%table, d%two, d%four)
+    if (allocated(d%images)) call grow_regions(d%regions, d%attractors, d%images)
   end subroutine update_regions
 
   function cycle_size(handle) bind(C, name='kz_dynamics_cycle_size') result(n)
@@ -267,16 +283,11 @@ contains
     type(c_ptr), value :: handle
     type(c_ptr), value :: rows
     type(dynamics_t), pointer :: d
-    type(table_map_t) :: map
     real(dp), pointer :: values(:, :, :)
 
     d => of_handle(handle)
     call c_f_pointer(rows, values, [2, d%table%n_own + 1, d%table%n_velocity])
     call set_table_rows(d%table, values)
-    map = make_table_map(d%table, 6, d%search%flow)
-    call make_later(map, d%two, d%four)
-    d%regions = make_regions(d%table%n_circle, d%table%n_velocity - 1, d%table%top)
-    call update_regions(handle)
   end subroutine table_set
 
   function trapped_share(handle) bind(C, name='kz_dynamics_trapped_share') result(share)

@@ -4,6 +4,7 @@ module kz_api_handle
   use kz_kernel_map, only: flow_t
   use kz_kernel_step_table, only: numerics_t
   use kz_attractors_cycles, only: attractor_t
+  use kz_trapping_cell_images, only: images_t
   use kz_trapping_grid, only: regions_t
   use kz_attractors_cycle_search, only: search_t
   use kz_maps_map_table, only: table_t
@@ -19,8 +20,7 @@ module kz_api_handle
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table
-    real(dp), allocatable :: two(:, :, :)  !< displacement of the table's nodes after two periods
-    real(dp), allocatable :: four(:, :, :) !< and after four
+    type(images_t), allocatable :: images(:) !< of the cells of regions that grow
     real(dp), allocatable :: defect(:, :, :) !< of the table, once measured
   end type dynamics_t
 

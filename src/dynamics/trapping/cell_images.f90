@@ -1,57 +1,185 @@
-!> The image of a cell of the map table after some periods: the convex hull of its corners' images, widened by a bound on what
-!> bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell.
+!> Images of the cells of a grid of trapping regions after some drive periods: the convex hull of the images of a cell's corners,
+!> widened by a bound on what bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell.
 module kz_trapping_cell_images
-  use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_maps_map_table, only: table_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
+  use kz_kernel_map, only: flow_t, WIDTH
+  use kz_maps_states, only: midperiod_angle
+  use kz_trapping_grid, only: regions_t
   implicit none
   private
-  public :: image_t, cell_image, extent
+  public :: images_t, make_images, corners_of, extent
 
   real(dp), parameter :: CURVATURE = 0.25_dp, SLACK = 0.02_dp
+  !> Images over more cells than this are not followed.
+  real(dp), parameter :: LARGEST_IMAGE = 2000
+  !> After how many periods images are taken, the best first: what is still far away comes in with the longest.
+  integer, parameter, public :: PERIODS(3) = [4, 2, 1]
 
-  !> The image of one cell, in units of cells.
-  type :: image_t
-    real(dp) :: x(4)
-    real(dp) :: y(4)
-    real(dp) :: slack_x
-    real(dp) :: slack_y
-  end type image_t
+  !> Images after one number of periods, in units of cells: columns of the whole circle, not wrapped, and rows.
+  type :: images_t
+    real(dp), allocatable :: x(:, :)       !< of the nodes (0 : n_theta, 0 : n_velocity)
+    real(dp), allocatable :: y(:, :)
+    real(dp), allocatable :: slack_x(:, :) !< what is to be added on both sides
+    real(dp), allocatable :: slack_y(:, :)
+    !> boxes around the images of the cells (0 : n_theta - 1, 0 : n_velocity - 1), whole cells. left: column on the circle, from 0;
+    !> n_columns = 0: the image is too large, or reaches beyond the grid's velocities
+    integer(int32), allocatable :: left(:, :)
+    integer(int32), allocatable :: n_columns(:, :)
+    integer(int32), allocatable :: bottom(:, :)
+    integer(int32), allocatable :: top(:, :)
+  end type images_t
 
 contains
 
-  !> Corners' images and slack of cell (i, l), from 0; far away at the rim, where differences are missing.
-  pure function cell_image(table, field, i, l) result(image)
-    type(table_t), intent(in) :: table
-    real(dp), allocatable, intent(in) :: field(:, :, :)
-    integer, intent(in) :: i
-    integer, intent(in) :: l
-    type(image_t) :: image
-    real(dp) :: per_u, per_v, bend(2)
-    integer :: a, b, j
+  !> Integrates the nodes of the grid, and one row and column more on every side, for the differences.
+  subroutine make_images(regions, flow, images)
+    type(regions_t), intent(in) :: regions
+    class(flow_t), intent(inout) :: flow
+    type(images_t), intent(out) :: images(size(PERIODS))
+    real(dp), allocatable :: x(:, :, :), y(:, :, :)
+    integer :: k, j
 
-    per_u = 0.5_dp*table%n_circle
-    per_v = (table%n_velocity - 1)/(2*table%top)
-    image%x = huge(1.0_dp)
-    image%y = huge(1.0_dp)
-    image%slack_x = 0
-    image%slack_y = 0
-    if (l < 1 .or. l > table%n_velocity - 3) return
-    do b = 0, 1
-      do a = 0, 1
-        j = l + 1 + b
-        image%x(1 + a + 2*b) = i + a + field(1, i + a, j)*per_u
-        image%y(1 + a + 2*b) = l + b + field(2, i + a, j)*per_v
-        bend = abs(field(:, i + a + 1, j) - 2*field(:, i + a, j) + field(:, i + a - 1, j)) &
-               + abs(field(:, i + a, j + 1) - 2*field(:, i + a, j) + field(:, i + a, j - 1))
-        image%slack_x = max(image%slack_x, CURVATURE*bend(1)*per_u + SLACK)
-        image%slack_y = max(image%slack_y, CURVATURE*bend(2)*per_v + SLACK)
+    allocate (x(-1:regions%n_theta + 1, -1:regions%n_velocity + 1, size(PERIODS)))
+    allocate (y, mold=x)
+    do j = -1, regions%n_velocity + 1
+      call integrate_row(regions, flow, j, x(:, j, :), y(:, j, :))
+    end do
+    do k = 1, size(PERIODS)
+      call set_nodes(regions, x(:, :, k), y(:, :, k), images(k))
+      call set_boxes(regions, images(k))
+    end do
+  end subroutine make_images
+
+  !> The nodes of row j after each number of periods.
+  subroutine integrate_row(regions, flow, j, x, y)
+    type(regions_t), intent(in) :: regions
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: j
+    real(dp), intent(out) :: x(-1:, :)
+    real(dp), intent(out) :: y(-1:, :)
+    real(dp) :: per_u, per_v, u, v, turns(WIDTH)
+    integer :: first, n, lane, period, k
+
+    per_u = 0.5_dp*regions%n_circle
+    per_v = regions%n_velocity/(2*regions%top)
+    v = j/per_v - regions%top
+    do first = -1, regions%n_theta + 1, WIDTH
+      n = min(WIDTH, regions%n_theta + 2 - first)
+      do lane = 1, n
+        u = (first + lane - 1)/per_u - midperiod_angle(0.0_dp, v)
+        turns(lane) = anint(0.5_dp*u)
+        call flow%put(lane, u - 2*turns(lane), v)
+      end do
+      do period = 1, maxval(PERIODS)
+        call flow%advance(n)
+        do k = 1, size(PERIODS)
+          if (PERIODS(k) /= period) cycle
+          x(first:first + n - 1, k) = midperiod_angle(flow%u(:n) + 2*(turns(:n) + flow%turns(:n)), flow%v(:n))*per_u
+          y(first:first + n - 1, k) = (flow%v(:n) + regions%top)*per_v
+        end do
       end do
     end do
-  end function cell_image
+  end subroutine integrate_row
 
-  !> Range of x of the hull of the image between y = low and y = high: all segments between corners, clipped.
-  pure subroutine extent(image, low, high, from, to)
-    type(image_t), intent(in) :: image
+  !> The nodes' images and slack.
+  subroutine set_nodes(regions, x, y, images)
+    type(regions_t), intent(in) :: regions
+    real(dp), intent(in) :: x(-1:, -1:)
+    real(dp), intent(in) :: y(-1:, -1:)
+    type(images_t), intent(inout) :: images
+
+    allocate (images%x(0:regions%n_theta, 0:regions%n_velocity))
+    allocate (images%y, images%slack_x, images%slack_y, mold=images%x)
+    images%x = x(0:regions%n_theta, 0:regions%n_velocity)
+    images%y = y(0:regions%n_theta, 0:regions%n_velocity)
+    call set_slack(regions%n_theta, regions%n_velocity, x, images%slack_x)
+    call set_slack(regions%n_theta, regions%n_velocity, y, images%slack_y)
+  end subroutine set_nodes
+
+  pure subroutine set_slack(n_theta, n_velocity, x, slack_of)
+    integer, intent(in) :: n_theta
+    integer, intent(in) :: n_velocity
+    real(dp), intent(in) :: x(-1:n_theta + 1, -1:n_velocity + 1)
+    real(dp), intent(out) :: slack_of(0:n_theta, 0:n_velocity)
+    integer :: i, j
+
+    do j = 0, n_velocity
+      do i = 0, n_theta
+        slack_of(i, j) = SLACK + CURVATURE*(abs(x(i + 1, j) - 2*x(i, j) + x(i - 1, j)) &
+                                            + abs(x(i, j + 1) - 2*x(i, j) + x(i, j - 1)))
+      end do
+    end do
+  end subroutine set_slack
+
+  subroutine set_boxes(regions, images)
+    type(regions_t), intent(in) :: regions
+    type(images_t), intent(inout) :: images
+    integer :: n(2)
+
+    n = [regions%n_theta, regions%n_velocity]
+    allocate (images%left(0:n(1) - 1, 0:n(2) - 1))
+    allocate (images%n_columns, images%bottom, images%top, mold=images%left)
+    call boxes(n(1), n(2), real(regions%n_circle, dp), images%x, images%y, images%slack_x, images%slack_y, images%left, &
+               images%n_columns, images%bottom, images%top)
+  end subroutine set_boxes
+
+  !> In vectors. NaN and numbers beyond integers fall out as too large.
+  pure subroutine boxes(n_theta, n_velocity, circle, x, y, slack_x, slack_y, left, n_columns, bottom, top)
+    integer, intent(in) :: n_theta
+    integer, intent(in) :: n_velocity
+    real(dp), intent(in) :: circle
+    real(dp), dimension(0:n_theta, 0:n_velocity), intent(in) :: x, y, slack_x, slack_y
+    integer(int32), dimension(0:n_theta - 1, 0:n_velocity - 1), intent(out) :: left, n_columns, bottom, top
+    real(dp) :: from, to, low, high, slack_max
+    logical :: good
+    integer :: i, l
+
+    do l = 0, n_velocity - 1
+      do i = 0, n_theta - 1
+        slack_max = max(slack_x(i, l), slack_x(i + 1, l), slack_x(i, l + 1), slack_x(i + 1, l + 1))
+        from = aint_down(min(x(i, l), x(i + 1, l), x(i, l + 1), x(i + 1, l + 1)) - slack_max)
+        to = aint_down(max(x(i, l), x(i + 1, l), x(i, l + 1), x(i + 1, l + 1)) + slack_max)
+        slack_max = max(slack_y(i, l), slack_y(i + 1, l), slack_y(i, l + 1), slack_y(i + 1, l + 1))
+        low = aint_down(min(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) - slack_max)
+        high = aint_down(max(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) + slack_max)
+        good = low >= 0 .and. high < n_velocity .and. to - from < circle .and. (to - from)*(high - low) < LARGEST_IMAGE
+        left(i, l) = int(merge(from - circle*aint_down(from/circle), 0.0_dp, good), int32)
+        n_columns(i, l) = int(merge(to - from + 1, 0.0_dp, good), int32)
+        bottom(i, l) = int(merge(low, 0.0_dp, good), int32)
+        top(i, l) = int(merge(high, 0.0_dp, good), int32)
+      end do
+    end do
+  contains
+    !> The next integer below, as a real number: the intrinsic floor does not go over vectors.
+    pure function aint_down(a) result(below)
+      real(dp), intent(in) :: a
+      real(dp) :: below
+
+      below = aint(a)
+      below = merge(below - 1, below, below > a)
+    end function aint_down
+  end subroutine boxes
+
+  !> The images of the corners of cell (i, l), and its slack.
+  pure subroutine corners_of(images, i, l, x, y, slack_x, slack_y)
+    type(images_t), intent(in) :: images
+    integer, intent(in) :: i
+    integer, intent(in) :: l
+    real(dp), intent(out) :: x(4)
+    real(dp), intent(out) :: y(4)
+    real(dp), intent(out) :: slack_x
+    real(dp), intent(out) :: slack_y
+
+    x = [images%x(i, l), images%x(i + 1, l), images%x(i, l + 1), images%x(i + 1, l + 1)]
+    y = [images%y(i, l), images%y(i + 1, l), images%y(i, l + 1), images%y(i + 1, l + 1)]
+    slack_x = maxval(images%slack_x(i:i + 1, l:l + 1))
+    slack_y = maxval(images%slack_y(i:i + 1, l:l + 1))
+  end subroutine corners_of
+
+  !> Range of x of the hull of four points between y = low and y = high: all segments between them, clipped.
+  pure subroutine extent(x, y, low, high, from, to)
+    real(dp), intent(in) :: x(4)
+    real(dp), intent(in) :: y(4)
     real(dp), intent(in) :: low
     real(dp), intent(in) :: high
     real(dp), intent(out) :: from
@@ -63,17 +191,17 @@ contains
     to = -huge(1.0_dp)
     do a = 1, 3
       do b = a + 1, 4
-        s = min(max(low, min(image%y(a), image%y(b))), max(image%y(a), image%y(b)))
-        t = min(max(high, min(image%y(a), image%y(b))), max(image%y(a), image%y(b)))
+        s = min(max(low, min(y(a), y(b))), max(y(a), y(b)))
+        t = min(max(high, min(y(a), y(b))), max(y(a), y(b)))
         if (s > high .or. t < low) cycle
-        if (abs(image%y(b) - image%y(a)) <= 0) then
-          from = min(from, image%x(a), image%x(b))
-          to = max(to, image%x(a), image%x(b))
+        if (abs(y(b) - y(a)) <= 0) then
+          from = min(from, x(a), x(b))
+          to = max(to, x(a), x(b))
           cycle
         end if
-        slope = (image%x(b) - image%x(a))/(image%y(b) - image%y(a))
-        from = min(from, image%x(a) + slope*(s - image%y(a)), image%x(a) + slope*(t - image%y(a)))
-        to = max(to, image%x(a) + slope*(s - image%y(a)), image%x(a) + slope*(t - image%y(a)))
+        slope = (x(b) - x(a))/(y(b) - y(a))
+        from = min(from, x(a) + slope*(s - y(a)), x(a) + slope*(t - y(a)))
+        to = max(to, x(a) + slope*(s - y(a)), x(a) + slope*(t - y(a)))
       end do
     end do
   end subroutine extent

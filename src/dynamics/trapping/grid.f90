@@ -22,6 +22,7 @@ module kz_trapping_grid
     integer :: n_velocity = 0 !< cells from -top to top
     real(dp) :: top = 0
     integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
+    integer, allocatable :: drawn(:, :) !< the same by ellipses alone: what has grown since does not hide them
     type(ellipse_overlap_t), allocatable :: overlaps(:)
     integer :: n_overlaps = 0
     integer :: n_drawn = 0    !< attractors that have been drawn
@@ -36,7 +37,7 @@ module kz_trapping_grid
 
 contains
 
-  !> An open grid.
+  !> An open grid of an even number of columns.
   function make_regions(n_circle, n_velocity, top) result(regions)
     integer, intent(in) :: n_circle
     integer, intent(in) :: n_velocity
@@ -44,10 +45,11 @@ contains
     type(regions_t) :: regions
 
     regions%n_circle = n_circle
-    regions%n_theta = (n_circle + 1)/2
+    regions%n_theta = n_circle/2
     regions%n_velocity = n_velocity
     regions%top = top
     allocate (regions%label(0:regions%n_theta - 1, 0:n_velocity - 1), source=0)
+    allocate (regions%drawn, source=regions%label)
     allocate (regions%overlaps(64), regions%covered(0))
   end function make_regions
 
@@ -70,6 +72,7 @@ contains
       end if
       regions%covered(attractors(a)%cover) = a
     end do
+    where (regions%label <= 0) regions%label = regions%drawn
     regions%n_drawn = size(attractors)
   end subroutine draw_attractors
 
@@ -124,10 +127,10 @@ contains
            min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))
       do i = max(0, floor((u - half_u)*per_u)), min(regions%n_theta - 1, floor((u + half_u)*per_u))
         if (within(form, [i/per_u - u, (i + 1)/per_u - u], [l/per_v - regions%top - v, (l + 1)/per_v - regions%top - v])) then
-          regions%label(i, l) = a
-        else if (regions%label(i, l) <= 0) then
-          call add_overlap(regions, ellipse_overlap_t(a, j, -regions%label(i, l)))
-          regions%label(i, l) = -regions%n_overlaps
+          regions%drawn(i, l) = a
+        else if (regions%drawn(i, l) <= 0) then
+          call add_overlap(regions, ellipse_overlap_t(a, j, -regions%drawn(i, l)))
+          regions%drawn(i, l) = -regions%n_overlaps
         end if
       end do
     end do

@@ -1,249 +1,126 @@
-!> Trapping regions grown outwards over the cells of the map table: a cell joins an attractor when the image of the whole cell,
-!> after 1, 2 or 4 periods, lies in cells that have joined it before, or in one of its ellipses.
+!> Trapping regions grown outwards over the cells of their grid: a cell joins an attractor when the image of the whole cell, after
+!> 1, 2 or 4 periods, lies in one of its ellipses, or in cells that have joined it before.
 !>
-!> A cell that cannot join yet waits for one open cell of its image; the end result does not depend on the order.
+!> A cell that cannot join yet waits, with each of its images, for one open cell of the image. Cells that have joined stay, so that
+!> the end result does not depend on the order.
 module kz_trapping_growth
-  use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: WIDTH
+  use, intrinsic :: iso_c_binding, only: dp => c_double, int8 => c_int8_t
   use kz_attractors_cycles, only: attractor_t
   use kz_trapping_ellipses, only: in_ellipse
-  use kz_trapping_cell_images, only: image_t, cell_image, extent
+  use kz_trapping_cell_images, only: images_t, PERIODS, corners_of, extent
   use kz_trapping_grid, only: regions_t, fold_cell
   use kz_maps_states, only: midperiod_angle
-  use kz_maps_map_table, only: table_t, table_map_t, fill_ghosts, node_velocity
   implicit none
   private
-  public :: make_later, grow_regions
+  public :: grow_regions
 
-  !> Images over more cells than this are not followed.
-  real(dp), parameter :: LARGEST_IMAGE = 2000
+  !> Attractors beyond this number do not fit into a byte: their regions are not grown.
+  integer, parameter :: MOST_GROWN = huge(1_int8)
   integer, parameter :: NEVER = -1
 
-  !> How far the cells of an image have been seen to belong to one attractor: they need not be looked at again.
-  type :: progress_t
-    integer :: answer = 0
-    integer :: row = -huge(0)
-    integer :: column = -huge(0)
-  end type progress_t
+  !> The whole circle, twice, one byte a cell: no interval of columns wraps.
+  type :: circle_t
+    integer :: n_circle
+    integer :: n_theta
+    integer :: n_velocity
+    integer(int8), allocatable :: label(:, :) !< (0 : 2 n_circle - 1, 0 : n_velocity - 1): attractor, from 1; 0 = open
+    integer(int8), allocatable :: mirror(:)   !< of each attractor, from 1; 0 = not grown
+  end type circle_t
+
+  !> Who waits for whom, as lists; a waiting image has the number cell + n_cells (k - 1), k as in PERIODS.
+  type :: waiting_t
+    integer, allocatable :: first(:) !< of each cell, the image that waits for it
+    integer, allocatable :: next(:)  !< of each image, the next of its list
+    integer, allocatable :: seen(:)  !< of each image, the row below which it is known to belong
+  end type waiting_t
 
 contains
 
-  !> Displacements of the nodes after 2 and 4 periods, by quintic interpolation of the table.
-  subroutine make_later(map, two, four)
-    type(table_map_t), intent(inout) :: map
-    real(dp), allocatable, intent(out) :: two(:, :, :)
-    real(dp), allocatable, intent(out) :: four(:, :, :)
-
-    call later(map, map%table%shift, 1, two)
-    call later(map, two, 2, four)
-  end subroutine make_later
-
-  !> Grows over the images of 4, 2 and 1 periods in turn.
-  subroutine grow_regions(regions, attractors, table, two, four)
+  !> Grows over the images, which belong to the same grid.
+  subroutine grow_regions(regions, attractors, images)
     type(regions_t), intent(inout) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    !> the table whose cells the regions have
-    type(table_t), intent(in) :: table
-    real(dp), allocatable, intent(in) :: two(:, :, :)
-    real(dp), allocatable, intent(in) :: four(:, :, :)
+    type(images_t), intent(in) :: images(:)
+    type(circle_t) :: circle
+    type(waiting_t) :: waiting
+    integer :: k, i, l, a
 
-    call grow(regions, attractors, table, four)
-    call grow(regions, attractors, table, two)
-    call grow(regions, attractors, table, table%shift)
+    circle = make_circle(regions, attractors)
+    do l = 0, regions%n_velocity - 1
+      do i = 0, regions%n_theta - 1
+        do k = 1, size(PERIODS)
+          if (circle%label(i, l) > 0) exit
+          a = ellipse_around(regions, attractors, images(k), i, l)
+          if (a > 0) call set(circle, i, l, a)
+        end do
+      end do
+    end do
+    allocate (waiting%first(0:size(regions%label) - 1), source=NEVER)
+    allocate (waiting%next(0:size(PERIODS)*size(regions%label) - 1))
+    allocate (waiting%seen(0:size(PERIODS)*size(regions%label) - 1), source=0)
+    call grow(circle, images, waiting)
+    where (regions%label <= 0 .and. circle%label(:regions%n_theta - 1, :) > 0) &
+      regions%label = circle%label(:regions%n_theta - 1, :)
   end subroutine grow_regions
 
-  !> Displacement of every node after `periods` more than `field` has.
-  subroutine later(map, field, periods, more)
-    type(table_map_t), intent(inout) :: map
-    real(dp), allocatable, intent(in) :: field(:, :, :)
-    integer, intent(in) :: periods
-    real(dp), allocatable, intent(out) :: more(:, :, :)
-    real(dp) :: u, v, turns(WIDTH)
-    integer :: first, n, i, j, lane, period
+  function make_circle(regions, attractors) result(circle)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    type(circle_t) :: circle
+    integer :: i, l
 
-    allocate (more, source=field)
-    do j = 1, map%table%n_velocity
-      do first = 0, map%table%n_own, WIDTH
-        n = min(WIDTH, map%table%n_own - first + 1)
-        do lane = 1, n
-          i = first + lane - 1
-          v = node_velocity(map%table, j) + field(2, i, j)
-          u = 2*real(i, dp)/map%table%n_circle + field(1, i, j) - midperiod_angle(0.0_dp, v)
-          turns(lane) = anint(0.5_dp*u)
-          call map%put(lane, u - 2*turns(lane), v)
-        end do
-        do period = 1, periods
-          call map%advance(n)
-        end do
-        do lane = 1, n
-          i = first + lane - 1
-          u = midperiod_angle(map%u(lane) + 2*(turns(lane) + map%turns(lane)), map%v(lane))
-          more(:, i, j) = [u - 2*real(i, dp)/map%table%n_circle, map%v(lane) - node_velocity(map%table, j)]
-        end do
+    circle%n_circle = regions%n_circle
+    circle%n_theta = regions%n_theta
+    circle%n_velocity = regions%n_velocity
+    allocate (circle%label(0:2*regions%n_circle - 1, 0:regions%n_velocity - 1), source=0_int8)
+    circle%mirror = int(merge(attractors%mirror, 0, attractors%mirror <= MOST_GROWN), int8)
+    do l = 0, regions%n_velocity - 1
+      do i = 0, regions%n_theta - 1
+        if (regions%label(i, l) > 0) call set(circle, i, l, regions%label(i, l))
       end do
     end do
-    call fill_ghosts(map%table, more)
-  end subroutine later
+  end function make_circle
 
-  !> Tests every open cell; one whose image has an open cell is put on the waiting list of that cell.
-  subroutine grow(regions, attractors, table, field)
-    type(regions_t), intent(inout) :: regions
-    type(attractor_t), intent(in) :: attractors(:)
-    type(table_t), intent(in) :: table
-    real(dp), allocatable, intent(in) :: field(:, :, :)
-    integer, allocatable :: waiting(:), next(:), stack(:)
-    type(progress_t), allocatable :: progress(:)
-    integer :: mirrors(0:size(attractors)), n_stack, cell, answer, blocker
-
-    mirrors(0) = 0
-    mirrors(1:) = attractors%mirror
-    allocate (waiting(0:size(regions%label) - 1), next(0:size(regions%label) - 1), stack(size(regions%label)), &
-              progress(0:size(regions%label) - 1))
-    waiting = NEVER
-    n_stack = 0
-    do cell = size(regions%label) - 1, 0, -1
-      n_stack = n_stack + 1
-      stack(n_stack) = cell
-    end do
-    do while (n_stack > 0)
-      cell = stack(n_stack)
-      n_stack = n_stack - 1
-      if (label_of(cell) > 0) cycle
-      call first_corner(regions, mirrors, table, field, mod(cell, regions%n_theta), cell/regions%n_theta, answer, blocker)
-      if (answer /= 0) &
-        call ask(regions, attractors, mirrors, cell_image(table, field, mod(cell, regions%n_theta), cell/regions%n_theta), &
-                 progress(cell), answer, blocker)
-      if (answer > 0) then
-        regions%label(mod(cell, regions%n_theta), cell/regions%n_theta) = answer
-        do while (waiting(cell) /= NEVER)
-          n_stack = n_stack + 1
-          stack(n_stack) = waiting(cell)
-          waiting(cell) = next(waiting(cell))
-        end do
-      else if (blocker /= NEVER) then
-        next(cell) = waiting(blocker)
-        waiting(blocker) = cell
-      end if
-    end do
-  contains
-    function label_of(number) result(a)
-      integer, intent(in) :: number
-      integer :: a
-
-      a = regions%label(mod(number, regions%n_theta), number/regions%n_theta)
-    end function label_of
-  end subroutine grow
-
-  !> Most cells that must wait are known by the image of their corner of lowest angle and velocity: answer = 0 and blocker = its
-  !> open cell; answer = 0 and blocker = NEVER at the rim of the table; else answer is not 0 and the whole image must be tested.
-  pure subroutine first_corner(regions, mirrors, table, field, i, l, answer, blocker)
-    type(regions_t), intent(in) :: regions
-    integer, intent(in) :: mirrors(0:)
-    type(table_t), intent(in) :: table
-    real(dp), allocatable, intent(in) :: field(:, :, :)
+  !> Cell (i, l) of the stored half joins attractor a, and its mirror image the mirror image.
+  pure subroutine set(circle, i, l, a)
+    type(circle_t), intent(inout) :: circle
     integer, intent(in) :: i
     integer, intent(in) :: l
-    integer, intent(out) :: answer
-    integer, intent(out) :: blocker
-    real(dp) :: y
-    integer :: stored
+    integer, intent(in) :: a
+    integer :: column, row
 
-    answer = 0
-    blocker = NEVER
-    y = l + field(2, i, l + 1)*((table%n_velocity - 1)/(2*table%top))
-    if (.not. (y >= 0 .and. y < regions%n_velocity)) return
-    call look(regions, mirrors, floor(i + field(1, i, l + 1)*(0.5_dp*table%n_circle)), int(y), answer, stored)
-    if (answer == 0) blocker = stored
-  end subroutine first_corner
+    if (a > MOST_GROWN) return
+    if (circle%mirror(a) == 0) return
+    column = circle%n_circle - 1 - i
+    row = circle%n_velocity - 1 - l
+    circle%label([i, i + circle%n_circle], l) = int(a, int8)
+    circle%label([column, column + circle%n_circle], row) = circle%mirror(a)
+  end subroutine set
 
-  !> What is known of cell (column, row), any column: answer = its label, 0 open, -overlap; stored = the number of the stored
-  !> cell.
-  pure subroutine look(regions, mirrors, column, row, answer, stored)
-    type(regions_t), intent(in) :: regions
-    integer, intent(in) :: mirrors(0:)
-    integer, intent(in) :: column
-    integer, intent(in) :: row
-    integer, intent(out) :: answer
-    integer, intent(out) :: stored
-    integer :: i, l
-    logical :: mirrored
-
-    i = column
-    l = row
-    call fold_cell(regions, i, l, mirrored)
-    stored = i + regions%n_theta*l
-    answer = regions%label(i, l)
-    if (mirrored .and. answer > 0) answer = mirrors(answer)
-  end subroutine look
-
-  !> answer > 0: the attractor of the whole image. Else blocker: a stored cell that is open, or NEVER.
-  subroutine ask(regions, attractors, mirrors, image, progress, answer, blocker)
+  !> The attractor one of whose ellipses holds the image of cell (i, l); 0 = none. The ellipses drawn where the image of the cell's
+  !> first corner lies are tried.
+  function ellipse_around(regions, attractors, images, i, l) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    integer, intent(in) :: mirrors(0:)
-    type(image_t), intent(in) :: image
-    type(progress_t), intent(inout) :: progress
-    integer, intent(out) :: answer
-    integer, intent(out) :: blocker
-    real(dp) :: low, high, from, to
-    integer :: row, column, first, stored, a
-
-    answer = 0
-    blocker = NEVER
-    low = minval(image%y) - image%slack_y
-    high = maxval(image%y) + image%slack_y
-    if (low < 0 .or. high >= regions%n_velocity) return
-    if ((high - low)*(maxval(image%x) - minval(image%x) + 2*image%slack_x) > LARGEST_IMAGE) return
-    if (touched(regions, image)) answer = ellipse_around(regions, attractors, image)
-    if (answer > 0) return
-    answer = progress%answer
-    do row = max(int(low), progress%row), int(high)
-      call extent(image, row - image%slack_y, row + 1 + image%slack_y, from, to)
-      first = floor(from - image%slack_x)
-      if (row == progress%row) first = max(first, progress%column)
-      do column = first, floor(to + image%slack_x)
-        call look(regions, mirrors, column, row, a, stored)
-        if (a > 0 .and. (answer == 0 .or. a == answer)) then
-          answer = a
-          cycle
-        end if
-        if (a <= 0) blocker = stored
-        progress = progress_t(answer, row, column)
-        answer = 0
-        return
-      end do
-    end do
-  end subroutine ask
-
-  !> Does an ellipse overlap the cell of the image's first corner?
-  function touched(regions, image)
-    type(regions_t), intent(in) :: regions
-    type(image_t), intent(in) :: image
-    logical :: touched
-    integer :: i, l
+    type(images_t), intent(in) :: images
+    integer, intent(in) :: i
+    integer, intent(in) :: l
+    integer :: a, t, column, row
+    real(dp) :: x(4), y(4), slack_x, slack_y
     logical :: mirrored
 
-    i = floor(image%x(1))
-    l = int(image%y(1))
-    call fold_cell(regions, i, l, mirrored)
-    touched = regions%label(i, l) < 0
-  end function touched
-
-  !> The attractor one of whose ellipses holds the box around the image; 0 = none.
-  function ellipse_around(regions, attractors, image) result(a)
-    type(regions_t), intent(in) :: regions
-    type(attractor_t), intent(in) :: attractors(:)
-    type(image_t), intent(in) :: image
-    integer :: a, t, i, l
-    logical :: mirrored
-
-    i = floor(image%x(1))
-    l = int(image%y(1))
-    call fold_cell(regions, i, l, mirrored)
-    t = -regions%label(i, l)
+    a = 0
+    if (images%n_columns(i, l) == 0) return
+    column = floor(images%x(i, l))
+    row = floor(images%y(i, l))
+    call fold_cell(regions, column, row, mirrored)
+    t = -regions%drawn(column, row)
+    if (t <= 0) return
+    call corners_of(images, i, l, x, y, slack_x, slack_y)
     do while (t > 0)
       a = regions%overlaps(t)%attractor
-      if (holds(regions, attractors(a), regions%overlaps(t)%point, image, mirrored)) then
+      if (holds(regions, attractors(a), regions%overlaps(t)%point, &
+                [minval(x) - slack_x, maxval(x) + slack_x], [minval(y) - slack_y, maxval(y) + slack_y], mirrored)) then
         if (mirrored) a = attractors(a)%mirror
         return
       end if
@@ -252,19 +129,20 @@ contains
     a = 0
   end function ellipse_around
 
-  !> Is the box around the image (or around its mirror image) in the ellipse of strobe point j?
-  pure function holds(regions, attractor, j, image, mirrored) result(inside)
+  !> Is a box (columns x, rows y), or its mirror image, in the ellipse of strobe point j?
+  pure function holds(regions, attractor, j, x, y, mirrored) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
-    type(image_t), intent(in) :: image
+    real(dp), intent(in) :: x(2)
+    real(dp), intent(in) :: y(2)
     logical, intent(in) :: mirrored
     logical :: inside
     real(dp) :: u(2), v(2)
     integer :: a, b
 
-    u = [minval(image%x) - image%slack_x, maxval(image%x) + image%slack_x]*2/regions%n_circle
-    v = [minval(image%y) - image%slack_y, maxval(image%y) + image%slack_y]*(2*regions%top/regions%n_velocity) - regions%top
+    u = x*2/regions%n_circle
+    v = y*(2*regions%top/regions%n_velocity) - regions%top
     if (mirrored) then
       u = -u
       v = -v
@@ -276,5 +154,143 @@ contains
       end do
     end do
   end function holds
+
+  !> Tests every open cell; an image with an open cell is put on the waiting list of that cell.
+  subroutine grow(circle, images, waiting)
+    type(circle_t), intent(inout) :: circle
+    type(images_t), intent(in) :: images(:)
+    type(waiting_t), intent(inout) :: waiting
+    integer, allocatable :: stack(:)
+    integer :: n_cells, n_stack, image
+
+    n_cells = circle%n_theta*circle%n_velocity
+    allocate (stack(size(waiting%next)))
+    do image = 0, size(waiting%next) - 1
+      n_stack = 1
+      stack(1) = image
+      do while (n_stack > 0)
+        n_stack = n_stack - 1
+        call visit(stack(n_stack + 1))
+      end do
+    end do
+  contains
+    subroutine visit(number)
+      integer, intent(in) :: number
+      integer :: cell, i, l, answer, blocker
+
+      cell = mod(number, n_cells)
+      i = mod(cell, circle%n_theta)
+      l = cell/circle%n_theta
+      if (circle%label(i, l) /= 0) return
+      call ask(circle, images(1 + number/n_cells), i, l, waiting%seen(number), answer, blocker)
+      if (answer > 0) then
+        call set(circle, i, l, answer)
+        do while (waiting%first(cell) /= NEVER)
+          n_stack = n_stack + 1
+          stack(n_stack) = waiting%first(cell)
+          waiting%first(cell) = waiting%next(waiting%first(cell))
+        end do
+      else if (blocker /= NEVER) then
+        waiting%next(number) = waiting%first(blocker)
+        waiting%first(blocker) = number
+      end if
+    end subroutine visit
+  end subroutine grow
+
+  !> answer > 0: the attractor of the whole image of cell (i, l). Else blocker: a stored cell of the image that is open, or NEVER.
+  subroutine ask(circle, images, i, l, seen, answer, blocker)
+    type(circle_t), intent(in) :: circle
+    type(images_t), intent(in) :: images
+    integer, intent(in) :: i
+    integer, intent(in) :: l
+    integer, intent(inout) :: seen
+    integer, intent(out) :: answer
+    integer, intent(out) :: blocker
+    real(dp) :: x(4), y(4), slack_x, slack_y, from, to
+    integer(int8) :: a
+    integer :: row, left, n, shift
+
+    answer = 0
+    blocker = NEVER
+    n = images%n_columns(i, l)
+    if (n == 0) return
+    left = images%left(i, l)
+    call corner(circle, images%x(i, l), images%y(i, l), a, blocker)
+    if (a == 0) return
+    do row = max(images%bottom(i, l), seen), images%top(i, l)
+      if (one_label(n, circle%label(left:, row), a)) cycle
+      call corners_of(images, i, l, x, y, slack_x, slack_y)
+      call extent(x, y, row - slack_y, row + 1 + slack_y, from, to)
+      shift = left - floor(minval(x) - slack_x)
+      call first_other(circle, max(left, floor(from - slack_x) + shift), min(left + n - 1, floor(to + slack_x) + shift), row, a, &
+                       blocker)
+      seen = row
+      if (blocker /= 0) return
+    end do
+    blocker = NEVER
+    answer = a
+  end subroutine ask
+
+  !> The label of the image of a corner; blocker: the stored cell where it lies, if that is open.
+  pure subroutine corner(circle, x, y, label, blocker)
+    type(circle_t), intent(in) :: circle
+    real(dp), intent(in) :: x
+    real(dp), intent(in) :: y
+    integer(int8), intent(out) :: label
+    integer, intent(out) :: blocker
+    integer :: column
+
+    column = modulo(floor(x), circle%n_circle)
+    label = circle%label(column, int(y))
+    blocker = NEVER
+    if (label == 0) blocker = stored(circle, column, int(y))
+  end subroutine corner
+
+  !> Have n cells all the label a?
+  pure function one_label(n, label, a) result(all_have)
+    integer, intent(in) :: n
+    integer(int8), intent(in) :: label(n)
+    integer(int8), intent(in) :: a
+    logical :: all_have
+    integer(int8) :: unlike
+    integer :: c
+
+    unlike = 0
+    do c = 1, n
+      unlike = ior(unlike, ieor(label(c), a))
+    end do
+    all_have = unlike == 0
+  end function one_label
+
+  !> Looks along a row for a cell without label a. blocker: the stored cell, if it is open; NEVER if another attractor has it; 0 if
+  !> there is none.
+  pure subroutine first_other(circle, first, last, row, a, blocker)
+    type(circle_t), intent(in) :: circle
+    integer, intent(in) :: first
+    integer, intent(in) :: last
+    integer, intent(in) :: row
+    integer(int8), intent(in) :: a
+    integer, intent(out) :: blocker
+    integer :: column
+
+    do column = first, last
+      if (circle%label(column, row) == a) cycle
+      blocker = merge(stored(circle, column, row), NEVER, circle%label(column, row) == 0)
+      return
+    end do
+    blocker = 0
+  end subroutine first_other
+
+  !> Number of the stored cell that is cell (column, row) of the doubled circle, or its mirror image.
+  pure function stored(circle, column, row) result(cell)
+    type(circle_t), intent(in) :: circle
+    integer, intent(in) :: column
+    integer, intent(in) :: row
+    integer :: cell, i
+
+    i = modulo(column, circle%n_circle)
+    cell = i + circle%n_theta*row
+    if (i >= circle%n_theta) cell = circle%n_circle - 1 - i + circle%n_theta*(circle%n_velocity - 1 - row)
+  end function stored
 
 end module kz_trapping_growth

@@ -7,6 +7,7 @@
 
 #include "common/cells.h"
 #include "common/map_table.h"
+#include "common/search.h"
 
 enum { CHUNK = 16384 }; /* cells labelled at a time */
 
@@ -70,7 +71,9 @@ static void compare(const kz_reference_labels *reference, const int32_t *label, 
 static kz_status set_up(measurement *g) {
   const kz_config *s = g->config;
   kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
-  KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
+  kz_dynamics_fine_regions(g->dynamics, kz_regions_cells(g->reference->total), g->reference->max_velocity);
+  if (s->method != KZ_METHOD_DIRECT)
+    KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil[s->interpolation]);
   return KZ_OK;
 }

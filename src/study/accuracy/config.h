@@ -12,7 +12,7 @@ typedef struct {
   int32_t steps;         /* per period */
   int32_t precision;     /* KZ_SINGLE, KZ_DOUBLE */
   int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
-  int64_t nodes;         /* of the map table, an axis; the trapping regions have its cells */
+  int64_t nodes;         /* of the map table, an axis; not used by KZ_METHOD_DIRECT */
   bool candidate;        /* of basin.accuracy: no other is both as fast and as accurate as one of these */
 } kz_config;
 
@@ -25,7 +25,7 @@ kz_numerics kz_config_numerics(const kz_config *config);
 void kz_config_apply(const kz_config *config, kz_scene *scene);
 
 /* The cost of a configuration as a count, which depends on no clock: in kicks of one trajectory, for `cells` cells that take
- * `mean_periods` each on a table of 1000 nodes. */
+ * `mean_periods` each. */
 double kz_config_cost(const kz_config *config, double cells, double mean_periods);
 
 /* One configuration on the sampled cells. */

@@ -1,5 +1,4 @@
 /* The table of configurations. */
-#include <math.h>
 #include <string.h>
 
 #include "config.h"
@@ -67,11 +66,9 @@ void kz_config_apply(const kz_config *config, kz_scene *scene) {
 
 double kz_config_cost(const kz_config *config, double cells, double mean_periods) {
   /* Measured weights, in kicks in double precision: a look-up in the table with its region, what it takes to track its error, the
-   * share of the periods that hybrid integrates (0 to 0.35), the growth of a node's region. Coarse cells trap less: periods go as
-   * nodes^-0.4. */
+   * share of the periods that hybrid integrates (0 to 0.35). */
   static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1},
-                      look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, tracking = 15, integrated = 0.15,
-                      growth = 700;
+                      look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, tracking = 15, integrated = 0.15;
   kz_scheme scheme;
   kz_scheme_row(kz_scheme_find(config->scheme), &scheme);
   const double nodes = (double)config->nodes, period = kind[config->precision] * scheme.kicks * config->steps;
@@ -79,5 +76,6 @@ double kz_config_cost(const kz_config *config, double cells, double mean_periods
   const double cell = config->method == KZ_METHOD_DIRECT ? period
                       : config->method == KZ_METHOD_ICM  ? mapped
                                                          : mapped + tracking + integrated * period;
-  return 0.5 * nodes * nodes * (period + growth) + cells * mean_periods * pow(1000 / nodes, 0.4) * cell;
+  const double table = config->method == KZ_METHOD_DIRECT ? 0 : 0.5 * nodes * nodes * period;
+  return table + cells * mean_periods * cell;
 }

@@ -11,7 +11,6 @@
 #include "kapitza/kernel.h"
 
 enum {
-  NODES = 1000,  /* of the map table, an axis */
   STEPS = 48,    /* of split6 a period, for a gentle drive */
   DOUBLINGS = 6, /* of STEPS, at most */
   MOST_STEPS = 20000,
@@ -73,8 +72,7 @@ static kz_status find_attractors(const kz_reference_labels *reference, kz_ranks 
                             .starts = plan->starts,
                             .seed = plan->seed,
                             .max_periods = plan->max_periods,
-                            .table_theta = NODES,
-                            .table_velocity = NODES,
+                            .cells = reference->total,
                             .max_velocity = reference->max_velocity};
   KZ_TRY(kz_search_window(ranks, dynamics, &search, p->state, p->label));
   for (int round = 0; round < ROUNDS; round++) {

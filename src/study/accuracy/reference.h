@@ -1,5 +1,5 @@
 /* Reference labels: the labels of random cells of a scene's window, followed in quad precision into the trapping regions of one
- * fixed, fine dynamics (split6 in double precision, 1000 x 1000 nodes), whatever the scene's numerics. Other labels are
+ * fixed, fine dynamics (split6 in double precision), whatever the scene's numerics. Other labels are
  * compared with these. */
 #ifndef KAPITZA_STUDY_REFERENCE_H
 #define KAPITZA_STUDY_REFERENCE_H

@@ -1,6 +1,6 @@
 /* Study `basin`: the attractors of a window, then a label for every cell.
  *
- * scene -> discovery -> map table -> trapping regions -> tiles of cells -> (cells that ended nowhere known feed another round) ->
+ * scene -> discovery -> trapping regions -> map table -> tiles of cells -> (cells that ended nowhere known feed another round) ->
  * measures -> file. A window that is its own mirror image needs half the cells: cell f mirrors cell n - 1 - f. */
 #include "basin.h"
 
@@ -215,7 +215,8 @@ static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *st
                         .starts = plan->starts,
                         .seed = plan->seed,
                         .max_periods = plan->max_periods,
-                        .table_theta = plan->table_theta,
+                        .cells = plan->theta.count * plan->velocity.count,
+                        .table_theta = plan->method == KZ_METHOD_DIRECT ? 0 : plan->table_theta,
                         .table_velocity = plan->table_velocity},
              .total = plan->theta.count * plan->velocity.count};
   b.own = kz_own_cells(plan);
@@ -292,7 +293,8 @@ bool kz_basin_wanted(const kz_scene *scene) {
 kz_cost kz_basin_cost(const kz_scene *scene) {
   const kz_basin_plan *plan = &scene->basin;
   double cells = (double)plan->theta.count * (double)plan->velocity.count;
-  double nodes = (double)plan->table_theta * (double)plan->table_velocity;
+  double nodes = plan->method == KZ_METHOD_DIRECT ? 0 : (double)plan->table_theta * (double)plan->table_velocity;
+  double regions = pow((double)kz_regions_cells(plan->theta.count * plan->velocity.count), 2);
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
   static const double kick_seconds[] = {[KZ_SINGLE] = 4e-10, [KZ_DOUBLE] = 8e-10, [KZ_QUAD] = 2e-6};
@@ -305,10 +307,10 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 7e-8);
   kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
                   .disk_bytes = 14 * cells,
-                  .memory_bytes = 100 * nodes,
+                  .memory_bytes = 100 * nodes + 150 * regions,
                   .first_bytes = 27 * cells,
                   .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
-                                  nodes / 2 * (table_period + 1e-6) + cells * periods * cell_period +
+                                  nodes / 2 * table_period + regions / 2 * (4 * table_period + 1e-6) + cells * periods * cell_period +
                                   (double)kz_doubt_cells(plan) * periods * 4 * period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;

@@ -13,7 +13,7 @@ typedef struct {
   uint32_t *settling_time;
   uint8_t *evidence;
   int64_t undecided;    /* cells whose label the last place of the start changes, where that was asked */
-  double trapped_share; /* of the map table's cells */
+  double trapped_share; /* of the cells of the trapping regions' grid */
   double step_error;    /* rad, the largest of one drive period in a sample */
   kz_doubt doubt;       /* of the labels */
   double table_error;   /* the same of the map table; NaN where labels do not come from it */

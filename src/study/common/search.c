@@ -2,6 +2,7 @@
  * chaotic, or has not settled. */
 #include "search.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +13,9 @@ enum {
   TILE = 256,         /* starts per tile */
   CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycle takes */
   CHUNKS = 16,        /* searches per round */
-  PILOT_STARTS = 512, /* starts that are followed before there is a table */
+  PILOT_STARTS = 512, /* starts that are followed before regions grow */
+  FEWEST_CELLS = 128, /* of the regions' grid along an axis, where they grow */
+  MOST_CELLS = 500,
   STRETCH = 1024,     /* periods of a tile at least */
   STRETCHES = 64,     /* of a round, about */
   CHAOS_TRIES = 4,
@@ -208,12 +211,18 @@ kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_period
   return status;
 }
 
+int64_t kz_regions_cells(int64_t cells) {
+  return (int64_t)fmin(fmax(FEWEST_CELLS, sqrt((double)cells) / 2), MOST_CELLS);
+}
+
 kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
-  const bool table = search->table_theta > 0;
-  const int64_t pilots = table && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
+  const bool grow = search->cells > 0;
+  const int64_t pilots = grow && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, search->max_velocity);
   KZ_TRY(kz_discover(ranks, dynamics, search->max_periods, pilots, state, label));
-  if (table) KZ_TRY(kz_map_table_make(ranks, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
+  if (grow) kz_dynamics_fine_regions(dynamics, kz_regions_cells(search->cells), search->max_velocity);
+  if (search->table_theta > 0)
+    KZ_TRY(kz_map_table_make(ranks, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
   return rest > 0 ? kz_discover(ranks, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
 }

@@ -7,20 +7,25 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/parallel.h"
 
-/* Starts spread over a window, and the map table of its dynamics. */
+/* Starts spread over a window, the trapping regions and the map table of its dynamics. */
 typedef struct {
   kz_window window;
   int64_t starts, seed, max_periods;
+  int64_t cells;                       /* that are to be labelled: trapping regions grow as far as these pay it back; 0 = not */
   int64_t table_theta, table_velocity; /* nodes; 0 = no table is made */
   double max_velocity;                 /* of kz_dynamics_max_velocity */
 } kz_search;
 
-/* Finds the attractors that the starts end on. With a table the first starts are pilots: the regions grow around the attractors
- * of most of the window, and the other starts settle soon. state [starts][2], label [starts] as of kz_discover. */
+/* Finds the attractors that the starts end on. Where regions grow, the first starts are pilots: the regions grow around
+ * the attractors of most of the window, and the other starts settle soon. state [starts][2], label [starts] as of kz_discover. */
 kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
 
+/* Cells an axis of the trapping regions' grid that pay back where so many cells are to be labelled: growing one of the grid's cells
+ * takes as long as following four of those to where they are trapped without. */
+int64_t kz_regions_cells(int64_t cells);
+
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
- * they end on; those join the catalogue and the regions (coarse or of the table) of `dynamics` on every rank. label [n] =
+ * they end on; those join the catalogue and the regions (coarse or fine) of `dynamics` on every rank. label [n] =
  * attractor from 1, 0 where the start has not settled on any. Collective; `ranks` NULL = this rank alone. */
 kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label);
 

@@ -27,7 +27,7 @@ static double value_seconds(const kz_scene *scene, const kz_pendulum *pendulum) 
   if (fractions || kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS))
     seconds += kz_settling_search(pendulum, (double)plan->starts, period, kz_settling_periods(pendulum->beta)) + 0.1;
   if (fractions && scene->has_basin)
-    seconds += (double)(scene->basin.table_theta * scene->basin.table_velocity) / 2 * (period + 1e-6) +
+    seconds += (double)(scene->basin.table_theta * scene->basin.table_velocity) / 2 * period + 0.1 +
                7e-8 * kz_settling_cells(pendulum->beta, scene->basin.max_periods) *
                    (double)(scene->basin.theta.count * scene->basin.velocity.count);
   if (kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE)) seconds += 0.3;
