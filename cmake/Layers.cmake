@@ -35,7 +35,7 @@ function(kapitza_layer name)
   endforeach()
   target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} gfortran m)
   list(FILTER sources INCLUDE REGEX "\\.f90$")
-  if(sources) # gfortran does not look whether malloc gave memory: include/kapitza/memory.h
+  if(sources) # gfortran does not look whether malloc gave memory: include/kapitza/common.h
     add_custom_command(TARGET kapitza_${name} POST_BUILD COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=kz_malloc
                        --redefine-sym calloc=kz_calloc --redefine-sym realloc=kz_realloc $<TARGET_FILE:kapitza_${name}>)
   endif()

@@ -39,9 +39,9 @@ double kz_clock(void);
 #define KZ_METHOD_WORDS "icm", "direct", "hybrid"
 #define KZ_INTERPOLATION_WORDS "linear", "cubic", "quintic"
 
-/* Such a list of three as one text, "single|double|quad". */
+/* Such a list of two or three as one text, "single|double|quad". */
 #define KZ_JOINED(words) KZ_JOINED_OF(words)
-#define KZ_JOINED_OF(first, second, third) first "|" second "|" third
+#define KZ_JOINED_OF(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)
 
 /* ---- memory ---- */
 

@@ -87,21 +87,11 @@ typedef struct {
 /* The labels of the configurations that a trade-off compares, joined by '|'. */
 const char *kz_tradeoff_words(void);
 
-/* What a sweep measures, and which key of the pendulum mapping it walks along: indices of the words of the scene. */
-enum {
-  KZ_SWEEP_ATTRACTORS,
-  KZ_SWEEP_BASIN_FRACTIONS,
-  KZ_SWEEP_FLUTTER_AMPLITUDE,
-  KZ_SWEEP_FLUTTER_RANGE,
-  KZ_SWEEP_RELEASE_ANGLE,
-  KZ_SWEEP_STROBE
-};
-
 /* Study `sweep`. */
 typedef struct {
-  int32_t parameter; /* row of kz_sweep_parameters */
-  kz_axis values;    /* both ends included */
-  kz_integers measure;
+  int32_t parameter;       /* row of kz_sweep_parameters */
+  kz_axis values;          /* both ends included */
+  kz_integers measure;     /* places among kz_sweep_measure_words() */
   kz_axis theta, velocity; /* window of starts; the counts of the axes are not used */
   int64_t starts, max_period, seed;
   double start_theta, start_velocity; /* of the bifurcation diagram */
@@ -160,8 +150,9 @@ typedef struct {
 } kz_sweep_parameter;
 enum { KZ_SWEEP_PARAMETERS = 13 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
-/* Their names, joined by '|'. */
+/* Their names, and what a sweep can measure, joined by '|'. */
 const char *kz_sweep_words(void);
+const char *kz_sweep_measure_words(void);
 
 /* Value i of the sweep, both ends exact. */
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);

@@ -178,7 +178,7 @@ const kz_key kz_keys[] = {
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
         "of the starts; flutter_amplitude: of the period-2 cycle about inverted; flutter_zone: how far flutter reaches when "
         "m is raised; release_angle: from rest; strobe: a bifurcation diagram.",
-        .unit = "", .words = "attractors|basin_fractions|flutter_amplitude|flutter_zone|release_angle|strobe"),
+        .unit = "", .words_from = kz_sweep_measure_words),
     MAPPING("sweep.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
     REAL("sweep.theta.min", "rad", -1e6, 1e6, "", sweep.theta.min, "Lower edge of the window."),
     REAL("sweep.theta.max", "rad", -1e6, 1e6, "", sweep.theta.max, "Upper edge of the window."),

@@ -1,28 +1,13 @@
-/* Opening and closing the checkpoint together. */
+/* What one rank does with the file of a checkpoint. */
 #include "checkpoint.h"
 
-#include <errno.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include "ranks.h"
 
 void kz_checkpoint_release(kz_checkpoint *checkpoint) {
   if (checkpoint->file >= 0) close(checkpoint->file);
   free(checkpoint->path);
   *checkpoint = (kz_checkpoint){.file = -1};
-}
-
-/* Rank 0 decides whether the file is gone on from or begun anew. */
-static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan) {
-  kz_file_lock file_lock = {.file = -1};
-  KZ_TRY(kz_file_lock_take(plan->path, plan->resume || plan->force, &file_lock));
-  checkpoint->file = file_lock.file;
-  bool anew = !file_lock.existed || plan->force;
-  if (!anew) KZ_TRY(kz_header_read(checkpoint, plan->fingerprint, &anew));
-  if (anew) KZ_TRY(kz_header_write(checkpoint, plan->fingerprint));
-  return kz_file_lock_share(plan->path, file_lock.file);
 }
 
 bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint) {
@@ -33,59 +18,4 @@ void kz_checkpoint_forget(const kz_checkpoint *checkpoint) {
   if (checkpoint->file >= 0 && checkpoint->ours && !kz_header_is_marked(checkpoint) &&
       kz_file_lock_names(checkpoint->path, checkpoint->file))
     unlink(checkpoint->path);
-}
-
-/* A file that holds no work of this run or an earlier one is not left behind. */
-static void abandon(kz_checkpoint *checkpoint, int rank) {
-  if (rank == 0) kz_checkpoint_forget(checkpoint);
-  kz_checkpoint_release(checkpoint);
-}
-
-kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan) {
-  kz_checkpoint *checkpoint = &ranks->checkpoint;
-  checkpoint->path = strdup(plan->path);
-  kz_status status = checkpoint->path ? KZ_OK : kz_fail(KZ_FAILED, "%s: out of memory", plan->path);
-  if (status == KZ_OK && ranks->rank == 0) status = begin(checkpoint, plan);
-  status = kz_ranks_agree(ranks, status);
-  if (status == KZ_OK) {
-    status = ranks->rank != 0 ? kz_file_lock_join(plan->path, &checkpoint->file) : KZ_OK;
-    status = kz_ranks_agree(ranks, status);
-  }
-  if (status == KZ_OK) status = kz_ranks_broadcast(ranks, &checkpoint->ours, sizeof checkpoint->ours);
-  if (status != KZ_OK) abandon(checkpoint, ranks->rank);
-  return status;
-}
-
-void kz_checkpoint_clear(const char *path, const char *fingerprint) {
-  kz_checkpoint checkpoint = {.file = -1, .path = (char *)path};
-  bool unfinished;
-  if (!kz_file_lock_try(path, &checkpoint.file)) return;
-  if (kz_header_read(&checkpoint, fingerprint, &unfinished) == KZ_OK && !unfinished) unlink(path);
-  kz_message_clear();
-  close(checkpoint.file);
-}
-
-static kz_status remove_file(const kz_checkpoint *checkpoint) {
-  if (unlink(checkpoint->path) == 0 || errno == ENOENT) return KZ_OK;
-  return kz_fail(KZ_FAILED, "%s: cannot be removed: %s", checkpoint->path, strerror(errno));
-}
-
-static kz_status keep_file(const kz_checkpoint *checkpoint) {
-  if (!kz_file_lock_names(checkpoint->path, checkpoint->file))
-    return kz_fail(KZ_FAILED, "%s: was removed during the run; finished work is lost", checkpoint->path);
-  if (fsync(checkpoint->file) == 0) return KZ_OK;
-  return kz_fail(KZ_FAILED, "%s: cannot be saved: %s", checkpoint->path, strerror(errno));
-}
-
-kz_status kz_checkpoint_close(kz_ranks *ranks, bool complete) {
-  kz_checkpoint *checkpoint = &ranks->checkpoint;
-  if (checkpoint->file < 0) return KZ_OK;
-  kz_status status = KZ_OK;
-  if (complete) {
-    if (ranks->rank == 0) status = remove_file(checkpoint);
-  } else if (kz_checkpoint_holds_work(checkpoint))
-    status = keep_file(checkpoint);
-  status = kz_ranks_agree(ranks, status);
-  abandon(checkpoint, ranks->rank);
-  return status;
 }

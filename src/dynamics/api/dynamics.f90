@@ -1,4 +1,4 @@
-!> The C interface of dynamics: include/kapitza/dynamics.h, and the table's defect of include/kapitza/step_error.h.
+!> The C interface of dynamics: include/kapitza/dynamics.h.
 module kz_api_dynamics
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_kernel_map, only: WIDTH, PI

@@ -74,7 +74,7 @@ static kz_status set_up(measurement *g) {
   kz_dynamics_fine_regions(g->dynamics, kz_regions_cells(g->reference->total), g->reference->max_velocity);
   if (s->method != KZ_METHOD_DIRECT)
     KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
-  if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil[s->interpolation]);
+  if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil(s->interpolation));
   return KZ_OK;
 }
 

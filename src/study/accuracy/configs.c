@@ -1,6 +1,7 @@
 /* The table of configurations. */
 #include <string.h>
 
+#include "common/cells.h"
 #include "config.h"
 
 #define DIRECT(label, scheme, steps, precision, candidate) \
@@ -67,12 +68,12 @@ void kz_config_apply(const kz_config *config, kz_scene *scene) {
 double kz_config_cost(const kz_config *config, double cells, double mean_periods) {
   /* Measured weights, in kicks in double precision: a look-up in the table with its region, what it takes to track its error, the
    * share of the periods that hybrid integrates (0 to 0.35). */
-  static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1},
-                      look_up[] = {[KZ_LINEAR] = 50, [KZ_CUBIC] = 55, [KZ_QUINTIC] = 60}, tracking = 15, integrated = 0.15;
+  static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1}, look_up = 45, look_up_node = 2.5, tracking = 15,
+                      integrated = 0.15;
   kz_scheme scheme;
   kz_scheme_row(kz_scheme_find(config->scheme), &scheme);
   const double nodes = (double)config->nodes, period = kind[config->precision] * scheme.kicks * config->steps;
-  const double mapped = look_up[config->interpolation];
+  const double mapped = look_up + look_up_node * kz_stencil(config->interpolation);
   const double cell = config->method == KZ_METHOD_DIRECT ? period
                       : config->method == KZ_METHOD_ICM  ? mapped
                                                          : mapped + tracking + integrated * period;

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "accuracy/accuracy.h"
-#include "basin_steps.h"
 #include "common/catalogue.h"
 #include "common/search.h"
 #include "common/step_table.h"
@@ -153,7 +152,7 @@ static kz_status discover(basin *b, kz_ranks *ranks, bool again) {
 /* Before cells are labelled by a table alone. What basin.accuracy chose is judged by its labels. */
 static kz_status check_table(const basin *b) {
   if (b->plan->method != KZ_METHOD_ICM || !isnan(b->plan->accuracy)) return KZ_OK;
-  return kz_steps_check_table(b->plan, kz_dynamics_table_defect(b->dynamics, kz_stencil[b->plan->interpolation]));
+  return kz_steps_check_table(b->plan, kz_dynamics_table_defect(b->dynamics, kz_stencil(b->plan->interpolation)));
 }
 
 /* Everything up to the labels. */
@@ -204,7 +203,7 @@ static void measure_numerics(const kz_scene *scene, const basin *b, kz_labels *l
   labels->step_error = kz_basin_warn_steps(scene, summary);
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
-  labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil[scene->basin.interpolation]);
+  labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil(scene->basin.interpolation));
   if (scene->basin.method == KZ_METHOD_ICM) kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
 

@@ -26,6 +26,10 @@ void kz_labels_free(kz_labels *labels);
 kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
                          FILE *summary);
 
+/* The steps of a basin and their error beside its cells, and a line for each class of speeds that is off by more than
+ * kz_steps_tolerance. Returns the largest error of a drive period, rad: an upper estimate. */
+double kz_basin_warn_steps(const kz_scene *scene, FILE *summary);
+
 bool kz_basin_wanted(const kz_scene *scene);
 kz_cost kz_basin_cost(const kz_scene *scene);
 kz_status kz_basin_check(const kz_scene *scene);

@@ -1,5 +1,4 @@
-#include "basin_steps.h"
-
+/* The steps of a basin: chosen, checked and reported beside its cells. */
 #include <math.h>
 
 #include "accuracy/reference.h"

@@ -46,7 +46,9 @@ void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
                  state);
 }
 
-const int32_t kz_stencil[] = {[KZ_LINEAR] = 2, [KZ_CUBIC] = 4, [KZ_QUINTIC] = 6};
+int32_t kz_stencil(int32_t interpolation) {
+  return 2 * interpolation + 2;
+}
 
 const char *const kz_method_names[] = {KZ_METHOD_WORDS};
 const char *const kz_interpolation_names[] = {KZ_INTERPOLATION_WORDS};
@@ -54,7 +56,7 @@ const char *const kz_precision_names[] = {KZ_PRECISION_WORDS};
 
 void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
                int32_t *label, int64_t *periods, int64_t *integrated) {
-  const int32_t points = kz_stencil[interpolation];
+  const int32_t points = kz_stencil(interpolation);
   memset(integrated, 0, (size_t)n * sizeof *integrated);
   if (method == KZ_METHOD_DIRECT)
     kz_dynamics_follow(dynamics, n, max_periods, state, label, periods);

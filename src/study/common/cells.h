@@ -28,7 +28,7 @@ void kz_start_state(double theta, double velocity, double state[2]);
 void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
 
 /* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */
-extern const int32_t kz_stencil[];
+int32_t kz_stencil(int32_t interpolation);
 
 /* The words of the file for KZ_METHOD_ICM, ..., KZ_LINEAR, ... and KZ_SINGLE, ... */
 extern const char *const kz_method_names[], *const kz_interpolation_names[], *const kz_precision_names[];

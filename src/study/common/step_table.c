@@ -12,7 +12,7 @@ kz_status kz_steps_check_table(const kz_basin_plan *plan, double defect) {
   const double cell = kz_cell_size(plan);
   if (!(defect > cell)) return KZ_OK;
   const int64_t most = plan->table_theta > plan->table_velocity ? plan->table_theta : plan->table_velocity;
-  const double nodes = (double)most * pow(defect / cell, 1.0 / kz_stencil[plan->interpolation]);
+  const double nodes = (double)most * pow(defect / cell, 1.0 / kz_stencil(plan->interpolation));
   char more[64] = "";
   if (nodes <= MOST_NODES) snprintf(more, sizeof more, ", or some %.0f nodes an axis", 100 * ceil(nodes / 100));
   return kz_fail(

@@ -6,6 +6,12 @@
 
 #include "common/settling.h"
 
+#define BARRED(code, word, run) "|" word
+const char *kz_sweep_measure_words(void) {
+  static const char words[] = KZ_SWEEP_MEASURES(BARRED);
+  return words + 1;
+}
+
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
   for (int64_t i = 0; i < plan->measure.count; i++)
     if (plan->measure.values[i] == measure) return true;
@@ -103,16 +109,12 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
 }
 
 kz_status kz_sweep_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  static const struct {
-    int64_t measure;
-    kz_status (*run)(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
-  } parts[] = {{KZ_SWEEP_FLUTTER_AMPLITUDE, kz_sweep_flutter},
-               {KZ_SWEEP_FLUTTER_RANGE, kz_sweep_flutter_range},
-               {KZ_SWEEP_RELEASE_ANGLE, kz_sweep_release},
-               {KZ_SWEEP_STROBE, kz_sweep_strobe}};
+  typedef kz_status (*run)(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+#define RUN(code, word, run) run,
+  static const run runs[] = {KZ_SWEEP_MEASURES(RUN)};
   KZ_TRY(kz_ranks_agree(ranks, kz_ranks_own(ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, ranks, store, summary));
-  for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++)
-    if (kz_sweep_measures(&scene->sweep, parts[i].measure)) KZ_TRY(parts[i].run(scene, ranks, store, summary));
+  for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
+    if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, ranks, store, summary));
   return KZ_OK;
 }

@@ -5,6 +5,18 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
+/* What a sweep can measure: its code, its word in the scene, what runs it; NULL: the branches, which serve two measures. */
+#define KZ_SWEEP_MEASURES(MEASURE)                                           \
+  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                           \
+  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)                 \
+  MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter) \
+  MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range)    \
+  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release)         \
+  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)
+
+#define KZ_MEASURE_CODE(code, word, run) code,
+enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) };
+
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
 
 /* ---- walks: one cycle from value to value ---- */

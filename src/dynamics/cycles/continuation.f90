@@ -1,4 +1,4 @@
-!> One cycle carried from parameters to parameters: include/kapitza/branches.h.
+!> One cycle carried from parameters to parameters: include/kapitza/dynamics.h.
 module kz_attractors_continuation
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_kernel_map, only: flow_t, PI

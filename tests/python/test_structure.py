@@ -1,0 +1,191 @@
+"""The sources keep their order: no include upwards, no circles, C headers that say what the Fortran entries are."""
+
+import re
+import subprocess
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+from conftest import PROGRAM, ROOT
+
+SOURCES = ROOT / "src"
+HEADERS = ROOT / "include" / "kapitza"
+FORTRAN = sorted(SOURCES.rglob("*.f90"))
+
+
+def layers():
+    """The layers that each layer may include: those below it, from CMakeLists.txt, and itself."""
+    below = {}
+    for name, rest in re.findall(r"^kapitza_layer\((\w+)([^)]*)\)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE):
+        direct = re.search(r"LAYERS ([a-z ]+)", rest)
+        below[name] = {name}.union(*(below[layer] for layer in (direct[1].split() if direct else [])))
+    return below
+
+
+def modules():
+    """The file of each Fortran module."""
+    return {name: path for path in FORTRAN for name in re.findall(r"^module (\w+)", path.read_text(), re.MULTILINE)}
+
+
+def place_of(include, path):
+    """The file that `path` includes by that name."""
+    layer = SOURCES / path.relative_to(SOURCES).parts[0] if path.is_relative_to(SOURCES) else SOURCES
+    for folder in (path.parent, layer, ROOT / "include"):
+        if (folder / include).is_file():
+            return folder / include
+    assert include == "kapitza/version.h", f"{path} includes {include}, which is nowhere"  # made by the build
+    return None
+
+
+def edges():
+    """(file, file that it includes or whose module it uses), within the project."""
+    module = modules()
+    for path in sorted([*SOURCES.rglob("*.[ch]"), *SOURCES.rglob("*.inc"), *FORTRAN, *HEADERS.glob("*.h")]):
+        text = path.read_text()
+        for include in re.findall(r"""^ *#? *include ["']([^"']+)["']""", text, re.MULTILINE):
+            if place := place_of(include, path):
+                yield path, place
+        for name in re.findall(r"^ *use (kz_\w+)", text, re.MULTILINE):
+            yield path, module[name]
+
+
+def layer_of(path):
+    return path.stem if path.is_relative_to(HEADERS) else path.relative_to(SOURCES).parts[0]
+
+
+def folder_of(path):
+    return path.relative_to(ROOT).with_suffix("") if path.is_relative_to(HEADERS) else path.parent.relative_to(ROOT)
+
+
+def file_of(path):
+    """A source and its header count as one file."""
+    return path.relative_to(ROOT).with_suffix("")
+
+
+def test_no_include_goes_up():
+    allowed = layers()
+    up = [f"{path.relative_to(ROOT)} -> {other.relative_to(ROOT)}" for path, other in edges()
+          if layer_of(other) not in allowed[layer_of(path)]]
+    assert not up
+
+
+@pytest.mark.parametrize("node_of", [folder_of, file_of])
+def test_no_circle(node_of):
+    graph = {}
+    for path, other in edges():
+        if node_of(path) != node_of(other):
+            graph.setdefault(node_of(path), set()).add(node_of(other))
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as circle:
+        pytest.fail(" <- ".join(map(str, circle.args[1])))
+
+
+# ---- Fortran entries and their C headers ----
+
+# The same number, by its name in C and by the one that gfortran takes.
+KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short", "kz_status": "int"}
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
+
+
+def declared(text):
+    """{function: (result, [parameter types])} of the prototypes in C text; a type is (const, name, pointer)."""
+    found = {}
+    for result, name, parameters in re.findall(r"^((?:const )?\w+[ *]+)(kz_\w+) ?\(([^()]*)\)[^;{]*;", text, re.MULTILINE):
+        types = [] if parameters.strip() in ("", "void") else [type_of(part) for part in parameters.split(",")]
+        found[name] = (type_of(result + " it"), types)
+    return found
+
+
+def type_of(declaration):
+    words = re.sub(r"\*", " ", declaration).split()
+    const, pointer = "const" in words, "*" in declaration or "[" in declaration
+    name = " ".join(word for word in words if word not in ("const", "struct"))
+    name = name.rsplit(" ", 1)[0]
+    return const, KINDS.get(name, name), pointer
+
+
+def generated(path, folder):
+    """What gfortran says of a file's bind(C) entries."""
+    done = subprocess.run(["gfortran", "-cpp", "-ffree-line-length-none", "-fsyntax-only", "-fc-prototypes",
+                           f"-I{PROGRAM.parent / 'modules'}", f"-J{folder}", f"-I{path.parent}", str(path)],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return without_comments(done.stdout)
+
+
+def agrees(fortran, c, structures):
+    """Whether a type of a Fortran entry is the C one; `structures` collects the derived types that meet."""
+    if fortran[1] == "void" and fortran[2]:
+        return c[2]
+    if fortran[1].endswith("_t") and c[1].startswith("kz_"):
+        structures.add((fortran[1], c[1]))
+        return fortran[2] == c[2] and fortran[0] == c[0]
+    return fortran == c
+
+
+@pytest.fixture(scope="module")
+def entries(tmp_path_factory):
+    """{Fortran file: gfortran's C text} of the files with bind(C) entries."""
+    folder = tmp_path_factory.mktemp("modules")
+    return {path: generated(path, folder) for path in FORTRAN if re.search(r"bind\(C, *name", path.read_text())}
+
+
+def test_c_headers_declare_the_fortran_entries(entries):
+    headers = {}
+    for path in [*HEADERS.glob("*.h"), *SOURCES.rglob("*.[ch]"), *SOURCES.rglob("*.inc")]:
+        headers |= declared(without_comments(path.read_text()))
+    differing, known = [], 0
+    for path, text in entries.items():
+        for name, (result, parameters) in declared(text).items():
+            if name.startswith("kz_processed_stages"):  # a C function, whose name is put together by a macro
+                continue
+            there = headers.get(name)
+            known += there is not None
+            if there is None or len(there[1]) != len(parameters) or not agrees(result, there[0], set()) or not all(
+                    agrees(one, other, set()) for one, other in zip(parameters, there[1], strict=True)):
+                differing.append(f"{path.relative_to(ROOT)}: {name}: {result, parameters} in Fortran, {there} in C")
+    assert not differing, "\n".join(differing)
+    assert known > 40
+
+
+def test_c_structures_are_the_fortran_types(entries, tmp_path):
+    headers = declared("\n".join(without_comments(path.read_text()) for path in HEADERS.glob("*.h")))
+    structures, types = set(), {}
+    for text in entries.values():
+        types |= {name: body for body, name in re.findall(r"^typedef struct \w+ \{(.*?)\} (\w+);", text, re.DOTALL | re.MULTILINE)}
+        for name, (_, parameters) in declared(text).items():
+            for one, other in zip(parameters, headers.get(name, (None, []))[1], strict=False):
+                agrees(one, other, structures)
+    assert len(structures) >= 6
+    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', "typedef _Float128 float128;"]
+    for fortran, c in sorted(structures):
+        program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
+        program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
+        for field in re.findall(r"^ *(?!float128)\w+ (\w+)", types[fortran], re.MULTILINE):  # C keeps quads as bytes
+            program.append(f'_Static_assert(offsetof({fortran}, {field}) == offsetof({c}, {field}), "{c}.{field}");')
+    source = tmp_path / "structures.c"
+    source.write_text("\n".join(program) + "\n")
+    done = subprocess.run(["cc", "-fsyntax-only", f"-I{ROOT / 'include'}", str(source)], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+# ---- the guide for developers ----
+
+
+def test_the_guide_names_files_that_exist():
+    guide = (ROOT / "docs" / "developer.md").read_text()
+    rows = re.findall(r"^\| ([^|]+) \| ([^|]+) \|$", guide.split("| to add | touch |")[1].split("\n## ")[0], re.MULTILINE)[1:]
+    assert {word for name, _ in rows for word in name.split()} >= {
+        "scheme", "study", "key", "variable", "measure", "interpolation", "plot", "curve", "colour", "test"}
+    for name, files in rows:
+        paths = re.findall(r"`((?:src|include|scripts|docs|tests|scenes)/[^`]*)`", files)
+        assert 1 <= len(paths) <= 4, name
+        missing = [path for path in paths if not re.search("[A-Z]", path) and not (ROOT / path).exists()]
+        assert not missing, name
+    folders = re.findall(r"^\| `(src/[a-z/]+)` \|", guide, re.MULTILINE)
+    assert folders and all((ROOT / folder).is_dir() for folder in folders)
