@@ -3,10 +3,8 @@
 import re
 import subprocess
 from graphlib import CycleError, TopologicalSorter
-from pathlib import Path
 
 import pytest
-
 from conftest import PROGRAM, ROOT
 
 SOURCES = ROOT / "src"
