@@ -1,20 +1,4 @@
-# One static library per folder of src/, one set of flags for all of them.
-
-# Large arrays belong to the heap: users and batch systems limit the stack (kz_app, src/app/main.c).
-set(KAPITZA_WARNINGS -Wall -Wextra -Werror -Wframe-larger-than=163840)
-set(KAPITZA_FLAGS_C ${KAPITZA_WARNINGS} -Wshadow -Wstrict-prototypes -Wvla -ffp-contract=off)
-set(KAPITZA_FLAGS_FORTRAN ${KAPITZA_WARNINGS} -Wimplicit-interface -fimplicit-none -ffree-line-length-none
-    -ffp-contract=fast -fno-trapping-math -fno-math-errno)
-set(CMAKE_C_FLAGS_RELEASE "-O2 -g")
-set(CMAKE_Fortran_FLAGS_RELEASE "-O3 -g")
-set(CMAKE_C_FLAGS_DEBUG "-O1 -g")
-set(CMAKE_Fortran_FLAGS_DEBUG "-O1 -g -fcheck=all,no-array-temps -fbacktrace")
-
-set(KAPITZA_SANITIZERS "")
-if(KAPITZA_SANITIZE)
-  set(KAPITZA_SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  link_libraries(${KAPITZA_SANITIZERS})
-endif()
+# One static library per folder of src/.
 
 # kapitza_layer(name LAYERS lower... LIBRARIES targets...): src/name becomes the library kapitza_name.
 function(kapitza_layer name)
@@ -33,7 +17,7 @@ function(kapitza_layer name)
   foreach(layer ${arg_LAYERS})
     target_link_libraries(kapitza_${name} PUBLIC kapitza_${layer})
   endforeach()
-  target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} gfortran m)
+  target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} m)
   list(FILTER sources INCLUDE REGEX "\\.f90$")
   if(sources) # gfortran does not look whether malloc gave memory: include/kapitza/common.h
     add_custom_command(TARGET kapitza_${name} POST_BUILD COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=kz_malloc

@@ -3,26 +3,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app.h"
-#include "kapitza/version.h"
+#include "options.h"
 
 enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8 };
 
-typedef struct {
-  const char *name;
-  int bit;
-  const char *operand; /* "SCENE", or "" */
-  kz_status (*carry_out)(const kz_options *options);
-  const char *help;
-} command_row;
-
-static const command_row commands[] = {
+const kz_command_row kz_commands[] = {
     {"run", RUN, " SCENE", kz_app_run, "model every study that SCENE contains"},
     {"check", CHECK, " SCENE", kz_app_check, "validate SCENE and print what would be modelled; runs nothing"},
     {"keys", KEYS, "", kz_app_keys, "print the reference of all keys of a scene (docs/scene.md)"},
+    {NULL, 0, NULL, NULL, NULL},
 };
-enum { N_COMMANDS = sizeof commands / sizeof commands[0] };
-static const command_row top = {"", TOP, " COMMAND", NULL, "basins of attraction of the pendulum with a shaken pivot"};
+enum { N_COMMANDS = sizeof kz_commands / sizeof kz_commands[0] - 1 };
+const kz_command_row kz_no_command = {"", TOP, " COMMAND", NULL, "basins of attraction of the pendulum with a shaken pivot"};
 
 static kz_status set_output(kz_options *options, const char *argument) {
   options->output = argument;
@@ -74,65 +66,94 @@ static kz_status set_progress(kz_options *options, const char *argument) {
   return kz_fail(KZ_REFUSED, "--progress: \"%s\" is unknown; it must be auto, always or never", argument);
 }
 
-static const struct {
-  const char *name;
-  int letter;           /* of the short form; from 256 on: none */
-  const char *argument; /* its name, or NULL */
-  int commands;
-  kz_status (*apply)(kz_options *options, const char *argument); /* NULL: --help and --version */
-  const char *help;
-} rows[] = {
+/* Options that print and leave. */
+static kz_status print_version(kz_options *options, const char *argument) {
+  (void)argument;
+  options->helped = true;
+  if (options->speaks) kz_app_version(stdout);
+  return KZ_OK;
+}
+
+static kz_status print_manual(kz_options *options, const char *argument) {
+  (void)argument;
+  options->helped = true;
+  if (options->speaks) kz_manual_print(stdout);
+  return KZ_OK;
+}
+
+static kz_status print_completion(kz_options *options, const char *argument) {
+  options->helped = true;
+  return kz_completion_print(argument, options->speaks ? stdout : NULL);
+}
+
+const kz_option_row kz_option_rows[] = {
     {"output", 'o', "FILE", RUN, set_output, "the result; default: base name of SCENE + .h5 in the current folder"},
     {"set", 256, "KEY=VALUE", RUN | CHECK, add_set, "override or create a key; VALUE is YAML flow text; the last one wins"},
     {"resume", 257, NULL, RUN, set_resume, "go on from FILE.checkpoint where there is one"},
     {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint"},
     {"time-limit", 259, "T", RUN, set_time_limit, "stop after T seconds (30m, 1.5h), all finished work saved, exit 75"},
-    {"progress", 260, "WHEN", RUN, set_progress, "auto, always or never"},
+    {"progress", 260, "auto|always|never", RUN, set_progress, "whether a bar is drawn"},
     {"help", 'h', NULL, RUN | CHECK | KEYS | TOP, NULL, "print this and leave"},
-    {"version", 'V', NULL, TOP, NULL, "print versions of the program and of what it was built with, and leave"},
+    {"version", 'V', NULL, TOP, print_version, "print versions of the program and of what it was built with, and leave"},
+    {"manual", 270, NULL, TOP, print_manual, "print the manual page, for man -l -, and leave"},
+    {"completion", 271, "bash|zsh|fish", TOP, print_completion, "print the completion script of a shell, and leave"},
+    {NULL, 0, NULL, 0, NULL, NULL},
 };
-enum { N_ROWS = sizeof rows / sizeof rows[0] };
+enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0] - 1 };
 
-static void print_help(const command_row *command) {
+const kz_exit_row kz_exit_rows[] = {
+    {KZ_OK, "done"},
+    {KZ_REFUSED, "refused beforehand (nothing written)"},
+    {KZ_FAILED, "failed while running"},
+    {KZ_STOPPED, "stopped early on request, all finished work saved"},
+    {0, NULL},
+};
+
+static void print_help(const kz_command_row *command) {
   printf("Usage: kapitza%s%s%s [OPTION]...\n%s\n\n", command->name[0] ? " " : "", command->name, command->operand,
          command->help);
-  for (int i = 0; command == &top && i < N_COMMANDS; i++) printf("  %-24s %s\n", commands[i].name, commands[i].help);
-  if (command == &top) putchar('\n');
+  for (int i = 0; command == &kz_no_command && i < N_COMMANDS; i++)
+    printf("  %-30s %s\n", kz_commands[i].name, kz_commands[i].help);
+  if (command == &kz_no_command) putchar('\n');
   for (int i = 0; i < N_ROWS; i++) {
-    if (!(rows[i].commands & command->bit)) continue;
+    if (!(kz_option_rows[i].commands & command->bit)) continue;
     char name[64];
-    snprintf(name, sizeof name, "--%s%s%s", rows[i].name, rows[i].argument ? " " : "",
-             rows[i].argument ? rows[i].argument : "");
-    if (rows[i].letter < 256)
-      printf("  -%c, %-20s %s\n", rows[i].letter, name, rows[i].help);
+    snprintf(name, sizeof name, "--%s%s%s", kz_option_rows[i].name, kz_option_rows[i].argument ? " " : "",
+             kz_option_rows[i].argument ? kz_option_rows[i].argument : "");
+    if (kz_option_rows[i].letter < 256)
+      printf("  -%c, %-26s %s\n", kz_option_rows[i].letter, name, kz_option_rows[i].help);
     else
-      printf("      %-20s %s\n", name, rows[i].help);
+      printf("      %-26s %s\n", name, kz_option_rows[i].help);
   }
-  puts("\nExit status: 0 done, 2 refused beforehand (nothing written), 1 failed while running, 75 stopped early on request.");
+  printf("\nExit status:");
+  for (const kz_exit_row *row = kz_exit_rows; row->meaning; row++)
+    printf("%s %d %s", row > kz_exit_rows ? "," : "", row->status, row->meaning);
+  puts(".");
 }
 
 /* getopt's own description of the options of a command. */
-static void describe(const command_row *command, struct option *longs, char *shorts) {
+static void describe(const kz_command_row *command, struct option *longs, char *shorts) {
   *shorts++ = ':';
   for (int i = 0; i < N_ROWS; i++) {
-    if (!(rows[i].commands & command->bit)) continue;
-    *longs++ = (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL, rows[i].letter};
-    if (rows[i].letter >= 256) continue;
-    *shorts++ = (char)rows[i].letter;
-    if (rows[i].argument) *shorts++ = ':';
+    if (!(kz_option_rows[i].commands & command->bit)) continue;
+    *longs++ = (struct option){kz_option_rows[i].name, kz_option_rows[i].argument ? required_argument : no_argument, NULL,
+                               kz_option_rows[i].letter};
+    if (kz_option_rows[i].letter >= 256) continue;
+    *shorts++ = (char)kz_option_rows[i].letter;
+    if (kz_option_rows[i].argument) *shorts++ = ':';
   }
   *longs = (struct option){NULL, 0, NULL, 0};
   *shorts = '\0';
 }
 
-static kz_status refuse_option(const command_row *command, const char *typed, bool lacks_argument) {
+static kz_status refuse_option(const kz_command_row *command, const char *typed, bool lacks_argument) {
   char names[256] = "", nearest[64];
   const size_t length = strcspn(typed, "=");
   const char *space = command->name[0] ? " " : "";
   if (lacks_argument) return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza%s%s --help", typed, space, command->name);
   for (int i = 0; i < N_ROWS; i++)
-    if (rows[i].commands & command->bit)
-      snprintf(names + strlen(names), sizeof names - strlen(names), "%s--%s", names[0] ? "|" : "", rows[i].name);
+    if (kz_option_rows[i].commands & command->bit)
+      snprintf(names + strlen(names), sizeof names - strlen(names), "%s--%s", names[0] ? "|" : "", kz_option_rows[i].name);
   char name[64];
   snprintf(name, sizeof name, "%.*s", (int)length, typed);
   if (kz_key_suggest(name, names, nearest, sizeof nearest) && strcmp(nearest, name) != 0)
@@ -141,7 +162,7 @@ static kz_status refuse_option(const command_row *command, const char *typed, bo
                  typed[length] && strstr(names, name) ? "takes no value" : "unknown option", space, command->name);
 }
 
-static kz_status read_options(const command_row *command, int argc, char **argv, kz_options *options, bool *helped) {
+static kz_status read_options(const kz_command_row *command, int argc, char **argv, kz_options *options) {
   struct option longs[N_ROWS + 1];
   char shorts[2 * N_ROWS + 2];
   describe(command, longs, shorts);
@@ -154,20 +175,19 @@ static kz_status read_options(const command_row *command, int argc, char **argv,
       return refuse_option(command, is_letter ? (const char[]){'-', (char)optopt, '\0'} : argv[optind - 1], letter == ':');
     }
     int i = 0;
-    while (rows[i].letter != letter) i++;
-    if (rows[i].apply) {
-      KZ_TRY(rows[i].apply(options, optarg));
+    while (kz_option_rows[i].letter != letter) i++;
+    if (kz_option_rows[i].apply) {
+      KZ_TRY(kz_option_rows[i].apply(options, optarg));
       continue;
     }
-    *helped = true;
-    if (options->speaks && letter == 'h') print_help(command);
-    if (options->speaks && letter == 'V') kz_app_version(stdout);
+    options->helped = true;
+    if (options->speaks) print_help(command);
     return KZ_OK;
   }
   return KZ_OK;
 }
 
-static kz_status read_operands(const command_row *command, int argc, char **argv, kz_options *options) {
+static kz_status read_operands(const kz_command_row *command, int argc, char **argv, kz_options *options) {
   const int wanted = command->operand[0] ? 1 : 0;
   if (argc - optind > wanted)
     return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", argv[optind + wanted], command->name,
@@ -179,10 +199,9 @@ static kz_status read_operands(const command_row *command, int argc, char **argv
   return KZ_OK;
 }
 
-static kz_status carry_out(const command_row *command, int argc, char **argv, kz_options *options) {
-  bool helped = false;
-  KZ_TRY(read_options(command, argc, argv, options, &helped));
-  if (helped) return KZ_OK;
+static kz_status carry_out(const kz_command_row *command, int argc, char **argv, kz_options *options) {
+  KZ_TRY(read_options(command, argc, argv, options));
+  if (options->helped) return KZ_OK;
   KZ_TRY(read_operands(command, argc, argv, options));
   return command->carry_out(options);
 }
@@ -190,15 +209,14 @@ static kz_status carry_out(const command_row *command, int argc, char **argv, kz
 /* The first word: a command, or an option of the program itself. */
 static kz_status dispatch(int argc, char **argv, kz_options *options) {
   char names[128] = "", nearest[64];
-  bool helped = false;
   if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   if (argv[1][0] == '-') {
-    KZ_TRY(read_options(&top, argc, argv, options, &helped));
-    return helped ? KZ_OK : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
+    KZ_TRY(read_options(&kz_no_command, argc, argv, options));
+    return options->helped ? KZ_OK : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   }
   for (int i = 0; i < N_COMMANDS; i++) {
-    if (strcmp(argv[1], commands[i].name) == 0) return carry_out(&commands[i], argc - 1, argv + 1, options);
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? "|" : "", commands[i].name);
+    if (strcmp(argv[1], kz_commands[i].name) == 0) return carry_out(&kz_commands[i], argc - 1, argv + 1, options);
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? "|" : "", kz_commands[i].name);
   }
   if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);

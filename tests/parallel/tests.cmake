@@ -16,4 +16,6 @@ target_link_libraries(worker PRIVATE kapitza_parallel)
 set_target_properties(worker PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME parallel.kills COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tools/kill_loop.sh ${Python3_EXECUTABLE} $<TARGET_FILE:worker>)
-set_tests_properties(parallel.kills PROPERTIES LABELS parallel TIMEOUT 240 RESOURCE_LOCK mpirun PROCESSORS 2)
+cmake_path(GET MPIRUN PARENT_PATH launchers)
+set_tests_properties(parallel.kills PROPERTIES LABELS parallel TIMEOUT 240 RESOURCE_LOCK mpirun PROCESSORS 2
+                     ENVIRONMENT_MODIFICATION PATH=path_list_prepend:${launchers})

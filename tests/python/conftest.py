@@ -13,6 +13,7 @@ import matplotlib.pyplot
 import numpy as np
 import pytest
 from kapitza_file import Result, run
+from mpi_settings import MPI_SETTINGS
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
@@ -21,8 +22,7 @@ TEXT = h5py.string_dtype("utf-8")
 
 def pytest_configure(config):
     """The mpirun settings of scripts/setup, for those who call pytest by hand."""
-    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                      OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_orte_execute_quiet="1")
+    os.environ.update(MPI_SETTINGS)
 
 
 def attractor_name(period, winding, centre):

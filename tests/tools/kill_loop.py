@@ -19,6 +19,8 @@ import sys
 import time
 from pathlib import Path
 
+from mpi_settings import MPI_SETTINGS
+
 HANG = 90  # s
 KNOCKS = ["kill mpirun", "kill a rank", "kill all", "SIGTERM", "SIGINT", "SIGUSR1"]
 STOPPED, REFUSED = 75, 2
@@ -29,8 +31,9 @@ class Failure(Exception):
 
 
 def start(words, ranks):
-    launcher = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)]
-    return subprocess.Popen(launcher + words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True, text=True)
+    launcher = ["mpirun", "-n", str(ranks)]
+    return subprocess.Popen(launcher + words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True, text=True,
+                            env=os.environ | MPI_SETTINGS)
 
 
 def children(parent):

@@ -15,6 +15,8 @@ import subprocess
 import time
 from pathlib import Path
 
+from mpi_settings import MPI_SETTINGS
+
 SLICE = 0.05  # s: stop and go of the slow rank together
 
 
@@ -39,8 +41,8 @@ def nap(rank, share):
 def seconds(words, ranks, share=None):
     """Wall time of a run, with the last rank slowed down to `share` of the time."""
     begun = time.monotonic()
-    launcher = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)]
-    process = subprocess.Popen([*launcher, *words], stdout=subprocess.DEVNULL)
+    launcher = ["mpirun", "-n", str(ranks)]
+    process = subprocess.Popen([*launcher, *words], stdout=subprocess.DEVNULL, env=os.environ | MPI_SETTINGS)
     while share is not None and len(found := ranks_of(process, words[0])) < ranks and process.poll() is None:
         time.sleep(0.01)
     while share is not None and process.poll() is None and nap(found[-1], share):

@@ -64,8 +64,8 @@ static void three_forms_agree(void **state) {
       "pendulum={quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
       "pendulum={k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}",
       /* M r/I = 2.5 /m, omega = 100 rad/s: g = k omega^2/2.5, b = beta I omega, A = m/2.5 */
-      "pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
-      "pivot_amplitude: 0.12, pivot_frequency: 100}"};
+      ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
+       "pivot_amplitude: 0.12, pivot_frequency: 100}")}; /* in brackets: clang takes two strings in a list for a forgotten comma */
   for (int i = 0; i < 3; i++) {
     kz_scene scene;
     assert_int_equal(read_scene(GOOD, forms[i], &scene), KZ_OK);

@@ -1,0 +1,25 @@
+# Flags of the compilers that are known: GNU or Clang for C, GNU for Fortran. What labels and map tables promise depends on how products
+# are rounded (-ffp-contract) and on quad precision, so another compiler is refused instead of being given flags that it may read otherwise.
+
+if(NOT CMAKE_C_COMPILER_ID MATCHES "^(GNU|Clang|AppleClang)$")
+  message(FATAL_ERROR "The C compiler is ${CMAKE_C_COMPILER_ID}; give -DCMAKE_C_COMPILER= one of GNU (gcc) or Clang (clang)")
+endif()
+if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")
+  message(FATAL_ERROR "The Fortran compiler is ${CMAKE_Fortran_COMPILER_ID}; give -DCMAKE_Fortran_COMPILER= that of GNU (gfortran)")
+endif()
+
+# Large arrays belong to the heap: users and batch systems limit the stack (kz_app, src/app/main.c).
+set(KAPITZA_WARNINGS -Wall -Wextra -Werror -Wframe-larger-than=163840)
+set(KAPITZA_FLAGS_C ${KAPITZA_WARNINGS} -Wshadow -Wstrict-prototypes -Wvla -ffp-contract=off)
+set(KAPITZA_FLAGS_FORTRAN ${KAPITZA_WARNINGS} -Wimplicit-interface -fimplicit-none -ffree-line-length-none
+    -ffp-contract=fast -fno-trapping-math -fno-math-errno)
+set(CMAKE_C_FLAGS_RELEASE "-O2 -g")
+set(CMAKE_Fortran_FLAGS_RELEASE "-O3 -g")
+set(CMAKE_C_FLAGS_DEBUG "-O1 -g")
+set(CMAKE_Fortran_FLAGS_DEBUG "-O1 -g -fcheck=all,no-array-temps -fbacktrace")
+
+set(KAPITZA_SANITIZERS "")
+if(KAPITZA_SANITIZE)
+  set(KAPITZA_SANITIZERS -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  link_libraries(${KAPITZA_SANITIZERS})
+endif()

@@ -1,0 +1,28 @@
+# What `cmake --install` puts where (GNUInstallDirs). The manual page and the completions are printed by the program, when it is
+# installed: a build for another machine's instruction set must not need a CPU that has it.
+include(GNUInstallDirs)
+
+# kapitza_printed(file FOLDER folder WORDS words...): what `kapitza words...` prints becomes the file in that folder.
+function(kapitza_printed file)
+  cmake_parse_arguments(arg "" "FOLDER" "WORDS" ${ARGN})
+  set(path ${PROJECT_BINARY_DIR}/printed/${file})
+  install(CODE "
+    file(MAKE_DIRECTORY \"${PROJECT_BINARY_DIR}/printed\")
+    execute_process(COMMAND \"$<TARGET_FILE:kapitza>\" ${arg_WORDS} OUTPUT_FILE \"${path}\" RESULT_VARIABLE status)
+    if(NOT status EQUAL 0)
+      file(REMOVE \"${path}\")
+      message(WARNING \"${file} is left out: the program does not run here\")
+    endif()")
+  install(FILES ${path} DESTINATION ${arg_FOLDER} OPTIONAL)
+endfunction()
+
+install(TARGETS kapitza RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+kapitza_printed(kapitza.1 FOLDER ${CMAKE_INSTALL_MANDIR}/man1 WORDS --manual)
+kapitza_printed(kapitza FOLDER ${CMAKE_INSTALL_DATADIR}/bash-completion/completions WORDS --completion bash)
+kapitza_printed(_kapitza FOLDER ${CMAKE_INSTALL_DATADIR}/zsh/site-functions WORDS --completion zsh)
+kapitza_printed(kapitza.fish FOLDER ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d WORDS --completion fish)
+
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kapitza FILES_MATCHING PATTERN "*.yaml")
+install(PROGRAMS scripts/kapitza.sbatch DESTINATION ${CMAKE_INSTALL_DATADIR}/kapitza)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
