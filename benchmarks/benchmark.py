@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 
 import reference_check  # noqa: E402
-from kapitza_file import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result, run  # noqa: E402
 
 PROGRAM = ROOT / "build" / "kapitza"
 LABEL_CACHE = ROOT / "results" / "benchmark-truth"

@@ -20,7 +20,7 @@ from scipy.integrate import solve_ivp
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from kapitza_file import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result, run  # noqa: E402
 
 PROGRAM = ROOT / "build" / "kapitza"
 SCENE = """\

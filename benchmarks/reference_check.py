@@ -19,7 +19,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from kapitza_file import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result, run  # noqa: E402
 
 REFERENCE_LABEL = ROOT / "build" / "benchmarks" / "reference_label"
 NONE = -1

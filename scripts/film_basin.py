@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-from kapitza_file import BadFile, run
+from kapitza import BadFile, run
 
 ROOT = Path(__file__).resolve().parents[1]
 

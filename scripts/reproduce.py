@@ -1,4 +1,4 @@
-"""Draws the figures of kapitza_figures.py: each scene is run once, each figure drawn from its result (see scripts/reproduce)."""
+"""Draws the figures of scripts/kapitza/figures.py: each scene is run once, each figure drawn from its result (see scripts/reproduce)."""
 
 import argparse
 import fnmatch
@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from kapitza_figures import FIGURES
+from kapitza.figures import FIGURES
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "results"
@@ -41,15 +41,15 @@ def run_scene(scene, ranks):
 def main():
     arguments = parse_arguments()
     if arguments.list:
-        for name, scene, script, options in arguments.figures:
-            print(f"{name:28} scenes/{scene}.yaml  scripts/{script} {' '.join(options)}")
+        for name, scene, kind, options in arguments.figures:
+            print(f"{name:28} scenes/{scene}.yaml  {kind} {' '.join(options)}")
         return
     RESULTS.mkdir(exist_ok=True)
     for scene in dict.fromkeys(scene for _, scene, _, _ in arguments.figures):
         if status := run_scene(scene, arguments.ranks):
             sys.exit(status)
-    for name, scene, script, options in arguments.figures:
-        if status := step(sys.executable, f"scripts/{script}", f"results/{scene}.h5", "-o", f"results/{name}.png", *options):
+    for name, scene, kind, options in arguments.figures:
+        if status := step(sys.executable, f"scripts/plot_{kind}.py", f"results/{scene}.h5", "-o", f"results/{name}.png", *options):
             sys.exit(status)
 
 

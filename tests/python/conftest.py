@@ -9,10 +9,10 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import h5py
-import matplotlib.pyplot
 import numpy as np
 import pytest
-from kapitza_file import Result, run
+from kapitza import Result, run
+from kapitza.command import KINDS
 from mpi_settings import MPI_SETTINGS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -153,18 +153,21 @@ def datasets(path):
     return contents
 
 
-def run_script(script, *arguments):
-    """A plotting script (its module) without the second that a new Python takes: its CompletedProcess."""
+def run_script(main, *arguments):
+    """A script's main without the second that a new Python takes: its CompletedProcess."""
     output, errors, status = io.StringIO(), io.StringIO(), 0
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(errors):
-        patch.setattr(sys, "argv", [f"{script.__name__}.py", *map(str, arguments)])
+        patch.setattr(sys, "argv", ["script", *map(str, arguments)])
         try:
-            run(script.main)
+            run(main)
         except SystemExit as end:
             status = end.code
-        finally:
-            matplotlib.pyplot.close("all")
     return subprocess.CompletedProcess(arguments, status, output.getvalue(), errors.getvalue())
+
+
+def plot(kind, *arguments):
+    """kapitza-plot KIND with the arguments, as run_script."""
+    return run_script(lambda: KINDS[kind](list(map(str, arguments))), *arguments)
 
 
 @pytest.fixture(scope="session")

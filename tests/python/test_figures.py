@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from conftest import ROOT
-from kapitza_file import Result
+from kapitza import Result
 from scipy.integrate import solve_ivp
 
 REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())["blackburn_fig11_15_attractors_Q5_Omega11"]

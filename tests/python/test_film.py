@@ -30,7 +30,8 @@ def film(tmp_path, monkeypatch):
 
     def call(first, last, *options):
         drawn.clear()
-        done = run_script(film_basin, scene, "pendulum.drive_amplitude", first, last, "--count", 2, "--ranks", 1, "--dpi", 30, *options)
+        settings = ["--count", 2, "--ranks", 1, "--dpi", 30, *options]
+        done = run_script(film_basin.main, scene, "pendulum.drive_amplitude", first, last, *settings)
         return done, len(drawn)
 
     return call

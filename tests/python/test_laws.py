@@ -5,7 +5,7 @@ from math import acos, degrees, sqrt
 
 import numpy as np
 import pytest
-from kapitza_file import Result
+from kapitza import Result
 
 BLACKBURN = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 

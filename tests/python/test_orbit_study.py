@@ -9,7 +9,7 @@ import pytest
 from conftest import datasets
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kapitza_file import Result
+from kapitza import Result
 from orbit_scenes import BLACKBURN, FIGURES, NODDING, WINDOW, closed, near, parameters
 from scipy import signal
 

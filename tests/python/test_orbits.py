@@ -6,7 +6,7 @@ from math import log, pi
 import numpy as np
 import pytest
 from conftest import ROOT
-from kapitza_file import Result
+from kapitza import Result
 from orbit_scenes import BLACKBURN, FIGURES, NODDING, REFERENCE, WINDOW, closed, near, parameters
 
 

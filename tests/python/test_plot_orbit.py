@@ -1,12 +1,13 @@
-"""plot_orbit.py draws every kind of orbit, draws what the file says, and refuses files without one in one line."""
+"""kapitza-plot orbit draws every kind of orbit, draws what the file says, and refuses files without one in one line."""
 
 import json
 
 import matplotlib.image
 import numpy as np
-import plot_orbit
 import pytest
-from conftest import run_script
+from conftest import plot as plot_kind
+from kapitza import style
+from kapitza.plots import orbit as orbit_plot
 
 BLACKBURN = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 ORBITS = {
@@ -34,7 +35,7 @@ def files(kapitza, tmp_path_factory):
 
 
 def plot(*arguments):
-    return run_script(plot_orbit, *arguments)
+    return plot_kind("orbit", *arguments)
 
 
 @pytest.mark.parametrize("name", ORBITS)
@@ -57,13 +58,13 @@ def axes_of(files, monkeypatch):
     """axes_of(name, *options): the panels of the picture, by name, with what --last printed in the title line."""
     def call(name, *options):
         kept = {}
-        monkeypatch.setattr(plot_orbit, "lay_out", lambda panels: kept.update(zip(("figure", "axes"), lay_out(panels), strict=True))
+        monkeypatch.setattr(orbit_plot, "lay_out", lambda panels: kept.update(zip(("figure", "axes"), lay_out(panels), strict=True))
                             or (kept["figure"], kept["axes"]))
-        monkeypatch.setattr(plot_orbit.style, "save", lambda figure, output, dpi: figure.canvas.draw())
+        monkeypatch.setattr(style, "save", lambda figure, output, dpi: figure.draw_without_rendering())
         done = plot(files / f"{name}.h5", *options)
         assert (done.returncode, done.stderr) == (0, "")
         return kept["axes"], " ".join(text.get_text() for text in kept["figure"].texts)
-    lay_out = plot_orbit.lay_out
+    lay_out = orbit_plot.lay_out
     return call
 
 

@@ -3,13 +3,13 @@
 import subprocess
 import sys
 
-import kapitza_style as style
 import numpy as np
-import plot_sweep
 import pytest
 from conftest import ROOT
-from kapitza_file import Result
+from kapitza import Result, style
+from kapitza.plots.branches import NAMED, draw_shares, stack_order
 from matplotlib.collections import FillBetweenPolyCollection
+from matplotlib.figure import Figure
 
 SCENE = """\
 title: A short walk
@@ -59,9 +59,8 @@ def test_fractions_show_intervals_and_name_every_band(swept):
     result = Result(swept)
     sweep = result.group("sweep")
     share = np.nan_to_num(sweep["fraction"].values)
-    figure = plot_sweep.draw_fractions(sweep)
-    axes = figure.axes[0]
-    large = share.max(axis=0) > plot_sweep.NAMED
+    axes = draw_shares(Figure().subplots(), sweep)
+    large = share.max(axis=0) > NAMED
     bands, bars = [item for item in axes.collections if isinstance(item, FillBetweenPolyCollection)], axes.containers
     assert len(bands) == large.sum() + 1 and len(bars) == large.sum()
     names = [text.get_text() for text in axes.get_legend().get_texts()]
@@ -72,12 +71,10 @@ def test_fractions_show_intervals_and_name_every_band(swept):
     assert (rest > 0) == any(name.startswith(f"{(~large).sum()} others, {style.share_text(rest)}") for name in names)
     (line,) = bars[0].lines[2]
     segments = np.array([segment for segment in line.get_segments() if len(segment)])
-    first = plot_sweep._stack_order(sweep)
-    first = next(branch for branch in first if large[branch])
+    first = next(branch for branch in stack_order(sweep) if large[branch])
     there = np.isfinite(sweep["fraction"].values[:, first])
     assert np.allclose(segments[:, 0, 1][: there.sum()], sweep["fraction_low"].values[there, first])
     assert np.allclose(segments[:, 1, 1][: there.sum()], sweep["fraction_high"].values[there, first])
-    plot_sweep.plt.close(figure)
 
 
 def test_zone_of_flutter(kapitza, tmp_path):

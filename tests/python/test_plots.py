@@ -6,18 +6,22 @@ import sys
 import h5py
 import matplotlib.image
 import numpy as np
-import plot_basin
 import pytest
-from conftest import ROOT, run_script
+from conftest import ROOT
+from conftest import plot as plot_kind
 from hypothesis import given
 from hypothesis import strategies as st
-from kapitza_file import Result
+from kapitza import Result, style
+from kapitza.plots.basin import chosen_ids, draw_one
+from kapitza.plots.plane import Plane
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
 SCRIPT = ROOT / "scripts" / "plot_basin.py"
 
 
 def plot(*arguments):
-    return run_script(plot_basin, *arguments)
+    return plot_kind("basin", *arguments)
 
 
 def test_the_script_runs_by_itself(made_file, tmp_path):
@@ -48,19 +52,19 @@ def test_the_legend_gives_names_and_shares(made_file, tmp_path):
     assert plot(made_file, "-o", tmp_path / "out.svg").returncode == 0
     text = (tmp_path / "out.svg").read_text()
     labels = Result(made_file).group("basin")["attractor"].values
-    share = plot_basin.style.share_text(np.mean(labels == 4))
+    share = style.share_text(np.mean(labels == 4))
     assert "rotation +1/1" in text and "not settled" in text and share in text
 
 
 def test_black_and_white_draws_just_that_basin(made_file):
     result = Result(made_file)
     basin, attractors = result.group("basin"), result.group("attractors")
-    assert plot_basin.chosen_ids(result, attractors, "inverted 3-nodding") == [2, 3]
-    assert plot_basin.chosen_ids(result, attractors, "3") == [3]
-    axes = plot_basin.plt.figure().add_subplot()
-    ((_, _, share),) = plot_basin.draw_one(axes, plot_basin.Plane(basin, "down"), basin, attractors, [2, 3], True)
+    assert chosen_ids(result, attractors, "inverted 3-nodding") == [2, 3]
+    assert chosen_ids(result, attractors, "3") == [3]
+    axes = draw_one(Figure().add_subplot(), basin, attractors, [2, 3])
     drawn = axes.images[0].get_array()[..., 0] == 0
-    assert np.array_equal(drawn, np.isin(basin["attractor"].values, [2, 3])) and share == drawn.mean()
+    assert np.array_equal(drawn, np.isin(basin["attractor"].values, [2, 3]))
+    assert style.share_text(drawn.mean()) in axes.get_legend().get_texts()[1].get_text()
 
 
 @pytest.mark.parametrize("title, suffix", [(r"$\frac{1}$", "png"), (r"$\frac{1}$", "svg"), ("100 % of $m and $k, \\$", "svg"),
@@ -85,7 +89,7 @@ def pixels(made_file, colour, *options):
     picture = made_file.with_name("pixels.png")
     assert plot(made_file, "-o", picture, "--no-legend", "--dpi", 150, *options).returncode == 0
     image = matplotlib.image.imread(picture)[..., :3]
-    return int(np.all(np.abs(image - plot_basin.to_rgb(colour)) < 0.004, axis=-1).sum())
+    return int(np.all(np.abs(image - to_rgb(colour)) < 0.004, axis=-1).sum())
 
 
 @pytest.mark.parametrize("cells", [1, 3, 12])
@@ -96,25 +100,25 @@ def test_dots_never_cover_a_small_basin(made_file, cells):
         labels = np.zeros(distance.shape, "i2")
         labels.flat[distance.ravel().argsort()[:cells]] = 4
         file["basin/attractor"][:] = labels
-    colour = plot_basin.style.KINDS["rotation +"]
+    colour = style.KINDS["rotation +"]
     assert pixels(made_file, colour) >= 0.75 * pixels(made_file, colour, "--no-dots") > 100
 
 
 def test_dots_can_be_left_out(made_file):
-    dot = plot_basin.style.shade(plot_basin.style.KINDS["inverted"], -0.45)
+    dot = style.shade(style.KINDS["inverted"], -0.45)
     assert pixels(made_file, dot) > 20 and pixels(made_file, dot, "--no-dots") == 0
     assert pixels(made_file, "white", "--attractor", "1", "--no-dots") != pixels(made_file, "white", "--attractor", "1")
 
 
 def test_a_strobe_point_on_the_seam_shows_on_both_edges(made_file):
-    plane = plot_basin.Plane(Result(made_file).group("basin"), "down")
+    plane = Plane(Result(made_file).group("basin"), "down")
     theta, velocity = plane.inside([[-np.pi, np.nan]], [[0.0, np.nan]])
     assert np.allclose(sorted(theta), [-np.pi, np.pi]) and np.all(velocity == 0)
 
 
 @given(st.floats(-np.pi, np.pi), st.floats(-20, 20), st.floats(0.01, 2 * np.pi))
 def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
-    plane = plot_basin.Plane.__new__(plot_basin.Plane)
+    plane = Plane.__new__(Plane)
     plane.theta_range, plane.velocity_range = (left, left + width), (-1, 1)
     found, _ = plane.inside([theta], [0.0])
     wanted = [image for turn in range(-9, 10) if left <= (image := theta + 2 * np.pi * turn) <= left + width]

@@ -5,7 +5,7 @@ import shutil
 import numpy as np
 import pytest
 from conftest import ROOT, datasets
-from kapitza_file import Result
+from kapitza import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
 TINY = ["--set", "basin.theta.count=40", "--set", "basin.velocity.count=30", "--set", "basin.attractors.starts=1024"]

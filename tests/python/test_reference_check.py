@@ -10,7 +10,7 @@ import reference_check
 from conftest import write_result
 from hypothesis import given
 from hypothesis import strategies as st
-from kapitza_file import BadFile
+from kapitza import BadFile
 
 NEEDS_TOOL = pytest.mark.skipif(not reference_check.REFERENCE_LABEL.exists(), reason="build/benchmarks/reference_label is not built")
 

@@ -6,7 +6,8 @@ import subprocess
 import sys
 
 from conftest import ROOT
-from kapitza_figures import FIGURES
+from kapitza.command import KINDS
+from kapitza.figures import FIGURES
 
 
 def test_every_scene_has_a_figure_and_every_figure_a_scene():
@@ -14,10 +15,10 @@ def test_every_scene_has_a_figure_and_every_figure_a_scene():
     assert {scene for _, scene, _, _ in FIGURES} == scenes
 
 
-def test_names_are_used_once_and_scripts_exist():
+def test_names_are_used_once_and_kinds_exist():
     names = [name for name, _, _, _ in FIGURES]
     assert len(set(names)) == len(names)
-    assert all((ROOT / "scripts" / script).is_file() for _, _, script, _ in FIGURES)
+    assert all(kind in KINDS and (ROOT / "scripts" / f"plot_{kind}.py").is_file() for _, _, kind, _ in FIGURES)
 
 
 def test_scenes_say_what_they_show_and_how_to_run_them():

@@ -7,7 +7,7 @@ import h5py
 import pytest
 import yaml
 from conftest import ROOT, datasets
-from kapitza_file import Result
+from kapitza import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
 # A short search, then some seconds of cells.

@@ -6,13 +6,13 @@ import sys
 
 import h5py
 import numpy as np
-import plot_stability
 import pytest
 import yaml
 from conftest import ROOT, datasets
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from kapitza_file import Result
+from kapitza import Result
+from kapitza.plots.curves import whole_curve
 from matplotlib import image
 from scipy import integrate
 from test_bad_scenes import refused
@@ -92,7 +92,7 @@ def test_a_damped_tongue_is_drawn_around_its_turn(kapitza, tmp_path, last_k, par
     axes = f"k: {{min: 0.1, max: {last_k}, count: 61}}, m: {{min: 0, max: 4, count: 3}}"
     chart = f"stability: {{{axes}, damping: 0.07, curves: [damped_1]}}\n"
     run(kapitza, tmp_path, PENDULUM + chart).close()
-    k, m = plot_stability.whole_curve(Result(tmp_path / "chart.h5").group("stability"), "damped_1")
+    k, m = whole_curve(Result(tmp_path / "chart.h5").group("stability"), "damped_1")
     assert np.isnan(m).sum() == parted
     at = np.flatnonzero(np.abs(k - 0.5) < 1e-9)
     assert (k[0], k[-1]) == (0.1, 0.1) and m[at] == pytest.approx([0.612655265, 2.369918349], abs=1e-8)

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 import xarray
-from kapitza_file import Result
+from kapitza import Result
 
 WHAT_TYPE = {
     "attractors/period": "i4", "attractors/winding": "i4", "attractors/centre": "i1", "attractors/symmetric": "i1",

@@ -2,12 +2,12 @@
 
 import itertools
 
-import kapitza_style as style
 import numpy as np
 import pytest
 import xarray
 from hypothesis import given
 from hypothesis import strategies as st
+from kapitza import style
 from matplotlib.colors import to_rgb
 
 # Full dichromacy: Machado, Oliveira & Fernandes, IEEE TVCG 15 (2009) 1291, severity 1.0, on linear RGB.

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import reference_coverage
 from conftest import PROGRAM, ROOT, datasets
-from kapitza_file import Result
+from kapitza import Result
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from reference_check import Catalogue, reference_labels  # noqa: E402

@@ -27,7 +27,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from kapitza_file import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result, run  # noqa: E402
 
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 SETTINGS = ["icm-linear-1000", "icm-1000", "direct-rk4-100-1992", "direct-24"]

@@ -1,22 +1,23 @@
-"""Which figure comes from which scene by which script: the one table behind scripts/reproduce.
+"""Which figure comes from which scene drawn how: the one table behind scripts/reproduce.
 
-A row is a scene, named after the paper and its figure (docs/theory.md), and its figures: (suffix of the name, script, options).
+A row is a scene, named after the paper and its figure (docs/theory.md), and its figures: (suffix of the name, kind, options).
 """
 
-_BASIN = ("", "plot_basin.py", ["--centre", "inverted"])
-_INVERTED = ("-inverted", "plot_basin.py", ["--centre", "inverted", "--attractor", "inverted"])
-_FLUTTER = ("-flutter", "plot_basin.py", ["--centre", "inverted", "--attractor", "flutter"])
-_ORBIT = ("", "plot_orbit.py", [])
-_PHASE = ("", "plot_orbit.py", ["--panels", "phase,path"])
-_TIME = ("", "plot_orbit.py", ["--panels", "time"])
-_SWEEP = ("", "plot_sweep.py", [])
-_BRANCHES = ("-branches", "plot_sweep.py", ["--view", "branches"])
-_CHART = ("", "plot_stability.py", [])
-_GROWTH = ("", "plot_stability.py", ["--view", "growth"])
-_FREQUENCY = ("", "plot_stability.py", ["--view", "frequency"])
-_ERRORS = ("", "plot_stability.py", ["--view", "errors"])
-_POTENTIAL = ("", "plot_potential.py", [])
-_TRADE = ("", "plot_tradeoff.py", [])
+_Row = tuple[str, str, list[str]]
+_BASIN: _Row = ("", "basin", ["--centre", "inverted"])
+_INVERTED: _Row = ("-inverted", "basin", ["--centre", "inverted", "--attractor", "inverted"])
+_FLUTTER: _Row = ("-flutter", "basin", ["--centre", "inverted", "--attractor", "flutter"])
+_ORBIT: _Row = ("", "orbit", [])
+_PHASE: _Row = ("", "orbit", ["--panels", "phase,path"])
+_TIME: _Row = ("", "orbit", ["--panels", "time"])
+_SWEEP: _Row = ("", "sweep", [])
+_BRANCHES: _Row = ("-branches", "sweep", ["--view", "branches"])
+_CHART: _Row = ("", "stability", [])
+_GROWTH: _Row = ("", "stability", ["--view", "growth"])
+_FREQUENCY: _Row = ("", "stability", ["--view", "frequency"])
+_ERRORS: _Row = ("", "stability", ["--view", "errors"])
+_POTENTIAL: _Row = ("", "potential", [])
+_TRADE: _Row = ("", "tradeoff", [])
 
 _SCENES = {
     "bifurcation": [_SWEEP],
@@ -67,5 +68,5 @@ _SCENES = {
     "tradeoff-zero-gravity": [_TRADE],
 }
 
-# (name, scene, script, options); a scene is run once for all its figures.
-FIGURES = [(scene + suffix, scene, script, options) for scene, rows in _SCENES.items() for suffix, script, options in rows]
+# (name, scene, kind, options); a scene is run once for all its figures.
+FIGURES = [(scene + suffix, scene, kind, options) for scene, rows in _SCENES.items() for suffix, kind, options in rows]

@@ -6,12 +6,16 @@ The kinds stay apart for colour-blind readers (tests/python/test_style.py).
 """
 
 import warnings
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
+import xarray
 from matplotlib.colors import to_hex, to_rgb
+from matplotlib.figure import Figure
 
 UNSETTLED = "#ffffff"
 INK = "#1c2127"
@@ -42,7 +46,7 @@ _OKLAB_INVERSE = tuple(np.linalg.inv(matrix) for matrix in _OKLAB)
 DOWN, INVERTED, ROTATING = 0, 1, 2
 
 
-def kind(period, winding, centre):
+def kind(period: int, winding: int, centre: int) -> str:
     """The kind of motion of an attractor: a key of KINDS."""
     if period == 0:
         return "chaotic"
@@ -55,7 +59,7 @@ def kind(period, winding, centre):
     return "other"
 
 
-def colours(attractors, apart=None):
+def colours(attractors: xarray.Dataset, apart: Iterable[int] | None = None) -> list[str]:
     """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is too near;
     `apart`: the ids that must be told apart (default: all)."""
     rows = list(zip(attractors["period"].values, attractors["winding"].values, attractors["centre"].values,
@@ -65,7 +69,7 @@ def colours(attractors, apart=None):
     return _told_apart([_colour(index, *row) for index, row in enumerate(rows)], order)
 
 
-def _told_apart(wanted, order):
+def _told_apart(wanted: Sequence[str], order: Iterable[int]) -> list[str]:
     """The colours, each at least APART from white and from those before it in `order`; or as far as it goes."""
     taken, chosen = [_oklab(UNSETTLED)], list(wanted)
     for index in order:
@@ -77,7 +81,7 @@ def _told_apart(wanted, order):
     return chosen
 
 
-def _variants(colour):
+def _variants(colour: str) -> list[tuple[str, np.ndarray]]:
     """(colour, its OKLab) of other hues and lightnesses, the nearest hues first; never paler than is seen."""
     lightness, chroma, hue = _oklab(colour)[0], max(np.hypot(*_oklab(colour)[1:]), 0.09), np.arctan2(*_oklab(colour)[:0:-1])
     found = []
@@ -90,14 +94,14 @@ def _variants(colour):
     return found
 
 
-def _oklab(colour):
+def _oklab(colour: str) -> np.ndarray:
     """(L, a, b) of B. Ottosson's OKLab (2020), in which equal distances look about equally different."""
     rgb = np.array(to_rgb(colour))
     linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
     return _OKLAB[1] @ np.cbrt(_OKLAB[0] @ linear)
 
 
-def _colour(index, period, winding, centre, mirror):
+def _colour(index: int, period: int, winding: int, centre: int, mirror: int) -> str:
     name = kind(period, winding, centre)
     lighter = 0.0
     if name.startswith("rotation"):
@@ -109,7 +113,7 @@ def _colour(index, period, winding, centre, mirror):
     return shade(KINDS[name], lighter)
 
 
-def _rotation_shade(period, winding):
+def _rotation_shade(period: int, winding: int) -> float:
     """0 for one turn a period; lighter for slower rotations and for longer closures, darker for faster ones."""
     speed = Fraction(abs(int(winding)), int(period))
     repeats = int(period) // speed.denominator
@@ -117,25 +121,25 @@ def _rotation_shade(period, winding):
     return lighter + 0.4 * (1 - 1 / repeats)
 
 
-def shade(colour, lighter):
+def shade(colour: str, lighter: float) -> str:
     """The colour moved towards white (lighter > 0) or black (lighter < 0)."""
     rgb = np.array(to_rgb(colour))
     target = np.ones(3) if lighter > 0 else np.zeros(3)
     return to_hex(rgb + abs(lighter) * (target - rgb))
 
 
-def name_text(name):
+def name_text(name: object) -> str:
     """An attractor's name with a true minus; never read as a formula."""
     return str(name).replace(" -", " −").replace("$", r"\$")
 
 
-def names_with_ids(names):
+def names_with_ids(names: Iterable[object]) -> list[str]:
     """The names; two attractors of one name get their ids: "inverted 3-nodding (2)"."""
-    names = [str(name) for name in names]
-    return [f"{name} ({index})" if names.count(name) > 1 else name for index, name in enumerate(names)]
+    texts = [str(name) for name in names]
+    return [f"{name} ({index})" if texts.count(name) > 1 else name for index, name in enumerate(texts)]
 
 
-def share_text(fraction):
+def share_text(fraction: float) -> str:
     """A share as people write it: 31.9 %, 0.12 %, < 0.01 %."""
     percent = 100 * float(fraction)
     if percent >= 99.95 or percent == 0:
@@ -145,7 +149,7 @@ def share_text(fraction):
     return f"{percent:.2f} %" if percent >= 0.01 else "< 0.01 %"
 
 
-def parameters_text(pendulum):
+def parameters_text(pendulum: Mapping[str, Any]) -> str:
     """The pendulum's parameters, in the papers' symbols where they are defined."""
     names = [("quality_factor", "Q"), ("drive_frequency", r"$\Omega$"), ("drive_amplitude", r"$\epsilon$")]
     known = [(symbol, pendulum.get(name, np.nan)) for name, symbol in names]
@@ -154,7 +158,7 @@ def parameters_text(pendulum):
     return ",  ".join(f"{symbol} = {value:.6g}" for symbol, value in known)
 
 
-def pi_text(multiple):
+def pi_text(multiple: float) -> str:
     """A tick label: the multiple of pi as a fraction."""
     part = Fraction(float(multiple)).limit_denominator(96)
     if part == 0:
@@ -163,9 +167,8 @@ def pi_text(multiple):
     return sign + ("" if top == 1 else str(top)) + "π" + ("" if bottom == 1 else f"/{bottom}")
 
 
-def use():
+def use() -> None:
     """The page settings of every figure. Text stays text in SVG and PDF."""
-    mpl.use("Agg")
     mpl.rcParams.update({
         "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 9, "mathtext.fontset": "dejavusans",
         "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK, "ytick.color": INK,
@@ -176,7 +179,7 @@ def use():
     })
 
 
-def save(figure, output, dpi):
+def save(figure: Figure, output: Path, dpi: float) -> None:
     """Writes the picture and prints its name. The same figure gives the same bytes: no clock goes into it."""
     clock = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(Path(output).suffix.lower(), {})
     with warnings.catch_warnings():

@@ -1,0 +1,179 @@
+"""Draws the basins of attraction in a result file of kapitza.
+
+    kapitza-plot basin blackburn-fig12.h5                              every basin in its colour
+    kapitza-plot basin blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
+    kapitza-plot basin blackburn-fig12.h5 --quantity settling_time     how long every start takes to settle
+"""
+
+import argparse
+from collections.abc import Sequence
+
+import matplotlib as mpl
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.colors import Colormap, LogNorm, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from kapitza import style
+from kapitza.plots.common import argument_parser, parsed, title_text, write_picture
+from kapitza.plots.dots import draw_strobe_points
+from kapitza.plots.plane import Plane, label_axes
+from kapitza.result import BadFile, Result
+
+EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b", "#8c1d18"]
+PLANE_WIDTH = 5.6  # inches, the same in every figure
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("basin", __doc__, "a basin")
+    parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence"], default="attractor")
+    parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
+    parser.add_argument("--centre", choices=["down", "inverted"], default="down",
+                        help="state in the middle of a whole-circle picture (default: down)")
+    parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
+    parser.add_argument("--no-legend", action="store_true")
+    parser.add_argument("--no-dots", action="store_true", help="leave out the strobe points of the attractors")
+    arguments = parsed(parser, words)
+    if arguments.attractor and (arguments.quantity != "attractor" or arguments.shade):
+        parser.error("--attractor goes with neither --quantity nor --shade")
+    return arguments
+
+
+def chosen_ids(result: Result, attractors: xarray.Dataset, wanted: str) -> list[int]:
+    """The ids that ID or NAME stands for."""
+    names = [str(name) for name in attractors["name"].values]
+    ids = [index for index, name in enumerate(names) if name == wanted]
+    if not ids and wanted.lstrip("-").isdigit() and 0 <= int(wanted) < len(names):
+        ids = [int(wanted)]
+    if not ids:
+        raise BadFile(f"{result.path}: has no attractor {wanted}; it has 0..{len(names) - 1}: {', '.join(dict.fromkeys(names))}")
+    return ids
+
+
+def draw_basins(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, *, colours: Sequence[str] | None = None,
+                legend: bool = True, centre: str = "down", dots: bool = True, shade: bool = False) -> Axes:
+    """Every basin in its colour (one per attractor; default: those of kapitza.style)."""
+    plane, colours = Plane(basin, centre), colours or style.colours(attractors)
+    table = np.array([to_rgb(colour) for colour in [*colours, style.UNSETTLED]])
+    image = table[plane.cells(basin["attractor"])]  # -1 takes the last row
+    if shade:
+        image = image * (1 - 0.55 * _slowness(plane.cells(basin["settling_time"])))[..., None]
+    plane.show(axes, image)
+    if dots:
+        dark = {index: style.shade(colour, -0.45) for index, colour in enumerate(colours)}
+        draw_strobe_points(axes, plane, basin, attractors, colours=dark)
+    if legend:
+        write_legend(axes, basin_entries(attractors, colours, basin["attractor"].values))
+    return label_axes(axes, plane)
+
+
+def _slowness(periods: np.ndarray) -> np.ndarray:
+    """0 for the cells that settle first, 1 for the slowest percent, by the logarithm of the time."""
+    time = np.log1p(periods.astype(float))
+    return np.clip(time / max(np.percentile(time, 99), 1e-300), 0, 1)
+
+
+def basin_entries(attractors: xarray.Dataset, colours: Sequence[str], labels: np.ndarray) -> list[tuple[str, str, float]]:
+    """Legend entries (colour, name, share) of the basins that have cells here, largest first; the unsettled cells last."""
+    entries = [(colour, name, float(np.mean(labels == index)))
+               for index, (name, colour) in enumerate(zip(style.names_with_ids(attractors["name"].values), colours, strict=True))]
+    entries.sort(key=lambda entry: -entry[2])
+    entries.append((style.UNSETTLED, "not settled", float(np.mean(labels < 0))))
+    return [entry for entry in entries if entry[2] > 0]
+
+
+def draw_one(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, ids: Sequence[int], *, colour: str = "black",
+             legend: bool = True, centre: str = "down", dots: bool = True) -> Axes:
+    """The basins of the ids in one colour on white, their strobe points as open rings."""
+    plane, mine = Plane(basin, centre), np.isin(basin["attractor"].values, ids)
+    plane.show(axes, np.where(mine[:, plane.order, None], to_rgb(colour), to_rgb("white")))
+    if dots:
+        draw_strobe_points(axes, plane, basin, attractors, colours=dict.fromkeys(ids, "white"), edge=colour)
+    if legend:
+        write_legend(axes, [(colour, attractors["name"].values[ids[0]], float(np.mean(mine)))])
+    return label_axes(axes, plane)
+
+
+def draw_settling_time(axes: Axes, basin: xarray.Dataset, *, colours: Colormap | None = None, legend: bool = True,
+                       centre: str = "down") -> Axes:
+    """Drive periods until capture, on a logarithmic scale; unsettled cells stay white."""
+    plane = Plane(basin, centre)
+    time = np.ma.masked_where(plane.cells(basin["attractor"]) < 0, plane.cells(basin["settling_time"]).astype(float) + 1)
+    image = plane.show(axes, time, cmap=(colours or mpl.colormaps["cividis"]).with_extremes(bad="white"),
+                       norm=LogNorm(1, max(2.0, time.max() if time.count() else 2.0)))
+    if legend:
+        bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.02, 0, 0.025, 1)))
+        bar.set_label("drive periods until trapped, plus one")
+        bar.outline.set_linewidth(0.7)
+    return label_axes(axes, plane)
+
+
+def draw_evidence(axes: Axes, basin: xarray.Dataset, *, colours: Sequence[str] = EVIDENCE_COLOURS, legend: bool = True,
+                  centre: str = "down") -> Axes:
+    """On what ground every cell got its label (one colour per code)."""
+    plane = Plane(basin, centre)
+    evidence = plane.cells(basin["evidence"])
+    plane.show(axes, np.array([to_rgb(colour) for colour in colours])[evidence])
+    words = str(basin["evidence"].attrs["flag_meanings"]).split()
+    if legend:
+        write_legend(axes, [(colour, word.replace("_", " "), float(np.mean(evidence == code)))
+                            for code, (colour, word) in enumerate(zip(colours, words, strict=False)) if np.any(evidence == code)])
+    return label_axes(axes, plane)
+
+
+def write_legend(axes: Axes, entries: Sequence[tuple[str, str, float]]) -> Axes:
+    """Colour and name in one column, the share in the next, digits under digits."""
+    shares = [style.share_text(share) for _, _, share in entries]
+    digits = max((share.find(".") if "." in share else share.find(" ") for share in shares), default=0)
+    figure_space = "\u2007"
+    patches = [Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5, label=style.name_text(name))
+               for colour, name, _ in entries]
+    columns = [Line2D([], [], linestyle="", label=figure_space * (digits - max(share.find("."), 1)) + share) for share in shares]
+    axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0,
+                handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize=8)
+    return axes
+
+
+def write_titles(axes: Axes, result: Result, basin: xarray.Dataset) -> Axes:
+    """The scene's title, the parameters, and how the labels were found."""
+    axes.set_title(title_text(result), pad=22, parse_math=False)
+    axes.text(0, 1.02, style.parameters_text(result.pendulum), transform=axes.transAxes, va="bottom", ha="left",
+              fontsize=9, color=style.FAINT)
+    rows, columns = basin["attractor"].shape
+    axes.text(1, 1.02, f"{columns} × {rows} starts, {_method(basin)}", transform=axes.transAxes, va="bottom", ha="right",
+              fontsize=8, color=style.FAINT)
+    return axes
+
+
+def _method(basin: xarray.Dataset) -> str:
+    words = {"icm": "interpolated cell mapping", "direct": "integrated directly", "hybrid": "mapped and re-integrated"}
+    method = str(basin.attrs.get("method", ""))
+    return words.get(method, method)
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    """The page: one plane, and what the arguments say about it."""
+    basin, attractors = result.group("basin"), result.group("attractors")
+    labels = basin["attractor"].values
+    if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes["attractor"]:
+        raise BadFile(f"{result.path}: has cells of attractors that it does not list")
+    figure = Figure(figsize=(PLANE_WIDTH, PLANE_WIDTH * Plane(basin, arguments.centre).shape))
+    axes = figure.add_axes((0, 0, 1, 1))  # the page grows around the plane when it is saved
+    legend, centre, dots = not arguments.no_legend, arguments.centre, not arguments.no_dots
+    if arguments.attractor:
+        draw_one(axes, basin, attractors, chosen_ids(result, attractors, arguments.attractor), legend=legend, centre=centre, dots=dots)
+    elif arguments.quantity == "attractor":
+        draw_basins(axes, basin, attractors, legend=legend, centre=centre, dots=dots, shade=arguments.shade)
+    elif arguments.quantity == "evidence":
+        draw_evidence(axes, basin, legend=legend, centre=centre)
+    else:
+        draw_settling_time(axes, basin, centre=centre)
+    write_titles(axes, result, basin)
+    return figure
+
+
+def main(words: list[str]) -> None:
+    write_picture(parse_arguments(words), draw)

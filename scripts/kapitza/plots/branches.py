@@ -1,0 +1,123 @@
+"""Branches of a sweep: their shares of the starts, and the life of each."""
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.container import ErrorbarContainer
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from kapitza import style
+
+NAMED = 0.004  # branches whose share is smaller everywhere are drawn as one band
+# Code of what happens at an end of a branch -> its mark and name.
+ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located")}
+SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$", "damping": r"$\beta$"}
+
+
+def parameter_text(sweep: xarray.Dataset) -> str:
+    """The axis label of the swept key."""
+    name = sweep.attrs["parameter"]
+    unit = sweep.attrs.get("parameter_units", "1")
+    words = name.replace("_", " ")
+    return f"{words} {SYMBOLS[name]}" if name in SYMBOLS else words if unit == "1" else f"{words} / {unit}"
+
+
+def motions(sweep: xarray.Dataset) -> list[tuple[int, int, int, bool]]:
+    """(period, winding, centre, whether the second of two mirror partners) of every branch."""
+    columns = (sweep[f"branch_{name}"].values for name in ("period", "winding", "centre", "mirror"))
+    return [(int(period), int(winding), int(centre), bool(mirror < branch)) for branch, (period, winding, centre, mirror)
+            in enumerate(zip(*columns, strict=True))]
+
+
+def branch_colours(sweep: xarray.Dataset, named: Iterable[int] | None = None) -> list[str]:
+    """One colour per branch: branches of one motion share it, however far apart they live; those of `named` can be told apart."""
+    kinds = motions(sweep)
+    firsts = sorted({kind: kinds.index(kind) for kind in kinds}.values())
+    dimension = sweep["branch_period"].dims
+    table = xarray.Dataset({name: (dimension, [kinds[branch][column] for branch in firsts])
+                            for column, name in enumerate(("period", "winding", "centre"))})
+    table["mirror"] = dimension, [-1 if kinds[branch][3] else len(firsts) for branch in firsts]
+    wanted = None if named is None else {kinds[one] for one in named}
+    apart = None if wanted is None else [row for row, branch in enumerate(firsts) if kinds[branch] in wanted]
+    colour = dict(zip((kinds[branch] for branch in firsts), style.colours(table, apart), strict=True))
+    return [colour[kind] for kind in kinds]
+
+
+def named_branches(sweep: xarray.Dataset) -> list[int]:
+    """The branches whose share is large somewhere, in the order of the stack."""
+    share = np.nan_to_num(sweep["fraction"].values)
+    return [branch for branch in stack_order(sweep) if share[:, branch].max() > NAMED]
+
+
+def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None, legend: bool = True) -> Axes:
+    """Shares stacked over the parameter, with their intervals; `colours`: one per branch (default: branch_colours)."""
+    value, share, named = sweep["value"].values, np.nan_to_num(sweep["fraction"].values), named_branches(sweep)
+    small = [branch for branch in range(share.shape[1]) if branch not in named]
+    colours = colours or branch_colours(sweep, named)
+    bands = np.column_stack([share[:, named], share[:, small].sum(axis=1)])
+    axes.stackplot(value, bands.T, colors=[*(colours[branch] for branch in named), style.FAINT], edgecolor="white", linewidth=0.25)
+    bars = _draw_intervals(axes, sweep, named, np.cumsum(bands, axis=1) - bands)
+    axes.set(ylim=(0, 1), xlabel=parameter_text(sweep), ylabel="share of the starts")
+    if legend:
+        entries: list[Patch | ErrorbarContainer] = []
+        if bands.sum(axis=1).min() < 1 - NAMED:
+            entries.append(Patch(facecolor="white", edgecolor=style.FAINT, lw=0.5, label="not settled"))
+        if bands[:, -1].any():
+            entries.append(Patch(color=style.FAINT, label=f"{len(small)} others, {style.share_text(bands[:, -1].max())} at most"))
+        entries += [*_entries(sweep, colours, named[::-1]), *bars]
+        axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize=8, labelspacing=0.35)
+    return axes
+
+
+def _draw_intervals(axes: Axes, sweep: xarray.Dataset, branches: Sequence[int], base: np.ndarray) -> list[ErrorbarContainer]:
+    """Where the upper edge of every band could lie: its own share's interval above its lower edge. Returns the legend's entries."""
+    caps, drawn = 1.5 if sweep.sizes["value"] <= 40 else 0, []
+    for row, branch in enumerate(branches):
+        share, low, high = (sweep[name].values[:, branch] for name in ("fraction", "fraction_low", "fraction_high"))
+        drawn.append(axes.errorbar(sweep["value"].values, base[:, row] + share, [share - low, high - share], fmt="none", ecolor=style.INK,
+                                   elinewidth=0.7, capsize=caps, capthick=0.7, label="95 % interval of a share"))
+    return drawn[:1]
+
+
+def stack_order(sweep: xarray.Dataset) -> list[int]:
+    """Inverted states at the bottom, rotations on top; within a kind by where branches begin."""
+    place = {1: 0, 0: 1, 3: 2, 2: 3}
+    keys = zip((place[int(centre)] for centre in sweep["branch_centre"].values), sweep["branch_start"].values,
+               sweep["branch_period"].values, -sweep["branch_winding"].values, strict=True)
+    return [branch for _, branch in sorted((key, branch) for branch, key in enumerate(keys))]
+
+
+def _entries(sweep: xarray.Dataset, colours: Sequence[str], branches: Iterable[int]) -> list[Patch]:
+    """Legend entries, one per name and colour; two colours of one name are told apart by their branches."""
+    groups: dict[tuple[str, str], list[int]] = {}
+    for branch in branches:
+        groups.setdefault((str(sweep["branch_name"].values[branch]), colours[branch]), []).append(branch)
+    names = [name for name, _ in groups]
+    return [Patch(color=colour, label=style.name_text(name) + (f" ({', '.join(map(str, sorted(ids)))})" if names.count(name) > 1 else ""))
+            for (name, colour), ids in groups.items()]
+
+
+def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None, legend: bool = True,
+               names: bool = False) -> Axes:
+    """A line from birth to death of each branch, with what happens there; `names`: each branch's name beside it."""
+    colours, order = colours or branch_colours(sweep), stack_order(sweep)
+    start, end = sweep["branch_start"].values, sweep["branch_end"].values
+    for row, branch in enumerate(order):
+        axes.plot([start[branch], end[branch]], [row, row], color=colours[branch], lw=2.2, solid_capstyle="butt")
+        for place, kind in ((start, "branch_start_kind"), (end, "branch_end_kind")):
+            code = int(sweep[kind].values[branch])
+            if code in ENDS:
+                axes.plot(place[branch], row, ENDS[code][0], color=style.INK, markersize=3.4, markeredgewidth=0.9, zorder=3)
+    seen = {int(code) for kind in ("branch_start_kind", "branch_end_kind") for code in sweep[kind].values}
+    if legend:
+        axes.legend(handles=[Line2D([], [], ls="", marker=ENDS[code][0], color=style.INK, markersize=4, label=ENDS[code][1])
+                             for code in sorted(seen & ENDS.keys())], loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4)
+    axes.set(xlabel=parameter_text(sweep), ylabel="branches", yticks=[], ylim=(-1, len(order)))
+    if names:
+        ids = style.names_with_ids(sweep["branch_name"].values)
+        axes.set_yticks(range(len(order)), [style.name_text(ids[branch]) for branch in order], fontsize=6.5)
+        axes.set_ylabel("")
+    return axes

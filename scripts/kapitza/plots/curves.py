@@ -1,0 +1,94 @@
+"""Transition curves of a stability chart: their names, colours and ways, exact and by the papers' formulas."""
+
+import re
+from collections.abc import Mapping
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+
+from kapitza import style
+
+COLOURS = ["#12806a", "#2f6db3", "#5b2a7a", "#c2452f", "#b08a1e", "#3b3f45"]
+
+# Formula -> the exact curve that it approximates; subharmonics and upper branches by rule.
+EXACT = {
+    "blackburn_lower": "exact_1", "blackburn_upper": "exact_2", "blackburn_down_upper": "exact_2",
+    "butikov_4_refined": "exact_4", "butikov_5_refined": "exact_5", "butikov_5_refined_upper": "exact_5_upper",
+}
+LABELS = {
+    "butikov_1": "(3)", "butikov_2": "(4)", "butikov_3": "(5)", "butikov_4": "(6)", "butikov_5": "(7)",
+    "butikov_4_refined": "(17)", "butikov_5_refined": "(19)", "butikov_damped_1": "(25)", "butikov_damped_2": "(26)",
+    "blackburn_lower": "BSG (5)", "blackburn_upper": "BSG (6)", "blackburn_down_upper": "BSG (6), hanging",
+}
+KNOWN = re.compile(r"(exact|butikov|subharmonic|damped|butikov_subharmonic|butikov_damped)_\d+(_refined)?(_upper)?|blackburn_\w+")
+
+
+def curve_names(chart: xarray.Dataset) -> list[str]:
+    return [str(name) for name in chart.data_vars if chart[name].dims == ("k",) and KNOWN.fullmatch(str(name))]
+
+
+def exact_of(name: str) -> str | None:
+    """The exact curve behind a formula, None for a curve that is exact itself."""
+    if name in EXACT:
+        return EXACT[name]
+    match = re.fullmatch(r"butikov_(subharmonic_\d+|damped_\d(_upper)?)", name)
+    if match:
+        return match[1]
+    return name.replace("butikov", "exact") if name.startswith("butikov") else None
+
+
+def label(name: str) -> str:
+    """What people read instead of a variable's name."""
+    if name in LABELS:
+        return LABELS[name]
+    match = re.fullmatch(r"(butikov_)?subharmonic_(\d+)", name)
+    if match:
+        return f"n = {match[2]}" + (", (21)" if match[1] else "")
+    kind, number = name.split("_")[:2]
+    if kind == "damped":
+        return "lower boundary, damped" if number == "0" else f"tongue {number}, damped"
+    return f"curve {number}"
+
+
+def family(name: str) -> str:
+    """Formula and exact curve share a colour."""
+    number = int((re.findall(r"\d+", exact_of(name) or name) or ["1"])[0])
+    if "subharmonic" in name:
+        return COLOURS[(number // 2 + 1) % len(COLOURS)]
+    return COLOURS[(0, 1, 3)[number % 3]] if "damped" in name else COLOURS[(number - 1) % len(COLOURS)]
+
+
+def whole_curve(chart: xarray.Dataset, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """(k, m) of a curve from the axis over its turn to its upper branch, where it has one."""
+    k, m = chart["k"].values, chart[name].values
+    order = re.search(r"subharmonic_(\d+)", name)
+    if order and k[0] < 1 / int(order[1]) ** 2 < k[-1]:  # its foot on the axis, between two values of the chart
+        place = np.searchsorted(k, 1 / int(order[1]) ** 2)
+        return np.insert(k, place, 1 / int(order[1]) ** 2), np.insert(m, place, 0)
+    upper = chart.get(f"{name}_upper")
+    if upper is None or name.startswith("blackburn"):
+        return k, m
+    first, second = np.isfinite(m), np.isfinite(upper.values)
+    gap = [np.nan] * int(first[-1] and second[-1])  # the turn lies beyond the chart
+    return np.concatenate([k[first], gap, k[second][::-1]]), np.concatenate([m[first], gap, upper.values[second][::-1]])
+
+
+def is_branch(chart: xarray.Dataset, name: str) -> bool:
+    """An upper branch, drawn with the rest of its curve."""
+    return name.endswith("_upper") and name.removesuffix("_upper") in chart and not name.startswith("blackburn")
+
+
+def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True) -> Axes:
+    """Exact curves solid, formulas dashed, undamped ones faint where damped ones stand beside them. `colours`: by name of the
+    curve (default: family)."""
+    names = [name for name in curve_names(chart) if not is_branch(chart, name)]
+    damped = any(name.startswith("damped") for name in names)
+    for name in names:
+        formula, faint = exact_of(name) is not None, damped and name.startswith("exact")
+        axes.plot(*whole_curve(chart, name), color=(colours or {}).get(name, style.FAINT if faint else family(name)),
+                  linestyle=(0, (1, 1.2)) if "refined" in name else (0, (4, 2)) if formula else "-",
+                  linewidth=0.7 if faint else 1.3 if formula else 1.6, label=label(name) + (", undamped" if faint else ""))
+    if names and legend:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8)
+    return axes

@@ -1,0 +1,87 @@
+"""Draws one orbit from a result file of kapitza: time graph with harmonics, bob path, phase portrait, line spectrum.
+
+    kapitza-plot orbit butikov-fig07.h5                               all four panels
+    kapitza-plot orbit blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
+    kapitza-plot orbit blackburn-fig09c.h5 --panels phase,path
+    kapitza-plot orbit FILE --last 20                                 its last 20 drive periods
+
+An open record of more than 200 periods shows its last 100 unless --last says otherwise, a closed orbit of as many periods one round;
+the spectrum is always that of the whole record.
+"""
+
+import argparse
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from kapitza import style
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.orbit_panels import draw_path, draw_phase, draw_spectrum
+from kapitza.plots.orbit_record import Orbit
+from kapitza.plots.orbit_time import draw_time
+from kapitza.result import Result
+
+PANELS: dict[str, Callable[..., Axes]] = {"time": draw_time, "path": draw_path, "phase": draw_phase, "spectrum": draw_spectrum}
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("orbit", __doc__, "an orbit")
+    parser.add_argument("--panels", default=",".join(PANELS), help=f"some of {','.join(PANELS)} (default: all)")
+    parser.add_argument("--harmonics", type=int, default=3, choices=range(5), help="lines drawn into the time graph (default: 3)")
+    parser.add_argument("--last", type=periods, metavar="N", help="of an open record, the last N drive periods")
+    arguments = parsed(parser, words)
+    arguments.panels = arguments.panels.split(",")
+    if not set(arguments.panels) <= PANELS.keys() or len(set(arguments.panels)) < len(arguments.panels):
+        parser.error(f"--panels takes some of {','.join(PANELS)}")
+    return arguments
+
+
+def periods(text: str) -> float:
+    """A number of drive periods."""
+    if not float(text) > 0:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0")
+    return float(text)
+
+
+def lay_out(panels: Sequence[str]) -> tuple[Figure, dict[str, Axes]]:
+    """The time graph over the whole width, the others beneath it side by side."""
+    below = [name for name in panels if name != "time"]
+    rows: list[Any] = [["time"] * max(1, len(below))] if "time" in panels else []
+    rows += [below] if below else []
+    width = 3.3 * max(2, len(below)) if below else 7.0
+    figure = new_figure(width, 3.0 * len(rows))
+    return figure, figure.subplot_mosaic(rows)
+
+
+def state_words(orbit: Orbit) -> list[str]:
+    """What kind of motion it is, for the line under the picture."""
+    name, end = (style.name_text(orbit.attributes.get(key, "")) for key in ("name", "settles_on"))
+    if orbit.closed:
+        return [name, f"period {orbit.period}"]
+    return ["open record", name if name == "chaotic" else f"settles on {end}" if end else ""]
+
+
+def write_title(figure: Figure, result: Result, orbit: Orbit) -> None:
+    """The scene's title, its parameters, and what is seen of which motion."""
+    words = {"mathieu": "linear equation", "effective": "slow equation of the effective potential"}.get(
+        str(orbit.attributes.get("model")), "")
+    parts = [style.parameters_text(result.pendulum), words, *state_words(orbit),
+             f"last {orbit.last:g} periods" if orbit.last else ""]
+    entitle(figure, result, *parts)
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    """The page: the panels that were asked for."""
+    orbit = Orbit(result, arguments.last)
+    figure, axes = lay_out(arguments.panels)
+    for name, panel in axes.items():
+        options = {"harmonics": arguments.harmonics} if name == "time" else {}
+        PANELS[name](panel, orbit, **options)
+    write_title(figure, result, orbit)
+    return figure
+
+
+def main(words: list[str]) -> None:
+    write_picture(parse_arguments(words), draw)

@@ -1,0 +1,80 @@
+"""The window of starts as it is drawn: the order of its cells, its edges, its ticks."""
+
+from typing import Any
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+
+from kapitza import style
+
+
+class Plane:
+    """The window of starts as drawn: cells in the order of the picture, and its edges."""
+
+    def __init__(self, basin: xarray.Dataset, centre: str) -> None:
+        theta, velocity = basin["theta"].values, basin["velocity"].values
+        width = _step(theta) * len(theta)
+        self.whole_circle = abs(width - 2 * np.pi) < 1e-9
+        turn = len(theta) // 2 if self.whole_circle and centre == "inverted" else 0
+        self.order = np.roll(np.arange(len(theta)), -turn)
+        left = theta[0] - _step(theta) / 2 + turn * _step(theta)
+        self.theta_range = (left, left + width)
+        half = _step(velocity) / 2
+        self.velocity_range = (velocity[0] - half, velocity[-1] + half)
+
+    def cells(self, variable: xarray.DataArray) -> np.ndarray:
+        """A (velocity, theta) variable in the order of the picture."""
+        return variable.values[:, self.order]
+
+    def show(self, axes: Axes, image: np.ndarray, **colours: Any) -> Any:
+        """Draws an image of the cells over the window."""
+        return axes.imshow(image, extent=(*self.theta_range, *self.velocity_range), origin="lower", aspect="auto", **colours)
+
+    def inside(self, theta: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Every image of the points, theta + 2 pi n, that lies in the window (edges included)."""
+        theta, velocity = np.ravel(theta), np.ravel(velocity)
+        known = np.isfinite(theta)
+        theta, velocity = theta[known], velocity[known]
+        (left, right), (low, high) = self.theta_range, self.velocity_range
+        turns = np.arange(np.floor((left - np.pi) / (2 * np.pi)), np.ceil((right + np.pi) / (2 * np.pi)) + 1)
+        images = theta[:, None] + 2 * np.pi * turns
+        heights = np.broadcast_to(velocity[:, None], images.shape)
+        edge = 1e-9
+        keep = (images >= left - edge) & (images <= right + edge) & (heights >= low) & (heights <= high)
+        return images[keep], heights[keep]
+
+    def label_at(self, basin: xarray.Dataset, theta: np.ndarray, velocity: np.ndarray) -> np.ndarray:
+        """The labels of the cells in which points of the window lie."""
+        (left, right), (low, high) = self.theta_range, self.velocity_range
+        labels = self.cells(basin["attractor"])
+        rows, columns = (np.clip(np.floor((place - start) / (end - start) * count).astype(int), 0, count - 1) for place, start, end, count
+                         in ((velocity, low, high, labels.shape[0]), (theta, left, right, labels.shape[1])))
+        return labels[rows, columns]
+
+    @property
+    def shape(self) -> float:
+        """Height over width of the picture: a radian is as long on both axes where that gives a readable shape."""
+        width, height = np.ptp(self.theta_range), np.ptp(self.velocity_range)
+        return float(height / width) if 1 / 3 <= height / width <= 1.5 else 0.7
+
+
+def _step(centres: np.ndarray) -> float:
+    """Width of a cell; a single cell is drawn one unit wide."""
+    return (centres[-1] - centres[0]) / (len(centres) - 1) if len(centres) > 1 else 1.0
+
+
+def label_axes(axes: Axes, plane: Plane) -> Axes:
+    """Angle in units of pi, velocity in its own unit."""
+    axes.set_xlim(plane.theta_range)
+    axes.set_ylim(plane.velocity_range)
+    width = np.ptp(plane.theta_range) / np.pi
+    step = min((1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2), key=lambda step: abs(width / step - 5))
+    first = np.ceil(plane.theta_range[0] / np.pi / step - 1e-9)
+    ticks = np.arange(first, plane.theta_range[1] / np.pi / step + 1e-9) * step
+    if width > 1 / 16:
+        axes.set_xticks(ticks * np.pi, [style.pi_text(tick) for tick in ticks])
+    axes.set_xlabel("angle θ from down (rad)")
+    axes.set_ylabel("velocity dθ/d(ωt) (rad per drive radian)")
+    axes.tick_params(direction="out", length=3)
+    return axes

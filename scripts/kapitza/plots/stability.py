@@ -1,0 +1,139 @@
+"""Draws a stability chart of kapitza: zones, transition curves, and by how much the papers' formulas are off.
+
+    kapitza-plot stability butikov-fig01.h5                      zones and curves over (k, m)
+    kapitza-plot stability blackburn-fig02.h5 --view growth      the growth rate in the tongues
+    kapitza-plot stability blackburn-fig04.h5 --view frequency   hanging and inverted over the drive frequency
+    kapitza-plot stability formula-errors.h5 --view errors       every formula against its exact curve
+"""
+
+import argparse
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from kapitza import style
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.curves import curve_names, draw_curves, exact_of, is_branch, whole_curve
+from kapitza.plots.formula_errors import error_figure
+from kapitza.result import BadFile, Result
+
+STABLE = "#e4e9ee"
+RESTS = ("white", style.KINDS["inverted"], style.KINDS["down"], "#a9c8a4")  # stable: neither, inverted, hanging, both
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("stability", __doc__, "a stability chart")
+    parser.add_argument("--view", choices=list(VIEWS), default="zones")
+    return parsed(parser, words)
+
+
+def frame(axes: Axes, chart: xarray.Dataset) -> Axes:
+    """The chart's edges and what its axes are."""
+    axes.set(xlim=chart["k"].values[[0, -1]], ylim=chart["m"].values[[0, -1]])
+    axes.set_xlabel("k = (natural / drive frequency)², negative about the inverted position")
+    axes.set_ylabel("drive amplitude m")
+    return axes
+
+
+def draw_zones(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("white", STABLE), legend: bool = True) -> Axes:
+    """Zones (colours: unstable, stable) and curves over (k, m)."""
+    axes.pcolormesh(chart["k"], chart["m"], chart["stable"], cmap=ListedColormap(list(colours)), vmin=0, vmax=1, shading="nearest",
+                    rasterized=True)
+    draw_curves(axes, chart, legend=legend)
+    mark_thresholds(axes, chart)
+    return frame(axes, chart)
+
+
+def mark_thresholds(axes: Axes, chart: xarray.Dataset) -> Axes:
+    """The lowest points of the damped tongues, with their numbers."""
+    for tongue in (1, 2):
+        k, m = (chart.attrs.get(f"tongue_{tongue}_lowest_{axis}", np.nan) for axis in "km")
+        if f"damped_{tongue}" in chart and np.isfinite(k):
+            axes.plot(k, m, "o", markersize=4, color=style.INK, zorder=5)
+            axes.annotate(f"{k:.5f}, {m:.5f}", (k, m), (4, -11), textcoords="offset points", fontsize=7.5)
+    return axes
+
+
+def draw_growth(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("OrRd", "Blues"), legend: bool = True) -> Axes:
+    """Growth rate per period in the tongues, Floquet angle between them (colours: names of their colour maps)."""
+    stable = chart["stable"].values == 1
+    growth = np.where(stable, np.nan, chart["log_multiplier"])
+    angle = np.where(stable, chart["angle"], np.nan)
+    for values, cmap, text in ((growth, colours[0], "growth: ln |multiplier| per period"), (angle, colours[1], "Floquet angle / 2π")):
+        image = axes.pcolormesh(chart["k"], chart["m"], values, cmap=cmap, shading="nearest", rasterized=True, vmin=0)
+        if legend:
+            axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, pad=0.01)
+    for name in curve_names(chart):
+        if exact_of(name) is None and not is_branch(chart, name):
+            axes.plot(*whole_curve(chart, name), color=style.INK, linewidth=0.7)
+    return frame(axes, chart)
+
+
+def draw_frequency(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = RESTS, legend: bool = True) -> Axes:
+    """Which position is stable at drive frequency Omega: hanging is k = 1/Omega^2, inverted its negative."""
+    k = chart["k"].values
+    if not (k.min() < 0 < k.max()):
+        raise BadFile("this view needs a chart on both sides of k = 0")
+    omega = np.linspace(1 / np.sqrt(min(-k.min(), k.max())), 30, 900)
+    inverted, hanging = (chart["stable"].values[:, np.abs(k[:, None] - sign / omega**2).argmin(axis=0)] for sign in (-1, 1))
+    axes.pcolormesh(omega, chart["m"], inverted + 2 * hanging, cmap=ListedColormap(list(colours)), vmin=0, vmax=3, shading="nearest",
+                    rasterized=True)
+    for name in curve_names(chart):
+        for sign in (-1, 1):
+            inside = (sign * k > 0) & np.isfinite(chart[name].values)
+            if inside.any():
+                axes.plot(1 / np.sqrt(np.abs(k[inside])), chart[name].values[inside], color=style.INK,
+                          linestyle="-" if exact_of(name) is None else (0, (4, 2)), linewidth=0.9)
+    if legend:
+        _frequency_legend(axes, colours)
+    axes.set(xlim=omega[[0, -1]], ylim=chart["m"].values[[0, -1]], xlabel="drive frequency Ω (natural frequencies)",
+             ylabel="drive amplitude ε")
+    return axes
+
+
+def _frequency_legend(axes: Axes, colours: Sequence[str]) -> None:
+    neither, inverted, hanging, both = colours
+    patches = [Patch(facecolor=colour, edgecolor=style.FAINT, label=text) for colour, text in
+               ((inverted, "inverted"), (hanging, "hanging"), (both, "both"), (neither, "neither"))]
+    lines = [Line2D([], [], color=style.INK, linewidth=0.9, label="exact"),
+             Line2D([], [], color=style.INK, linewidth=0.9, linestyle=(0, (4, 2)), label="Eqs. (5), (6)")]
+    axes.legend(handles=[*patches, *lines], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8, title="stable at rest",
+                title_fontsize=8)
+
+
+def _page(panel: Callable[..., Axes]) -> Callable[[xarray.Dataset], Figure]:
+    """What makes a page of one panel."""
+    def make(chart: xarray.Dataset) -> Figure:
+        figure = new_figure(8.2, 4.8)
+        panel(figure.subplots(), chart)
+        return figure
+    return make
+
+
+VIEWS = {"zones": _page(draw_zones), "growth": _page(draw_growth), "frequency": _page(draw_frequency), "errors": error_figure}
+
+
+def damping_text(chart: xarray.Dataset) -> str:
+    if "quality_factor" in chart.attrs:
+        return f"Q = {chart.attrs['quality_factor']:g}"
+    return f"β = {chart.attrs['damping']:g}" if chart.attrs.get("damping", 0) > 0 else "no damping"
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    """The page of the view that was asked for."""
+    chart = result.group("stability")
+    if chart.sizes["k"] < 2 or chart.sizes["m"] < 2:
+        raise BadFile(f"{result.path}: the chart has no area")
+    figure = VIEWS[arguments.view](chart)
+    entitle(figure, result, f"{chart.sizes['k']} x {chart.sizes['m']} points", damping_text(chart))
+    return figure
+
+
+def main(words: list[str]) -> None:
+    write_picture(parse_arguments(words), draw)

@@ -1,0 +1,160 @@
+"""Draws a sweep of kapitza: quantities along one parameter of the pendulum.
+
+    kapitza-plot sweep blackburn-walk.h5                       basins along the parameter, branches under them
+    kapitza-plot sweep blackburn-fig10.h5                      amplitude of the flutter, and its square
+    kapitza-plot sweep blackburn-fig06-omega11.h5              releases from rest that stay
+    kapitza-plot sweep blackburn-fig04-dots.h5                 where flutter ends
+    kapitza-plot sweep bifurcation.h5                          strobe points, up and down
+    kapitza-plot sweep FILE --view branches                    one view of a file that holds several
+"""
+
+import argparse
+from collections.abc import Callable
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from kapitza import style
+from kapitza.plots.branches import branch_colours, draw_lives, draw_shares, named_branches, parameter_text
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.flutter import draw_amplitude, draw_square, draw_zone
+from kapitza.result import BadFile, Result
+
+UP, DOWN = "#2f6db3", "#c2452f"
+STAYS = "#f2d08a"
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("sweep", __doc__, "a sweep")
+    parser.add_argument("--view", choices=[name for name, _, _ in VIEWS], help="default: the first that the file has")
+    return parsed(parser, words)
+
+
+def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str, str, str] = (STAYS, style.FAINT, DOWN, style.INK),
+                  legend: bool = True) -> Axes:
+    """The set of releases that stay, its last edge, what a scan finds, its first gap (colours: of these four)."""
+    value, angle = sweep["value"].values, np.degrees(sweep["release"].values)
+    edges = np.concatenate([[1.5 * value[0] - 0.5 * value[1]], (value[1:] + value[:-1]) / 2, [1.5 * value[-1] - 0.5 * value[-2]]])
+    stays = np.where(sweep["release_stays"].values.T == 1, 1.0, np.nan)
+    axes.pcolormesh(edges, np.concatenate([[angle[0] / 2], angle + angle[0] / 2]), stays, cmap=ListedColormap([colours[0]]),
+                    rasterized=True)
+    axes.plot(value, np.degrees(sweep["release_angle_largest"].values), color=colours[1], lw=0.9, label="last angle that stays")
+    axes.plot(value, np.degrees(sweep["release_angle_scan"].values), ".", color=colours[2], markersize=4,
+              label="first failure of a scan in whole degrees")
+    axes.plot(value, np.degrees(sweep["release_angle"].values), color=colours[3], lw=1.1, label="first gap")
+    if legend:
+        handles = [*axes.get_legend_handles_labels()[0], Patch(color=colours[0], label="releases that stay")]
+        axes.legend(handles=handles, loc="upper right")
+    top = np.nanmax(np.degrees(sweep["release_angle_largest"].values))
+    axes.set(xlabel=parameter_text(sweep), ylabel="release angle from inverted / degrees", ylim=(0, min(180, 1.35 * top)))
+    return axes
+
+
+def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: str | None = None, legend: bool = True) -> Axes:
+    """Strobe points of the walk up or down over the parameter, inverted in the middle; `legend`: which walk, as the title."""
+    value, walk = sweep["value"].values, sweep["sample_walk"].values
+    points = np.mod(sweep["strobe_theta"].values, 2 * np.pi)[:, walk == (0 if up else 1)] / np.pi
+    axes.plot(np.repeat(value, points.shape[1]), points.ravel(), ".", markersize=1.6, markeredgewidth=0,
+              color=colours or (UP if up else DOWN), rasterized=True)
+    if legend:
+        axes.set_title("going up" if up else "going down", fontsize=9, fontweight="normal")
+    axes.set(xlabel=parameter_text(sweep), ylabel="θ at the strobe", xlim=(value[0], value[-1]))
+    axes.set_yticks([0, 0.5, 1, 1.5, 2], [style.pi_text(tick) for tick in (0, 0.5, 1, 1.5, 2)])
+    return axes
+
+
+def fractions_figure(sweep: xarray.Dataset) -> Figure:
+    """Shares of the starts; under them the life of every branch."""
+    figure = new_figure(8.6, 8.2)
+    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+    colours = branch_colours(sweep, named_branches(sweep))
+    draw_shares(top, sweep, colours=colours)
+    draw_lives(bottom, sweep, colours=colours)
+    top.set_xlabel("")
+    return figure
+
+
+def branches_figure(sweep: xarray.Dataset) -> Figure:
+    """The life of every branch, named."""
+    figure = new_figure(8.6, 1.6 + 0.16 * sweep.sizes["branch"])
+    draw_lives(figure.subplots(), sweep, names=True)
+    return figure
+
+
+def flutter_figure(sweep: xarray.Dataset) -> Figure:
+    """Amplitude and its square side by side."""
+    figure = new_figure(9, 3.9)
+    left, right = figure.subplots(1, 2)
+    draw_amplitude(left, sweep)
+    draw_square(right, sweep)
+    return figure
+
+
+def zone_figure(sweep: xarray.Dataset) -> Figure:
+    figure = new_figure(7.2, 5)
+    draw_zone(figure.subplots(), sweep)
+    return figure
+
+
+def releases_figure(sweep: xarray.Dataset) -> Figure:
+    figure = new_figure(8, 4.8)
+    draw_releases(figure.subplots(), sweep)
+    return figure
+
+
+def strobe_figure(sweep: xarray.Dataset) -> Figure:
+    """The walk up above the walk down."""
+    figure = new_figure(8.6, 7)
+    above, below = figure.subplots(2, 1, sharex=True, sharey=True)
+    draw_strobe(above, sweep)
+    draw_strobe(below, sweep, up=False)
+    above.set_xlabel("")
+    return figure
+
+
+# name, a variable that it needs, what makes its page
+VIEWS: list[tuple[str, str, Callable[[xarray.Dataset], Figure]]] = [
+    ("fractions", "fraction", fractions_figure),
+    ("branches", "branch_start", branches_figure),
+    ("flutter", "flutter_amplitude", flutter_figure),
+    ("zone", "flutter_onset", zone_figure),
+    ("releases", "release_stays", releases_figure),
+    ("strobe", "strobe_theta", strobe_figure),
+]
+
+
+def chosen_view(result: Result, sweep: xarray.Dataset, wanted: str | None) -> Callable[[xarray.Dataset], Figure]:
+    """The function that draws the view asked for, or the first one that the file has."""
+    there = {name: draw for name, variable, draw in VIEWS if variable in sweep}
+    if not there:
+        raise BadFile(f"{result.path}: the sweep has measured nothing")
+    if wanted and wanted not in there:
+        raise BadFile(f"{result.path}: has no {wanted}; it has {', '.join(there)}")
+    return there[wanted or next(iter(there))]
+
+
+def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
+    """The parameters that were not swept, where the papers' symbols are defined."""
+    names = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$"}
+    swept = sweep.attrs["parameter"]
+    kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
+            if name != swept and np.isfinite(result.pendulum.get(name, np.nan))]
+    if "flutter_onset" in sweep:
+        kept = [text for text in kept if r"\epsilon" not in text]
+    return ",  ".join(kept)
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    """The page of the view that was asked for, or of the first that the file has."""
+    sweep = result.group("sweep")
+    figure = chosen_view(result, sweep, arguments.view)(sweep)
+    entitle(figure, result, f"{sweep.sizes['value']} values", fixed_text(result, sweep))
+    return figure
+
+
+def main(words: list[str]) -> None:
+    write_picture(parse_arguments(words), draw)
