@@ -83,10 +83,15 @@ contains
     end associate
   end subroutine same_coordinates
 
+  !> Puts a state into a lane.
   subroutine put_state(self, lane, u, v)
+    !> the map
     class(map_t), intent(inout) :: self
+    !> from 1 to WIDTH
     integer, intent(in) :: lane
+    !> angle, half-turns in [-1, 1]
     real(c_double), intent(in) :: u
+    !> velocity, rad per drive radian
     real(c_double), intent(in) :: v
 
     self%u(lane) = u
@@ -96,9 +101,13 @@ contains
     self%straddling(lane) = .false.
   end subroutine put_state
 
+  !> Copies the state of a lane to another one.
   subroutine move_state(self, from, to)
+    !> the map
     class(map_t), intent(inout) :: self
+    !> lane, from 1
     integer, intent(in) :: from
+    !> lane, from 1
     integer, intent(in) :: to
 
     self%u(to) = self%u(from)

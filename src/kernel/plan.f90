@@ -23,6 +23,7 @@ contains
 
   !> FINE, with more steps where the torque is large.
   pure function fine_numerics(pendulum) result(numerics)
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t) :: numerics
 
@@ -33,7 +34,9 @@ contains
   !> With which numerics motions are shown within a period: the scene's, or fine steps in place of the processed splitting, whose
   !> states are physical at the strobe alone. Steps are a multiple of the scene's.
   pure function sampling_numerics(pendulum, numerics) result(sampling)
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
+    !> scheme, steps a period, precision
     type(numerics_t), intent(in) :: numerics
     type(numerics_t) :: sampling, fine
 
@@ -48,9 +51,13 @@ contains
   !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
   !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
   recursive subroutine make_flow(pendulum, numerics, fused, flow)
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
+    !> scheme, steps a period, precision
     type(numerics_t), intent(in) :: numerics
+    !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
+    !> the map of one drive period
     class(flow_t), allocatable, intent(out) :: flow
     type(period_t) :: period
     type(series_t), allocatable :: series
@@ -74,9 +81,13 @@ contains
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
   recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted)
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
+    !> the series of the pendulum
     type(series_t), intent(in) :: series
+    !> scheme, steps a period, precision
     type(numerics_t), intent(in) :: numerics
+    !> the map of one drive period
     class(flow_t), allocatable, intent(out) :: flow
     !> the drift is fitted up to this speed; the fastest, if left out
     real(c_double), intent(in), optional :: fitted

@@ -44,8 +44,11 @@ contains
   !> The series of a pendulum, in quad precision or (a hundredth of the time) in double: then each coefficient is right to 1e-15
   !> of the force itself.
   subroutine make_processed_series(pendulum, in_quad, series)
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
+    !> whether quad precision will use it: more terms, exact ones
     logical, intent(in) :: in_quad
+    !> what does not depend on the number of steps
     type(series_t), intent(out) :: series
     type(series_r64_t), allocatable :: rounded
 
@@ -65,13 +68,19 @@ contains
 
   !> The tables of one period of n_steps steps: n_drift powers of the velocity in a drift, n_kick coefficients of a kick.
   subroutine make_processed(pendulum, series, n_steps, n_drift, n_kick, fastest, table)
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
+    !> the series of the pendulum
     type(series_t), intent(in) :: series
+    !> steps a period
     integer, intent(in) :: n_steps
+    !> powers of the velocity in a drift
     integer, intent(in) :: n_drift
+    !> coefficients of a kick
     integer, intent(in) :: n_kick
     !> rad per drive radian; the drift is fitted up to it
     real(c_double), intent(in) :: fastest
+    !> the tables of one period
     type(processed_t), intent(out) :: table
     real(qp) :: h, beta, harmonics(HARMONICS, n_kick), drift(n_drift), time
     integer :: s, i

@@ -54,6 +54,7 @@ contains
 
   !> A force series as pairs.
   pure function round_force(series) result(force)
+    !> coefficients of h^2 (k - m cos t), order by order
     real(qp), intent(in) :: series(0:LAST - 1)
     type(force_t) :: force
 
@@ -64,10 +65,13 @@ contains
 
   !> Order 0.
   pure subroutine begin_series(series, w, s, c)
+    !> takes the lowest order; theta and h theta' are there
     type(series_t), intent(inout) :: series
     !> h theta' at the start of the step.
     real(qp), intent(in) :: w(LANES)
+    !> sin theta
     real(qp), intent(in) :: s(LANES)
+    !> cos theta
     real(qp), intent(in) :: c(LANES)
 
     call begin_one(series%w, w)
@@ -86,7 +90,9 @@ contains
 
   !> All orders from order 0.
   pure subroutine expand(series, force, damping)
+    !> its lowest order, in; all orders, out
     type(series_t), intent(inout) :: series
+    !> the rounded coefficients of h^2 (k - m cos t)
     type(force_t), intent(in) :: force
     !> beta h.
     real(qp), intent(in) :: damping
@@ -187,10 +193,15 @@ contains
 
   !> The changes over the step: of theta beyond w_0, of w, s and c. Smallest terms first.
   pure subroutine sums(series, theta, w, s, c)
+    !> all orders
     type(series_t), intent(in) :: series
+    !> change of theta beyond w_0, rad
     real(qp), intent(out) :: theta(LANES)
+    !> change of h theta'
     real(qp), intent(out) :: w(LANES)
+    !> change of sin theta
     real(qp), intent(out) :: s(LANES)
+    !> change of cos theta
     real(qp), intent(out) :: c(LANES)
 
     theta = sum_of(series%w, INVERSE_HIGH(2:), INVERSE_LOW(2:))
@@ -224,6 +235,7 @@ contains
 
   !> Which lanes' series are complete at LAST, and small enough at FINE for what follows.
   pure function converged(series) result(well)
+    !> all orders
     type(series_t), intent(in) :: series
     logical :: well(LANES)
     real(dp) :: motion

@@ -47,9 +47,13 @@ contains
   !> The tables of one period. `fused` merges neighbouring entries of neighbouring steps; without it every step is complete in
   !> itself.
   subroutine make_period(pendulum, numerics, fused, period)
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
+    !> scheme, steps a period, precision
     type(numerics_t), intent(in) :: numerics
+    !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
+    !> drifts and kicks of one period
     type(period_t), intent(out) :: period
 
     period%n_steps = numerics%steps_per_period

@@ -27,6 +27,7 @@ contains
 
   !> The drive of a pendulum for n_steps steps a period.
   pure subroutine make_drive(drive, k, beta, m, n_steps)
+    !> the series of the drive for each step
     type(drive_t), intent(out) :: drive
     !> 1/Omega^2.
     real(dp), intent(in) :: k
@@ -71,6 +72,7 @@ contains
 
   !> One whole drive period from t = 0. A state that no step is fine enough for becomes NaN.
   pure subroutine advance_period(drive, theta, velocity, turns)
+    !> what make_drive gave
     type(drive_t), intent(in) :: drive
     !> Angles, rad; come back wrapped.
     real(qp), intent(inout) :: theta(:)

@@ -172,6 +172,36 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+# ---- comments of Fortran ----
+
+
+def statements(path):
+    """The lines of a source, continued ones joined."""
+    return re.sub(r" *& *\n *", " ", path.read_text()).splitlines()
+
+
+def undocumented(path):
+    """Public procedures without a sentence, and their arguments without one. The entries of C have theirs in the header."""
+    lines = statements(path)
+    public = {name.strip() for line in lines if (listed := re.match(r" *public :: ([^!]*)", line)) for name in listed[1].split(",")}
+    for at, line in enumerate(lines):
+        head = re.match(r" *(?:[a-z]+ |\w+\(\w+\) )*(function|subroutine) (\w+)\(([^)]*)\)(?!.*bind\(C)", line)
+        if not head or line.lstrip().startswith(("end", "!")) or head[2] not in public:
+            continue
+        if not lines[at - 1].lstrip().startswith("!>"):
+            yield f"{path.name}: {head[2]}"
+        end = next(i for i in range(at, len(lines)) if re.match(rf" *end {head[1]}", lines[i]))
+        for argument in filter(None, (name.strip() for name in head[3].split(","))):
+            declared_at = next(i for i in range(at + 1, end) if re.search(rf"::.*\b{argument}\b", lines[i]))
+            if not lines[declared_at - 1].lstrip().startswith("!>") and "!<" not in lines[declared_at]:
+                yield f"{path.name}: {head[2]}: {argument}"
+
+
+def test_public_procedures_and_their_arguments_have_a_sentence():
+    missing = [entry for path in FORTRAN for entry in undocumented(path)]
+    assert not missing, "\n".join(missing)
+
+
 # ---- the guide for developers ----
 
 

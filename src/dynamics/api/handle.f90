@@ -26,7 +26,9 @@ module kz_api_handle
 
 contains
 
+  !> The dynamics behind a handle of C; null for a null one.
   function of_handle(handle) result(d)
+    !> what kz_dynamics_create returned
     type(c_ptr), intent(in) :: handle
     type(dynamics_t), pointer :: d
 

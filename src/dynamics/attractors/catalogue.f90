@@ -20,6 +20,7 @@ contains
   !> order(r) = number of the attractor of rank r: by centre, period (0 last), |winding|/period, + before -, first strobe
   !> velocity, first strobe angle, each compared rounded to 1e-9; chaotic ones by mean velocity, larger first, then mean angle.
   function order_of(attractors) result(order)
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
     integer :: order(size(attractors))
     integer :: i, j, moving
@@ -66,6 +67,7 @@ contains
 
   !> The whole catalogue as doubles; integers are exact in them.
   function packed(attractors) result(flat)
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
     real(dp), allocatable :: flat(:), bits(:)
     integer :: i, covered
@@ -88,6 +90,7 @@ contains
 
   !> Doubles that a catalogue of one cycle up to this period and its mirror image takes at most.
   pure function packed_cycle_size(max_period) result(n)
+    !> longest period of a cycle, drive periods
     integer, intent(in) :: max_period
     integer :: n
 
@@ -134,7 +137,9 @@ contains
     end do
   end function of_bits
 
+  !> The catalogue from the doubles that `packed` gives; doubles beyond it are ignored.
   function unpacked(flat) result(attractors)
+    !> what `packed` returned
     real(dp), intent(in) :: flat(:)
     type(attractor_t), allocatable :: attractors(:)
     integer :: i, p, n, covered

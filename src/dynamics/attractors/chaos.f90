@@ -28,10 +28,15 @@ contains
   !> A long chaotic transient is none: one of its orbits is trapped at last. Where damping is so weak that areas hardly shrink
   !> meanwhile, nothing can be told.
   subroutine find_chaos(search, regions, u, v, attractors)
+    !> the flows and the longest period of the search
     type(search_t), intent(inout) :: search
+    !> the trapping regions: a bundle that they trap is not chaotic
     type(regions_t), intent(in) :: regions
+    !> start, half-turns
     real(dp), intent(in) :: u
+    !> start, rad per drive radian
     real(dp), intent(in) :: v
+    !> the catalogue, which gains what is found
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     type(attractor_t) :: attractor
     integer, allocatable :: visits_of(:)

@@ -35,8 +35,11 @@ contains
   !> Looks at states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until one is found;
   !> it is appended, with its mirror image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
+    !> the flows and the longest period of the search
     type(search_t), intent(inout) :: search
+    !> states to look from, half-turns
     real(dp), intent(in) :: u(:)
+    !> their velocities, rad per drive radian
     real(dp), intent(in) :: v(:)
     !> how near an orbit must come back to itself, rad
     real(dp), intent(in) :: closeness
@@ -44,6 +47,7 @@ contains
     integer, intent(inout) :: next
     !> in and out: for every period up to max_period, how often its cycle has been found blurred among these states; 0 at first
     integer, intent(inout) :: n_blurred(:)
+    !> the catalogue, which gains what is found
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     real(dp) :: orbit_u(size(u), 0:search%max_period), orbit_v(size(u), 0:search%max_period)
     integer :: lane, n, n_known
@@ -149,8 +153,11 @@ contains
 
   !> Completes an attractor (trapping ellipses, features) and appends it, and its mirror image where that is another one.
   subroutine add_with_mirror(search, attractor, attractors)
+    !> the flows and the longest period of the search
     type(search_t), intent(inout) :: search
+    !> the attractor: points, multipliers, symmetry; comes back complete
     type(attractor_t), intent(inout) :: attractor
+    !> the catalogue, which gains it
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
 
     if (attractor%period > 0) then
@@ -167,7 +174,9 @@ contains
 
   !> One attractor more, its strobe points listed from the lowest.
   subroutine append(attractors, attractor)
+    !> the catalogue
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    !> what joins it
     type(attractor_t), intent(in) :: attractor
     type(attractor_t), allocatable :: longer(:)
     integer :: i

@@ -35,14 +35,23 @@ contains
   !> the start; the cycle, attracting or not, then has its true (minimal) period. `blurred` where it converges, but rounding
   !> leaves open where to: too near a bifurcation.
   subroutine close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
+    !> a fine flow
     class(flow_t), intent(inout) :: flow
+    !> damping
     real(dp), intent(in) :: beta
+    !> a period that closes the cycle
     integer, intent(in) :: n
+    !> start, half-turns
     real(dp), intent(in) :: u
+    !> start, rad per drive radian
     real(dp), intent(in) :: v
+    !> farthest that the cycle may lie from the start, rad
     real(dp), intent(in) :: max_distance
+    !> the cycle: points, multipliers, period, winding
     type(attractor_t), intent(out) :: cycle
+    !> whether a cycle was found
     logical, intent(out) :: found
+    !> whether it was left undecided by rounding
     logical, intent(out) :: blurred
     real(dp) :: x(2), matrix(2, 2)
     integer :: period
@@ -59,14 +68,23 @@ contains
 
   !> close_cycle, `found` only where the cycle attracts.
   subroutine polish_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
+    !> a fine flow
     class(flow_t), intent(inout) :: flow
+    !> damping
     real(dp), intent(in) :: beta
+    !> a period that closes the cycle
     integer, intent(in) :: n
+    !> start, half-turns
     real(dp), intent(in) :: u
+    !> start, rad per drive radian
     real(dp), intent(in) :: v
+    !> farthest that the cycle may lie from the start, rad
     real(dp), intent(in) :: max_distance
+    !> the cycle: points, multipliers, period, winding
     type(attractor_t), intent(out) :: cycle
+    !> whether a cycle was found
     logical, intent(out) :: found
+    !> whether it was left undecided by rounding
     logical, intent(out) :: blurred
 
     call close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
@@ -79,10 +97,15 @@ contains
 
   !> Strobe points, winding and monodromy of the closed orbit through x.
   subroutine orbit_of(flow, period, x, cycle, matrix)
+    !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
+    !> drive periods
     integer, intent(in) :: period
+    !> the first strobe point: half-turns, rad per drive radian
     real(dp), intent(in) :: x(2)
+    !> takes the points and the winding
     type(attractor_t), intent(inout) :: cycle
+    !> derivative of the map over the period
     real(dp), intent(out) :: matrix(2, 2)
     real(dp) :: tangent(2, 2, WIDTH)
     integer :: i
@@ -129,6 +152,7 @@ contains
 
   !> The image under (theta, v) -> (-theta, -v), to the bit.
   pure function mirror_image(attractor) result(image)
+    !> the attractor
     type(attractor_t), intent(in) :: attractor
     type(attractor_t) :: image
 
@@ -142,6 +166,7 @@ contains
 
   !> The strobe points rotated to begin with the lowest velocity, then the lowest angle (compared rounded to 1e-9).
   subroutine listed_from_lowest(cycle)
+    !> a cycle with its points in the order of time
     type(attractor_t), intent(inout) :: cycle
     integer :: i, first
 

@@ -19,10 +19,15 @@ contains
   subroutine find_features(sampling_flow, pendulum, attractor, u, v, periods)
     !> a fine flow whose steps are not fused
     class(flow_t), intent(inout) :: sampling_flow
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
+    !> its period and points, in; its features, out
     type(attractor_t), intent(inout) :: attractor
+    !> start, half-turns
     real(dp), intent(in) :: u
+    !> start, rad per drive radian
     real(dp), intent(in) :: v
+    !> drive periods of the orbit
     integer, intent(in) :: periods
     real(dp), allocatable :: angle(:), velocity(:)
     integer(c_int64_t) :: turns

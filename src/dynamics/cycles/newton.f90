@@ -15,11 +15,17 @@ contains
   !> x = (half-turns, velocity) becomes the fixed point of the n-period map near it: `found` where it is placed well enough,
   !> `blurred` where the steps end at more than that.
   subroutine newton(flow, n, max_distance, x, found, blurred)
+    !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
+    !> drive periods of the map
     integer, intent(in) :: n
+    !> farthest that the cycle may lie from the start, rad
     real(dp), intent(in) :: max_distance
+    !> start, in; fixed point, out: half-turns, rad per drive radian
     real(dp), intent(inout) :: x(2)
+    !> whether it is placed well enough
     logical, intent(out) :: found
+    !> whether it was left undecided by rounding
     logical, intent(out) :: blurred
     !> Steps below SMALL that shrink no more are due to rounding, if there are several.
     real(dp), parameter :: SMALL = 1e-5_dp
@@ -81,10 +87,15 @@ contains
 
   !> residual = F^n(x) - x with whole turns taken out (rad), matrix = its derivative + 1.
   subroutine n_periods(flow, n, x, residual, matrix)
+    !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
+    !> drive periods of the map
     integer, intent(in) :: n
+    !> state: half-turns, rad per drive radian
     real(dp), intent(in) :: x(2)
+    !> image less state: rad, rad per drive radian
     real(dp), intent(out) :: residual(2)
+    !> derivative of the n-period map: rad, rad per drive radian
     real(dp), intent(out) :: matrix(2, 2)
     real(dp) :: tangent(2, 2, WIDTH)
     integer :: i
@@ -100,7 +111,9 @@ contains
 
   !> Solves (matrix - 1) step = residual.
   pure function solved(matrix, residual) result(step)
+    !> derivative of the map, 1 more than the matrix of the equations
     real(dp), intent(in) :: matrix(2, 2)
+    !> their right-hand side
     real(dp), intent(in) :: residual(2)
     real(dp) :: step(2)
     real(dp) :: a, b, c, d
@@ -114,8 +127,11 @@ contains
 
   !> The smallest divisor of n after which the orbit of x is back.
   function minimal_period(flow, n, x) result(period)
+    !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
+    !> a period that closes the cycle
     integer, intent(in) :: n
+    !> one of its points: half-turns, rad per drive radian
     real(dp), intent(in) :: x(2)
     integer :: period
 
@@ -130,7 +146,9 @@ contains
 
   !> Eigenvalues of a 2 x 2 matrix of known determinant: larger modulus first, then + imaginary first.
   pure function eigenvalues(matrix, determinant) result(values)
+    !> derivative of the map, for (rad, rad per drive radian)
     real(dp), intent(in) :: matrix(2, 2)
+    !> its determinant, which is known better than from the matrix
     real(dp), intent(in) :: determinant
     complex(dp) :: values(2)
     real(dp) :: half, root

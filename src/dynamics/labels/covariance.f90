@@ -33,11 +33,17 @@ module kz_maps_covariance
 
 contains
 
+  !> The map that carries the error of each orbit beside it.
   subroutine make_covariant_map(flow, finer, regions, attractors, map)
+    !> the map of one drive period, by integration
     class(flow_t), intent(in) :: flow
+    !> the same with twice the steps: their difference is the error of a period
     class(flow_t), intent(in) :: finer
+    !> the trapping regions
     type(regions_t), target, intent(in) :: regions
+    !> the catalogue, numbered from 1
     type(attractor_t), target, intent(in) :: attractors(:)
+    !> the map
     type(covariant_map_t), intent(out) :: map
 
     allocate (map%flow, source=flow)
@@ -109,6 +115,7 @@ contains
 
   !> P over a period with the tangent map `matrix` and an error of the period's own, in every direction alike.
   pure subroutine spread(matrix, error, p)
+    !> derivative of the map
     real(dp), intent(in) :: matrix(2, 2)
     !> rad
     real(dp), intent(in) :: error
@@ -124,6 +131,7 @@ contains
 
   !> The standard deviation along the longer axis of the ellipse of P, rad; not a number for one that is lost.
   pure function largest_error(p) result(deviation)
+    !> covariance: of the angle, mixed, of the velocity
     real(dp), intent(in) :: p(3)
     real(dp) :: deviation
 

@@ -32,7 +32,9 @@ contains
   !> defect(:, i, j) = the error of one period from the middle cell of block (i, j), from 0: half-turns at mid-period, rad per
   !> drive radian.
   subroutine measure_defects(map, defect)
+    !> the interpolating map
     type(table_map_t), intent(inout) :: map
+    !> error of one period by blocks of cells (2, angle, velocity): half-turns at mid-period, rad per drive radian
     real(dp), allocatable, intent(out) :: defect(:, :, :)
     class(flow_t), allocatable :: flow
     real(dp) :: u, v
@@ -68,11 +70,17 @@ contains
     end function middle
   end subroutine measure_defects
 
+  !> The map of a table that carries the error of each orbit beside it.
   subroutine make_hybrid_map(table, points, flow, defect, map)
+    !> the map table
     type(table_t), target, intent(in) :: table
+    !> nodes of the stencil along an axis: 2, 4, 6
     integer, intent(in) :: points
+    !> integrates the periods that begin outside the table
     class(flow_t), intent(in) :: flow
+    !> what measure_defects gave
     real(dp), target, intent(in) :: defect(:, 0:, 0:)
+    !> the map
     type(hybrid_map_t), intent(out) :: map
 
     map%table_map_t = make_table_map(table, points, flow)
@@ -129,15 +137,25 @@ contains
   !> As `follow`, for max_periods at most: with the table while its error is tolerable. integrated(i) = periods of start i that
   !> were integrated instead.
   subroutine follow_hybrid_map(map, flow, regions, attractors, max_periods, u, v, label, periods, integrated)
+    !> the map of the table with its errors
     type(hybrid_map_t), intent(inout) :: map
+    !> integrates where the errors are too large
     class(flow_t), intent(inout) :: flow
+    !> the trapping regions
     type(regions_t), intent(in) :: regions
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
+    !> drive periods after which an orbit is given up
     integer(c_int64_t), intent(in) :: max_periods
+    !> angles, half-turns in [-1, 1]; in and out
     real(dp), intent(inout) :: u(:)
+    !> velocities, rad per drive radian; in and out
     real(dp), intent(inout) :: v(:)
+    !> attractor from 1, 0 = not settled
     integer(c_int32_t), intent(out) :: label(:)
+    !> first period inside a trapping region
     integer(c_int64_t), intent(out) :: periods(:)
+    !> periods that were integrated
     integer(c_int64_t), intent(out) :: integrated(:)
     integer(c_int64_t), allocatable :: spent(:)
     integer, allocatable :: open(:)

@@ -26,12 +26,19 @@ contains
   !> periods(i) becomes its first period inside a trapping region, or the periods followed; (u, v) become the states where the
   !> orbits were left.
   subroutine follow(map, regions, attractors, u, v, label, periods)
+    !> what moves the states by one period
     class(map_t), intent(inout) :: map
+    !> the trapping regions
     type(regions_t), intent(in) :: regions
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
+    !> angles, half-turns in [-1, 1]; in and out
     real(dp), intent(inout) :: u(:)
+    !> velocities, rad per drive radian; in and out
     real(dp), intent(inout) :: v(:)
+    !> attractor from 1, 0 = not settled
     integer(c_int32_t), intent(out) :: label(:)
+    !> most periods, in; first period inside a trapping region, out
     integer(c_int64_t), intent(inout) :: periods(:)
     type(lane_t) :: lanes(WIDTH)
     integer(c_int64_t) :: next

@@ -48,8 +48,11 @@ contains
 
   !> An empty table whose inner part (where every stencil fits) reaches the velocity `max_velocity`.
   function make_table(n_circle, n_velocity, max_velocity) result(table)
+    !> nodes on the whole circle
     integer, intent(in) :: n_circle
+    !> nodes of the velocity
     integer, intent(in) :: n_velocity
+    !> rad per drive radian
     real(dp), intent(in) :: max_velocity
     type(table_t) :: table
 
@@ -64,6 +67,7 @@ contains
 
   !> The largest velocity where every stencil fits.
   pure function inner_top(table) result(v)
+    !> the map table
     type(table_t), intent(in) :: table
     real(dp) :: v
 
@@ -72,7 +76,9 @@ contains
 
   !> Velocity of node j = 1 .. n_velocity; node n + 1 - j has exactly the opposite one.
   pure function node_velocity(table, j) result(v)
+    !> the map table
     type(table_t), intent(in) :: table
+    !> row, from 1
     integer, intent(in) :: j
     real(dp) :: v
 
@@ -81,9 +87,13 @@ contains
 
   !> Integrates the nodes of row j: shift(2, 0 : n_own).
   subroutine table_row(table, flow, j, shift)
+    !> the table whose nodes they are
     type(table_t), intent(in) :: table
+    !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
+    !> row, from 1
     integer, intent(in) :: j
+    !> displacements of its nodes
     real(dp), intent(out) :: shift(2, 0:table%n_own)
     real(dp) :: u, v
     integer :: first, n, i
@@ -104,7 +114,9 @@ contains
 
   !> Takes in all rows, as table_row gave them.
   subroutine set_table_rows(table, rows)
+    !> the map table
     type(table_t), intent(inout) :: table
+    !> displacements of all nodes
     real(dp), intent(in) :: rows(2, 0:table%n_own, table%n_velocity)
 
     table%shift(:, 0:table%n_own, :) = rows
@@ -113,7 +125,9 @@ contains
 
   !> The nodes below angle 0 and beyond pi are mirror images of own ones.
   subroutine fill_ghosts(table, field)
+    !> the table whose nodes they are
     type(table_t), intent(in) :: table
+    !> a value of two components at every node
     real(dp), intent(inout) :: field(2, -GHOSTS:table%n_theta + GHOSTS, table%n_velocity)
     integer :: i, n
 
@@ -126,9 +140,13 @@ contains
     end do
   end subroutine fill_ghosts
 
+  !> The map that interpolates a table.
   function make_table_map(table, points, flow) result(map)
+    !> the map table
     type(table_t), target, intent(in) :: table
+    !> nodes of the stencil along an axis: 2, 4, 6
     integer, intent(in) :: points
+    !> integrates the periods that begin outside the table
     class(flow_t), intent(in) :: flow
     type(table_map_t) :: map
 
@@ -147,9 +165,13 @@ contains
     call displace(self, n, place)
   end subroutine interpolate
 
+  !> The cells of the table that hold the first n lanes.
   subroutine locate(self, n, place)
+    !> the map
     class(table_map_t), intent(in) :: self
+    !> lanes
     integer, intent(in) :: n
+    !> where they lie
     type(place_t), intent(out) :: place
     real(dp) :: x(WIDTH), y(WIDTH), w, per_u, per_v, lowest, highest
     integer :: lane
@@ -184,8 +206,11 @@ contains
 
   !> Moves n lanes from their places by Lagrange interpolation over the nodes around each state.
   subroutine displace(self, n, place)
+    !> the map
     class(table_map_t), intent(inout) :: self
+    !> lanes
     integer, intent(in) :: n
+    !> where they lie
     type(place_t), intent(in) :: place
     real(dp) :: x(WIDTH), y(WIDTH), shift(2, WIDTH), w
     integer :: lane

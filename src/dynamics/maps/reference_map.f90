@@ -29,7 +29,9 @@ contains
 
   !> A map of starts given in rad: they are put in their order, each by its half-turns u, and moved as exact numbers.
   subroutine make_reference_map(map, pendulum, n_steps, start, u)
+    !> the map
     type(reference_map_t), intent(out) :: map
+    !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> Steps a period where the motion is gentle.
     integer, intent(in) :: n_steps

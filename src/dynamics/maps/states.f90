@@ -13,6 +13,7 @@ contains
 
   !> An angle in half-turns, wrapped to [-1, 1].
   elemental function wrapped(u) result(w)
+    !> half-turns
     real(dp), intent(in) :: u
     real(dp) :: w
 
@@ -21,7 +22,9 @@ contains
 
   !> Shortest difference of two angles in half-turns, in [-1, 1].
   elemental function angle_difference(a, b) result(d)
+    !> half-turns
     real(dp), intent(in) :: a
+    !> half-turns
     real(dp), intent(in) :: b
     real(dp) :: d
 
@@ -30,9 +33,13 @@ contains
 
   !> From (u1, v1) to (u2, v2), rad and rad per drive radian together.
   elemental function separation(u1, v1, u2, v2) result(d)
+    !> half-turns
     real(dp), intent(in) :: u1
+    !> rad per drive radian
     real(dp), intent(in) :: v1
+    !> half-turns
     real(dp), intent(in) :: u2
+    !> rad per drive radian
     real(dp), intent(in) :: v2
     real(dp) :: d
 
@@ -41,9 +48,13 @@ contains
 
   !> Are (u1, v1) and (u2, v2) one state?
   elemental function same_state(u1, v1, u2, v2) result(one)
+    !> half-turns
     real(dp), intent(in) :: u1
+    !> rad per drive radian
     real(dp), intent(in) :: v1
+    !> half-turns
     real(dp), intent(in) :: u2
+    !> rad per drive radian
     real(dp), intent(in) :: v2
     logical :: one
 
@@ -54,7 +65,9 @@ contains
   !> over it and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs
   !> 2**order less.
   elemental function midperiod_angle(u, v) result(w)
+    !> angle at the strobe, half-turns
     real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
     real(dp), intent(in) :: v
     real(dp) :: w
 
@@ -63,6 +76,7 @@ contains
 
   !> As numbers are compared where an order depends on them: to 1e-9.
   elemental function rounded(x) result(n)
+    !> a number of order 1
     real(dp), intent(in) :: x
     real(dp) :: n
 

@@ -99,8 +99,11 @@ contains
 
   !> The largest error of one period of the map table among states [2][n*WIDTH] within it, rad.
   function table_defect(flow, table_map, state) result(defect)
+    !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
+    !> the map whose error is measured
     class(map_t), intent(inout) :: table_map
+    !> (2, n): half-turns, rad per drive radian
     real(dp), intent(in) :: state(:, :)
     real(dp) :: defect
     integer :: first, lane

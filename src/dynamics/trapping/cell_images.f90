@@ -33,8 +33,11 @@ contains
 
   !> Integrates the nodes of the grid, and one row and column more on every side, for the differences.
   subroutine make_images(regions, flow, images)
+    !> the grid whose nodes are integrated
     type(regions_t), intent(in) :: regions
+    !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
+    !> the images after each number of PERIODS
     type(images_t), intent(out) :: images(size(PERIODS))
     real(dp), allocatable :: x(:, :, :), y(:, :, :)
     integer :: k, j
@@ -162,12 +165,19 @@ contains
 
   !> The images of the corners of cell (i, l), and its slack.
   pure subroutine corners_of(images, i, l, x, y, slack_x, slack_y)
+    !> images of all nodes
     type(images_t), intent(in) :: images
+    !> column of the cell, from 0
     integer, intent(in) :: i
+    !> row of the cell, from 0
     integer, intent(in) :: l
+    !> angles of the corners, in cells
     real(dp), intent(out) :: x(4)
+    !> velocities of the corners, in cells
     real(dp), intent(out) :: y(4)
+    !> what the angles may be off by between the corners, in cells
     real(dp), intent(out) :: slack_x
+    !> the same of the velocities
     real(dp), intent(out) :: slack_y
 
     x = [images%x(i, l), images%x(i + 1, l), images%x(i, l + 1), images%x(i + 1, l + 1)]
@@ -178,11 +188,17 @@ contains
 
   !> Range of x of the hull of four points between y = low and y = high: all segments between them, clipped.
   pure subroutine extent(x, y, low, high, from, to)
+    !> angles of the corners, in cells
     real(dp), intent(in) :: x(4)
+    !> velocities of the corners, in cells
     real(dp), intent(in) :: y(4)
+    !> lower end of the strip of velocities
     real(dp), intent(in) :: low
+    !> its upper end
     real(dp), intent(in) :: high
+    !> lowest angle in the strip
     real(dp), intent(out) :: from
+    !> highest angle in the strip
     real(dp), intent(out) :: to
     real(dp) :: s, t, slope
     integer :: a, b

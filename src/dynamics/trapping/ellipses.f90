@@ -27,6 +27,7 @@ contains
     class(flow_t), intent(inout) :: flow
     !> the map of the published strobe points
     class(flow_t), intent(inout) :: fine
+    !> its points and multipliers, in; the ellipses, out
     type(attractor_t), intent(inout) :: attractor
     !> attractors whose strobe points no ellipse may contain
     type(attractor_t), intent(in) :: others(:)
@@ -40,10 +41,15 @@ contains
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
   end subroutine find_ellipses
 
+  !> Does the trapping ellipse of strobe point j hold (u, v)?
   pure function in_ellipse(attractor, j, u, v) result(inside)
+    !> the attractor
     type(attractor_t), intent(in) :: attractor
+    !> strobe point, from 1
     integer, intent(in) :: j
+    !> angle, half-turns in [-1, 1]
     real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
     real(dp), intent(in) :: v
     logical :: inside
     real(dp) :: du, dv

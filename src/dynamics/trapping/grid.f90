@@ -39,8 +39,11 @@ contains
 
   !> An open grid of an even number of columns.
   function make_regions(n_circle, n_velocity, top) result(regions)
+    !> cells on the whole circle
     integer, intent(in) :: n_circle
+    !> cells of the velocity
     integer, intent(in) :: n_velocity
+    !> largest velocity, rad per drive radian
     real(dp), intent(in) :: top
     type(regions_t) :: regions
 
@@ -55,7 +58,9 @@ contains
 
   !> Draws the ellipses and covers of the attractors that are new since the last time.
   subroutine draw_attractors(regions, attractors)
+    !> the trapping regions
     type(regions_t), intent(inout) :: regions
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
     integer :: a, j, turn
 
@@ -78,8 +83,11 @@ contains
 
   !> Number (from 1) of the cover's cell that holds (u, v); 0 outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
   pure function cover_cell(regions, u, v) result(cell)
+    !> the trapping regions
     type(regions_t), intent(in) :: regions
+    !> angle, half-turns in [-1, 1]
     real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
     real(dp), intent(in) :: v
     integer :: cell
     real(dp) :: fold, y
@@ -94,8 +102,11 @@ contains
 
   !> The chaotic attractor whose cover holds (u, v); 0 = none.
   pure function chaos_region(regions, u, v) result(a)
+    !> the trapping regions
     type(regions_t), intent(in) :: regions
+    !> angle, half-turns in [-1, 1]
     real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
     real(dp), intent(in) :: v
     integer :: a
 
@@ -168,11 +179,17 @@ contains
 
   !> label(i) = the attractor (from 1) whose trapping region holds (u(i), v(i)), u in [-1, 1]; 0 = none.
   subroutine find_regions(regions, attractors, n, u, v, label)
+    !> the trapping regions
     type(regions_t), intent(in) :: regions
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
+    !> states
     integer, intent(in) :: n
+    !> angles, half-turns in [-1, 1]
     real(dp), intent(in) :: u(n)
+    !> velocities, rad per drive radian
     real(dp), intent(in) :: v(n)
+    !> attractor from 1, 0 = none
     integer, intent(out) :: label(n)
     integer :: i
 
@@ -185,14 +202,23 @@ contains
 
   !> The grid's entries for n states, folded to the stored half; OUTSIDE beyond its velocities.
   pure subroutine look_up(n_theta, n_velocity, per_u, top, grid, n, u, v, entry)
+    !> stored columns of the grid
     integer, intent(in) :: n_theta
+    !> rows of the grid
     integer, intent(in) :: n_velocity
+    !> columns in a half-turn
     real(dp), intent(in) :: per_u
+    !> largest velocity of the grid, rad per drive radian
     real(dp), intent(in) :: top
+    !> regions%label, cell by cell
     integer, intent(in) :: grid(0:n_theta*n_velocity - 1)
+    !> states
     integer, intent(in) :: n
+    !> angles, half-turns in [-1, 1]
     real(dp), intent(in) :: u(n)
+    !> velocities, rad per drive radian
     real(dp), intent(in) :: v(n)
+    !> what the grid holds at each state
     integer, intent(out) :: entry(n)
     real(dp) :: w, y, per_v
     integer :: i
@@ -271,8 +297,11 @@ contains
 
   !> The attractor one of whose ellipses holds (u, v), 0 = none: every ellipse is tested.
   pure function ellipse_at(attractors, u, v) result(a)
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
+    !> angle, half-turns in [-1, 1]
     real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
     real(dp), intent(in) :: v
     integer :: a, j
 
@@ -286,9 +315,13 @@ contains
 
   !> Brings cell (i, l), i any integer, to the stored half; `mirrored` where the stored one is its mirror image.
   pure subroutine fold_cell(regions, i, l, mirrored)
+    !> the trapping regions
     type(regions_t), intent(in) :: regions
+    !> column, any integer, in; from 0, out
     integer, intent(inout) :: i
+    !> row, from 0
     integer, intent(inout) :: l
+    !> whether the stored cell is its mirror image
     logical, intent(out) :: mirrored
 
     i = modulo(i, regions%n_circle)

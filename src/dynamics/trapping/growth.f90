@@ -38,8 +38,11 @@ contains
 
   !> Grows over the images, which belong to the same grid.
   subroutine grow_regions(regions, attractors, images)
+    !> the trapping regions
     type(regions_t), intent(inout) :: regions
+    !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
+    !> images of the cells after each number of PERIODS
     type(images_t), intent(in) :: images(:)
     type(circle_t) :: circle
     type(waiting_t) :: waiting
