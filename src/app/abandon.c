@@ -13,6 +13,7 @@
 
 static struct {
   bool armed;
+  int rank; /* as the launcher told it */
   kz_ranks *ranks;
   char part[PATH_MAX + 16]; /* the half file; "" = there is none yet */
 } here;
@@ -57,11 +58,10 @@ static void say(const char *what, const char *otherwise) {
 
 static void say_error(const char *what) {
   line l = {.length = 0};
-  const int rank = kz_launch_rank();
   append(&l, "error: ");
   append(&l, what);
   append(&l, " on rank ");
-  append_number(&l, rank > 0 ? (unsigned)rank : 0);
+  append_number(&l, here.rank > 0 ? (unsigned)here.rank : 0);
   say(l.text, "");
 }
 
@@ -95,7 +95,7 @@ static void overdue(const char *reason) {
 }
 
 void kz_abandon_arm(void) {
-  kz_launch_rank(); /* looks into the environment, which a signal handler must not do */
+  here.rank = kz_launch_rank(); /* looks into the environment, which a signal handler must not do */
   here.armed = true;
   kz_memory_on_failure(without_memory);
   atexit(at_exit);

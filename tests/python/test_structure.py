@@ -172,6 +172,39 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+# ---- signal handlers ----
+
+# POSIX.1-2017, 2.4.3: what a signal handler may call.
+ASYNC_SAFE = {"_exit", "alarm", "close", "fstat", "lstat", "pread", "read", "stat", "unlink", "write"}
+HANDLERS = {"note", "ring", "overdue", "at_abort", "give_up"}
+
+
+def functions():
+    """{name: body} of the C functions of app and parallel."""
+    found = {}
+    for path in [*(SOURCES / "app").glob("*.c"), *(SOURCES / "parallel").glob("*.c")]:
+        text = re.sub(r'"(\\.|[^"\\])*"', '""', without_comments(path.read_text()))
+        for name, body in re.findall(r"^\w[\w *]*?\b(\w+)\([^;{}]*\) \{\n(.*?)^\}", text, re.DOTALL | re.MULTILINE):
+            found.setdefault(name, []).append(body)
+    return found
+
+
+def test_signal_handlers_make_safe_calls_alone():
+    known, seen, unsafe = functions(), set(), set()
+    waiting = [(name, name) for name in HANDLERS]
+    while waiting:
+        name, path = waiting.pop()
+        seen.add(name)
+        bodies = known.get(name, []) if name not in ASYNC_SAFE else []
+        if not bodies and name not in ASYNC_SAFE:
+            unsafe.add(path)
+        for body in bodies:
+            called = set(re.findall(r"\b([a-z_]\w*)\(", body)) - {"if", "for", "while", "return", "sizeof", "switch", "offsetof"}
+            waiting += [(other, f"{path} -> {other}") for other in called if other not in seen]
+    assert not unsafe
+    assert {"say", "unlink", "write", "_exit", "kz_header_is_marked"} <= seen
+
+
 # ---- comments of Fortran ----
 
 
