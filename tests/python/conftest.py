@@ -18,6 +18,19 @@ from mpi_settings import MPI_SETTINGS
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 TEXT = h5py.string_dtype("utf-8")
+WALK = """\
+title: A short walk
+pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.5}
+sweep:
+  parameter: drive_amplitude
+  min: 0.46
+  max: 0.48
+  count: 3
+  measure: [attractors, basin_fractions, flutter_amplitude, release_angle, strobe]
+  starts: 128
+  transient: 20
+  samples: 8
+"""
 
 
 def pytest_configure(config):
@@ -137,6 +150,15 @@ def small_result(kapitza, tmp_path_factory):
     folder = tmp_path_factory.mktemp("small")
     kapitza("run", ROOT / "scenes" / "small.yaml", ranks=2, folder=folder)
     return folder / "small.h5"
+
+
+@pytest.fixture(scope="session")
+def swept(kapitza, tmp_path_factory):
+    """The result of a short sweep with every measure but the zone of flutter."""
+    folder = tmp_path_factory.mktemp("swept")
+    (folder / "walk.yaml").write_text(WALK)
+    kapitza("run", "walk.yaml", folder=folder)
+    return folder / "walk.h5"
 
 
 def datasets(path):

@@ -11,28 +11,6 @@ from kapitza.plots.branches import NAMED, draw_shares, stack_order
 from matplotlib.collections import FillBetweenPolyCollection
 from matplotlib.figure import Figure
 
-SCENE = """\
-title: A short walk
-pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.5}
-sweep:
-  parameter: drive_amplitude
-  min: 0.46
-  max: 0.48
-  count: 3
-  measure: [attractors, basin_fractions, flutter_amplitude, release_angle, strobe]
-  starts: 128
-  transient: 20
-  samples: 8
-"""
-
-
-@pytest.fixture(scope="module")
-def swept(kapitza, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("swept")
-    (folder / "walk.yaml").write_text(SCENE)
-    kapitza("run", "walk.yaml", folder=folder)
-    return folder / "walk.h5"
-
 
 def draw(path, *arguments):
     command = [sys.executable, ROOT / "scripts" / "plot_sweep.py", path, *arguments]

@@ -19,7 +19,7 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.plots.common import argument_parser, parsed, title_text, write_picture
-from kapitza.plots.dots import draw_strobe_points
+from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.result import BadFile, Result
 
@@ -64,7 +64,7 @@ def draw_basins(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, *
     plane.show(axes, image)
     if dots:
         dark = {index: style.shade(colour, -0.45) for index, colour in enumerate(colours)}
-        draw_strobe_points(axes, plane, basin, attractors, colours=dark)
+        mark_strobe_points(axes, plane, basin, attractors, colours=dark)
     if legend:
         write_legend(axes, basin_entries(attractors, colours, basin["attractor"].values))
     return label_axes(axes, plane)
@@ -91,7 +91,7 @@ def draw_one(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, ids:
     plane, mine = Plane(basin, centre), np.isin(basin["attractor"].values, ids)
     plane.show(axes, np.where(mine[:, plane.order, None], to_rgb(colour), to_rgb("white")))
     if dots:
-        draw_strobe_points(axes, plane, basin, attractors, colours=dict.fromkeys(ids, "white"), edge=colour)
+        mark_strobe_points(axes, plane, basin, attractors, colours=dict.fromkeys(ids, "white"), edge=colour)
     if legend:
         write_legend(axes, [(colour, attractors["name"].values[ids[0]], float(np.mean(mine)))])
     return label_axes(axes, plane)

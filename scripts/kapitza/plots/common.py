@@ -1,6 +1,7 @@
 """What the pictures share: their arguments, their page, and how a figure is entitled."""
 
 import argparse
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -43,8 +44,11 @@ def write_picture(arguments: argparse.Namespace, draw: Callable[[Result, argpars
     style.use()
     result = Result(arguments.file)
     try:
-        style.save(draw(result, arguments), arguments.output, arguments.dpi)
-    except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # values that are not there (NaN), axes of one value
+            figure = draw(result, arguments)
+        style.save(figure, arguments.output, arguments.dpi)
+    except (ArithmeticError, LookupError, TypeError, ValueError, Warning) as error:
         reason = " ".join(str(error).split())
         raise BadFile(f"{result.path}: holds values that cannot be drawn ({type(error).__name__}: {reason})") from error
 

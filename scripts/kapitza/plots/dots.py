@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from kapitza.plots.plane import Plane
 
 
-def draw_strobe_points(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, *, colours: Mapping[int, str],
+def mark_strobe_points(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, *, colours: Mapping[int, str],
                        edge: str = "white") -> Axes:
     """Every strobe point of the attractors in `colours` (id -> colour), at every place of the window where it shows; many points are
     drawn smaller, and what would hide a small basin is smaller still or left out."""

@@ -1,0 +1,192 @@
+"""The Python package: what `pip install .` gives, what type checker and linter say of it, its panels on anybody's Axes, and files of
+every kind whose variables or attributes are missing or wrong."""
+
+import importlib
+import inspect
+import os
+import pkgutil
+import random
+import shutil
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+from conftest import ROOT, plot
+from kapitza import Result, plots, style
+from kapitza.plots.basin import draw_basins, draw_evidence, draw_one, draw_settling_time
+from kapitza.plots.orbit_panels import draw_path, draw_phase, draw_spectrum
+from kapitza.plots.orbit_record import Orbit
+from kapitza.plots.orbit_time import draw_time
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+LIMIT = 250  # lines of a file
+SCENES = {
+    "orbit": "pendulum: {k: 0.1, damping: 0.2, m: 0.1}\norbit: {start: {theta: 1, velocity: 0}, periods: 5}\n",
+    "stability": "stability: {k: {min: -0.5, max: 1, count: 7}, m: {min: 0, max: 1, count: 5}, damping: 0.05,"
+                 " curves: [exact_1, damped_1, butikov_1], subharmonics: [2]}\n",
+    "potential": "pendulum: {k: 0.01, damping: 0.2, m: 0.3}\npotential: {drive_amplitudes: [0.2, 0.3], theta: {count: 9}}\n",
+}
+
+
+def python(*arguments, **more):
+    return subprocess.run([sys.executable, *map(str, arguments)], capture_output=True, text=True, timeout=250, **more)
+
+
+@pytest.fixture(scope="module")
+def results(kapitza, swept, tmp_path_factory):
+    """kind -> a small result of it."""
+    folder = tmp_path_factory.mktemp("kinds")
+    for kind, scene in SCENES.items():
+        (folder / f"{kind}.yaml").write_text(scene)
+        kapitza("run", f"{kind}.yaml", folder=folder)
+    return {kind: folder / f"{kind}.h5" for kind in SCENES} | {"sweep": swept}
+
+
+USE = """
+import sys
+import kapitza
+result = kapitza.Result("made.h5")
+labels = result.tree["basin/attractor"]
+print(kapitza.__file__.startswith(sys.argv[1]), labels.variable._in_memory, int(labels.max()), "matplotlib" in sys.modules)
+from kapitza import command, style
+style.use()
+import matplotlib
+print(matplotlib.get_backend())
+"""
+
+
+def test_what_pip_installs(made_file, tmp_path):
+    """The package by itself: results lazily, no backend of its own, and the command draws what the script draws."""
+    place = tmp_path / "place"
+    install = ["install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-build-isolation", "--no-deps", "--target", place]
+    done = python("-m", "pip", *install, ROOT)
+    assert done.returncode == 0, done.stderr
+    alone = os.environ | {"PYTHONPATH": str(place), "MPLBACKEND": "svg"}
+    done = python("-c", USE, place, cwd=tmp_path, env=alone)
+    assert done.stdout.split() == ["True", "False", "5", "False", "svg"], done.stdout + done.stderr
+    done = subprocess.run([place / "bin" / "kapitza-plot", "basin", made_file, "-o", "one.png", "--dpi", "40"], cwd=tmp_path, env=alone,
+                          capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "one.png\n", "")
+    assert plot("basin", made_file, "-o", tmp_path / "other.png", "--dpi", 40).returncode == 0
+    assert (tmp_path / "one.png").read_bytes() == (tmp_path / "other.png").read_bytes()
+
+
+@pytest.mark.parametrize("words, status", [([], 2), (["portrait", "FILE"], 2), (["--help"], 0)])
+def test_the_command_names_its_kinds(words, status):
+    done = python("-c", "from kapitza.command import main; main()", *words, env=os.environ | {"PYTHONPATH": str(ROOT / "scripts")})
+    assert done.returncode == status and "KIND: basin, orbit" in done.stdout + done.stderr and "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("tool", [["mypy"], ["ruff", "check"]])
+def test_checkers_find_nothing(tool):
+    done = python("-m", *tool, cwd=ROOT)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_files_are_short():
+    long = [path.name for path in (ROOT / "scripts").rglob("*.py") if len(path.read_text().splitlines()) > LIMIT]
+    assert not long
+
+
+def panels():
+    """Every draw_* function of the modules of kapitza.plots."""
+    modules = [importlib.import_module(f"kapitza.plots.{module.name}") for module in pkgutil.iter_modules(plots.__path__)]
+    return {function for module in modules for name, function in vars(module).items() if name.startswith("draw_") and callable(function)}
+
+
+def test_every_panel_takes_and_returns_an_axes():
+    found = panels()
+    assert len(found) > 20
+    for function in found:
+        signature = inspect.signature(function)
+        first = next(iter(signature.parameters.values()))
+        assert (first.name, first.annotation, signature.return_annotation) == ("axes", Axes, Axes), function
+        assert {"colour" if function is draw_one else "colours", "legend"} <= signature.parameters.keys(), function
+
+
+def test_panels_keep_to_their_axes(made_file, results):
+    """On one figure of somebody else: the same Axes comes back, its neighbours stay empty, and without a legend there is none."""
+    result, orbit = Result(made_file), Orbit(Result(results["orbit"]))
+    basin, attractors = result.group("basin"), result.group("attractors")
+    calls = [(draw_basins, basin, attractors), (draw_one, basin, attractors, [1]), (draw_settling_time, basin), (draw_evidence, basin),
+             (draw_time, orbit), (draw_path, orbit), (draw_phase, orbit), (draw_spectrum, orbit)]
+    for function, *data in calls:
+        mine, other = Figure().subplots(1, 2)
+        assert function(mine, *data, legend=False) is mine and mine.has_data()
+        assert mine.get_legend() is None and not other.has_data() and len(mine.figure.axes) == 2
+
+
+def test_colours_are_arguments(made_file):
+    result = Result(made_file)
+    axes = draw_basins(Figure().subplots(), result.group("basin"), result.group("attractors"), dots=False,
+                       colours=["#102030", "#405060", "#708090", "#a0b0c0", "#d0e0f0", "#010203"])
+    image, labels = axes.images[0].get_array(), result.group("basin")["attractor"].values
+    assert np.allclose(image[labels == 2], np.array([0x70, 0x80, 0x90]) / 255) and np.allclose(image[labels < 0], 1)
+    assert style.UNSETTLED == "#ffffff"
+
+
+def craft(file, group, name, how):
+    """Spoils a variable or an attribute of the group."""
+    if name in file[group].attrs:
+        attributes = file[group].attrs
+        if how == "missing":
+            del attributes[name]
+        else:
+            attributes[name] = {"text": "x", "short": np.zeros(3), "not finite": np.nan, "huge": 1e300}[how]
+        return
+    values = file[group][name][()]
+    if how in ("not finite", "huge"):
+        if values.dtype.kind == "f":
+            file[group][name][...] = np.nan if how == "not finite" else 1e300
+        return
+    del file[group][name]
+    if how == "text":
+        file[group].create_dataset(name, data=np.full(values.shape, "x", dtype=object), dtype=h5py.string_dtype())
+    elif how == "short":
+        file[group][name] = np.zeros(1)
+
+
+VIEWS = [("sweep", view) for view in ("fractions", "branches", "flutter", "releases", "strobe")]
+VIEWS += [("stability", view) for view in ("zones", "growth", "frequency", "errors")]
+ROWS = [(kind, ["--view", view]) for kind, view in VIEWS] + [("orbit", []), ("potential", [])]
+
+
+@pytest.mark.parametrize("kind, options", ROWS)
+def test_crafted_files_get_one_line(results, tmp_path, kind, options):
+    """A picture, or one line: for some of the ways to spoil something, for all with KAPITZA_EXTENSIVE=1."""
+    with h5py.File(results[kind]) as file:
+        ways = [(name, how) for name in [*file[kind], *file[kind].attrs] for how in ("missing", "text", "short", "not finite", "huge")]
+    if not os.environ.get("KAPITZA_EXTENSIVE"):
+        ways = random.Random(str(options)).sample(ways, 3)
+    for name, how in ways:
+        path = shutil.copy(results[kind], tmp_path / "crafted.h5")
+        with h5py.File(path, "r+") as file:
+            craft(file, kind, name, how)
+        done = plot(kind, path, "-o", tmp_path / "out.png", "--dpi", 20, *options)
+        assert (done.returncode, done.stderr.count("\n")) in ((0, 0), (1, 1)), (name, how, done.stderr)
+
+
+@pytest.mark.parametrize("kind, name, how, words", [
+    ("sweep", "fraction_low", "missing", "incomplete, the group sweep lacks fraction_low"),
+    ("sweep", "fraction_high", "short", "sweep/fraction_high is not over value and branch"),
+    ("sweep", "branch_mirror", "missing", "lacks branch_mirror"),
+    ("sweep", "branch_name", "short", "branch_name is not over branch"),
+    ("sweep", "fit_slope", "text", "the attribute fit_slope of sweep is of another type"),
+    ("sweep", "critical_value", "missing", "lacks critical_value"),
+    ("orbit", "line_amplitude", "text", "line_amplitude is of another type"),
+    ("orbit", "period", "text", "the attribute period of orbit is of another type"),
+    ("stability", "stable", "short", "stability/stable is not over m and k"),
+    ("stability", "damping", "text", "the attribute damping of stability is of another type"),
+    ("stability", "exact_1", "text", "exact_1 is of another type"),
+    ("potential", "rim_exact", "missing", "lacks rim_exact"),
+])
+def test_what_is_missing_or_wrong_is_named(results, tmp_path, kind, name, how, words):
+    path = shutil.copy(results[kind], tmp_path / "crafted.h5")
+    with h5py.File(path, "r+") as file:
+        craft(file, kind, name, how)
+    done = plot(kind, path, "-o", tmp_path / "out.png")
+    assert done.returncode == 1 and done.stderr.startswith(f"error: {path}: ") and words in done.stderr, done.stderr
+    assert not (tmp_path / "out.png").exists()
