@@ -14,7 +14,7 @@ enum {
   CHUNK = 64,          /* states per search, at most what kz_dynamics_find_cycle takes */
   CHUNKS = 16,         /* searches per round */
   PILOT_STARTS = 512,  /* starts that are followed before regions grow */
-  WORTH_CELLS = 10000, /* that are to be labelled: for fewer, regions do not grow */
+  WORTH_CELLS = 40000, /* that are to be labelled: for fewer, regions do not grow */
   FEWEST_CELLS = 250,  /* of the regions' grid along an axis: in coarser ones hardly anything grows */
   MOST_CELLS = 500,    /* finer ones trap hardly more */
   STRETCH = 1024,      /* periods of a tile at least */
@@ -214,7 +214,7 @@ kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_period
 
 int64_t kz_regions_cells(int64_t cells) {
   if (cells < WORTH_CELLS) return 0;
-  return (int64_t)fmin(fmax(FEWEST_CELLS, sqrt((double)cells) / 2), MOST_CELLS);
+  return (int64_t)fmin(fmax(FEWEST_CELLS, 0.7 * sqrt((double)cells)), MOST_CELLS);
 }
 
 kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
