@@ -329,7 +329,7 @@ static void test_regions_know_no_order(void **state) {
   (void)state;
   enum { N = 20000, CELLS = 300 };
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
-  kz_dynamics *a = explored_with(0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, &NUMERICS, 12);
+  kz_dynamics *a = explored_with(0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, numerics(), 12);
   const int64_t size = kz_dynamics_packed_size(a);
   double *packed = malloc((size_t)size * sizeof *packed), *x = malloc(2 * N * sizeof *x);
   int32_t *label_a = malloc(N * sizeof *label_a), *label_b = malloc(N * sizeof *label_b), trapped = 0;
