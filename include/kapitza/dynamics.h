@@ -29,7 +29,7 @@ double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
 /* A coarse open grid for trapping regions up to velocity `max_velocity`: enough for a search. */
 void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
 /* In its place a grid of `cells` along the velocity and around the circle (one more where odd), in which the regions are grown
- * outwards around the attractors known so far: its nodes are integrated through 4 periods. */
+ * outwards around the attractors known so far: its nodes are integrated through 8 periods. */
 void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 /* Draws the ellipses and covers of new attractors into the regions, and lets a fine grid's grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);

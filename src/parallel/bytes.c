@@ -29,19 +29,30 @@ int64_t kz_bytes_read(int file, void *bytes, size_t n, int64_t offset) {
 /* The reflected polynomial of ECMA-182. */
 static const uint64_t POLYNOMIAL = 0xC96C5795D7870F42u;
 
-static void fill(uint64_t table[256]) {
+enum { SLICES = 8 };
+
+/* table[k][b]: what byte b, with k bytes after it, adds to the sum. */
+static void fill(uint64_t table[SLICES][256]) {
   for (uint64_t byte = 0; byte < 256; ++byte) {
     uint64_t value = byte;
     for (int bit = 0; bit < 8; ++bit) value = value & 1 ? value >> 1 ^ POLYNOMIAL : value >> 1;
-    table[byte] = value;
+    table[0][byte] = value;
   }
+  for (int k = 1; k < SLICES; ++k)
+    for (int byte = 0; byte < 256; ++byte) table[k][byte] = table[0][table[k - 1][byte] & 255] ^ table[k - 1][byte] >> 8;
 }
 
+/* Eight bytes at a time (slicing by 8: Kounavis and Berry, IEEE Trans. Comput. 57 (2008) 1550). */
 uint64_t kz_bytes_checksum(uint64_t sum, const void *bytes, size_t n) {
-  static uint64_t table[256];
-  if (table[1] == 0) fill(table);
+  static uint64_t table[SLICES][256];
+  if (table[SLICES - 1][255] == 0) fill(table);
   const unsigned char *byte = bytes;
   sum = ~sum;
-  for (size_t i = 0; i < n; ++i) sum = table[(sum ^ byte[i]) & 255] ^ sum >> 8;
+  for (; n >= SLICES; n -= SLICES, byte += SLICES) {
+    uint64_t next = 0;
+    for (int k = 0; k < SLICES; ++k) next ^= table[SLICES - 1 - k][(sum >> 8 * k ^ byte[k]) & 255];
+    sum = next;
+  }
+  for (size_t i = 0; i < n; ++i) sum = table[0][(sum ^ byte[i]) & 255] ^ sum >> 8;
   return ~sum;
 }

@@ -3,11 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "chunks.h"
 #include "store.h"
 
-static const size_t SPARE_BYTES = (size_t)1 << 24;               /* what HDF5 may need besides the data */
-static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20; /* smaller arrays stay whole; larger ones are packed */
-enum { DEFLATE = 4 };
+static const size_t SPARE_BYTES = (size_t)1 << 24; /* what HDF5 may need besides the data */
 
 /* An HDF5 type of each kind; text is made anew each time. */
 static hid_t memory_type(kz_kind kind) {
@@ -15,23 +14,6 @@ static hid_t memory_type(kz_kind kind) {
                          [KZ_INT16] = H5T_NATIVE_INT16, [KZ_INT32] = H5T_NATIVE_INT32, [KZ_UINT32] = H5T_NATIVE_UINT32};
   hid_t type = H5I_INVALID_HID;
   return kind != KZ_TEXT ? H5Tcopy(types[kind]) : kz_text_type(&type) == KZ_OK ? type : H5I_INVALID_HID;
-}
-
-/* Chunks of whole rows of about CHUNK_BYTES; a single row that is longer is cut. */
-static kz_status set_chunks(hid_t creation, const kz_variable *row, int rank, const hsize_t *lengths, size_t item) {
-  hsize_t chunk[KZ_MAX_DIMENSIONS], bytes = item;
-  for (int d = 0; d < rank; ++d) bytes *= chunk[d] = lengths[d];
-  if (bytes <= PLAIN_BYTES || row->kind == KZ_TEXT) return KZ_OK;
-  bytes = item;
-  for (int d = rank - 1; d >= 0; --d) {
-    const hsize_t fit = bytes < CHUNK_BYTES ? CHUNK_BYTES / bytes : 1;
-    if (chunk[d] > fit) chunk[d] = fit;
-    bytes *= chunk[d];
-  }
-  KZ_HDF5(H5Pset_chunk(creation, rank, chunk));
-  KZ_HDF5(H5Pset_shuffle(creation));
-  KZ_HDF5(H5Pset_deflate(creation, DEFLATE));
-  return KZ_OK;
 }
 
 /* Coded variables are of one byte, so their flag values are too. */
@@ -67,7 +49,7 @@ static kz_status describe(hid_t group, hid_t dataset, const kz_variable *row, hi
 static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type, int rank, const hsize_t *lengths,
                                 hid_t *dataset) {
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, lengths, NULL);
-  kz_status status = set_chunks(creation, row, rank, lengths, H5Tget_size(type));
+  kz_status status = row->kind == KZ_TEXT ? KZ_OK : kz_chunks_set(creation, rank, lengths, H5Tget_size(type));
   H5Pset_obj_track_times(creation, 0);
   if (status == KZ_OK && (*dataset = H5Dcreate2(group, row->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT)) < 0)
     status = kz_hdf5_fail(__FILE__, __LINE__);
@@ -92,8 +74,7 @@ static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, co
   KZ_HDF5(type = memory_type(row->kind));
   kz_status status = check_memory(row->name, n * H5Tget_size(type));
   if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, dataset);
-  if (status == KZ_OK && n > 0 && H5Dwrite(*dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
-    status = kz_hdf5_fail(__FILE__, __LINE__);
+  if (status == KZ_OK && n > 0) status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
   if (status == KZ_OK) status = describe(group, *dataset, row, type);
   H5Tclose(type);
   return status;

@@ -13,7 +13,7 @@ module kz_trapping_cell_images
   !> Images over more cells than this are not followed.
   real(dp), parameter :: LARGEST_IMAGE = 2000
   !> After how many periods images are taken, the best first: what is still far away comes in with the longest.
-  integer, parameter, public :: PERIODS(3) = [4, 2, 1]
+  integer, parameter, public :: PERIODS(4) = [8, 4, 2, 1]
 
   !> Images after one number of periods, in units of cells: columns of the whole circle, not wrapped, and rows.
   type :: images_t

@@ -1,5 +1,5 @@
 !> Trapping regions grown outwards over the cells of their grid: a cell joins an attractor when the image of the whole cell, after
-!> 1, 2 or 4 periods, lies in one of its ellipses, or in cells that have joined it before.
+!> 1, 2, 4 or 8 periods, lies in one of its ellipses, or in cells that have joined it before.
 !>
 !> A cell that cannot join yet waits, with each of its images, for one open cell of the image. Cells that have joined stay, so that
 !> the end result does not depend on the order.
@@ -122,8 +122,7 @@ contains
     call corners_of(images, i, l, x, y, slack_x, slack_y)
     do while (t > 0)
       a = regions%overlaps(t)%attractor
-      if (holds(regions, attractors(a), regions%overlaps(t)%point, &
-                [minval(x) - slack_x, maxval(x) + slack_x], [minval(y) - slack_y, maxval(y) + slack_y], mirrored)) then
+      if (holds(regions, attractors(a), regions%overlaps(t)%point, x, y, slack_x, slack_y, mirrored)) then
         if (mirrored) a = attractors(a)%mirror
         return
       end if
@@ -132,28 +131,30 @@ contains
     a = 0
   end function ellipse_around
 
-  !> Is a box (columns x, rows y), or its mirror image, in the ellipse of strobe point j?
-  pure function holds(regions, attractor, j, x, y, mirrored) result(inside)
+  !> Are four corners with their slack, and so their hull, or its mirror image, in the ellipse of strobe point j?
+  pure function holds(regions, attractor, j, x, y, slack_x, slack_y, mirrored) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
-    real(dp), intent(in) :: x(2)
-    real(dp), intent(in) :: y(2)
+    real(dp), intent(in) :: x(4)
+    real(dp), intent(in) :: y(4)
+    real(dp), intent(in) :: slack_x
+    real(dp), intent(in) :: slack_y
     logical, intent(in) :: mirrored
     logical :: inside
-    real(dp) :: u(2), v(2)
-    integer :: a, b
+    real(dp) :: u, v
+    integer :: a, b, corner
 
-    u = x*2/regions%n_circle
-    v = y*(2*regions%top/regions%n_velocity) - regions%top
-    if (mirrored) then
-      u = -u
-      v = -v
-    end if
     inside = .true.
-    do b = 1, 2
-      do a = 1, 2
-        inside = inside .and. in_ellipse(attractor, j, u(a) - midperiod_angle(0.0_dp, v(b)), v(b))
+    do corner = 1, 4
+      do b = -1, 1, 2
+        do a = -1, 1, 2
+          u = (x(corner) + a*slack_x)*2/regions%n_circle
+          v = (y(corner) + b*slack_y)*(2*regions%top/regions%n_velocity) - regions%top
+          if (mirrored) u = -u
+          if (mirrored) v = -v
+          inside = inside .and. in_ellipse(attractor, j, u - midperiod_angle(0.0_dp, v), v)
+        end do
       end do
     end do
   end function holds

@@ -71,7 +71,10 @@ static void compare(const kz_reference_labels *reference, const int32_t *label, 
 static kz_status set_up(measurement *g) {
   const kz_config *s = g->config;
   kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
-  kz_dynamics_fine_regions(g->dynamics, kz_regions_cells(g->reference->total), g->reference->max_velocity);
+  kz_dynamics_coarse_regions(g->dynamics, g->reference->max_velocity);
+  const int64_t cells = kz_regions_cells(g->reference->total);
+  if (cells > 0) kz_dynamics_fine_regions(g->dynamics, cells, g->reference->max_velocity);
+  kz_dynamics_update(g->dynamics);
   if (s->method != KZ_METHOD_DIRECT)
     KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil(s->interpolation));

@@ -306,11 +306,11 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 7e-8);
   kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
                   .disk_bytes = 14 * cells,
-                  .memory_bytes = 100 * nodes + 150 * regions,
+                  .memory_bytes = 100 * nodes + 250 * regions,
                   .first_bytes = 27 * cells,
                   .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
-                                  nodes / 2 * table_period + regions / 2 * (4 * table_period + 1e-6) + cells * periods * cell_period +
-                                  (double)kz_doubt_cells(plan) * periods * 4 * period};
+                                  nodes / 2 * table_period + regions / 2 * (8 * table_period + 1e-6) +
+                                  cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

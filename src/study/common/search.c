@@ -9,15 +9,16 @@
 #include "map_table.h"
 
 enum {
-  FIRST_LENGTH = 128, /* periods of the first round; a round that finds nothing doubles it */
-  TILE = 256,         /* starts per tile */
-  CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycle takes */
-  CHUNKS = 16,        /* searches per round */
-  PILOT_STARTS = 512, /* starts that are followed before regions grow */
-  FEWEST_CELLS = 128, /* of the regions' grid along an axis, where they grow */
-  MOST_CELLS = 500,
-  STRETCH = 1024,     /* periods of a tile at least */
-  STRETCHES = 64,     /* of a round, about */
+  FIRST_LENGTH = 128,  /* periods of the first round; a round that finds nothing doubles it */
+  TILE = 256,          /* starts per tile */
+  CHUNK = 64,          /* states per search, at most what kz_dynamics_find_cycle takes */
+  CHUNKS = 16,         /* searches per round */
+  PILOT_STARTS = 512,  /* starts that are followed before regions grow */
+  WORTH_CELLS = 40000, /* that are to be labelled: for fewer, regions do not grow */
+  FEWEST_CELLS = 250,  /* of the regions' grid along an axis: in coarser ones hardly anything grows */
+  MOST_CELLS = 500,    /* finer ones trap hardly more */
+  STRETCH = 1024,      /* periods of a tile at least */
+  STRETCHES = 64,      /* of a round, about */
   CHAOS_TRIES = 4,
   CHAOS_PERIODS = 512 /* to see which open starts a chaotic attractor's cover captures */
 };
@@ -212,16 +213,18 @@ kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_period
 }
 
 int64_t kz_regions_cells(int64_t cells) {
-  return (int64_t)fmin(fmax(FEWEST_CELLS, sqrt((double)cells) / 2), MOST_CELLS);
+  if (cells < WORTH_CELLS) return 0;
+  return (int64_t)fmin(fmax(FEWEST_CELLS, 0.7 * sqrt((double)cells)), MOST_CELLS);
 }
 
 kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
-  const bool grow = search->cells > 0;
-  const int64_t pilots = grow && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
+  const int64_t cells = kz_regions_cells(search->cells);
+  const int64_t pilots = cells > 0 && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts,
+                rest = search->starts - pilots;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, search->max_velocity);
   KZ_TRY(kz_discover(ranks, dynamics, search->max_periods, pilots, state, label));
-  if (grow) kz_dynamics_fine_regions(dynamics, kz_regions_cells(search->cells), search->max_velocity);
+  if (cells > 0) kz_dynamics_fine_regions(dynamics, cells, search->max_velocity);
   if (search->table_theta > 0)
     KZ_TRY(kz_map_table_make(ranks, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
   return rest > 0 ? kz_discover(ranks, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;

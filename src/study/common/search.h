@@ -11,7 +11,7 @@
 typedef struct {
   kz_window window;
   int64_t starts, seed, max_periods;
-  int64_t cells;                       /* that are to be labelled: trapping regions grow as far as these pay it back; 0 = not */
+  int64_t cells;                       /* that are to be labelled: as finely do trapping regions grow */
   int64_t table_theta, table_velocity; /* nodes; 0 = no table is made */
   double max_velocity;                 /* of kz_dynamics_max_velocity */
 } kz_search;
@@ -20,8 +20,7 @@ typedef struct {
  * the attractors of most of the window, and the other starts settle soon. state [starts][2], label [starts] as of kz_discover. */
 kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
 
-/* Cells an axis of the trapping regions' grid that pay back where so many cells are to be labelled: growing one of the grid's cells
- * takes as long as following four of those to where they are trapped without. */
+/* Cells along an axis of a grid of trapping regions that pays back where so many cells are to be labelled; 0 = none does. */
 int64_t kz_regions_cells(int64_t cells);
 
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors

@@ -21,8 +21,9 @@ static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
 
 enum { STARTS = 1024 };
 
-/* Follows starts and looks for cycles until every start is trapped. */
-static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
+/* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow with every
+ * attractor. */
+static kz_dynamics *explored_with(double m, int64_t seed, int64_t cells, double max_velocity) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
   kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 12);
   double *state = malloc(2 * STARTS * sizeof *state);
@@ -30,7 +31,10 @@ static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
   assert_non_null(d);
   kz_dynamics_starts(&WINDOW, seed, n, state);
-  kz_dynamics_coarse_regions(d, max_velocity);
+  if (cells > 0)
+    kz_dynamics_fine_regions(d, cells, max_velocity);
+  else
+    kz_dynamics_coarse_regions(d, max_velocity);
   for (int round = 0; n > 0 && round < 12; round++) {
     kz_dynamics_update(d);
     kz_dynamics_follow(d, n, 128, state, label, periods);
@@ -41,13 +45,21 @@ static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
         open++;
       }
     n = open;
-    for (int64_t first = 0; first < n; first += 64) find_cycles(d, n - first < 64 ? n - first : 64, state + 2 * first, 0.02);
+    const int64_t some = cells > 0 ? 1 : 64;
+    for (int64_t first = 0; first < n; first += some) {
+      find_cycles(d, n - first < some ? n - first : some, state + 2 * first, 0.02);
+      if (cells > 0 && first < 64) kz_dynamics_update(d);
+    }
   }
   assert_int_equal(n, 0);
   free(state);
   free(label);
   free(periods);
   return d;
+}
+
+static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
+  return explored_with(m, seed, 0, max_velocity);
 }
 
 /* Regions of a fine grid, and a map table. */
@@ -312,10 +324,45 @@ static void test_packing(void **state) {
   kz_dynamics_free(b);
 }
 
+/* Regions that grew with every attractor found are those that grow around all of them at once. */
+static void test_regions_know_no_order(void **state) {
+  (void)state;
+  enum { N = 20000, CELLS = 300 };
+  kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
+  kz_dynamics *a = explored_with(0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, numerics(), 12);
+  const int64_t size = kz_dynamics_packed_size(a);
+  double *packed = malloc((size_t)size * sizeof *packed), *x = malloc(2 * N * sizeof *x);
+  int32_t *label_a = malloc(N * sizeof *label_a), *label_b = malloc(N * sizeof *label_b), trapped = 0;
+  int64_t *periods = malloc(N * sizeof *periods);
+  kz_dynamics_update(a);
+  kz_dynamics_pack(a, size, packed);
+  kz_dynamics_unpack(b, size, packed);
+  kz_dynamics_fine_regions(b, CELLS, 3);
+  assert_true(kz_dynamics_trapped_share(a) == kz_dynamics_trapped_share(b));
+  kz_dynamics_starts(&WINDOW, 3, N, x);
+  kz_dynamics_follow(a, N, 1, x, label_a, periods);
+  kz_dynamics_starts(&WINDOW, 3, N, x);
+  kz_dynamics_follow(b, N, 1, x, label_b, periods);
+  for (int i = 0; i < N; i++) {
+    assert_int_equal(label_a[i], label_b[i]);
+    trapped += label_a[i] > 0;
+  }
+  print_message("%d of %d starts trapped at once\n", trapped, N);
+  assert_true(trapped > N / 4 && trapped < N);
+  free(packed);
+  free(x);
+  free(label_a);
+  free(label_b);
+  free(periods);
+  kz_dynamics_free(a);
+  kz_dynamics_free(b);
+}
+
 /* k = 0.25, beta = 0.05, m = 0.5: one chaotic attractor owns the plane. */
 static void test_chaos(void **state) {
   (void)state;
   enum { N = 256 };
+  static const double TOP = 4.0 * 199 / 195; /* a cover's cells belong to a grid of this height */
   kz_pendulum pendulum = {0.25, 0.05, 0.5};
   kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 48);
   double x[2 * N];
@@ -323,7 +370,7 @@ static void test_chaos(void **state) {
   int64_t periods[N], integrated[N];
   kz_attractor row;
   kz_dynamics_starts(&WINDOW, 1, N, x);
-  kz_dynamics_coarse_regions(d, 4);
+  kz_dynamics_coarse_regions(d, TOP);
   double *found = calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
   kz_dynamics_find_chaos(d, x, found);
   assert_int_equal(kz_dynamics_count(d), 0);
@@ -340,7 +387,7 @@ static void test_chaos(void **state) {
   kz_dynamics_starts(&WINDOW, 1, N, x); /* errors grow on it, but who comes to it stays */
   kz_dynamics_follow_covariance(d, N, 2000, x, label, periods);
   for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
-  with_table(d, 200, 4);
+  with_table(d, 200, TOP);
   kz_dynamics_starts(&WINDOW, 1, N, x);
   kz_dynamics_follow_hybrid(d, 6, N, 2000, x, label, periods, integrated);
   for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
@@ -349,11 +396,17 @@ static void test_chaos(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_catalogue),         cmocka_unit_test(test_interpolation),
-      cmocka_unit_test(test_mirrored_labels),   cmocka_unit_test(test_hybrid),
-      cmocka_unit_test(test_regions_are_right), cmocka_unit_test(test_wrong_labels_are_doubtful),
-      cmocka_unit_test(test_measures),          cmocka_unit_test(test_measures_leave_unsettled_cells_out),
-      cmocka_unit_test(test_packing),           cmocka_unit_test(test_chaos),
+      cmocka_unit_test(test_catalogue),
+      cmocka_unit_test(test_interpolation),
+      cmocka_unit_test(test_mirrored_labels),
+      cmocka_unit_test(test_hybrid),
+      cmocka_unit_test(test_regions_are_right),
+      cmocka_unit_test(test_wrong_labels_are_doubtful),
+      cmocka_unit_test(test_measures),
+      cmocka_unit_test(test_measures_leave_unsettled_cells_out),
+      cmocka_unit_test(test_packing),
+      cmocka_unit_test(test_regions_know_no_order),
+      cmocka_unit_test(test_chaos),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,6 +84,34 @@ static void a_basin_comes_back(void **state) {
   H5Fclose(file);
 }
 
+/* Last chunks that reach beyond the array, and rows longer than a chunk. */
+static void chunks_of_any_shape_come_back(void **state) {
+  (void)state;
+  static const int64_t shapes[][2] = {{700, 1000}, {3, 300001}, {1, 4001}, {9001, 1}};
+  for (size_t k = 0; k < sizeof shapes / sizeof *shapes; ++k) {
+    const int64_t rows = shapes[k][0], columns = shapes[k][1], n = rows * columns;
+    uint32_t *written = malloc((size_t)n * sizeof *written), *found = malloc((size_t)n * sizeof *found);
+    double *axis = calloc((size_t)(rows + columns), sizeof *axis);
+    for (int64_t i = 0; i < n; ++i) written[i] = (uint32_t)(i / 5 * 2654435761u % 1000);
+    kz_store *store = begin();
+    assert_int_equal(kz_store_dimension(store, "basin", "velocity", rows, axis), KZ_OK);
+    assert_int_equal(kz_store_dimension(store, "basin", "theta", columns, axis), KZ_OK);
+    assert_int_equal(kz_store_variable(store, "basin", "settling_time", written), KZ_OK);
+    assert_int_equal(kz_store_complete(store), KZ_OK);
+    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    assert_true(H5LTread_dataset(file, "basin/settling_time", H5T_NATIVE_UINT32, found) >= 0);
+    assert_memory_equal(found, written, (size_t)n * sizeof *written);
+    const hid_t dataset = H5Dopen2(file, "basin/settling_time", H5P_DEFAULT);
+    if (n > 100000) assert_true(H5Dget_storage_size(dataset) < (hsize_t)n * sizeof *written / 2);
+    H5Dclose(dataset);
+    H5Fclose(file);
+    unlink(path);
+    free(written);
+    free(found);
+    free(axis);
+  }
+}
+
 static void long_text_comes_back(void **state) {
   (void)state;
   enum { LONG = 300000 };
@@ -254,6 +282,7 @@ static void a_full_disk_is_one_clear_error(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test_teardown(a_basin_comes_back, clear),
+      cmocka_unit_test_teardown(chunks_of_any_shape_come_back, clear),
       cmocka_unit_test_teardown(long_text_comes_back, clear),
       cmocka_unit_test_teardown(a_catalogue_comes_back, clear),
       cmocka_unit_test_teardown(no_attractors_is_a_file_too, clear),

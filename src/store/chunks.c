@@ -1,0 +1,88 @@
+#include "chunks.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "pack.h"
+#include "table.h"
+
+static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20;
+
+/* An array of one or two dimensions as rows and columns, and its chunks. */
+typedef struct {
+  hsize_t rows, columns, chunk_rows, chunk_columns;
+  size_t item;
+  int rank;
+} layout;
+
+static layout layout_of(int rank, const hsize_t *lengths, const hsize_t *chunk, size_t item) {
+  const bool flat = rank == 1;
+  return (layout){.rows = flat ? 1 : lengths[0],
+                  .columns = lengths[rank - 1],
+                  .chunk_rows = flat ? 1 : chunk[0],
+                  .chunk_columns = chunk[rank - 1],
+                  .item = item,
+                  .rank = rank};
+}
+
+kz_status kz_chunks_set(hid_t creation, int rank, const hsize_t *lengths, size_t item) {
+  hsize_t chunk[KZ_MAX_DIMENSIONS], bytes = item;
+  for (int d = 0; d < rank; ++d) bytes *= chunk[d] = lengths[d];
+  if (bytes <= PLAIN_BYTES) return KZ_OK;
+  bytes = item;
+  for (int d = rank - 1; d >= 0; --d) {
+    const hsize_t fit = bytes < CHUNK_BYTES ? CHUNK_BYTES / bytes : 1;
+    if (chunk[d] > fit) chunk[d] = fit;
+    bytes *= chunk[d];
+  }
+  KZ_HDF5(H5Pset_chunk(creation, rank, chunk));
+  KZ_HDF5(H5Pset_shuffle(creation));
+  KZ_HDF5(H5Pset_deflate(creation, KZ_PACK_LEVEL));
+  return KZ_OK;
+}
+
+/* The items of the chunk that begins at (row, column); zeros beyond the array. */
+static void gather(const layout *l, const char *data, hsize_t row, hsize_t column, char *chunk) {
+  const hsize_t rows = l->rows - row < l->chunk_rows ? l->rows - row : l->chunk_rows;
+  const hsize_t columns = l->columns - column < l->chunk_columns ? l->columns - column : l->chunk_columns;
+  if (rows < l->chunk_rows || columns < l->chunk_columns) memset(chunk, 0, l->chunk_rows * l->chunk_columns * l->item);
+  for (hsize_t r = 0; r < rows; ++r)
+    memcpy(chunk + r * l->chunk_columns * l->item, data + ((row + r) * l->columns + column) * l->item, columns * l->item);
+}
+
+static kz_status write_chunk(hid_t dataset, const layout *l, hsize_t row, hsize_t column, const char *chunk) {
+  const hsize_t at[2] = {row, column};
+  void *packed;
+  size_t bytes;
+  KZ_TRY(kz_pack(chunk, l->item, l->chunk_rows * l->chunk_columns, &packed, &bytes));
+  const herr_t written = H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, at + 2 - l->rank, bytes, packed);
+  free(packed);
+  KZ_HDF5(written);
+  return KZ_OK;
+}
+
+static kz_status write_chunks(hid_t dataset, const layout *l, const char *data) {
+  char *chunk = malloc(l->chunk_rows * l->chunk_columns * l->item);
+  kz_status status = chunk ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for a chunk of the result file");
+  for (hsize_t row = 0; row < l->rows; row += l->chunk_rows)
+    for (hsize_t column = 0; status == KZ_OK && column < l->columns; column += l->chunk_columns) {
+      gather(l, data, row, column, chunk);
+      status = write_chunk(dataset, l, row, column, chunk);
+    }
+  free(chunk);
+  return status;
+}
+
+kz_status kz_chunks_write(hid_t dataset, hid_t type, int rank, const hsize_t *lengths, size_t item, const void *data) {
+  hsize_t chunk[KZ_MAX_DIMENSIONS];
+  hid_t creation;
+  KZ_HDF5(creation = H5Dget_create_plist(dataset));
+  const bool chunked = H5Pget_layout(creation) == H5D_CHUNKED && H5Pget_chunk(creation, rank, chunk) == rank;
+  H5Pclose(creation);
+  if (!chunked) {
+    KZ_HDF5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+    return KZ_OK;
+  }
+  const layout l = layout_of(rank, lengths, chunk, item);
+  return write_chunks(dataset, &l, data);
+}
