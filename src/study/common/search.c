@@ -16,8 +16,8 @@ enum {
   PILOT_STARTS = 512, /* starts that are followed before regions grow */
   FEWEST_CELLS = 128, /* of the regions' grid along an axis, where they grow */
   MOST_CELLS = 500,
-  STRETCH = 1024,     /* periods of a tile at least */
-  STRETCHES = 64,     /* of a round, about */
+  STRETCH = 1024, /* periods of a tile at least */
+  STRETCHES = 64, /* of a round, about */
   CHAOS_TRIES = 4,
   CHAOS_PERIODS = 512 /* to see which open starts a chaotic attractor's cover captures */
 };
@@ -56,7 +56,7 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   int64_t periods[TILE];
   int64_t first = tile * TILE, n = f->n - first < TILE ? f->n - first : TILE;
   for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
-  kz_dynamics_settle(f->dynamics, n, f->periods, out->state, out->label, periods);
+  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_SEARCH, n, f->periods, out->state, out->label, periods);
   return KZ_OK;
 }
 
