@@ -16,7 +16,7 @@
 #include "common/settling.h"
 
 enum {
-  CELLS = 4096, /* of a tile, at most */
+  CELLS = 16384, /* of a tile, at most: so many that the few that take long hardly leave lanes empty */
   ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
 
