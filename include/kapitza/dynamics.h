@@ -34,28 +34,25 @@ void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_v
 /* Draws the ellipses and covers of new attractors into the regions, and lets a fine grid's grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
-/* Follows n starts (state [n][2], in and out) by direct integration until each is trapped: label [n] = attractor, 0 where it
- * has not settled; periods [n] = first period inside a trapping region, max_periods where none. */
-void kz_dynamics_follow(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *label, int64_t *periods);
-/* The same in double precision at most: enough for a search. */
-void kz_dynamics_settle(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *label, int64_t *periods);
-/* The same by interpolated cell mapping over `points` (2, 4, 6) nodes an axis of the map table. */
-void kz_dynamics_follow_table(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
-                              int32_t *label, int64_t *periods);
-
-/* The same by interpolated cell mapping as far as the table's error, carried along with the orbit, is bearable, by integration
- * beyond: integrated [n] = periods that were integrated. */
-void kz_dynamics_follow_hybrid(kz_dynamics *dynamics, int32_t points, int64_t n, int64_t max_periods, double *state,
-                               int32_t *label, int64_t *periods, int64_t *integrated);
-/* What that needs and does itself, once: the error of the map table all over. */
-void kz_dynamics_measure_table(kz_dynamics *dynamics, int32_t points);
-
-/* kz_dynamics_follow with the error of each orbit beside it, from the last place of its start, its steps and rounding (Fortran:
- * covariance.f90): label [n] = KZ_DOUBTFUL where that outgrows what a label bears. Any other label, 0 too, is decided: the
- * errors do not change it. An orbit is trapped once a trapping region holds it with its error. */
+/* Ways to follow a start: the scene's map; the same in double precision at most, enough for a search; the scene's map with the error
+ * of each orbit beside it (Fortran: covariance.f90); or interpolated cell mapping over 2, 4 or 6 nodes an axis of the map table. */
+enum {
+  KZ_FOLLOW_DIRECT = 0,
+  KZ_FOLLOW_SEARCH = 1,
+  KZ_FOLLOW_LINEAR = 2,
+  KZ_FOLLOW_ERRORS = 3,
+  KZ_FOLLOW_CUBIC = 4,
+  KZ_FOLLOW_QUINTIC = 6
+};
+/* Of KZ_FOLLOW_ERRORS: the label of an orbit whose error, from the last place of its start, its steps and rounding, outgrows what a
+ * label bears. Any other label, 0 too, is decided: the errors do not change it. An orbit is trapped once a trapping region holds it
+ * with its error. */
 enum { KZ_DOUBTFUL = -1 };
-void kz_dynamics_follow_covariance(kz_dynamics *dynamics, int64_t n, int64_t max_periods, double *state, int32_t *label,
-                                   int64_t *periods);
+
+/* Follows n starts state [n][2] until each is trapped: label [n] = attractor, 0 where it has not settled; periods [n] = first
+ * period inside a trapping region, max_periods where none. The states of those that have not settled become where they are then. */
+void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t max_periods, double *state, int32_t *label,
+                        int64_t *periods);
 
 /* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) of n_steps steps a period, from start [n][2] in rad and
  * rad per drive radian, both taken as exact. */

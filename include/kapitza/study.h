@@ -18,7 +18,7 @@ typedef struct {
   int64_t count;
 } kz_axis;
 
-enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_HYBRID = 2 };
+enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1 };
 enum { KZ_LINEAR = 0, KZ_CUBIC = 1, KZ_QUINTIC = 2 };
 
 typedef struct {
@@ -115,10 +115,19 @@ typedef struct {
 /* Fills everything but `written` from `written`. KZ_REFUSED where k, beta or m is not finite; then nothing is usable. */
 kz_status kz_parameters_resolve(kz_parameters *parameters);
 
+/* The numerics mapping as written. */
+typedef struct {
+  int32_t scheme;           /* row of the kernel's table */
+  int32_t steps_per_period; /* KZ_AUTO, or as given */
+  double tolerance;         /* rad: the error of a drive period that KZ_AUTO allows the processed splitting */
+} kz_numerics_keys;
+enum { KZ_AUTO = 0 };
+
 typedef struct {
   char *title; /* may be "" */
   kz_parameters parameters;
-  kz_numerics numerics;
+  kz_numerics_keys asked;
+  kz_numerics numerics; /* what that comes to here (kz_numerics_resolve) */
   bool has_basin;
   kz_basin_plan basin;
   bool has_attractors;
@@ -138,6 +147,8 @@ typedef struct {
 /* Steps a period of the study `orbit`: those of the scene, or more where a fast motion needs them; a multiple of the samples. */
 enum { KZ_MOST_ORBIT_STEPS = 200000 };
 double kz_orbit_steps(const kz_scene *scene);
+/* The numerics of the study `orbit`: with that many steps of the scene's scheme, or of split6 where that is the processed one. */
+kz_numerics kz_orbit_numerics(const kz_scene *scene);
 
 /* M r^2 of a pendulum written in SI units, kg m2; whether its inertia is at least that, to rounding. */
 double kz_point_inertia(const kz_pendulum_keys *written);
@@ -195,9 +206,11 @@ int64_t kz_settling_scene(const kz_scene *scene);
 /* A line for each study whose max_periods leaves most motions unsettled. It begins with the key to change. */
 void kz_settling_warn(const kz_scene *scene, FILE *out);
 
-/* numerics.steps_per_period where a scene leaves it out: the scheme's own number, or as many more as the small cells of a damped
- * basin need (smaller than 0.01 rad); left as it is where no number would do (the basin's check says so then), and where
- * basin.accuracy chooses. */
-void kz_steps_choose(kz_scene *scene);
+/* The numerics that a scene asks for, for its pendulum, or for all values of its sweep: scene->numerics from scene->asked.
+ * steps_per_period: auto of the processed splitting: the fewest steps whose measured error, at the speeds that the windows' motions
+ * reach, is at most the tolerance and what small cells need; split6 with enough steps where there are none. auto of another scheme: its own number, or
+ * as many more as the small cells of a damped basin need (smaller than 0.01 rad); left as it is where no number would do
+ * (the basin's check says so then), and where basin.accuracy chooses. */
+void kz_numerics_resolve(kz_scene *scene);
 
 #endif

@@ -50,7 +50,7 @@ OPTIONAL = {
 }
 # What is not a number, and what counts or is a code (with the largest code, where there is one).
 TEXT = {"name", "label", "scheme", "branch_name"}
-CODES = {"period": None, "centre": 3, "evidence": 4, "settling_time": None, "method": 2, "precision": 2, "interpolation": 2,
+CODES = {"period": None, "centre": 3, "evidence": 4, "settling_time": None, "method": 1, "precision": 2, "interpolation": 2,
          "branch_period": None, "branch_centre": 3}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release"}  # axes that go up
 WORDS = {"parameter", "parameter_units"}  # attributes that are text; all others that a part names are numbers

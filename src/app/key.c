@@ -72,7 +72,8 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
     snprintf(names, sizeof names, "%s", kz_key_words(key));
   kz_key_list(names, detail, sizeof detail);
   if (key->high > key->low) print_range(key, detail, sizeof detail);
-  snprintf(text, bytes, "%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit);
+  snprintf(text, bytes, "%s%s%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit,
+           key->type == KZ_KEY_COUNT && names[0] ? ", or " : "", key->type == KZ_KEY_COUNT ? names : "");
 }
 
 static size_t least(size_t a, size_t b) {
@@ -95,6 +96,17 @@ static size_t distance(const char *a, const char *b) {
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[n][m];
+}
+
+bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes) {
+  const size_t length = strlen(word);
+  for (const char *pair = key->former; pair; pair = strchr(pair, '|') ? strchr(pair, '|') + 1 : NULL) {
+    if (strncmp(pair, word, length) != 0 || pair[length] != '=') continue;
+    pair += length + 1;
+    snprintf(now, bytes, "%.*s", (int)strcspn(pair, "|"), pair);
+    return true;
+  }
+  return false;
 }
 
 bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes) {

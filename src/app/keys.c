@@ -63,12 +63,20 @@ const kz_key kz_keys[] = {
     PENDULUM('c', pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, NULL, "omega of the pivot."),
 
     MAPPING("numerics", "", KZ_NO_FIELD, "How one drive period is integrated."),
-    ROW("numerics.scheme", KZ_KEY_WORD, "split6", AT(numerics.scheme),
-        "Integrator; rk4 is the classical one, the split ones are exact in the damping.", .unit = "",
-        .words_from = scheme_words, CHOSEN),
-    COUNT("numerics.steps_per_period", 1, 100000, "", numerics.steps_per_period,
-          "Whole steps of the scheme in a drive period; left out: the scheme's own number, or as many as small cells need.",
-          CHOSEN),
+    ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
+        "Integrator; processed: one kick a step, the fastest by far, and split6 where it does not reach the tolerance; the "
+        "split "
+        "ones are exact in the damping; rk4 is the classical one.",
+        .unit = "", .words_from = scheme_words, .former = "split4=split6|split6-11=split6", CHOSEN),
+    COUNT("numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
+          "Whole steps of the scheme in a drive period; auto: as many as tolerance and speeds need (processed), or the "
+          "scheme's own "
+          "number, or as many as small cells need (others).",
+          .words = "auto", CHOSEN),
+    ROW("numerics.tolerance", KZ_KEY_REAL, "1e-12", AT(asked.tolerance),
+        "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "
+        "less.",
+        .unit = "rad", .low = 1e-15, .high = 0.01, CHOSEN),
     WORD("numerics.precision", KZ_JOINED(KZ_PRECISION_WORDS), "double", numerics.precision, "Kind of the arithmetic.", CHOSEN),
 
     MAPPING("basin", "", AT(has_basin), "Study: the attractors, then a label for every cell of a window."),
@@ -81,10 +89,9 @@ const kz_key kz_keys[] = {
     REAL("basin.velocity.min", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.min, "Lower edge of the window."),
     REAL("basin.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.max, "Upper edge of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
-    WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "icm", basin.method,
-         "icm: interpolated cell mapping; direct: every cell is integrated; hybrid: icm, and direct where the table's error, "
-         "carried along the orbit, outgrows what a label can bear.",
-         CHOSEN),
+    WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "direct", basin.method,
+         "direct: every cell is integrated; icm: interpolated cell mapping, the method of the papers.",
+         .former = "hybrid=direct", CHOSEN),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),
     INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity.", CHOSEN),

@@ -62,7 +62,9 @@ __attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *readi
 static void complain_value(kz_reading *reading, const kz_key *key, const kz_node *node, const char *wrong) {
   char accepted[700], nearest[64], hint[96] = "";
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
-  if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
+  if (node->kind == KZ_SCALAR && kz_key_renamed(key, node->text, nearest, sizeof nearest))
+    snprintf(hint, sizeof hint, " (it is gone: use %s)", nearest);
+  else if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
     snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);
   if (node->kind == KZ_SCALAR && node->text[0])
     kz_complain(reading, node, key->path, "\"%.60s\" %s; it must be %s%s", node->text, wrong, accepted, hint);

@@ -56,7 +56,7 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   check_axis(reading, &scene->basin.velocity, "basin.velocity");
   if (scene->basin.flag_undecided && (scene->basin.method == KZ_METHOD_ICM || !isnan(scene->basin.accuracy)))
     kz_complain(reading, kz_tree_find(reading->root, "basin.flag_undecided"), "basin.flag_undecided",
-                "asks about cells that are integrated; choose basin.method direct or hybrid");
+                "asks about cells that are integrated; choose basin.method direct");
 }
 
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
@@ -168,16 +168,9 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   sweep_value(reading, scene, "sweep.max", sweep->values.max);
 }
 
-/* Steps where the scene gives none: chosen for a scene that is right so far, the scheme's own for one that is not. */
+/* Scheme and steps that the scene comes to, for one that is right. */
 static void numerics_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->numerics.steps_per_period != KZ_UNSET_WORD) return;
-  if (!reading->message[0]) {
-    kz_steps_choose(scene);
-    return;
-  }
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  scene->numerics.steps_per_period = scheme.default_steps;
+  if (!reading->message[0]) kz_numerics_resolve(scene);
 }
 
 /* No body has less inertia about the pivot than its mass in one point. */
@@ -225,8 +218,8 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    attractors_rules, orbit_rules, stability_rules,   tradeoff_rules,
-                             pendulum_rules, numerics_rules,   sweep_rules, orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,    attractors_rules, orbit_rules,       stability_rules, tradeoff_rules,
+                             pendulum_rules, sweep_rules,      orbit_range_rules, settling_rules,  numerics_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

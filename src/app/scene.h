@@ -37,8 +37,9 @@ typedef struct {
   const char *unit;                /* "" = none */
   double low, high;                /* accepted values, ends included */
   const char *fallback;            /* default as YAML text; "" = may be left out without one; NULL = required */
-  const char *words;               /* "icm|direct" */
+  const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto" */
   const char *(*words_from)(void); /* the same where another layer knows them */
+  const char *former;              /* words that are gone, and what to write instead: "old=new|old=new" */
   char form;                       /* keys of one mapping with different forms exclude each other; 0 = none */
   size_t offset;                   /* of the field in kz_scene */
   const char *chosen_by;           /* path of a number instead of which the key is given; NULL = none */
@@ -59,6 +60,8 @@ void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t 
 void kz_key_list(const char *words, char *text, size_t bytes);
 /* "an integer from 1 to 512": what the key takes, written to `text` [bytes]. */
 void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes);
+/* What to write instead of a word that is gone, copied to `now` [bytes]; false where it never was one. */
+bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes);
 /* The word nearest to `word` among `words` ("a|b|c"), copied to `nearest` [bytes]; false where none is near. */
 bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes);
 

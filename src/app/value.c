@@ -61,6 +61,10 @@ static const char *read_integer(const kz_key *key, const kz_node *node, void *fi
 
 static const char *read_count(const kz_key *key, const kz_node *node, void *field) {
   int64_t value;
+  if (key->words && node->kind == KZ_SCALAR && strcmp(node->text, key->words) == 0) {
+    *(int32_t *)field = 0;
+    return NULL;
+  }
   const char *wrong = find_integer(key, node, &value);
   if (!wrong) *(int32_t *)field = (int32_t)value;
   return wrong;
@@ -212,7 +216,10 @@ void kz_value_print(const kz_key *key, const void *scene, FILE *out) {
       print_word(key, *(const int32_t *)field, out);
       break;
     case KZ_KEY_COUNT:
-      fprintf(out, "%" PRId32, *(const int32_t *)field);
+      if (key->words && *(const int32_t *)field == 0)
+        fputs(key->words, out);
+      else
+        fprintf(out, "%" PRId32, *(const int32_t *)field);
       break;
     case KZ_KEY_INTEGER:
       fprintf(out, "%" PRId64, *(const int64_t *)field);

@@ -31,6 +31,11 @@ module kz_kernel_map
     procedure :: move => move_state
     !> Advances the lanes 1 .. n (or all) by one period.
     procedure(advance_i), deferred :: advance
+    !> Takes the lanes first .. n (first = 1 if left out) from physical coordinates (angle, velocity) to those in which the map
+    !> advances them, and back. The maps in both coordinates are conjugate: same cycles, multipliers, windings and basins.
+    !> matrix(:, :, lane), if present, is multiplied by the derivative of the change; flows alone know it.
+    procedure :: enter => same_coordinates
+    procedure :: leave => same_coordinates
   end type map_t
 
   !> A map that is integrated: it also knows its derivative and what happens within the period.
@@ -42,11 +47,6 @@ module kz_kernel_map
     procedure(advance_tangent_i), deferred :: advance_tangent
     !> Advances lane 1 by one period, shown at n equal times in physical coordinates; u(n) is not yet wrapped.
     procedure(sample_i), deferred :: sample
-    !> Takes the lanes 1 .. n from physical coordinates (angle, velocity) to those in which the flow advances them, and back. The
-    !> maps in both coordinates are conjugate: same cycles, multipliers, windings and basins. matrix(:, :, lane), if present, is
-    !> multiplied by the derivative of the change.
-    procedure :: enter => same_coordinates
-    procedure :: leave => same_coordinates
   end type flow_t
 
   abstract interface
@@ -74,12 +74,13 @@ module kz_kernel_map
 
 contains
 
-  subroutine same_coordinates(self, n, matrix)
-    class(flow_t), intent(inout) :: self
+  subroutine same_coordinates(self, n, matrix, first)
+    class(map_t), intent(inout) :: self
     integer, intent(in) :: n
     real(c_double), intent(inout), optional :: matrix(2, 2, WIDTH)
+    integer, intent(in), optional :: first
 
-    associate (unused => self, unused_too => n, unused_matrix => matrix)
+    associate (unused => self, unused_too => n, unused_matrix => matrix, unused_first => first)
     end associate
   end subroutine same_coordinates
 

@@ -97,8 +97,10 @@ contains
     real(c_double) :: fastest, fit
     integer :: drifts, kicks
 
-    drifts = merge(int(numerics%drift_terms), MOST_DRIFTS(numerics%precision), numerics%drift_terms > 0)
-    kicks = merge(int(numerics%kick_terms), MOST_KICKS(numerics%precision), numerics%kick_terms > 0)
+    drifts = MOST_DRIFTS(numerics%precision)
+    kicks = MOST_KICKS(numerics%precision)
+    if (numerics%drift_terms > 0) drifts = min(drifts, int(numerics%drift_terms))
+    if (numerics%kick_terms > 0) kicks = min(kicks, int(numerics%kick_terms))
     fastest = merge(numerics%fastest, 3.0_c_double, numerics%fastest > 0)
     fit = fastest
     if (present(fitted)) fit = fitted

@@ -97,8 +97,7 @@ static const kz_variable variables[] = {
      {"velocity", "theta"},
      NONE,
      "what the label rests on",
-     {"unsettled", "started_inside_a_trapping_region", "followed_into_a_trapping_region", "re_integrated",
-      "undecided_in_double_precision"}},
+     {"unsettled", "started_inside_a_trapping_region", "followed_into_a_trapping_region", "undecided_in_double_precision"}},
 
     {"orbit", "time", KZ_REAL, {"time"}, TIME, "time since the record began", {0}},
     {"orbit", "theta", KZ_REAL, {"time"}, ANGLE, "angle from down, counterclockwise, not wrapped", {0}},

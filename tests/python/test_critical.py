@@ -111,7 +111,7 @@ def test_mirror_images_close_together(basin, apart, steps):
             assert np.linalg.norm(cell - found.strobe[label]) < np.linalg.norm(cell + found.strobe[label])
 
 
-METHODS = ["direct", "icm", "hybrid"]
+METHODS = ["direct", "icm"]
 VELOCITY = around(0.5, 0.125, 1)
 ACROSS = {0.150: {"down", "inverted"},
           0.300: {"down", "inverted", "down 6-nodding", "rotation +1/1", "rotation -1/1", "rotation +1/2",
@@ -124,7 +124,7 @@ def image(name):
 
 
 # rad: cells that a method carries, with the steps that the program chooses and a table of 100 nodes; smaller ones are refused.
-FINEST = {"direct": 1e-11, "hybrid": 1e-11, "icm": 1e-4}
+FINEST = {"direct": 1e-11, "icm": 1e-4}
 
 
 def narrowest(low, high, method):

@@ -20,7 +20,7 @@ def run(words, folder, **more):
     return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, timeout=120, **more)
 
 
-@pytest.mark.parametrize("method", ["icm", "direct", "hybrid"])
+@pytest.mark.parametrize("method", ["icm", "direct"])
 def test_a_small_stack_is_enough(tmp_path, method):
     words = [PROGRAM, "run", SMALL, *FEW, "--set", f"basin.method={method}"]
     done = run(["bash", "-c", 'ulimit -s 512; exec "$@"', "limited", *words], tmp_path)

@@ -12,7 +12,7 @@ from conftest import PROGRAM, datasets
 PLACES = 60 if os.environ.get("KAPITZA_EXTENSIVE") else 2
 FOREVER = 10**12
 PENDULUM = "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
-BASIN = ("basin: {theta: {count: 24}, velocity: {min: -1, max: 1, count: 24}, icm: {theta: 64, velocity: 64}, method: hybrid, "
+BASIN = ("basin: {theta: {count: 24}, velocity: {min: -1, max: 1, count: 24}, icm: {theta: 64, velocity: 64}, method: icm, "
          "attractors: {starts: 64}}\n")
 SCENES = {
     "basin": BASIN + "orbit: {attractor: 0}\n",
@@ -22,7 +22,7 @@ SCENES = {
                  "subharmonics: [2]}\npotential: {drive_amplitudes: [0.1], theta: {count: 20}}\n",
     "sweep": "sweep: {parameter: drive_amplitude, min: 0.29, max: 0.3, count: 2, velocity: {min: -1, max: 1}, starts: 16, "
              "measure: [attractors, release_angle, strobe]}\n",
-    "tradeoff": BASIN.replace("method: hybrid, ", "") + "tradeoff: {samples: 16, settings: [direct-6]}\n",
+    "tradeoff": BASIN.replace("method: icm, ", "") + "tradeoff: {samples: 16, settings: [direct-6]}\n",
 }
 CLOCKS = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells"}
 

@@ -20,7 +20,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 from reference_check import Catalogue, reference_labels  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"
-SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, hybrid-250]}"
+SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, processed-1e-8]}"
 COVERAGE = ROOT / "tests" / "tools" / "reference_coverage.py"
 TIMING = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells", "tradeoff/pareto"}
 WINDOW = ("--set", "basin={theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, accuracy: %s, "
@@ -45,7 +45,7 @@ def reference(kapitza, tmp_path_factory):
 def test_group_holds_what_the_contract_says(reference):
     with h5py.File(reference) as file:
         group = file["tradeoff"]
-        assert group["label"].asstr()[:].tolist() == ["direct-24", "icm-500", "hybrid-250"]
+        assert group["label"].asstr()[:].tolist() == ["direct-24", "icm-500", "processed-1e-8"]
         wrong, low, high = (group[name][:] for name in ("wrong", "wrong_low", "wrong_high"))
         assert np.all(low <= wrong) and np.all(wrong <= high) and np.all(high < 0.5) and np.all(high > 0)
         assert np.all(group["fraction_error"][:] <= wrong) and np.all(group["wrong_inside"][:] <= wrong)

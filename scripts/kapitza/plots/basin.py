@@ -149,7 +149,7 @@ def write_titles(axes: Axes, result: Result, basin: xarray.Dataset) -> Axes:
 
 
 def _method(basin: xarray.Dataset) -> str:
-    words = {"icm": "interpolated cell mapping", "direct": "integrated directly", "hybrid": "mapped and re-integrated"}
+    words = {"icm": "interpolated cell mapping", "direct": "integrated directly"}
     method = str(basin.attrs.get("method", ""))
     return words.get(method, method)
 

@@ -5,6 +5,7 @@ module kz_api_close_cycle
   use kz_kernel_plan, only: make_flow
   use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_attractors_cycles, only: attractor_t, close_cycle
+  use kz_maps_states, only: enter_states, leave_states
   implicit none
   private
 
@@ -31,13 +32,18 @@ contains
     integer(c_int64_t) :: period
     class(flow_t), allocatable :: flow
     type(attractor_t) :: cycle
+    real(dp) :: u(1), v(1)
     logical :: found, blurred
 
     call make_flow(pendulum, numerics, .true., flow)
-    call close_cycle(flow, pendulum%beta, int(n), theta/PI, velocity, max_distance, cycle, found, blurred)
+    u = theta/PI
+    v = velocity
+    call enter_states(flow, u, v)
+    call close_cycle(flow, pendulum%beta, int(n), u(1), v(1), max_distance, cycle, found, blurred)
     period = 0
     if (.not. found) return
     period = cycle%period
+    call leave_states(flow, cycle%u, cycle%v)
     theta = PI*cycle%u(1)
     velocity = cycle%v(1)
     re = real(cycle%multiplier, dp)

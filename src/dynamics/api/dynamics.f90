@@ -8,6 +8,7 @@ module kz_api_dynamics
   use kz_attractors_chaos, only: find_chaos
   use kz_trapping_growth, only: grow_regions
   use kz_trapping_cell_images, only: PERIODS, make_images
+  use kz_attractors_cycles, only: attractor_t, enter_points
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_trapping_grid, only: make_regions, draw_attractors
   use kz_attractors_cycle_search, only: find_cycle, append
@@ -99,7 +100,9 @@ contains
       do i = 1, WIDTH
         call d%search%flow%put(i, 2*real(i, dp)/WIDTH - 1, v)
       end do
+      call d%search%flow%enter(WIDTH)
       call d%search%flow%advance(WIDTH)
+      call d%search%flow%leave(WIDTH)
       top = max(top, maxval(abs(d%search%flow%v)))
     end do
   end function max_velocity
@@ -212,7 +215,7 @@ contains
     call c_f_pointer(flat, values, [max(packed_cycle_size(d%search%max_period), packed_chaos_size())])
     associate (new => unpacked(values))
       do i = 1, size(new)
-        call append(d%attractors, new(i))
+        call append_known(d, new(i))
       end do
     end associate
   end subroutine adopt
@@ -241,10 +244,28 @@ contains
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: flat(n)
     type(dynamics_t), pointer :: d
+    type(attractor_t), allocatable :: known(:)
+    integer :: i
 
     d => of_handle(handle)
-    d%attractors = unpacked(flat)
+    allocate (known, source=unpacked(flat))
+    deallocate (d%attractors)
+    allocate (d%attractors(0))
+    do i = 1, size(known)
+      call append_known(d, known(i))
+    end do
   end subroutine unpack_catalogue
+
+  !> An attractor that was found elsewhere; its strobe points in the coordinates of this map are found again.
+  subroutine append_known(d, attractor)
+    type(dynamics_t), intent(inout) :: d
+    type(attractor_t), intent(in) :: attractor
+    type(attractor_t) :: entered
+
+    entered = attractor
+    if (entered%period > 0) call enter_points(d%search%flow, entered)
+    call append(d%attractors, entered)
+  end subroutine append_known
 
   subroutine table_create(handle, n_theta, n_velocity, top) bind(C, name='kz_dynamics_table_create')
     type(c_ptr), value :: handle
@@ -255,7 +276,6 @@ contains
 
     d => of_handle(handle)
     d%table = make_table(int(n_theta), int(n_velocity), top)
-    if (allocated(d%defect)) deallocate (d%defect)
   end subroutine table_create
 
   function table_row_size(handle) bind(C, name='kz_dynamics_table_row_size') result(n)

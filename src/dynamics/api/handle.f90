@@ -21,7 +21,6 @@ module kz_api_handle
     type(regions_t) :: regions
     type(table_t) :: table
     type(images_t), allocatable :: images(:) !< of the cells of regions that grow
-    real(dp), allocatable :: defect(:, :, :) !< of the table, once measured
   end type dynamics_t
 
 contains

@@ -24,7 +24,7 @@ module kz_attractors_chaos
 
 contains
 
-  !> Follows a bundle of orbits from (u, v). Where none of them is ever trapped and they diverge, a chaotic attractor is appended.
+  !> Follows a bundle of orbits from the physical state (u, v). Where none of them is ever trapped and they diverge, a chaotic attractor is appended.
   !> A long chaotic transient is none: one of its orbits is trapped at last. Where damping is so weak that areas hardly shrink
   !> meanwhile, nothing can be told.
   subroutine find_chaos(search, regions, u, v, attractors)
@@ -47,6 +47,7 @@ contains
     do lane = 1, WIDTH
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
     end do
+    call search%flow%enter(WIDTH)
     allocate (visits_of(COVER**2), source=0)
     do period = 1, SETTLE + VISITS
       call search%flow%advance(WIDTH)
@@ -60,6 +61,7 @@ contains
     call exponent(search%flow, WIDTH, EXPONENT_PERIODS, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     call set_cover(attractor, visits_of)
+    call search%flow%leave(1)
     call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
@@ -87,6 +89,7 @@ contains
     real(dp) :: mean, error
 
     call flow%put(1, u, v)
+    call flow%enter(1)
     call exponent(flow, 1, PARTING_PERIODS, mean, error)
     part = PARTING_PERIODS*mean > log(PARTED)
   end function neighbours_part

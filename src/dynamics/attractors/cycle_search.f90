@@ -3,7 +3,7 @@ module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_step_table, only: pendulum_t
-  use kz_attractors_cycles, only: attractor_t, polish_cycle, mirror_image, listed_from_lowest
+  use kz_attractors_cycles, only: attractor_t, polish_cycle, enter_points, mirror_image, listed_from_lowest
   use kz_trapping_ellipses, only: find_ellipses
   use kz_attractors_newton, only: n_periods, eigenvalues
   use kz_attractors_features, only: find_features
@@ -32,7 +32,7 @@ module kz_attractors_cycle_search
 
 contains
 
-  !> Looks at states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until one is found;
+  !> Looks at physical states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until one is found;
   !> it is appended, with its mirror image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
     !> the flows and the longest period of the search
@@ -55,8 +55,9 @@ contains
     do lane = 1, size(u)
       call search%flow%put(lane, u(lane), v(lane))
     end do
-    orbit_u(:, 0) = u
-    orbit_v(:, 0) = v
+    call search%flow%enter(size(u))
+    orbit_u(:, 0) = search%flow%u(:size(u))
+    orbit_v(:, 0) = search%flow%v(:size(u))
     do n = 1, search%max_period
       call search%flow%advance(size(u))
       orbit_u(:, n) = search%flow%u(:size(u))
@@ -64,14 +65,17 @@ contains
     end do
     n_known = size(attractors)
     do while (next <= size(u) .and. size(attractors) == n_known)
-      call try_recurrences(search, orbit_u(next, :), orbit_v(next, :), closeness, n_blurred, attractors)
+      call try_recurrences(search, [u(next), v(next)], orbit_u(next, :), orbit_v(next, :), closeness, n_blurred, attractors)
       next = next + 1
     end do
   end subroutine find_cycle
 
   !> Polishes the closest recurrences of one orbit until one gives an attracting cycle.
-  subroutine try_recurrences(search, u, v, closeness, n_blurred, attractors)
+  subroutine try_recurrences(search, start, u, v, closeness, n_blurred, attractors)
     type(search_t), intent(inout) :: search
+    !> its first state in physical coordinates
+    real(dp), intent(in) :: start(2)
+    !> the orbit in those of the scene's map
     real(dp), intent(in) :: u(0:)
     real(dp), intent(in) :: v(0:)
     real(dp), intent(in) :: closeness
@@ -100,7 +104,7 @@ contains
       found = .false.
       if (n_blurred(period) >= BLURRED_TRIES) return
       if (repels(search, period, u(0), v(0))) return
-      call polish_cycle(search%fine, search%pendulum%beta, period, u(0), v(0), max(0.1_dp, 20*distance(period)), candidate, &
+      call polish_cycle(search%fine, search%pendulum%beta, period, start(1), start(2), max(0.1_dp, 20*distance(period)), candidate, &
                         found, blurred)
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
@@ -161,6 +165,7 @@ contains
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
 
     if (attractor%period > 0) then
+      call enter_points(search%flow, attractor)
       call find_ellipses(search%flow, search%fine, attractor, attractors)
       call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if

@@ -3,10 +3,10 @@ module kz_attractors_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_attractors_newton, only: newton, minimal_period, eigenvalues
-  use kz_maps_states, only: angle_difference, same_state, rounded
+  use kz_maps_states, only: angle_difference, enter_states, same_state, rounded
   implicit none
   private
-  public :: attractor_t, close_cycle, polish_cycle, orbit_of, mirror_image, listed_from_lowest
+  public :: attractor_t, close_cycle, polish_cycle, orbit_of, enter_points, mirror_image, listed_from_lowest
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
@@ -23,6 +23,9 @@ module kz_attractors_cycles
     real(dp) :: lyapunov_error = 0
     real(dp), allocatable :: u(:)
     real(dp), allocatable :: v(:)
+    !> The strobe points in the coordinates of the flow whose orbits are labelled (`enter_points`): half-turns, rad per drive radian
+    real(dp), allocatable :: kernel_u(:)
+    real(dp), allocatable :: kernel_v(:)
     !> Trapping ellipse of each point: form(1) du**2 + 2 form(2) du dv + form(3) dv**2 < 1; form = 0: none
     real(dp), allocatable :: form(:, :)
     !> Cells of the cover of a chaotic attractor
@@ -124,6 +127,16 @@ contains
     matrix = tangent(:, :, 1)
   end subroutine orbit_of
 
+  !> Fills kernel_u and kernel_v.
+  subroutine enter_points(flow, attractor)
+    class(flow_t), intent(inout) :: flow
+    type(attractor_t), intent(inout) :: attractor
+
+    attractor%kernel_u = attractor%u
+    attractor%kernel_v = attractor%v
+    call enter_states(flow, attractor%kernel_u, attractor%kernel_v)
+  end subroutine enter_points
+
   !> A cycle that is its own mirror image, x(1 + n/2) = -x(1), is made so to the bit: x(j + n/2) = -x(j), or exactly down or
   !> inverted.
   subroutine symmetrise(cycle)
@@ -162,6 +175,8 @@ contains
     image%mean_velocity = -attractor%mean_velocity
     if (allocated(attractor%u)) image%u = -attractor%u
     if (allocated(attractor%v)) image%v = -attractor%v
+    if (allocated(attractor%kernel_u)) image%kernel_u = -attractor%kernel_u
+    if (allocated(attractor%kernel_v)) image%kernel_v = -attractor%kernel_v
   end function mirror_image
 
   !> The strobe points rotated to begin with the lowest velocity, then the lowest angle (compared rounded to 1e-9).
@@ -178,6 +193,8 @@ contains
     if (first == 1) return
     cycle%u = cshift(cycle%u, first - 1)
     cycle%v = cshift(cycle%v, first - 1)
+    cycle%kernel_u = cshift(cycle%kernel_u, first - 1)
+    cycle%kernel_v = cshift(cycle%kernel_v, first - 1)
     cycle%form = cshift(cycle%form, first - 1, dim=2)
   end subroutine listed_from_lowest
 

@@ -22,6 +22,7 @@ module kz_maps_covariance
     private
     class(flow_t), allocatable :: flow  !< the map
     class(flow_t), allocatable :: finer !< the same pendulum with smaller errors: it shows those of the map
+    class(flow_t), allocatable :: shown !< the map's states in physical coordinates, in which the two are compared
     type(regions_t), pointer :: regions => null()
     type(attractor_t), pointer :: attractors(:) => null()
     real(dp) :: p(3, WIDTH) = 0 !< theta theta, theta v, v v: rad, rad per drive radian
@@ -29,6 +30,7 @@ module kz_maps_covariance
     procedure :: put
     procedure :: move
     procedure :: advance
+    procedure :: enter
   end type covariant_map_t
 
 contains
@@ -48,6 +50,7 @@ contains
 
     allocate (map%flow, source=flow)
     allocate (map%finer, source=finer)
+    allocate (map%shown, source=flow)
     map%regions => regions
     map%attractors => attractors
   end subroutine make_covariant_map
@@ -63,6 +66,17 @@ contains
     call self%flow%put(lane, u, v)
     self%p(:, lane) = [1, 0, 1]*(rounding(self)*hypot(PI*u, v))**2
   end subroutine put
+
+  subroutine enter(self, n, matrix, first)
+    class(covariant_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(dp), intent(inout), optional :: matrix(2, 2, WIDTH)
+    integer, intent(in), optional :: first
+
+    call self%flow%enter(n, matrix, first)
+    self%u(:n) = self%flow%u(:n)
+    self%v(:n) = self%flow%v(:n)
+  end subroutine enter
 
   subroutine move(self, from, to)
     class(covariant_map_t), intent(inout) :: self
@@ -83,16 +97,22 @@ contains
 
     do lane = 1, n
       tangent(:, :, lane) = reshape([1, 0, 0, 1], [2, 2])
-      call self%finer%put(lane, self%flow%u(lane), self%flow%v(lane))
     end do
+    call show(self, n)
+    do lane = 1, n
+      call self%finer%put(lane, self%shown%u(lane), self%shown%v(lane))
+    end do
+    call self%finer%enter(n)
     call self%finer%advance(n)
+    call self%finer%leave(n)
     call self%flow%advance_tangent(n, tangent)
+    call show(self, n)
     self%u(:n) = self%flow%u(:n)
     self%v(:n) = self%flow%v(:n)
     self%turns(:n) = self%flow%turns(:n)
     call find_regions(self%regions, self%attractors, n, self%u, self%v, region)
     do lane = 1, n
-      error = hypot(separation(self%u(lane), self%v(lane), self%finer%u(lane), self%finer%v(lane)), &
+      error = hypot(separation(self%shown%u(lane), self%shown%v(lane), self%finer%u(lane), self%finer%v(lane)), &
                     rounding(self)*hypot(PI, self%v(lane)))
       call spread(tangent(:, :, lane), error, self%p(:, lane))
       self%straddling(lane) = .false.
@@ -104,6 +124,18 @@ contains
       end if
     end do
   end subroutine advance
+
+  !> The lanes' present states in physical coordinates.
+  subroutine show(self, n)
+    class(covariant_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer :: lane
+
+    do lane = 1, n
+      call self%shown%put(lane, self%flow%u(lane), self%flow%v(lane))
+    end do
+    call self%shown%leave(n)
+  end subroutine show
 
   !> Distance from 1 to the next number, as coarse as that of states that are put or compared.
   pure function rounding(self)

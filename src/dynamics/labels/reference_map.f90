@@ -1,7 +1,8 @@
 !> The reference as a stroboscopic map: states in quad precision, seen by the trapping regions as doubles.
 module kz_maps_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
+  use kz_maps_states, only: enter_states
+  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
   use kz_kernel_step_table, only: pendulum_t
   use kz_maps_states, only: wrapped
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
@@ -19,22 +20,26 @@ module kz_maps_reference_map
     real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
     real(dp), allocatable :: start_u(:)   !< their half-turns as doubles
     integer :: last = 0 !< the start that was put last
+    class(flow_t), allocatable :: flow !< in whose coordinates the trapping regions see the states
   contains
     procedure :: put
     procedure :: move
     procedure :: advance
+    procedure :: enter
   end type reference_map_t
 
 contains
 
   !> A map of starts given in rad: they are put in their order, each by its half-turns u, and moved as exact numbers.
-  subroutine make_reference_map(map, pendulum, n_steps, start, u)
+  subroutine make_reference_map(map, pendulum, n_steps, flow, start, u)
     !> the map
     type(reference_map_t), intent(out) :: map
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> Steps a period where the motion is gentle.
     integer, intent(in) :: n_steps
+    !> in whose coordinates trapping regions are
+    class(flow_t), intent(in) :: flow
     !> (2, n): rad, rad per drive radian.
     real(dp), intent(in) :: start(:, :)
     !> [n] half-turns in [-1, 1].
@@ -44,6 +49,7 @@ contains
     allocate (map%start, source=start)
     u = wrapped(start(1, :)/PI)
     allocate (map%start_u, source=u)
+    allocate (map%flow, source=flow)
   end subroutine make_reference_map
 
   !> Puts the next start that looks like (u, v).
@@ -62,6 +68,20 @@ contains
     self%theta(lane) = real(self%start(1, self%last), qp)
     self%velocity(lane) = real(self%start(2, self%last), qp)
   end subroutine put
+
+  subroutine enter(self, n, matrix, first)
+    class(reference_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(dp), intent(inout), optional :: matrix(2, 2, WIDTH)
+    integer, intent(in), optional :: first
+    integer :: from
+
+    from = 1
+    if (present(first)) from = first
+    call enter_states(self%flow, self%u(from:n), self%v(from:n))
+    associate (unused => matrix)
+    end associate
+  end subroutine enter
 
   subroutine move(self, from, to)
     class(reference_map_t), intent(inout) :: self
@@ -83,6 +103,7 @@ contains
     self%turns(:n) = self%turns(:n) + turns(:n)
     self%u(:n) = real(self%theta(:n)/PI_QUAD, dp)
     self%v(:n) = real(self%velocity(:n), dp)
+    call enter_states(self%flow, self%u(:n), self%v(:n))
   end subroutine advance
 
 end module kz_maps_reference_map

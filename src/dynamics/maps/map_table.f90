@@ -42,6 +42,7 @@ module kz_maps_map_table
     class(flow_t), allocatable :: flow !< integrates the periods that begin outside the table
   contains
     procedure :: advance => interpolate
+    procedure :: enter
   end type table_map_t
 
 contains
@@ -154,6 +155,24 @@ contains
     map%points = points
     allocate (map%flow, source=flow)
   end function make_table_map
+
+  !> The coordinates of the table are those of the flow that made it.
+  subroutine enter(self, n, matrix, first)
+    class(table_map_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(dp), intent(inout), optional :: matrix(2, 2, WIDTH)
+    integer, intent(in), optional :: first
+    integer :: from, lane
+
+    from = 1
+    if (present(first)) from = first
+    do lane = from, n
+      call self%flow%put(lane, self%u(lane), self%v(lane))
+    end do
+    call self%flow%enter(n, matrix, from)
+    self%u(from:n) = self%flow%u(from:n)
+    self%v(from:n) = self%flow%v(from:n)
+  end subroutine enter
 
   !> One period of n lanes.
   subroutine interpolate(self, n)

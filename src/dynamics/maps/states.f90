@@ -1,10 +1,10 @@
 !> States of the stroboscopic map, (half-turns, rad per drive radian): their distance, and when two count as one.
 module kz_maps_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: PI
+  use kz_kernel_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: wrapped, angle_difference, separation, same_state, midperiod_angle, rounded
+  public :: wrapped, enter_states, leave_states, angle_difference, separation, same_state, midperiod_angle, rounded
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
@@ -82,5 +82,49 @@ contains
 
     n = anint(x*1e9_dp)
   end function rounded
+
+  !> Physical states become those of the flow's coordinates.
+  subroutine enter_states(flow, u, v)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(inout) :: u(:)
+    real(dp), intent(inout) :: v(:)
+    integer :: first, n
+
+    do first = 1, size(u), WIDTH
+      n = min(WIDTH, size(u) - first + 1)
+      call put_states(flow, n, u(first:), v(first:))
+      call flow%enter(n)
+      u(first:first + n - 1) = flow%u(:n)
+      v(first:first + n - 1) = flow%v(:n)
+    end do
+  end subroutine enter_states
+
+  !> And back.
+  subroutine leave_states(flow, u, v)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(inout) :: u(:)
+    real(dp), intent(inout) :: v(:)
+    integer :: first, n
+
+    do first = 1, size(u), WIDTH
+      n = min(WIDTH, size(u) - first + 1)
+      call put_states(flow, n, u(first:), v(first:))
+      call flow%leave(n)
+      u(first:first + n - 1) = flow%u(:n)
+      v(first:first + n - 1) = flow%v(:n)
+    end do
+  end subroutine leave_states
+
+  subroutine put_states(flow, n, u, v)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: n
+    real(dp), intent(in) :: u(:)
+    real(dp), intent(in) :: v(:)
+    integer :: lane
+
+    do lane = 1, n
+      call flow%put(lane, u(lane), v(lane))
+    end do
+  end subroutine put_states
 
 end module kz_maps_states

@@ -38,6 +38,8 @@ contains
     coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
     halved = coarse
     halved%steps_per_period = 2*coarse%steps_per_period
+    halved%drift_terms = 0
+    halved%kick_terms = 0
     call make_flow(pendulum, coarse, .true., flow)
     call make_flow(pendulum, halved, .true., finer)
     do c = 1, n
@@ -46,8 +48,12 @@ contains
       do first = 1, STATES, WIDTH
         call put_class(flow, first, speed(c), speed(c + 1))
         call put_class(finer, first, speed(c), speed(c + 1))
+        call flow%enter(WIDTH)
+        call finer%enter(WIDTH)
         call flow%advance(WIDTH)
         call finer%advance(WIDTH)
+        call flow%leave(WIDTH)
+        call finer%leave(WIDTH)
         largest = max(largest, difference(flow, finer, limit))
       end do
       error(c) = merge(SAFETY*largest, largest, largest < huge(largest)/SAFETY)

@@ -54,8 +54,8 @@ contains
     logical :: inside
     real(dp) :: du, dv
 
-    du = angle_difference(u, attractor%u(j))
-    dv = v - attractor%v(j)
+    du = angle_difference(u, attractor%kernel_u(j))
+    dv = v - attractor%kernel_v(j)
     inside = attractor%form(1, j)*du**2 + 2*attractor%form(2, j)*du*dv + attractor%form(3, j)*dv**2 < 1 &
              .and. attractor%form(1, j) > 0
   end function in_ellipse
@@ -72,7 +72,7 @@ contains
     real(dp) :: basis(2, 2), inverse(2, 2), radius, first, last
 
     form = 0
-    call eigenbasis(monodromy(fine, attractor, j), attractor%multiplier, basis, inverse)
+    call eigenbasis(monodromy(fine, attractor, j), attractor%multiplier, change(flow, attractor, j), basis, inverse)
     radius = ROUNDING*max(flow%rounding, epsilon(1.0_dp))*maxval(hypot(PI*attractor%u, attractor%v)) &
              *norm2(inverse)/(1 - abs(attractor%multiplier(1)))
     radius = max(radius, SMALLEST)
@@ -107,9 +107,9 @@ contains
     integer :: a
 
     distance = huge(1.0_dp)
-    if (.not. attractor%symmetric) distance = to_points(-attractor%u, -attractor%v) ! the mirror image's
+    if (.not. attractor%symmetric) distance = to_points(-attractor%kernel_u, -attractor%kernel_v) ! the mirror image's
     do a = 1, size(others)
-      if (others(a)%period > 0) distance = min(distance, to_points(others(a)%u, others(a)%v))
+      if (others(a)%period > 0) distance = min(distance, to_points(others(a)%kernel_u, others(a)%kernel_v))
     end do
 
   contains
@@ -122,7 +122,8 @@ contains
 
       shortest = huge(1.0_dp)
       do i = 1, size(u)
-        shortest = min(shortest, norm2(matmul(inverse, [PI*angle_difference(u(i), attractor%u(j)), v(i) - attractor%v(j)])))
+        shortest = min(shortest, norm2(matmul(inverse, [PI*angle_difference(u(i), attractor%kernel_u(j)), &
+                                                        v(i) - attractor%kernel_v(j)])))
       end do
     end function to_points
 
@@ -168,7 +169,7 @@ contains
 
     do i = 1, WIDTH
       x = radius*matmul(basis, [cos(2*PI*i/WIDTH), sin(2*PI*i/WIDTH)])
-      call flow%put(i, attractor%u(j) + x(1)/PI, attractor%v(j) + x(2))
+      call flow%put(i, attractor%kernel_u(j) + x(1)/PI, attractor%kernel_v(j) + x(2))
     end do
     do i = 1, attractor%period
       call flow%advance(WIDTH)
@@ -176,7 +177,7 @@ contains
     bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
     inside = .true.
     do i = 1, WIDTH
-      x = [PI*angle_difference(flow%u(i), attractor%u(j)), flow%v(i) - attractor%v(j)]
+      x = [PI*angle_difference(flow%u(i), attractor%kernel_u(j)), flow%v(i) - attractor%kernel_v(j)]
       inside = inside .and. norm2(matmul(inverse, x)) < bound
     end do
   end function carried_inside
@@ -198,10 +199,26 @@ contains
     matrix = tangent(:, :, 1)
   end function monodromy
 
-  !> Columns [Re w, Im w] of a complex eigenvector w, or the two real eigenvectors; scaled to a largest column of 1.
-  subroutine eigenbasis(matrix, multiplier, basis, inverse)
+  !> Derivative, at strobe point j, of the change to the flow's coordinates.
+  function change(flow, attractor, j) result(matrix)
+    class(flow_t), intent(inout) :: flow
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: j
+    real(dp) :: matrix(2, 2)
+    real(dp) :: tangent(2, 2, WIDTH)
+
+    call flow%put(1, attractor%u(j), attractor%v(j))
+    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    call flow%enter(1, tangent)
+    matrix = tangent(:, :, 1)
+  end function change
+
+  !> Columns [Re w, Im w] of a complex eigenvector w, or the two real eigenvectors; scaled to a largest column of 1, then brought
+  !> to other coordinates.
+  subroutine eigenbasis(matrix, multiplier, to_kernel, basis, inverse)
     real(dp), intent(in) :: matrix(2, 2)
     complex(dp), intent(in) :: multiplier(2)
+    real(dp), intent(in) :: to_kernel(2, 2)
     real(dp), intent(out) :: basis(2, 2)
     real(dp), intent(out) :: inverse(2, 2)
     complex(dp) :: w(2)
@@ -218,6 +235,7 @@ contains
       w = eigenvector(matrix, multiplier(2))
       basis(:, 2) = real(w, dp)/norm2(real(w, dp))
     end if
+    basis = matmul(to_kernel, basis)
     determinant = basis(1, 1)*basis(2, 2) - basis(1, 2)*basis(2, 1)
     if (abs(determinant) < 1e-6_dp) then ! a (nearly) double multiplier: any norm serves, the test of the rings decides
       basis = reshape([1, 0, 0, 1], [2, 2])

@@ -132,8 +132,8 @@ contains
     half_v = sqrt(form(1)/(form(1)*form(3) - form(2)**2))
     per_u = 0.5_dp*regions%n_circle
     per_v = regions%n_velocity/(2*regions%top)
-    u = angle_difference(midperiod_angle(attractor%u(j), attractor%v(j)), 0.0_dp) + turn
-    v = attractor%v(j)
+    u = angle_difference(midperiod_angle(attractor%kernel_u(j), attractor%kernel_v(j)), 0.0_dp) + turn
+    v = attractor%kernel_v(j)
     do l = max(0, floor((v - half_v + regions%top)*per_v)), &
            min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))
       do i = max(0, floor((u - half_u)*per_u)), min(regions%n_theta - 1, floor((u + half_u)*per_u))

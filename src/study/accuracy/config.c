@@ -1,4 +1,5 @@
 /* One configuration measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
+#include "common/processed.h"
 #include "config.h"
 
 #include <stdlib.h>
@@ -14,7 +15,7 @@ enum { CHUNK = 16384 }; /* cells labelled at a time */
 /* Arrays of one chunk: too large for the stack. */
 typedef struct {
   double state[2 * CHUNK];
-  int64_t periods[CHUNK], integrated[CHUNK];
+  int64_t periods[CHUNK];
 } workspace;
 
 typedef struct {
@@ -39,8 +40,8 @@ static void label_cells(const measurement *g, int64_t n, int32_t *label) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
     for (int64_t i = 0; i < some; i++)
       kz_cell_state(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
-    kz_follow(g->dynamics, s->method, s->interpolation, some, g->reference->plan->max_periods, w->state, label + first,
-              w->periods, w->integrated);
+    kz_dynamics_follow(g->dynamics, kz_way(s->method, s->interpolation), some, g->reference->plan->max_periods, w->state,
+                       label + first, w->periods);
   }
 }
 
@@ -77,7 +78,6 @@ static kz_status set_up(measurement *g) {
   kz_dynamics_update(g->dynamics);
   if (s->method != KZ_METHOD_DIRECT)
     KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
-  if (s->method == KZ_METHOD_HYBRID) kz_dynamics_measure_table(g->dynamics, kz_stencil(s->interpolation));
   return KZ_OK;
 }
 
@@ -95,7 +95,7 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
 kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *reference, int64_t timed,
                             kz_measured *measured) {
   measurement g = {.config = config, .reference = reference};
-  const kz_numerics numerics = kz_config_numerics(config);
+  const kz_numerics numerics = kz_config_numerics(config, &reference->pendulum, KZ_TABLE_MARGIN * reference->max_velocity);
   int64_t n = timed > reference->samples ? timed : reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);

@@ -9,7 +9,8 @@ typedef struct {
   const char *label;
   int32_t method;        /* KZ_METHOD_ICM, ... */
   const char *scheme;    /* of the kernel's table */
-  int32_t steps;         /* per period */
+  int32_t steps;         /* per period; KZ_AUTO: of the processed splitting, by */
+  double tolerance;      /* rad, error of one drive period */
   int32_t precision;     /* KZ_SINGLE, KZ_DOUBLE */
   int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
   int64_t nodes;         /* of the map table, an axis; not used by KZ_METHOD_DIRECT */
@@ -20,7 +21,8 @@ typedef struct {
 extern const kz_config kz_configs[];
 extern const int kz_config_count;
 
-kz_numerics kz_config_numerics(const kz_config *config);
+/* For motions of a pendulum up to a speed, rad per drive radian. */
+kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, double fastest);
 /* The scene with the configuration in place of its method, icm and numerics. */
 void kz_config_apply(const kz_config *config, kz_scene *scene);
 

@@ -1,29 +1,36 @@
 /* The table of configurations. */
+#include <math.h>
 #include <string.h>
 
 #include "common/cells.h"
+#include "common/processed.h"
 #include "config.h"
 
-#define DIRECT(label, scheme, steps, precision, candidate) \
-  {label, KZ_METHOD_DIRECT, scheme, steps, precision, KZ_QUINTIC, 1000, candidate}
+#define DIRECT(label, scheme, steps, precision) {label, KZ_METHOD_DIRECT, scheme, steps, 0, precision, KZ_QUINTIC, 1000, false}
+#define PROCESSED(tolerance) \
+  {"processed-" #tolerance, KZ_METHOD_DIRECT, "processed", KZ_AUTO, tolerance, KZ_DOUBLE, KZ_QUINTIC, 1000, true}
 #define ICM(label, interpolation, nodes) \
-  {label, KZ_METHOD_ICM, "split6", 24, KZ_DOUBLE, interpolation, nodes, interpolation == KZ_QUINTIC}
-#define HYBRID(label, nodes, steps) {label, KZ_METHOD_HYBRID, "split6", steps, KZ_DOUBLE, KZ_QUINTIC, nodes, true}
+  {label, KZ_METHOD_ICM, "processed", KZ_AUTO, 1e-12, KZ_DOUBLE, interpolation, nodes, interpolation == KZ_QUINTIC}
 
 const kz_config kz_configs[] = {
-    DIRECT("direct-rk4-100-1992", "rk4", 100, KZ_DOUBLE, false),
-    DIRECT("direct-rk4-400", "rk4", 400, KZ_DOUBLE, false),
-    DIRECT("direct-split4-24", "split4", 24, KZ_DOUBLE, false),
-    DIRECT("direct-6", "split6", 6, KZ_DOUBLE, true),
-    DIRECT("direct-8", "split6", 8, KZ_DOUBLE, true),
-    DIRECT("direct-12", "split6", 12, KZ_DOUBLE, true),
-    DIRECT("direct-16", "split6", 16, KZ_DOUBLE, true),
-    DIRECT("direct-24", "split6", 24, KZ_DOUBLE, true),
-    DIRECT("direct-48", "split6", 48, KZ_DOUBLE, true),
-    DIRECT("direct-96", "split6", 96, KZ_DOUBLE, true),
-    DIRECT("direct-single-8", "split6", 8, KZ_SINGLE, false),
-    DIRECT("direct-single-16", "split6", 16, KZ_SINGLE, false),
-    {"icm-linear-500-1992", KZ_METHOD_ICM, "rk4", 100, KZ_DOUBLE, KZ_LINEAR, 500, false},
+    PROCESSED(1e-4),
+    PROCESSED(1e-6),
+    PROCESSED(1e-8),
+    PROCESSED(1e-10),
+    PROCESSED(1e-12),
+    PROCESSED(1e-14),
+    DIRECT("direct-rk4-100-1992", "rk4", 100, KZ_DOUBLE),
+    DIRECT("direct-rk4-400", "rk4", 400, KZ_DOUBLE),
+    DIRECT("direct-6", "split6", 6, KZ_DOUBLE),
+    DIRECT("direct-8", "split6", 8, KZ_DOUBLE),
+    DIRECT("direct-12", "split6", 12, KZ_DOUBLE),
+    DIRECT("direct-16", "split6", 16, KZ_DOUBLE),
+    DIRECT("direct-24", "split6", 24, KZ_DOUBLE),
+    DIRECT("direct-48", "split6", 48, KZ_DOUBLE),
+    DIRECT("direct-96", "split6", 96, KZ_DOUBLE),
+    DIRECT("direct-single-8", "split6", 8, KZ_SINGLE),
+    DIRECT("direct-single-16", "split6", 16, KZ_SINGLE),
+    {"icm-linear-500-1992", KZ_METHOD_ICM, "rk4", 100, 0, KZ_DOUBLE, KZ_LINEAR, 500, false},
     ICM("icm-linear-1000", KZ_LINEAR, 1000),
     ICM("icm-linear-2000", KZ_LINEAR, 2000),
     ICM("icm-cubic-500", KZ_CUBIC, 500),
@@ -33,13 +40,7 @@ const kz_config kz_configs[] = {
     ICM("icm-500", KZ_QUINTIC, 500),
     ICM("icm-1000", KZ_QUINTIC, 1000),
     ICM("icm-2000", KZ_QUINTIC, 2000),
-    {"icm-single-500", KZ_METHOD_ICM, "split6", 8, KZ_SINGLE, KZ_QUINTIC, 500, false},
-    HYBRID("hybrid-250", 250, 24),
-    HYBRID("hybrid-500", 500, 24),
-    HYBRID("hybrid-1000", 1000, 24),
-    HYBRID("hybrid-500-48", 500, 48),
-    HYBRID("hybrid-1000-48", 1000, 48),
-    HYBRID("hybrid-1000-96", 1000, 96),
+    {"icm-single-500", KZ_METHOD_ICM, "split6", 8, 0, KZ_SINGLE, KZ_QUINTIC, 500, false},
 };
 const int kz_config_count = sizeof kz_configs / sizeof kz_configs[0];
 
@@ -53,30 +54,38 @@ const char *kz_tradeoff_words(void) {
   return words;
 }
 
-kz_numerics kz_config_numerics(const kz_config *config) {
+kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, double fastest) {
+  if (config->steps == KZ_AUTO) return kz_processed_or_split(pendulum, config->tolerance, fastest);
   return (kz_numerics){
       .scheme = kz_scheme_find(config->scheme), .steps_per_period = config->steps, .precision = config->precision};
 }
 
 void kz_config_apply(const kz_config *config, kz_scene *scene) {
-  scene->numerics = kz_config_numerics(config);
-  scene->basin.method = config->method;
-  scene->basin.interpolation = config->interpolation;
-  scene->basin.table_theta = scene->basin.table_velocity = config->nodes;
+  kz_basin_plan *plan = &scene->basin;
+  const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  scene->numerics = kz_config_numerics(config, pendulum, kz_fastest_motion(pendulum, &window, config->nodes));
+  plan->method = config->method;
+  plan->interpolation = config->interpolation;
+  plan->table_theta = plan->table_velocity = config->nodes;
+}
+
+/* Kicks of split6 that a period costs. */
+static double period_kicks(const kz_config *config) {
+  static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1};
+  /* Of the processed splitting: what a step costs, steps at 1e-4 for a gentle drive, and the order by which they grow. */
+  static const double step = 0.4, steps = 14, order = 14;
+  kz_scheme scheme;
+  if (config->steps == KZ_AUTO) return step * steps * pow(1e-4 / config->tolerance, 1 / order);
+  kz_scheme_row(kz_scheme_find(config->scheme), &scheme);
+  return kind[config->precision] * scheme.kicks * config->steps;
 }
 
 double kz_config_cost(const kz_config *config, double cells, double mean_periods) {
-  /* Measured weights, in kicks in double precision: a look-up in the table with its region, what it takes to track its error, the
-   * share of the periods that hybrid integrates (0 to 0.35). */
-  static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1}, look_up = 45, look_up_node = 2.5, tracking = 15,
-                      integrated = 0.15;
-  kz_scheme scheme;
-  kz_scheme_row(kz_scheme_find(config->scheme), &scheme);
-  const double nodes = (double)config->nodes, period = kind[config->precision] * scheme.kicks * config->steps;
-  const double mapped = look_up + look_up_node * kz_stencil(config->interpolation);
-  const double cell = config->method == KZ_METHOD_DIRECT ? period
-                      : config->method == KZ_METHOD_ICM  ? mapped
-                                                         : mapped + tracking + integrated * period;
-  const double table = config->method == KZ_METHOD_DIRECT ? 0 : 0.5 * nodes * nodes * period;
-  return table + cells * mean_periods * cell;
+  /* Measured weights, in kicks in double precision: a look-up in the table, the question whether a region holds the state. */
+  static const double look_up = 30, look_up_node = 2.5, asked = 15;
+  const double nodes = (double)config->nodes, period = period_kicks(config);
+  if (config->method == KZ_METHOD_DIRECT) return cells * mean_periods * (asked + period);
+  return 0.5 * nodes * nodes * period +
+         cells * mean_periods * (asked + look_up + look_up_node * kz_stencil(config->interpolation));
 }

@@ -66,11 +66,12 @@ static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
   const size_t n = (size_t)count_configs(plan);
   *trade = (kz_trade){.count = (int64_t)n,
                       .configs = calloc(n, sizeof *trade->configs),
+                      .numerics = calloc(n, sizeof *trade->numerics),
                       .measured = calloc(n, sizeof *trade->measured),
                       .seconds = calloc(n, sizeof(double)),
                       .wrong = calloc(n, sizeof(double)),
                       .pareto = calloc(n, sizeof(int8_t))};
-  if (!trade->configs || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
+  if (!trade->configs || !trade->numerics || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
     return kz_fail(KZ_FAILED, "no memory for %lld settings", (long long)n);
   for (int64_t i = 0; i < trade->count; i++) trade->configs[i] = config_at(plan, i);
   return KZ_OK;
@@ -78,6 +79,7 @@ static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
 
 static void free_trade(kz_trade *trade) {
   free(trade->configs);
+  free(trade->numerics);
   free(trade->measured);
   free(trade->seconds);
   free(trade->wrong);
@@ -106,6 +108,8 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
                     .context = &m,
                     .keep = true,
                     .everywhere = true};
+  for (int64_t i = 0; i < trade->count; i++)
+    trade->numerics[i] = kz_config_numerics(trade->configs[i], &reference->pendulum, KZ_TABLE_MARGIN * reference->max_velocity);
   KZ_TRY(kz_stage_run(ranks, &stage, trade->measured));
   rate(reference, trade);
   return KZ_OK;

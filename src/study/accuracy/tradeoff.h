@@ -3,12 +3,14 @@
 #define KAPITZA_STUDY_TRADEOFF_H
 
 #include "common/share.h"
+#include "common/processed.h"
 #include "config.h"
 
 /* Configurations measured on one sample of reference labels. */
 typedef struct {
   int64_t count;
   const kz_config **configs; /* [count] */
+  kz_numerics *numerics;     /* [count] what they come to */
   kz_measured *measured;     /* [count] */
   double *seconds;           /* [count] for the whole grid of the basin, without the search for attractors */
   double *wrong;             /* [count] */

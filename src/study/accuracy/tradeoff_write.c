@@ -1,5 +1,6 @@
 /* Study `tradeoff`: its group in the file, its table for people. */
 #include <math.h>
+#include <string.h>
 
 #include "common/cells.h"
 #include "common/column.h"
@@ -9,13 +10,20 @@
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)
 
+static const char *scheme_name(const kz_numerics *numerics) {
+  static char names[8][sizeof((kz_scheme *)0)->name];
+  kz_scheme scheme;
+  kz_scheme_row(numerics->scheme, &scheme);
+  return strcpy(names[numerics->scheme], scheme.name);
+}
+
 static kz_status write_configs(const kz_trade *trade, kz_store *store) {
   const kz_config *const *s = trade->configs;
   COLUMN(const char *, "label", s[i]->label);
   COLUMN(int8_t, "method", s[i]->method);
   COLUMN(int8_t, "precision", s[i]->precision);
-  COLUMN(const char *, "scheme", s[i]->scheme);
-  COLUMN(int32_t, "steps_per_period", s[i]->steps);
+  COLUMN(const char *, "scheme", scheme_name(trade->numerics + i));
+  COLUMN(int32_t, "steps_per_period", trade->numerics[i].steps_per_period);
   COLUMN(int8_t, "interpolation", s[i]->interpolation);
   COLUMN(int32_t, "table_nodes", s[i]->nodes);
   return KZ_OK;
@@ -55,8 +63,9 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
   const kz_measured *m = trade->measured + i;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
   fprintf(summary, "%c %-20s %-7s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
-          trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], kz_precision_names[s->precision], s->scheme,
-          s->steps, s->method == KZ_METHOD_DIRECT ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes,
+          trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], kz_precision_names[s->precision],
+          scheme_name(trade->numerics + i), (int)trade->numerics[i].steps_per_period,
+          s->method == KZ_METHOD_DIRECT ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes,
           100 * wrong.share, 100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples,
           trade->seconds[i], 1e6 * m->cell);
 }
@@ -66,8 +75,7 @@ static void warn(const kz_reference_labels *reference, const kz_trade *trade, FI
   const double fastest = kz_axis_fastest(&reference->plan->velocity);
   const char *before = "warning: steps that do not carry the motions of this window: ";
   for (int64_t i = 0; i < trade->count; i++) {
-    const kz_numerics numerics = kz_config_numerics(trade->configs[i]);
-    if (kz_steps_carry(&reference->pendulum, &numerics, fastest)) continue;
+    if (kz_steps_carry(&reference->pendulum, trade->numerics + i, fastest)) continue;
     fprintf(summary, "%s%s", before, trade->configs[i]->label);
     before = ", ";
   }

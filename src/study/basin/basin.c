@@ -16,27 +16,26 @@
 #include "common/settling.h"
 
 enum {
-  CELLS = 4096, /* of a tile, at most */
-  PARTS = 4,    /* times as many in a tile of hybrid: the few orbits that it integrates must fill vectors */
+  CELLS = 16384, /* of a tile, at most: so many that the few that take long hardly leave lanes empty */
   ROUNDS = 4    /* of discovery from unsettled cells, at most */
 };
 
 /* How a label was found: the values of the file's variable `evidence`. */
-enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, INTEGRATED = 3, UNDECIDED = 4 };
+enum { UNSETTLED = 0, INSIDE = 1, FOLLOWED = 2, UNDECIDED = 3 };
 
 /* A cell. */
 typedef struct {
   uint32_t periods;
   int16_t label;    /* number of kz_dynamics, 0 = not settled */
-  uint8_t evidence; /* FOLLOWED; INTEGRATED in part, because the table's error was too large; UNDECIDED */
+  uint8_t evidence; /* FOLLOWED or UNDECIDED */
 } labelled;
 
 /* Arrays of one tile: too large for the stack. */
 typedef struct {
-  double start[2 * PARTS * CELLS], state[2 * PARTS * CELLS];
-  int32_t label[PARTS * CELLS], to[PARTS * CELLS];
-  int64_t periods[PARTS * CELLS], integrated[PARTS * CELLS], place[PARTS * CELLS];
-  bool undecided[PARTS * CELLS];
+  double start[2 * CELLS], state[2 * CELLS];
+  int32_t label[CELLS], to[CELLS];
+  int64_t periods[CELLS], place[CELLS];
+  bool undecided[CELLS];
 } workspace;
 
 typedef struct {
@@ -63,7 +62,7 @@ static void find_undecided(const basin *b, int64_t n) {
       w->state[2 * asked + c] = nextafter(w->start[2 * i + c], copysign(INFINITY, w->start[2 * i + c]));
     w->place[asked++] = i;
   }
-  kz_dynamics_follow(b->dynamics, asked, b->plan->max_periods, w->state, w->to, w->periods);
+  kz_dynamics_follow(b->dynamics, KZ_FOLLOW_DIRECT, asked, b->plan->max_periods, w->state, w->to, w->periods);
   for (int64_t i = 0; i < asked; i++) w->undecided[w->place[i]] = w->to[i] != w->label[w->place[i]];
 }
 
@@ -75,16 +74,15 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   const int64_t first = tile * b->tile, left = b->n_open - first, n = left < b->tile ? left : b->tile;
   for (int64_t i = 0; i < n; i++) kz_cell_state(plan, b->open ? b->open[first + i] : first + i, w->start + 2 * i);
   memcpy(w->state, w->start, 2 * (size_t)n * sizeof *w->state);
-  kz_follow(b->dynamics, plan->method, plan->interpolation, n, plan->max_periods, w->state, w->label, w->periods,
-            w->integrated);
+  kz_dynamics_follow(b->dynamics, kz_way(plan->method, plan->interpolation), n, plan->max_periods, w->state, w->label,
+                     w->periods);
   for (int64_t i = 0; i < n; i++) {
-    w->undecided[i] = plan->flag_undecided && w->label[i] > 0 && w->periods[i] > 0 &&
-                      (w->integrated[i] > 0 || plan->method == KZ_METHOD_DIRECT);
+    w->undecided[i] = plan->flag_undecided && w->label[i] > 0 && w->periods[i] > 0 && plan->method == KZ_METHOD_DIRECT;
     out[i].label = (int16_t)w->label[i];
     out[i].periods = (uint32_t)w->periods[i];
   }
   if (plan->flag_undecided) find_undecided(b, n);
-  for (int64_t i = 0; i < n; i++) out[i].evidence = w->undecided[i] ? UNDECIDED : w->integrated[i] > 0 ? INTEGRATED : FOLLOWED;
+  for (int64_t i = 0; i < n; i++) out[i].evidence = w->undecided[i] ? UNDECIDED : FOLLOWED;
   return KZ_OK;
 }
 
@@ -204,7 +202,7 @@ static void measure_numerics(const kz_scene *scene, const basin *b, kz_labels *l
   labels->table_error = NAN;
   if (scene->basin.method == KZ_METHOD_DIRECT) return;
   labels->table_error = kz_dynamics_table_defect(b->dynamics, kz_stencil(scene->basin.interpolation));
-  if (scene->basin.method == KZ_METHOD_ICM) kz_steps_warn_table(&scene->basin, labels->table_error, summary);
+  kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
 
 static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
@@ -219,8 +217,7 @@ static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *st
                         .table_velocity = plan->table_velocity},
              .total = plan->theta.count * plan->velocity.count};
   b.own = kz_own_cells(plan);
-  const bool wide = plan->method == KZ_METHOD_HYBRID && scene->numerics.precision != KZ_QUAD;
-  b.tile = kz_tile_cells(scene, wide ? PARTS * CELLS : CELLS);
+  b.tile = kz_tile_cells(scene, CELLS);
   b.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = b.dynamics ? allocate(&b, kz_ranks_own(ranks) == 0) : kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_ranks_agree(ranks, status);
@@ -300,7 +297,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
-  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_HYBRID] = 0.15};
+  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1};
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const double periods = kz_settling_cells(pendulum->beta, plan->max_periods);
   double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 7e-8);

@@ -3,6 +3,7 @@
 
 #include "accuracy/reference.h"
 #include "basin.h"
+#include "common/processed.h"
 #include "common/step_check.h"
 
 static kz_motions motions_of_basin(const kz_scene *scene) {
@@ -12,14 +13,36 @@ static kz_motions motions_of_basin(const kz_scene *scene) {
   return motions;
 }
 
-void kz_steps_choose(kz_scene *scene) {
+/* The scheme's own number of steps, or more for small cells; `enough`: or more for any cells. */
+static void choose_steps(kz_scene *scene, bool enough) {
   kz_numerics chosen;
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
   scene->numerics.steps_per_period = scheme.default_steps;
   if (!scene->has_basin || !isnan(scene->basin.accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
   const kz_motions motions = motions_of_basin(scene);
-  if (motions.lost < KZ_STEPS_LOST && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
+  if ((enough || motions.lost < KZ_STEPS_LOST) && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
+}
+
+void kz_numerics_resolve(kz_scene *scene) {
+  const kz_numerics_keys *asked = &scene->asked;
+  const bool processed = kz_is_processed(asked->scheme);
+  if (processed && kz_processed_choose(scene)) return;
+  scene->numerics = (kz_numerics){.scheme = processed ? kz_scheme_find("split6") : asked->scheme,
+                                  .steps_per_period = asked->steps_per_period,
+                                  .precision = scene->numerics.precision};
+  if (processed || asked->steps_per_period == KZ_AUTO) choose_steps(scene, processed);
+}
+
+static void print_numerics(const kz_scene *scene, FILE *summary) {
+  const kz_numerics *numerics = &scene->numerics;
+  kz_scheme scheme;
+  kz_scheme_row(numerics->scheme, &scheme);
+  fprintf(summary, "%s, %d steps a drive period", scheme.name, (int)numerics->steps_per_period);
+  if (kz_is_processed(scene->asked.scheme) && !kz_is_processed(numerics->scheme) && isnan(scene->basin.accuracy))
+    fprintf(summary, " (processed does not reach numerics.tolerance = %g here)", scene->asked.tolerance);
+  else if (!kz_is_processed(numerics->scheme) && numerics->steps_per_period != scheme.default_steps)
+    fprintf(summary, " (its own number is %d)", (int)scheme.default_steps);
 }
 
 /* Without damping nothing is labelled. What basin.accuracy chooses is compared with reference labels. */
@@ -35,11 +58,7 @@ double kz_basin_warn_steps(const kz_scene *scene, FILE *summary) {
   const kz_motions motions = motions_of_basin(scene);
   const kz_speed_errors classes = kz_step_error_classes(&motions.pendulum, &motions.numerics, motions.fastest);
   const double worst = kz_worst_error(&classes);
-  kz_scheme scheme;
-  kz_scheme_row(motions.numerics.scheme, &scheme);
-  fprintf(summary, "%s, %d steps a drive period", scheme.name, (int)motions.numerics.steps_per_period);
-  if (motions.numerics.steps_per_period != scheme.default_steps)
-    fprintf(summary, " (its own number is %d)", (int)scheme.default_steps);
+  print_numerics(scene, summary);
   fprintf(summary, ": a period is off by at most %.2g rad, %.2g of a cell\n", worst, worst / motions.cell);
   kz_motions_warn(&motions, summary);
   return worst;

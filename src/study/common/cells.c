@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 double kz_axis_centre(const kz_axis *axis, int64_t i) {
   return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
@@ -54,16 +53,8 @@ const char *const kz_method_names[] = {KZ_METHOD_WORDS};
 const char *const kz_interpolation_names[] = {KZ_INTERPOLATION_WORDS};
 const char *const kz_precision_names[] = {KZ_PRECISION_WORDS};
 
-void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
-               int32_t *label, int64_t *periods, int64_t *integrated) {
-  const int32_t points = kz_stencil(interpolation);
-  memset(integrated, 0, (size_t)n * sizeof *integrated);
-  if (method == KZ_METHOD_DIRECT)
-    kz_dynamics_follow(dynamics, n, max_periods, state, label, periods);
-  else if (method == KZ_METHOD_ICM)
-    kz_dynamics_follow_table(dynamics, points, n, max_periods, state, label, periods);
-  else
-    kz_dynamics_follow_hybrid(dynamics, points, n, max_periods, state, label, periods, integrated);
+int32_t kz_way(int32_t method, int32_t interpolation) {
+  return method == KZ_METHOD_DIRECT ? KZ_FOLLOW_DIRECT : kz_stencil(interpolation);
 }
 
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {

@@ -33,8 +33,7 @@ int32_t kz_stencil(int32_t interpolation);
 /* The words of the file for KZ_METHOD_ICM, ..., KZ_LINEAR, ... and KZ_SINGLE, ... */
 extern const char *const kz_method_names[], *const kz_interpolation_names[], *const kz_precision_names[];
 
-/* kz_dynamics_follow by a method (KZ_METHOD_ICM, ...); integrated [n]: periods for which hybrid left the table. */
-void kz_follow(kz_dynamics *dynamics, int32_t method, int32_t interpolation, int64_t n, int64_t max_periods, double *state,
-               int32_t *label, int64_t *periods, int64_t *integrated);
+/* The way of kz_dynamics_follow that a method (KZ_METHOD_ICM, ...) takes. */
+int32_t kz_way(int32_t method, int32_t interpolation);
 
 #endif

@@ -34,7 +34,7 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   int64_t periods[TILE];
   const int64_t first = tile * TILE, n = s->n - first < TILE ? s->n - first : TILE;
   for (int64_t i = 0; i < n; i++) kz_cell_state(s->plan, cell_of(s, first + i), state + 2 * i);
-  kz_dynamics_follow_covariance(s->dynamics, n, s->plan->max_periods, state, label, periods);
+  kz_dynamics_follow(s->dynamics, KZ_FOLLOW_ERRORS, n, s->plan->max_periods, state, label, periods);
   return KZ_OK;
 }
 

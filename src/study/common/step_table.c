@@ -18,7 +18,7 @@ kz_status kz_steps_check_table(const kz_basin_plan *plan, double defect) {
   return kz_fail(
       KZ_REFUSED,
       "basin.icm|basin.method: one drive period of the map table is off by %.2g rad, where a cell is %.2g wide: method "
-      "direct or hybrid%s",
+      "direct%s",
       defect, cell, more);
 }
 
@@ -26,6 +26,6 @@ void kz_steps_warn_table(const kz_basin_plan *plan, double defect, FILE *summary
   if (defect <= kz_steps_tolerance(plan)) return;
   fprintf(summary,
           "warning: one drive period of the map table is off by %.2g rad (%.2g of a cell); more nodes (basin.icm), a higher "
-          "interpolation, or method direct or hybrid\n",
+          "interpolation, or method direct\n",
           defect, defect / kz_cell_size(plan));
 }

@@ -1,5 +1,6 @@
 /* Motions of the three models through one interface. */
 #include "motion.h"
+#include "common/processed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,12 +23,24 @@ static double samples_of(const kz_scene *scene) {
   return multiple((double)scene->orbit.samples_per_period, LEAST_SAMPLES * fmax(1, swing(&scene->parameters.pendulum)));
 }
 
+/* Within a period the processed splitting shows nothing. */
+static int32_t orbit_scheme(const kz_scene *scene) {
+  return kz_is_processed(scene->asked.scheme) ? kz_scheme_find("split6") : scene->asked.scheme;
+}
+
 double kz_orbit_steps(const kz_scene *scene) {
   const double start = isfinite(scene->orbit.velocity) ? fabs(scene->orbit.velocity) : 0;
   const double speed = 1 + 2 * swing(&scene->parameters.pendulum) + start;
   kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  return multiple(samples_of(scene), fmax(scene->numerics.steps_per_period, scheme.default_steps * speed / 2));
+  kz_scheme_row(orbit_scheme(scene), &scheme);
+  const double asked = scene->asked.steps_per_period == KZ_AUTO ? scheme.default_steps : scene->asked.steps_per_period;
+  return multiple(samples_of(scene), fmax(asked, scheme.default_steps * speed / 2));
+}
+
+kz_numerics kz_orbit_numerics(const kz_scene *scene) {
+  return (kz_numerics){.scheme = orbit_scheme(scene),
+                       .steps_per_period = (int32_t)kz_orbit_steps(scene),
+                       .precision = scene->numerics.precision};
 }
 
 kz_status kz_model_make(const kz_scene *scene, kz_model *model) {
@@ -38,8 +51,7 @@ kz_status kz_model_make(const kz_scene *scene, kz_model *model) {
   if (inverted) model->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
   if (inverted) model->origin = M_PI;
   if (model->kind != KZ_PENDULUM) return KZ_OK;
-  model->numerics = scene->numerics;
-  model->numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);
+  model->numerics = kz_orbit_numerics(scene);
   if (orbit->closed && model->numerics.precision == KZ_SINGLE) model->numerics.precision = KZ_DOUBLE;
   model->plan = kz_plan_create(p, &model->numerics);
   return model->plan ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");

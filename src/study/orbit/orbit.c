@@ -24,7 +24,7 @@ kz_status kz_orbit_check(const kz_scene *scene) {
   const double start = scene->orbit.velocity;
   kz_motions motions = kz_motions_of(scene, isfinite(start) ? fabs(start) : 0, "numerics.steps_per_period|orbit.start|orbit");
   if (scene->orbit.model != KZ_PENDULUM) return KZ_OK;
-  motions.numerics.steps_per_period = (int32_t)kz_orbit_steps(scene);
+  motions.numerics = kz_orbit_numerics(scene);
   return kz_motions_check(&motions);
 }
 

@@ -62,10 +62,11 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   const labelling *l = context;
   const kz_basin_plan *basin = &l->s->scene->basin;
   double state[2 * CHUNK];
-  int64_t periods[CHUNK], integrated[CHUNK];
+  int64_t periods[CHUNK];
   const int64_t first = tile * l->tile, n = l->n - first < l->tile ? l->n - first : l->tile;
   for (int64_t i = 0; i < n; i++) kz_cell_state(basin, l->open[first + i], state + 2 * i);
-  kz_follow(l->s->dynamics, basin->method, basin->interpolation, n, basin->max_periods, state, record, periods, integrated);
+  kz_dynamics_follow(l->s->dynamics, kz_way(basin->method, basin->interpolation), n, basin->max_periods, state, record,
+                     periods);
   return KZ_OK;
 }
 

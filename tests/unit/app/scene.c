@@ -45,13 +45,14 @@ static void defaults_are_those_of_the_table(void **state) {
   assert_string_equal(scene.title, "");
   assert_int_equal(scene.basin.theta.count, 1000);
   assert_true(scene.basin.theta.min == -M_PI && scene.basin.theta.max == M_PI);
-  assert_int_equal(scene.basin.method, KZ_METHOD_ICM);
+  assert_int_equal(scene.basin.method, KZ_METHOD_DIRECT);
   assert_int_equal(scene.basin.interpolation, KZ_QUINTIC);
   assert_int_equal(scene.numerics.precision, KZ_DOUBLE);
   kz_scheme scheme;
   kz_scheme_row(scene.numerics.scheme, &scheme);
-  assert_string_equal(scheme.name, "split6");
-  assert_int_equal(scene.numerics.steps_per_period, scheme.default_steps);
+  assert_string_equal(scheme.name, "processed");
+  assert_int_equal(scene.asked.steps_per_period, KZ_AUTO);
+  assert_true(scene.asked.tolerance == 1e-12 && scene.numerics.steps_per_period > 12 && scene.numerics.steps_per_period < 100);
   assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-18);
   assert_true(fabs(scene.parameters.pendulum.beta - 1.0 / 55) < 1e-17);
   kz_scene_free(&scene);
@@ -100,7 +101,7 @@ static void resolved_text_is_a_fixed_point(void **state) {
   assert_string_equal(scene.title, "say \"a\\b\"");
   char *twice = resolved(&scene);
   assert_string_equal(once, twice);
-  assert_non_null(strstr(once, "\n  steps_per_period: 100\n"));
+  assert_non_null(strstr(once, "\n  steps_per_period: auto\n"));
   free(once);
   free(twice);
   kz_scene_free(&scene);
@@ -122,7 +123,7 @@ static void errors_name_place_key_and_remedy(void **state) {
   (void)state;
   expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
   expect_refused(GOOD "  method: imc\n", NULL,
-                 "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct, hybrid (did you mean icm?)");
+                 "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct (did you mean icm?)");
   expect_refused(
       GOOD "  max_periods: 1.5x\n", NULL,
       "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; it must be an integer from 1 to 4000000000");
@@ -138,13 +139,36 @@ static void errors_name_place_key_and_remedy(void **state) {
       "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; it must be an integer from 1 to 1000000");
 }
 
+/* A word that is gone is answered with the one to use. */
+static void gone_words_name_the_new_one(void **state) {
+  (void)state;
+  expect_refused(GOOD "  method: hybrid\n", NULL,
+                 "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct (it is gone: use direct)");
+}
+
+/* What the processed splitting does not carry is left to split6 with its own number of steps. */
+static void numerics_fall_back(void **state) {
+  (void)state;
+  kz_scene scene;
+  kz_scheme scheme;
+  assert_int_equal(read_scene(GOOD, "pendulum={k: 100, damping: 0.1, m: 1}", &scene), KZ_OK);
+  kz_scheme_row(scene.numerics.scheme, &scheme);
+  assert_string_equal(scheme.name, "split6");
+  assert_true(scene.numerics.steps_per_period >= scheme.default_steps);
+  kz_scene_free(&scene);
+  assert_int_equal(read_scene(GOOD, "numerics={steps_per_period: 64}", &scene), KZ_OK);
+  assert_int_equal(scene.numerics.steps_per_period, 64);
+  assert_int_equal(scene.numerics.scheme, kz_scheme_find("processed"));
+  kz_scene_free(&scene);
+}
+
 /* An error further up is told first, whichever check finds it; a missing key comes last. */
 static void first_error_in_document_order(void **state) {
   (void)state;
   expect_refused("basin:\n  velocity: {min: 2, max: -2}\npendulum: {k: nan}\n", NULL,
                  "s.yaml:2:27: basin.velocity.max: -2 is too small; it must be greater than min = 2");
   expect_refused("basin:\n  method: xyz\n", NULL,
-                 "s.yaml:2:11: basin.method: \"xyz\" is unknown; it must be one of icm, direct, hybrid");
+                 "s.yaml:2:11: basin.method: \"xyz\" is unknown; it must be one of icm, direct");
 }
 
 static void scalars_are_strict(void **state) {
@@ -279,6 +303,8 @@ int main(void) {
       cmocka_unit_test(resolved_text_is_a_fixed_point),
       cmocka_unit_test(options_override_and_create),
       cmocka_unit_test(errors_name_place_key_and_remedy),
+      cmocka_unit_test(gone_words_name_the_new_one),
+      cmocka_unit_test(numerics_fall_back),
       cmocka_unit_test(first_error_in_document_order),
       cmocka_unit_test(scalars_are_strict),
       cmocka_unit_test(structure_is_strict),

@@ -23,9 +23,9 @@ enum { STARTS = 1024 };
 
 /* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow with every
  * attractor. */
-static kz_dynamics *explored_with(double m, int64_t seed, int64_t cells, double max_velocity) {
+static kz_dynamics *explored_with(const kz_numerics *numerics, double m, int64_t seed, int64_t cells, double max_velocity) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
-  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 12);
+  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics, 12);
   double *state = malloc(2 * STARTS * sizeof *state);
   int32_t *label = malloc(STARTS * sizeof *label);
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
@@ -37,7 +37,7 @@ static kz_dynamics *explored_with(double m, int64_t seed, int64_t cells, double 
     kz_dynamics_coarse_regions(d, max_velocity);
   for (int round = 0; n > 0 && round < 12; round++) {
     kz_dynamics_update(d);
-    kz_dynamics_follow(d, n, 128, state, label, periods);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 128, state, label, periods);
     int64_t open = 0;
     for (int64_t i = 0; i < n; i++)
       if (label[i] == 0) {
@@ -59,7 +59,7 @@ static kz_dynamics *explored_with(double m, int64_t seed, int64_t cells, double 
 }
 
 static kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
-  return explored_with(m, seed, 0, max_velocity);
+  return explored_with(numerics(), m, seed, 0, max_velocity);
 }
 
 /* Regions of a fine grid, and a map table. */
@@ -126,8 +126,8 @@ static void test_interpolation(void **state) {
       memcpy(y, x, sizeof y);
       kz_dynamics_coarse_regions(d, 3);
       with_table(d, fine ? 401 : 201, 3);
-      kz_dynamics_follow(d, N, 1, x, label, periods);
-      kz_dynamics_follow_table(d, points, N, 1, y, label, periods);
+      kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods);
+      kz_dynamics_follow(d, points, N, 1, y, label, periods);
       for (int i = 0; i < N; i++) {
         double du = x[2 * i] - y[2 * i];
         error[fine] += fabs(du - 2 * rint(du / 2)) + fabs(x[2 * i + 1] - y[2 * i + 1]);
@@ -149,20 +149,17 @@ static void test_mirrored_labels(void **state) {
   assert_true(kz_dynamics_trapped_share(d) > 0.2);
   double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
   int32_t a[N], b[N];
-  int64_t pa[N], pb[N], integrated[N];
-  for (int points = 0; points <= 8; points += 2) {
+  int64_t pa[N], pb[N];
+  for (int points = 0; points <= 6; points += 2) {
     kz_window wide = {-M_PI, M_PI, -6, 6};
     kz_dynamics_starts(&wide, 5, N, x);
     for (int i = 0; i < 2 * N; i++) y[i] = -x[i];
     if (points == 0) {
-      kz_dynamics_follow(d, N, 2000, x, a, pa);
-      kz_dynamics_follow(d, N, 2000, y, b, pb);
-    } else if (points == 8) {
-      kz_dynamics_follow_hybrid(d, 6, N, 2000, x, a, pa, integrated);
-      kz_dynamics_follow_hybrid(d, 6, N, 2000, y, b, pb, integrated);
+      kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, a, pa);
+      kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, b, pb);
     } else {
-      kz_dynamics_follow_table(d, points, N, 2000, x, a, pa);
-      kz_dynamics_follow_table(d, points, N, 2000, y, b, pb);
+      kz_dynamics_follow(d, points, N, 2000, x, a, pa);
+      kz_dynamics_follow(d, points, N, 2000, y, b, pb);
     }
     for (int i = 0; i < N; i++) {
       kz_attractor row;
@@ -178,37 +175,74 @@ static void test_mirrored_labels(void **state) {
   kz_dynamics_free(d);
 }
 
-/* A coarse table, whatever its interpolation: the hybrid labels nearly all starts as integration does where the table fails,
- * does not integrate what it need not, and says what it did. */
-static void test_hybrid(void **state) {
+/* The processed splitting as kz_numerics_choose finds it for a window. */
+static kz_numerics processed(double m) {
+  const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
+  kz_numerics numerics = {.precision = KZ_DOUBLE};
+  double error;
+  assert_int_equal(kz_numerics_choose(&pendulum, 1e-12, 3, &numerics, &error), KZ_OK);
+  return numerics;
+}
+
+/* Labels of one kick a step in coordinates of its own are those of split6 with 96 steps, but where the last place of a start
+ * decides: at m = 0.46 that is so for 23 of 3072 starts. Grown over the cells of its own table they stay so; with mirrored starts
+ * they are mirrored. The strobe points are the same to the last bit. */
+static void test_processed(void **state) {
   (void)state;
-  enum { N = 4096 };
+  enum { N = 3072 };
+  static const struct {
+    double m;
+    int most;
+  } cases[] = {{0.3, 2}, {0.46, 90}};
+  const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 96, .precision = KZ_DOUBLE};
   static double x[2 * N], y[2 * N], z[2 * N];
-  static int32_t direct[N], table[N], hybrid[N];
-  static int64_t p[N], q[N], r[N], integrated[N];
-  for (int points = 2; points <= 6; points += 2) {
-    kz_dynamics *d = explored(0.46, 1, 3);
-    with_table(d, 250, 3);
-    int64_t wrong = 0, unlike = 0, all = 0, some = 0;
-    kz_dynamics_starts(&WINDOW, 7, N, x);
-    memcpy(y, x, sizeof x);
-    memcpy(z, x, sizeof x);
-    kz_dynamics_follow(d, N, 2000, x, direct, p);
-    kz_dynamics_follow_table(d, points, N, 2000, y, table, q);
-    kz_dynamics_follow_hybrid(d, points, N, 2000, z, hybrid, r, integrated);
-    for (int i = 0; i < N; i++) {
-      wrong += table[i] != direct[i];
-      unlike += hybrid[i] != direct[i];
-      all += r[i];
-      some += integrated[i];
-      assert_true(integrated[i] >= 0 && integrated[i] <= r[i]);
-      if (integrated[i] > 0) continue;
-      assert_int_equal(hybrid[i], table[i]);
-      assert_int_equal(r[i], q[i]);
+  static int32_t expected[N], label[N], mirrored[N], cells[N];
+  static int64_t periods[N], late[N];
+  for (int c = 0; c < 2; c++) {
+    const kz_numerics numerics = processed(cases[c].m);
+    kz_dynamics *truth = explored_with(&fine, cases[c].m, 1, 0, 3), *d = explored_with(&numerics, cases[c].m, 1, 0, 3);
+    int unlike = 0, unlike_cells = 0;
+    assert_int_equal(kz_dynamics_count(d), kz_dynamics_count(truth));
+    int64_t order[64], order_truth[64], rank[64] = {0};
+    kz_dynamics_order(d, order);
+    kz_dynamics_order(truth, order_truth);
+    for (int64_t i = 0; i < kz_dynamics_count(d); i++) {
+      kz_attractor row, same;
+      double theta[2][12], velocity[2][12];
+      rank[order[i]] = order_truth[i];
+      kz_dynamics_attractor(d, order[i], &row, theta[0], velocity[0]);
+      kz_dynamics_attractor(truth, order_truth[i], &same, theta[1], velocity[1]);
+      assert_int_equal(row.period, same.period);
+      for (int j = 0; j < row.period; j++) assert_true(fabs(velocity[0][j] - velocity[1][j]) < 1e-12);
+      /* the product of the multipliers is the contraction of areas */
+      const double product = row.multiplier_re[0] * row.multiplier_re[1] - row.multiplier_im[0] * row.multiplier_im[1];
+      assert_true(fabs(product / exp(-2 * M_PI * row.period / 55) - 1) < 1e-9);
     }
-    print_message("%d nodes: %lld of %d labels unlike integration, %lld with hybrid, %.0f %% of the periods integrated\n",
-                  points, (long long)wrong, N, (long long)unlike, 100.0 * (double)some / (double)all);
-    assert_true(wrong > N / 50 && unlike < N / 200 && some < 7 * all / 10);
+    kz_dynamics_starts(&WINDOW, 3, N, x);
+    memcpy(y, x, sizeof x);
+    for (int i = 0; i < 2 * N; i++) z[i] = -x[i];
+    kz_dynamics_follow(truth, KZ_FOLLOW_DIRECT, N, 2000, y, expected, periods);
+    memcpy(y, x, sizeof x);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, label, periods);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, z, mirrored, late);
+    with_table(d, 300, 3);
+    memcpy(y, x, sizeof x);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, cells, late);
+    for (int i = 0; i < N; i++) {
+      kz_attractor row;
+      double theta[12], velocity[12];
+      unlike += rank[label[i]] != expected[i];
+      unlike_cells += cells[i] != label[i];
+      assert_true(label[i] > 0 || mirrored[i] == 0); /* on an attractor that the search has missed */
+      if (label[i] == 0) continue;
+      kz_dynamics_attractor(d, label[i], &row, theta, velocity);
+      assert_int_equal(mirrored[i], row.mirror);
+    }
+    print_message("m = %g: %d of %d labels unlike split6 with 96 steps, %d with grown regions\n", cases[c].m, unlike, N,
+                  unlike_cells);
+    assert_true(unlike <= cases[c].most);
+    assert_true(unlike_cells == 0);
+    kz_dynamics_free(truth);
     kz_dynamics_free(d);
   }
 }
@@ -227,8 +261,8 @@ static void test_regions_are_right(void **state) {
     int inside = 0;
     kz_dynamics_starts(&WINDOW, 9, N, x);
     memcpy(y, x, 2 * N * sizeof *y);
-    kz_dynamics_follow(d, N, 1, x, label, periods);
-    kz_dynamics_follow(plain, N, 3000, y, expected, late);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods);
+    kz_dynamics_follow(plain, KZ_FOLLOW_DIRECT, N, 3000, y, expected, late);
     for (int i = 0; i < N; i++) {
       if (label[i] == 0 || periods[i] > 0) continue;
       inside++;
@@ -257,8 +291,8 @@ static void test_wrong_labels_are_doubtful(void **state) {
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < 2 * N; i++) start[i] = i % 2 ? x[i] : x[i] * M_PI;
   memcpy(y, x, sizeof x);
-  kz_dynamics_follow(d, N, 2000, x, direct, periods);
-  kz_dynamics_follow_covariance(d, N, 2000, y, followed, late);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, direct, periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_ERRORS, N, 2000, y, followed, late);
   kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, expected, periods);
   for (int i = 0; i < N; i++) {
     doubtful += followed[i] == KZ_DOUBTFUL;
@@ -329,7 +363,7 @@ static void test_regions_know_no_order(void **state) {
   (void)state;
   enum { N = 20000, CELLS = 300 };
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
-  kz_dynamics *a = explored_with(0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, numerics(), 12);
+  kz_dynamics *a = explored_with(numerics(), 0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, numerics(), 12);
   const int64_t size = kz_dynamics_packed_size(a);
   double *packed = malloc((size_t)size * sizeof *packed), *x = malloc(2 * N * sizeof *x);
   int32_t *label_a = malloc(N * sizeof *label_a), *label_b = malloc(N * sizeof *label_b), trapped = 0;
@@ -340,9 +374,9 @@ static void test_regions_know_no_order(void **state) {
   kz_dynamics_fine_regions(b, CELLS, 3);
   assert_true(kz_dynamics_trapped_share(a) == kz_dynamics_trapped_share(b));
   kz_dynamics_starts(&WINDOW, 3, N, x);
-  kz_dynamics_follow(a, N, 1, x, label_a, periods);
+  kz_dynamics_follow(a, KZ_FOLLOW_DIRECT, N, 1, x, label_a, periods);
   kz_dynamics_starts(&WINDOW, 3, N, x);
-  kz_dynamics_follow(b, N, 1, x, label_b, periods);
+  kz_dynamics_follow(b, KZ_FOLLOW_DIRECT, N, 1, x, label_b, periods);
   for (int i = 0; i < N; i++) {
     assert_int_equal(label_a[i], label_b[i]);
     trapped += label_a[i] > 0;
@@ -367,7 +401,7 @@ static void test_chaos(void **state) {
   kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 48);
   double x[2 * N];
   int32_t label[N];
-  int64_t periods[N], integrated[N];
+  int64_t periods[N];
   kz_attractor row;
   kz_dynamics_starts(&WINDOW, 1, N, x);
   kz_dynamics_coarse_regions(d, TOP);
@@ -382,14 +416,17 @@ static void test_chaos(void **state) {
   assert_int_equal(row.period, 0);
   assert_int_equal(row.symmetric, 1);
   assert_true(row.lyapunov > 0.8 && row.lyapunov < 0.9 && row.lyapunov_error < 0.02);
-  kz_dynamics_follow(d, N, 2000, x, label, periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, label, periods);
   for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
   kz_dynamics_starts(&WINDOW, 1, N, x); /* errors grow on it, but who comes to it stays */
-  kz_dynamics_follow_covariance(d, N, 2000, x, label, periods);
-  for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
+  kz_dynamics_follow(d, KZ_FOLLOW_ERRORS, N, 2000, x, label, periods);
+  int doubtful = 0; /* 5 of 2048 pass a gap of its cover */
+  for (int i = 0; i < N; i++) doubtful += label[i] == KZ_DOUBTFUL;
+  for (int i = 0; i < N; i++) assert_true(label[i] == 1 || label[i] == KZ_DOUBTFUL);
+  assert_in_range(doubtful, 0, 2);
   with_table(d, 200, TOP);
   kz_dynamics_starts(&WINDOW, 1, N, x);
-  kz_dynamics_follow_hybrid(d, 6, N, 2000, x, label, periods, integrated);
+  kz_dynamics_follow(d, KZ_FOLLOW_QUINTIC, N, 2000, x, label, periods);
   for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
   kz_dynamics_free(d);
 }
@@ -399,7 +436,7 @@ int main(void) {
       cmocka_unit_test(test_catalogue),
       cmocka_unit_test(test_interpolation),
       cmocka_unit_test(test_mirrored_labels),
-      cmocka_unit_test(test_hybrid),
+      cmocka_unit_test(test_processed),
       cmocka_unit_test(test_regions_are_right),
       cmocka_unit_test(test_wrong_labels_are_doubtful),
       cmocka_unit_test(test_measures),

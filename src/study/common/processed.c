@@ -1,0 +1,102 @@
+#include "processed.h"
+
+#include <math.h>
+
+#include "cells.h"
+#include "step_check.h"
+
+enum { SWEEP_VALUES = 9 }; /* of a sweep that are tried, both ends included */
+
+/* rad: what single precision can reach of an error of one drive period. */
+static const double SINGLE_FLOOR = 1e-5;
+/* What one numerics has to serve. */
+typedef struct {
+  kz_pendulum pendulum[SWEEP_VALUES];
+  int count;
+  double fastest, tolerance; /* rad per drive radian; rad */
+} demand;
+
+bool kz_is_processed(int32_t scheme) {
+  return scheme == kz_scheme_find("processed");
+}
+
+double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows) {
+  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24, .precision = KZ_DOUBLE};
+  kz_dynamics *dynamics = kz_dynamics_create(pendulum, &numerics, 1);
+  if (!dynamics) return INFINITY;
+  const double fastest = kz_dynamics_max_velocity(dynamics, window);
+  kz_dynamics_free(dynamics);
+  return fastest * fmax(KZ_TABLE_MARGIN, rows > 5 ? (double)(rows - 1) / (double)(rows - 5) : 1);
+}
+
+/* Windows of the scene's studies, at the pendulum numbered `last`. */
+static void add_window(demand *d, const kz_axis *theta, const kz_axis *velocity, int64_t rows) {
+  const kz_window window = kz_window_of(theta, velocity);
+  d->fastest = fmax(d->fastest, kz_fastest_motion(d->pendulum + d->count - 1, &window, rows));
+}
+
+static void add_basin(demand *d, const kz_basin_plan *plan) {
+  add_window(d, &plan->theta, &plan->velocity, plan->table_velocity);
+  d->tolerance = fmin(d->tolerance, kz_steps_tolerance(plan));
+}
+
+static void add_pendulum(demand *d, const kz_scene *scene) {
+  if (!(scene->parameters.pendulum.beta > 0) || !(scene->has_basin || scene->has_attractors)) return;
+  d->pendulum[d->count++] = scene->parameters.pendulum;
+  if (scene->has_basin) add_basin(d, &scene->basin);
+  if (scene->has_attractors) add_window(d, &scene->attractors.theta, &scene->attractors.velocity, 0);
+}
+
+static void add_sweep(demand *d, const kz_scene *scene) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  const int64_t n = plan->values.count < SWEEP_VALUES - 1 ? plan->values.count : SWEEP_VALUES - 1;
+  for (int64_t i = 0; i < n; i++) {
+    const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
+    if (!kz_sweep_pendulum(scene, value, d->pendulum + d->count)) continue;
+    d->count++;
+    add_window(d, &plan->theta, &plan->velocity, 0);
+    if (scene->has_basin) add_basin(d, &scene->basin);
+  }
+  d->fastest = fmax(d->fastest, fabs(plan->start_velocity));
+}
+
+static int32_t larger(int32_t a, int32_t b) {
+  return a > b ? a : b;
+}
+
+/* One numerics for all pendulums: the most steps and terms that one of them needs. */
+static bool serve(const demand *d, kz_numerics *numerics) {
+  const kz_numerics asked = *numerics;
+  double error;
+  for (int i = 0; i < d->count; i++) {
+    kz_numerics one = asked;
+    if (kz_numerics_choose(d->pendulum + i, d->tolerance, d->fastest, &one, &error) != KZ_OK) return false;
+    one.steps_per_period = larger(one.steps_per_period, numerics->steps_per_period);
+    one.drift_terms = larger(one.drift_terms, numerics->drift_terms);
+    one.kick_terms = larger(one.kick_terms, numerics->kick_terms);
+    *numerics = one;
+  }
+  return d->count > 0;
+}
+
+bool kz_processed_choose(kz_scene *scene) {
+  demand d = {.tolerance = scene->asked.tolerance};
+  kz_numerics numerics = {
+      .scheme = scene->asked.scheme, .steps_per_period = scene->asked.steps_per_period, .precision = scene->numerics.precision};
+  if (scene->has_basin && !isnan(scene->basin.accuracy)) return false;
+  add_pendulum(&d, scene);
+  if (scene->has_sweep) add_sweep(&d, scene);
+  if (numerics.precision == KZ_SINGLE) d.tolerance = fmax(d.tolerance, SINGLE_FLOOR);
+  if (!serve(&d, &numerics)) return false;
+  scene->numerics = numerics;
+  return true;
+}
+
+kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, double tolerance, double fastest) {
+  kz_numerics numerics = {.precision = KZ_DOUBLE};
+  kz_scheme scheme;
+  double error;
+  if (kz_numerics_choose(pendulum, tolerance, fastest, &numerics, &error) == KZ_OK) return numerics;
+  kz_scheme_row(kz_scheme_find("split6"), &scheme);
+  return (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = scheme.default_steps, .precision = KZ_DOUBLE};
+}

@@ -1,0 +1,25 @@
+/* The processed splitting for a scene: steps and terms that the speeds of its windows and its tolerance need. Not collective. */
+#ifndef KAPITZA_STUDY_PROCESSED_H
+#define KAPITZA_STUDY_PROCESSED_H
+
+#include "kapitza/dynamics.h"
+#include "kapitza/study.h"
+
+/* Is that row of the kernel's table the processed splitting? */
+bool kz_is_processed(int32_t scheme);
+
+/* How much faster than the starts of a window after one drive period motions may become, and nodes of a map table are. */
+#define KZ_TABLE_MARGIN 1.05
+
+/* rad per drive radian: what one drive period makes of the starts of a window at most, with a margin that the rim of a map table of
+ * `rows` nodes of the velocity needs. */
+double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows);
+
+/* Fills scene->numerics; false where the processed splitting does not carry the scene's motions, or where nothing is labelled. */
+bool kz_processed_choose(kz_scene *scene);
+
+/* The cheapest processed splitting of one pendulum to a tolerance (rad, of one drive period), or split6 with its own number of steps
+ * where there is none. */
+kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, double tolerance, double fastest);
+
+#endif
