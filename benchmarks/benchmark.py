@@ -2,7 +2,9 @@
 
 The textbook programs (benchmarks/) label a random subset of the scene's cells and are told the attractors; only their
 labelling is timed. This program labels the whole scene; its time is that of the whole command: start, discovery, table,
-cells, file. The programs are run alternately, so changes of the machine's speed affect all; ratios are taken within each round."""
+cells, file. The marginal cost of a cell is what a finer grid of the same window (--fine) takes longer than the scene's, per cell that
+it has more: all that a run does once falls out. The programs are run alternately, so changes of the machine's speed affect all;
+ratios are taken within each round."""
 
 import argparse
 import hashlib
@@ -36,6 +38,7 @@ OURS = [
     "ICM, 700 nodes, 12 steps: basin.icm.theta=700 basin.icm.velocity=700 numerics.steps_per_period=12",
     "ICM, linear: basin.icm.interpolation=linear",
 ]
+MARGINAL = ["direct", "ICM"]  # of these
 UNKNOWN = -2  # an attractor that the reference catalogue lacks
 
 
@@ -69,6 +72,19 @@ class Ours:
     def seconds_per_cell(self, core):
         _, seconds = pinned([*self.command, "-o", self.file], core)
         return seconds / Result(self.file).group("basin")["attractor"].size
+
+    def marginal_seconds(self, core, fine):
+        """Seconds a cell that a grid of fine x fine cells takes beyond the scene's own."""
+        finer = Ours(f"{self.name} fine: basin.theta.count={fine} basin.velocity.count={fine}", None, self.file.parent)
+        finer.command = self.command + finer.command[finer.command.index("--set"):]
+        seconds, cells = [], []
+        for setting in (self, finer):
+            seconds.append(pinned([*setting.command, "-o", setting.file], core)[1])
+            cells.append(Result(setting.file).group("basin")["attractor"].size)
+        finer.file.unlink()
+        if cells[1] <= cells[0]:
+            raise BadFile(f"--fine {fine}: the scene's own grid is not coarser")
+        return (seconds[1] - seconds[0]) / (cells[1] - cells[0])
 
     def labels(self, cells, reference):
         """Labels of some cells in the ids of the reference catalogue."""
@@ -118,8 +134,22 @@ def rounds_of(arguments, ours, catalogue, states):
     return seconds
 
 
+def marginal_of(arguments, ours, catalogue, states):
+    """Microseconds a further cell of this program, and how often these go into the twin's microseconds, one value a round."""
+    rows = {setting.name: ([], []) for setting in ours if setting.name in MARGINAL}
+    for _ in range(arguments.rounds if arguments.fine else 0):
+        twin = textbook_run("twin", catalogue, *states(TEXTBOOK[1][2], 1), arguments.core)[1]
+        for setting in ours:
+            if setting.name in rows:
+                taken, ratio = rows[setting.name]
+                taken.append(1e6 * setting.marginal_seconds(arguments.core, arguments.fine))
+                ratio.append(1e6 * twin / taken[-1])
+    return [{"name": name, "microseconds_per_cell": spread(taken), "times_faster_than_twin": spread(ratio)}
+            for name, (taken, ratio) in rows.items() if taken]
+
+
 def measure(arguments, folder):
-    """One row per contestant: time a cell, ratio to the twin, wrong labels."""
+    """One row per contestant: time a cell, ratio to the twin, wrong labels; and rows of marginal costs."""
     ours = [Ours(setting, arguments.scene, folder) for setting in OURS + arguments.try_]
     for setting in ours:  # once unmeasured: files come into memory, `accuracy` computes its reference labels
         setting.seconds_per_cell(arguments.core)
@@ -131,12 +161,13 @@ def measure(arguments, folder):
         return basin["theta"].values[column], basin["velocity"].values[row]
 
     seconds = rounds_of(arguments, ours, catalogue, states)
+    marginal = marginal_of(arguments, ours, catalogue, states)
     print(f"benchmark: the true_labels of {arguments.cells} cells", file=sys.stderr, flush=True)
     compared, cells = states(arguments.cells, 0), reference_check.sample_cells(basin["attractor"].shape, arguments.cells, 0)
     true_labels = cached_labels(catalogue, *compared)
     labels = {name: textbook_run(program, catalogue, *compared, arguments.core)[0] for name, program, _ in TEXTBOOK}
     labels |= {setting.name: setting.labels(cells, catalogue) for setting in ours}
-    return rows_of(seconds, lambda name: reference_check.compare(labels[name], true_labels, catalogue))
+    return rows_of(seconds, lambda name: reference_check.compare(labels[name], true_labels, catalogue)), marginal
 
 
 def rows_of(seconds, counts):
@@ -158,19 +189,29 @@ def table(rows):
                f" {row['wrong']:6d} {100 * row['low']:9.2f} .. {100 * row['high']:.2f} %")
 
 
+def marginal_table(rows):
+    yield f"{'one cell more':32} {'us per cell':>24} {'times the twin':>24}"
+    for row in rows:
+        time_, ratio = row["microseconds_per_cell"], row["times_faster_than_twin"]
+        yield (f"{row['name']:32} {time_['median']:9.3f} ({time_['min']:.3f} .. {time_['max']:.3f})"
+               f" {ratio['median']:9.2f} ({ratio['min']:.2f} .. {ratio['max']:.2f})")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scene", type=Path, default=ROOT / "scenes" / "blackburn-fig12.yaml")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--cells", type=int, default=8000, help="cells compared with quad precision")
+    parser.add_argument("--fine", type=int, default=4000, help="cells an axis of the finer grid; 0 = no marginal cost (default: 4000)")
     parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)), help="the core that all run on")
     parser.add_argument("--try", dest="try_", action="append", default=[], metavar="'NAME: KEY=VALUE ...'",
                         help="one more setting of this program")
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        rows = measure(arguments, folder)
-    print(json.dumps(rows, indent=1) if arguments.json else "\n".join(table(rows)))
+        rows, marginal = measure(arguments, folder)
+    lines = [*table(rows), *(marginal_table(marginal) if marginal else [])]
+    print(json.dumps({"cells": rows, "marginal": marginal}, indent=1) if arguments.json else "\n".join(lines))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import subprocess
 
 import benchmark
+import benchmark_kernel
 import numpy as np
 import pytest
 import reference_check
@@ -52,3 +53,24 @@ def test_textbook_programs_agree_with_the_truth(built, tmp_path, fig12_attractor
     assert np.count_nonzero(scalar != lanes) <= 1
     assert np.count_nonzero(lanes != true_labels) <= 3
     assert len(np.unique(true_labels)) >= 4 and (true_labels >= 0).all()
+
+
+def test_kernel_rows_keep_their_tolerance(built):
+    """The harness of scripts/benchmark kernel, few states: every processed row errs less than it was asked to, and less than others."""
+    core = min(benchmark.os.sched_getaffinity(0))
+    peak, probes, rows = benchmark_kernel.harness_rows(benchmark_kernel.PENDULUMS["epsilon = 0.46"], 64, 2, core)
+    assert peak > 0.1 and probes.shape == (64, 4)
+    processed = [row for row in rows if row["name"] == "processed"]
+    assert [row["tolerance"] for row in processed] == [1e-4, 1e-7, 1e-10, 3e-10, 1e-12]
+    assert all(0 < row["error"] <= row["tolerance"] and row["ns"] > 0 and row["operations"] > 0 for row in processed)
+    assert {row["name"] for row in rows} == {"split6-24", "processed", "GSL-rk8pd"}
+    split6 = next(row for row in rows if row["name"] == "split6-24")
+    assert split6["error"] < 1e-8
+    assert benchmark_kernel.rival_ns(split6, rows) == min(row["ns"] for row in processed if row["error"] <= split6["error"])
+
+
+def test_an_integrator_that_errs_is_seen_to_err(built):
+    probes = np.zeros((64, 4))
+    probes[:, 2:] = [np.pi, 0.5]
+    row = benchmark_kernel.other_row("wrong", lambda states, periods: states + [-np.pi + 0.03, 0.54], 1e-6, probes, 1)
+    assert row["error"] == pytest.approx(0.05)
