@@ -101,7 +101,8 @@ def test_unsettled_cells_are_no_basin(kapitza, tmp_path):
     (tmp_path / "x.yaml").write_text(json.dumps({"pendulum": SMALL}))
     for damping, said, finite in ((5, "; unsettled cells are left out", True), (5000, "are left out: most cells are unsettled", False)):
         done = kapitza("run", "x.yaml", "--set", grid, "--set", f"basin.max_periods={8 if damping > 5 else 30}",
-                       "--set", f"pendulum.quality_factor={damping}", "--set", f"basin.attractors.starts={8 if damping > 5 else 256}", "--force", folder=tmp_path)
+                       "--set", f"pendulum.quality_factor={damping}", "--force",
+                       "--set", f"basin.attractors.starts={8 if damping > 5 else 256}", folder=tmp_path)
         assert said in done.stdout
         with h5py.File(tmp_path / "x.h5") as file:
             attributes, unsettled = dict(file["basin"].attrs), (file["basin/attractor"][:] < 0).mean()
