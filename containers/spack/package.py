@@ -1,13 +1,16 @@
-"""Spack recipe of kapitza: copy the folder to repos/builtin/packages/kapitza of a Spack repository."""
+"""Spack recipe of kapitza. Copied as packages/kapitza/package.py into a Spack repository, it builds this folder's sources:
 
-from spack.package import *
+spack dev-build --source-path FOLDER kapitza@0.1.0
+"""
+
+from spack.package import CMakePackage, conflicts, depends_on, generator, license, version
 
 
 class Kapitza(CMakePackage):
     """Basins of attraction of the pendulum with a shaken pivot, on any number of MPI ranks."""
 
     license("MIT")
-    version("main", branch="main")
+    version("0.1.0")
 
     depends_on("c", type="build")
     depends_on("fortran", type="build")

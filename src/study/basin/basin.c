@@ -309,8 +309,8 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
                   .memory_bytes = 100 * nodes + 150 * regions,
                   .first_bytes = 27 * cells,
                   .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
-                                  nodes / 2 * table_period + regions / 2 * (4 * table_period + 1e-6) + cells * periods * cell_period +
-                                  (double)kz_doubt_cells(plan) * periods * 4 * period};
+                                  nodes / 2 * table_period + regions / 2 * (4 * table_period + 1e-6) +
+                                  cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

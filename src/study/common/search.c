@@ -16,8 +16,8 @@ enum {
   PILOT_STARTS = 512, /* starts that are followed before regions grow */
   FEWEST_CELLS = 128, /* of the regions' grid along an axis, where they grow */
   MOST_CELLS = 500,
-  STRETCH = 1024,     /* periods of a tile at least */
-  STRETCHES = 64,     /* of a round, about */
+  STRETCH = 1024, /* periods of a tile at least */
+  STRETCHES = 64, /* of a round, about */
   CHAOS_TRIES = 4,
   CHAOS_PERIODS = 512 /* to see which open starts a chaotic attractor's cover captures */
 };
