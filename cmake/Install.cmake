@@ -23,6 +23,6 @@ kapitza_printed(_kapitza FOLDER ${CMAKE_INSTALL_DATADIR}/zsh/site-functions WORD
 kapitza_printed(kapitza.fish FOLDER ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d WORDS --completion fish)
 
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kapitza FILES_MATCHING PATTERN "*.yaml")
-install(PROGRAMS scripts/kapitza.sbatch DESTINATION ${CMAKE_INSTALL_DATADIR}/kapitza)
+install(PROGRAMS scripts/kapitza.sbatch scripts/kapitza.pbs DESTINATION ${CMAKE_INSTALL_DATADIR}/kapitza)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

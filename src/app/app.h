@@ -34,7 +34,7 @@ typedef struct {
   char **sets;        /* KEY=VALUE of every --set, in order */
   int n_sets;
   bool resume, force;
-  bool helped; /* an option printed what was asked: nothing else is to be done */
+  bool helped;       /* an option printed what was asked: nothing else is to be done */
   double time_limit; /* seconds; 0 = none */
   kz_progress progress;
   bool speaks; /* this process prints: the first of those that mpirun started */

@@ -1,6 +1,7 @@
-"""Two hosts and a batch system on one machine (tests/cluster); skipped by name where the machine does not allow them."""
+"""Two hosts and batch systems on one machine (tests/cluster); skipped by name where the machine does not allow them."""
 
 import os
+import shutil
 import subprocess
 
 import pytest
@@ -8,11 +9,15 @@ from conftest import PROGRAM, ROOT, datasets
 
 SMALL = ROOT / "scenes" / "small.yaml"
 DIRECT = ["--set", "basin.method=direct"]  # enough tiles for both hosts
+LARGE = [*DIRECT, "--set", "basin.theta.count=1600", "--set", "basin.velocity.count=1600"]  # some seconds
+HOSTS = ["mpirun", "--host", "first:1,second:1", "-n", "2"]
+# Of a shell: waits until the run has finished work to lose.
+LATER = 'until [ -e small.h5 ] || [ -n "$(find small.h5.checkpoint -size +300k 2>/dev/null)" ]; do sleep 0.1; done;'
 
 
-def run(tool, folder, *words):
+def run(tool, folder, *words, **more):
     """A command on a cluster of tests/cluster; skips the test where there can be none."""
-    settings = {name: value for name, value in os.environ.items() if name != "OMPI_MCA_pml"}
+    settings = {name: value for name, value in os.environ.items() if name != "OMPI_MCA_pml"} | more
     done = subprocess.run(list(map(str, [ROOT / "tests" / "cluster" / tool, folder / "cluster", *words])), cwd=folder, text=True,
                           capture_output=True, timeout=120, env=settings)
     if done.returncode == 77:
@@ -25,6 +30,13 @@ def alone(kapitza, tmp_path_factory):
     """The datasets of one rank."""
     folder = tmp_path_factory.mktemp("alone")
     kapitza("run", SMALL, *DIRECT, folder=folder)
+    return datasets(folder / "small.h5")
+
+
+@pytest.fixture(scope="module")
+def alone_large(kapitza, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("large")
+    kapitza("run", SMALL, *LARGE, folder=folder)
     return datasets(folder / "small.h5")
 
 
@@ -44,11 +56,86 @@ def test_a_stop_on_one_of_two_hosts_reaches_the_other(tmp_path):
     assert (tmp_path / "small.h5.checkpoint").exists() and not (tmp_path / "small.h5").exists()
 
 
-def test_a_batch_job(tmp_path, alone):
-    """The script of README.md, with the launcher that Slurm itself has."""
-    (tmp_path / "job.sh").write_text("#!/bin/bash\n#SBATCH --ntasks=2\n#SBATCH --overcommit\n#SBATCH --output=out\n"
-                                     f"srun --mpi=pmix --overcommit {PROGRAM} run {SMALL} {' '.join(DIRECT)} --resume\n")
-    done = run("one_node_slurm", tmp_path, "sbatch", "--wait", "job.sh")
+def rank_1(signals):
+    """What makes rank 1, on the second host, send itself signals once there is work to lose."""
+    return ["bash", "-c", f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then ({LATER} {signals}) & fi; exec "$@"', "rank"]
+
+
+def test_a_run_that_is_killed_on_one_host_is_resumed_on_both(tmp_path, alone_large):
+    done = run("two_hosts", tmp_path, *HOSTS, *rank_1("kill -KILL $$"), PROGRAM, "run", SMALL, *LARGE)
+    assert done.returncode not in (0, 75) and not (tmp_path / "small.h5").exists(), done.stderr
+    kept = (tmp_path / "small.h5.checkpoint").stat().st_size
+    done = run("two_hosts", tmp_path, *HOSTS, PROGRAM, "run", SMALL, *LARGE, "--resume")
+    assert done.returncode == 0 and kept > 300_000, done.stderr
+    assert datasets(tmp_path / "small.h5") == alone_large
+
+
+EXTENSIVE = pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes half a minute: KAPITZA_EXTENSIVE=1")
+
+
+@EXTENSIVE
+def test_a_host_that_stands_still_for_a_while_changes_nothing(tmp_path, alone_large):
+    done = run("two_hosts", tmp_path, *HOSTS, *rank_1("kill -STOP $$; touch stood; sleep 3; kill -CONT $$"), PROGRAM, "run", SMALL, *LARGE)
+    assert done.returncode == 0 and (tmp_path / "stood").exists(), done.stderr
+    assert datasets(tmp_path / "small.h5") == alone_large
+
+
+SUBMIT = ["sbatch", "--ntasks=2", "--overcommit", "--time=5", "--output=out"]
+SLURM = {"KAPITZA": str(PROGRAM), "LAUNCHER": "srun --mpi=pmix --overcommit"}
+BATCH = ROOT / "scripts" / "kapitza.sbatch"
+
+
+def test_a_batch_job_is_stopped_requeued_and_resumed(tmp_path, alone_large):
+    """SIGUSR1 as before a time limit: status 75, back into the queue (there is no need to wait its two minutes), resumed, done."""
+    # SIGUSR1 can come while the script waits: --batch sends it to the script alone, as #SBATCH --signal=B: does.
+    watch = f"""{LATER} scancel --batch --signal=USR1 1
+for _ in $(seq 100); do squeue -h -o %r | grep -q BeginTime && break; sleep 0.2; done
+scontrol update jobid=1 StartTime=now
+while [ -n "$(squeue -h)" ]; do sleep 0.2; done
+scontrol show job 1"""
+    words = " ".join(map(str, [*SUBMIT, BATCH, SMALL, *LARGE]))
+    done = run("one_node_slurm", tmp_path, "bash", "-c", f"{words} && {watch}", **SLURM)
     said = (tmp_path / "out").read_text() if (tmp_path / "out").exists() else done.stderr
-    assert done.returncode == 0, said
-    assert datasets(tmp_path / "small.h5") == alone and said.count("written to small.h5") == 1, said
+    assert "Restarts=1" in done.stdout and "JobState=COMPLETED" in done.stdout, done.stdout + said
+    assert "stopped by SIGUSR1" in said and said.count("written to small.h5") == 1
+    assert datasets(tmp_path / "small.h5") == alone_large
+
+
+@EXTENSIVE
+def test_a_job_array_over_a_parameter(tmp_path):
+    few = ["--set", "basin.theta.count=20", "--set", "basin.velocity.count=20", "--set", "basin.attractors.starts=64"]
+    words = [*SUBMIT, "--wait", "--array=0-1", BATCH, SMALL, *DIRECT, *few]
+    done = run("one_node_slurm", tmp_path, *words, SWEEP="pendulum.drive_amplitude=0.29,0.31", **SLURM)
+    assert done.returncode == 0, done.stderr + "".join(path.read_text() for path in tmp_path.glob("out"))
+    assert {path.name for path in tmp_path.glob("*.h5")} == {"small-0.29.h5", "small-0.31.h5"}
+
+
+@pytest.mark.parametrize("status, again", [(75, True), (0, False), (1, False)])
+def test_a_pbs_job_is_submitted_again_after_75(tmp_path, status, again):
+    """PBS itself is in no Debian package: mpirun and qsub are scripts that write down how they were called."""
+    for name, end in (("mpirun", status), ("qsub", 0)):
+        (tmp_path / name).write_text(f'#!/bin/sh\necho "$@" > {tmp_path}/{name}.called\nexit {end}\n')
+        (tmp_path / name).chmod(0o755)
+    job = {"PBS_O_WORKDIR": str(tmp_path), "SCENE": "a scene.yaml", "PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    done = subprocess.run([ROOT / "scripts" / "kapitza.pbs"], env=os.environ | job, timeout=20)
+    assert done.returncode == status
+    assert (tmp_path / "mpirun.called").read_text() == "kapitza run a scene.yaml --resume --time-limit 55m\n"
+    assert (tmp_path / "qsub.called").exists() == again
+    assert not again or (tmp_path / "qsub.called").read_text() == f"-v SCENE=a scene.yaml {ROOT / 'scripts' / 'kapitza.pbs'}\n"
+
+
+def test_the_containers_install_what_the_build_needs():
+    """The same Debian packages in both, and those of scripts/setup but for the tests and Python."""
+    docker, apptainer = ((ROOT / "containers" / name).read_text().split() for name in ("Dockerfile", "kapitza.def"))
+    needs = [line.split("|")[1].strip() for line in (ROOT / "scripts" / "setup").read_text().splitlines() if line.count("|") == 2]
+    needs = {name for name in needs if name and " " not in name and not name.startswith(("python", "netcdf", "libcmocka"))}
+    assert len(needs) > 8 and needs <= set(docker) and needs <= set(apptainer)
+
+
+@pytest.mark.parametrize("tool, names", [("hadolint", ["containers/Dockerfile"]),
+                                         ("shellcheck", ["scripts/kapitza.sbatch", "scripts/kapitza.pbs"])])
+def test_linters_find_nothing(tool, names):
+    if not shutil.which(tool):
+        pytest.skip(f"needs {tool}")
+    done = subprocess.run([tool, *names], cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stdout

@@ -1,0 +1,32 @@
+"""Spack recipe of kapitza. Copied as packages/kapitza/package.py into a Spack repository, it builds this folder's sources:
+
+spack dev-build --source-path FOLDER kapitza@0.1.0
+"""
+
+from spack.package import CMakePackage, conflicts, depends_on, generator, license, version
+
+
+class Kapitza(CMakePackage):
+    """Basins of attraction of the pendulum with a shaken pivot, on any number of MPI ranks."""
+
+    license("MIT")
+    version("0.1.0")
+
+    depends_on("c", type="build")
+    depends_on("fortran", type="build")
+    depends_on("cmake@3.24:", type="build")
+    depends_on("ninja", type="build")
+    depends_on("pkgconfig", type="build")
+    depends_on("mpi")
+    depends_on("hdf5+hl")
+    depends_on("gsl")
+    depends_on("fftw@3 precision=double")
+    depends_on("libyaml")
+
+    generator("ninja")
+    # Labels depend on how products are rounded: the build refuses other compilers.
+    conflicts("%oneapi")
+    conflicts("%nvhpc")
+
+    def cmake_args(self):
+        return [self.define("BUILD_TESTING", False), self.define("KAPITZA_ARCH", "native")]
