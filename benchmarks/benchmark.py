@@ -33,10 +33,9 @@ TEXTBOOK = [("RK4-100, textbook", "textbook", 2000), (TWIN, "twin", 100_000)]
 OURS = [
     "direct: basin.method=direct",
     "ICM: basin.method=icm",
-    "hybrid: basin.method=hybrid",
-    "direct, 10 steps: basin.method=direct numerics.steps_per_period=10",
-    "ICM, 700 nodes, 12 steps: basin.icm.theta=700 basin.icm.velocity=700 numerics.steps_per_period=12",
-    "ICM, linear: basin.icm.interpolation=linear",
+    "direct, 1e-7: basin.method=direct numerics.tolerance=1e-7",
+    "ICM, 700 nodes: basin.method=icm basin.icm.theta=700 basin.icm.velocity=700",
+    "ICM, linear: basin.method=icm basin.icm.interpolation=linear",
 ]
 MARGINAL = ["direct", "ICM"]  # of these
 UNKNOWN = -2  # an attractor that the reference catalogue lacks

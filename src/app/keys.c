@@ -105,7 +105,7 @@ const kz_key kz_keys[] = {
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
     BOOLEAN("basin.flag_undecided", "false", basin.flag_undecided,
             "Follow integrated cells once more from one unit in the last place beside: where the label differs, double "
-            "precision cannot decide it, and `evidence` says so. Methods direct and hybrid."),
+            "precision cannot decide it, and `evidence` says so. Method direct."),
     REAL("basin.accuracy", "", 0.5, 0.9999, "", basin.accuracy,
          "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a "
          "sample "

@@ -9,7 +9,7 @@ import yaml
 from conftest import ROOT, datasets
 
 SMALL = ROOT / "scenes" / "small.yaml"
-GRID = ["basin.theta.count=16", "basin.velocity.count=16", "basin.attractors.starts=256", "basin.method=direct",
+GRID = ["basin.theta.count=16", "basin.velocity.count=16", "basin.attractors.starts=256", "basin.method=direct", "numerics.scheme=split6",
         "basin.icm={theta: 32, velocity: 32}"]
 FIG12 = (1 / 121, 1 / 55, 0.3)  # k, beta, m of the small scene
 
@@ -162,13 +162,15 @@ TRIED = {
 def test_every_study_is_tried_beforehand(kapitza, tmp_path, command, name):
     text, place, said = TRIED[name]
     (tmp_path / "x.yaml").write_text(text)
-    done = kapitza(command, "x.yaml", folder=tmp_path, status=2)
+    scheme = () if "scheme" in text else ("--set", "numerics.scheme=split6")
+    done = kapitza(command, "x.yaml", *scheme, folder=tmp_path, status=2)
     assert done.stderr.startswith(f"kapitza: error: x.yaml:{place}: ") and said in done.stderr, done.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["x.yaml"]
 
 
 def test_an_option_at_fault_is_named(kapitza, tmp_path):
-    done = kapitza("check", SMALL, "--set", "numerics.steps_per_period=1", folder=tmp_path, status=2)
+    done = kapitza("check", SMALL, "--set", "numerics.scheme=split6", "--set", "numerics.steps_per_period=1", folder=tmp_path,
+                   status=2)
     assert done.stderr.startswith("kapitza: error: --set numerics.steps_per_period=1: numerics.steps_per_period: with")
 
 
@@ -177,13 +179,13 @@ def test_attractors_and_sweeps_warn_of_loose_steps(kapitza, tmp_path):
                "at m = 8, at speeds from": "sweep: {parameter: m, min: 0.1, max: 8, count: 2, measure: [strobe], transient: 1}\n"}
     for number, (said, study) in enumerate(studies.items()):
         (tmp_path / f"{number}.yaml").write_text(SPRING + study)
-        done = kapitza("run", f"{number}.yaml", folder=tmp_path)
+        done = kapitza("run", f"{number}.yaml", "--set", "numerics.scheme=split6", folder=tmp_path)
         assert f"warning: {said}" in done.stdout and "steps or more" in done.stdout, done.stdout
 
 
 def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
     """Their labels are random: measured as wrong, and named in a warning."""
-    (tmp_path / "x.yaml").write_text("numerics: {steps_per_period: 96}\n" + SPRING + "basin: {theta: {count: 8}, velocity: {min: -100, "
+    (tmp_path / "x.yaml").write_text("numerics: {scheme: split6, steps_per_period: 96}\n" + SPRING + "basin: {theta: {count: 8}, velocity: {min: -100, "
                                      "max: 100, count: 8}, method: direct, icm: {theta: 32, velocity: 32}, attractors: {starts: 16}}\n"
                                      "tradeoff: {samples: 64, settings: [direct-6, direct-96]}\n")
     done = kapitza("run", "x.yaml", folder=tmp_path)
