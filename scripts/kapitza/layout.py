@@ -54,6 +54,7 @@ CODES = {"period": None, "centre": 3, "evidence": 4, "settling_time": None, "met
          "branch_period": None, "branch_centre": 3}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release"}  # axes that go up
 WORDS = {"parameter", "parameter_units"}  # attributes that are text; all others that a part names are numbers
+WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pictures name its parameters
 NUMBERS = {"quality_factor", "damping", *(f"tongue_{tongue}_lowest_{axis}" for tongue in (1, 2) for axis in "km")}  # where they are given
 
 

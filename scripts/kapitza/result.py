@@ -59,6 +59,8 @@ class Result:
         if name not in self.groups:
             held = ", ".join(group for group in self.groups if group != "pendulum") or "none"
             raise BadFile(f"{self.path}: holds no {name} (studies in it: {held})")
+        if name in layout.WITH_PENDULUM and not self.pendulum:
+            raise BadFile(f"{self.path}: incomplete, lacks the group pendulum")
         try:
             wrong = self._elsewhere(name) or self._too_large(name)
             if not wrong:

@@ -158,6 +158,8 @@ def damage(path, how):
                 del file["basin"]
             elif how == "no labels":
                 del file["basin/attractor"]
+            elif how == "no pendulum":
+                del file["pendulum"]
             elif how == "no parameters":
                 del file["pendulum"].attrs["k"]
             elif how == "parameter of text":
@@ -218,6 +220,7 @@ def replace(file, name, **contents):
     ("foreign", "not a result of kapitza"),
     ("no basin", "holds no basin"),
     ("no labels", "lacks attractor"),
+    ("no pendulum", "lacks the group pendulum"),
     ("no parameters", "lacks k, beta or m"),
     ("parameter of text", "lacks k, beta or m"),
     ("unknown label", "has cells of attractors that it does not list"),
