@@ -129,7 +129,9 @@ contains
 
   !> Fills kernel_u and kernel_v.
   subroutine enter_points(flow, attractor)
+    !> the flow whose coordinates are entered
     class(flow_t), intent(inout) :: flow
+    !> u and v, in; kernel_u and kernel_v, out
     type(attractor_t), intent(inout) :: attractor
 
     attractor%kernel_u = attractor%u

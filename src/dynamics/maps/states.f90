@@ -85,8 +85,11 @@ contains
 
   !> Physical states become those of the flow's coordinates.
   subroutine enter_states(flow, u, v)
+    !> the flow whose coordinates are entered
     class(flow_t), intent(inout) :: flow
+    !> angles, half-turns; in and out
     real(dp), intent(inout) :: u(:)
+    !> velocities, rad per drive radian; in and out
     real(dp), intent(inout) :: v(:)
     integer :: first, n
 
@@ -101,8 +104,11 @@ contains
 
   !> And back.
   subroutine leave_states(flow, u, v)
+    !> the flow whose coordinates are left
     class(flow_t), intent(inout) :: flow
+    !> angles, half-turns; in and out
     real(dp), intent(inout) :: u(:)
+    !> velocities, rad per drive radian; in and out
     real(dp), intent(inout) :: v(:)
     integer :: first, n
 
