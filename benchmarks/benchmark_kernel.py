@@ -1,8 +1,8 @@
 """Nanoseconds of one drive period of one trajectory, on one core: this program's kernel against other integrators, each at its own
 error, and against the arithmetic that the core can do.
 
-build/benchmarks/kernel times the kernel (split6 with 24 steps, and the processed splitting at five tolerances) and GSL's rk8pd. heyoka,
-numbalsoda (dop853) and pynamicalsys are timed where they are installed (pip) and skipped by name where not. Errors are those of one
+build/benchmarks/kernel times the kernel (split6 with 24 steps, and the processed splitting at five tolerances) and GSL's rk8pd. heyoka
+and numbalsoda (dop853) are timed where they are installed (pip) and skipped by name where not. Errors are those of one
 period of 64 starts with speeds up to 2, against quad precision; times are processor time, without compiling."""
 
 import argparse
@@ -69,26 +69,7 @@ def numbalsoda_rows(module, pendulum, tolerance):
     return follow
 
 
-def pynamicalsys_rows(module, pendulum, tolerance):
-    """The same with the adaptive RK45 of pynamicalsys."""
-    import numba
-
-    k, beta, m = pendulum
-
-    @numba.njit
-    def motion(t, y, _):
-        return np.array([y[1], -beta * y[1] - (k - m * np.cos(t)) * np.sin(y[0])])
-
-    system = module.ContinuousDynamicalSystem(equations_of_motion=motion, system_dimension=2, number_of_parameters=1)
-    system.integrator("rk45", atol=tolerance, rtol=tolerance)
-
-    def follow(states, periods):
-        return np.array([system.evolve_system(state, TURN * periods, parameters=[0.0]) for state in states])
-
-    return follow
-
-
-OTHERS = {"heyoka": heyoka_rows, "numbalsoda": numbalsoda_rows, "pynamicalsys": pynamicalsys_rows}
+OTHERS = {"heyoka": heyoka_rows, "numbalsoda": numbalsoda_rows}
 
 
 def harness_rows(pendulum, states, periods, core):
