@@ -17,7 +17,7 @@
 
 enum {
   CELLS = 16384, /* of a tile, at most: so many that the few that take long hardly leave lanes empty */
-  ROUNDS = 4    /* of discovery from unsettled cells, at most */
+  ROUNDS = 4     /* of discovery from unsettled cells, at most */
 };
 
 /* How a label was found: the values of the file's variable `evidence`. */
