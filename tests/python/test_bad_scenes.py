@@ -111,7 +111,7 @@ SCENES = {
     "huge count": (replaced("theta: {count: 20}", "theta: {count: 1000001}"), "7:18", "from 1 to 1000000"),
     "count beyond 64 bits": (replaced("theta: {count: 20}", "theta: {count: 99999999999999999999}"), "7:18", "basin.theta.count"),
     "counts beyond memory": (replaced("count: 20", "count: 1000000"), "", "memory"),
-    "table beyond memory": (GOOD + "  icm: {theta: 100000, velocity: 100000}\n", "", "memory"),
+    "table beyond memory": (GOOD + "  method: icm\n  icm: {theta: 100000, velocity: 100000}\n", "", "memory"),
     "table too small": (GOOD + "  icm: {theta: 7}\n", "9:16", "basin.icm.theta"),
     "negative seed": (GOOD + "  attractors: {seed: -1}\n", "9:22", "basin.attractors.seed"),
     "period too long": (GOOD + "  attractors: {max_period: 513}\n", "9:28", "basin.attractors.max_period"),

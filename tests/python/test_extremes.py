@@ -185,9 +185,9 @@ def test_attractors_and_sweeps_warn_of_loose_steps(kapitza, tmp_path):
 
 def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
     """Their labels are random: measured as wrong, and named in a warning."""
-    (tmp_path / "x.yaml").write_text("numerics: {scheme: split6, steps_per_period: 96}\n" + SPRING
-                                     + "basin: {theta: {count: 8}, velocity: {min: -100, max: 100, count: 8}, "
-                                     "method: direct, icm: {theta: 32, velocity: 32}, attractors: {starts: 16}}\n"
+    (tmp_path / "x.yaml").write_text("numerics: {scheme: split6, steps_per_period: 96}\n" + SPRING +
+                                     "basin: {theta: {count: 8}, velocity: {min: -100, max: 100, count: 8}, method: direct, "
+                                     "icm: {theta: 32, velocity: 32}, attractors: {starts: 16}}\n"
                                      "tradeoff: {samples: 64, settings: [direct-6, direct-96]}\n")
     done = kapitza("run", "x.yaml", folder=tmp_path)
     assert "warning: steps that do not carry the motions of this window: direct-6\n" in done.stdout

@@ -24,7 +24,8 @@ module kz_attractors_chaos
 
 contains
 
-  !> Follows a bundle of orbits from the physical state (u, v). Where none of them is ever trapped and they diverge, a chaotic attractor is appended.
+  !> Follows a bundle of orbits from the physical state (u, v). Where none of them is ever trapped and they diverge, a chaotic
+  !> attractor is appended.
   !> A long chaotic transient is none: one of its orbits is trapped at last. Where damping is so weak that areas hardly shrink
   !> meanwhile, nothing can be told.
   subroutine find_chaos(search, regions, u, v, attractors)
