@@ -107,12 +107,6 @@ void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t number, kz_attra
 /* number [count]: the attractors in the order of the file. */
 void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);
 
-/* Measures of a grid of labels [n_velocity][n_theta]; unsettled cells (-1) are left out. */
-void kz_basin_entropy(int64_t n_theta, int64_t n_velocity, const int16_t *label, double *entropy, double *boundary_entropy);
-/* Share of cells whose label differs from that of a cell `distance` columns away; circle = 1 where theta closes. */
-void kz_uncertain_share(int64_t n_theta, int64_t n_velocity, const int16_t *label, int64_t distance, int64_t circle,
-                        double *share);
-
 /* ---- branches ---- */
 
 /* One cycle of the stroboscopic map carried from parameters to parameters.

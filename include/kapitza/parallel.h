@@ -49,9 +49,32 @@ kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what);
 /* Bytes of rank 0 to every rank. Collective. */
 kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes);
 
+/* Sums of each of n numbers over the ranks, on every rank. Collective. */
+kz_status kz_ranks_sum(kz_ranks *ranks, int64_t *numbers, int64_t n);
+
+/* KZ_STOPPED where a signal or the time limit asks for a stop; a tile that may last seconds returns it. No MPI. */
+kz_status kz_ranks_interrupted(const kz_ranks *ranks);
+
 /* auto: a bar where a person's terminal is found, else a line every 10 s; always: where no terminal is, a line every
  * second and one at the end of each stage; never: nothing. Stages of one tile are silent. */
 void kz_ranks_set_progress(kz_ranks *ranks, kz_progress progress);
+/* Progress and the end of each stage as JSON lines (rank 0; NULL: none): {"event": "progress", "seconds", "stage", "done", "total"},
+ * {"event": "stage", "seconds", "stage", "tiles", "wall", "processor", "busy"}. */
+void kz_ranks_set_log(kz_ranks *ranks, FILE *log);
+/* Seconds since kz_ranks_start. */
+double kz_ranks_seconds(const kz_ranks *ranks);
+
+/* What the stages of one name took. */
+typedef struct {
+  char stage[32];
+  int64_t calls, tiles;
+  double wall;      /* s */
+  double processor; /* s, of all ranks; where a rank waits, MPI may use its processor */
+  double busy;      /* s in which a rank had work, of all ranks */
+  double serial;    /* s in which only one had: stages of one tile */
+} kz_timing;
+/* Those of all stages so far, in the order of their first; how many. Rank 0. */
+int64_t kz_ranks_timings(const kz_ranks *ranks, const kz_timing **list);
 /* Stop (KZ_STOPPED) once `seconds` have passed since kz_ranks_start; 0 = no limit. */
 void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds);
 
@@ -77,7 +100,21 @@ void kz_checkpoint_clear(const char *path, const char *fingerprint);
  * differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
-/* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, no kz_ranks call. */
+/* Records of varying length that stay with the ranks that made them. */
+typedef struct {
+  int64_t tile;
+  size_t bytes;
+  void *data;
+} kz_piece;
+typedef struct {
+  int64_t n, room;
+  kz_piece *list; /* [n], in no order */
+} kz_pieces;
+kz_status kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes);
+void kz_pieces_free(kz_pieces *pieces);
+
+/* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, of kz_ranks only
+ * kz_ranks_interrupted. */
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
 
 typedef struct {
@@ -86,7 +123,10 @@ typedef struct {
   size_t record_bytes;
   kz_tile_fn work;
   void *context;
-  bool keep;       /* records go to the checkpoint as they finish, and are not done again on resume */
+  bool keep; /* records go to the checkpoint as they finish, and are not done again on resume */
+  kz_pieces
+      *pieces;     /* not NULL: a record begins with a uint64_t, the bytes that it uses of record_bytes (a multiple of 8); it is
+                        added here, on the rank that made it or, from a checkpoint, on any, and `records` is NULL */
   bool everywhere; /* all ranks receive all records; else only rank 0 */
   bool
       together; /* all ranks do every tile together, in order, each with the same record (everywhere): `work` is collective and may
@@ -96,7 +136,20 @@ typedef struct {
 /* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless
  * everywhere). The first failing rank stops the others, and all return its status. Collective. KZ_STOPPED: a signal or the
  * time limit came before the last tile was begun; finished kept records are on disk. Kept stages must come in the same
- * order in every run. Without an open checkpoint nothing is kept. */
+ * order in every run. Without an open checkpoint nothing is kept. `ranks` NULL: this rank alone does all tiles in order, keeps
+ * nothing and hears no stop request; not for pieces. */
 kz_status kz_stage_run(kz_ranks *ranks, const kz_stage *stage, void *records);
+
+/* What becomes of pieces: each rank makes a message of each of its own, rank 0 takes all messages, in no order. Both may return
+ * KZ_FAILED; `make` fills message [message_bytes, at most 1 GiB] and says how many bytes it used, more than 0. */
+typedef struct {
+  const char *name; /* for the progress line */
+  size_t message_bytes;
+  kz_status (*make)(void *context, const kz_piece *piece, void *message, size_t *bytes);
+  kz_status (*take)(void *context, const void *message, size_t bytes);
+  void *context;
+} kz_delivery;
+/* Delivers the pieces of all ranks. KZ_STOPPED as kz_stage_run. Collective. */
+kz_status kz_pieces_deliver(kz_ranks *ranks, const kz_pieces *pieces, const kz_delivery *delivery);
 
 #endif

@@ -1,12 +1,12 @@
 /* store: the result file (HDF5, netCDF-4 readable; layer 2). Names, types, units and long names of every dataset of the
  * file's contract are stated once, in a table of this layer. Written by one rank with the serial library.
  *
- * The file grows in memory; PATH.part is made at once, so that a wrong path is known early, and is written, saved and renamed
- * to PATH when complete. */
+ * The file grows on disk as PATH.part, and is renamed to PATH when complete. */
 #ifndef KAPITZA_STORE_H
 #define KAPITZA_STORE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "kapitza/common.h"
@@ -39,10 +39,29 @@ kz_status kz_store_dimension(kz_store *store, const char *group, const char *nam
  * data is an array of double, int8_t, uint8_t, int16_t, int32_t, uint32_t or const char * accordingly. */
 kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data);
 
+/* The same, of two dimensions, whose chunks come one by one: `chunk` [2], the cells of one along each. */
+kz_status kz_store_chunked(kz_store *store, const char *group, const char *name, const int64_t *chunk);
+/* Its chunk that begins at cell `place` [2], packed by kz_pack; cells beyond the ends of the variable are there and have no
+ * meaning. */
+kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, const int64_t *place, const void *packed,
+                         size_t bytes);
+/* Its rows first .. first + n - 1, from the file. */
+kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data);
+
 /* What a study before has written: the length of a dimension (0 where there is none), and one number of a variable at
  * index [its dimensions]. */
 kz_status kz_store_length(kz_store *store, const char *group, const char *dimension, int64_t *length);
 kz_status kz_store_number(kz_store *store, const char *group, const char *name, const int64_t *index, double *value);
+
+/* ---- arrays of numbers as HDF5's filters shuffle and deflate pack them; no HDF5 ---- */
+
+/* Bytes that n packed numbers of `item` bytes take at most. */
+size_t kz_pack_room(size_t n, size_t item);
+/* Packs n numbers of `item` bytes into `packed` [kz_pack_room]: how many bytes that took, a function of the numbers alone; 0 where
+ * memory ran out. */
+size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed);
+/* The reverse; false where memory ran out, or `packed` [bytes] does not hold n such numbers. */
+bool kz_unpack(const void *packed, size_t bytes, size_t n, size_t item, void *numbers);
 
 /* The root attribute `fingerprint` of PATH, to be freed; NULL where PATH is no complete file of this program. */
 char *kz_store_fingerprint(const char *path);

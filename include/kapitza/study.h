@@ -178,6 +178,7 @@ typedef struct {
   double disk_bytes;   /* result file and checkpoint */
   double memory_bytes; /* of every rank */
   double first_bytes;  /* of rank 0 besides */
+  double shared_bytes; /* of all ranks together besides */
   double core_seconds; /* rough, on one core */
 } kz_cost;
 

@@ -37,8 +37,10 @@ typedef struct {
   bool helped;       /* an option printed what was asked: nothing else is to be done */
   double time_limit; /* seconds; 0 = none */
   kz_progress progress;
-  bool speaks; /* this process prints: the first of those that mpirun started */
-  char *line;  /* the command line as typed */
+  const char *log; /* FILE of JSON lines; NULL = none */
+  bool timings;    /* print where the time went */
+  bool speaks;     /* this process prints: the first of those that mpirun started */
+  char *line;      /* the command line as typed */
 } kz_options;
 
 /* Reads the command line and carries it out: the whole program but for its entry. The message is left for one process alone. */

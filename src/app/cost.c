@@ -6,7 +6,7 @@
 #include "app.h"
 
 /* What a rank of any scene takes: the program, MPI, HDF5. */
-static const double PROCESS_BYTES = 5e7;
+static const double PROCESS_BYTES = 3.5e7;
 
 kz_cost kz_cost_of(const kz_scene *scene) {
   kz_cost total = {0};
@@ -18,6 +18,7 @@ kz_cost kz_cost_of(const kz_scene *scene) {
     total.core_seconds += cost.core_seconds;
     total.memory_bytes = fmax(total.memory_bytes, cost.memory_bytes);
     total.first_bytes = fmax(total.first_bytes, cost.first_bytes);
+    total.shared_bytes = fmax(total.shared_bytes, cost.shared_bytes);
   }
   total.memory_bytes += PROCESS_BYTES;
   return total;
@@ -44,7 +45,8 @@ static bool may_have(double bytes) {
 
 kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   const bool first = !ranks || kz_ranks_own(ranks) == 0;
-  const double mine = cost->memory_bytes + (first ? cost->first_bytes : 0), memory = node_memory();
+  const double share = cost->shared_bytes / (ranks ? kz_ranks_count(ranks) : 1);
+  const double mine = cost->memory_bytes + share + (first ? cost->first_bytes : 0), memory = node_memory();
   double sum = mine;
   int node_ranks = 1;
   char needed[32], there[32];

@@ -86,6 +86,17 @@ static kz_status print_completion(kz_options *options, const char *argument) {
   return kz_completion_print(argument, options->speaks ? stdout : NULL);
 }
 
+static kz_status set_log(kz_options *options, const char *argument) {
+  options->log = argument;
+  return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--log: the name is empty; give the name of a file");
+}
+
+static kz_status set_timings(kz_options *options, const char *argument) {
+  (void)argument;
+  options->timings = true;
+  return KZ_OK;
+}
+
 const kz_option_row kz_option_rows[] = {
     {"output", 'o', "FILE", RUN, set_output, "the result; default: base name of SCENE + .h5 in the current folder"},
     {"set", 256, "KEY=VALUE", RUN | CHECK, add_set, "override or create a key; VALUE is YAML flow text; the last one wins"},
@@ -93,6 +104,8 @@ const kz_option_row kz_option_rows[] = {
     {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint"},
     {"time-limit", 259, "T", RUN, set_time_limit, "stop after T seconds (30m, 1.5h), all finished work saved, exit 75"},
     {"progress", 260, "auto|always|never", RUN, set_progress, "whether a bar is drawn"},
+    {"timings", 261, NULL, RUN, set_timings, "print at the end where the time went, stage by stage"},
+    {"log", 262, "FILE", RUN, set_log, "append progress, stages, warnings and the end to FILE, as JSON lines"},
     {"help", 'h', NULL, RUN | CHECK | KEYS | TOP, NULL, "print this and leave"},
     {"version", 'V', NULL, TOP, print_version, "print versions of the program and of what it was built with, and leave"},
     {"manual", 270, NULL, TOP, print_manual, "print the manual page, for man -l -, and leave"},

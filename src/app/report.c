@@ -38,19 +38,22 @@ static void print_duration(double seconds) {
 }
 
 static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved) {
-  char disk[32], memory[32], first[32];
+  char disk[32], memory[32], first[32], shared[32];
   const kz_cost cost = kz_cost_of(scene);
   kz_cost_print_bytes(cost.disk_bytes, disk);
   kz_cost_print_bytes(cost.memory_bytes, memory);
   kz_cost_print_bytes(cost.first_bytes, first);
+  kz_cost_print_bytes(cost.shared_bytes, shared);
   const kz_pendulum *p = &scene->parameters.pendulum;
   printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
   if (!isnan(p->k)) printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   fputs("studies         ", stdout);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);
-  printf("\ncells            %lld\ndisk             %s\nmemory per rank  %s, on the first %s more\nestimated time   ",
-         (long long)cost.cells, disk, memory, first);
+  printf(
+      "\ncells            %lld\ndisk             %s\nmemory per rank  %s, on the first %s more, %s divided by the number of "
+      "ranks\nestimated time   ",
+      (long long)cost.cells, disk, memory, first, shared);
   print_duration(cost.core_seconds);
   puts(" on one core, divided by the number of ranks");
 }

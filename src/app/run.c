@@ -8,6 +8,7 @@
 
 #include "kapitza/study.h"
 #include "app.h"
+#include "log.h"
 #include "kapitza/version.h"
 
 typedef struct {
@@ -23,6 +24,7 @@ typedef struct {
   FILE *summary;   /* NULL but on rank 0 */
   char *words;     /* what the summary holds, n_words bytes */
   size_t n_words;
+  FILE *log; /* NULL: none */
 } job;
 
 /* Every rank has the bytes that rank 0 read, so that all come to the same result. */
@@ -70,6 +72,39 @@ static kz_status prepare(job *j, bool *complete) {
   return KZ_OK;
 }
 
+/* Neither the result nor what stands beside it may be the log. */
+static kz_status open_log(job *j) {
+  static const char *const suffixes[] = {"", ".part", ".checkpoint", ".truth", ".truth.part"};
+  const char *name = j->options->log;
+  const size_t stem = strlen(j->path);
+  for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++)
+    if (strncmp(name, j->path, stem) == 0 && strcmp(name + stem, suffixes[i]) == 0)
+      return kz_fail(KZ_REFUSED, "--log: %s: is a name of the result; use another name", name);
+  KZ_TRY(kz_log_open(name, &j->log));
+  char ranks[16];
+  snprintf(ranks, sizeof ranks, "%d", kz_ranks_count(j->ranks));
+  const char *const fields[] = {"program", "kapitza",        "version", KZ_VERSION, "git_revision", KZ_GIT_REVISION,
+                                "command", j->options->line, "file",    j->path,    "#ranks",        ranks,
+                                NULL};
+  kz_log_event(j->log, kz_ranks_seconds(j->ranks), "begin", fields);
+  kz_ranks_set_log(j->ranks, j->log);
+  return KZ_OK;
+}
+
+/* What was said on the way, and how it ended. */
+static kz_status close_log(job *j, kz_status status) {
+  const double seconds = kz_ranks_seconds(j->ranks);
+  char code[16];
+  snprintf(code, sizeof code, "%d", (int)status);
+  if (j->summary) fflush(j->summary);
+  kz_log_warnings(j->log, seconds, j->words ? j->words : "");
+  kz_log_event(j->log, seconds, "end", (const char *const[]){"#status", code, "message", kz_message(), NULL});
+  kz_ranks_set_log(j->ranks, NULL);
+  const kz_status closed = kz_log_close(j->log, j->options->log);
+  j->log = NULL;
+  return status == KZ_OK ? closed : status;
+}
+
 /* Opens the checkpoint. The run that held it until now may have written the result: it is looked for once more. */
 static kz_status open_checkpoint(job *j, bool *complete) {
   char name[PATH_MAX + 16];
@@ -99,6 +134,9 @@ static kz_status write_root(job *j) {
                {"scene", j->text},
                {"scene_resolved", j->resolved},
                {"instruction_set", kz_instruction_names()},
+               {"compiler", KZ_COMPILER},
+               {"mpi", kz_parallel_library()},
+               {"hdf5", kz_store_library()},
                {"fingerprint", j->fingerprint},
                {"Conventions", "CF-1.8"}};
   for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
@@ -157,6 +195,7 @@ static kz_status complete_store(job *j) {
 }
 
 static kz_status finish(job *j, kz_status status) {
+  if (j->store && status == KZ_OK) status = kz_store_real(j->store, "/", "wall_seconds", kz_ranks_seconds(j->ranks));
   if (j->store && status == KZ_OK) {
     status = complete_store(j);
   } else if (j->store) {
@@ -186,6 +225,7 @@ static kz_status carry_out(job *j) {
   kz_ranks_set_progress(j->ranks, j->options->progress);
   kz_ranks_set_time_limit(j->ranks, j->options->time_limit);
   KZ_TRY(prepare(j, &complete));
+  KZ_TRY(kz_ranks_agree(j->ranks, j->first && j->options->log ? open_log(j) : KZ_OK));
   if (!complete) KZ_TRY(open_checkpoint(j, &complete));
   return complete ? leave_complete(j) : finish(j, run_studies(j));
 }
@@ -206,7 +246,9 @@ kz_status kz_app_run(const kz_options *options) {
     kz_abandon_ranks(j.ranks, NULL);
     j.first = kz_ranks_own(j.ranks) == 0;
     status = carry_out(&j);
+    if (j.first && options->timings && (status == KZ_OK || status == KZ_STOPPED)) kz_timings_print(j.ranks, stdout);
     status = kz_scene_locate(status, j.text, j.length, options->scene, options->n_sets, options->sets);
+    if (j.log) status = close_log(&j, status);
     if (!j.first) kz_message_clear(); /* all have agreed on it: rank 0 speaks */
   }
   kz_abandon_ranks(NULL, NULL);

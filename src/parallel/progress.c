@@ -14,7 +14,8 @@ static FILE *find_terminal(kz_ranks *ranks) {
 }
 
 void kz_meter_begin(kz_meter *meter, kz_ranks *ranks, const char *name, int64_t total, int64_t first) {
-  *meter = (kz_meter){.name = name, .total = total, .first = first, .begun = kz_clock()};
+  *meter = (kz_meter){.name = name, .ranks = ranks, .total = total, .first = first, .begun = kz_clock()};
+  meter->log_due = meter->begun + LINE_PERIOD_ALWAYS;
   if (ranks->rank != 0 || ranks->progress == KZ_PROGRESS_NEVER || total < 2) return;
   FILE *terminal = find_terminal(ranks);
   const bool always = ranks->progress == KZ_PROGRESS_ALWAYS;
@@ -54,9 +55,20 @@ static void draw(const kz_meter *meter, int64_t done, double elapsed) {
   fflush(meter->out);
 }
 
+static void log_progress(kz_meter *meter, int64_t done, double now) {
+  if (!meter->ranks->log || now < meter->log_due) return;
+  meter->log_due = now + LINE_PERIOD_ALWAYS;
+  fprintf(meter->ranks->log,
+          "{\"event\": \"progress\", \"seconds\": %.3f, \"stage\": \"%s\", \"done\": %lld, \"total\": %lld}\n",
+          now - meter->ranks->start, meter->name, (long long)done, (long long)meter->total);
+  fflush(meter->ranks->log);
+}
+
 void kz_meter_show(kz_meter *meter, int64_t done) {
-  if (!meter->out) return;
+  if (!meter->out && !meter->ranks->log) return;
   const double now = kz_clock();
+  log_progress(meter, done, now);
+  if (!meter->out) return;
   if (now < meter->due) return;
   meter->due = now + (meter->live ? BAR_PERIOD : meter->last ? LINE_PERIOD_ALWAYS : LINE_PERIOD);
   if (meter->live && !has_terminal(meter->out)) return;

@@ -12,6 +12,8 @@ typedef struct {
   bool shown;
   int64_t total, first; /* tiles; `first` were done before */
   double begun, due;    /* s, kz_clock; nothing is shown before `due` */
+  double log_due;       /* the same of the log */
+  const kz_ranks *ranks;
 } kz_meter;
 
 /* Begins a stage of `total` tiles of which `first` are done. */

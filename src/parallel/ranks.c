@@ -46,6 +46,7 @@ kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
 void kz_ranks_end(kz_ranks *ranks) {
   if (ranks) {
     kz_checkpoint_release(&ranks->checkpoint);
+    free(ranks->timings);
     if (ranks->terminal) fclose(ranks->terminal);
     if (ranks->comm != MPI_COMM_NULL) MPI_Comm_free(&ranks->comm);
     free(ranks);
@@ -134,6 +135,15 @@ kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {
   for (size_t sent = 0; sent < bytes; sent += CHUNK_BYTES) {
     const size_t left = bytes - sent;
     KZ_MPI(MPI_Bcast((char *)data + sent, (int)(left < CHUNK_BYTES ? left : CHUNK_BYTES), MPI_BYTE, 0, ranks->comm));
+  }
+  return KZ_OK;
+}
+
+kz_status kz_ranks_sum(kz_ranks *ranks, int64_t *numbers, int64_t n) {
+  static const int64_t part = (int64_t)1 << 27; /* MPI counts are int */
+  for (int64_t done = 0; done < n; done += part) {
+    const int count = (int)(n - done < part ? n - done : part);
+    KZ_MPI(MPI_Allreduce(MPI_IN_PLACE, numbers + done, count, MPI_INT64_T, MPI_SUM, ranks->comm));
   }
   return KZ_OK;
 }

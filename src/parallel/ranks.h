@@ -16,6 +16,9 @@ struct kz_ranks {
   double start;          /* s, kz_clock */
   double limit;          /* s after start; 0 = none */
   kz_progress progress;
+  FILE *log;          /* JSON lines, rank 0; NULL: none */
+  kz_timing *timings; /* [n_timings] of the stages, rank 0 */
+  int64_t n_timings;
   FILE *terminal; /* /dev/tty once opened, else NULL */
   kz_checkpoint checkpoint;
 };
@@ -33,9 +36,7 @@ void kz_signals_catch(void);
 /* The name of the signal that asked for a stop, NULL if none came. */
 const char *kz_signals_caught(void);
 
-/* KZ_STOPPED with its message where a signal or the time limit asks for a stop, else KZ_OK. */
-kz_status kz_ranks_interrupted(const kz_ranks *ranks);
-/* The same, once all ranks have left their work: the message tells whether and where that work was saved. */
+/* KZ_STOPPED of kz_ranks_interrupted, once all ranks have left their work: the message tells whether and where that work was saved. */
 kz_status kz_ranks_stopped(const kz_ranks *ranks);
 
 #endif

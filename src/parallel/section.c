@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -31,8 +30,14 @@ static kz_section_head head_of(const kz_checkpoint *checkpoint, const kz_stage *
   return head;
 }
 
+size_t kz_section_used(const kz_section *section, const void *record) {
+  uint64_t bytes = section->record_bytes;
+  if (section->varying) memcpy(&bytes, record, sizeof bytes);
+  return bytes;
+}
+
 static uint64_t slot_checksum(const kz_section *section, int64_t tile, const void *record) {
-  return kz_bytes_checksum(kz_bytes_checksum(section->seed, &tile, sizeof tile), record, section->record_bytes);
+  return kz_bytes_checksum(kz_bytes_checksum(section->seed, &tile, sizeof tile), record, kz_section_used(section, record));
 }
 
 /* The space is allocated at once, so that a full disk fails before the work is done. */
@@ -45,32 +50,31 @@ static kz_status reserve(const kz_checkpoint *checkpoint, const kz_section *sect
                  strerror(error));
 }
 
-static bool recall_record(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, void *record) {
-  const int64_t offset = section->slots + tile * section->stride, n = (int64_t)section->record_bytes;
+bool kz_section_recall(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, void *record) {
+  const int64_t offset = section->slots + tile * section->stride, begin = offset + (int64_t)sizeof(kz_slot_head);
   kz_slot_head slot;
+  uint64_t used = section->record_bytes;
   if (kz_bytes_read(checkpoint->file, &slot, sizeof slot, offset) != sizeof slot || slot.tile != tile) return false;
-  if (kz_bytes_read(checkpoint->file, record, section->record_bytes, offset + (int64_t)sizeof slot) != n) return false;
+  if (section->varying && kz_bytes_read(checkpoint->file, &used, sizeof used, begin) != sizeof used) return false;
+  if (used > section->record_bytes || (section->varying && used < sizeof used)) return false;
+  if (kz_bytes_read(checkpoint->file, record, used, begin) != (int64_t)used) return false;
   return slot_checksum(section, tile, record) == slot.checksum;
 }
 
-kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, char *records, kz_section *section,
-                          int64_t **left, int64_t *n_left) {
+kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, kz_section *section, bool *known) {
   const kz_section_head head = head_of(checkpoint, stage);
   kz_section_head found;
-  *section = (kz_section){.slots = checkpoint->end + KZ_PAGE, .seed = head.checksum, .record_bytes = stage->record_bytes};
+  *section = (kz_section){.slots = checkpoint->end + KZ_PAGE,
+                          .seed = head.checksum,
+                          .record_bytes = stage->record_bytes,
+                          .varying = stage->pieces != NULL};
   section->stride = kz_whole_pages((int64_t)(sizeof(kz_slot_head) + stage->record_bytes));
   section->end = section->slots + stage->n_tiles * section->stride;
-  const bool known = kz_bytes_read(checkpoint->file, &found, sizeof found, checkpoint->end) == sizeof found &&
-                     memcmp(&found, &head, sizeof head) == 0;
-  KZ_TRY(reserve(checkpoint, section));
-  if (!known && kz_bytes_write(checkpoint->file, &head, sizeof head, checkpoint->end) != 0)
+  *known = kz_bytes_read(checkpoint->file, &found, sizeof found, checkpoint->end) == sizeof found &&
+           memcmp(&found, &head, sizeof head) == 0;
+  if (!section->varying) KZ_TRY(reserve(checkpoint, section));
+  if (!*known && kz_bytes_write(checkpoint->file, &head, sizeof head, checkpoint->end) != 0)
     return kz_fail(KZ_FAILED, "%s: cannot be written: %s", checkpoint->path, strerror(errno));
-  *n_left = 0;
-  if (!(*left = malloc((size_t)stage->n_tiles * sizeof **left + 1)))
-    return kz_fail(KZ_FAILED, "stage %s: out of memory", stage->name);
-  for (int64_t tile = 0; tile < stage->n_tiles; ++tile)
-    if (!known || !recall_record(checkpoint, section, tile, records + (size_t)tile * stage->record_bytes))
-      (*left)[(*n_left)++] = tile;
   return KZ_OK;
 }
 
@@ -89,7 +93,7 @@ kz_status kz_section_save(kz_checkpoint *checkpoint, const kz_section *section, 
   const int64_t offset = section->slots + tile * section->stride;
   const kz_slot_head slot = {.tile = tile, .checksum = slot_checksum(section, tile, record)};
   if (is_gone(checkpoint->file)) return kz_fail(KZ_FAILED, "%s: was removed during the run", checkpoint->path);
-  if (kz_bytes_write(checkpoint->file, record, section->record_bytes, offset + (int64_t)sizeof slot) != 0 ||
+  if (kz_bytes_write(checkpoint->file, record, kz_section_used(section, record), offset + (int64_t)sizeof slot) != 0 ||
       kz_bytes_write(checkpoint->file, &slot, sizeof slot, offset) != 0 || kz_header_mark(checkpoint) != 0)
     return kz_fail(KZ_FAILED, "%s: cannot be written: %s", checkpoint->path, strerror(errno));
   return KZ_OK;

@@ -6,17 +6,21 @@
 #include "kapitza/parallel.h"
 
 typedef struct {
-  int64_t slots;  /* offset of the first slot */
-  int64_t stride; /* bytes of a slot */
-  int64_t end;    /* offset behind the last slot */
-  uint64_t seed;  /* checksum of the head */
-  uint64_t record_bytes;
+  int64_t slots;         /* offset of the first slot */
+  int64_t stride;        /* bytes of a slot */
+  int64_t end;           /* offset behind the last slot */
+  uint64_t seed;         /* checksum of the head */
+  uint64_t record_bytes; /* at most */
+  bool varying;          /* a record begins with its length */
 } kz_section;
 
-/* Opens the next section on rank 0: finds or begins it, and reserves its room on the disk. Valid records found there are
- * read into `records`; `left` [n_left] are the other tiles, to be freed by the caller. */
-kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, char *records, kz_section *section,
-                          int64_t **left, int64_t *n_left);
+/* Opens the next section on rank 0: finds it (`known`) or begins it. Room for records of fixed length is reserved on the disk;
+ * those of varying length leave holes in the file. */
+kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, kz_section *section, bool *known);
+/* Reads the record of a tile in a section that was known; false where there is no valid one. Any rank. */
+bool kz_section_recall(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, void *record);
+/* Bytes that a record uses. */
+size_t kz_section_used(const kz_section *section, const void *record);
 /* Counts the opened section as part of the checkpoint. Every rank. */
 void kz_section_adopt(kz_checkpoint *checkpoint, const kz_section *section);
 /* Writes one finished record. Any rank, any time. */

@@ -1,5 +1,4 @@
 /* A stage: tiles are drawn, worked, kept and delivered. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +8,7 @@
 #include "ranks.h"
 #include "record_buffer.h"
 #include "section.h"
+#include "timings.h"
 
 /* Offsets of records and slots must not overflow. */
 static const int64_t TILES_MAX = (int64_t)1 << 44;
@@ -22,7 +22,7 @@ typedef struct {
   int64_t n_left;
   int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
   kz_record_buffer buffered;
-  void *buffer; /* of the delivery, rank 0 */
+  void *buffer; /* of the delivery, rank 0; of a record among pieces */
   kz_draw draw;
   kz_meter meter;
 } stage_run;
@@ -32,7 +32,7 @@ static kz_status check(const stage_run *run) {
   if (stage->n_tiles < 0 || stage->n_tiles > TILES_MAX || stage->record_bytes > KZ_RECORD_MAX)
     return kz_fail(KZ_FAILED, "stage %s: %lld tiles of %zu bytes are too many", stage->name, (long long)stage->n_tiles,
                    stage->record_bytes);
-  if (!run->records && stage->n_tiles > 0 && (run->ranks->rank == 0 || stage->everywhere))
+  if (!run->records && !stage->pieces && stage->n_tiles > 0 && (run->ranks->rank == 0 || stage->everywhere))
     return kz_fail(KZ_FAILED, "stage %s: no room for the records", stage->name);
   return KZ_OK;
 }
@@ -41,36 +41,66 @@ static kz_status prepare(stage_run *run) {
   KZ_TRY(check(run));
   kz_ranks *ranks = run->ranks;
   kz_record_buffer_begin(&run->buffered, run->stage->record_bytes);
-  if (ranks->rank == 0 && ranks->size > 1 && !(run->buffer = malloc(kz_record_buffer_message_bytes(&run->buffered))))
-    return kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
+  const size_t message = ranks->rank == 0 && ranks->size > 1 ? kz_record_buffer_message_bytes(&run->buffered) : 0;
+  const size_t bytes = run->stage->pieces ? run->stage->record_bytes : message;
+  if (bytes > 0 && !(run->buffer = malloc(bytes))) return kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
+  return KZ_OK;
+}
+
+/* Rank 0 reads the records found in the checkpoint. Tiles whose `done` [n_tiles] stays 0 are to be done. */
+static void recall_records(stage_run *run, int64_t *done) {
+  const kz_stage *stage = run->stage;
+  for (int64_t tile = 0; run->ranks->rank == 0 && tile < stage->n_tiles; ++tile)
+    done[tile] =
+        kz_section_recall(&run->ranks->checkpoint, &run->section, tile, run->records + (size_t)tile * stage->record_bytes);
+}
+
+/* Pieces found in the checkpoint are dealt out to the ranks. */
+static kz_status recall_pieces(stage_run *run, int64_t *done) {
+  const kz_ranks *ranks = run->ranks;
+  for (int64_t tile = ranks->rank; tile < run->stage->n_tiles; tile += ranks->size) {
+    if (!kz_section_recall(&ranks->checkpoint, &run->section, tile, run->buffer)) continue;
+    done[tile] = 1;
+    KZ_TRY(kz_pieces_add(run->stage->pieces, tile, run->buffer, kz_section_used(&run->section, run->buffer)));
+  }
   return KZ_OK;
 }
 
 /* Tiles whose records are in the checkpoint are not done again. Collective. */
 static kz_status recall(stage_run *run) {
   kz_ranks *ranks = run->ranks;
-  int64_t *left = NULL;
-  kz_status status = KZ_OK;
-  if (ranks->rank == 0)
-    status = kz_section_open(&ranks->checkpoint, run->stage, run->records, &run->section, &left, &run->n_left);
-  if ((status = kz_ranks_agree(ranks, status)) == KZ_OK) status = kz_ranks_broadcast(ranks, &run->section, sizeof run->section);
-  if (status == KZ_OK) status = kz_ranks_broadcast(ranks, &run->n_left, sizeof run->n_left);
-  if (ranks->rank != 0 && status == KZ_OK && !(left = malloc((size_t)run->n_left * sizeof *left + 1)))
-    status = kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
-  run->left = left;
+  const int64_t n_tiles = run->stage->n_tiles;
+  bool known = false;
+  kz_status status = ranks->rank == 0 ? kz_section_open(&ranks->checkpoint, run->stage, &run->section, &known) : KZ_OK;
   KZ_TRY(kz_ranks_agree(ranks, status));
+  KZ_TRY(kz_ranks_broadcast(ranks, &run->section, sizeof run->section));
+  KZ_TRY(kz_ranks_broadcast(ranks, &known, sizeof known));
+  if (!(run->left = calloc((size_t)n_tiles + 1, sizeof *run->left)))
+    status = kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
+  else if (known && run->stage->pieces)
+    status = recall_pieces(run, run->left);
+  else if (known)
+    recall_records(run, run->left);
+  KZ_TRY(kz_ranks_agree(ranks, status));
+  KZ_TRY(kz_ranks_sum(ranks, run->left, n_tiles));
+  run->n_left = 0;
+  for (int64_t tile = 0; tile < n_tiles; ++tile)
+    if (!run->left[tile]) run->left[run->n_left++] = tile;
   kz_section_adopt(&ranks->checkpoint, &run->section);
-  return kz_ranks_broadcast(ranks, left, (size_t)run->n_left * sizeof *left);
+  return KZ_OK;
 }
 
 static kz_status do_tile(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   void *record;
-  if (run->ranks->rank == 0)
+  if (stage->pieces)
+    record = memset(run->buffer, 0, stage->record_bytes);
+  else if (run->ranks->rank == 0)
     record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   else if (!(record = kz_record_buffer_add(&run->buffered, tile)))
     return kz_fail(KZ_FAILED, "stage %s: out of memory for the records", stage->name);
   KZ_TRY(stage->work(stage->context, tile, record));
+  if (stage->pieces) KZ_TRY(kz_pieces_add(stage->pieces, tile, record, *(uint64_t *)record));
   return run->kept ? kz_section_save(&run->ranks->checkpoint, &run->section, tile, record) : KZ_OK;
 }
 
@@ -123,17 +153,9 @@ static kz_status work(stage_run *run) {
   return kz_ranks_agree(run->ranks, status == KZ_OK ? ended : status);
 }
 
-/* The share of its time that a rank had nothing to do, of all ranks together; on rank 0. */
-static kz_status measure_idle(stage_run *run, double *idle) {
-  const double seconds = kz_clock() - run->meter.begun;
-  double busy = 0;
-  KZ_MPI(MPI_Reduce(&run->draw.busy, &busy, 1, MPI_DOUBLE, MPI_SUM, 0, run->ranks->comm));
-  *idle = seconds > 0 ? fmax(0, 1 - busy / (seconds * run->ranks->size)) : 0;
-  return KZ_OK;
-}
-
 static kz_status deliver(stage_run *run) {
   const kz_stage *stage = run->stage;
+  if (stage->pieces) return KZ_OK;
   KZ_TRY(kz_record_buffer_deliver(&run->buffered, run->ranks, run->buffer, run->records));
   if (!stage->everywhere) return KZ_OK;
   return kz_ranks_broadcast(run->ranks, run->records, (size_t)stage->n_tiles * stage->record_bytes);
@@ -144,16 +166,27 @@ static kz_status run_stage(stage_run *run) {
   if (run->kept) KZ_TRY(recall(run));
   kz_meter_begin(&run->meter, run->ranks, run->stage->name, run->stage->n_tiles, run->stage->n_tiles - run->n_left);
   double idle = 0;
+  const kz_stopwatch watch = kz_stopwatch_start();
   const bool together = run->stage->together;
   kz_status status = together ? kz_ranks_agree(run->ranks, work_together(run)) : work(run);
-  if (status == KZ_OK && !together) status = measure_idle(run, &idle);
+  if (status == KZ_OK && !together)
+    status = kz_timing_note(run->ranks, run->stage->name, run->n_left, &watch, run->draw.busy, &idle);
   kz_meter_end(&run->meter, status == KZ_OK, idle);
   if (status == KZ_STOPPED && !together) return kz_ranks_stopped(run->ranks);
   KZ_TRY(status);
   return deliver(run);
 }
 
+/* This rank alone, in order. */
+static kz_status run_alone(const kz_stage *stage, char *records) {
+  memset(records, 0, (size_t)stage->n_tiles * stage->record_bytes);
+  for (int64_t tile = 0; tile < stage->n_tiles; tile++)
+    KZ_TRY(stage->work(stage->context, tile, records + (size_t)tile * stage->record_bytes));
+  return KZ_OK;
+}
+
 kz_status kz_stage_run(kz_ranks *ranks, const kz_stage *stage, void *records) {
+  if (!ranks) return run_alone(stage, records);
   stage_run run = {.ranks = ranks, .stage = stage, .records = records, .n_left = stage->n_tiles};
   run.kept = stage->keep && ranks->checkpoint.file >= 0;
   const kz_status status = run_stage(&run);

@@ -8,31 +8,30 @@
 #include <string.h>
 #include <unistd.h>
 
-static const size_t GROWTH_BYTES = (size_t)1 << 22;
-
-/* The early format has a superblock without checksum: H5Fget_file_image leaves a wrong one in the later formats
- * (HDF5 before 2.0, HDFGroup/hdf5#1915). Variable-length attributes have no limit of 64 KiB in either. */
-static kz_status create_in_memory(kz_store *store) {
+/* Variable-length attributes have no limit of 64 KiB in this format. Other readers need not lock a file that has no name yet. */
+static kz_status create_file(kz_store *store) {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS), creation = H5Pcreate(H5P_FILE_CREATE);
-  const bool made = access >= 0 && creation >= 0 && H5Pset_fapl_core(access, GROWTH_BYTES, 0) >= 0 &&
-                    H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) >= 0 &&
-                    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
+  const bool made = access >= 0 && creation >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) >= 0 &&
+                    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
                     H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) >= 0 &&
                     H5Pset_obj_track_times(creation, 0) >= 0 &&
-                    (store->file = H5Fcreate(store->part, H5F_ACC_TRUNC, creation, access)) >= 0;
+                    (store->file = H5Fcreate(store->part, H5F_ACC_EXCL, creation, access)) >= 0;
   const kz_status status = made ? KZ_OK : kz_hdf5_fail(__FILE__, __LINE__);
   H5Pclose(access);
   H5Pclose(creation);
   return status;
 }
 
-static kz_status create_on_disk(kz_store *store, const char *path) {
+/* Both here and in HDF5 the file is created, never opened: a link of that name must not lead elsewhere. */
+static kz_status try_path(kz_store *store, const char *path) {
   const size_t room = strlen(path) + sizeof ".part";
   if (!(store->path = strdup(path)) || !(store->part = malloc(room))) return kz_fail(KZ_FAILED, "%s: out of memory", path);
   snprintf(store->part, room, "%s.part", path);
-  unlink(store->part); /* of a killed run; a link there must not lead elsewhere */
-  store->disk = open(store->part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (store->disk < 0) return kz_fail(KZ_REFUSED, "%s: cannot be created: %s", store->part, strerror(errno));
+  unlink(store->part); /* of a killed run */
+  const int file = open(store->part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return kz_fail(KZ_REFUSED, "%s: cannot be created: %s", store->part, strerror(errno));
+  close(file);
+  unlink(store->part);
   return KZ_OK;
 }
 
@@ -41,10 +40,9 @@ kz_status kz_store_create(const char *path, kz_store **store) {
   KZ_TRY(kz_hdf5_start());
   *store = calloc(1, sizeof **store);
   if (!*store) return kz_fail(KZ_FAILED, "%s: out of memory", path);
-  (*store)->disk = -1;
   (*store)->file = H5I_INVALID_HID;
-  kz_status status = create_on_disk(*store, path);
-  if (status == KZ_OK) status = create_in_memory(*store);
+  kz_status status = try_path(*store, path);
+  if (status == KZ_OK) status = create_file(*store);
   if (status == KZ_OK) return KZ_OK;
   kz_store_discard(*store);
   *store = NULL;
@@ -55,9 +53,15 @@ const char *kz_store_path(const kz_store *store) {
   return store->path;
 }
 
+/* Closing writes what HDF5 still holds; a negative value where that fails. */
+static herr_t close_file(kz_store *store) {
+  const herr_t closed = store->file >= 0 ? H5Fclose(store->file) : 0;
+  store->file = H5I_INVALID_HID;
+  return closed;
+}
+
 static void release(kz_store *store) {
-  if (store->file >= 0) H5Fclose(store->file);
-  if (store->disk >= 0) close(store->disk);
+  close_file(store);
   free(store->path);
   free(store->part);
   free(store);
@@ -65,7 +69,7 @@ static void release(kz_store *store) {
 
 void kz_store_discard(kz_store *store) {
   if (!store) return;
-  if (store->disk >= 0) unlink(store->part);
+  if (store->file >= 0) unlink(store->part);
   release(store);
 }
 
@@ -73,23 +77,13 @@ static kz_status cannot(const kz_store *store, const char *what) {
   return kz_fail(KZ_FAILED, "%s: cannot be %s: %s", store->path, what, strerror(errno));
 }
 
-/* The bytes of the file in memory, freed by the caller. */
-static kz_status take_image(kz_store *store, char **image, ssize_t *bytes) {
-  KZ_HDF5(H5Fflush(store->file, H5F_SCOPE_GLOBAL));
-  KZ_HDF5(*bytes = H5Fget_file_image(store->file, NULL, 0));
-  if (!(*image = malloc((size_t)*bytes))) return kz_fail(KZ_FAILED, "%s: out of memory while saving", store->path);
-  KZ_HDF5(H5Fget_file_image(store->file, *image, (size_t)*bytes));
-  return KZ_OK;
-}
-
-static kz_status write_image(const kz_store *store, const char *image, ssize_t bytes) {
-  for (ssize_t done = 0; done < bytes;) {
-    const ssize_t written = write(store->disk, image + done, (size_t)(bytes - done));
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return cannot(store, "written");
-    done += written;
-  }
-  return fsync(store->disk) == 0 ? KZ_OK : cannot(store, "saved");
+/* The bytes of the closed file shall be on the disk before it has its name. */
+static kz_status save(const kz_store *store) {
+  const int file = open(store->part, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+  const bool saved = file >= 0 && fsync(file) == 0;
+  const kz_status status = saved ? KZ_OK : cannot(store, "saved");
+  if (file >= 0) close(file);
+  return status;
 }
 
 /* The new name shall survive a crash of the machine too; a file system that cannot do that is not an error. */
@@ -107,19 +101,16 @@ static void save_folder(const char *path) {
 }
 
 kz_status kz_store_complete(kz_store *store) {
-  char *image = NULL;
-  ssize_t bytes = 0;
-  kz_status status = take_image(store, &image, &bytes);
-  if (status == KZ_OK) status = write_image(store, image, bytes);
+  kz_status status = H5Fflush(store->file, H5F_SCOPE_GLOBAL) < 0 ? kz_hdf5_fail(__FILE__, __LINE__) : KZ_OK;
+  if (close_file(store) < 0 && status == KZ_OK) status = kz_hdf5_fail(__FILE__, __LINE__);
+  if (status == KZ_OK) status = save(store);
   if (status == KZ_OK && rename(store->part, store->path) != 0) status = cannot(store, "given its name");
-  free(image);
-  if (status != KZ_OK) {
-    kz_store_discard(store);
-    return status;
-  }
-  save_folder(store->path);
+  if (status != KZ_OK)
+    unlink(store->part);
+  else
+    save_folder(store->path);
   release(store);
-  return KZ_OK;
+  return status;
 }
 
 char *kz_store_fingerprint(const char *path) {

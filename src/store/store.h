@@ -1,4 +1,4 @@
-/* The inside of a store: the file is made in memory and written in one go, so that a full disk is one plain error. */
+/* The inside of a store. */
 #ifndef KAPITZA_STORE_STORE_H
 #define KAPITZA_STORE_STORE_H
 
@@ -8,8 +8,7 @@
 
 struct kz_store {
   char *path, *part; /* PATH and PATH.part */
-  int disk;          /* PATH.part, open for writing */
-  hid_t file;        /* HDF5 file in memory */
+  hid_t file;        /* PATH.part */
 };
 
 /* The group of that name ("/" = root), made where it is missing; closed by the caller. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "chunks.h"
+#include "pack.h"
 #include "store.h"
 
 static const size_t SPARE_BYTES = (size_t)1 << 24; /* what HDF5 may need besides the data */
@@ -14,6 +15,13 @@ static hid_t memory_type(kz_kind kind) {
                          [KZ_INT16] = H5T_NATIVE_INT16, [KZ_INT32] = H5T_NATIVE_INT32, [KZ_UINT32] = H5T_NATIVE_UINT32};
   hid_t type = H5I_INVALID_HID;
   return kind != KZ_TEXT ? H5Tcopy(types[kind]) : kz_text_type(&type) == KZ_OK ? type : H5I_INVALID_HID;
+}
+
+static kz_status set_filters(hid_t creation, int rank, const hsize_t *chunk) {
+  KZ_HDF5(H5Pset_chunk(creation, rank, chunk));
+  KZ_HDF5(H5Pset_shuffle(creation));
+  KZ_HDF5(H5Pset_deflate(creation, KZ_PACK_LEVEL));
+  return KZ_OK;
 }
 
 /* Coded variables are of one byte, so their flag values are too. */
@@ -46,10 +54,13 @@ static kz_status describe(hid_t group, hid_t dataset, const kz_variable *row, hi
   return write_flags(dataset, row, type);
 }
 
+/* `chunk` NULL: as kz_chunks_set has it. */
 static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type, int rank, const hsize_t *lengths,
-                                hid_t *dataset) {
+                                const hsize_t *chunk, hid_t *dataset) {
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, lengths, NULL);
-  kz_status status = row->kind == KZ_TEXT ? KZ_OK : kz_chunks_set(creation, rank, lengths, H5Tget_size(type));
+  kz_status status = KZ_OK;
+  if (row->kind != KZ_TEXT)
+    status = chunk ? set_filters(creation, rank, chunk) : kz_chunks_set(creation, rank, lengths, H5Tget_size(type));
   H5Pset_obj_track_times(creation, 0);
   if (status == KZ_OK && (*dataset = H5Dcreate2(group, row->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT)) < 0)
     status = kz_hdf5_fail(__FILE__, __LINE__);
@@ -65,16 +76,17 @@ static kz_status check_memory(const char *name, size_t bytes) {
   return memory ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the variable %s", name);
 }
 
-/* The variable with data and description; open, to be closed by the caller. */
-static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, const hsize_t *lengths, const void *data,
-                               hid_t *dataset) {
+/* The variable with description and, unless it comes in chunks, data; open, to be closed by the caller. */
+static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, const hsize_t *lengths, const hsize_t *chunk,
+                               const void *data, hid_t *dataset) {
   hid_t type;
   hsize_t n = 1;
   for (int d = 0; d < rank; ++d) n *= lengths[d];
   KZ_HDF5(type = memory_type(row->kind));
-  kz_status status = check_memory(row->name, n * H5Tget_size(type));
-  if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, dataset);
-  if (status == KZ_OK && n > 0) status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
+  kz_status status = check_memory(row->name, chunk ? 0 : n * H5Tget_size(type));
+  if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, chunk, dataset);
+  if (status == KZ_OK && !chunk && n > 0)
+    status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
   if (status == KZ_OK) status = describe(group, *dataset, row, type);
   H5Tclose(type);
   return status;
@@ -93,7 +105,7 @@ static kz_status write_index(hid_t group, const kz_variable *row, hsize_t length
   int32_t *index = malloc(length * sizeof *index + 1);
   if (!index) return kz_fail(KZ_FAILED, "out of memory for the dimension %s", row->name);
   for (hsize_t i = 0; i < length; ++i) index[i] = (int32_t)i;
-  const kz_status status = write_dataset(group, row, 1, &length, index, dataset);
+  const kz_status status = write_dataset(group, row, 1, &length, NULL, index, dataset);
   free(index);
   return status;
 }
@@ -105,7 +117,8 @@ kz_status kz_store_dimension(kz_store *store, const char *group, const char *nam
   hid_t folder, dataset = H5I_INVALID_HID;
   KZ_TRY(kz_store_group(store, group, &folder));
   const hsize_t n = (hsize_t)length;
-  kz_status status = values ? write_dataset(folder, &row, 1, &n, values, &dataset) : write_index(folder, &row, n, &dataset);
+  kz_status status =
+      values ? write_dataset(folder, &row, 1, &n, NULL, values, &dataset) : write_index(folder, &row, n, &dataset);
   if (status == KZ_OK && H5DSset_scale(dataset, name) < 0) status = kz_hdf5_fail(__FILE__, __LINE__);
   if (dataset >= 0) H5Dclose(dataset);
   H5Gclose(folder);
@@ -132,23 +145,31 @@ static kz_status attach(hid_t group, hid_t dataset, const char *name, int place)
   return KZ_OK;
 }
 
-static kz_status write_variable(hid_t group, const kz_variable *row, const void *data) {
-  hsize_t lengths[KZ_MAX_DIMENSIONS];
+static kz_status write_variable(hid_t group, const kz_variable *row, const hsize_t *chunk, const void *data) {
+  hsize_t lengths[KZ_MAX_DIMENSIONS] = {0};
   int rank = 0;
   for (; row->dimensions[rank]; ++rank) KZ_TRY(dimension_length(group, row->dimensions[rank], &lengths[rank]));
   hid_t dataset = H5I_INVALID_HID;
-  kz_status status = write_dataset(group, row, rank, lengths, data, &dataset);
+  kz_status status = write_dataset(group, row, rank, lengths, chunk, data, &dataset);
   for (int d = 0; d < rank && status == KZ_OK; ++d) status = attach(group, dataset, row->dimensions[d], d);
   if (dataset >= 0) H5Dclose(dataset);
   return status;
 }
 
-kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data) {
+static kz_status add_variable(kz_store *store, const char *group, const char *name, const hsize_t *chunk, const void *data) {
   kz_variable row;
   hid_t folder;
   KZ_TRY(find(group, name, &row));
   KZ_TRY(kz_store_group(store, group, &folder));
-  const kz_status status = write_variable(folder, &row, data);
+  const kz_status status = write_variable(folder, &row, chunk, data);
   H5Gclose(folder);
   return status;
+}
+
+kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data) {
+  return add_variable(store, group, name, NULL, data);
+}
+
+kz_status kz_store_chunked(kz_store *store, const char *group, const char *name, const int64_t *chunk) {
+  return add_variable(store, group, name, (hsize_t[]){(hsize_t)chunk[0], (hsize_t)chunk[1]}, NULL);
 }

@@ -149,7 +149,7 @@ def test_damaged_checkpoints_are_never_used(kapitza, tmp_path, undisturbed, stop
 def test_memory_that_cannot_be_there_is_refused(kapitza, tmp_path):
     counts = ["--set", "basin.theta.count=1000000", "--set", "basin.velocity.count=1000000"]
     done = kapitza("run", SMALL, *counts, ranks=2, folder=tmp_path, status=2)
-    assert "TB of memory" in done.stderr and "smaller counts" in done.stderr and not list(tmp_path.iterdir())
+    assert "GB of memory" in done.stderr and "smaller counts" in done.stderr and not list(tmp_path.iterdir())
 
 
 def test_memory_that_one_rank_may_not_have_ends_all(tmp_path):

@@ -2,28 +2,24 @@
 #ifndef KAPITZA_STUDY_BASIN_H
 #define KAPITZA_STUDY_BASIN_H
 
-#include "common/catalogue.h"
+#include "chunks.h"
 #include "common/cells.h"
 #include "common/doubt.h"
 
-/* Labels of all cells, velocity-major, on rank 0. */
+/* What is known of a labelled window. */
 typedef struct {
   int64_t cells;
-  int16_t *attractor;
-  uint32_t *settling_time;
-  uint8_t *evidence;
-  int64_t undecided;    /* cells whose label the last place of the start changes, where that was asked */
+  kz_counts counts;
   double trapped_share; /* of the cells of the trapping regions' grid */
   double step_error;    /* rad, the largest of one drive period in a sample */
   kz_doubt doubt;       /* of the labels */
   double table_error;   /* the same of the map table; NaN where labels do not come from it */
 } kz_labels;
 
-kz_status kz_labels_allocate(int64_t cells, kz_labels *labels);
-void kz_labels_free(kz_labels *labels);
-
-/* Measures, groups /attractors and /basin, and the summary. Fractions of the catalogue are filled in. */
-kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
+/* Axes and variables of group /basin, before the cells come. */
+kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store);
+/* Group /attractors, attributes of /basin, and the summary. */
+kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
                          FILE *summary);
 
 /* The steps of a basin and their error beside its cells, and a line for each class of speeds that is off by more than

@@ -4,37 +4,6 @@
 
 #include "basin.h"
 
-enum { DISTANCES = 8 };
-
-kz_status kz_labels_allocate(int64_t cells, kz_labels *labels) {
-  labels->cells = cells;
-  labels->attractor = calloc((size_t)cells, sizeof *labels->attractor);
-  labels->settling_time = calloc((size_t)cells, sizeof *labels->settling_time);
-  labels->evidence = calloc((size_t)cells, sizeof *labels->evidence);
-  if (labels->attractor && labels->settling_time && labels->evidence) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)cells);
-}
-
-void kz_labels_free(kz_labels *labels) {
-  free(labels->attractor);
-  free(labels->settling_time);
-  free(labels->evidence);
-}
-
-/* Share of the cells of each attractor; returns the number of unsettled cells. */
-static int64_t count_fractions(const kz_labels *labels, kz_catalogue *catalogue) {
-  int64_t unsettled = 0;
-  for (int64_t i = 0; i < catalogue->count; i++) catalogue->entries[i].fraction = 0;
-  for (int64_t f = 0; f < labels->cells; f++) {
-    if (labels->attractor[f] < 0)
-      unsettled++;
-    else
-      catalogue->entries[labels->attractor[f]].fraction++;
-  }
-  for (int64_t i = 0; i < catalogue->count; i++) catalogue->entries[i].fraction /= (double)labels->cells;
-  return unsettled;
-}
-
 /* The uncertainty exponent, and the distances (rad) over which it was found. */
 typedef struct {
   kz_line line;
@@ -44,13 +13,13 @@ typedef struct {
 /* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
 static exponent uncertainty(const kz_basin_plan *plan, const kz_labels *labels) {
   const double cell = (plan->theta.max - plan->theta.min) / (double)plan->theta.count;
-  double x[DISTANCES], y[DISTANCES], share;
-  int64_t n = 0, circle = plan->theta.max - plan->theta.min == 2 * M_PI;
-  for (int64_t distance = 1; n < DISTANCES && 16 * distance <= plan->theta.count; distance *= 2) {
-    kz_uncertain_share(plan->theta.count, plan->velocity.count, labels->attractor, distance, circle, &share);
+  double x[KZ_DISTANCES], y[KZ_DISTANCES];
+  int64_t n = 0;
+  for (; n < KZ_DISTANCES; n++) {
+    const double share = kz_uncertain_share(&labels->counts, (int)n);
     if (share <= 0) break;
-    x[n] = log((double)distance);
-    y[n++] = log(share);
+    x[n] = log(ldexp(1, (int)n));
+    y[n] = log(share);
   }
   exponent e = {kz_fit_line(n, x, y), NAN, NAN};
   if (isnan(e.line.slope)) return e;
@@ -65,10 +34,10 @@ typedef struct {
   exponent exponent;
 } measures;
 
-static measures find_measures(const kz_basin_plan *plan, const kz_labels *labels, int64_t unsettled) {
+static measures find_measures(const kz_basin_plan *plan, const kz_labels *labels) {
   measures m = {NAN, NAN, {{.slope = NAN, .slope_stderr = NAN}, NAN, NAN}};
-  if (2 * unsettled > labels->cells) return m;
-  kz_basin_entropy(plan->theta.count, plan->velocity.count, labels->attractor, &m.entropy, &m.boundary_entropy);
+  if (2 * labels->counts.unsettled > labels->cells) return m;
+  kz_entropy_of(&labels->counts, &m.entropy, &m.boundary_entropy);
   m.exponent = uncertainty(plan, labels);
   return m;
 }
@@ -86,9 +55,8 @@ static void print_measures(const measures *m, int64_t unsettled, FILE *summary) 
   fprintf(summary, "%s\n", unsettled > 0 ? "; unsettled cells are left out" : "");
 }
 
-static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, int64_t unsettled, kz_store *store,
-                                FILE *summary) {
-  const measures m = find_measures(plan, labels, unsettled);
+static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, kz_store *store, FILE *summary) {
+  const measures m = find_measures(plan, labels);
   KZ_TRY(kz_store_real(store, "basin", "trapped_share", labels->trapped_share));
   KZ_TRY(kz_store_real(store, "basin", "step_error", labels->step_error));
   KZ_TRY(kz_store_real(store, "basin", "table_error", labels->table_error));
@@ -98,7 +66,7 @@ static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labe
   KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_stderr", m.exponent.line.slope_stderr));
   KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_nearest", m.exponent.nearest));
   KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_farthest", m.exponent.farthest));
-  print_measures(&m, unsettled, summary);
+  print_measures(&m, labels->counts.unsettled, summary);
   return KZ_OK;
 }
 
@@ -126,10 +94,16 @@ static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *sto
   return status;
 }
 
-kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
+kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store) {
+  KZ_TRY(write_axis(&scene->basin.theta, "theta", store));
+  KZ_TRY(write_axis(&scene->basin.velocity, "velocity", store));
+  return kz_chunks_declare(tiles, store);
+}
+
+kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
                          FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
-  int64_t unsettled = count_fractions(labels, catalogue);
+  const int64_t unsettled = labels->counts.unsettled;
   kz_catalogue_print(catalogue, true, summary);
   fprintf(summary, "%lld of %lld cells did not settle within %lld periods", (long long)unsettled, (long long)labels->cells,
           (long long)plan->max_periods);
@@ -140,16 +114,11 @@ kz_status kz_basin_write(const kz_scene *scene, kz_catalogue *catalogue, const k
   fprintf(summary, "\n");
   if (plan->flag_undecided) {
     fprintf(summary, "%lld cells are undecided: the last place of the start changes their label\n",
-            (long long)labels->undecided);
-    KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->undecided));
+            (long long)labels->counts.undecided);
+    KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.undecided));
   }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
-  KZ_TRY(write_axis(&plan->theta, "theta", store));
-  KZ_TRY(write_axis(&plan->velocity, "velocity", store));
-  KZ_TRY(kz_store_variable(store, "basin", "attractor", labels->attractor));
-  KZ_TRY(kz_store_variable(store, "basin", "settling_time", labels->settling_time));
-  KZ_TRY(kz_store_variable(store, "basin", "evidence", labels->evidence));
   KZ_TRY(write_numerics(scene, store));
   KZ_TRY(kz_doubt_write(&labels->doubt, plan->method != KZ_METHOD_DIRECT, store, summary));
-  return write_measures(plan, labels, unsettled, store, summary);
+  return write_measures(plan, labels, store, summary);
 }

@@ -1,25 +1,20 @@
 #include "doubt.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "cells.h"
 
-enum {
-  SAMPLE = 7300, /* +-0.5 points at 5 % */
-  TILE = 256     /* cells */
-};
+enum { SAMPLE = 7300, TILE = KZ_DOUBT_TILE }; /* cells; the sample tells 5 % to +-0.5 points */
 
 static const double MANY = 0.05; /* share of doubtful labels that is warned of */
 
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
-  int64_t n, of; /* cells of the sample, and of those that are labelled */
 } sample;
 
-static int64_t cell_of(const sample *s, int64_t i) {
-  return kz_shuffled(i, s->of, s->plan->seed);
+int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i) {
+  return kz_shuffled(i, kz_own_cells(plan), plan->seed);
 }
 
 int64_t kz_doubt_cells(const kz_basin_plan *plan) {
@@ -32,41 +27,33 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   int32_t *label = record;
   double state[2 * TILE];
   int64_t periods[TILE];
-  const int64_t first = tile * TILE, n = s->n - first < TILE ? s->n - first : TILE;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(s->plan, cell_of(s, first + i), state + 2 * i);
+  const int64_t first = tile * TILE, left = kz_doubt_cells(s->plan) - first, n = left < TILE ? left : TILE;
+  for (int64_t i = 0; i < n; i++) kz_cell_state(s->plan, kz_doubt_cell(s->plan, first + i), state + 2 * i);
   kz_dynamics_follow(s->dynamics, KZ_FOLLOW_ERRORS, n, s->plan->max_periods, state, label, periods);
   return KZ_OK;
 }
 
-static void count(const sample *s, const int32_t *followed, const int16_t *label, kz_doubt *doubt) {
+kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, const int64_t *label) {
+  const int64_t n = kz_doubt_cells(plan), of = kz_own_cells(plan);
   int64_t doubtful = 0, differing = 0;
-  for (int64_t i = 0; i < s->n; i++) {
+  for (int64_t i = 0; i < n; i++) {
     if (followed[i] == KZ_DOUBTFUL)
       doubtful++;
     else
-      differing += followed[i] != label[cell_of(s, i)];
+      differing += followed[i] != label[i];
   }
-  *doubt = (kz_doubt){s->n, kz_share_of_part(doubtful, s->n, s->of), kz_share_of_part(differing, s->n, s->of)};
+  return (kz_doubt){n, kz_share_of_part(doubtful, n, of), kz_share_of_part(differing, n, of)};
 }
 
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, const int16_t *label,
-                           kz_doubt *doubt) {
-  sample s = {.plan = plan, .dynamics = dynamics, .n = kz_doubt_cells(plan), .of = kz_own_cells(plan)};
+kz_status kz_doubt_follow(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, int32_t *followed) {
+  sample s = {.plan = plan, .dynamics = dynamics};
   kz_stage stage = {.name = "doubt",
-                    .n_tiles = (s.n + TILE - 1) / TILE,
+                    .n_tiles = (kz_doubt_cells(plan) + TILE - 1) / TILE,
                     .record_bytes = TILE * sizeof(int32_t),
                     .work = follow_tile,
                     .context = &s,
                     .keep = true};
-  int32_t *followed = NULL;
-  kz_status status = KZ_OK;
-  if (kz_ranks_own(ranks) == 0 && !(followed = malloc((size_t)stage.n_tiles * stage.record_bytes)))
-    status = kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s.n);
-  status = kz_ranks_agree(ranks, status);
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, followed);
-  if (status == KZ_OK && followed) count(&s, followed, label, doubt);
-  free(followed);
-  return status;
+  return kz_stage_run(ranks, &stage, followed);
 }
 
 static void tell(const kz_doubt *doubt, bool with_table, FILE *summary) {

@@ -15,11 +15,15 @@ typedef struct {
 
 /* Cells of the sample. */
 int64_t kz_doubt_cells(const kz_basin_plan *plan);
+/* Cell i of the sample, one of the kz_own_cells: a function of the window, its cells and the seed alone. */
+int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i);
 
-/* Follows the sample, which depends on the window, its cells and the seed alone. label [kz_own_cells] on rank 0: the labels, as
- * numbers of `dynamics`. `doubt` is filled on rank 0. Its stage is kept by a checkpoint. Collective. */
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, const int16_t *label,
-                           kz_doubt *doubt);
+/* Follows the sample; followed [kz_doubt_cells, rounded up to KZ_DOUBT_TILE] is filled on rank 0, NULL elsewhere. Its stage is kept by
+ * a checkpoint. Collective. */
+enum { KZ_DOUBT_TILE = 256 };
+kz_status kz_doubt_follow(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, int32_t *followed);
+/* What that tells about the labels of the sample's cells: numbers of the same dynamics. */
+kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, const int64_t *label);
 
 /* Attributes of /basin, and what people read of them. Rank 0. */
 kz_status kz_doubt_write(const kz_doubt *doubt, bool with_table, kz_store *store, FILE *summary);

@@ -2,8 +2,6 @@
 
 #include <stdlib.h>
 
-#include "search.h"
-
 enum { ROWS = 4 }; /* per tile */
 
 typedef struct {
@@ -32,7 +30,7 @@ kz_status kz_map_table_make(kz_ranks *ranks, kz_dynamics *dynamics, int64_t n_th
   double *rows = malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table");
   if (ranks) status = kz_ranks_agree(ranks, status);
-  if (status == KZ_OK) status = kz_stage_run_with(ranks, &stage, rows);
+  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);
   free(rows);
   return status;

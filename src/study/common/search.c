@@ -39,14 +39,6 @@ typedef struct {
   int32_t label[TILE];
 } followed;
 
-kz_status kz_stage_run_with(kz_ranks *ranks, const kz_stage *stage, void *records) {
-  if (ranks != NULL) return kz_stage_run(ranks, stage, records);
-  memset(records, 0, (size_t)stage->n_tiles * stage->record_bytes);
-  for (int64_t tile = 0; tile < stage->n_tiles; tile++)
-    KZ_TRY(stage->work(stage->context, tile, (char *)records + (size_t)tile * stage->record_bytes));
-  return KZ_OK;
-}
-
 static kz_status agree(kz_ranks *ranks, kz_status status) {
   return ranks != NULL ? kz_ranks_agree(ranks, status) : status;
 }
@@ -79,7 +71,7 @@ static kz_status follow_stretch(kz_ranks *ranks, following *f) {
                     .everywhere = true};
   followed *records = malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
   kz_status status = agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n));
-  if (status == KZ_OK) status = kz_stage_run_with(ranks, &stage, records);
+  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
     const followed *record = records + i / TILE;
     memcpy(f->state + 2 * f->open[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
@@ -129,7 +121,7 @@ static kz_status seek(kz_ranks *ranks, seeking *s, double *record) {
                           .context = s,
                           .keep = true,
                           .everywhere = true};
-  KZ_TRY(kz_stage_run_with(ranks, &stage, record));
+  KZ_TRY(kz_stage_run(ranks, &stage, record));
   memcpy(s->found, record, (size_t)s->size * sizeof(double));
   kz_dynamics_adopt(s->dynamics, s->found + (s->n > 0 ? 1 : 0));
   return KZ_OK;

@@ -32,7 +32,4 @@ kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_period
  * settled. In kept stages. Collective. */
 kz_status kz_settle(kz_ranks *ranks, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
 
-/* Runs a stage with all ranks; `ranks` NULL = this rank alone, in order. */
-kz_status kz_stage_run_with(kz_ranks *ranks, const kz_stage *stage, void *records);
-
 #endif

@@ -306,39 +306,6 @@ static void test_wrong_labels_are_doubtful(void **state) {
   kz_dynamics_free(d);
 }
 
-static void test_measures(void **state) {
-  (void)state;
-  int16_t one[100] = {0}, halves[100];
-  double entropy, boundary, share;
-  for (int i = 0; i < 100; i++) halves[i] = i % 10 < 5 ? 0 : (i / 10) % 2 == 0 ? 1 : 2;
-  kz_basin_entropy(10, 10, one, &entropy, &boundary);
-  assert_true(entropy == 0 && boundary == 0);
-  kz_basin_entropy(10, 10, halves, &entropy, &boundary);
-  double mixed = (-0.6 * log(0.6) - 0.4 * log(0.4));
-  assert_true(fabs(boundary - mixed) < 1e-15 && fabs(entropy - mixed / 2) < 1e-15);
-  kz_uncertain_share(10, 10, halves, 1, 0, &share);
-  assert_true(fabs(share - 2.0 / 8) < 1e-15);
-  kz_uncertain_share(10, 10, halves, 1, 1, &share);
-  assert_true(fabs(share - 4.0 / 10) < 1e-15);
-}
-
-/* What has not settled is no basin: left out, and with it the cells that it is compared with. */
-static void test_measures_leave_unsettled_cells_out(void **state) {
-  (void)state;
-  int16_t some[100], none[100];
-  double entropy, boundary, share;
-  for (int i = 0; i < 100; i++) some[i] = i % 10 < 5 ? 0 : (i / 10) % 2 == 0 ? 1 : -1;
-  for (int i = 0; i < 100; i++) none[i] = i == 0 ? 0 : -1;
-  kz_basin_entropy(10, 10, some, &entropy, &boundary);
-  assert_true(entropy == 0 && boundary == 0);
-  kz_uncertain_share(10, 10, some, 1, 0, &share);
-  assert_true(fabs(share - 10.0 / 55) < 1e-15);
-  kz_basin_entropy(10, 10, none, &entropy, &boundary);
-  assert_true(entropy == 0 && boundary == 0);
-  kz_uncertain_share(10, 10, none, 1, 1, &share);
-  assert_true(share == 0);
-}
-
 /* The catalogue survives its travel as doubles. */
 static void test_packing(void **state) {
   (void)state;
@@ -439,8 +406,6 @@ int main(void) {
       cmocka_unit_test(test_processed),
       cmocka_unit_test(test_regions_are_right),
       cmocka_unit_test(test_wrong_labels_are_doubtful),
-      cmocka_unit_test(test_measures),
-      cmocka_unit_test(test_measures_leave_unsettled_cells_out),
       cmocka_unit_test(test_packing),
       cmocka_unit_test(test_regions_know_no_order),
       cmocka_unit_test(test_chaos),

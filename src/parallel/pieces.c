@@ -1,0 +1,140 @@
+/* Records of varying length: kept by the ranks that made them, later turned into messages for rank 0. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "progress.h"
+#include "ranks.h"
+#include "timings.h"
+
+enum { TAG = 2, BUFFERS = 4 };
+static const size_t MESSAGE_MAX = (size_t)1 << 30;
+
+kz_status kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes) {
+  if (pieces->n == pieces->room) {
+    const int64_t room = 2 * pieces->room + 16;
+    kz_piece *list = realloc(pieces->list, (size_t)room * sizeof *list);
+    if (!list) return kz_fail(KZ_FAILED, "out of memory for the records of %lld tiles", (long long)room);
+    pieces->list = list;
+    pieces->room = room;
+  }
+  void *copy = malloc(bytes + 1);
+  if (!copy) return kz_fail(KZ_FAILED, "out of memory for a record of %zu bytes", bytes);
+  pieces->list[pieces->n++] = (kz_piece){tile, bytes, memcpy(copy, data, bytes)};
+  return KZ_OK;
+}
+
+void kz_pieces_free(kz_pieces *pieces) {
+  for (int64_t i = 0; i < pieces->n; i++) free(pieces->list[i].data);
+  free(pieces->list);
+  *pieces = (kz_pieces){0};
+}
+
+typedef struct {
+  kz_ranks *ranks;
+  const kz_delivery *delivery;
+  const kz_pieces *pieces;
+  char *buffer[BUFFERS];     /* [message_bytes]; rank 0 uses one */
+  MPI_Request sent[BUFFERS]; /* MPI_REQUEST_NULL: the buffer is free */
+  int ended;                 /* ranks that have sent all; rank 0 */
+  int64_t done;
+  double busy; /* s */
+  kz_meter meter;
+} mail;
+
+static kz_status make(mail *m, int64_t i, char *buffer, size_t *bytes) {
+  const double begun = kz_clock();
+  const kz_status status = m->delivery->make(m->delivery->context, &m->pieces->list[i], buffer, bytes);
+  m->busy += kz_clock() - begun;
+  return status;
+}
+
+static kz_status take(mail *m, size_t bytes) {
+  const double begun = kz_clock();
+  const kz_status status = m->delivery->take(m->delivery->context, m->buffer[0], bytes);
+  m->busy += kz_clock() - begun;
+  return status;
+}
+
+/* Messages are made while those before are on their way: rank 0 may be at a piece of its own. */
+static kz_status send_pieces(mail *m) {
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i < m->pieces->n; i++) {
+    char *buffer = m->buffer[i % BUFFERS];
+    MPI_Request *sent = &m->sent[i % BUFFERS];
+    size_t bytes = 0;
+    KZ_MPI(MPI_Wait(sent, MPI_STATUS_IGNORE));
+    if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
+    if ((status = make(m, i, buffer, &bytes)) != KZ_OK) break;
+    KZ_MPI(MPI_Isend(buffer, (int)bytes, MPI_BYTE, 0, TAG, m->ranks->comm, sent));
+  }
+  KZ_MPI(MPI_Waitall(BUFFERS, m->sent, MPI_STATUSES_IGNORE));
+  KZ_MPI(MPI_Send(NULL, 0, MPI_BYTE, 0, TAG, m->ranks->comm));
+  return status;
+}
+
+/* Receives the message that was probed; an empty one is its rank's last. Where a message was not taken, others are let pass. */
+static kz_status receive(mail *m, const MPI_Status *probed, kz_status *status) {
+  int bytes;
+  KZ_MPI(MPI_Get_count(probed, MPI_BYTE, &bytes));
+  KZ_MPI(MPI_Recv(m->buffer[0], bytes, MPI_BYTE, probed->MPI_SOURCE, TAG, m->ranks->comm, MPI_STATUS_IGNORE));
+  m->ended += bytes == 0;
+  if (bytes > 0 && *status == KZ_OK) *status = take(m, (size_t)bytes);
+  if (bytes > 0) kz_meter_show(&m->meter, ++m->done);
+  return KZ_OK;
+}
+
+static kz_status receive_waiting(mail *m, kz_status *status) {
+  MPI_Status probed;
+  int waits = 1;
+  while (m->ended < m->ranks->size - 1) {
+    KZ_MPI(MPI_Iprobe(MPI_ANY_SOURCE, TAG, m->ranks->comm, &waits, &probed));
+    if (!waits) break;
+    KZ_TRY(receive(m, &probed, status));
+  }
+  return KZ_OK;
+}
+
+/* Rank 0 takes what has come between two pieces of its own. */
+static kz_status take_pieces(mail *m) {
+  kz_status status = KZ_OK;
+  MPI_Status probed;
+  for (int64_t i = 0; i < m->pieces->n && status == KZ_OK; i++) {
+    size_t bytes = 0;
+    if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
+    status = make(m, i, m->buffer[0], &bytes);
+    if (status == KZ_OK) status = take(m, bytes);
+    kz_meter_show(&m->meter, ++m->done);
+    KZ_TRY(receive_waiting(m, &status));
+  }
+  while (m->ended < m->ranks->size - 1) {
+    KZ_MPI(MPI_Probe(MPI_ANY_SOURCE, TAG, m->ranks->comm, &probed));
+    KZ_TRY(receive(m, &probed, &status));
+  }
+  return status;
+}
+
+static kz_status allocate(mail *m) {
+  for (int i = 0; i < (m->ranks->rank == 0 ? 1 : BUFFERS); i++)
+    if (!(m->buffer[i] = malloc(m->delivery->message_bytes + 1))) return kz_fail(KZ_FAILED, "out of memory for messages");
+  if (m->delivery->message_bytes <= MESSAGE_MAX) return KZ_OK;
+  return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name, m->delivery->message_bytes);
+}
+
+kz_status kz_pieces_deliver(kz_ranks *ranks, const kz_pieces *pieces, const kz_delivery *delivery) {
+  mail m = {.ranks = ranks, .delivery = delivery, .pieces = pieces};
+  for (int i = 0; i < BUFFERS; i++) m.sent[i] = MPI_REQUEST_NULL;
+  int64_t total = pieces->n;
+  kz_status status = kz_ranks_agree(ranks, allocate(&m));
+  if (status == KZ_OK) status = kz_ranks_sum(ranks, &total, 1);
+  if (status == KZ_OK) {
+    double idle = 0;
+    const kz_stopwatch watch = kz_stopwatch_start();
+    kz_meter_begin(&m.meter, ranks, delivery->name, total, 0);
+    status = kz_ranks_agree(ranks, ranks->rank == 0 ? take_pieces(&m) : send_pieces(&m));
+    if (status == KZ_OK) status = kz_timing_note(ranks, delivery->name, total, &watch, m.busy, &idle);
+    kz_meter_end(&m.meter, status == KZ_OK, idle);
+    if (status == KZ_STOPPED) status = kz_ranks_stopped(ranks);
+  }
+  for (int i = 0; i < BUFFERS; i++) free(m.buffer[i]);
+  return status;
+}

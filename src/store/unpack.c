@@ -1,0 +1,31 @@
+/* Packing into given room, and the reverse. */
+#include <stdlib.h>
+#include <string.h>
+#include <zlib.h>
+
+#include "kapitza/store.h"
+#include "pack.h"
+
+size_t kz_pack_room(size_t n, size_t item) {
+  return n * item + n * item / 8 + 128; /* more than deflate's own bound */
+}
+
+size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed) {
+  void *made;
+  size_t bytes;
+  if (kz_pack(numbers, item, n, &made, &bytes) != KZ_OK) return 0;
+  const bool fits = bytes <= kz_pack_room(n, item);
+  if (fits) memcpy(packed, made, bytes);
+  free(made);
+  return fits ? bytes : 0;
+}
+
+bool kz_unpack(const void *packed, size_t bytes, size_t n, size_t item, void *numbers) {
+  unsigned char *out = numbers, *shuffled = malloc(n * item + 1);
+  uLongf unpacked = n * item;
+  const bool whole = shuffled && uncompress(shuffled, &unpacked, packed, bytes) == Z_OK && unpacked == n * item;
+  for (size_t b = 0; whole && b < item; b++)
+    for (size_t i = 0; i < n; i++) out[i * item + b] = shuffled[b * n + i];
+  free(shuffled);
+  return whole;
+}

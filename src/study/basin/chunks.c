@@ -1,0 +1,214 @@
+/* From labels to the file: each rank turns its tiles, and those that mirror them, into ids, counts them and packs them; rank 0
+ * writes the chunks as they come. */
+#include "chunks.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/store.h"
+
+enum { VARIABLES = 3 };
+static const char *const variables[VARIABLES] = {"attractor", "settling_time", "evidence"};
+static const size_t items[VARIABLES] = {sizeof(int16_t), sizeof(uint32_t), sizeof(uint8_t)};
+
+/* A chunk of each variable, packed; a message has one or two of them. */
+typedef struct {
+  int64_t tile;
+  uint64_t bytes[VARIABLES];
+} head;
+
+static size_t message_room(int64_t cells) {
+  size_t room = sizeof(head);
+  for (int v = 0; v < VARIABLES; v++) room += kz_pack_room((size_t)cells, items[v]);
+  return 2 * room;
+}
+
+static bool is_circle(const kz_basin_plan *plan) {
+  return plan->theta.max - plan->theta.min == 2 * M_PI;
+}
+
+/* The cells of the tile in c->ids, c->periods, c->evidence. */
+static void count(kz_chunks *c, int64_t tile) {
+  const kz_tiles *tiles = &c->labelling->tiles;
+  const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
+  for (int64_t i = 0; i < n; i++) {
+    c->counts.undecided += c->evidence[i] == KZ_UNDECIDED;
+    if (c->ids[i] < 0)
+      c->counts.unsettled++;
+    else
+      c->cells_of[c->ids[i]]++;
+  }
+  if (!tiles->whole) return;
+  kz_count_boxes(tiles->columns, rows, c->ids, &c->counts);
+  kz_count_pairs(tiles->columns, rows, c->ids, is_circle(c->labelling->plan), &c->counts);
+}
+
+static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
+  const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
+  const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence};
+  head h = {.tile = tile};
+  char *end = message + *bytes + sizeof h;
+  for (int v = 0; v < VARIABLES; v++) {
+    if ((h.bytes[v] = kz_pack_into(arrays[v], n, items[v], end)) == 0) return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
+    end += h.bytes[v];
+  }
+  memcpy(message + *bytes, &h, sizeof h);
+  *bytes = (size_t)(end - message);
+  return KZ_OK;
+}
+
+/* The cells of a tile from its own ones: the second half of the tile in the middle mirrors the first. */
+static void fill(kz_chunks *c, int64_t tile) {
+  const kz_labelling *l = c->labelling;
+  const int64_t n = kz_tile_count(&l->tiles, tile), own = kz_tile_own(&l->tiles, tile);
+  for (int64_t i = 0; i < n; i++) {
+    const bool mirrored = i >= own;
+    const kz_labelled *cell = &l->cell[mirrored ? n - 1 - i : i];
+    const int32_t id = cell->label > 0 ? c->catalogue->id_of[cell->label] : -1;
+    c->ids[i] = (int16_t)(mirrored && id >= 0 ? c->catalogue->entries[id].mirror : id);
+    c->periods[i] = cell->periods;
+    c->evidence[i] = id < 0 ? KZ_UNSETTLED : cell->periods == 0 ? KZ_INSIDE : cell->evidence;
+  }
+}
+
+/* The tile becomes its mirror image. */
+static void mirror(kz_chunks *c, int64_t n) {
+  for (int64_t i = 0, j = n - 1; i <= j; i++, j--) {
+    const int16_t id = c->ids[i], other = c->ids[j];
+    const uint32_t periods = c->periods[i];
+    const uint8_t evidence = c->evidence[i];
+    c->ids[i] = (int16_t)(other < 0 ? other : c->catalogue->entries[other].mirror);
+    c->ids[j] = (int16_t)(id < 0 ? id : c->catalogue->entries[id].mirror);
+    c->periods[i] = c->periods[j];
+    c->periods[j] = periods;
+    c->evidence[i] = c->evidence[j];
+    c->evidence[j] = evidence;
+  }
+}
+
+/* The labels of the sample's cells that lie in the tile. */
+static void note_sample(kz_chunks *c, int64_t tile) {
+  const kz_labelling *l = c->labelling;
+  const int64_t first = kz_tile_first(&l->tiles, tile), end = first + kz_tile_own(&l->tiles, tile);
+  for (int64_t i = 0; i < c->n_sample; i++)
+    if (c->sample[i] >= first && c->sample[i] < end) c->sample_label[i] = l->cell[c->sample[i] - first].label;
+}
+
+static kz_status make(void *context, const kz_piece *piece, void *message, size_t *bytes) {
+  kz_chunks *c = context;
+  const kz_tiles *tiles = &c->labelling->tiles;
+  const int64_t image = tiles->n - 1 - piece->tile;
+  KZ_TRY(kz_labels_unpack(c->labelling, piece));
+  note_sample(c, piece->tile);
+  fill(c, piece->tile);
+  count(c, piece->tile);
+  *bytes = 0;
+  KZ_TRY(pack(c, piece->tile, message, bytes));
+  if (tiles->own == tiles->n || image == piece->tile) return KZ_OK;
+  mirror(c, kz_tile_count(tiles, piece->tile));
+  count(c, image);
+  return pack(c, image, message, bytes);
+}
+
+static kz_status write_chunks(const kz_chunks *c, const head *h, const char *packed) {
+  const kz_tiles *tiles = &c->labelling->tiles;
+  const int64_t place[] = {h->tile / tiles->across * tiles->chunk[0], h->tile % tiles->across * tiles->chunk[1]};
+  for (int v = 0; v < VARIABLES; packed += h->bytes[v++])
+    KZ_TRY(kz_store_chunk(c->store, "basin", variables[v], place, packed, h->bytes[v]));
+  return KZ_OK;
+}
+
+static kz_status take(void *context, const void *message, size_t bytes) {
+  const kz_chunks *c = context;
+  for (const char *at = message, *end = at + bytes; at < end;) {
+    head h;
+    memcpy(&h, at, sizeof h);
+    KZ_TRY(write_chunks(c, &h, at + sizeof h));
+    at += sizeof h;
+    for (int v = 0; v < VARIABLES; v++) at += h.bytes[v];
+  }
+  return KZ_OK;
+}
+
+kz_status kz_chunks_declare(const kz_tiles *tiles, kz_store *store) {
+  for (int v = 0; v < VARIABLES; v++) KZ_TRY(kz_store_chunked(store, "basin", variables[v], tiles->chunk));
+  return KZ_OK;
+}
+
+static kz_status allocate(kz_chunks *c) {
+  const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
+  c->ids = calloc(n + 1, sizeof *c->ids);
+  c->periods = calloc(n + 1, sizeof *c->periods);
+  c->evidence = calloc(n + 1, sizeof *c->evidence);
+  c->cells_of = calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
+  if (c->ids && c->periods && c->evidence && c->cells_of) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
+}
+
+/* Boxes and pairs that tiles cut: rank 0 reads whole rows back, as many as a tile has or a few more. */
+static kz_status count_rows(kz_chunks *c) {
+  const kz_tiles *tiles = &c->labelling->tiles;
+  const int64_t most = (tiles->chunk[0] + KZ_BOX - 1) / KZ_BOX * KZ_BOX;
+  int16_t *ids = malloc((size_t)(most * tiles->columns) * sizeof *ids);
+  kz_status status = ids ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld rows of cells", (long long)most);
+  for (int64_t row = 0; row < tiles->rows && status == KZ_OK; row += most) {
+    const int64_t n = tiles->rows - row < most ? tiles->rows - row : most;
+    if ((status = kz_store_rows(c->store, "basin", "attractor", row, n, ids)) != KZ_OK) break;
+    kz_count_boxes(tiles->columns, n, ids, &c->counts);
+    kz_count_pairs(tiles->columns, n, ids, is_circle(c->labelling->plan), &c->counts);
+  }
+  free(ids);
+  return status;
+}
+
+static kz_status deliver(kz_chunks *c) {
+  kz_labelling *l = c->labelling;
+  const kz_delivery delivery = {
+      .name = "file", .message_bytes = message_room(kz_tile_room(&l->tiles)), .make = make, .take = take, .context = c};
+  KZ_TRY(kz_pieces_deliver(l->ranks, &l->pieces, &delivery));
+  KZ_TRY(kz_ranks_sum(l->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
+  KZ_TRY(kz_ranks_sum(l->ranks, c->cells_of, c->catalogue->count));
+  KZ_TRY(kz_ranks_sum(l->ranks, c->sample_label, c->n_sample));
+  for (int64_t i = 0; i < c->catalogue->count; i++)
+    c->catalogue->entries[i].fraction = (double)c->cells_of[i] / (double)l->tiles.cells;
+  return kz_ranks_agree(l->ranks, c->store && !l->tiles.whole ? count_rows(c) : KZ_OK);
+}
+
+kz_status kz_cells_write(kz_chunks *c) {
+  kz_status status = kz_ranks_agree(c->labelling->ranks, allocate(c));
+  if (status == KZ_OK) status = deliver(c);
+  free(c->ids);
+  free(c->periods);
+  free(c->evidence);
+  free(c->cells_of);
+  return status;
+}
+
+kz_status kz_chunks_write_unsettled(const kz_tiles *tiles, uint32_t periods, kz_store *store) {
+  const size_t n = (size_t)kz_tile_room(tiles);
+  kz_labelling labelling = {.tiles = *tiles};
+  kz_chunks c = {.labelling = &labelling,
+                 .store = store,
+                 .ids = malloc(n * sizeof *c.ids),
+                 .periods = malloc(n * sizeof *c.periods),
+                 .evidence = calloc(n, sizeof *c.evidence)};
+  char *message = malloc(message_room((int64_t)n));
+  const bool has_room = c.ids && c.periods && c.evidence && message;
+  kz_status status = has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
+  for (size_t i = 0; status == KZ_OK && i < n; i++) {
+    c.ids[i] = -1;
+    c.periods[i] = periods;
+  }
+  size_t bytes = 0;
+  if (status == KZ_OK) status = pack(&c, 0, message, &bytes);
+  for (int64_t tile = 0; tile < tiles->n && status == KZ_OK; tile++) {
+    memcpy(message, &tile, sizeof tile);
+    status = take(&c, message, bytes);
+  }
+  free(c.ids);
+  free(c.periods);
+  free(c.evidence);
+  free(message);
+  return status;
+}

@@ -1,0 +1,45 @@
+/* Labels of the cells of a window, tile by tile; the rank that labels a tile keeps it, packed. */
+#ifndef KAPITZA_STUDY_LABEL_H
+#define KAPITZA_STUDY_LABEL_H
+
+#include "common/search.h"
+#include "tiles.h"
+
+/* How a label was found: the values of the file's variable `evidence`. */
+enum { KZ_UNSETTLED = 0, KZ_INSIDE = 1, KZ_FOLLOWED = 2, KZ_UNDECIDED = 3 };
+
+/* A cell. */
+typedef struct {
+  uint32_t periods;
+  int16_t label;    /* number of kz_dynamics, 0 = not settled */
+  uint8_t evidence; /* KZ_FOLLOWED or KZ_UNDECIDED */
+  uint8_t unused;   /* 0 */
+} kz_labelled;
+
+typedef struct kz_workspace kz_workspace;
+
+typedef struct {
+  const kz_basin_plan *plan;
+  kz_dynamics *dynamics;
+  kz_search search; /* of the starts */
+  kz_tiles tiles;
+  int64_t batch; /* cells that are followed together */
+  kz_ranks *ranks;
+  kz_workspace *work;  /* of this rank */
+  kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */
+  kz_pieces pieces;    /* tiles of this rank, packed */
+  int64_t *before;     /* [own tiles + 1] unsettled cells in the tiles before */
+  int64_t n_open;      /* cells of the present stage that labels unsettled ones again, */
+  const int64_t *open; /* [n_open] */
+  int64_t *reached;    /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
+} kz_labelling;
+
+/* Finds the attractors and labels all own cells: `pieces` has the tiles of this rank, `reached` what all ranks found. To be freed in
+ * every case. Collective. */
+kz_status kz_label_window(kz_labelling *labelling);
+void kz_labelling_free(kz_labelling *labelling);
+
+/* The own cells of a packed tile into labelling->cell. */
+kz_status kz_labels_unpack(kz_labelling *labelling, const kz_piece *piece);
+
+#endif

@@ -1,0 +1,31 @@
+/* Measures of a labelled grid as counts, which are added up over its tiles: basin entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416)
+ * and uncertain shares at distances (C. Grebogi et al., Phys. Lett. A 99 (1983) 415). */
+#ifndef KAPITZA_STUDY_MEASURES_H
+#define KAPITZA_STUDY_MEASURES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "tiles.h"
+
+enum { KZ_DISTANCES = 8, KZ_BOX_CELLS = KZ_BOX * KZ_BOX };
+
+/* Numbers of int64_t alone, so that kz_ranks_sum adds them. */
+typedef struct {
+  int64_t unsettled, undecided;                            /* cells */
+  int64_t boxes[KZ_BOX_CELLS + 1];                         /* with so many settled cells */
+  int64_t parts[KZ_BOX_CELLS + 1][KZ_BOX_CELLS + 1];       /* of these boxes: attractors that have so many of their cells */
+  int64_t compared[KZ_DISTANCES], uncertain[KZ_DISTANCES]; /* cells compared with those 2^d columns away; those that differ */
+} kz_counts;
+
+/* Boxes of 5 x 5 cells of label [rows][columns], from its first row on (those that do not fit are dropped), and pairs along its rows;
+ * circle: theta closes. Unsettled cells (-1) belong to no basin and are left out, boxes of nothing else too. */
+void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_counts *counts);
+void kz_count_pairs(int64_t columns, int64_t rows, const int16_t *label, bool circle, kz_counts *counts);
+
+/* Mean Gibbs entropy (natural logarithm) of all boxes, and of those with more than one label; 0 where there are none. */
+void kz_entropy_of(const kz_counts *counts, double *entropy, double *boundary_entropy);
+/* Share of the compared cells that are uncertain at distance 2^d columns; 0 where none was compared. */
+double kz_uncertain_share(const kz_counts *counts, int d);
+
+#endif

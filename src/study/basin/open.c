@@ -1,0 +1,102 @@
+/* Cells that have not settled: counted, picked and labelled again, a bounded number at a time. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "label_parts.h"
+
+enum {
+  MOST_OPEN = 1 << 20, /* cells that a rank lists at a time; more than a tile has */
+  TILE = 4096          /* of them, at most */
+};
+
+kz_status kz_open_count(kz_labelling *l) {
+  int64_t *before = memset(l->before, 0, (size_t)(l->tiles.own + 1) * sizeof *before);
+  for (int64_t i = 0; i < l->pieces.n; i++) before[l->pieces.list[i].tile + 1] = kz_labels_open(&l->pieces.list[i]);
+  KZ_TRY(kz_ranks_sum(l->ranks, before, l->tiles.own + 1));
+  for (int64_t tile = 0; tile < l->tiles.own; tile++) before[tile + 1] += before[tile];
+  return KZ_OK;
+}
+
+/* Those of the wanted cells that lie in one tile. */
+static kz_status pick_from(kz_labelling *l, const kz_piece *piece, int64_t from, int64_t of, int64_t n, int64_t *cell) {
+  int64_t number = l->before[piece->tile], i = number > from ? ((number - from) * n + of - 1) / of : 0;
+  const int64_t end = l->before[piece->tile + 1], first = kz_tile_first(&l->tiles, piece->tile);
+  if (i >= n || from + i * of / n >= end || end == number) return KZ_OK;
+  KZ_TRY(kz_labels_unpack(l, piece));
+  for (int64_t k = 0; i < n && number < end; k++) {
+    if (l->cell[k].label != 0) continue;
+    if (from + i * of / n == number) cell[i++] = first + k;
+    number++;
+  }
+  return KZ_OK;
+}
+
+kz_status kz_open_pick(kz_labelling *l, int64_t from, int64_t of, int64_t n, int64_t *cell) {
+  kz_status status = KZ_OK;
+  memset(cell, 0, (size_t)n * sizeof *cell);
+  for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++) status = pick_from(l, &l->pieces.list[i], from, of, n, cell);
+  KZ_TRY(kz_ranks_agree(l->ranks, status));
+  return kz_ranks_sum(l->ranks, cell, n);
+}
+
+static kz_status label_open(void *context, int64_t tile, void *record) {
+  const kz_labelling *l = context;
+  const int64_t size = l->batch < TILE ? l->batch : TILE, first = tile * size, left = l->n_open - first;
+  return kz_label_cells(l, 0, l->open + first, left < size ? left : size, record);
+}
+
+/* The new labels of the listed cells, of which the first is unsettled cell `from`, replace those of a tile of this rank. */
+static kz_status merge(kz_labelling *l, kz_piece *piece, int64_t from, const kz_labelled *found, void *record) {
+  int64_t number = l->before[piece->tile] - from;
+  const int64_t end = l->before[piece->tile + 1] - from;
+  kz_pieces packed = {0};
+  if (number < 0 || number == end || end > l->n_open) return KZ_OK;
+  KZ_TRY(kz_labels_unpack(l, piece));
+  for (int64_t k = 0; number < end; k++)
+    if (l->cell[k].label == 0) l->cell[k] = found[number++];
+  KZ_TRY(kz_labels_pack(l, piece->tile, record));
+  KZ_TRY(kz_pieces_add(&packed, piece->tile, record, *(uint64_t *)record));
+  free(piece->data);
+  *piece = packed.list[0];
+  free(packed.list);
+  return KZ_OK;
+}
+
+/* The unsettled cells of tiles from .. to - 1. */
+static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, int64_t to, int64_t *open) {
+  const int64_t size = l->batch < TILE ? l->batch : TILE;
+  l->open = open;
+  l->n_open = l->before[to] - l->before[from];
+  kz_stage stage = {.name = name,
+                    .n_tiles = (l->n_open + size - 1) / size,
+                    .record_bytes = (size_t)size * sizeof(kz_labelled),
+                    .work = label_open,
+                    .context = l,
+                    .keep = true,
+                    .everywhere = true};
+  KZ_TRY(kz_open_pick(l, l->before[from], l->n_open, l->n_open, open));
+  kz_labelled *found = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  void *record = malloc(kz_labels_room(l));
+  kz_status status = found && record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)l->n_open);
+  status = kz_ranks_agree(l->ranks, status);
+  if (status == KZ_OK) status = kz_stage_run(l->ranks, &stage, found);
+  for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++)
+    status = merge(l, &l->pieces.list[i], l->before[from], found, record);
+  free(found);
+  free(record);
+  return kz_ranks_agree(l->ranks, status);
+}
+
+kz_status kz_open_label(kz_labelling *l, const char *name) {
+  const int64_t *before = l->before, all = before[l->tiles.own];
+  const int64_t most = all < MOST_OPEN ? all : MOST_OPEN;
+  int64_t *open = malloc((size_t)most * sizeof *open + 1);
+  kz_status status = kz_ranks_agree(l->ranks, open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)most));
+  for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {
+    for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
+    if (before[to] > before[from]) status = label_tiles(l, name, from, to, open);
+  }
+  l->open = NULL;
+  free(open);
+  return status;
+}

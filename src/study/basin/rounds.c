@@ -1,0 +1,103 @@
+/* Rounds of discovery and labelling: cells that ended nowhere known feed another one. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "common/step_table.h"
+#include "label_parts.h"
+
+enum { ROUNDS = 4 };
+
+/* What the starts over the window end on, or `again` unsettled cells, evenly chosen, is found and counted. */
+static kz_status discover(kz_labelling *l, bool again) {
+  const kz_basin_plan *plan = l->plan;
+  const int64_t all = again ? l->before[l->tiles.own] : 0, n = again && all < plan->starts ? all : plan->starts;
+  double *state = malloc((size_t)n * 2 * sizeof *state);
+  int32_t *label = malloc((size_t)n * sizeof *label);
+  int64_t *cell = malloc((size_t)n * sizeof *cell);
+  kz_status status =
+      kz_ranks_agree(l->ranks, state && label && cell ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+  if (status == KZ_OK && again) status = kz_open_pick(l, 0, all, n, cell);
+  for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cell_state(plan, cell[i], state + 2 * i);
+  if (status == KZ_OK)
+    status = again ? kz_discover(l->ranks, l->dynamics, plan->max_periods, n, state, label)
+                   : kz_search_window(l->ranks, l->dynamics, &l->search, state, label);
+  if (status == KZ_OK && kz_dynamics_count(l->dynamics) > INT16_MAX)
+    status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) l->reached[label[i]]++;
+  free(state);
+  free(label);
+  free(cell);
+  return status;
+}
+
+static kz_status label_tile(void *context, int64_t tile, void *record) {
+  const kz_labelling *l = context;
+  KZ_TRY(kz_label_cells(l, kz_tile_first(&l->tiles, tile), NULL, kz_tile_own(&l->tiles, tile), l->cell));
+  return kz_labels_pack(l, tile, record);
+}
+
+static kz_status label_tiles(kz_labelling *l) {
+  kz_stage stage = {.name = "cells 1",
+                    .n_tiles = l->tiles.own,
+                    .record_bytes = kz_labels_room(l),
+                    .work = label_tile,
+                    .context = l,
+                    .keep = true,
+                    .pieces = &l->pieces};
+  return kz_stage_run(l->ranks, &stage, NULL);
+}
+
+/* Before cells are labelled by a table alone. What basin.accuracy chose is judged by its labels. */
+static kz_status check_table(const kz_labelling *l) {
+  if (l->plan->method != KZ_METHOD_ICM || !isnan(l->plan->accuracy)) return KZ_OK;
+  return kz_steps_check_table(l->plan, kz_dynamics_table_defect(l->dynamics, kz_stencil(l->plan->interpolation)));
+}
+
+static kz_status run_rounds(kz_labelling *l) {
+  KZ_TRY(discover(l, false));
+  KZ_TRY(kz_ranks_agree(l->ranks, check_table(l)));
+  KZ_TRY(label_tiles(l));
+  for (int round = 1; round < ROUNDS; round++) {
+    char name[32];
+    KZ_TRY(kz_open_count(l));
+    if (l->before[l->tiles.own] == 0) return KZ_OK;
+    const int64_t known = kz_dynamics_count(l->dynamics);
+    KZ_TRY(discover(l, true));
+    if (kz_dynamics_count(l->dynamics) == known) return KZ_OK;
+    snprintf(name, sizeof name, "cells %d", round + 1);
+    KZ_TRY(kz_open_label(l, name));
+  }
+  return KZ_OK;
+}
+
+static kz_status allocate(kz_labelling *l) {
+  const size_t room = (size_t)kz_tile_room(&l->tiles);
+  l->work = kz_workspace_make();
+  l->cell = calloc(room + 1, sizeof *l->cell);
+  l->before = calloc((size_t)l->tiles.own + 1, sizeof *l->before);
+  l->reached = calloc(INT16_MAX + 1, sizeof *l->reached);
+  if (l->work && l->cell && l->before && l->reached) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", room);
+}
+
+/* The starts' counts are the same on every rank, those of tiles each rank's own. */
+static kz_status sum_reached(kz_labelling *l) {
+  for (int i = 0; i <= INT16_MAX && kz_ranks_own(l->ranks) != 0; i++) l->reached[i] = 0;
+  for (int64_t i = 0; i < l->pieces.n; i++) kz_labels_note_reached(l, &l->pieces.list[i]);
+  return kz_ranks_sum(l->ranks, l->reached, INT16_MAX + 1);
+}
+
+kz_status kz_label_window(kz_labelling *l) {
+  KZ_TRY(kz_ranks_agree(l->ranks, allocate(l)));
+  KZ_TRY(run_rounds(l));
+  return sum_reached(l);
+}
+
+void kz_labelling_free(kz_labelling *l) {
+  kz_pieces_free(&l->pieces);
+  free(l->work);
+  free(l->cell);
+  free(l->before);
+  free(l->reached);
+}

@@ -1,0 +1,133 @@
+/* Records of varying length: they stay with their ranks, survive in a checkpoint that has holes, and reach rank 0 once each. */
+#include <fcntl.h>
+#include <mpi.h>
+#include <sys/stat.h>
+
+#include "ranks.h"
+
+enum { N_TILES = 60, MOST = 1 << 16, PAGE = 4096 };
+static char path[64];
+
+typedef struct {
+  int64_t done, failing;
+  int64_t taken[N_TILES];
+} job;
+
+static size_t length_of(int64_t tile) {
+  return 8 + (size_t)(tile * tile * 17 % 3000);
+}
+
+static kz_status fill(void *context, int64_t tile, void *record) {
+  job *j = context;
+  if (tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)tile);
+  const uint64_t bytes = length_of(tile);
+  memset(record, (int)tile + 1, bytes);
+  memcpy(record, &bytes, sizeof bytes);
+  ++j->done;
+  pause_for(0.0005);
+  return KZ_OK;
+}
+
+static kz_status run(job *j, kz_pieces *pieces) {
+  const kz_stage stage = {
+      .name = "pieces", .n_tiles = N_TILES, .record_bytes = MOST, .work = fill, .context = j, .keep = true, .pieces = pieces};
+  return kz_stage_run(ranks, &stage, NULL);
+}
+
+/* A message: the tile, and the last byte of its record. */
+static kz_status make(void *context, const kz_piece *piece, void *message, size_t *bytes) {
+  const job *j = context;
+  if (piece->tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)piece->tile);
+  const int64_t facts[] = {piece->tile, (int64_t)piece->bytes, ((const unsigned char *)piece->data)[piece->bytes - 1]};
+  *bytes = sizeof facts;
+  memcpy(message, facts, sizeof facts);
+  return KZ_OK;
+}
+
+static kz_status take(void *context, const void *message, size_t bytes) {
+  job *j = context;
+  int64_t facts[3];
+  if (bytes != sizeof facts) return kz_fail(KZ_FAILED, "a message of %zu bytes", bytes);
+  memcpy(facts, message, sizeof facts);
+  const int64_t last = facts[1] > 8 ? facts[0] + 1 : 0;
+  if (facts[1] == (int64_t)length_of(facts[0]) && facts[2] == last) ++j->taken[facts[0]];
+  return KZ_OK;
+}
+
+static kz_status deliver(job *j, const kz_pieces *pieces) {
+  const kz_delivery delivery = {.name = "mail", .message_bytes = 64, .make = make, .take = take, .context = j};
+  return kz_pieces_deliver(ranks, pieces, &delivery);
+}
+
+static bool has_all(const job *j) {
+  for (int tile = 0; tile < N_TILES && kz_ranks_own(ranks) == 0; ++tile)
+    if (j->taken[tile] != 1) return false;
+  return true;
+}
+
+static void open_checkpoint(bool resume) {
+  const kz_checkpoint_plan plan = {.path = path, .fingerprint = "a: 1\n", .resume = resume, .force = !resume};
+  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
+}
+
+static int64_t sum(int64_t mine) {
+  assert_all(kz_ranks_sum(ranks, &mine, 1) == KZ_OK);
+  return mine;
+}
+
+static void each_piece_comes_once(void **state) {
+  (void)state;
+  job j = {.failing = -1};
+  kz_pieces pieces = {0};
+  assert_all(run(&j, &pieces) == KZ_OK && sum(pieces.n) == N_TILES);
+  assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
+  kz_pieces_free(&pieces);
+}
+
+static void a_failure_on_the_way_reaches_all(void **state) {
+  (void)state;
+  job j = {.failing = -1};
+  kz_pieces pieces = {0};
+  assert_all(run(&j, &pieces) == KZ_OK);
+  j.failing = N_TILES / 2;
+  assert_all(deliver(&j, &pieces) == KZ_FAILED);
+  j = (job){.failing = -1};
+  assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
+  kz_pieces_free(&pieces);
+}
+
+static void spoil(int64_t tile) {
+  const int file = open(path, O_WRONLY);
+  const off_t slot = 2 * PAGE + tile * (off_t)(MOST + PAGE); /* header, head of the section */
+  assert_all(kz_ranks_own(ranks) != 0 || pwrite(file, "\xa5", 1, slot + 30) == 1);
+  close(file);
+}
+
+static void finished_pieces_are_found_again(void **state) {
+  (void)state;
+  job j = {.failing = 45};
+  kz_pieces pieces = {0};
+  open_checkpoint(false);
+  assert_all(run(&j, &pieces) == KZ_FAILED);
+  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  kz_pieces_free(&pieces);
+  const int64_t done = sum(j.done);
+  spoil(7);
+  struct stat facts;
+  assert_all(stat(path, &facts) == 0 && facts.st_blocks * 512 < (N_TILES + 4) * 2 * PAGE && facts.st_size > 10 * MOST);
+  open_checkpoint(true);
+  j = (job){.failing = -1};
+  assert_all(run(&j, &pieces) == KZ_OK && sum(j.done) == N_TILES - done + 1 && sum(pieces.n) == N_TILES);
+  assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
+  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  kz_pieces_free(&pieces);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(each_piece_comes_once),
+      cmocka_unit_test(a_failure_on_the_way_reaches_all),
+      cmocka_unit_test(finished_pieces_are_found_again),
+  };
+  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
+}
