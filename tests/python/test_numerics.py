@@ -4,7 +4,7 @@ import h5py
 import numpy as np
 import pytest
 from conftest import ROOT, datasets
-from kapitza_file import Result
+from kapitza.result import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
 TINY = ["--set", "basin.theta.count=60", "--set", "basin.velocity.count=60", "--set", "basin.attractors.starts=1024"]
