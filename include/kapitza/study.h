@@ -8,6 +8,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
 #include "kapitza/parallel.h"
 #include "kapitza/store.h"
@@ -103,6 +104,7 @@ typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
   double k, damping, m;                                                              /* b: k, beta, m */
   double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
+  double frequency;                                                                  /* c: Hz, instead of pivot_frequency */
 } kz_pendulum_keys;
 
 /* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */
@@ -110,6 +112,7 @@ typedef struct {
   kz_pendulum_keys written;
   kz_pendulum pendulum;
   double quality_factor, drive_frequency, drive_amplitude;
+  double pivot_frequency; /* rad s-1; NaN without SI */
 } kz_parameters;
 
 /* Fills everything but `written` from `written`. KZ_REFUSED where k, beta or m is not finite; then nothing is usable. */
@@ -159,7 +162,7 @@ typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
-enum { KZ_SWEEP_PARAMETERS = 13 };
+enum { KZ_SWEEP_PARAMETERS = 14 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, and what a sweep can measure, joined by '|'. */
 const char *kz_sweep_words(void);
@@ -213,5 +216,22 @@ void kz_settling_warn(const kz_scene *scene, FILE *out);
  * as many more as the small cells of a damped basin need (smaller than 0.01 rad); left as it is where no number would do
  * (the basin's check says so then), and where basin.accuracy chooses. */
 void kz_numerics_resolve(kz_scene *scene);
+
+/* Where a start ends. */
+typedef struct {
+  int32_t attractor;                      /* id in the catalogue of the scene's window; -1 = not settled */
+  char name[KZ_NAME_LENGTH];              /* "" = not settled */
+  int32_t period, winding;                /* as in /attractors */
+  int64_t settling_time;                  /* drive periods until the orbit is inside a trapping region */
+  bool decided;                           /* double precision can tell: the same end in quad precision and from beside */
+  double *strobe_theta, *strobe_velocity; /* [period] rad, rad per drive radian; NULL = not settled */
+} kz_ending;
+
+/* Where n starts (start [n][2], rad and rad per drive radian) end, into endings [n]. The attractors are those that the search of
+ * the scene's study basin or attractors finds, and those that the starts find themselves; each start is followed by direct
+ * integration with the scene's numerics. `decided`: so it ends in quad precision (Taylor series), and from the four nearest
+ * starts that double precision tells from it. KZ_REFUSED without such a study. Not collective. kz_where_free in every case. */
+kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, kz_ending *endings);
+void kz_where_free(int64_t n, kz_ending *endings);
 
 #endif

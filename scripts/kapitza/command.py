@@ -1,9 +1,10 @@
-"""kapitza-plot KIND FILE: one table says which function draws which kind of result."""
+"""kapitza-plot KIND FILE: one table says which function draws which kind of result, or reports on it."""
 
 import sys
 from collections.abc import Callable
 
 from kapitza.plots import basin, orbit, potential, stability, sweep, tradeoff
+from kapitza.report import command as report
 from kapitza.result import run
 
 # KIND -> a function that takes the other words of the command line.
@@ -11,6 +12,7 @@ KINDS: dict[str, Callable[[list[str]], None]] = {
     "basin": basin.main,
     "orbit": orbit.main,
     "potential": potential.main,
+    "report": report.main,
     "stability": stability.main,
     "sweep": sweep.main,
     "tradeoff": tradeoff.main,

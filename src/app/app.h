@@ -29,12 +29,15 @@ extern const unsigned kz_instructions;
 const char *kz_instruction_names(void);
 
 typedef struct {
-  const char *scene;  /* path of the scene file */
+  const char *operands[3]; /* SCENE and what stands behind it */
+  int n_operands;
+  const char *scene;  /* path of the scene file; "-" = standard input */
   const char *output; /* FILE; NULL = base name of the scene + ".h5" in the current folder */
   char **sets;        /* KEY=VALUE of every --set, in order */
   int n_sets;
-  bool resume, force;
-  bool helped;       /* an option printed what was asked: nothing else is to be done */
+  bool resume, force, json, json_schema, no_browser;
+  bool answered;     /* help and the like: nothing is left to do */
+  const char *port;  /* of view, as written; NULL = not given */
   double time_limit; /* seconds; 0 = none */
   kz_progress progress;
   const char *log; /* FILE of JSON lines; NULL = none */
@@ -49,8 +52,14 @@ kz_status kz_app(int argc, char **argv);
 /* The commands. */
 kz_status kz_app_run(const kz_options *options);
 kz_status kz_app_check(const kz_options *options);
+kz_status kz_app_where(const kz_options *options);
+kz_status kz_app_view(const kz_options *options); /* becomes the explorer: returns only where that fails */
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
+
+/* Starts of the command where: one from the operands, or lines "theta,velocity" of standard input, into *starts [*n][2] in rad
+ * and rad per drive radian, which the caller frees. KZ_REFUSED names the operand or the line. */
+kz_status kz_starts_read(const kz_options *options, int64_t *n, double **starts);
 
 /* FILE of a run, written to path [bytes]. KZ_REFUSED where the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);

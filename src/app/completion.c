@@ -1,182 +1,170 @@
-/* Completion scripts of bash, zsh and fish, from the tables of the command line. */
+/* Completions of the shells, from the tables of commands, options and keys. */
 #include <string.h>
 
-#include "options.h"
+#include "commands.h"
 
-/* Text inside single quotes, with a backslash before each byte of `special`. `quote` is how a shell writes ' there. */
-static void put_quoted(FILE *out, const char *text, const char *special, const char *quote) {
-  for (; *text; text++) {
-    if (strchr(special, *text)) fputc('\\', out);
-    if (*text == '\'')
-      fputs(quote, out);
-    else
-      fputc(*text, out);
-  }
+/* The words "a|b" with blanks between. */
+static void print_words(const char *words) {
+  for (; *words; words++) putchar(*words == '|' ? ' ' : *words);
 }
 
-static bool is_file(const kz_option_row *row) {
+static void print_keys(void) {
+  for (const kz_key *key = kz_keys; key->path; key++) printf("%s%s", key == kz_keys ? "" : " ", key->path);
+}
+
+static void print_commands(void) {
+  for (int i = 0; i < kz_command_count; i++) printf("%s%s", i > 0 ? " " : "", kz_commands[i].name);
+}
+
+static void print_options(const kz_command *command) {
+  for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++)
+    if (row->commands & command->bit) printf(" --%s", row->name);
+}
+
+static bool is_key(const kz_option *row) {
+  return row->argument && strcmp(row->argument, "KEY=VALUE") == 0;
+}
+
+static bool is_file(const kz_option *row) {
   return row->argument && strcmp(row->argument, "FILE") == 0;
 }
 
-/* Whether the argument is one of some words, "auto|always|never". */
-static bool has_words(const kz_option_row *row) {
-  return row->argument && strchr(row->argument, '|');
+/* What may stand behind an option, as a case of bash. */
+static void print_bash_case(const kz_option *row) {
+  if (!row->argument) return;
+  printf("    --%s", row->name);
+  if (row->letter < KZ_NO_LETTER) printf("|-%c", row->letter);
+  fputs(") ", stdout);
+  if (is_key(row)) {
+    fputs("compopt -o nospace; COMPREPLY=($(compgen -S = -W \"", stdout);
+    print_keys();
+    fputs("\" -- \"$word\"))", stdout);
+  } else if (row->words) {
+    fputs("COMPREPLY=($(compgen -W \"", stdout);
+    print_words(row->words);
+    fputs("\" -- \"$word\"))", stdout);
+  } else {
+    fputs(is_file(row) ? "compopt -o default; COMPREPLY=()" : "COMPREPLY=()", stdout);
+  }
+  puts("; return ;;");
 }
 
-static void put_words(FILE *out, const kz_option_row *row) {
-  for (const char *c = row->argument; *c; c++) fputc(*c == '|' ? ' ' : *c, out);
+static void print_bash(void) {
+  puts(
+      "# bash completion of kapitza\n_kapitza() {\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} "
+      "options\n  case $before in");
+  for (int i = 0; i < kz_option_count; i++) print_bash_case(kz_option_rows + i);
+  fputs("  esac\n  case ${COMP_WORDS[1]} in\n", stdout);
+  for (int i = 0; i < kz_command_count; i++) {
+    printf("    %s) options=\"", kz_commands[i].name);
+    print_options(kz_commands + i);
+    puts("\" ;;");
+  }
+  puts("  esac");
+  puts("  if [ \"$COMP_CWORD\" -eq 1 ]; then");
+  fputs("    options=\"", stdout);
+  print_commands();
+  print_options(&kz_program);
+  puts(
+      "\"\n  elif [[ $word != -* ]]; then\n    compopt -o default; COMPREPLY=(); return\n  fi\n"
+      "  COMPREPLY=($(compgen -W \"$options\" -- \"$word\"))\n}\ncomplete -F _kapitza kapitza");
 }
 
-/* "--output -o --set ...": the options of some commands. */
-static void put_names(FILE *out, int commands) {
-  for (const kz_option_row *row = kz_option_rows; row->name; row++) {
-    if (!(row->commands & commands)) continue;
-    fprintf(out, " --%s", row->name);
-    if (row->letter < 256) fprintf(out, " -%c", row->letter);
+/* A text in single quotes of zsh, inside brackets of _arguments. */
+static void print_zsh_text(const char *text) {
+  for (; *text; text++) {
+    if (*text == '\'') fputs("'\\'", stdout);
+    if (strchr("[]:", *text)) putchar('\\');
+    putchar(*text);
   }
 }
 
-/* A case for each option that takes an argument. */
-static void put_bash_arguments(FILE *out) {
-  for (const kz_option_row *row = kz_option_rows; row->name; row++) {
-    if (!row->argument) continue;
-    fprintf(out, "    --%s", row->name);
-    if (row->letter < 256) fprintf(out, " | -%c", row->letter);
-    fputs(")", out);
-    if (is_file(row)) fputs(" mapfile -t COMPREPLY < <(compgen -f -- \"$word\");", out);
-    if (has_words(row)) {
-      fputs(" mapfile -t COMPREPLY < <(compgen -W '", out);
-      put_words(out, row);
-      fputs("' -- \"$word\");", out);
-    }
-    fputs(" return ;;\n", out);
-  }
-}
-
-static void print_bash(FILE *out) {
-  fputs(
-      "# Completion of kapitza for bash, printed by kapitza --completion bash.\n"
-      "_kapitza() {\n"
-      "  local word=${COMP_WORDS[COMP_CWORD]} names\n"
-      "  case ${COMP_WORDS[COMP_CWORD - 1]} in\n",
-      out);
-  put_bash_arguments(out);
-  fputs("  esac\n  case ${COMP_WORDS[1]} in\n", out);
-  for (const kz_command_row *command = kz_commands; command->name; command++) {
-    fprintf(out, "    %s) names='", command->name);
-    put_names(out, command->bit);
-    fputs("' ;;\n", out);
-  }
-  fputs("    *) names='", out);
-  put_names(out, kz_no_command.bit);
-  fputs(
-      "' ;;\n  esac\n"
-      "  if [ \"$COMP_CWORD\" -eq 1 ]; then names+='",
-      out);
-  for (const kz_command_row *command = kz_commands; command->name; command++) fprintf(out, " %s", command->name);
-  fputs(
-      "'; fi\n"
-      "  if [ \"$COMP_CWORD\" -eq 1 ] || [[ $word == -* ]]; then\n"
-      "    mapfile -t COMPREPLY < <(compgen -W \"$names\" -- \"$word\")\n"
-      "  else\n"
-      "    mapfile -t COMPREPLY < <(compgen -f -- \"$word\")\n"
-      "  fi\n"
-      "}\n"
-      "complete -o filenames -F _kapitza kapitza\n",
-      out);
-}
-
-/* One specification of _arguments: '(-o --output)'{-o,--output}'[help]:FILE:_files'. */
-static void put_zsh_option(FILE *out, const kz_option_row *row) {
-  fputs(" \\\n      ", out);
-  if (row->letter < 256)
-    fprintf(out, "'(-%c --%s)'{-%c,--%s}'[", row->letter, row->name, row->letter, row->name);
-  else
-    fprintf(out, "'*--%s[", row->name);
-  put_quoted(out, row->help, "[]:\\", "'\\''");
-  fputc(']', out);
+static void print_zsh_option(const kz_option *row) {
+  printf(" \\\n        '%s--%s[", is_key(row) ? "*" : "", row->name);
+  print_zsh_text(row->help);
+  putchar(']');
   if (row->argument) {
-    fputc(':', out);
-    put_quoted(out, row->argument, "[]:\\", "'\\''");
-    fputs(is_file(row) ? ":_files" : has_words(row) ? ":(" : ": ", out);
-    if (has_words(row)) {
-      put_words(out, row);
-      fputc(')', out);
-    }
+    fputs(":", stdout);
+    print_zsh_text(row->argument);
+    fputs(":", stdout);
   }
-  fputc('\'', out);
-}
-
-static void put_zsh_options(FILE *out, const kz_command_row *command) {
-  fputs("_arguments", out);
-  for (const kz_option_row *row = kz_option_rows; row->name; row++)
-    if (row->commands & command->bit) put_zsh_option(out, row);
-  if (command->operand[0] && command != &kz_no_command) fputs(" \\\n      '*::_files'", out);
-}
-
-static void print_zsh(FILE *out) {
-  fputs(
-      "#compdef kapitza\n# Completion of kapitza for zsh, printed by kapitza --completion zsh.\n"
-      "local -a commands\ncommands=(",
-      out);
-  for (const kz_command_row *command = kz_commands; command->name; command++) {
-    fprintf(out, "\n  '%s:", command->name);
-    put_quoted(out, command->help, ":\\", "'\\''");
-    fputc('\'', out);
+  if (is_file(row)) fputs("_files", stdout);
+  if (is_key(row) || row->words) {
+    putchar('(');
+    if (is_key(row))
+      print_keys();
+    else
+      print_words(row->words);
+    putchar(')');
   }
-  fputs("\n)\nif ((CURRENT == 2)); then\n  _describe command commands\n  ", out);
-  put_zsh_options(out, &kz_no_command);
-  fputs("\n  return\nfi\nlocal command=$words[2]\nshift words\n((CURRENT--))\ncase $command in\n", out);
-  for (const kz_command_row *command = kz_commands; command->name; command++) {
-    fprintf(out, "  %s)\n    ", command->name);
-    put_zsh_options(out, command);
-    fputs(" ;;\n", out);
+  putchar('\'');
+}
+
+static void print_zsh(void) {
+  puts("#compdef kapitza\n_kapitza() {\n  local -a commands=(");
+  for (int i = 0; i < kz_command_count; i++) {
+    printf("    '%s:", kz_commands[i].name);
+    print_zsh_text(kz_commands[i].help);
+    puts("'");
   }
-  fputs("esac\n", out);
-}
-
-static void put_fish_option(FILE *out, const kz_option_row *row, const char *condition) {
-  fprintf(out, "complete -c kapitza -n '%s' -l %s", condition, row->name);
-  if (row->letter < 256) fprintf(out, " -s %c", row->letter);
-  if (row->argument) fputs(is_file(row) ? " -r -F" : " -x", out);
-  if (has_words(row)) {
-    fputs(" -a '", out);
-    put_words(out, row);
-    fputc('\'', out);
+  puts("  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n  case $words[2] in");
+  for (int i = 0; i < kz_command_count; i++) {
+    printf("    %s) shift words; (( CURRENT-- )); _arguments", kz_commands[i].name);
+    for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++)
+      if (row->commands & kz_commands[i].bit) print_zsh_option(row);
+    puts(kz_commands[i].most > 0 ? " \\\n        '1:scene:_files' ;;" : " ;;");
   }
-  fputs(" -d '", out);
-  put_quoted(out, row->help, "\\", "\\'");
-  fputs("'\n", out);
+  puts("  esac\n}\n_kapitza \"$@\"");
 }
 
-static void put_fish_options(FILE *out, const kz_command_row *command, const char *condition) {
-  for (const kz_option_row *row = kz_option_rows; row->name; row++)
-    if (row->commands & command->bit) put_fish_option(out, row, condition);
-}
-
-static void print_fish(FILE *out) {
-  fputs("# Completion of kapitza for fish, printed by kapitza --completion fish.\n", out);
-  for (const kz_command_row *command = kz_commands; command->name; command++) {
-    char condition[96];
-    snprintf(condition, sizeof condition, "__fish_seen_subcommand_from %s", command->name);
-    fprintf(out, "complete -c kapitza -n __fish_use_subcommand -f -a %s -d '", command->name);
-    put_quoted(out, command->help, "\\", "\\'");
-    fputs("'\n", out);
-    if (!command->operand[0]) fprintf(out, "complete -c kapitza -n '%s' -f\n", condition);
-    put_fish_options(out, command, condition);
+/* A text in single quotes of fish. */
+static void print_fish_text(const char *text) {
+  putchar('\'');
+  for (; *text; text++) {
+    if (*text == '\'' || *text == '\\') putchar('\\');
+    putchar(*text);
   }
-  put_fish_options(out, &kz_no_command, "__fish_use_subcommand");
+  putchar('\'');
 }
 
-kz_status kz_completion_print(const char *shell, FILE *out) {
-  static const struct {
-    const char *name;
-    void (*print)(FILE *out);
-  } shells[] = {{"bash", print_bash}, {"zsh", print_zsh}, {"fish", print_fish}};
-  for (size_t i = 0; i < sizeof shells / sizeof shells[0]; i++)
-    if (strcmp(shell, shells[i].name) == 0) {
-      if (out) shells[i].print(out);
-      return KZ_OK;
-    }
-  return kz_fail(KZ_REFUSED, "--completion: \"%s\" is unknown; it must be bash, zsh or fish", shell);
+static void print_fish_option(const kz_command *command, const kz_option *row) {
+  if (command == &kz_program)
+    printf("complete -c kapitza -n __fish_use_subcommand -l %s", row->name);
+  else
+    printf("complete -c kapitza -n '__fish_seen_subcommand_from %s' -l %s", command->name, row->name);
+  if (row->letter < KZ_NO_LETTER) printf(" -s %c", row->letter);
+  if (row->argument) fputs(is_file(row) ? " -r -F" : " -x", stdout);
+  if (is_key(row) || row->words) {
+    fputs(" -a '", stdout);
+    if (is_key(row))
+      for (const kz_key *key = kz_keys; key->path; key++) printf("%s%s=", key == kz_keys ? "" : " ", key->path);
+    else
+      print_words(row->words);
+    putchar('\'');
+  }
+  fputs(" -d ", stdout);
+  print_fish_text(row->help);
+  putchar('\n');
+}
+
+static void print_fish_options(const kz_command *command) {
+  for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++)
+    if (row->commands & command->bit) print_fish_option(command, row);
+}
+
+static void print_fish(void) {
+  puts("# fish completion of kapitza\ncomplete -c kapitza -n __fish_use_subcommand -f");
+  print_fish_options(&kz_program);
+  for (int i = 0; i < kz_command_count; i++) {
+    printf("complete -c kapitza -n __fish_use_subcommand -a %s -d ", kz_commands[i].name);
+    print_fish_text(kz_commands[i].help);
+    putchar('\n');
+    print_fish_options(kz_commands + i);
+  }
+}
+
+void kz_completion_print(const char *shell) {
+  if (strcmp(shell, "bash") == 0) print_bash();
+  if (strcmp(shell, "zsh") == 0) print_zsh();
+  if (strcmp(shell, "fish") == 0) print_fish();
 }

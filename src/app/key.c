@@ -12,6 +12,10 @@ const char *kz_key_words(const kz_key *key) {
   return key->words ? key->words : "";
 }
 
+bool kz_key_is_angle(const kz_key *key) {
+  return strcmp(key->unit, "rad") == 0;
+}
+
 const kz_key *kz_key_find(const kz_key *keys, const char *path) {
   for (; keys->path; keys++)
     if (strcmp(keys->path, path) == 0) return keys;
@@ -72,7 +76,8 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
     snprintf(names, sizeof names, "%s", kz_key_words(key));
   kz_key_list(names, detail, sizeof detail);
   if (key->high > key->low) print_range(key, detail, sizeof detail);
-  snprintf(text, bytes, "%s%s%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit,
+  snprintf(text, bytes, "%s%s%s%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit,
+           kz_key_is_angle(key) ? ", or in degrees such as 90 deg" : "",
            key->type == KZ_KEY_COUNT && names[0] ? ", or " : "", key->type == KZ_KEY_COUNT ? names : "");
 }
 

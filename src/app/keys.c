@@ -60,7 +60,8 @@ const kz_key kz_keys[] = {
     PENDULUM('c', friction, "kg m2 s-1", 0.0, NULL, "b; beta = b/(I omega)."),
     PENDULUM('c', gravity, "m s-2", -DBL_MAX, NULL, "g; k = M g r/(I omega^2)."),
     PENDULUM('c', pivot_amplitude, "m", -DBL_MAX, NULL, "A; m = M r A/I."),
-    PENDULUM('c', pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, NULL, "omega of the pivot."),
+    PENDULUM('c', pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "", "omega of the pivot; this or frequency."),
+    PENDULUM('c', frequency, "Hz", KZ_ABOVE_ZERO, "", "omega/(2 pi) of the pivot, instead of pivot_frequency."),
 
     MAPPING("numerics", "", KZ_NO_FIELD, "How one drive period is integrated."),
     ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),

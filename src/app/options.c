@@ -3,18 +3,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "options.h"
+#include "commands.h"
 
-enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8 };
+enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32 };
 
-const kz_command_row kz_commands[] = {
-    {"run", RUN, " SCENE", kz_app_run, "model every study that SCENE contains"},
-    {"check", CHECK, " SCENE", kz_app_check, "validate SCENE and print what would be modelled; runs nothing"},
-    {"keys", KEYS, "", kz_app_keys, "print the reference of all keys of a scene (docs/scene.md)"},
-    {NULL, 0, NULL, NULL, NULL},
+const kz_command kz_commands[] = {
+    {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
+    {"check", CHECK, " SCENE", 1, 1, kz_app_check, "validate SCENE and print what would be modelled; runs nothing"},
+    {"where", WHERE, " SCENE THETA VELOCITY", 2, 3, kz_app_where,
+     "say where a start ends: THETA in rad from down, VELOCITY in rad per drive radian; - in their place: a CSV of starts on "
+     "standard input"},
+    {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view,
+     "open the basins of a scene or result in the browser, to be zoomed and dragged"},
+    {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/scene.md)"},
 };
-enum { N_COMMANDS = sizeof kz_commands / sizeof kz_commands[0] - 1 };
-const kz_command_row kz_no_command = {"", TOP, " COMMAND", NULL, "basins of attraction of the pendulum with a shaken pivot"};
+const int kz_command_count = sizeof kz_commands / sizeof kz_commands[0];
+const kz_command kz_program = {"", TOP, " COMMAND", 0, 0, NULL, "basins of attraction of the pendulum with a shaken pivot"};
 
 static kz_status set_output(kz_options *options, const char *argument) {
   options->output = argument;
@@ -35,6 +39,47 @@ static kz_status set_resume(kz_options *options, const char *argument) {
 static kz_status set_force(kz_options *options, const char *argument) {
   (void)argument;
   options->force = true;
+  return KZ_OK;
+}
+
+static kz_status set_json(kz_options *options, const char *argument) {
+  (void)argument;
+  options->json = true;
+  return KZ_OK;
+}
+
+static kz_status set_json_schema(kz_options *options, const char *argument) {
+  (void)argument;
+  options->json_schema = true;
+  return KZ_OK;
+}
+
+static kz_status set_port(kz_options *options, const char *argument) {
+  options->port = argument;
+  return KZ_OK;
+}
+
+static kz_status set_no_browser(kz_options *options, const char *argument) {
+  (void)argument;
+  options->no_browser = true;
+  return KZ_OK;
+}
+
+static kz_status set_completion(kz_options *options, const char *argument) {
+  static const char *const shells[] = {"bash", "zsh", "fish"};
+  for (int i = 0; i < 3; i++)
+    if (strcmp(argument, shells[i]) == 0) {
+      if (options->speaks) kz_completion_print(argument);
+      options->answered = true;
+      return KZ_OK;
+    }
+  return kz_fail(KZ_REFUSED, "--completion: \"%s\" is unknown; it must be bash, zsh or fish", argument);
+}
+
+static kz_status set_manual(kz_options *options, const char *argument) {
+  (void)argument;
+  if (options->speaks) kz_manual_print();
+  options->answered = true;
   return KZ_OK;
 }
 
@@ -66,26 +111,6 @@ static kz_status set_progress(kz_options *options, const char *argument) {
   return kz_fail(KZ_REFUSED, "--progress: \"%s\" is unknown; it must be auto, always or never", argument);
 }
 
-/* Options that print and leave. */
-static kz_status print_version(kz_options *options, const char *argument) {
-  (void)argument;
-  options->helped = true;
-  if (options->speaks) kz_app_version(stdout);
-  return KZ_OK;
-}
-
-static kz_status print_manual(kz_options *options, const char *argument) {
-  (void)argument;
-  options->helped = true;
-  if (options->speaks) kz_manual_print(stdout);
-  return KZ_OK;
-}
-
-static kz_status print_completion(kz_options *options, const char *argument) {
-  options->helped = true;
-  return kz_completion_print(argument, options->speaks ? stdout : NULL);
-}
-
 static kz_status set_log(kz_options *options, const char *argument) {
   options->log = argument;
   return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--log: the name is empty; give the name of a file");
@@ -97,61 +122,38 @@ static kz_status set_timings(kz_options *options, const char *argument) {
   return KZ_OK;
 }
 
-const kz_option_row kz_option_rows[] = {
-    {"output", 'o', "FILE", RUN, set_output, "the result; default: base name of SCENE + .h5 in the current folder"},
-    {"set", 256, "KEY=VALUE", RUN | CHECK, add_set, "override or create a key; VALUE is YAML flow text; the last one wins"},
-    {"resume", 257, NULL, RUN, set_resume, "go on from FILE.checkpoint where there is one"},
-    {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint"},
-    {"time-limit", 259, "T", RUN, set_time_limit, "stop after T seconds (30m, 1.5h), all finished work saved, exit 75"},
-    {"progress", 260, "auto|always|never", RUN, set_progress, "whether a bar is drawn"},
-    {"timings", 261, NULL, RUN, set_timings, "print at the end where the time went, stage by stage"},
-    {"log", 262, "FILE", RUN, set_log, "append progress, stages, warnings and the end to FILE, as JSON lines"},
-    {"help", 'h', NULL, RUN | CHECK | KEYS | TOP, NULL, "print this and leave"},
-    {"version", 'V', NULL, TOP, print_version, "print versions of the program and of what it was built with, and leave"},
-    {"manual", 270, NULL, TOP, print_manual, "print the manual page, for man -l -, and leave"},
-    {"completion", 271, "bash|zsh|fish", TOP, print_completion, "print the completion script of a shell, and leave"},
-    {NULL, 0, NULL, 0, NULL, NULL},
+const kz_option kz_option_rows[] = {
+    {"output", 'o', "FILE", RUN, set_output, "the result; default: base name of SCENE + .h5 in the current folder", NULL},
+    {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE, add_set,
+     "override or create a key; VALUE is YAML flow text; the last one wins", NULL},
+    {"resume", 257, NULL, RUN, set_resume, "go on from FILE.checkpoint where there is one", NULL},
+    {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint", NULL},
+    {"time-limit", 259, "T", RUN, set_time_limit, "stop after T seconds (30m, 1.5h), all finished work saved, exit 75", NULL},
+    {"progress", 260, "WHEN", RUN, set_progress, "auto, always or never", "auto|always|never"},
+    {"timings", 267, NULL, RUN, set_timings, "print at the end where the time went, stage by stage", NULL},
+    {"log", 268, "FILE", RUN, set_log, "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
+    {"json", 261, NULL, WHERE, set_json, "print JSON, one object a line", NULL},
+    {"json-schema", 262, NULL, KEYS, set_json_schema, "print them as a JSON schema, for editors", NULL},
+    {"port", 263, "N", VIEW, set_port, "of the local server, 1024 to 65535; default: any that is free", NULL},
+    {"no-browser", 264, NULL, VIEW, set_no_browser, "print the address and open nothing", NULL},
+    {"completion", 265, "SHELL", TOP, set_completion, "print what bash, zsh or fish need to complete command lines",
+     "bash|zsh|fish"},
+    {"manual", 266, NULL, TOP, set_manual, "print the manual page, for man -l -", NULL},
+    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | KEYS | TOP, NULL, "print this and leave", NULL},
+    {"version", 'V', NULL, TOP, NULL, "print versions of the program and of what it was built with, and leave", NULL},
 };
-enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0] - 1 };
-
-const kz_exit_row kz_exit_rows[] = {
-    {KZ_OK, "done"},
-    {KZ_REFUSED, "refused beforehand (nothing written)"},
-    {KZ_FAILED, "failed while running"},
-    {KZ_STOPPED, "stopped early on request, all finished work saved"},
-    {0, NULL},
-};
-
-static void print_help(const kz_command_row *command) {
-  printf("Usage: kapitza%s%s%s [OPTION]...\n%s\n\n", command->name[0] ? " " : "", command->name, command->operand,
-         command->help);
-  for (int i = 0; command == &kz_no_command && i < N_COMMANDS; i++)
-    printf("  %-30s %s\n", kz_commands[i].name, kz_commands[i].help);
-  if (command == &kz_no_command) putchar('\n');
-  for (int i = 0; i < N_ROWS; i++) {
-    if (!(kz_option_rows[i].commands & command->bit)) continue;
-    char name[64];
-    snprintf(name, sizeof name, "--%s%s%s", kz_option_rows[i].name, kz_option_rows[i].argument ? " " : "",
-             kz_option_rows[i].argument ? kz_option_rows[i].argument : "");
-    if (kz_option_rows[i].letter < 256)
-      printf("  -%c, %-26s %s\n", kz_option_rows[i].letter, name, kz_option_rows[i].help);
-    else
-      printf("      %-26s %s\n", name, kz_option_rows[i].help);
-  }
-  printf("\nExit status:");
-  for (const kz_exit_row *row = kz_exit_rows; row->meaning; row++)
-    printf("%s %d %s", row > kz_exit_rows ? "," : "", row->status, row->meaning);
-  puts(".");
-}
+enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0] };
+const int kz_option_count = N_ROWS;
 
 /* getopt's own description of the options of a command. */
-static void describe(const kz_command_row *command, struct option *longs, char *shorts) {
+static void describe(const kz_command *command, struct option *longs, char *shorts) {
+  *shorts++ = '+';
   *shorts++ = ':';
   for (int i = 0; i < N_ROWS; i++) {
     if (!(kz_option_rows[i].commands & command->bit)) continue;
     *longs++ = (struct option){kz_option_rows[i].name, kz_option_rows[i].argument ? required_argument : no_argument, NULL,
                                kz_option_rows[i].letter};
-    if (kz_option_rows[i].letter >= 256) continue;
+    if (kz_option_rows[i].letter >= KZ_NO_LETTER) continue;
     *shorts++ = (char)kz_option_rows[i].letter;
     if (kz_option_rows[i].argument) *shorts++ = ':';
   }
@@ -159,7 +161,7 @@ static void describe(const kz_command_row *command, struct option *longs, char *
   *shorts = '\0';
 }
 
-static kz_status refuse_option(const kz_command_row *command, const char *typed, bool lacks_argument) {
+static kz_status refuse_option(const kz_command *command, const char *typed, bool lacks_argument) {
   char names[256] = "", nearest[64];
   const size_t length = strcspn(typed, "=");
   const char *space = command->name[0] ? " " : "";
@@ -175,14 +177,43 @@ static kz_status refuse_option(const kz_command_row *command, const char *typed,
                  typed[length] && strstr(names, name) ? "takes no value" : "unknown option", space, command->name);
 }
 
-static kz_status read_options(const kz_command_row *command, int argc, char **argv, kz_options *options) {
+/* Whether an argument is no option though it begins with '-': standard input, or a number below zero. */
+static bool is_operand(const char *argument) {
+  return argument[0] != '-' || argument[1] == '\0' || argument[1] == '.' || (argument[1] >= '0' && argument[1] <= '9');
+}
+
+static kz_status take_operand(const kz_command *command, char *argument, kz_options *options) {
+  if (options->n_operands == command->most)
+    return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", argument, command->name, command->operand);
+  options->operands[options->n_operands++] = argument;
+  return KZ_OK;
+}
+
+/* The next option's letter, the operands before it taken; -1 at the end. getopt stops at operands itself only where they do not
+ * look like options. */
+static kz_status next_option(const kz_command *command, int argc, char **argv, const char *shorts, const struct option *longs,
+                             kz_options *options, int *letter) {
+  bool all = false; /* behind "--" everything is an operand */
+  *letter = -1;
+  for (; optind < argc && (all || is_operand(argv[optind]) || strcmp(argv[optind], "--") == 0); optind++) {
+    if (!all && strcmp(argv[optind], "--") == 0)
+      all = true;
+    else
+      KZ_TRY(take_operand(command, argv[optind], options));
+  }
+  if (optind < argc) *letter = getopt_long(argc, argv, shorts, longs, NULL);
+  return KZ_OK;
+}
+
+static kz_status read_options(const kz_command *command, int argc, char **argv, kz_options *options) {
   struct option longs[N_ROWS + 1];
-  char shorts[2 * N_ROWS + 2];
+  char shorts[2 * N_ROWS + 3];
   describe(command, longs, shorts);
-  unsetenv("POSIXLY_CORRECT"); /* options may follow the scene, whatever that says */
   opterr = 0;
-  optind = 0;
-  for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
+  optind = 1;
+  for (int letter;;) {
+    KZ_TRY(next_option(command, argc, argv, shorts, longs, options, &letter));
+    if (letter == -1) return KZ_OK;
     if (letter == '?' || letter == ':') {
       const bool is_letter = letter == '?' && optopt > 0 && optopt < 256 && strncmp(argv[optind - 1], "--", 2) != 0;
       return refuse_option(command, is_letter ? (const char[]){'-', (char)optopt, '\0'} : argv[optind - 1], letter == ':');
@@ -193,29 +224,27 @@ static kz_status read_options(const kz_command_row *command, int argc, char **ar
       KZ_TRY(kz_option_rows[i].apply(options, optarg));
       continue;
     }
-    options->helped = true;
-    if (options->speaks) print_help(command);
+    options->answered = true;
+    if (options->speaks && letter == 'h') kz_help_print(command);
+    if (options->speaks && letter == 'V') kz_app_version(stdout);
     return KZ_OK;
   }
-  return KZ_OK;
 }
 
-static kz_status read_operands(const kz_command_row *command, int argc, char **argv, kz_options *options) {
-  const int wanted = command->operand[0] ? 1 : 0;
-  if (argc - optind > wanted)
-    return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", argv[optind + wanted], command->name,
-                   command->operand);
-  if (argc - optind < wanted)
+static kz_status check_operands(const kz_command *command, const kz_options *options) {
+  if (options->n_operands == 0 && command->fewest > 0)
     return kz_fail(KZ_REFUSED, "%s: names no scene; kapitza %s%s", command->name, command->name, command->operand);
-  if (wanted) options->scene = argv[optind];
+  if (options->n_operands < command->fewest)
+    return kz_fail(KZ_REFUSED, "%s: names no start; kapitza %s%s", command->name, command->name, command->operand);
   if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; use one of them");
   return KZ_OK;
 }
 
-static kz_status carry_out(const kz_command_row *command, int argc, char **argv, kz_options *options) {
+static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_options *options) {
   KZ_TRY(read_options(command, argc, argv, options));
-  if (options->helped) return KZ_OK;
-  KZ_TRY(read_operands(command, argc, argv, options));
+  if (options->answered) return KZ_OK;
+  KZ_TRY(check_operands(command, options));
+  options->scene = options->operands[0];
   return command->carry_out(options);
 }
 
@@ -224,16 +253,16 @@ static kz_status dispatch(int argc, char **argv, kz_options *options) {
   char names[128] = "", nearest[64];
   if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   if (argv[1][0] == '-') {
-    KZ_TRY(read_options(&kz_no_command, argc, argv, options));
-    return options->helped ? KZ_OK : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
+    KZ_TRY(read_options(&kz_program, argc, argv, options));
+    return options->answered ? KZ_OK : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   }
-  for (int i = 0; i < N_COMMANDS; i++) {
+  for (int i = 0; i < kz_command_count; i++) {
     if (strcmp(argv[1], kz_commands[i].name) == 0) return carry_out(&kz_commands[i], argc - 1, argv + 1, options);
     snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? "|" : "", kz_commands[i].name);
   }
   if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);
-  return kz_fail(KZ_REFUSED, "%.80s: unknown command; it must be run, check or keys", argv[1]);
+  return kz_fail(KZ_REFUSED, "%.80s: unknown command; it must be run, check, where, view or keys", argv[1]);
 }
 
 /* The words of the command line, with a space between. */

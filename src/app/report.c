@@ -63,7 +63,7 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   const kz_cost cost = kz_cost_of(scene);
   kz_status status = resolved ? kz_cost_check(&cost, NULL) : kz_fail(KZ_FAILED, "out of memory");
   if (status == KZ_OK) status = kz_studies_check(scene);
-  if (status == KZ_OK && options->speaks) {
+  if (status == KZ_OK) {
     print_check(options, scene, resolved);
     kz_settling_warn(scene, stdout);
   }
@@ -75,6 +75,7 @@ kz_status kz_app_check(const kz_options *options) {
   char *text;
   size_t length;
   kz_scene scene;
+  if (!options->speaks) return KZ_OK;
   KZ_TRY(kz_scene_load(options->scene, &text, &length));
   kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
   if (status == KZ_OK) {
@@ -87,7 +88,7 @@ kz_status kz_app_check(const kz_options *options) {
 }
 
 kz_status kz_app_keys(const kz_options *options) {
-  if (options->speaks) kz_scene_reference(kz_keys, stdout);
+  if (options->speaks) (options->json_schema ? kz_scene_schema : kz_scene_reference)(kz_keys, stdout);
   return KZ_OK;
 }
 

@@ -190,6 +190,13 @@ static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
     return;
   }
   inertia_rules(reading, scene);
+  const kz_pendulum_keys *written = &scene->parameters.written;
+  if (!isnan(written->frequency) && !isnan(written->pivot_frequency))
+    kz_complain(reading, kz_tree_find(reading->root, "pendulum.frequency"), "pendulum.frequency",
+                "contradicts pivot_frequency, which gives the same in rad s-1; give one of them");
+  if (!isnan(written->mass) && isnan(written->frequency) && isnan(written->pivot_frequency))
+    kz_complain(reading, NULL, "pendulum.pivot_frequency",
+                "is missing; it must be a number above 0 in rad s-1, or give frequency in Hz");
   if (reading->message[0] || kz_parameters_resolve(&scene->parameters) == KZ_OK) return;
   char wrong[256];
   snprintf(wrong, sizeof wrong, "%s", kz_message());

@@ -146,6 +146,7 @@ static kz_status write_root(job *j) {
 
 static kz_status write_pendulum(job *j) {
   const kz_parameters *p = &j->scene.parameters;
+  const kz_pendulum_keys *si = &p->written; /* NaN but for a pendulum in SI units */
   const struct {
     const char *name;
     double value;
@@ -154,7 +155,14 @@ static kz_status write_pendulum(job *j) {
                {"m", p->pendulum.m},
                {"quality_factor", p->quality_factor},
                {"drive_frequency", p->drive_frequency},
-               {"drive_amplitude", p->drive_amplitude}};
+               {"drive_amplitude", p->drive_amplitude},
+               {"mass", si->mass},
+               {"radius", si->radius},
+               {"inertia", si->inertia},
+               {"friction", si->friction},
+               {"gravity", si->gravity},
+               {"pivot_amplitude", si->pivot_amplitude},
+               {"pivot_frequency", p->pivot_frequency}};
   for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++)
     if (reals[i].value == reals[i].value) KZ_TRY(kz_store_real(j->store, "/pendulum", reals[i].name, reals[i].value));
   return KZ_OK;

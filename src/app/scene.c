@@ -21,14 +21,27 @@ static kz_status check_file(const char *path) {
   return KZ_OK;
 }
 
-kz_status kz_scene_load(const char *path, char **text, size_t *length) {
+static kz_status open_scene(const char *path, FILE **file) {
+  *file = stdin;
+  if (strcmp(path, "-") == 0) return KZ_OK;
   KZ_TRY(check_file(path));
-  FILE *file = fopen(path, "rb");
-  if (!file) return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give a readable scene file", path, strerror(errno));
+  *file = fopen(path, "rb");
+  if (*file) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give a readable scene file", path, strerror(errno));
+}
+
+kz_status kz_scene_load(const char *path, char **text, size_t *length) {
+  FILE *file;
+  KZ_TRY(open_scene(path, &file));
   *text = malloc(MAX_BYTES + 1);
   *length = *text ? fread(*text, 1, MAX_BYTES, file) : 0;
-  const bool broken = ferror(file) != 0;
-  fclose(file);
+  const bool broken = ferror(file) != 0, too_long = *text && !broken && fgetc(file) != EOF;
+  if (file != stdin) fclose(file);
+  if (too_long) {
+    free(*text);
+    *text = NULL;
+    return kz_fail(KZ_REFUSED, "%s: has too many bytes for a scene, which has at most %d", path, MAX_BYTES);
+  }
   if (*text && !broken) {
     (*text)[*length] = '\0';
     return KZ_OK;

@@ -52,6 +52,8 @@ extern const kz_key kz_keys[];
 
 /* The words of a key, joined by '|'; "" for other types. */
 const char *kz_key_words(const kz_key *key);
+/* Whether it holds an angle, which may be written in degrees. */
+bool kz_key_is_angle(const kz_key *key);
 /* The row of `path`, or NULL. */
 const kz_key *kz_key_find(const kz_key *keys, const char *path);
 /* The names of the keys of mapping `parent`, joined by '|', written to `text` [bytes]. */
@@ -93,6 +95,8 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
 /* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), NULL where it is right. */
 const char *kz_scalar_integer(const kz_node *node, int64_t *value);
 const char *kz_scalar_real(const kz_node *node, double *value);
+/* An angle in rad, or in degrees with " deg" behind the number; value in rad. */
+const char *kz_scalar_angle(const kz_node *node, double *value);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
 const char *kz_scalar_text(const kz_node *node);
 
@@ -136,7 +140,10 @@ void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out)
 /* The scene reference (docs/scene.md). */
 void kz_scene_reference(const kz_key *keys, FILE *out);
 
-/* The bytes of a scene file: regular, at most 1 MB. The caller frees *text. */
+/* The same as a JSON schema. Rules between keys of different mappings are the program's own (`check`). */
+void kz_scene_schema(const kz_key *keys, FILE *out);
+
+/* The bytes of a scene file, regular, or of standard input ("-"): at most 1 MB. The caller frees *text. */
 kz_status kz_scene_load(const char *path, char **text, size_t *length);
 
 #endif

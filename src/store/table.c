@@ -6,12 +6,18 @@
 #include "kapitza/common.h"
 
 #define ANGLE "rad"
-#define VELOCITY "rad per drive radian"
-#define PERIODS "drive periods"
-#define TIME "drive radians"
+#define VELOCITY "1|rad per drive radian"
+#define PERIODS "1|drive periods"
+#define TIME "rad|drive radians"
 #define NONE "1"
-#define ENERGY "I omega^2"
-#define CURVE(name, long_name) {"stability", name, KZ_REAL, {"k"}, NONE, long_name, {0}}
+#define ENERGY "1|units of I omega^2"
+#define RATE "1|1 per drive period"
+#define CURVE(name, long_name)                            \
+  {                                                       \
+    "stability", name, KZ_REAL, {"k"}, NONE, long_name, { \
+      0                                                   \
+    }                                                     \
+  }
 #define OWN "@parameter_units" /* of the swept key */
 #define END_KINDS "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"
 
@@ -56,14 +62,8 @@ static const kz_variable variables[] = {
      NONE,
      "Floquet multiplier over one period of the orbit, imaginary part",
      {0}},
-    {"attractors", "lyapunov", KZ_REAL, {"attractor"}, "1 per drive period", "largest Lyapunov exponent", {0}},
-    {"attractors",
-     "lyapunov_error",
-     KZ_REAL,
-     {"attractor"},
-     "1 per drive period",
-     "standard error of the largest Lyapunov exponent",
-     {0}},
+    {"attractors", "lyapunov", KZ_REAL, {"attractor"}, RATE, "largest Lyapunov exponent", {0}},
+    {"attractors", "lyapunov_error", KZ_REAL, {"attractor"}, RATE, "standard error of the largest Lyapunov exponent", {0}},
     {"attractors", "fraction", KZ_REAL, {"attractor"}, NONE, "share of the grid's cells", {0}},
     {"attractors",
      "line_amplitude",
@@ -108,7 +108,7 @@ static const kz_variable variables[] = {
     {"orbit", "strobe_velocity", KZ_REAL, {"strobe_time"}, VELOCITY, "angular velocity of the strobe point", {0}},
     {"orbit", "maximum_time", KZ_REAL, {"maximum_time"}, TIME, "time of the turning points after the first sample", {0}},
     {"orbit", "maximum_angle", KZ_REAL, {"maximum_time"}, ANGLE, "angle of the turning point from the centre", {0}},
-    {"orbit", "line_frequency", KZ_REAL, {"line_frequency"}, "drive frequencies", "frequency of the spectral line", {0}},
+    {"orbit", "line_frequency", KZ_REAL, {"line_frequency"}, "1|drive frequencies", "frequency of the spectral line", {0}},
     {"orbit",
      "line_amplitude",
      KZ_REAL,
@@ -120,13 +120,7 @@ static const kz_variable variables[] = {
 
     {"stability", "k", KZ_REAL, {"k"}, NONE, "gravity term, (natural / drive frequency) squared; < 0 about inverted", {0}},
     {"stability", "m", KZ_REAL, {"m"}, NONE, "drive amplitude", {0}},
-    {"stability",
-     "log_multiplier",
-     KZ_REAL,
-     {"m", "k"},
-     "1 per drive period",
-     "natural logarithm of the largest |Floquet multiplier|",
-     {0}},
+    {"stability", "log_multiplier", KZ_REAL, {"m", "k"}, RATE, "natural logarithm of the largest |Floquet multiplier|", {0}},
     {"stability", "angle", KZ_REAL, {"m", "k"}, NONE, "Floquet angle / 2 pi", {0}},
     {"stability", "stable", KZ_UINT8, {"m", "k"}, NONE, "whether small oscillations stay small", {"no", "yes"}},
     CURVE("exact_1", "exact transition curve 4k = a_0(2m)"),
@@ -228,7 +222,13 @@ static const kz_variable variables[] = {
      NONE,
      "share of cells that are wrong without another label next to them",
      {0}},
-    {"tradeoff", "wrong_distance", KZ_REAL, {"setting"}, "cells", "median distance of the wrong cells from another label", {0}},
+    {"tradeoff",
+     "wrong_distance",
+     KZ_REAL,
+     {"setting"},
+     "1|cells",
+     "median distance of the wrong cells from another label",
+     {0}},
     {"tradeoff", "fraction_error", KZ_REAL, {"setting"}, NONE, "largest error of a basin's share of the sample", {0}},
     {"tradeoff",
      "seconds",

@@ -1,5 +1,6 @@
 /* Variables and their dimension scales, as the table has them. */
 #include <hdf5_hl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,9 +39,11 @@ static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) 
   return kz_attribute_text(dataset, "flag_meanings", meanings);
 }
 
-/* "@NAME": what the group's attribute NAME says. */
+/* The part before '|', or what the attribute of the group says. */
 static kz_status write_units(hid_t group, hid_t dataset, const char *units) {
-  if (units[0] != '@') return kz_attribute_text(dataset, "units", units);
+  char unit[32];
+  snprintf(unit, sizeof unit, "%.*s", (int)strcspn(units, "|"), units);
+  if (units[0] != '@') return kz_attribute_text(dataset, "units", unit);
   char *own = kz_attribute_read_text(group, units + 1);
   const kz_status status = own ? kz_attribute_text(dataset, "units", own)
                                : kz_fail(KZ_FAILED, "the result file has no attribute %s for its units", units + 1);
@@ -49,7 +52,10 @@ static kz_status write_units(hid_t group, hid_t dataset, const char *units) {
 }
 
 static kz_status describe(hid_t group, hid_t dataset, const kz_variable *row, hid_t type) {
-  KZ_TRY(kz_attribute_text(dataset, "long_name", row->long_name));
+  char name[256];
+  const char *words = strchr(row->units, '|');
+  snprintf(name, sizeof name, "%s%s%s", row->long_name, words ? ", in " : "", words ? words + 1 : "");
+  KZ_TRY(kz_attribute_text(dataset, "long_name", name));
   KZ_TRY(write_units(group, dataset, row->units));
   return write_flags(dataset, row, type);
 }

@@ -39,6 +39,12 @@ def test_every_mode_draws(made_file, tmp_path, options):
     assert image.shape[1] > 600 and image[..., :3].std() > 0.05
 
 
+def test_angles_in_degrees(made_file, tmp_path):
+    plot(made_file, "-o", tmp_path / "out.svg", "--degrees")
+    text = (tmp_path / "out.svg").read_text()
+    assert all(f">{tick}°<" in text for tick in ("−180", "−90", "0", "90", "180")) and "π" not in text and "(rad)" not in text
+
+
 @pytest.mark.parametrize("suffix, first", [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
 def test_formats_are_what_they_say_and_repeatable(made_file, tmp_path, suffix, first):
     pictures = [tmp_path / f"{name}.{suffix}" for name in "ab"]

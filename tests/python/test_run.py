@@ -1,5 +1,6 @@
 """The command run from end to end: the file's root, resuming, stopping, exit statuses."""
 
+import math
 import re
 from datetime import UTC, datetime
 
@@ -106,3 +107,24 @@ def test_check_knows_what_damping_costs(kapitza, tmp_path, case):
     number, unit = re.search(r"estimated time +(\S+) (s|min|h) on one core", done.stdout).groups()
     estimated = float(number) * {"s": 1, "min": 60, "h": 3600}[unit]
     assert measured / 3 < estimated < 3 * measured
+
+
+def test_si_values_stand_in_the_file(kapitza, tmp_path):
+    """With the frequency in Hz: seconds and rad/s follow from pivot_frequency."""
+    si = {"mass": 0.1, "radius": 0.2, "inertia": 0.008, "friction": 0.0145, "gravity": 33.06, "pivot_amplitude": 0.12}
+    text = ", ".join(f"{key}: {value}" for key, value in si.items())
+    kapitza("run", SMALL, "--set", f"pendulum={{{text}, frequency: 15.5}}", folder=tmp_path)
+    with h5py.File(tmp_path / "small.h5") as file:
+        pendulum, resolved = dict(file["pendulum"].attrs), yaml.safe_load(file.attrs["scene_resolved"])["pendulum"]
+    omega = 15.5 * 2 * math.pi
+    assert {key: pendulum[key] for key in si} == si and pendulum["pivot_frequency"] == pytest.approx(omega, rel=1e-15)
+    assert pendulum["k"] == pytest.approx(0.1 * 0.2 * 33.06 / (0.008 * omega**2), rel=1e-14) and resolved == si | {"frequency": 15.5}
+
+
+def test_the_frequency_is_swept_in_hz(kapitza, tmp_path):
+    (tmp_path / "sweep.yaml").write_text(
+        "pendulum: {mass: 1, radius: 1, inertia: 1, friction: 0.2, gravity: 1, pivot_amplitude: 0.3, frequency: 2}\n"
+        "sweep: {parameter: frequency, min: 1.5, max: 2, count: 2, measure: [flutter_amplitude]}\n")
+    kapitza("run", "sweep.yaml", folder=tmp_path)
+    with h5py.File(tmp_path / "sweep.h5") as file:
+        assert list(file["sweep/value"][:]) == [1.5, 2] and file["sweep"].attrs["parameter_units"] == "Hz"

@@ -1,5 +1,6 @@
 """The result file keeps its contract: netCDF-4 tools open it, everything is named, sized, and says its unit."""
 
+import shutil
 import subprocess
 
 import h5py
@@ -125,3 +126,43 @@ def test_mirror_images_are_mutual(small_result):
     assert np.array_equal(mirror[mirror], ids)
     assert np.array_equal(mirror == ids, table["symmetric"].values == 1)
     assert np.array_equal(table["winding"].values[mirror], -table["winding"].values)
+
+
+MANY = """pendulum: {mass: 1, radius: 1, inertia: 1, friction: 0.5, gravity: 1, pivot_amplitude: 0.3, pivot_frequency: 11}
+attractors: {velocity: {min: -1, max: 1}, starts: 64}
+orbit: {start: {theta: 3, velocity: 0}, periods: 8}
+stability: {k: {min: -1, max: 1, count: 3}, m: {min: 0, max: 1, count: 3}, curves: [exact_1], damping: 0.1}
+potential: {drive_amplitudes: [0.3], theta: {count: 5}}
+sweep: {parameter: friction, min: 0.4, max: 0.5, count: 2, measure: [attractors, flutter_amplitude, strobe], starts: 64, samples: 4}
+"""
+
+
+@pytest.fixture(scope="module")
+def variables(kapitza, small_result, tmp_path_factory):
+    """Name, units and long name of every variable of two results with all studies but the slow ones."""
+    folder = tmp_path_factory.mktemp("many")
+    (folder / "many.yaml").write_text(MANY)
+    kapitza("run", "many.yaml", folder=folder)
+    found = []
+    for path in (small_result, folder / "many.h5"):
+        with h5py.File(path) as opened:
+            found += [(item.name, str(item.attrs["units"]), str(item.attrs["long_name"])) for item in every_dataset(opened)]
+    return found
+
+
+def test_udunits_knows_every_unit(variables):
+    """What CF asks of the attribute units; words for people are in long_name."""
+    if not shutil.which("udunits2"):
+        pytest.skip("udunits2 is not installed: the units of the file are not checked with it")
+    units = {unit for _, unit, _ in variables}
+    assert {"1", "rad", "kg m2 s-1"} <= units
+    for unit in units:
+        done = subprocess.run(["udunits2", "-H", unit, "-W", ""], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0 and "Don't recognize" not in done.stderr, unit
+
+
+def test_long_names_say_what_one_is(variables):
+    names = {name: long_name for name, _, long_name in variables}
+    assert names["/basin/velocity"] == "angular velocity of the cell centre, in rad per drive radian"
+    assert names["/orbit/time"].endswith(", in drive radians") and names["/attractors/period"].endswith(", in drive periods")
+    assert not any("|" in text for row in variables for text in row[1:2])

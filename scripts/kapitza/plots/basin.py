@@ -34,6 +34,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--centre", choices=["down", "inverted"], default="down",
                         help="state in the middle of a whole-circle picture (default: down)")
     parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
+    parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
     parser.add_argument("--no-legend", action="store_true")
     parser.add_argument("--no-dots", action="store_true", help="leave out the strobe points of the attractors")
     arguments = parsed(parser, words)
@@ -171,6 +172,8 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
         draw_evidence(axes, basin, legend=legend, centre=centre)
     else:
         draw_settling_time(axes, basin, centre=centre)
+    if arguments.degrees:
+        label_axes(axes, Plane(basin, centre), degrees=True)
     write_titles(axes, result, basin)
     return figure
 

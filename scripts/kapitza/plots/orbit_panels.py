@@ -64,7 +64,8 @@ def draw_spectrum(axes: Axes, orbit: Orbit, *, colours: str = STROBE, legend: bo
     axes.set_xlim(-0.05, _last_line(frequency, amplitude, floor))
     axes.set_xlabel("frequency / drive frequency")
     what = "velocity" if orbit.attributes.get("line_quantity") == "velocity" else "amplitude"
-    axes.set_ylabel(f"{what} ({orbit.attributes.get('line_units', 'rad')})" + ("" if orbit.closed else ",\nthrough a window"))
+    unit = "rad per drive radian" if orbit.attributes.get("line_units") == "1" else "rad"
+    axes.set_ylabel(f"{what} ({unit})" + ("" if orbit.closed else ",\nthrough a window"))
     return axes
 
 

@@ -64,17 +64,20 @@ def _step(centres: np.ndarray) -> float:
     return (centres[-1] - centres[0]) / (len(centres) - 1) if len(centres) > 1 else 1.0
 
 
-def label_axes(axes: Axes, plane: Plane) -> Axes:
-    """Angle in units of pi, velocity in its own unit."""
+def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
+    """Angle in degrees or in units of pi, velocity in its own unit."""
     axes.set_xlim(plane.theta_range)
     axes.set_ylim(plane.velocity_range)
-    width = np.ptp(plane.theta_range) / np.pi
-    step = min((1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2), key=lambda step: abs(width / step - 5))
-    first = np.ceil(plane.theta_range[0] / np.pi / step - 1e-9)
-    ticks = np.arange(first, plane.theta_range[1] / np.pi / step + 1e-9) * step
-    if width > 1 / 16:
-        axes.set_xticks(ticks * np.pi, [style.pi_text(tick) for tick in ticks])
-    axes.set_xlabel("angle θ from down (rad)")
+    unit, steps = (np.pi / 180, (1, 2, 5, 10, 15, 30, 45, 90)) if degrees else (np.pi, (1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2))
+    width = np.ptp(plane.theta_range) / unit
+    step = min(steps, key=lambda step: abs(width / step - 5))
+    first = np.ceil(plane.theta_range[0] / unit / step - 1e-9)
+    ticks = np.arange(first, plane.theta_range[1] / unit / step + 1e-9) * step
+    if width > 2 * steps[0]:
+        axes.set_xticks(ticks * unit, [f"{tick:.0f}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
+    elif degrees:
+        axes.xaxis.set_major_formatter(lambda theta, _: f"{np.degrees(theta):.6g}°".replace("-", "−"))
+    axes.set_xlabel("angle θ from down" + ("" if degrees else " (rad)"))
     axes.set_ylabel("velocity dθ/d(ωt) (rad per drive radian)")
     axes.tick_params(direction="out", length=3)
     return axes

@@ -9,10 +9,15 @@ static kz_pendulum from_quality(const kz_pendulum_keys *written) {
   return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = isnan(q) ? 0.0 : 1.0 / (omega * q), .m = written->drive_amplitude};
 }
 
+/* omega in rad/s, however it is written. */
+static double pivot_frequency(const kz_pendulum_keys *written) {
+  return isnan(written->frequency) ? written->pivot_frequency : 2 * M_PI * written->frequency;
+}
+
 /* k = M g r/(I omega^2), beta = b/(I omega), m = M r A/I (BSG Eq. 1 in drive time). */
 static kz_pendulum from_si(const kz_pendulum_keys *written) {
   const double lever = written->mass * written->radius / written->inertia; /* M r/I, 1/m */
-  const double omega = written->pivot_frequency;
+  const double omega = pivot_frequency(written);
   return (kz_pendulum){.k = lever * written->gravity / (omega * omega),
                        .beta = written->friction / (written->inertia * omega),
                        .m = lever * written->pivot_amplitude};
@@ -38,6 +43,7 @@ static void fill_defined(kz_parameters *parameters) {
   const kz_pendulum_keys *written = &parameters->written;
   const bool given = !isnan(written->drive_frequency);
   parameters->drive_amplitude = p->m;
+  parameters->pivot_frequency = pivot_frequency(written);
   parameters->drive_frequency = given ? written->drive_frequency : NAN;
   parameters->quality_factor = given ? written->quality_factor : NAN;
   if (!given && p->k > 0.0) parameters->drive_frequency = 1.0 / sqrt(p->k);

@@ -19,6 +19,7 @@ const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(gravity, "m s-2"),
     KEY(pivot_amplitude, "m"),
     KEY(pivot_frequency, "rad s-1"),
+    KEY(frequency, "Hz"),
 };
 
 const char *kz_sweep_words(void) {

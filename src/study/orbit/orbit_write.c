@@ -53,7 +53,7 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
 /* What the lines are of. */
 static kz_status write_quantity(const kz_orbit_features *features, kz_store *store) {
   KZ_TRY(kz_store_text(store, GROUP, "line_quantity", features->chaotic ? "velocity" : "angle"));
-  return kz_store_text(store, GROUP, "line_units", features->chaotic ? "rad per drive radian" : "rad");
+  return kz_store_text(store, GROUP, "line_units", features->chaotic ? "1" : "rad");
 }
 
 static kz_status write_features(const kz_orbit_features *features, kz_store *store) {

@@ -58,16 +58,18 @@ static void defaults_are_those_of_the_table(void **state) {
   kz_scene_free(&scene);
 }
 
-/* Forms a, b and c of one pendulum agree (BSG Eq. 1 and 2). */
-static void three_forms_agree(void **state) {
+/* Forms a, b and c (with either frequency) of one pendulum agree (BSG Eq. 1 and 2). */
+static void forms_agree(void **state) {
   (void)state;
   static const char *const forms[] = {
       "pendulum={quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
       "pendulum={k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}",
       /* M r/I = 2.5 /m, omega = 100 rad/s: g = k omega^2/2.5, b = beta I omega, A = m/2.5 */
       ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
-       "pivot_amplitude: 0.12, pivot_frequency: 100}")}; /* in brackets: clang takes two strings in a list for a forgotten comma */
-  for (int i = 0; i < 3; i++) {
+       "pivot_amplitude: 0.12, pivot_frequency: 100}"), /* in brackets: clang takes two strings in a list for a forgotten comma */
+      ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
+       "pivot_amplitude: 0.12, frequency: 15.915494309189533}")};
+  for (int i = 0; i < 4; i++) {
     kz_scene scene;
     assert_int_equal(read_scene(GOOD, forms[i], &scene), KZ_OK);
     assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-15);
@@ -75,8 +77,40 @@ static void three_forms_agree(void **state) {
     assert_true(fabs(scene.parameters.pendulum.m - 0.3) < 1e-15);
     assert_true(fabs(scene.parameters.quality_factor - 5.0) < 1e-12);
     assert_true(fabs(scene.parameters.drive_frequency - 11.0) < 1e-12);
+    assert_true(i < 2 ? isnan(scene.parameters.pivot_frequency) : fabs(scene.parameters.pivot_frequency - 100) < 1e-12);
     kz_scene_free(&scene);
   }
+}
+
+static void angles_are_in_degrees_where_they_say_so(void **state) {
+  (void)state;
+  kz_scene scene;
+  assert_int_equal(read_scene(GOOD, "basin.theta={min: -90 deg, max: 180 deg}", &scene), KZ_OK);
+  assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI);
+  kz_scene_free(&scene);
+  expect_refused(
+      GOOD "  theta: {min: 1 degree, max: 2}\n", NULL,
+      "s.yaml:4:16: basin.theta.min: \"1 degree\" is not a finite decimal number; it must be a number from -1000000 to "
+      "1000000 in rad, or in degrees such as 90 deg");
+  expect_refused(
+      GOOD "  theta: {min: 1 deg, max: 2e9 deg}\n", NULL,
+      "s.yaml:4:28: basin.theta.max: \"2e9 deg\" is out of range; it must be a number from -1000000 to 1000000 in rad, "
+      "or in degrees such as 90 deg");
+  expect_refused(GOOD, "basin.velocity.min=-1 deg",
+                 "--set basin.velocity.min=-1 deg: basin.velocity.min: \"-1 deg\" is not a finite decimal number; it must be a "
+                 "number from -1000000000 to 1000000000 in rad per drive radian");
+}
+
+static void the_frequency_of_the_pivot_is_given_once(void **state) {
+  (void)state;
+#define SI "pendulum: {mass: 1, radius: 1, inertia: 1, friction: 1, gravity: 1, pivot_amplitude: 1"
+#define STUDY "basin: {velocity: {min: -1, max: 1}}\n"
+  expect_refused(
+      SI ", pivot_frequency: 10, frequency: 2}\n" STUDY, NULL,
+      "s.yaml:1:121: pendulum.frequency: contradicts pivot_frequency, which gives the same in rad s-1; give one of them");
+  expect_refused(
+      SI "}\n" STUDY, NULL,
+      "s.yaml:1:11: pendulum.pivot_frequency: is missing; it must be a number above 0 in rad s-1, or give frequency in Hz");
 }
 
 static void undefined_parameters_are_nan(void **state) {
@@ -129,7 +163,8 @@ static void errors_name_place_key_and_remedy(void **state) {
       "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; it must be an integer from 1 to 4000000000");
   expect_refused("basin: {}\n", NULL,
                  "s.yaml:1:1: pendulum: is missing; it must be a mapping of quality_factor, drive_frequency, "
-                 "drive_amplitude, k, damping, m, mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency");
+                 "drive_amplitude, k, damping, m, mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency, "
+                 "frequency");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
                  "s.yaml:4:16: basin.theta.max: 1 is too small; it must be greater than min = 2");
   expect_refused(GOOD, "basin.theta.cout=2",
@@ -256,8 +291,11 @@ static void lists_are_read_and_written(void **state) {
       {"s: {i: [2, 65]}\n", "f:1:12: s.i: \"65\" is out of range; it must be a list of integers from 2 to 64", NULL},
       {"s: {w: [red, gren]}\n", "f:1:14: s.w: \"gren\" is unknown; it must be a list out of red, green (did you mean green?)",
        NULL},
-      {"s: {r: []}\n", "f:1:8: s.r: the value is an empty list; it must be a list of numbers from -1 to 9 in rad", NULL},
-      {"s: {r: 1}\n", "f:1:8: s.r: \"1\" is not a list; it must be a list of numbers from -1 to 9 in rad", NULL},
+      {"s: {r: []}\n",
+       "f:1:8: s.r: the value is an empty list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 deg",
+       NULL},
+      {"s: {r: 1}\n",
+       "f:1:8: s.r: \"1\" is not a list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 deg", NULL},
       {"s: {b: yes}\n", "f:1:8: s.b: \"yes\" is neither true nor false; it must be true or false", NULL}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     lists scene;
@@ -298,7 +336,9 @@ static void table_is_sound(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(defaults_are_those_of_the_table),
-      cmocka_unit_test(three_forms_agree),
+      cmocka_unit_test(forms_agree),
+      cmocka_unit_test(angles_are_in_degrees_where_they_say_so),
+      cmocka_unit_test(the_frequency_of_the_pivot_is_given_once),
       cmocka_unit_test(undefined_parameters_are_nan),
       cmocka_unit_test(resolved_text_is_a_fixed_point),
       cmocka_unit_test(options_override_and_create),

@@ -1,0 +1,18 @@
+"""Entry of `kapitza view`: errors are one line, as the program's own are."""
+
+import sys
+
+try:
+    from kapitza.result import BadFile
+
+    from .command import WrongArgument, main
+except ModuleNotFoundError as error:
+    print(f"kapitza: error: view: {sys.executable} lacks the package {error.name}; set KAPITZA_PYTHON to a Python that has those "
+          "of scripts/requirements.txt (scripts/setup makes one: .venv/bin/python)", file=sys.stderr)
+    sys.exit(1)
+
+try:
+    main()
+except (BadFile, WrongArgument) as error:
+    print(f"kapitza: error: {error}", file=sys.stderr)
+    sys.exit(2)

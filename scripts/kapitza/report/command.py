@@ -1,0 +1,21 @@
+"""`kapitza-plot report FILE [-o FILE.html]`."""
+
+import argparse
+from pathlib import Path
+
+from kapitza.report.page import report
+from kapitza.result import Result
+
+
+def main(words: list[str]) -> None:
+    """Writes the report of a result file, and prints its name."""
+    parser = argparse.ArgumentParser(prog="kapitza-plot report", description="one self-contained page on a result: pictures, attractors, "
+                                     "numbers, scene, provenance")
+    parser.add_argument("file", help="result file")
+    parser.add_argument("-o", "--output", type=Path, help="the page (default: FILE's name with .html, here)")
+    given = parser.parse_args(words)
+    output = given.output or Path(f"{Path(given.file).stem or 'report'}.html")
+    if output.suffix.lower() != ".html":
+        parser.error(f"{output}: the name must end in .html")
+    output.write_text(report(Result(given.file)), encoding="utf-8")
+    print(output)

@@ -1,0 +1,33 @@
+"""The pictures of a report: those of kapitza-plot."""
+
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import redirect_stdout
+from io import StringIO
+from pathlib import Path
+
+from kapitza.plots import basin, orbit, potential, stability, sweep, tradeoff
+from kapitza.result import Result
+
+# Group of a result -> the pictures of it: caption, what draws it, options.
+PICTURES: dict[str, list[tuple[str, Callable[[list[str]], None], list[str]]]] = {
+    "basin": [("Every start in the colour of the motion in which it ends; dots are strobe points.", basin.main, []),
+              ("How long every start takes to settle.", basin.main, ["--quantity", "settling_time"])],
+    "orbit": [("One motion: in time, in space, in the phase plane, and its spectral lines.", orbit.main, [])],
+    "stability": [("Where small oscillations stay small.", stability.main, [])],
+    "potential": [("The effective potential of the slow motion.", potential.main, [])],
+    "sweep": [("Along the swept key.", sweep.main, [])],
+    "tradeoff": [("Wrong labels against time.", tradeoff.main, [])],
+}
+DPI = 130
+
+
+def pictures(result: Result) -> Iterator[tuple[str, bytes]]:
+    """Caption and bytes (PNG) of every picture of the groups that the result holds."""
+    with tempfile.TemporaryDirectory(prefix="kapitza-report-") as folder:
+        picture = Path(folder) / "picture.png"
+        for group, rows in PICTURES.items():
+            for caption, draw, options in rows if group in result.groups else ():
+                with redirect_stdout(StringIO()):  # the picture's name
+                    draw([str(result.path), "-o", str(picture), "--dpi", str(DPI), *options])
+                yield caption, picture.read_bytes()

@@ -1,0 +1,72 @@
+/* The command view: this process becomes the explorer, a Python package beside the program. */
+#include <errno.h>
+#include <libgen.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "app.h"
+
+typedef struct {
+  char program[PATH_MAX];         /* this executable */
+  char scripts[PATH_MAX + 16];    /* folder of the Python package */
+  char own_python[PATH_MAX + 32]; /* of the virtual environment that scripts/setup makes */
+} places;
+
+static kz_status find_places(places *p) {
+  char folder[PATH_MAX];
+  const ssize_t length = readlink("/proc/self/exe", p->program, sizeof p->program - 1);
+  if (length < 0) return kz_fail(KZ_FAILED, "view: the program cannot find itself: %s", strerror(errno));
+  p->program[length] = '\0';
+  strcpy(folder, p->program);
+  const char *root = dirname(dirname(folder));
+  snprintf(p->scripts, sizeof p->scripts, "%s/scripts", root);
+  snprintf(p->own_python, sizeof p->own_python, "%s/.venv/bin/python", root);
+  char package[sizeof p->scripts + 32];
+  snprintf(package, sizeof package, "%s/kapitza/explorer", p->scripts);
+  if (access(package, R_OK) == 0) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "view: the explorer is not in %s; run the program in the folder build of its sources", package);
+}
+
+static const char *python_of(const places *p) {
+  const char *chosen = getenv("KAPITZA_PYTHON");
+  if (chosen && chosen[0]) return chosen;
+  return access(p->own_python, X_OK) == 0 ? p->own_python : "python3";
+}
+
+/* The package is found first, whatever else the user's path of modules holds. */
+static kz_status set_module_path(const places *p) {
+  const char *before = getenv("PYTHONPATH");
+  const size_t bytes = strlen(p->scripts) + (before ? strlen(before) : 0) + 2;
+  char *path = malloc(bytes);
+  if (!path) return kz_fail(KZ_FAILED, "out of memory");
+  snprintf(path, bytes, "%s%s%s", p->scripts, before && before[0] ? ":" : "", before ? before : "");
+  const bool set = setenv("PYTHONPATH", path, 1) == 0;
+  free(path);
+  return set ? KZ_OK : kz_fail(KZ_FAILED, "out of memory");
+}
+
+kz_status kz_app_view(const kz_options *options) {
+  places p;
+  if (!options->speaks) return KZ_OK;
+  KZ_TRY(find_places(&p));
+  KZ_TRY(set_module_path(&p));
+  const char *python = python_of(&p), *port = options->port ? options->port : "0";
+  const char *words[] = {python,
+                         "-m",
+                         "kapitza.explorer",
+                         options->no_browser ? "--no-browser" : "--browser",
+                         "--program",
+                         p.program,
+                         "--port",
+                         port,
+                         "--",
+                         options->scene,
+                         NULL};
+  fflush(stdout);
+  execvp(python, (char *const *)words);
+  return kz_fail(KZ_FAILED,
+                 "view: %s cannot be run: %s; set KAPITZA_PYTHON to a Python that has the packages of scripts/requirements.txt",
+                 python, strerror(errno));
+}

@@ -1,0 +1,79 @@
+"""The JSON schema of scenes: it takes every scene, and refuses what the program's own table refuses."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+import yaml
+from conftest import PROGRAM, ROOT
+from jsonschema import Draft202012Validator
+
+PENDULUM = "pendulum: {k: 0.01, damping: 0.1, m: 0.5}\n"
+BASIN = "basin: {velocity: {min: -1, max: 1}}\n"
+
+
+@pytest.fixture(scope="module")
+def schema_text():
+    return subprocess.run([PROGRAM, "keys", "--json-schema"], capture_output=True, text=True, timeout=60, check=True).stdout
+
+
+@pytest.fixture(scope="module")
+def validator(schema_text):
+    schema = json.loads(schema_text)
+    Draft202012Validator.check_schema(schema)
+    return Draft202012Validator(schema)
+
+
+def test_every_scene_passes_check_jsonschema(schema_text, tmp_path):
+    (tmp_path / "schema.json").write_text(schema_text)
+    scenes = sorted((ROOT / "scenes").glob("*.yaml"))
+    command = [sys.executable, "-m", "check_jsonschema", "--schemafile", tmp_path / "schema.json", *scenes]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=100)
+    assert done.returncode == 0 and len(scenes) > 40, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("text", [
+    BASIN,
+    PENDULUM,
+    PENDULUM + "basin: {}\n",
+    PENDULUM + "basins: {velocity: {min: -1, max: 1}}\n",
+    PENDULUM + "basin: {velocity: {min: -1, max: 1, count: 0}}\n",
+    PENDULUM + "basin: {velocity: {min: -1, max: 1, count: 1.5}}\n",
+    PENDULUM + "basin: {velocity: {min: -1, max: 1}, method: guess}\n",
+    PENDULUM + "potential: {drive_amplitudes: []}\n",
+    PENDULUM + "stability: {k: {min: 0, max: 1}, m: {min: 0, max: 1}, damping: 0.1, quality_factor: 5}\n",
+    "pendulum: {k: 0.01, damping: -0.1, m: 0.5}\n" + BASIN,
+    "pendulum: {k: 0.01, damping: 0.1}\n" + BASIN,
+    "pendulum: {k: 0.01, damping: 0.1, m: 0.5, quality_factor: 5}\n" + BASIN,
+    "pendulum: {quality_factor: 0, drive_frequency: 11, drive_amplitude: 0.3}\n" + BASIN,
+])
+def test_what_the_table_refuses_the_schema_refuses(text, validator, tmp_path):
+    (tmp_path / "scene.yaml").write_text(text)
+    done = subprocess.run([PROGRAM, "check", tmp_path / "scene.yaml"], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and not validator.is_valid(yaml.safe_load(text))
+
+
+@pytest.mark.parametrize(("text", "good"), [("-90 deg", True), ("1.5", True), ("90 degrees", False), ("deg", False)])
+def test_angles_may_be_in_degrees(text, good, validator, tmp_path):
+    (tmp_path / "scene.yaml").write_text(PENDULUM + f"basin: {{velocity: {{min: -1, max: 1}}, theta: {{min: {text}, max: 2}}}}\n")
+    done = subprocess.run([PROGRAM, "check", tmp_path / "scene.yaml"], capture_output=True, text=True, timeout=60)
+    assert done.returncode == (0 if good else 2)
+    assert validator.is_valid(yaml.safe_load((tmp_path / "scene.yaml").read_text())) == good
+
+
+def test_it_knows_every_key_with_its_default(validator):
+    """Against docs/scene.md, which is written from the same table."""
+    def keys(mapping, path=""):
+        for name, item in mapping["properties"].items():
+            if "properties" in item:
+                yield from keys(item, f"{path}{name}.")
+            else:
+                yield path + name, item.get("default")
+
+    rows = [line.strip("| \n").split(" | ") for line in (ROOT / "docs" / "scene.md").read_text().splitlines() if line.startswith("| `")]
+    documented = {row[0].strip("`"): row[2] for row in rows if not row[1].startswith("a mapping")}
+    known = dict(keys(validator.schema["allOf"][0]))
+    assert known.keys() == documented.keys()
+    for name, default in known.items():
+        assert default is None if documented[name] in ("-", "required") else yaml.safe_load(documented[name]) == default

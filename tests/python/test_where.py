@@ -1,0 +1,130 @@
+"""The command where: held against the labels and the catalogue of a run; what double precision does not decide; what is refused."""
+
+import csv
+import io
+import json
+import subprocess
+
+import numpy as np
+import pytest
+from conftest import PROGRAM, ROOT
+from kapitza.result import Result
+
+SMALL = ROOT / "scenes" / "small.yaml"
+QUICK = ["--set", "basin.icm={theta: 100, velocity: 100}", "--set", "basin.attractors.starts=1024"]
+
+
+def where(*arguments, text=""):
+    """The command with `text` on standard input."""
+    command = [PROGRAM, "where", *map(str, arguments)]
+    return subprocess.run(command, input=text, capture_output=True, text=True, timeout=100)
+
+
+def table(*arguments, starts):
+    """Its rows for starts [n][2]."""
+    done = where(*arguments, "-", text="theta,velocity\n" + "\n".join(f"{t!r},{v!r}" for t, v in np.asarray(starts).tolist()))
+    assert done.returncode == 0, done.stderr
+    return list(csv.DictReader(io.StringIO(done.stdout)))
+
+
+@pytest.mark.parametrize("window", [[], ["--set", "basin.theta={min: 2, max: 4, count: 100}"]])
+def test_the_labels_of_a_run(kapitza, tmp_path, window):
+    path = tmp_path / "direct.h5"
+    kapitza("run", SMALL, *window, "--set", "basin.method=direct", "-o", path)
+    basin, attractors = Result(path).group("basin"), Result(path).group("attractors")
+    rows, columns = np.divmod(np.arange(7, 10000, 43), 100)
+    starts = np.column_stack([basin["theta"].values[columns], basin["velocity"].values[rows]])
+    found = table(SMALL, *window, starts=starts)
+    ids = np.array([int(row["attractor"]) for row in found])
+    assert np.array_equal(ids, basin["attractor"].values[rows, columns])
+    assert np.array_equal([int(row["settling_time"]) for row in found], basin["settling_time"].values[rows, columns])
+    assert [row["name"] for row in found] == [str(attractors["name"].values[index]) for index in ids]
+    assert np.array_equal([float(row["strobe_theta"]) for row in found], attractors["strobe_theta"].values[ids, 0])
+
+
+def test_json_holds_the_whole_orbit():
+    done = where(SMALL, "2.5", "-.7", "--json", *QUICK)
+    answer = json.loads(done.stdout)
+    assert (answer["theta"], answer["velocity"], answer["attractor"] >= 0) == (2.5, -0.7, True)
+    assert len(answer["strobe_theta"]) == len(answer["strobe_velocity"]) == answer["period"]
+    words = where(SMALL, "2.5", "-.7", *QUICK).stdout
+    assert f"{answer['name']} (attractor {answer['attractor']})" in words and f"{answer['settling_time']} drive periods" in words
+    assert ("yes" in words) == answer["decided"]
+
+
+def test_an_edge_between_two_basins_is_not_decided():
+    """Sections of a line that always keep an edge inside, down to the last place."""
+    low, high = 0.0, 2.0
+    for _ in range(12):
+        line = np.unique(np.linspace(low, high, 101))
+        found = table(SMALL, *QUICK, starts=np.column_stack([line, np.full(len(line), 0.3)]))
+        names = [row["name"] for row in found]
+        edge = next(i for i in range(1, len(names)) if names[i] != names[0])
+        low, high = line[edge - 1], line[edge]
+        if high <= np.nextafter(low, 9):
+            break
+    assert high <= np.nextafter(low, 9)
+    assert "false" in (found[edge - 1]["decided"], found[edge]["decided"])
+    assert all(row["decided"] == "true" for row in table(SMALL, *QUICK, starts=[[0.0, 0.0], [3.1, 0.0], [3.0, 1.1]]))
+
+
+def test_what_the_window_does_not_reach_is_found_from_the_start_itself():
+    window = ["--set", "basin.theta={min: -0.1, max: 0.1, count: 10}", "--set", "basin.velocity={min: -0.1, max: 0.1, count: 10}"]
+    answers = [json.loads(where(SMALL, *window, *QUICK, *start, "--json").stdout) for start in (["0.05", "0"], ["3.1", "0"])]
+    assert [(answer["name"], answer["attractor"]) for answer in answers] == [("down", 0), ("inverted", 1)]
+
+
+def test_without_damping_nothing_attracts():
+    answer = json.loads(where(SMALL, 1, 2, "--json", "--set", "pendulum={k: 0.01, damping: 0, m: 0.3}").stdout)
+    assert (answer["attractor"], answer["name"], answer["decided"], answer["strobe_theta"]) == (-1, None, False, [])
+
+
+def test_the_study_attractors_is_enough(tmp_path):
+    text = "pendulum: {k: 0.00826446, damping: 0.0181818, m: 0.3}\nattractors: {velocity: {min: -2, max: 2}}\n"
+    (tmp_path / "scene.yaml").write_text(text)
+    assert json.loads(where(tmp_path / "scene.yaml", 3.1, 0, "--json").stdout)["name"] == "inverted"
+
+
+def test_a_grid_that_no_memory_holds_is_not_needed():
+    huge = ["--set", "basin.theta.count=1000000", "--set", "basin.velocity.count=1000000"]
+    assert where(SMALL, *huge, 3.1, 0, *QUICK).stdout == where(SMALL, 3.1, 0, *QUICK).stdout
+
+
+def test_the_angle_may_be_in_degrees():
+    assert where(SMALL, "180 deg", "0.0", *QUICK).stdout == where(SMALL, repr(np.pi), 0, *QUICK).stdout
+
+
+def test_a_scene_comes_from_standard_input(tmp_path):
+    text = SMALL.read_text()
+    assert where("-", 3.1, 0, *QUICK, text=text).stdout == where(SMALL, 3.1, 0, *QUICK).stdout
+    checked = subprocess.run([PROGRAM, "check", "-"], input=text, capture_output=True, text=True, timeout=60)
+    assert checked.returncode == 0 and "is a valid scene" in checked.stdout
+    run = [PROGRAM, "run", "-", *QUICK]
+    nameless = subprocess.run(run, input=text, capture_output=True, text=True, cwd=tmp_path, timeout=60)
+    assert nameless.returncode == 2 and "--output: is missing" in nameless.stderr and list(tmp_path.iterdir()) == []
+    subprocess.run([*run, "-o", "x.h5"], input=text, text=True, cwd=tmp_path, timeout=60, check=True, capture_output=True)
+    assert Result(tmp_path / "x.h5").attributes["scene"] == text
+    long = subprocess.run([PROGRAM, "check", "-"], input=text + "#" * 1_000_000, capture_output=True, text=True, timeout=60)
+    assert long.returncode == 2 and "too many bytes" in long.stderr
+
+
+@pytest.mark.parametrize(("arguments", "text", "message"), [
+    (["1"], "", "VELOCITY: is missing"),
+    ([], "", "where: names no start"),
+    (["1", "2", "3"], "", "3: one argument too many"),
+    (["x", "2"], "", 'THETA: "x" is not a finite decimal number'),
+    (["1", "-2e9"], "", 'VELOCITY: "-2e9" is out of range'),
+    (["-"], "", "standard input: holds no start"),
+    (["-"], "theta,velocity\n1,2\n1;2\n", 'standard input:3: "1;2" is not a start'),
+    (["-"], "1,2\n1,nan\n", 'standard input:2: VELOCITY: "nan"'),
+    (["-"], "1,2,3\n", 'standard input:1: "1,2,3" is not a start'),
+    (["1", "2", "-y"], "", "-y: unknown option"),
+])
+def test_a_wrong_start_is_one_line(arguments, text, message):
+    done = where(SMALL, *arguments, text=text)
+    assert done.returncode == 2 and done.stdout == "" and message in done.stderr and len(done.stderr.splitlines()) == 1
+
+
+def test_a_scene_without_a_window_is_refused():
+    done = where(ROOT / "scenes" / "butikov-fig01.yaml", 1, 2)
+    assert done.returncode == 2 and "add a basin or attractors study" in done.stderr
