@@ -83,6 +83,16 @@ void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double max_distance,
                                 double *theta, double *velocity, double *re, double *im);
 
+/* All cycles of up to max_period <= 64 periods, attracting or not, of the map of published values that show in the cells between
+ * the nodes theta [n_theta] and velocity [n_velocity] (rad, rad per drive radian, ascending): the zeros of F^n(x) - x by linear
+ * interpolation, made exact by Newton's method. cycle [most][3]: period, half-turns, velocity. Returns how many there are, which
+ * may be more than fit. */
+int64_t kz_dynamics_scan_cycles(const kz_pendulum *pendulum, int64_t max_period, int64_t n_theta, const double *theta,
+                                int64_t n_velocity, const double *velocity, int64_t most, double *cycle);
+/* Adds a cycle [3] so found, and its mirror image, to the catalogue unless it is there; returns how many are known then. Such a
+ * catalogue, of cycles that need not attract, is for reading and ordering alone: it has no trapping regions. */
+int64_t kz_dynamics_add_cycle(kz_dynamics *dynamics, const double *cycle);
+
 /* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `max_velocity`. */
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
 int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics);               /* doubles per row */
@@ -133,6 +143,21 @@ int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *f
 
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
 int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);
+
+/* ---- manifolds ---- */
+
+/* One branch of the stable or unstable manifold of a saddle of the map of published values. */
+typedef struct {
+  double theta, velocity;       /* a point of the saddle: rad, rad per drive radian */
+  int32_t period, stable, side; /* stable: 0 or 1; side: 1 or -1, along the eigenvector or against it */
+  double spacing;               /* farthest that neighbouring points may be apart, rad */
+  double length;                /* of the branch, rad and rad per drive radian together */
+  double fastest;               /* parts at larger speeds are left out, and do not count */
+} kz_branch;
+
+/* Grows it from the saddle on; point [most][4]: theta in [-pi, pi), velocity, arc length, number of the unbroken part. Returns how many
+ * points there are: all of them fit, a branch ends where no more do. */
+int64_t kz_manifold_grow(const kz_pendulum *pendulum, const kz_branch *branch, int64_t most, double *point);
 
 /* ---- step error ---- */
 

@@ -53,6 +53,21 @@ typedef struct {
   int64_t starts, max_period, seed;
 } kz_attractors_plan;
 
+/* Study `saddles`: all cycles up to a period with a point in the window; the counts of the axes are not used. */
+enum { KZ_SADDLES_MAX_PERIOD = 32 };
+typedef struct {
+  kz_axis theta, velocity;
+  int64_t max_period;
+} kz_saddles_plan;
+
+/* Study `manifolds`: of the saddles of the study before. */
+enum { KZ_MANIFOLDS_BOTH, KZ_MANIFOLDS_STABLE, KZ_MANIFOLDS_UNSTABLE };
+typedef struct {
+  kz_integers saddles; /* ids; none = all */
+  int32_t kind;
+  double length, spacing, max_speed;
+} kz_manifolds_plan;
+
 /* Study `orbit`. Unset: NaN (start), INT64_MIN (attractor, periods, period). */
 typedef struct {
   double theta, velocity; /* start */
@@ -135,6 +150,10 @@ typedef struct {
   kz_basin_plan basin;
   bool has_attractors;
   kz_attractors_plan attractors;
+  bool has_saddles;
+  kz_saddles_plan saddles;
+  bool has_manifolds;
+  kz_manifolds_plan manifolds;
   bool has_orbit;
   kz_orbit_plan orbit;
   bool has_stability;

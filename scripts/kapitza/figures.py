@@ -7,6 +7,8 @@ _Row = tuple[str, str, list[str]]
 _BASIN: _Row = ("", "basin", ["--centre", "inverted"])
 _INVERTED: _Row = ("-inverted", "basin", ["--centre", "inverted", "--attractor", "inverted"])
 _FLUTTER: _Row = ("-flutter", "basin", ["--centre", "inverted", "--attractor", "flutter"])
+_SADDLES: _Row = ("", "basin", ["--centre", "inverted", "--saddles"])
+_MANIFOLDS: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--manifolds"])
 _ORBIT: _Row = ("", "orbit", [])
 _PHASE: _Row = ("", "orbit", ["--panels", "phase,path"])
 _TIME: _Row = ("", "orbit", ["--panels", "time"])
@@ -57,6 +59,8 @@ _SCENES = {
     "butikov-fig11": [_CHART],
     "butikov-fig12": [_ORBIT],
     "formula-errors": [_ERRORS],
+    "manifolds-fig12": [_MANIFOLDS],
+    "saddles-fig12": [_SADDLES],
     "small": [_BASIN],
     "tradeoff-fig11": [_TRADE],
     "tradeoff-fig12": [_TRADE],

@@ -31,6 +31,9 @@ NEEDED = {
     "tradeoff": Part(_over("setting", "label", "method", "precision", "scheme", "interpolation", "wrong", "wrong_low", "wrong_high",
                            "seconds", "seconds_per_million_cells", "pareto"), ("floor", "samples")),
     "basin": Part({"theta": "theta", "velocity": "velocity"} | _over("velocity theta", "attractor", "settling_time", "evidence")),
+    "manifolds": Part(_over("point", "theta", "velocity", "arc_length", "saddle", "branch", "kind", "polyline")),
+    "saddles": Part(_over("saddle", "period", "winding", "name", "index") | _over("saddle phase", "strobe_theta", "strobe_velocity")
+                    | _over("saddle pair", "multiplier_re", "multiplier_im")),
     "sweep": Part({"value": "value"}, ("parameter",)),
 }
 _BRANCHES = _over("branch", "branch_start", "branch_end", "branch_start_kind", "branch_end_kind", "branch_name", "branch_period",
@@ -51,7 +54,7 @@ OPTIONAL = {
 # What is not a number, and what counts or is a code (with the largest code, where there is one).
 TEXT = {"name", "label", "scheme", "branch_name"}
 CODES = {"period": None, "centre": 3, "evidence": 4, "settling_time": None, "method": 1, "precision": 2, "interpolation": 2,
-         "branch_period": None, "branch_centre": 3}
+         "branch_period": None, "branch_centre": 3, "kind": 1}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release"}  # axes that go up
 WORDS = {"parameter", "parameter_units"}  # attributes that are text; all others that a part names are numbers
 WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pictures name its parameters

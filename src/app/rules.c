@@ -68,6 +68,18 @@ static void attractors_rules(kz_reading *reading, kz_scene *scene) {
                 "stands beside basin, which finds the attractors of its window itself; give one of them");
 }
 
+static void saddles_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_saddles) return;
+  theta_window(reading, &scene->saddles.theta, "saddles.theta");
+  check_axis(reading, &scene->saddles.velocity, "saddles.velocity");
+}
+
+static void manifolds_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_manifolds || scene->has_saddles) return;
+  kz_complain(reading, kz_tree_child(reading->root, "manifolds"), "manifolds",
+              "has no cycles to grow from; add a saddles study to the scene");
+}
+
 /* Complains about `name` of the study orbit where it is given. */
 static void orbit_refuse(kz_reading *reading, const char *name, const char *why) {
   const kz_node *node = kz_tree_find(reading->root, name);
@@ -225,8 +237,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    attractors_rules, orbit_rules,       stability_rules, tradeoff_rules,
-                             pendulum_rules, sweep_rules,      orbit_range_rules, settling_rules,  numerics_rules};
+static const rule rules[] = {basin_rules, attractors_rules,  saddles_rules,  manifolds_rules,
+                             orbit_rules, stability_rules,   tradeoff_rules, pendulum_rules,
+                             sweep_rules, orbit_range_rules, settling_rules, numerics_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

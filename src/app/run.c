@@ -84,7 +84,7 @@ static kz_status open_log(job *j) {
   char ranks[16];
   snprintf(ranks, sizeof ranks, "%d", kz_ranks_count(j->ranks));
   const char *const fields[] = {"program", "kapitza",        "version", KZ_VERSION, "git_revision", KZ_GIT_REVISION,
-                                "command", j->options->line, "file",    j->path,    "#ranks",        ranks,
+                                "command", j->options->line, "file",    j->path,    "#ranks",       ranks,
                                 NULL};
   kz_log_event(j->log, kz_ranks_seconds(j->ranks), "begin", fields);
   kz_ranks_set_log(j->ranks, j->log);

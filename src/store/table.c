@@ -5,19 +5,9 @@
 
 #include "kapitza/common.h"
 
-#define ANGLE "rad"
-#define VELOCITY "1|rad per drive radian"
-#define PERIODS "1|drive periods"
 #define TIME "rad|drive radians"
-#define NONE "1"
 #define ENERGY "1|units of I omega^2"
-#define RATE "1|1 per drive period"
-#define CURVE(name, long_name)                            \
-  {                                                       \
-    "stability", name, KZ_REAL, {"k"}, NONE, long_name, { \
-      0                                                   \
-    }                                                     \
-  }
+#define CURVE(name, long_name) {"stability", name, KZ_REAL, {"k"}, NONE, long_name, {0}}
 #define OWN "@parameter_units" /* of the swept key */
 #define END_KINDS "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"
 
@@ -301,7 +291,12 @@ static bool is_name(const char *row, const char *name) {
 }
 
 const kz_variable *kz_variable_find(const char *group, const char *name) {
-  for (size_t i = 0; i < sizeof variables / sizeof *variables; ++i)
-    if (strcmp(variables[i].group, group) == 0 && is_name(variables[i].name, name)) return &variables[i];
+  const struct {
+    const kz_variable *rows;
+    size_t count;
+  } parts[] = {{variables, sizeof variables / sizeof *variables}, {kz_saddle_variables, kz_saddle_variable_count}};
+  for (size_t part = 0; part < sizeof parts / sizeof *parts; part++)
+    for (size_t i = 0; i < parts[part].count; i++)
+      if (strcmp(parts[part].rows[i].group, group) == 0 && is_name(parts[part].rows[i].name, name)) return &parts[part].rows[i];
   return NULL;
 }

@@ -2,6 +2,8 @@
 #ifndef KAPITZA_STORE_TABLE_H
 #define KAPITZA_STORE_TABLE_H
 
+#include <stddef.h>
+
 enum { KZ_MAX_DIMENSIONS = 2, KZ_MAX_FLAGS = 6 };
 
 typedef enum { KZ_REAL, KZ_INT8, KZ_UINT8, KZ_INT16, KZ_INT32, KZ_UINT32, KZ_TEXT } kz_kind;
@@ -14,6 +16,17 @@ typedef struct {
                                   * UDUNITS knows it, and ", in WORDS" behind the long name */
   const char *flags[KZ_MAX_FLAGS + 1]; /* meanings of 0, 1, 2, ...; NULL-ended */
 } kz_variable;
+
+/* Units that many rows have. */
+#define ANGLE "rad"
+#define VELOCITY "1|rad per drive radian"
+#define PERIODS "1|drive periods"
+#define RATE "1|1 per drive period"
+#define NONE "1"
+
+/* The part of the table for the groups saddles and manifolds. */
+extern const kz_variable kz_saddle_variables[];
+extern const size_t kz_saddle_variable_count;
 
 /* The row of a variable; NULL where the table has none. */
 const kz_variable *kz_variable_find(const char *group, const char *name);

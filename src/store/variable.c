@@ -91,8 +91,7 @@ static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, co
   KZ_HDF5(type = memory_type(row->kind));
   kz_status status = check_memory(row->name, chunk ? 0 : n * H5Tget_size(type));
   if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, chunk, dataset);
-  if (status == KZ_OK && !chunk && n > 0)
-    status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
+  if (status == KZ_OK && !chunk && n > 0) status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
   if (status == KZ_OK) status = describe(group, *dataset, row, type);
   H5Tclose(type);
   return status;

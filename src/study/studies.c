@@ -3,14 +3,18 @@
 #include "attractors/attractors.h"
 #include "basin/basin.h"
 #include "kapitza/study.h"
+#include "manifolds/manifolds.h"
 #include "orbit/orbit.h"
 #include "potential/potential.h"
+#include "saddles/saddles.h"
 #include "stability/stability.h"
 #include "sweep/sweep.h"
 
 const kz_study kz_studies[] = {
     {"basin", kz_basin_wanted, kz_basin_cost, kz_basin_run, kz_basin_check},
     {"attractors", kz_attractors_wanted, kz_attractors_cost, kz_attractors_run, kz_attractors_check},
+    {"saddles", kz_saddles_wanted, kz_saddles_cost, kz_saddles_run, NULL},
+    {"manifolds", kz_manifolds_wanted, kz_manifolds_cost, kz_manifolds_run, NULL},
     {"orbit", kz_orbit_wanted, kz_orbit_cost, kz_orbit_run, kz_orbit_check},
     {"stability", kz_stability_wanted, kz_stability_cost, kz_stability_run, NULL},
     {"potential", kz_potential_wanted, kz_potential_cost, kz_potential_run, NULL},

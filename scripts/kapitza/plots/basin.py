@@ -21,6 +21,7 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, parsed, title_text, write_picture
 from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.plane import Plane, label_axes
+from kapitza.plots.skeleton import draw_manifolds, mark_saddles
 from kapitza.result import BadFile, Result
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b", "#8c1d18"]
@@ -33,6 +34,9 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
     parser.add_argument("--centre", choices=["down", "inverted"], default="down",
                         help="state in the middle of a whole-circle picture (default: down)")
+    parser.add_argument("--saddles", action="store_true", help="mark the unstable cycles of the study saddles by crosses")
+    parser.add_argument("--manifolds", action="store_true",
+                        help="draw the manifolds of the study manifolds: stable ones black, unstable ones white")
     parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
     parser.add_argument("--no-legend", action="store_true")
@@ -172,6 +176,10 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
         draw_evidence(axes, basin, legend=legend, centre=centre)
     else:
         draw_settling_time(axes, basin, centre=centre)
+    if arguments.manifolds:
+        draw_manifolds(axes, basin, result.group("manifolds"), centre=centre)
+    if arguments.saddles:
+        mark_saddles(axes, basin, result.group("saddles"), centre=centre)
     if arguments.degrees:
         label_axes(axes, Plane(basin, centre), degrees=True)
     write_titles(axes, result, basin)

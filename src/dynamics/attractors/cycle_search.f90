@@ -11,7 +11,7 @@ module kz_attractors_cycle_search
   use kz_maps_states, only: separation, same_state
   implicit none
   private
-  public :: search_t, find_cycle, add_with_mirror, append
+  public :: search_t, find_cycle, add_with_mirror, append_with_mirror, append, known
 
   !> What a search works with.
   type :: search_t
@@ -108,7 +108,7 @@ contains
                         found, blurred)
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
-      if (.not. known(attractors, candidate)) call add_with_mirror(search, candidate, attractors)
+      if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_mirror(search, candidate, attractors)
     end subroutine try
   end subroutine try_recurrences
 
@@ -139,17 +139,24 @@ contains
     n = 1
   end function first_of_the_closest
 
-  pure function known(attractors, candidate)
+  !> Is a cycle of this period through any of these states among the attractors?
+  pure function known(attractors, period, u, v)
+    !> the catalogue
     type(attractor_t), intent(in) :: attractors(:)
-    type(attractor_t), intent(in) :: candidate
+    !> drive periods
+    integer, intent(in) :: period
+    !> physical states, half-turns
+    real(dp), intent(in) :: u(:)
+    !> their velocities, rad per drive radian
+    real(dp), intent(in) :: v(:)
     logical :: known
     integer :: a, j
 
     known = .true.
     do a = 1, size(attractors)
-      if (attractors(a)%period /= candidate%period) cycle
-      do j = 1, candidate%period
-        if (any(same_state(attractors(a)%u, attractors(a)%v, candidate%u(j), candidate%v(j)))) return
+      if (attractors(a)%period /= period) cycle
+      do j = 1, size(u)
+        if (any(same_state(attractors(a)%u, attractors(a)%v, u(j), v(j)))) return
       end do
     end do
     known = .false.
@@ -169,13 +176,23 @@ contains
       call find_ellipses(search%flow, search%fine, attractor, attractors)
       call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if
+    call append_with_mirror(attractor, attractors)
+  end subroutine add_with_mirror
+
+  !> Appends a complete cycle or chaotic attractor, and its mirror image where that is another one.
+  subroutine append_with_mirror(attractor, attractors)
+    !> what joins the catalogue; its number of the mirror image is set
+    type(attractor_t), intent(inout) :: attractor
+    !> the catalogue
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+
     attractor%mirror = size(attractors) + 1
     if (.not. attractor%symmetric) attractor%mirror = size(attractors) + 2
     call append(attractors, attractor)
     if (attractor%symmetric) return
     call append(attractors, mirror_image(attractor))
     attractors(size(attractors))%mirror = size(attractors) - 1
-  end subroutine add_with_mirror
+  end subroutine append_with_mirror
 
   !> One attractor more, its strobe points listed from the lowest.
   subroutine append(attractors, attractor)

@@ -6,7 +6,7 @@ module kz_attractors_cycles
   use kz_maps_states, only: angle_difference, enter_states, same_state, rounded
   implicit none
   private
-  public :: attractor_t, close_cycle, polish_cycle, orbit_of, enter_points, mirror_image, listed_from_lowest
+  public :: attractor_t, close_cycle, polish_cycle, orbit_of, enter_points, symmetrise, mirror_image, listed_from_lowest
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
@@ -142,6 +142,7 @@ contains
   !> A cycle that is its own mirror image, x(1 + n/2) = -x(1), is made so to the bit: x(j + n/2) = -x(j), or exactly down or
   !> inverted.
   subroutine symmetrise(cycle)
+    !> points, winding, period; comes back symmetric where it is
     type(attractor_t), intent(inout) :: cycle
     integer :: n, half
 

@@ -50,7 +50,8 @@ static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *b
   head h = {.tile = tile};
   char *end = message + *bytes + sizeof h;
   for (int v = 0; v < VARIABLES; v++) {
-    if ((h.bytes[v] = kz_pack_into(arrays[v], n, items[v], end)) == 0) return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
+    if ((h.bytes[v] = kz_pack_into(arrays[v], n, items[v], end)) == 0)
+      return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
     end += h.bytes[v];
   }
   memcpy(message + *bytes, &h, sizeof h);

@@ -1,0 +1,179 @@
+/* Study `manifolds`: every branch of the chosen cycles is a tile. */
+#include "manifolds.h"
+
+#include <stdlib.h>
+
+#include "common/column.h"
+#include "kapitza/dynamics.h"
+
+enum { MOST_POINTS = 32768 }; /* of a branch */
+
+typedef struct {
+  int64_t saddle, number; /* number: 2 * place of the strobe point, + 1 for the other side */
+  kz_branch branch;
+} task;
+
+typedef struct {
+  const kz_pendulum *pendulum;
+  int64_t count;
+  task *tasks;
+} work_list;
+
+typedef struct {
+  int64_t count;
+  double point[4 * MOST_POINTS];
+} grown;
+
+bool kz_manifolds_wanted(const kz_scene *scene) {
+  return scene->has_manifolds;
+}
+
+kz_cost kz_manifolds_cost(const kz_scene *scene) {
+  const kz_manifolds_plan *plan = &scene->manifolds;
+  const double branches = 4 * (plan->saddles.count > 0 ? (double)plan->saddles.count : 4),
+               points = 2 * plan->length / plan->spacing;
+  return (kz_cost){.disk_bytes = branches * (sizeof(grown) + 50 * points),
+                   .memory_bytes = branches * sizeof(grown),
+                   .core_seconds = 1e-4 * branches * points};
+}
+
+static kz_status number_of(kz_store *store, const char *name, int64_t saddle, int64_t phase, double *value) {
+  return kz_store_number(store, "saddles", name, (int64_t[]){saddle, phase}, value);
+}
+
+/* The branches of one cycle join the list. */
+static kz_status add_saddle(const kz_manifolds_plan *plan, int64_t saddle, kz_store *store, work_list *list) {
+  double period;
+  KZ_TRY(number_of(store, "period", saddle, 0, &period));
+  const size_t most = (size_t)(list->count + 4 * (int64_t)period);
+  task *longer = realloc(list->tasks, most * sizeof *longer);
+  if (!longer) return kz_fail(KZ_FAILED, "no memory for the branches of a manifold");
+  list->tasks = longer;
+  for (int64_t phase = 0; phase < (int64_t)period; phase++) {
+    kz_branch branch = {
+        .period = (int32_t)period, .spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
+    KZ_TRY(number_of(store, "strobe_theta", saddle, phase, &branch.theta));
+    KZ_TRY(number_of(store, "strobe_velocity", saddle, phase, &branch.velocity));
+    for (int i = 0; i < 4; i++) {
+      branch.stable = i / 2;
+      branch.side = i % 2 ? -1 : 1;
+      if (plan->kind == (branch.stable ? KZ_MANIFOLDS_UNSTABLE : KZ_MANIFOLDS_STABLE)) continue;
+      list->tasks[list->count++] = (task){.saddle = saddle, .number = 2 * phase + i % 2, .branch = branch};
+    }
+  }
+  return KZ_OK;
+}
+
+/* The branches that the scene asks for, of the cycles that the study before has written. */
+static kz_status make_tasks(const kz_manifolds_plan *plan, kz_store *store, work_list *list) {
+  int64_t known;
+  KZ_TRY(kz_store_length(store, "saddles", "saddle", &known));
+  const int64_t n = plan->saddles.count > 0 ? plan->saddles.count : known;
+  for (int64_t i = 0; i < n; i++) {
+    const int64_t saddle = plan->saddles.count > 0 ? plan->saddles.values[i] : i;
+    if (saddle >= known)
+      return kz_fail(KZ_REFUSED, "manifolds.saddles: %lld is not among the %lld unstable cycles; choose an id below that",
+                     (long long)saddle, (long long)known);
+    KZ_TRY(add_saddle(plan, saddle, store, list));
+  }
+  return KZ_OK;
+}
+
+/* The list of rank 0 on every rank. Collective. */
+static kz_status share_tasks(kz_ranks *ranks, work_list *list) {
+  KZ_TRY(kz_ranks_broadcast(ranks, &list->count, sizeof list->count));
+  const size_t bytes = (size_t)list->count * sizeof *list->tasks;
+  if (kz_ranks_own(ranks) != 0) list->tasks = malloc(bytes + 1);
+  KZ_TRY(kz_ranks_agree(ranks, list->tasks || bytes == 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory for branches of manifolds")));
+  return bytes > 0 ? kz_ranks_broadcast(ranks, list->tasks, bytes) : KZ_OK;
+}
+
+static kz_status grow(void *context, int64_t tile, void *record) {
+  const work_list *list = context;
+  grown *out = record;
+  out->count = kz_manifold_grow(list->pendulum, &list->tasks[tile].branch, MOST_POINTS, out->point);
+  return KZ_OK;
+}
+
+/* A point of the file. */
+typedef struct {
+  const task *of;
+  const double *point;
+  int32_t polyline;
+} row;
+
+static row *rows_of(const work_list *list, const grown *records, int64_t *n) {
+  *n = 0;
+  for (int64_t i = 0; i < list->count; i++) *n += records[i].count;
+  row *rows = malloc((size_t)(*n + 1) * sizeof *rows);
+  int64_t at = 0;
+  int32_t polyline = -1;
+  for (int64_t i = 0; rows && i < list->count; i++) {
+    for (int64_t j = 0; j < records[i].count; j++) {
+      const double *point = records[i].point + 4 * j;
+      if (j == 0 || point[3] != point[-1]) polyline++;
+      rows[at++] = (row){list->tasks + i, point, polyline};
+    }
+  }
+  return rows;
+}
+
+#define COLUMN(type, name, expression) KZ_COLUMN(store, "manifolds", name, n, type, expression)
+
+static kz_status write_rows(int64_t n, const row *rows, kz_store *store) {
+  KZ_TRY(kz_store_dimension(store, "manifolds", "point", n, NULL));
+  COLUMN(double, "theta", rows[i].point[0]);
+  COLUMN(double, "velocity", rows[i].point[1]);
+  COLUMN(double, "arc_length", rows[i].point[2]);
+  COLUMN(int32_t, "saddle", rows[i].of->saddle);
+  COLUMN(int32_t, "branch", rows[i].of->number);
+  COLUMN(int8_t, "kind", rows[i].of->branch.stable);
+  COLUMN(int32_t, "polyline", rows[i].polyline);
+  return KZ_OK;
+}
+
+static void print(const kz_manifolds_plan *plan, const work_list *list, const grown *records, int64_t n, FILE *summary) {
+  int64_t shorter = 0, full = 0;
+  for (int64_t i = 0; i < list->count; i++) {
+    const double *last = records[i].point + 4 * (records[i].count - 1);
+    full += records[i].count == MOST_POINTS;
+    shorter += records[i].count < MOST_POINTS && last[2] < plan->length;
+  }
+  fprintf(summary, "manifolds: %lld branches, %lld points\n", (long long)list->count, (long long)n);
+  if (shorter > 0)
+    fprintf(summary, "%lld branches end before length = %g: they lead to an attractor, or beyond max_speed = %g\n",
+            (long long)shorter, plan->length, plan->max_speed);
+  if (full > 0)
+    fprintf(summary, "%lld branches end at %d points before length = %g; give a larger spacing\n", (long long)full, MOST_POINTS,
+            plan->length);
+}
+
+static kz_status publish(const kz_manifolds_plan *plan, const work_list *list, const grown *records, kz_store *store,
+                         FILE *summary) {
+  int64_t n;
+  row *rows = rows_of(list, records, &n);
+  kz_status status =
+      rows ? write_rows(n, rows, store) : kz_fail(KZ_FAILED, "no memory for %lld points of manifolds", (long long)n);
+  if (status == KZ_OK) print(plan, list, records, n, summary);
+  free(rows);
+  return status;
+}
+
+kz_status kz_manifolds_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  const bool here = kz_ranks_own(ranks) == 0;
+  work_list list = {.pendulum = &scene->parameters.pendulum};
+  grown *records = NULL;
+  kz_status status = kz_ranks_agree(ranks, here ? make_tasks(&scene->manifolds, store, &list) : KZ_OK);
+  if (status == KZ_OK) status = share_tasks(ranks, &list);
+  if (status == KZ_OK) {
+    if (here) records = malloc((size_t)list.count * sizeof *records + 1);
+    status = kz_ranks_agree(ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of manifolds"));
+  }
+  const kz_stage stage = {
+      .name = "manifolds", .n_tiles = list.count, .record_bytes = sizeof(grown), .work = grow, .context = &list, .keep = true};
+  if (status == KZ_OK && list.count > 0) status = kz_stage_run(ranks, &stage, records);
+  if (status == KZ_OK && here) status = publish(&scene->manifolds, &list, records, store, summary);
+  free(list.tasks);
+  free(records);
+  return status;
+}

@@ -1,0 +1,11 @@
+/* Study `manifolds`. */
+#ifndef KAPITZA_STUDY_MANIFOLDS_H
+#define KAPITZA_STUDY_MANIFOLDS_H
+
+#include "kapitza/study.h"
+
+bool kz_manifolds_wanted(const kz_scene *scene);
+kz_cost kz_manifolds_cost(const kz_scene *scene);
+kz_status kz_manifolds_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+
+#endif

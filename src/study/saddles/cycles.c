@@ -1,0 +1,75 @@
+#include "cycles.h"
+
+#include <complex.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static void fill(const kz_dynamics *dynamics, int64_t number, kz_listed_cycle *entry) {
+  char name[KZ_NAME_LENGTH];
+  kz_dynamics_attractor(dynamics, number, &entry->row, entry->theta, entry->velocity);
+  entry->unstable = hypot(entry->row.multiplier_re[0], entry->row.multiplier_im[0]) > 1;
+  kz_orbit_name(entry->row.period, entry->row.winding, entry->row.centre, name);
+  snprintf(entry->name, sizeof entry->name, "%s%.*s", entry->unstable ? "unstable " : "", KZ_NAME_LENGTH - 10, name);
+}
+
+kz_status kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list) {
+  const int64_t n = kz_dynamics_count(dynamics);
+  int64_t *number = malloc((size_t)(n + 1) * sizeof *number), *place = malloc((size_t)(n + 1) * sizeof *place);
+  *list = (kz_cycle_list){.count = n, .entries = calloc((size_t)n + 1, sizeof *list->entries)};
+  kz_status status = number && place && list->entries ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cycles", (long long)n);
+  if (status == KZ_OK) {
+    kz_dynamics_order(dynamics, number);
+    for (int64_t i = 0; i < n; i++) {
+      kz_listed_cycle *entry = list->entries + i;
+      fill(dynamics, number[i], entry);
+      entry->saddle = entry->unstable ? (int32_t)list->n_unstable++ : -1;
+      place[number[i]] = i;
+    }
+    for (int64_t i = 0; i < n; i++) list->entries[i].mirror = list->entries[place[list->entries[i].row.mirror]].saddle;
+  }
+  free(number);
+  free(place);
+  return status;
+}
+
+void kz_cycle_list_free(kz_cycle_list *list) {
+  free(list->entries);
+  *list = (kz_cycle_list){0};
+}
+
+int kz_cycle_index(const kz_attractor *cycle, int64_t n) {
+  double complex factor[2];
+  for (int i = 0; i < 2; i++) factor[i] = 1 - cpow(cycle->multiplier_re[i] + I * cycle->multiplier_im[i], (double)n);
+  const double determinant = creal(factor[0] * factor[1]); /* of 1 - DF: the multipliers are real or conjugate */
+  return (determinant > 0) - (determinant < 0);
+}
+
+/* The sum of period n and winding w; a new one where there is none yet. */
+static kz_index_sum *sum_of(kz_index_sums *sums, int64_t n, int64_t winding) {
+  for (int64_t i = 0; i < sums->count; i++)
+    if (sums->entries[i].period == n && sums->entries[i].winding == winding) return sums->entries + i;
+  sums->entries[sums->count] = (kz_index_sum){.period = (int32_t)n, .winding = (int32_t)winding};
+  return sums->entries + sums->count++;
+}
+
+static int compare(const void *a, const void *b) {
+  const kz_index_sum *x = a, *y = b;
+  return x->period != y->period ? x->period - y->period : x->winding - y->winding;
+}
+
+kz_status kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums) {
+  *sums = (kz_index_sums){.entries = calloc((size_t)(list->count * max_period) + 1, sizeof *sums->entries)};
+  if (!sums->entries) return kz_fail(KZ_FAILED, "no memory for the index sums of %lld cycles", (long long)list->count);
+  for (int64_t i = 0; i < list->count; i++) {
+    const kz_attractor *row = &list->entries[i].row;
+    for (int64_t n = 1; n * row->period <= max_period; n++) {
+      kz_index_sum *sum = sum_of(sums, n * row->period, n * row->winding);
+      sum->points += row->period;
+      sum->index += row->period * kz_cycle_index(row, n);
+    }
+  }
+  qsort(sums->entries, (size_t)sums->count, sizeof *sums->entries, compare);
+  for (int64_t i = 0; i < sums->count; i++) sums->open += sums->entries[i].index != 0;
+  return KZ_OK;
+}

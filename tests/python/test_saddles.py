@@ -1,0 +1,146 @@
+"""The study saddles: cycles against an independent integration, the index sums, symmetry, ranks, what the summary says."""
+
+import json
+import os
+from collections import Counter
+
+import h5py
+import numpy as np
+import pytest
+from conftest import datasets, plot
+from kapitza import Result
+
+FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+WINDOW = {"velocity": {"min": -2, "max": 2}}
+
+
+def scene_text(pendulum=FIG12, **saddles):
+    return json.dumps({"pendulum": pendulum, "saddles": {**WINDOW, **saddles}})
+
+
+@pytest.fixture(scope="module")
+def fig12(kapitza, tmp_path_factory):
+    """Cycles of up to 4 periods at Fig. 12: the group and the summary."""
+    folder = tmp_path_factory.mktemp("saddles")
+    (folder / "s.yaml").write_text(scene_text(max_period=4))
+    done = kapitza("run", "s.yaml", ranks=2, folder=folder)
+    return Result(folder / "s.h5").group("saddles"), done.stdout, folder / "s.h5"
+
+
+def runge_kutta(pendulum, state, periods, steps):
+    """Periods of the classical method in extended precision."""
+    k, beta, m = (np.longdouble(pendulum[name]) for name in ("k", "beta", "m"))
+    theta, velocity = (np.array(part, dtype=np.longdouble) for part in state)
+    h = 2 * np.arccos(np.longdouble(-1)) / steps
+
+    def slope(t, x, v):
+        return v, -beta * v - (k - m * np.cos(t)) * np.sin(x)
+
+    for i in range(periods * steps):
+        t = (i % steps) * h
+        a = slope(t, theta, velocity)
+        b = slope(t + h / 2, theta + h / 2 * a[0], velocity + h / 2 * a[1])
+        c = slope(t + h / 2, theta + h / 2 * b[0], velocity + h / 2 * b[1])
+        d = slope(t + h, theta + h * c[0], velocity + h * c[1])
+        theta = theta + h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
+        velocity = velocity + h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
+    return np.array([theta, velocity])
+
+
+def strobe_map(pendulum, state, periods):
+    """The strobe map by two extrapolations of the Runge-Kutta method."""
+    coarse, middle, fine = (runge_kutta(pendulum, state, periods, steps) for steps in (100, 200, 400))
+    return ((32 * (16 * fine - middle) - (16 * middle - coarse)) / (31 * 15)).astype(float)
+
+
+def test_cycles_close_by_an_independent_integration(fig12):
+    """Every listed point comes back after its period, as often around as said, and the multipliers are those of the map."""
+    group, _, path = fig12
+    pendulum = Result(path).pendulum
+    for period in np.unique(group["period"].values):
+        rows = group["period"].values == period
+        start = np.array([group["strobe_theta"].values[rows, 0], group["strobe_velocity"].values[rows, 0]])
+        end = strobe_map(pendulum, start, int(period))
+        largest = np.abs(group["multiplier_re"].values[rows, 0])
+        assert np.rint((end - start)[0] / (2 * np.pi)).tolist() == group["winding"].values[rows].tolist()
+        gap = end - start - np.array([2 * np.pi * group["winding"].values[rows], np.zeros(rows.sum())])
+        assert np.all(np.abs(gap) < 1e-10 * largest)
+        trace = 0
+        for axis in (0, 1):
+            beside = np.zeros((2, 1))
+            beside[axis] = 1e-5
+            difference = np.subtract(*(runge_kutta(pendulum, start + sign * beside, int(period), 200) for sign in (1, -1))).astype(float)
+            trace = trace + difference[axis] / 2e-5
+        assert group["multiplier_re"].values[rows].sum(axis=1) == pytest.approx(trace, rel=1e-6)
+
+
+def test_every_known_rotation_has_its_saddle(fig12):
+    """A rotation is born with a saddle: for each of the known attracting ones one of the same period and winding."""
+    group, _, _ = fig12
+    saddles = Counter(zip(group["period"].values.tolist(), group["winding"].values.tolist(), group["index"].values.tolist(), strict=True))
+    assert all(saddles[period, winding, -1] == 1 for period in (1, 2, 3) for winding in (-1, 1))
+    assert saddles[1, 0, -1] == 2  # about the rims of the inverted state's basin
+    assert all(str(name).startswith("unstable ") for name in group["name"].values)
+
+
+def test_indices_add_up_to_zero(fig12):
+    """For each n and winding; and so they do when they are added up again from the cycles and the catalogue."""
+    group, summary, _ = fig12
+    assert not group["index_sum"].values.any()
+    assert set(group["sum_period"].values) == {1, 2, 3, 4}
+    assert "the indices add up to 0 for all" in summary
+    attracting = {(1, 0): 2, (1, 1): 1, (1, -1): 1, (2, 1): 1, (2, -1): 1}  # period, winding: how many; their indices are +1
+    for n, winding, index in ((1, 0, -2), (1, 1, -1), (1, -1, -1), (2, 1, -2), (2, -1, -2)):
+        rows = (group["period"].values == n) & (group["winding"].values == winding)
+        assert (group["index"].values[rows] * n).sum() == index == -n * attracting[n, winding]
+
+
+def test_mirror_images_are_exact(fig12):
+    group, _, _ = fig12
+    for saddle, mirror in enumerate(group["mirror"].values):
+        assert group["mirror"].values[mirror] == saddle
+        mine, other = (group["strobe_velocity"].values[i] for i in (saddle, mirror))
+        assert sorted(-mine[np.isfinite(mine)]) == sorted(other[np.isfinite(other)])
+
+
+def test_a_missing_cycle_shows(kapitza, tmp_path):
+    """Of a window that holds the inverted state alone the sum is +1, and the summary says so."""
+    text = scene_text(theta={"min": 3.04, "max": 3.24}, velocity={"min": -0.05, "max": 0.05})
+    (tmp_path / "s.yaml").write_text(text)
+    done = kapitza("run", "s.yaml", folder=tmp_path)
+    assert "0 unstable cycles of up to 1 periods, and 1 that attract" in done.stdout
+    assert "period 1, winding 0: sum +1" in done.stdout
+    with h5py.File(tmp_path / "s.h5") as file:
+        assert file["saddles/index_sum"][:].tolist() == [1] and len(file["saddles/period"]) == 0
+
+
+def test_without_damping_nothing_is_claimed(kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text(scene_text({"k": 0.1, "damping": 0, "m": 0.05}, velocity={"min": -0.7, "max": 0.7}))
+    done = kapitza("run", "s.yaml", folder=tmp_path)
+    assert "without damping the index sums say nothing" in done.stdout
+    assert "unstable inverted" in done.stdout
+
+
+@pytest.mark.parametrize("ranks", [1, 3])
+def test_ranks_do_not_matter(kapitza, fig12, tmp_path, ranks):
+    (tmp_path / "s.yaml").write_text(scene_text(max_period=4))
+    kapitza("run", "s.yaml", ranks=ranks, folder=tmp_path)
+    assert datasets(tmp_path / "s.h5") == datasets(fig12[2])
+
+
+def test_saddles_are_drawn(kapitza, tmp_path):
+    scene = json.loads(scene_text())
+    scene["basin"] = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}, "method": "direct"}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", folder=tmp_path)
+    assert plot("basin", tmp_path / "s.h5", "-o", tmp_path / "with.png", "--saddles").returncode == 0
+    assert plot("basin", tmp_path / "s.h5", "-o", tmp_path / "without.png").returncode == 0
+    assert (tmp_path / "with.png").read_bytes() != (tmp_path / "without.png").read_bytes()
+
+
+@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="minutes: set KAPITZA_EXTENSIVE=1")
+@pytest.mark.parametrize("epsilon, period", [(0.15, 8), (0.3, 8), (0.46, 4), (0.47, 4), (0.52, 3)])
+def test_no_cycle_of_the_five_figures_is_missing(kapitza, tmp_path, epsilon, period):
+    (tmp_path / "s.yaml").write_text(scene_text({**FIG12, "drive_amplitude": epsilon}, max_period=period))
+    done = kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
+    assert "the indices add up to 0 for all" in done.stdout
