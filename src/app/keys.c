@@ -66,13 +66,11 @@ const kz_key kz_keys[] = {
     MAPPING("numerics", "", KZ_NO_FIELD, "How one drive period is integrated."),
     ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
         "Integrator; processed: one kick a step, the fastest by far, and split6 where it does not reach the tolerance; the "
-        "split "
-        "ones are exact in the damping; rk4 is the classical one.",
+        "split ones are exact in the damping; rk4 is the classical one.",
         .unit = "", .words_from = scheme_words, CHOSEN),
     COUNT("numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
           "Whole steps of the scheme in a drive period; auto: as many as tolerance and speeds need (processed), or the "
-          "scheme's own "
-          "number, or as many as small cells need (others).",
+          "scheme's own number, or as many as small cells need (others).",
           .words = "auto", CHOSEN),
     ROW("numerics.tolerance", KZ_KEY_REAL, "1e-12", AT(asked.tolerance),
         "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "

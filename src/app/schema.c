@@ -71,13 +71,19 @@ static void open_value(const kz_key *key, FILE *out) {
 static void write_key(const kz_key *key, FILE *out) {
   const bool list = key->type >= KZ_KEY_WORDS, angle = kz_key_is_angle(key);
   if (list) fprintf(out, "{\"type\": \"array\", \"minItems\": 1, \"maxItems\": %d, \"items\": ", KZ_LIST_MAX);
+  const bool word_too = key->type == KZ_KEY_COUNT && key->words; /* a number or a word, as "auto" */
   if (angle) fputs("{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+ deg$\"}, ", out);
+  if (word_too) {
+    fputs("{\"anyOf\": [", out);
+    write_words(key->words, out);
+    fputs("}, ", out);
+  }
   open_value(key, out);
-  if (angle) fputs("}]", out);
+  if (angle || word_too) fputs("}]", out);
   if (list) fputc('}', out);
   if (key->fallback && key->fallback[0]) {
     fputs(", \"default\": ", out);
-    if (key->type == KZ_KEY_WORD)
+    if (key->type == KZ_KEY_WORD || (word_too && strcmp(key->fallback, key->words) == 0))
       write_string(key->fallback, out);
     else
       fputs(key->fallback, out);
