@@ -21,7 +21,7 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, parsed, title_text, write_picture
 from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.plane import Plane, label_axes
-from kapitza.plots.skeleton import draw_manifolds, mark_saddles
+from kapitza.plots.skeleton import mark_manifolds, mark_saddles
 from kapitza.result import BadFile, Result
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b", "#8c1d18"]
@@ -177,7 +177,7 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     else:
         draw_settling_time(axes, basin, centre=centre)
     if arguments.manifolds:
-        draw_manifolds(axes, basin, result.group("manifolds"), centre=centre)
+        mark_manifolds(axes, basin, result.group("manifolds"), centre=centre)
     if arguments.saddles:
         mark_saddles(axes, basin, result.group("saddles"), centre=centre)
     if arguments.degrees:

@@ -1,5 +1,7 @@
 """Unstable cycles and their manifolds over the basins that they divide."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
@@ -21,13 +23,13 @@ def mark_saddles(axes: Axes, basin: xarray.Dataset, saddles: xarray.Dataset, *, 
     return label_axes(axes, plane)
 
 
-def draw_manifolds(axes: Axes, basin: xarray.Dataset, manifolds: xarray.Dataset, *, stable: str = "black", unstable: str = "white",
+def mark_manifolds(axes: Axes, basin: xarray.Dataset, manifolds: xarray.Dataset, *, colours: Sequence[str] = ("white", "black"),
                    centre: str = "down") -> Axes:
-    """Every polyline at every image that lies in the window, each with a thin rim; stable ones over unstable ones."""
+    """Every polyline at every image that lies in the window, in the colours of unstable and stable ones, each with a thin rim."""
     theta, velocity, kind = (manifolds[name].values for name in ("theta", "velocity", "kind"))
     joined = (np.diff(manifolds["polyline"].values) == 0) & (np.abs(np.diff(theta)) < np.pi)
     pieces = np.split(np.arange(len(theta)), np.flatnonzero(~joined) + 1)
-    for number, colour, rim in ((0, unstable, style.INK), (1, stable, "white")):
+    for number, (colour, rim) in enumerate(zip(colours, (style.INK, "white"), strict=True)):
         for piece in pieces:
             if len(piece) < 2 or kind[piece[0]] != number:
                 continue
