@@ -199,6 +199,7 @@ static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
   if (!kz_tree_child(reading->root, "pendulum")) { /* stability alone does without */
     scene->parameters.pendulum = (kz_pendulum){NAN, NAN, NAN};
     scene->parameters.quality_factor = scene->parameters.drive_frequency = scene->parameters.drive_amplitude = NAN;
+    scene->parameters.pivot_frequency = NAN;
     return;
   }
   inertia_rules(reading, scene);
