@@ -11,6 +11,7 @@
 typedef struct {
   char program[PATH_MAX];         /* this executable */
   char scripts[PATH_MAX + 16];    /* folder of the Python package */
+  char entry[PATH_MAX + 64];      /* of the explorer, in it */
   char own_python[PATH_MAX + 32]; /* of the virtual environment that scripts/setup makes */
 } places;
 
@@ -23,10 +24,9 @@ static kz_status find_places(places *p) {
   const char *root = dirname(dirname(folder));
   snprintf(p->scripts, sizeof p->scripts, "%s/scripts", root);
   snprintf(p->own_python, sizeof p->own_python, "%s/.venv/bin/python", root);
-  char package[sizeof p->scripts + 32];
-  snprintf(package, sizeof package, "%s/kapitza/explorer", p->scripts);
-  if (access(package, R_OK) == 0) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "view: the explorer is not in %s; run the program in the folder build of its sources", package);
+  snprintf(p->entry, sizeof p->entry, "%s/kapitza/explorer/__main__.py", p->scripts);
+  if (access(p->entry, R_OK) == 0) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "view: the explorer is not at %s; run the program in the folder build of its sources", p->entry);
 }
 
 static const char *python_of(const places *p) {
@@ -53,17 +53,9 @@ kz_status kz_app_view(const kz_options *options) {
   KZ_TRY(find_places(&p));
   KZ_TRY(set_module_path(&p));
   const char *python = python_of(&p), *port = options->port ? options->port : "0";
-  const char *words[] = {python,
-                         "-m",
-                         "kapitza.explorer",
-                         options->no_browser ? "--no-browser" : "--browser",
-                         "--program",
-                         p.program,
-                         "--port",
-                         port,
-                         "--",
-                         options->scene,
-                         NULL};
+  const char *words[] = {
+      python,         p.entry, options->no_browser ? "--no-browser" : "--browser", "--program", p.program, "--port", port, "--",
+      options->scene, NULL};
   fflush(stdout);
   execvp(python, (char *const *)words);
   return kz_fail(KZ_FAILED,

@@ -1,11 +1,10 @@
-"""Entry of `kapitza view`: errors are one line, as the program's own are."""
+"""Entry of `kapitza view`, run as a file: a package that is missing is known here. Errors are one line, as the program's own are."""
 
 import sys
 
 try:
+    from kapitza.explorer.command import WrongArgument, main
     from kapitza.result import BadFile
-
-    from .command import WrongArgument, main
 except ModuleNotFoundError as error:
     print(f"kapitza: error: view: {sys.executable} lacks the package {error.name}; set KAPITZA_PYTHON to a Python that has those "
           "of scripts/requirements.txt (scripts/setup makes one: .venv/bin/python)", file=sys.stderr)
