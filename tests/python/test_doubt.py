@@ -26,7 +26,7 @@ def doubt(kapitza, folder, *options, ranks=None):
 
 
 def test_shares_are_stored_told_and_warned_of(kapitza, tmp_path):
-    shares, summary = doubt(kapitza, tmp_path)
+    shares, summary = doubt(kapitza, tmp_path, "--set", "numerics.scheme=split6")
     assert 0.05 < shares["doubtful_share_low"] < shares["doubtful_share"] < shares["doubtful_share_high"] < 0.08
     assert shares["doubtful_share_high"] - shares["doubtful_share_low"] < 0.01
     assert 0 < shares["differing_share"] < 0.03, "errors of a coarse map table"

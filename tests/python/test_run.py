@@ -12,7 +12,7 @@ from kapitza import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
 # A short search, then some seconds of cells.
-SLOW = ["--set", "basin.method=direct", "--set", "basin.theta.count=400", "--set", "basin.velocity.count=400",
+SLOW = ["--set", "basin.method=direct", "--set", "basin.theta.count=800", "--set", "basin.velocity.count=800",
         "--set", "numerics.steps_per_period=160", "--set", "basin.attractors.starts=128"]
 
 
@@ -86,7 +86,7 @@ FIG12 = "pendulum: {quality_factor: %d, drive_frequency: 11, drive_amplitude: 0.
 SMALLER = ("basin: {theta: {count: 150}, velocity: {min: -2, max: 2, count: 150}, icm: {theta: 400, velocity: 400}, "
            "attractors: {starts: %d}}\n")
 MEASURED = {
-    "Q = 5": (FIG12 % 5 + SMALLER % 2048, 0.4),
+    "Q = 5": (FIG12 % 5 + SMALLER % 2048, 0.3),
     "Q = 50": (FIG12 % 50 + SMALLER % 1024, 8.7),
     "Q = 200": (FIG12 % 200 + SMALLER % 1024, 24),
     "Q = 50, direct": (FIG12 % 50 + "basin: {theta: {count: 80}, velocity: {min: -2, max: 2, count: 80}, method: direct, "

@@ -93,7 +93,7 @@ def test_unsettled_cells_are_no_basin(kapitza, tmp_path):
     grid = "basin={theta: {count: 100}, velocity: {min: -2, max: 2, count: 100}, method: direct, icm: {theta: 250, velocity: 250}}"
     (tmp_path / "x.yaml").write_text(json.dumps({"pendulum": SMALL}))
     for damping, said, finite in ((5, "; unsettled cells are left out", True), (5000, "are left out: most cells are unsettled", False)):
-        done = kapitza("run", "x.yaml", "--set", grid, "--set", f"basin.max_periods={8 if damping > 5 else 30}",
+        done = kapitza("run", "x.yaml", "--set", grid, "--set", f"basin.max_periods={8 if damping > 5 else 100}",
                        "--set", f"pendulum.quality_factor={damping}", "--set", f"basin.attractors.starts={8 if damping > 5 else 256}",
                        "--force", folder=tmp_path)
         assert said in done.stdout

@@ -79,8 +79,7 @@ contains
     from = 1
     if (present(first)) from = first
     call enter_states(self%flow, self%u(from:n), self%v(from:n))
-    associate (unused => matrix)
-    end associate
+    if (present(matrix)) return ! the states alone are entered
   end subroutine enter
 
   subroutine move(self, from, to)
