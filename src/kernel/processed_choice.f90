@@ -2,6 +2,7 @@
 !> series, never estimated.
 module kz_kernel_processed_choice
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_processed_flow, QUAD
@@ -40,12 +41,15 @@ contains
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
     integer(c_int32_t) :: status
+    logical :: halting(size(ieee_usual))
     type(series_t), allocatable :: series
     type(probes_t) :: probes
 
     status = REFUSED
     error = huge(error)
     if (pendulum%beta > MOST_DAMPING) return
+    call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
+    call ieee_set_halting_mode(ieee_usual, .false.)
     allocate (series)
     call make_processed_series(pendulum, numerics%precision == QUAD, series)
     call make_probes(pendulum, fastest, probes)
@@ -58,6 +62,8 @@ contains
       call climb(pendulum, series, probes, tolerance, numerics, error)
       if (error <= tolerance) status = OK
     end if
+    call ieee_set_flag(ieee_usual, .false.)
+    call ieee_set_halting_mode(ieee_usual, halting)
   end function choose
 
   subroutine make_probes(pendulum, fastest, probes)

@@ -124,7 +124,7 @@ def image(name):
 
 
 # rad: cells that a method carries, with the steps that the program chooses and a table of 100 nodes; smaller ones are refused.
-FINEST = {"direct": 1e-11, "icm": 1e-4}
+FINEST = {"direct": 1e-11, "icm": 1e-3}
 
 
 def narrowest(low, high, method):

@@ -160,13 +160,25 @@ def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
         saddles["strobe_theta"], saddles["strobe_velocity"] = [[0.5, np.nan], [1.0, 2.0]], [[0.1, np.nan], [0.2, 0.3]]
         manifolds["theta"], manifolds["velocity"] = [0.0, 0.5, 3.1, -3.1, 1.0, 1.5], [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
         manifolds["branch"] = [0, 0, 0, 0, 1, 1]
+        manifolds["arc_length"] = np.zeros(6)
+        for name, dtype in (("saddle", "i4"), ("polyline", "i4"), ("kind", "i1")):
+            manifolds[name] = np.zeros(6, dtype)
+        for name, dtype in (("period", "i4"), ("winding", "i4"), ("index", "i1")):
+            saddles[name] = np.ones(2, dtype)
+        saddles["name"] = ["unstable", "unstable"]
         for group, sizes in ((saddles, {"saddle": 2, "phase": 2}), (manifolds, {"point": 6})):
             variables = list(group.values())
             for axis, (name, size) in enumerate(sizes.items()):
                 group[name] = np.arange(size)
                 group[name].make_scale(name)
-                for variable in variables:
+                for variable in (variable for variable in variables if axis < variable.ndim):
                     variable.dims[axis].attach_scale(group[name])
+        saddles["pair"] = np.arange(2)
+        saddles["pair"].make_scale("pair")
+        for name in ("multiplier_re", "multiplier_im"):
+            saddles[name] = np.ones((2, 2))
+            saddles[name].dims[0].attach_scale(saddles["saddle"])
+            saddles[name].dims[1].attach_scale(saddles["pair"])
     running = Server(tmp_path / "more.h5")
     state = running.request("state", {})[1]
     assert running.end()[0] == 0

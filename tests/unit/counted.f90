@@ -2,7 +2,7 @@
 module kz_test_counted
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, WIDTH
-  use kz_kernel_plan, only: make_flow, DOUBLE
+  use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
   use kz_kernel_schemes, only: SPLIT6_ROW
   use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_attractors_cycles, only: attractor_t
@@ -40,7 +40,7 @@ contains
 
     search%pendulum = pendulum
     call make_flow(pendulum, NUMERICS, .true., search%flow)
-    call make_flow(pendulum, NUMERICS, .false., search%sampling_flow)
+    call make_flow(pendulum, fine_numerics(pendulum), .false., search%sampling_flow)
     allocate (fine)
     call make_flow(pendulum, NUMERICS, .true., fine%inner)
     call move_alloc(fine, search%fine)

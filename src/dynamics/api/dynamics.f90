@@ -4,7 +4,7 @@ module kz_api_dynamics
   use kz_kernel_map, only: WIDTH, PI
   use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
   use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
+  use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpack
   use kz_attractors_chaos, only: find_chaos
   use kz_trapping_growth, only: grow_regions
   use kz_trapping_cell_images, only: PERIODS, make_images
@@ -209,15 +209,15 @@ contains
     type(c_ptr), value :: flat
     type(dynamics_t), pointer :: d
     real(dp), pointer :: values(:)
+    type(attractor_t), allocatable :: new(:)
     integer :: i
 
     d => of_handle(handle)
     call c_f_pointer(flat, values, [max(packed_cycle_size(d%search%max_period), packed_chaos_size())])
-    associate (new => unpacked(values))
-      do i = 1, size(new)
-        call append_known(d, new(i))
-      end do
-    end associate
+    call unpack(values, new)
+    do i = 1, size(new)
+      call append_known(d, new(i))
+    end do
   end subroutine adopt
 
   function packed_size(handle) bind(C, name='kz_dynamics_packed_size') result(n)
@@ -248,7 +248,7 @@ contains
     integer :: i
 
     d => of_handle(handle)
-    allocate (known, source=unpacked(flat))
+    call unpack(flat, known)
     deallocate (d%attractors)
     allocate (d%attractors(0))
     do i = 1, size(known)

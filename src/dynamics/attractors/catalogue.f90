@@ -8,7 +8,7 @@ module kz_attractors_catalogue
   use kz_maps_states, only: rounded
   implicit none
   private
-  public :: order_of, packed, packed_cycle_size, packed_chaos_size, unpacked
+  public :: order_of, packed, packed_cycle_size, packed_chaos_size, unpack
 
   !> Doubles in front of the arrays of an attractor.
   integer, parameter :: HEAD = 15
@@ -138,10 +138,11 @@ contains
   end function of_bits
 
   !> The catalogue from the doubles that `packed` gives; doubles beyond it are ignored.
-  function unpacked(flat) result(attractors)
+  subroutine unpack(flat, attractors)
     !> what `packed` returned
     real(dp), intent(in) :: flat(:)
-    type(attractor_t), allocatable :: attractors(:)
+    !> the catalogue
+    type(attractor_t), allocatable, intent(out) :: attractors(:)
     integer :: i, p, n, covered
 
     allocate (attractors(nint(flat(1))))
@@ -172,6 +173,6 @@ contains
         end if
       end associate
     end do
-  end function unpacked
+  end subroutine unpack
 
 end module kz_attractors_catalogue
