@@ -134,7 +134,7 @@ contains
     integer :: n
 
     do n = 1, size(distance)
-      if (distance(n) <= 3*minval(distance)) return
+      if (distance(n)/3 <= minval(distance)) return ! those that were tried are huge
     end do
     n = 1
   end function first_of_the_closest
