@@ -200,7 +200,7 @@ def test_fast_motion_gets_the_steps_it_needs(model, k, m, velocity):
     """One period against quad precision with a hundred steps a radian."""
     pendulum = {"k": k, "damping": 0.02, "m": m}
     orbit = {"start": {"theta": 0.3, "velocity": velocity}, "periods": 1}
-    fine = {"precision": "quad", "steps_per_period": int(100 * (2 + velocity + 2 * sqrt(k + m)))}
+    fine = {"scheme": "split6", "precision": "quad", "steps_per_period": int(100 * (2 + velocity + 2 * sqrt(k + m)))}
     ours, truth = model(pendulum, orbit=orbit).group("orbit"), model(pendulum, orbit=orbit, numerics=fine).group("orbit")
     assert abs(ours["strobe_theta"].values[1] - truth["strobe_theta"].values[1]) < 2e-9
     assert abs(ours["strobe_velocity"].values[1] - truth["strobe_velocity"].values[1]) < 2e-9

@@ -34,7 +34,7 @@ basin:
   velocity: {min: -2, max: 2, count: 60}
   icm: {theta: 100, velocity: 100}
   method: direct
-sweep: {parameter: drive_amplitude, min: 0.3, max: 0.31, count: 2, starts: 1024, measure: [basin_fractions]}
+sweep: {parameter: drive_amplitude, min: 0.3, max: 0.31, count: 8, starts: 4096, measure: [basin_fractions]}
 """,
 }
 LIMIT, MOST = 3, 60  # s; starts of the program
