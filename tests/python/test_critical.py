@@ -34,7 +34,7 @@ def basin(kapitza, tmp_path_factory):
     def call(theta, velocity, *settings):
         axes = [f"basin.{name}={{min: {float(low)!r}, max: {float(high)!r}, count: {count}}}"
                 for name, (low, high, count) in (("theta", theta), ("velocity", velocity))]
-        common = ["basin.method=direct", "basin.attractors.starts=64", "basin.icm={theta: 300, velocity: 300}"]
+        common = ["basin.method=direct", "basin.attractors.starts=64", "basin.icm={theta: 100, velocity: 100}"]
         words = [word for setting in [*axes, *common, *settings] for word in ("--set", setting)]
         kapitza("run", SMALL, "-o", path, "--force", *words, folder=path.parent)
         return Basin(path)
@@ -124,7 +124,7 @@ def image(name):
 
 
 # rad: cells that a method carries, with the steps that the program chooses and a table of 100 nodes; smaller ones are refused.
-FINEST = {"direct": 1e-11, "icm": 1e-3}
+FINEST = {"direct": 1e-11, "icm": 1e-4}
 
 
 def narrowest(low, high, method):

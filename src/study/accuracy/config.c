@@ -1,5 +1,4 @@
 /* One configuration measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
-#include "common/processed.h"
 #include "config.h"
 
 #include <stdlib.h>
@@ -95,7 +94,7 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
 kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *reference, int64_t timed,
                             kz_measured *measured) {
   measurement g = {.config = config, .reference = reference};
-  const kz_numerics numerics = kz_config_numerics(config, &reference->pendulum, KZ_TABLE_MARGIN * reference->max_velocity);
+  const kz_numerics numerics = kz_config_numerics(config, &reference->pendulum, reference->plan);
   int64_t n = timed > reference->samples ? timed : reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);

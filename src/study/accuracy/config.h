@@ -21,8 +21,8 @@ typedef struct {
 extern const kz_config kz_configs[];
 extern const int kz_config_count;
 
-/* For motions of a pendulum up to a speed, rad per drive radian. */
-kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, double fastest);
+/* For the cells of a basin of a pendulum. */
+kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, const kz_basin_plan *plan);
 /* The scene with the configuration in place of its method, icm and numerics. */
 void kz_config_apply(const kz_config *config, kz_scene *scene);
 

@@ -53,17 +53,18 @@ const char *kz_tradeoff_words(void) {
   return words;
 }
 
-kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, double fastest) {
-  if (config->steps == KZ_AUTO) return kz_processed_or_split(pendulum, config->tolerance, fastest);
+kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, const kz_basin_plan *plan) {
+  const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
+  if (config->steps == KZ_AUTO)
+    return kz_processed_or_split(pendulum, config->tolerance,
+                                 kz_fastest_motion(pendulum, &window, config->method == KZ_METHOD_ICM ? config->nodes : 0));
   return (kz_numerics){
       .scheme = kz_scheme_find(config->scheme), .steps_per_period = config->steps, .precision = config->precision};
 }
 
 void kz_config_apply(const kz_config *config, kz_scene *scene) {
   kz_basin_plan *plan = &scene->basin;
-  const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
-  const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  scene->numerics = kz_config_numerics(config, pendulum, kz_fastest_motion(pendulum, &window, config->nodes));
+  scene->numerics = kz_config_numerics(config, &scene->parameters.pendulum, plan);
   plan->method = config->method;
   plan->interpolation = config->interpolation;
   plan->table_theta = plan->table_velocity = config->nodes;

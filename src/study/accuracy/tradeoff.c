@@ -109,7 +109,7 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
                     .keep = true,
                     .everywhere = true};
   for (int64_t i = 0; i < trade->count; i++)
-    trade->numerics[i] = kz_config_numerics(trade->configs[i], &reference->pendulum, KZ_TABLE_MARGIN * reference->max_velocity);
+    trade->numerics[i] = kz_config_numerics(trade->configs[i], &reference->pendulum, reference->plan);
   KZ_TRY(kz_stage_run(ranks, &stage, trade->measured));
   rate(reference, trade);
   return KZ_OK;

@@ -7,6 +7,9 @@
 
 enum { SWEEP_VALUES = 9 }; /* of a sweep that are tried, both ends included */
 
+/* How much faster than the sampled starts, after one drive period, others may become. */
+static const double MARGIN = 1.05;
+
 /* rad: what single precision can reach of an error of one drive period. */
 static const double SINGLE_FLOOR = 1e-5;
 /* What one numerics has to serve. */
@@ -24,9 +27,14 @@ double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, i
   const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24, .precision = KZ_DOUBLE};
   kz_dynamics *dynamics = kz_dynamics_create(pendulum, &numerics, 1);
   if (!dynamics) return INFINITY;
-  const double fastest = kz_dynamics_max_velocity(dynamics, window);
+  double fastest = MARGIN * kz_dynamics_max_velocity(dynamics, window);
+  if (rows > 5) { /* two rows of nodes beyond the states on either side */
+    const double top = fastest * (double)(rows - 1) / (double)(rows - 5);
+    const kz_window nodes = {window->theta_min, window->theta_max, -top, top};
+    fastest = MARGIN * kz_dynamics_max_velocity(dynamics, &nodes);
+  }
   kz_dynamics_free(dynamics);
-  return fastest * fmax(KZ_TABLE_MARGIN, rows > 5 ? (double)(rows - 1) / (double)(rows - 5) : 1);
+  return fastest;
 }
 
 /* Windows of the scene's studies, at the pendulum numbered `last`. */
@@ -36,7 +44,7 @@ static void add_window(demand *d, const kz_axis *theta, const kz_axis *velocity,
 }
 
 static void add_basin(demand *d, const kz_basin_plan *plan) {
-  add_window(d, &plan->theta, &plan->velocity, plan->table_velocity);
+  add_window(d, &plan->theta, &plan->velocity, plan->method == KZ_METHOD_ICM ? plan->table_velocity : 0);
   d->tolerance = fmin(d->tolerance, kz_steps_tolerance(plan));
 }
 

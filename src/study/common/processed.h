@@ -8,11 +8,9 @@
 /* Is that row of the kernel's table the processed splitting? */
 bool kz_is_processed(int32_t scheme);
 
-/* How much faster than the starts of a window after one drive period motions may become, and nodes of a map table are. */
-#define KZ_TABLE_MARGIN 1.05
-
-/* rad per drive radian: what one drive period makes of the starts of a window at most, with a margin that the rim of a map table of
- * `rows` nodes of the velocity needs. */
+/* rad per drive radian: what one drive period makes of the starts of a window at most, with a margin; of a map table with `rows`
+ * nodes of the velocity also what a period makes of the nodes: those that were faster than the splitting serves would have images in
+ * other coordinates than their neighbours. rows = 0: no table. */
 double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows);
 
 /* Fills scene->numerics; false where the processed splitting does not carry the scene's motions, or where nothing is labelled. */

@@ -100,8 +100,10 @@ static void test_shuffled_cells_spread(void **state) {
 
 static void test_settings_differ_and_exist(void **state) {
   (void)state;
+  const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
+  const kz_basin_plan plan = {.theta = {-M_PI, M_PI, 10}, .velocity = {-2, 2, 10}};
   for (int i = 0; i < kz_config_count; i++) {
-    assert_true(kz_config_numerics(kz_configs + i, &(kz_pendulum){1.0 / 121, 1.0 / 55, 0.3}, 2.5).scheme < kz_scheme_count());
+    assert_true(kz_config_numerics(kz_configs + i, &pendulum, &plan).scheme < kz_scheme_count());
     assert_non_null(strstr(kz_tradeoff_words(), kz_configs[i].label));
     for (int j = 0; j < i; j++) assert_string_not_equal(kz_configs[i].label, kz_configs[j].label);
   }
