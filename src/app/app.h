@@ -49,6 +49,10 @@ typedef struct {
 /* Reads the command line and carries it out: the whole program but for its entry. The message is left for one process alone. */
 kz_status kz_app(int argc, char **argv);
 
+/* Writes out standard output and, where the status is not KZ_OK, the message, which is then forgotten; KZ_FAILED where that output
+ * cannot be written. */
+kz_status kz_say(kz_status status);
+
 /* The commands. */
 kz_status kz_app_run(const kz_options *options);
 kz_status kz_app_check(const kz_options *options);

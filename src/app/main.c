@@ -32,17 +32,6 @@ static bool has_stack(void) {
   return getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= STACK_BYTES;
 }
 
-/* One line whatever the message holds: control characters become '?'. */
-static void print_message(kz_status status) {
-  fputs(status == KZ_STOPPED ? "kapitza: " : "kapitza: error: ", stderr);
-  for (const char *c = kz_message(); *c;) {
-    const int control = kz_control_bytes(c);
-    fputc(control ? '?' : *c, stderr);
-    c += control ? control : 1;
-  }
-  fputc('\n', stderr);
-}
-
 int main(int argc, char **argv) {
   fill_streams();
   const char *missing = missing_instruction();
@@ -59,9 +48,7 @@ int main(int argc, char **argv) {
     return KZ_REFUSED;
   }
   kz_abandon_arm();
-  kz_status status = kz_app(argc, argv);
+  const kz_status status = kz_say(kz_app(argc, argv));
   kz_abandon_disarm();
-  if (fflush(stdout) != 0 && status == KZ_OK) status = kz_fail(KZ_FAILED, "standard output cannot be written");
-  if (status != KZ_OK && kz_message()[0]) print_message(status);
   return status;
 }

@@ -258,6 +258,14 @@ def test_ranks_that_were_told_different_things(tmp_path, differs, said):
     assert not list(tmp_path.iterdir())
 
 
+def test_an_error_is_told_before_any_rank_ends(tmp_path):
+    """mpirun kills the others about a second after one rank has failed; rank 0, which speaks, may be slower than that."""
+    (tmp_path / "small.h5").touch()
+    late = ["mpirun", "-x", f"LD_PRELOAD={PROGRAM.parent}/tests/slow_end.so", "-x", "KZ_REST=3", "-n", "2"]
+    done = subprocess.run([*late, PROGRAM, "run", SMALL], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and done.stderr.startswith("kapitza: error: small.h5: exists") and done.stderr.count("\n") == 1
+
+
 def test_ranks_in_different_folders(tmp_path):
     for name in "ab":
         (tmp_path / name).mkdir()

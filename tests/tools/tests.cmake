@@ -4,6 +4,12 @@ target_compile_options(failing_memory PRIVATE ${KAPITZA_FLAGS_C} -fno-builtin)
 target_link_libraries(failing_memory PRIVATE ${CMAKE_DL_LIBS})
 set_target_properties(failing_memory PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 
+# A rank that ends late, for tests/python/test_faults.py.
+add_library(slow_end MODULE tools/slow_end.c)
+target_compile_options(slow_end PRIVATE ${KAPITZA_FLAGS_C})
+target_link_libraries(slow_end PRIVATE MPI::MPI_C)
+set_target_properties(slow_end PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+
 # A load that sleeps, to measure how long ranks are idle (no test: what it tells depends on the machine).
 add_executable(uneven tools/uneven.c)
 target_compile_options(uneven PRIVATE ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
