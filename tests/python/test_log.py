@@ -28,10 +28,10 @@ def test_a_log_tells_stages_and_the_end(kapitza, tmp_path):
         assert 0 < file.attrs["wall_seconds"] <= lines[-1]["seconds"] and {"compiler", "mpi", "hdf5"} <= set(file.attrs)
 
 
-def test_a_log_goes_on_and_tells_how_a_run_was_stopped(kapitza, tmp_path):
+def test_a_log_goes_on_and_tells_how_a_run_was_stopped(kapitza, run_until_stopped, tmp_path):
     log = ["--log", "log.jsonl"]
     slow = ["--set", "basin.method=direct", "--set", "numerics.steps_per_period=1000"]
-    kapitza("run", SMALL, *slow, *log, "--time-limit", "1", folder=tmp_path, status=75)
+    run_until_stopped("run", SMALL, *slow, *log, folder=tmp_path)
     first = events(tmp_path / "log.jsonl")
     assert first[-1]["status"] == 75 and "time limit" in first[-1]["message"]
     kapitza("run", SMALL, *log, "-o", "other.h5", folder=tmp_path)

@@ -59,8 +59,8 @@ def test_resume_of_a_complete_file_is_success_at_once(kapitza, tmp_path):
     kapitza("run", SMALL, "-o", "x.h5", "--force", folder=tmp_path)
 
 
-def test_time_limit_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path):
-    done = kapitza("run", SMALL, *SLOW, "--time-limit", "2", ranks=2, folder=tmp_path, status=75)
+def test_time_limit_saves_and_resume_ends_with_the_same_bytes(kapitza, run_until_stopped, tmp_path):
+    done = run_until_stopped("run", SMALL, *SLOW, ranks=2, folder=tmp_path)
     assert "time limit" in done.stderr and done.stderr.count("\n") == 1 and "error" not in done.stderr
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5.checkpoint"]
     other = kapitza("run", SMALL, *SLOW, "--resume", "--set", "basin.max_periods=1999", folder=tmp_path, status=2)

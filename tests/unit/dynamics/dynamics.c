@@ -184,16 +184,23 @@ static kz_numerics processed(double m) {
   return numerics;
 }
 
+/* The sanitizers make everything ten times slower: a part of the starts shows them the same code. */
+#ifdef __SANITIZE_ADDRESS__
+enum { PART = 8 };
+#else
+enum { PART = 1 };
+#endif
+
 /* Labels of one kick a step in coordinates of its own are those of split6 with 96 steps, but where the last place of a start
  * decides: at m = 0.46 that is so for 23 of 3072 starts. Grown over the cells of its own table they stay so; with mirrored starts
  * they are mirrored. The strobe points are the same to the last bit. */
 static void test_processed(void **state) {
   (void)state;
-  enum { N = 3072 };
+  enum { N = 3072 / PART };
   static const struct {
     double m;
     int most;
-  } cases[] = {{0.3, 2}, {0.46, 90}};
+  } cases[] = {{0.3, 0}, {0.46, 88}};
   const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 96, .precision = KZ_DOUBLE};
   static double x[2 * N], y[2 * N], z[2 * N];
   static int32_t expected[N], label[N], mirrored[N], cells[N];
@@ -240,7 +247,7 @@ static void test_processed(void **state) {
     }
     print_message("m = %g: %d of %d labels unlike split6 with 96 steps, %d with grown regions\n", cases[c].m, unlike, N,
                   unlike_cells);
-    assert_true(unlike <= cases[c].most);
+    assert_true(unlike <= cases[c].most / PART + 2);
     assert_true(unlike_cells == 0);
     kz_dynamics_free(truth);
     kz_dynamics_free(d);
@@ -250,7 +257,7 @@ static void test_processed(void **state) {
 /* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search. */
 static void test_regions_are_right(void **state) {
   (void)state;
-  enum { N = 4000 };
+  enum { N = 4000 / PART };
   const double drives[] = {0.15, 0.46};
   for (int c = 0; c < 2; c++) {
     kz_dynamics *d = explored(drives[c], 1, 3.0), *plain = explored(drives[c], 1, 3.0);
@@ -281,7 +288,7 @@ static void test_regions_are_right(void **state) {
  * hardly three times as many as are wrong. */
 static void test_wrong_labels_are_doubtful(void **state) {
   (void)state;
-  enum { N = 4000 };
+  enum { N = 4000 / PART };
   static double start[2 * N], x[2 * N], y[2 * N];
   static int32_t direct[N], followed[N], expected[N];
   static int64_t periods[N], late[N];
@@ -328,7 +335,7 @@ static void test_packing(void **state) {
 /* Regions that grew with every attractor found are those that grow around all of them at once. */
 static void test_regions_know_no_order(void **state) {
   (void)state;
-  enum { N = 20000, CELLS = 300 };
+  enum { N = 20000 / PART, CELLS = 300 };
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   kz_dynamics *a = explored_with(numerics(), 0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, numerics(), 12);
   const int64_t size = kz_dynamics_packed_size(a);
@@ -362,7 +369,7 @@ static void test_regions_know_no_order(void **state) {
 /* k = 0.25, beta = 0.05, m = 0.5: one chaotic attractor owns the plane. */
 static void test_chaos(void **state) {
   (void)state;
-  enum { N = 256 };
+  enum { N = 256 / PART };
   static const double TOP = 4.0 * 199 / 195; /* a cover's cells belong to a grid of this height */
   kz_pendulum pendulum = {0.25, 0.05, 0.5};
   kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 48);
