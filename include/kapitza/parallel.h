@@ -59,17 +59,21 @@ kz_status kz_ranks_interrupted(const kz_ranks *ranks);
  * second and one at the end of each stage; never: nothing. Stages of one tile are silent. */
 void kz_ranks_set_progress(kz_ranks *ranks, kz_progress progress);
 /* Progress and the end of each stage as JSON lines (rank 0; NULL: none): {"event": "progress", "seconds", "stage", "done", "total"},
- * {"event": "stage", "seconds", "stage", "tiles", "wall", "processor", "busy"}. */
+ * {"event": "stage", "seconds", "stage", "tiles", "wall", "processor", "most", "busy"}; and
+ * processor seconds of the tiles that rank 0 does: {"event": "tiles", "seconds", "stage", "tile", "processor"}. */
 void kz_ranks_set_log(kz_ranks *ranks, FILE *log);
 /* Seconds since kz_ranks_start. */
 double kz_ranks_seconds(const kz_ranks *ranks);
+/* Processor seconds of this rank outside of stages, from the start of the program on. */
+double kz_ranks_outside(const kz_ranks *ranks);
 
 /* What the stages of one name took. */
 typedef struct {
   char stage[32];
   int64_t calls, tiles;
   double wall;      /* s */
-  double processor; /* s, of all ranks; where a rank waits, MPI may use its processor */
+  double processor; /* s, of all ranks, for tiles: without those in which MPI waits */
+  double most;      /* s, the same of the rank that needed most */
   double busy;      /* s in which a rank had work, of all ranks */
   double serial;    /* s in which only one had: stages of one tile */
 } kz_timing;

@@ -94,11 +94,13 @@ static kz_status open_log(job *j) {
 /* What was said on the way, and how it ended. */
 static kz_status close_log(job *j, kz_status status) {
   const double seconds = kz_ranks_seconds(j->ranks);
-  char code[16];
+  char code[16], outside[32];
   snprintf(code, sizeof code, "%d", (int)status);
+  snprintf(outside, sizeof outside, "%.6f", kz_ranks_outside(j->ranks));
   if (j->summary) fflush(j->summary);
   kz_log_warnings(j->log, seconds, j->words ? j->words : "");
-  kz_log_event(j->log, seconds, "end", (const char *const[]){"#status", code, "message", kz_message(), NULL});
+  kz_log_event(j->log, seconds, "end",
+               (const char *const[]){"#status", code, "#outside", outside, "message", kz_message(), NULL});
   kz_ranks_set_log(j->ranks, NULL);
   const kz_status closed = kz_log_close(j->log, j->options->log);
   j->log = NULL;

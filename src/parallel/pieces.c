@@ -37,21 +37,22 @@ typedef struct {
   MPI_Request sent[BUFFERS]; /* MPI_REQUEST_NULL: the buffer is free */
   int ended;                 /* ranks that have sent all; rank 0 */
   int64_t done;
-  double busy; /* s */
+  char taking_name[40];
+  kz_work making, taking;
   kz_meter meter;
 } mail;
 
 static kz_status make(mail *m, int64_t i, char *buffer, size_t *bytes) {
-  const double begun = kz_clock();
+  const kz_stopwatch watch = kz_stopwatch_start();
   const kz_status status = m->delivery->make(m->delivery->context, &m->pieces->list[i], buffer, bytes);
-  m->busy += kz_clock() - begun;
+  kz_work_note(&m->making, m->pieces->list[i].tile, &watch);
   return status;
 }
 
 static kz_status take(mail *m, size_t bytes) {
-  const double begun = kz_clock();
+  const kz_stopwatch watch = kz_stopwatch_start();
   const kz_status status = m->delivery->take(m->delivery->context, m->buffer[0], bytes);
-  m->busy += kz_clock() - begun;
+  kz_work_note(&m->taking, m->done, &watch);
   return status;
 }
 
@@ -120,21 +121,31 @@ static kz_status allocate(mail *m) {
   return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name, m->delivery->message_bytes);
 }
 
+static kz_status deliver(mail *m, int64_t total) {
+  double idle = 0;
+  kz_ranks *ranks = m->ranks;
+  snprintf(m->taking_name, sizeof m->taking_name, "%s: writing", m->delivery->name);
+  kz_work_begin(&m->making, ranks, m->delivery->name);
+  kz_work_begin(&m->taking, ranks, m->taking_name);
+  const kz_stopwatch watch = kz_stopwatch_start();
+  kz_meter_begin(&m->meter, ranks, m->delivery->name, total, 0);
+  kz_status status = kz_ranks_agree(ranks, ranks->rank == 0 ? take_pieces(m) : send_pieces(m));
+  kz_work_end(&m->making);
+  kz_work_end(&m->taking);
+  m->making.busy += m->taking.busy;
+  m->making.processor += m->taking.processor;
+  if (status == KZ_OK) status = kz_timing_note(ranks, total, &watch, &m->making, &idle);
+  kz_meter_end(&m->meter, status == KZ_OK, idle);
+  return status == KZ_STOPPED ? kz_ranks_stopped(ranks) : status;
+}
+
 kz_status kz_pieces_deliver(kz_ranks *ranks, const kz_pieces *pieces, const kz_delivery *delivery) {
   mail m = {.ranks = ranks, .delivery = delivery, .pieces = pieces};
   for (int i = 0; i < BUFFERS; i++) m.sent[i] = MPI_REQUEST_NULL;
   int64_t total = pieces->n;
   kz_status status = kz_ranks_agree(ranks, allocate(&m));
   if (status == KZ_OK) status = kz_ranks_sum(ranks, &total, 1);
-  if (status == KZ_OK) {
-    double idle = 0;
-    const kz_stopwatch watch = kz_stopwatch_start();
-    kz_meter_begin(&m.meter, ranks, delivery->name, total, 0);
-    status = kz_ranks_agree(ranks, ranks->rank == 0 ? take_pieces(&m) : send_pieces(&m));
-    if (status == KZ_OK) status = kz_timing_note(ranks, delivery->name, total, &watch, m.busy, &idle);
-    kz_meter_end(&m.meter, status == KZ_OK, idle);
-    if (status == KZ_STOPPED) status = kz_ranks_stopped(ranks);
-  }
+  if (status == KZ_OK) status = deliver(&m, total);
   for (int i = 0; i < BUFFERS; i++) free(m.buffer[i]);
   return status;
 }

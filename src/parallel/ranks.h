@@ -19,6 +19,7 @@ struct kz_ranks {
   FILE *log;          /* JSON lines, rank 0; NULL: none */
   kz_timing *timings; /* [n_timings] of the stages, rank 0 */
   int64_t n_timings;
+  double staged;  /* processor seconds of this process within stages */
   FILE *terminal; /* /dev/tty once opened, else NULL */
   kz_checkpoint checkpoint;
 };

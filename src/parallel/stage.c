@@ -24,6 +24,7 @@ typedef struct {
   kz_record_buffer buffered;
   void *buffer; /* of the delivery, rank 0; of a record among pieces */
   kz_draw draw;
+  kz_work work;
   kz_meter meter;
 } stage_run;
 
@@ -111,8 +112,11 @@ static kz_status do_tiles(stage_run *run) {
     KZ_TRY(kz_draw_next(&run->draw, &drawn));
     if (drawn < 0) return KZ_OK;
     kz_meter_show(&run->meter, run->stage->n_tiles - run->n_left + drawn);
+    const int64_t tile = run->left ? run->left[drawn] : drawn;
+    const kz_stopwatch watch = kz_stopwatch_start();
     kz_status status = kz_ranks_interrupted(run->ranks);
-    if (status == KZ_OK) status = do_tile(run, run->left ? run->left[drawn] : drawn);
+    if (status == KZ_OK) status = do_tile(run, tile);
+    kz_work_note(&run->work, tile, &watch);
     if (status != KZ_OK) {
       KZ_TRY(kz_draw_halt(&run->draw));
       return status;
@@ -166,11 +170,12 @@ static kz_status run_stage(stage_run *run) {
   if (run->kept) KZ_TRY(recall(run));
   kz_meter_begin(&run->meter, run->ranks, run->stage->name, run->stage->n_tiles, run->stage->n_tiles - run->n_left);
   double idle = 0;
+  kz_work_begin(&run->work, run->ranks, run->stage->name);
   const kz_stopwatch watch = kz_stopwatch_start();
   const bool together = run->stage->together;
   kz_status status = together ? kz_ranks_agree(run->ranks, work_together(run)) : work(run);
-  if (status == KZ_OK && !together)
-    status = kz_timing_note(run->ranks, run->stage->name, run->n_left, &watch, run->draw.busy, &idle);
+  kz_work_end(&run->work);
+  if (status == KZ_OK && !together) status = kz_timing_note(run->ranks, run->n_left, &watch, &run->work, &idle);
   kz_meter_end(&run->meter, status == KZ_OK, idle);
   if (status == KZ_STOPPED && !together) return kz_ranks_stopped(run->ranks);
   KZ_TRY(status);

@@ -5,10 +5,40 @@
 #include <string.h>
 #include <time.h>
 
-double kz_processor_seconds(void) {
+static double processor_seconds(clockid_t whose) {
   struct timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  clock_gettime(whose, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+kz_stopwatch kz_stopwatch_start(void) {
+  return (kz_stopwatch){kz_clock(), processor_seconds(CLOCK_THREAD_CPUTIME_ID), processor_seconds(CLOCK_PROCESS_CPUTIME_ID)};
+}
+
+void kz_work_begin(kz_work *work, const kz_ranks *ranks, const char *stage) {
+  *work = (kz_work){.ranks = ranks, .stage = stage};
+}
+
+void kz_work_end(kz_work *work) {
+  FILE *log = work->ranks->log;
+  if (work->n == 0) return;
+  fprintf(log, "{\"event\": \"tiles\", \"seconds\": %.3f, \"stage\": \"%s\", \"tile\": [", kz_ranks_seconds(work->ranks),
+          work->stage);
+  for (int i = 0; i < work->n; ++i) fprintf(log, "%s%lld", i ? ", " : "", (long long)work->tile[i]);
+  fputs("], \"processor\": [", log);
+  for (int i = 0; i < work->n; ++i) fprintf(log, "%s%.6f", i ? ", " : "", work->seconds[i]);
+  fputs("]}\n", log);
+  work->n = 0;
+}
+
+void kz_work_note(kz_work *work, int64_t tile, const kz_stopwatch *watch) {
+  const kz_stopwatch now = kz_stopwatch_start();
+  work->busy += now.wall - watch->wall;
+  work->processor += now.thread - watch->thread;
+  if (!work->ranks->log) return;
+  work->tile[work->n] = tile;
+  work->seconds[work->n] = now.thread - watch->thread;
+  if (++work->n == KZ_WORK_LINE) kz_work_end(work);
 }
 
 /* The row of a stage's name, a new one where it comes for the first time; NULL where memory ran out. */
@@ -28,36 +58,39 @@ static void log_stage(const kz_ranks *ranks, const char *name, const kz_timing *
   if (!ranks->log) return;
   fprintf(ranks->log,
           "{\"event\": \"stage\", \"seconds\": %.3f, \"stage\": \"%s\", \"tiles\": %lld, \"wall\": %.6f, \"processor\": %.6f, "
-          "\"busy\": %.4f}\n",
-          kz_clock() - ranks->start, name, (long long)t->tiles, t->wall, t->processor,
+          "\"most\": %.6f, \"busy\": %.4f}\n",
+          kz_clock() - ranks->start, name, (long long)t->tiles, t->wall, t->processor, t->most,
           t->wall > 0 ? t->busy / (t->wall * ranks->size) : 1);
   fflush(ranks->log);
 }
 
-kz_status kz_timing_note(kz_ranks *ranks, const char *name, int64_t tiles, const kz_stopwatch *watch, double busy,
-                         double *idle) {
-  const double own[] = {busy, kz_processor_seconds() - watch->processor};
-  double sum[] = {0, 0};
-  const double wall = kz_clock() - watch->wall;
+static void add(kz_timing *row, const kz_timing *t) {
+  ++row->calls;
+  row->tiles += t->tiles;
+  row->wall += t->wall;
+  row->processor += t->processor;
+  row->most += t->most;
+  row->busy += t->busy;
+  if (t->tiles == 1) row->serial += t->wall;
+}
+
+kz_status kz_timing_note(kz_ranks *ranks, int64_t tiles, const kz_stopwatch *watch, const kz_work *work, double *idle) {
+  const double own[] = {work->busy, work->processor};
+  double sum[] = {0, 0}, most = 0;
+  const kz_stopwatch now = kz_stopwatch_start();
+  const double wall = now.wall - watch->wall;
+  ranks->staged += now.process - watch->process;
   KZ_MPI(MPI_Reduce(own, sum, 2, MPI_DOUBLE, MPI_SUM, 0, ranks->comm));
+  KZ_MPI(MPI_Reduce(&own[1], &most, 1, MPI_DOUBLE, MPI_MAX, 0, ranks->comm));
   if (ranks->rank != 0) return KZ_OK;
   const double share = wall > 0 ? sum[0] / (wall * ranks->size) : 1;
   *idle = share < 1 ? 1 - share : 0;
-  const kz_timing t = {.tiles = tiles, .wall = wall, .processor = sum[1], .busy = sum[0]};
-  kz_timing *row = row_of(ranks, name);
+  const kz_timing t = {.tiles = tiles, .wall = wall, .processor = sum[1], .most = most, .busy = sum[0]};
+  kz_timing *row = row_of(ranks, work->stage);
   if (!row) return kz_fail(KZ_FAILED, "out of memory for timings");
-  ++row->calls;
-  row->tiles += tiles;
-  row->wall += wall;
-  row->processor += sum[1];
-  row->busy += sum[0];
-  if (tiles == 1) row->serial += wall;
-  log_stage(ranks, name, &t);
+  add(row, &t);
+  log_stage(ranks, work->stage, &t);
   return KZ_OK;
-}
-
-kz_stopwatch kz_stopwatch_start(void) {
-  return (kz_stopwatch){kz_clock(), kz_processor_seconds()};
 }
 
 int64_t kz_ranks_timings(const kz_ranks *ranks, const kz_timing **list) {
@@ -67,6 +100,10 @@ int64_t kz_ranks_timings(const kz_ranks *ranks, const kz_timing **list) {
 
 double kz_ranks_seconds(const kz_ranks *ranks) {
   return kz_clock() - ranks->start;
+}
+
+double kz_ranks_outside(const kz_ranks *ranks) {
+  return processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - ranks->staged;
 }
 
 void kz_ranks_set_log(kz_ranks *ranks, FILE *log) {
