@@ -6,7 +6,7 @@
 #include "app.h"
 
 /* What a rank of any scene takes: the program, MPI, HDF5. */
-static const double PROCESS_BYTES = 3.5e7;
+static const double PROCESS_BYTES = 3.7e7;
 
 kz_cost kz_cost_of(const kz_scene *scene) {
   kz_cost total = {0};
