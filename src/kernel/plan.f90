@@ -3,7 +3,7 @@ module kz_kernel_plan
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_kernel_map, only: flow_t
   use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
-                                        MOST_DRIFTS, MOST_KICKS
+                                        QUAD_GRADES, MOST_DRIFTS, MOST_KICKS
   use kz_kernel_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_kernel_step_table, only: pendulum_t, numerics_t, period_t, make_period
   use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
@@ -64,7 +64,7 @@ contains
 
     if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
       allocate (series)
-      call make_processed_series(pendulum, numerics%precision == QUAD, series)
+      call make_processed_series(pendulum, QUAD_GRADES(numerics%precision), series)
       call make_processed_flow(pendulum, series, numerics, flow)
       return
     end if

@@ -5,8 +5,8 @@ module kz_kernel_processed_choice
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_processed_flow, QUAD
-  use kz_kernel_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
+  use kz_kernel_plan, only: make_processed_flow
+  use kz_kernel_processed_tables, only: series_t, make_processed_series, QUAD_GRADES, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_kernel_schemes, only: PROCESSED_ROW
   use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period
@@ -51,7 +51,7 @@ contains
     call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
     call ieee_set_halting_mode(ieee_usual, .false.)
     allocate (series)
-    call make_processed_series(pendulum, numerics%precision == QUAD, series)
+    call make_processed_series(pendulum, QUAD_GRADES(numerics%precision), series)
     call make_probes(pendulum, fastest, probes)
     numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest

@@ -16,6 +16,8 @@ module kz_kernel_processed_tables
   !> precision.
   integer, parameter, public :: MOST_DRIFTS(0:2) = [2, 4, ORDER/2 - 1]
   integer, parameter, public :: MOST_KICKS(0:2) = [7, 11, 22]
+  !> Grades of the series in quad precision, for the three kinds.
+  integer, parameter, public :: QUAD_GRADES(0:2) = [0, 0, ORDER]
   !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
   real(qp), parameter, public :: MOST_DAMPING = 16/(2*PI)
 
@@ -41,29 +43,34 @@ module kz_kernel_processed_tables
 
 contains
 
-  !> The series of a pendulum, in quad precision or (a hundredth of the time) in double: then each coefficient is right to 1e-15
-  !> of the force itself.
-  subroutine make_processed_series(pendulum, in_quad, series)
+  !> The series of a pendulum: grades up to `quad_grades` in quad precision (all of them: a second), those beyond in double, right to
+  !> 1e-15 of the force itself. Grade q of a step h counts h**q, so little precision is enough for high ones.
+  subroutine make_processed_series(pendulum, quad_grades, series)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
-    !> whether quad precision will use it: more terms, exact ones
-    logical, intent(in) :: in_quad
+    !> even, at most ORDER; 0 = none
+    integer, intent(in) :: quad_grades
     !> what does not depend on the number of steps
     type(series_t), intent(out) :: series
     type(series_r64_t), allocatable :: rounded
+    type(series_t), allocatable :: exact
 
-    if (in_quad) then
-      call make_series(real(pendulum%k, qp), real(pendulum%beta, qp), real(pendulum%m, qp), series)
-      return
-    end if
     allocate (rounded)
-    call make_series_r64(pendulum%k, pendulum%beta, pendulum%m, rounded)
+    call make_series_r64(pendulum%k, pendulum%beta, pendulum%m, ORDER, rounded)
     series%kick_cosine = rounded%kick_cosine
     series%kick_sine = rounded%kick_sine
     series%drift = rounded%drift
     series%enter = rounded%enter
     series%leave = rounded%leave
     series%residual = rounded%residual
+    if (quad_grades == 0) return
+    allocate (exact)
+    call make_series(real(pendulum%k, qp), real(pendulum%beta, qp), real(pendulum%m, qp), quad_grades, exact)
+    series%kick_cosine(:, :, :quad_grades) = exact%kick_cosine(:, :, :quad_grades)
+    series%kick_sine(:, :, :quad_grades) = exact%kick_sine(:, :, :quad_grades)
+    series%drift(:, :quad_grades) = exact%drift(:, :quad_grades)
+    series%enter(:, :, :quad_grades - 2, :) = exact%enter(:, :, :quad_grades - 2, :)
+    series%leave(:, :, :quad_grades - 2, :) = exact%leave(:, :, :quad_grades - 2, :)
   end subroutine make_processed_series
 
   !> The tables of one period of n_steps steps: n_drift powers of the velocity in a drift, n_kick coefficients of a kick.

@@ -8,7 +8,7 @@ module kz_kernel_r128
   use kz_kernel_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
   private
-  public :: make_tile, make_processed_tile, sine
+  public :: make_tile, make_processed_tile, sine, SINE_COEFFICIENTS
 
   integer, parameter :: ik = selected_int_kind(38)
   !> Quad arithmetic is done lane by lane, so only the lanes in use are advanced.

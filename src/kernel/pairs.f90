@@ -1,0 +1,236 @@
+!> Whole drive periods in pairs of doubles (some 32 digits), many lanes at once: the processed splitting with so many steps that the
+!> error of a period, measured against quad-precision Taylor series, is at most a tolerance. States are physical: the processor is
+!> applied at both ends of every period. Faster states need more steps, so there are several tables, by speeds; the fastest states
+!> are advanced by the Taylor series themselves.
+module kz_kernel_pairs
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: real128
+  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
+  use kz_kernel_map, only: WIDTH
+  use kz_kernel_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
+  use kz_kernel_processed_tables, only: series_t, make_processed_series, MOST_KICKS, MOST_DAMPING, ORDER
+  use kz_kernel_step_table, only: pendulum_t
+  use kz_kernel_taylor, only: drive_t, make_drive, advance_period
+  implicit none
+  private
+  public :: pairs_t, pair_lanes_t, make_pairs, advance_pairs, pair_of, quad_of
+
+  integer, parameter :: qp = real128
+  real(qp), parameter :: PI = acos(-1.0_qp)
+  !> Grades of the series that count enough to need more than double precision.
+  integer, parameter :: QUAD_GRADES = 8
+  !> Numbers of steps are multiples of STRIDE. With more steps the Taylor series cost no more.
+  integer, parameter :: STRIDE = 8, FEWEST_STEPS = 48, MOST_STEPS = 960
+  !> The speeds of the first table, and how much faster those of the next are.
+  real(c_double), parameter :: SLOWEST = 2.5_c_double, RATIO = 2
+  integer, parameter :: MOST_LEVELS = 8
+  !> Steps a period of the Taylor series (kernel.h).
+  integer, parameter :: TAYLOR_STEPS = 18
+  !> Probes of each table: states with its speeds, both ends included; how much more than their largest error is assumed; and what
+  !> the rounding of a period is.
+  integer, parameter :: N_PROBES = 2*WIDTH
+  real(c_double), parameter :: MARGIN = 1.5_c_double
+  real(c_double), parameter :: ROUNDING = 4e-31_c_double
+  !> Coefficients of a kick, least of all.
+  integer, parameter :: FEWEST_KICKS = 8
+
+  type :: pairs_t
+    !> the error of a period, rad: the largest of all tables
+    real(c_double) :: error = 0
+    type(level_t), allocatable :: level(:)
+    type(drive_t) :: drive
+  end type pairs_t
+
+contains
+
+  !> Tables for a pendulum whose error of one period is at most a tolerance. Speeds that no table reaches are left to the Taylor
+  !> series: the error is never larger.
+  subroutine make_pairs(pendulum, tolerance, fastest, pairs)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> of one period, angle and velocity together, rad
+    real(c_double), intent(in) :: tolerance
+    !> speeds that tables shall serve, rad per drive radian
+    real(c_double), intent(in) :: fastest
+    !> the tables
+    type(pairs_t), intent(out) :: pairs
+    type(series_t), allocatable :: series
+    type(level_t), allocatable :: levels(:)
+    logical :: halting(size(ieee_usual))
+    real(c_double) :: slowest_of_level
+    integer :: n
+
+    call make_drive(pairs%drive, pendulum%k, pendulum%beta, pendulum%m, TAYLOR_STEPS)
+    pairs%error = ROUNDING
+    n = 0
+    allocate (levels(MOST_LEVELS))
+    if (pendulum%beta <= MOST_DAMPING) then
+      call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
+      call ieee_set_halting_mode(ieee_usual, .false.)
+      allocate (series)
+      call make_processed_series(pendulum, QUAD_GRADES, series)
+      slowest_of_level = 0
+      do while (n < size(levels) .and. slowest_of_level < fastest)
+        call choose_level(pendulum, series, pairs%drive, tolerance, slowest_of_level, levels(n + 1))
+        if (levels(n + 1)%error > tolerance) exit
+        n = n + 1
+        slowest_of_level = levels(n)%fastest
+        pairs%error = max(pairs%error, levels(n)%error)
+      end do
+      call ieee_set_flag(ieee_usual, .false.)
+      call ieee_set_halting_mode(ieee_usual, halting)
+    end if
+    allocate (pairs%level, source=levels(:n))
+  end subroutine make_pairs
+
+  !> The fewest steps whose measured error is at most the tolerance for speeds between `slowest` and the level's fastest; then the
+  !> fewest coefficients of a kick.
+  subroutine choose_level(pendulum, series, drive, tolerance, slowest_speed, level)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(drive_t), intent(in) :: drive
+    real(c_double), intent(in) :: tolerance
+    real(c_double), intent(in) :: slowest_speed
+    type(level_t), intent(out) :: level
+    real(qp) :: start(2, N_PROBES), image(2, N_PROBES)
+    real(c_double) :: factor, fastest
+    type(level_t) :: trial
+    integer :: n, fewest
+
+    fastest = max(SLOWEST, RATIO*slowest_speed)
+    call make_probes(drive, slowest_speed, fastest, start, image)
+    n = FEWEST_STEPS
+    do
+      call make_level(pendulum, series, n, MOST_KICKS(2), fastest, tolerance, level)
+      level%error = measure(level, start, image)
+      if (level%error <= tolerance) exit
+      factor = min(2.0_c_double, (min(level%error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER))
+      n = max(n + STRIDE, STRIDE*int(n*factor/STRIDE))
+      if (n > MOST_STEPS) return
+    end do
+    fewest = FEWEST_KICKS
+    do while (fewest < level%n_kick)
+      call make_level(pendulum, series, n, (fewest + level%n_kick)/2, fastest, tolerance, trial)
+      trial%error = measure(trial, start, image)
+      if (trial%error <= tolerance) then
+        level = trial
+      else
+        fewest = trial%n_kick + 1
+      end if
+    end do
+  end subroutine choose_level
+
+  subroutine make_probes(drive, slowest_speed, fastest, start, image)
+    type(drive_t), intent(in) :: drive
+    real(c_double), intent(in) :: slowest_speed
+    real(c_double), intent(in) :: fastest
+    real(qp), intent(out) :: start(2, N_PROBES)
+    real(qp), intent(out) :: image(2, N_PROBES)
+    real(c_double), parameter :: GOLDEN = 0.61803398874989484820_c_double
+    real(qp) :: theta(N_PROBES), velocity(N_PROBES)
+    integer(c_int64_t) :: turns(N_PROBES)
+    integer :: i
+
+    do i = 1, N_PROBES
+      start(:, i) = [2*modulo(i*GOLDEN, 1.0_c_double) - 1, slowest_speed + (fastest - slowest_speed)*(i - 1)/(N_PROBES - 1)]
+    end do
+    theta = PI*start(1, :)
+    velocity = start(2, :)
+    turns = 0
+    call advance_period(drive, theta, velocity, turns)
+    image(1, :) = theta/PI
+    image(2, :) = velocity
+  end subroutine make_probes
+
+  !> The largest error of one period, rad.
+  function measure(level, start, image) result(error)
+    type(level_t), intent(in) :: level
+    real(qp), intent(in) :: start(2, N_PROBES)
+    real(qp), intent(in) :: image(2, N_PROBES)
+    real(c_double) :: error, distance, turns(WIDTH)
+    real(qp) :: u
+    type(pair_lanes_t) :: lanes
+    integer :: first, lane
+
+    error = 0
+    do first = 0, N_PROBES - WIDTH, WIDTH
+      do lane = 1, WIDTH
+        lanes%u(lane, :) = pair_of(start(1, first + lane))
+        lanes%v(lane, :) = pair_of(start(2, first + lane))
+      end do
+      call advance_level(level, WIDTH, lanes, turns)
+      do lane = 1, WIDTH
+        u = quad_of(lanes%u(lane, :)) - image(1, first + lane)
+        distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - image(2, first + lane)), c_double)
+        if (.not. distance <= error) error = distance ! NaN too
+      end do
+    end do
+    error = MARGIN*error + ROUNDING
+    if (.not. error <= huge(error)) error = huge(error)
+  end function measure
+
+  !> Advances n lanes by one period; a state that is lost becomes NaN.
+  subroutine advance_pairs(pairs, n, lanes, turns)
+    !> the tables
+    type(pairs_t), intent(in) :: pairs
+    !> lanes in use
+    integer, intent(in) :: n
+    !> physical states
+    type(pair_lanes_t), intent(inout) :: lanes
+    !> gain the net number of turns, counterclockwise +
+    integer(c_int64_t), intent(inout) :: turns(WIDTH)
+    integer :: l, of_level(WIDTH), lane
+
+    do lane = 1, n
+      of_level(lane) = count(abs(lanes%v(lane, 1)) > pairs%level%fastest) + 1
+    end do
+    do l = 1, size(pairs%level)
+      if (any(of_level(:n) == l)) call advance_some(pairs%level(l), pack([(lane, lane=1, n)], of_level(:n) == l), lanes, turns)
+    end do
+    if (any(of_level(:n) > size(pairs%level))) &
+      call advance_fastest(pairs%drive, pack([(lane, lane=1, n)], of_level(:n) > size(pairs%level)), lanes, turns)
+  end subroutine advance_pairs
+
+  subroutine advance_some(level, lane, lanes, turns)
+    type(level_t), intent(in) :: level
+    integer, intent(in) :: lane(:)
+    type(pair_lanes_t), intent(inout) :: lanes
+    integer(c_int64_t), intent(inout) :: turns(WIDTH)
+    type(pair_lanes_t) :: some
+    real(c_double) :: gained(WIDTH)
+    integer :: n
+
+    n = size(lane)
+    some = pair_lanes_t(0, 0)
+    some%u(:n, :) = lanes%u(lane, :)
+    some%v(:n, :) = lanes%v(lane, :)
+    call advance_level(level, n, some, gained)
+    lanes%u(lane, :) = some%u(:n, :)
+    lanes%v(lane, :) = some%v(:n, :)
+    turns(lane) = turns(lane) + int(gained(:n), c_int64_t)
+  end subroutine advance_some
+
+  !> By Taylor series.
+  subroutine advance_fastest(drive, lane, lanes, turns)
+    type(drive_t), intent(in) :: drive
+    integer, intent(in) :: lane(:)
+    type(pair_lanes_t), intent(inout) :: lanes
+    integer(c_int64_t), intent(inout) :: turns(WIDTH)
+    real(qp) :: theta(size(lane)), velocity(size(lane))
+    integer(c_int64_t) :: gained(size(lane))
+    integer :: i
+
+    do i = 1, size(lane)
+      theta(i) = PI*quad_of(lanes%u(lane(i), :))
+      velocity(i) = quad_of(lanes%v(lane(i), :))
+    end do
+    gained = 0
+    call advance_period(drive, theta, velocity, gained)
+    do i = 1, size(lane)
+      lanes%u(lane(i), :) = pair_of(theta(i)/PI)
+      lanes%v(lane(i), :) = pair_of(velocity(i))
+    end do
+    turns(lane) = turns(lane) + gained
+  end subroutine advance_fastest
+
+end module kz_kernel_pairs

@@ -1,0 +1,66 @@
+!> The C interface of the pairs of doubles: include/kapitza/kernel.h.
+module kz_kernel_pairs_api
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
+  use kz_kernel_map, only: WIDTH
+  use kz_kernel_pairs, only: pairs_t, pair_lanes_t, make_pairs, advance_pairs
+  use kz_kernel_step_table, only: pendulum_t
+  implicit none
+  private
+
+contains
+
+  function pairs_create(pendulum, tolerance, fastest, error) bind(C, name='kz_pairs_create') result(handle)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), value :: tolerance
+    real(c_double), value :: fastest
+    real(c_double), intent(out) :: error
+    type(c_ptr) :: handle
+    type(pairs_t), pointer :: pairs
+    integer :: status
+
+    handle = c_null_ptr
+    error = huge(error)
+    allocate (pairs, stat=status)
+    if (status /= 0) return
+    call make_pairs(pendulum, tolerance, fastest, pairs)
+    error = pairs%error
+    handle = c_loc(pairs)
+  end function pairs_create
+
+  subroutine pairs_free(handle) bind(C, name='kz_pairs_free')
+    type(c_ptr), value :: handle
+    type(pairs_t), pointer :: pairs
+
+    call c_f_pointer(handle, pairs)
+    if (associated(pairs)) deallocate (pairs)
+  end subroutine pairs_free
+
+  subroutine pairs_advance(handle, n, periods, half_turns, velocity, turns) bind(C, name='kz_pairs_advance')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: periods
+    real(c_double), intent(inout) :: half_turns(2, n)
+    real(c_double), intent(inout) :: velocity(2, n)
+    integer(c_int64_t), intent(inout) :: turns(n)
+    type(pairs_t), pointer :: pairs
+    type(pair_lanes_t) :: lanes
+    integer(c_int64_t) :: first, last, period, gained(WIDTH)
+    integer :: lane_count
+
+    call c_f_pointer(handle, pairs)
+    do first = 1, n, WIDTH
+      last = min(n, first + WIDTH - 1)
+      lane_count = int(last - first + 1)
+      lanes%u(:lane_count, :) = transpose(half_turns(:, first:last))
+      lanes%v(:lane_count, :) = transpose(velocity(:, first:last))
+      gained = 0
+      do period = 1, periods
+        call advance_pairs(pairs, lane_count, lanes, gained)
+      end do
+      half_turns(:, first:last) = transpose(lanes%u(:lane_count, :))
+      velocity(:, first:last) = transpose(lanes%v(:lane_count, :))
+      turns(first:last) = turns(first:last) + gained(:lane_count)
+    end do
+  end subroutine pairs_advance
+
+end module kz_kernel_pairs_api

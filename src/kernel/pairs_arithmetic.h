@@ -1,0 +1,118 @@
+/* Numbers as sums of two doubles, high + low with |low| at most half a unit in the last place of high: some 32 digits, in the lanes
+ * of a vector. Sums by Knuth (two_sum) and Dekker (quick_two_sum), products by the fused operation, whose rounding error is exact. Files
+ * that include this are compiled without contraction. Every operation takes mirror images to mirror images. */
+#ifndef KAPITZA_PAIRS_ARITHMETIC_H
+#define KAPITZA_PAIRS_ARITHMETIC_H
+
+#include <math.h>
+#include <stdint.h>
+#if defined __AVX512F__ || defined __FMA__
+#include <immintrin.h>
+#endif
+
+#if defined __AVX512F__
+enum { VECTOR_BYTES = 64 };
+#else
+enum { VECTOR_BYTES = 32 };
+#endif
+enum { LANES = VECTOR_BYTES / sizeof(double) };
+
+typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
+typedef int64_t mask __attribute__((vector_size(VECTOR_BYTES)));
+
+typedef struct {
+  vector high, low;
+} pair;
+
+#define OPERATION static inline __attribute__((always_inline))
+
+/* a b + c, rounded once. */
+OPERATION vector fused(vector a, vector b, vector c) {
+#if defined __AVX512F__
+  return (vector)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#elif defined __FMA__
+  return (vector)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#else
+  for (int i = 0; i < LANES; i++) c[i] = fma(a[i], b[i], c[i]);
+  return c;
+#endif
+}
+
+OPERATION vector same(double x) {
+  return x + (vector){0};
+}
+
+/* a where the mask is set, else b. */
+OPERATION vector pick(mask where, vector a, vector b) {
+  return (vector)((where & (mask)a) | (~where & (mask)b));
+}
+
+/* a + b, |a| >= |b| or a = 0. */
+OPERATION pair quick_sum(vector a, vector b) {
+  const vector s = a + b;
+  return (pair){s, b - (s - a)};
+}
+
+/* a + b. */
+OPERATION pair sum(vector a, vector b) {
+  const vector s = a + b, t = s - a;
+  return (pair){s, (a - (s - t)) + (b - t)};
+}
+
+/* x + y as a sum whose parts may overlap by some bits. */
+OPERATION pair loose_sum(pair x, pair y) {
+  const pair s = sum(x.high, y.high);
+  return (pair){s.high, s.low + (x.low + y.low)};
+}
+
+/* x + y; the error is at most 2^-104 (|x| + |y|). */
+OPERATION pair add(pair x, pair y) {
+  const pair s = loose_sum(x, y);
+  return quick_sum(s.high, s.low);
+}
+
+OPERATION pair negative(pair x) {
+  return (pair){-x.high, -x.low};
+}
+
+OPERATION pair subtract(pair x, pair y) {
+  return add(x, negative(y));
+}
+
+/* x y as a sum whose parts may overlap by some bits. */
+OPERATION pair loose_product(pair x, pair y) {
+  const vector p = x.high * y.high;
+  return (pair){p, fused(x.high, y.low, fused(x.low, y.high, fused(x.high, y.high, -p)))};
+}
+
+OPERATION pair multiply(pair x, pair y) {
+  const pair p = loose_product(x, y);
+  return quick_sum(p.high, p.low);
+}
+
+/* x y + c, c [2] the same in every lane: a step of Horner's scheme. The parts may overlap by some bits. What depends on x.low comes last:
+ * a chain of steps waits for the high parts alone. */
+OPERATION pair horner(pair x, pair y, const double *c) {
+  const vector p = x.high * y.high, rest = fused(x.high, y.low, fused(x.high, y.high, -p));
+  const pair s = sum(same(c[0]), p);
+  return (pair){s.high, fused(x.low, y.high, rest + (s.low + c[1]))};
+}
+
+/* c[0] + c[1] x + .. of pairs c [n][2]; of those from n_pairs on, which are small, only the high parts. The parts of the result may
+ * overlap by some bits. */
+OPERATION pair polynomial(int64_t n, int64_t n_pairs, const double *c, pair x) {
+  pair p = {same(0), same(0)};
+  for (int64_t j = n - 1; j >= n_pairs; j--) p.high = fused(p.high, x.high, same(c[2 * j]));
+  for (int64_t j = n_pairs - 1; j >= 0; j--) p = horner(p, x, c + 2 * j);
+  return p;
+}
+
+#define EVEN_MAGIC 0x3p52 /* adding it rounds to an even integer */
+
+/* An angle in half-turns less the even integer nearest to it, in [-1, 1]; *even = that integer. */
+OPERATION pair reduce(pair u, vector *even) {
+  *even = (u.high + EVEN_MAGIC) - EVEN_MAGIC;
+  return quick_sum(u.high - *even, u.low);
+}
+
+#endif

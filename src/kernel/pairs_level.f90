@@ -1,0 +1,199 @@
+!> One drive period in pairs of doubles (some 32 digits): the tables of the processed splitting for one range of speeds.
+module kz_kernel_pairs_level
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: real128
+  use kz_kernel_map, only: WIDTH
+  use kz_kernel_processed_tables, only: series_t, processed_t, processor_t, make_processed, MOST_DRIFTS, ORDER
+  use kz_kernel_r128, only: SINE_COEFFICIENTS
+  use kz_kernel_step_table, only: pendulum_t
+  implicit none
+  private
+  public :: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
+
+  integer, parameter :: qp = real128
+  !> KZ_HALF_ORDER and KZ_SINE_TERMS of pairs.h.
+  integer, parameter :: HALF = ORDER/2, N_SINE = size(SINE_COEFFICIENTS)
+  !> A coefficient needs both its halves if rounding it to a double would change a period by more than this part of the tolerance.
+  real(c_double), parameter :: NEGLIGIBLE = 0.01_c_double
+
+  !> kz_pair_lanes of pairs.h: high and low.
+  type, bind(C) :: pair_lanes_t
+    real(c_double) :: u(WIDTH, 2) !< half-turns in [-1, 1]
+    real(c_double) :: v(WIDTH, 2) !< rad per drive radian
+  end type pair_lanes_t
+
+  !> kz_displacement of pairs.h.
+  type, bind(C) :: displacement_t
+    real(c_double) :: coefficient(2, 0:HALF - 1, 2, 0:HALF - 1, 2) = 0
+    integer(c_int64_t) :: pairs(2, 0:HALF - 1, 2) = 0
+    real(c_double) :: sine(2, N_SINE) = 0
+    integer(c_int64_t) :: sine_pairs = 0
+  end type displacement_t
+
+  !> The tables of one period for speeds up to `fastest`, as kz_pairs_stages and kz_pairs_displace take them.
+  type :: level_t
+    real(c_double) :: fastest = 0
+    real(c_double) :: error = 0
+    integer :: n_steps = 0
+    integer :: n_drift = 0
+    integer :: n_kick = 0
+    integer :: n_pairs = 0
+    real(c_double), allocatable :: row(:, :)
+    real(c_double) :: decay(2) = 0
+    type(displacement_t) :: enter
+    type(displacement_t) :: leave
+  end type level_t
+
+  interface
+    !> pairs.h
+    subroutine pairs_stages(n_stages, n_drift, n_kick, n_pairs, row, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
+      import :: c_double, c_int64_t, pair_lanes_t, WIDTH
+      integer(c_int64_t), value :: n_stages
+      integer(c_int64_t), value :: n_drift
+      integer(c_int64_t), value :: n_kick
+      integer(c_int64_t), value :: n_pairs
+      real(c_double), intent(in) :: row(*)
+      real(c_double), intent(in) :: decay(2)
+      integer(c_int64_t), value :: n
+      type(pair_lanes_t), intent(inout) :: lanes
+      real(c_double), intent(out) :: turns(WIDTH)
+    end subroutine pairs_stages
+
+    subroutine pairs_displace(displacement, n, lanes) bind(C, name='kz_pairs_displace')
+      import :: c_int64_t, displacement_t, pair_lanes_t
+      type(displacement_t), intent(in) :: displacement
+      integer(c_int64_t), value :: n
+      type(pair_lanes_t), intent(inout) :: lanes
+    end subroutine pairs_displace
+  end interface
+
+contains
+
+  !> The sum of two doubles nearest to a number: high, low.
+  pure function pair_of(x) result(pair)
+    !> a number
+    real(qp), intent(in) :: x
+    real(c_double) :: pair(2)
+
+    pair(1) = real(x, c_double)
+    pair(2) = real(x - pair(1), c_double)
+  end function pair_of
+
+  !> The number that a pair stands for.
+  pure function quad_of(pair) result(x)
+    !> high, low
+    real(c_double), intent(in) :: pair(2)
+    real(qp) :: x
+
+    x = real(pair(1), qp) + pair(2)
+  end function quad_of
+
+  !> The tables of a period of n_steps steps. Coefficients that are small against the tolerance are doubles.
+  subroutine make_level(pendulum, series, n_steps, n_kick, fastest, tolerance, level)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> the series of the pendulum
+    type(series_t), intent(in) :: series
+    !> steps a period
+    integer, intent(in) :: n_steps
+    !> coefficients of a kick
+    integer, intent(in) :: n_kick
+    !> rad per drive radian: the largest speed that the tables shall serve
+    real(c_double), intent(in) :: fastest
+    !> error of a period, rad
+    real(c_double), intent(in) :: tolerance
+    !> the tables; the error is still to be measured
+    type(level_t), intent(out) :: level
+    type(processed_t) :: table
+    integer :: s, j, n
+
+    call make_processed(pendulum, series, n_steps, MOST_DRIFTS(2), n_kick, fastest, table)
+    level%fastest = fastest
+    level%n_steps = n_steps
+    level%n_drift = table%n_drift
+    level%n_kick = n_kick
+    n = table%n_drift
+    level%n_pairs = min(n_kick - 1, number_of_pairs([(n_steps*maxval(abs(table%row(n + j, :))), j=1, n_kick)], tolerance))
+    allocate (level%row(n + 1 + n_kick + level%n_pairs, n_steps + 1))
+    level%row = 0
+    do s = 1, n_steps
+      call set_drift(table%row(:n, s), level%row(:, s))
+      do j = 1, level%n_pairs
+        level%row(n + 2*j:n + 2*j + 1, s) = pair_of(table%row(n + j, s))
+      end do
+      level%row(n + 2*level%n_pairs + 2:, s) = real(table%row(n + level%n_pairs + 1:, s), c_double)
+    end do
+    call set_drift(table%last, level%row(:, n_steps + 1))
+    level%decay = pair_of(table%decay)
+    call set_displacement(table%enter, fastest, tolerance, level%enter)
+    call set_displacement(table%leave, fastest, tolerance, level%leave)
+  end subroutine make_level
+
+  pure subroutine set_drift(drift, row)
+    real(qp), intent(in) :: drift(:)
+    real(c_double), intent(inout) :: row(:)
+
+    row(1:2) = pair_of(drift(1))
+    row(3:size(drift) + 1) = real(drift(2:), c_double)
+  end subroutine set_drift
+
+  !> How many of the first of some contributions to a period need more than double precision.
+  pure function number_of_pairs(contribution, tolerance) result(n)
+    real(qp), intent(in) :: contribution(:)
+    real(c_double), intent(in) :: tolerance
+    integer :: n
+
+    n = findloc(abs(contribution)*epsilon(1.0_c_double) > NEGLIGIBLE*tolerance, .true., 1, back=.true.)
+  end function number_of_pairs
+
+  pure subroutine set_displacement(processor, fastest, tolerance, displacement)
+    type(processor_t), intent(in) :: processor
+    real(c_double), intent(in) :: fastest
+    real(c_double), intent(in) :: tolerance
+    type(displacement_t), intent(out) :: displacement
+    real(qp) :: largest
+    integer :: j
+
+    do j = 0, HALF - 1
+      call set_harmonic(processor%theta(j, :ORDER - 2*max(j, 1)), displacement%coefficient(:, :, :, j, 1), displacement%pairs(:, j, 1))
+      call set_harmonic(processor%velocity(j, :ORDER - 2*max(j, 1)), displacement%coefficient(:, :, :, j, 2), &
+                        displacement%pairs(:, j, 2))
+    end do
+    largest = sum(abs(displacement%coefficient(1, 0, :, :, :)))
+    do j = 1, N_SINE
+      displacement%sine(:, j) = pair_of(SINE_COEFFICIENTS(j))
+    end do
+    displacement%sine_pairs = number_of_pairs([(largest*SINE_COEFFICIENTS(j)/4.0_qp**(j - 1), j=1, N_SINE)], tolerance)
+  contains
+    pure subroutine set_harmonic(c, coefficient, pairs)
+      real(qp), intent(in) :: c(0:)
+      real(c_double), intent(inout) :: coefficient(2, 0:HALF - 1, 2)
+      integer(c_int64_t), intent(out) :: pairs(2)
+      integer :: n
+
+      do n = 0, ubound(c, 1)
+        coefficient(:, n/2, mod(n, 2) + 1) = pair_of(c(n))
+      end do
+      pairs(1) = number_of_pairs([(c(n)*fastest**n, n=0, ubound(c, 1), 2)], tolerance)
+      pairs(2) = number_of_pairs([(c(n)*fastest**n, n=1, ubound(c, 1), 2)], tolerance)
+    end subroutine set_harmonic
+  end subroutine set_displacement
+
+  !> One period of n lanes with one level's tables.
+  subroutine advance_level(level, n, lanes, turns)
+    !> the tables
+    type(level_t), intent(in) :: level
+    !> lanes in use
+    integer, intent(in) :: n
+    !> physical states
+    type(pair_lanes_t), intent(inout) :: lanes
+    !> [n] the net number of turns
+    real(c_double), intent(out) :: turns(WIDTH)
+
+    call pairs_displace(level%enter, int(n, c_int64_t), lanes)
+    call pairs_stages(int(level%n_steps, c_int64_t), int(level%n_drift, c_int64_t), int(level%n_kick, c_int64_t), &
+                      int(level%n_pairs, c_int64_t), level%row, level%decay, int(n, c_int64_t), lanes, turns)
+    call pairs_displace(level%leave, int(n, c_int64_t), lanes)
+  end subroutine advance_level
+
+end module kz_kernel_pairs_level

@@ -1,0 +1,188 @@
+/* Pairs of doubles: the operations against quad precision, a period against the reference, mirror images, lanes. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include "kapitza/kernel.h"
+#include "pairs_arithmetic.h"
+
+#include <float.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef __float128 quad;
+
+static const kz_pendulum PENDULUM = {1.0 / 121, 1.0 / 55, 0.3};
+static const double UNIT = 0x1p-104;
+#define PI_QUAD 3.14159265358979323846264338327950288Q
+
+/* Uniform in [-1, 1], 53 random bits. */
+static double number(void) {
+  static uint64_t state = 20240607;
+  state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+  return (double)(int64_t)state * 0x1p-63;
+}
+
+static double size(quad x) {
+  return fabs((double)x);
+}
+
+/* A random pair in lane 0, of sizes from 2^-8 to 2^8. */
+static pair any(void) {
+  const double high = ldexp(number(), rand() % 17 - 8);
+  return (pair){same(high), same(high * 0x1p-53 * number())};
+}
+
+static quad value(pair x) {
+  return (quad)x.high[0] + x.low[0];
+}
+
+static bool normal(pair x) {
+  return x.high[0] + x.low[0] == x.high[0];
+}
+
+/* Each operation errs by a few units of 2^-104 of its operands at most, and gives pairs that do not overlap. */
+static void operations_are_right_to_31_digits(void **unused) {
+  (void)unused;
+  for (int i = 0; i < 200000; i++) {
+    const pair x = any(), y = any(), z = any();
+    const quad a = value(x), b = value(y), c = value(z);
+    const double coefficients[2] = {z.high[0], z.low[0]};
+    const pair exact = sum(x.high, y.high), total = add(x, y), product = multiply(x, y), step = horner(x, y, coefficients);
+    assert_true((quad)exact.high[0] + exact.low[0] == (quad)x.high[0] + y.high[0]);
+    assert_true(size(value(total) - (a + b)) <= 2 * UNIT * (size(a) + size(b)) && normal(total));
+    assert_true(size(value(subtract(x, y)) - (a - b)) <= 2 * UNIT * (size(a) + size(b)));
+    assert_true(size(value(product) - a * b) <= 4 * UNIT * size(a * b) && normal(product));
+    assert_true(size(value(step) - (a * b + c)) <= 4 * UNIT * (size(a * b) + size(c)));
+    vector even;
+    const pair rest = reduce(x, &even);
+    assert_true(fmod(even[0], 2) == 0 && fabs(rest.high[0]) <= 1);
+    assert_true(size(value(rest) + even[0] - a) <= UNIT * size(a)); /* of binary digits a quad has 113 */
+  }
+}
+
+static void polynomials_end_in_doubles(void **unused) {
+  (void)unused;
+  for (int i = 0; i < 20000; i++) {
+    double c[8][2];
+    for (int j = 0; j < 8; j++) c[j][0] = number(), c[j][1] = c[j][0] * 0x1p-54 * number();
+    const pair x = {same(number()), same(0x1p-56 * number())};
+    quad all = 0, tail = 0;
+    for (int j = 7; j >= 0; j--) all = all * value(x) + ((quad)c[j][0] + (j < 5 ? c[j][1] : 0));
+    for (int j = 7; j >= 5; j--) tail = tail * value(x) + c[j][0];
+    const quad power = value(x) * value(x) * value(x) * value(x) * value(x);
+    assert_true(size(value(polynomial(8, 5, c[0], x)) - all) <= 64 * UNIT + 4 * DBL_EPSILON * size(power) * (1 + size(tail)));
+  }
+}
+
+enum { N = 150 };
+
+typedef struct {
+  double half_turns[N][2], velocity[N][2];
+  int64_t turns[N];
+} states;
+
+static void starts(double fastest, states *s) {
+  for (int i = 0; i < N; i++) {
+    s->half_turns[i][0] = number(), s->velocity[i][0] = fastest * number();
+    s->half_turns[i][1] = 0x1p-56 * number(), s->velocity[i][1] = 0x1p-56 * number();
+    s->turns[i] = 0;
+  }
+}
+
+static void advance(const kz_pairs *pairs, int64_t n, int64_t periods, states *s) {
+  kz_pairs_advance(pairs, n, periods, s->half_turns[0], s->velocity[0], s->turns);
+}
+
+/* The largest error of three periods against the Taylor series. */
+static double error_of(const kz_pairs *pairs, const kz_pendulum *pendulum, double fastest) {
+  static const double zero[N];
+  states s;
+  kz_reference_state reference[N];
+  quad state[2];
+  double largest = 0;
+  starts(fastest, &s);
+  kz_reference_start(N, zero, zero, reference);
+  for (int i = 0; i < N; i++) {
+    state[0] = PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]), state[1] = (quad)s.velocity[i][0] + s.velocity[i][1];
+    memcpy(reference[i].quads, state, sizeof state);
+  }
+  kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, N, 3, reference);
+  advance(pairs, N, 3, &s);
+  for (int i = 0; i < N; i++) {
+    memcpy(state, reference[i].quads, sizeof state);
+    assert_int_equal(s.turns[i], reference[i].turns);
+    const double d_theta = size(PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]) - state[0]);
+    const double d_velocity = size((quad)s.velocity[i][0] + s.velocity[i][1] - state[1]);
+    largest = fmax(largest, hypot(d_theta, d_velocity));
+  }
+  return largest;
+}
+
+/* Errors of fresh states stay within the tolerance (times what three periods make of them), and more steps are better: the error
+ * is that of the splitting, not of its arithmetic. Starts faster than the tables, and a pendulum without any, too. */
+static void periods_are_right(void **unused) {
+  (void)unused;
+  static const struct {
+    kz_pendulum pendulum;
+    double tolerance, fastest;
+  } cases[] = {{{1.0 / 121, 1.0 / 55, 0.3}, 1e-20, 6},
+               {{1.0 / 121, 1.0 / 55, 0.3}, 1e-28, 2},
+               {{-1, 0.1, 0.6}, 1e-24, 2},
+               {{0.1, 3, 0.5}, 1e-20, 2}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    double measured;
+    kz_pairs *pairs = kz_pairs_create(&cases[i].pendulum, cases[i].tolerance, cases[i].fastest, &measured);
+    assert_non_null(pairs);
+    assert_true(measured > 0 && measured <= cases[i].tolerance);
+    const double error = error_of(pairs, &cases[i].pendulum, 1.5 * cases[i].fastest);
+    assert_true(error <= 300 * measured);
+    assert_true(error > 0.01 * measured || measured < 1e-29);
+    kz_pairs_free(pairs);
+  }
+}
+
+/* The image of the mirror image is the mirror image, to the bit; a state goes alone as in company, and rest stays. */
+static void mirror_images_and_lanes(void **unused) {
+  (void)unused;
+  double measured;
+  kz_pairs *pairs = kz_pairs_create(&PENDULUM, 1e-20, 3, &measured);
+  states s, other, alone;
+  starts(6, &s);
+  s.half_turns[0][0] = 1, s.half_turns[0][1] = s.velocity[0][0] = s.velocity[0][1] = 0;
+  memset(s.half_turns[1], 0, sizeof s.half_turns[1]), memset(s.velocity[1], 0, sizeof s.velocity[1]);
+  other = s, alone = s;
+  for (int i = 0; i < N; i++)
+    for (int part = 0; part < 2; part++) {
+      other.half_turns[i][part] = -s.half_turns[i][part];
+      other.velocity[i][part] = -s.velocity[i][part];
+    }
+  advance(pairs, N, 6, &s);
+  advance(pairs, N, 6, &other);
+  for (int i = 0; i < N; i++) {
+    for (int part = 0; part < 2; part++) {
+      assert_true(s.half_turns[i][part] == -other.half_turns[i][part]);
+      assert_true(s.velocity[i][part] == -other.velocity[i][part]);
+    }
+    assert_int_equal(s.turns[i], -other.turns[i]);
+    assert_true(s.half_turns[i][0] + s.half_turns[i][1] == s.half_turns[i][0]);
+  }
+  kz_pairs_advance(pairs, 1, 6, alone.half_turns[77], alone.velocity[77], alone.turns + 77);
+  assert_memory_equal(alone.half_turns[77], s.half_turns[77], sizeof *s.half_turns);
+  assert_memory_equal(alone.velocity[77], s.velocity[77], sizeof *s.velocity);
+  assert_true(s.half_turns[0][0] == 1 && s.velocity[0][0] == 0 && s.half_turns[1][0] == 0 && s.velocity[1][0] == 0);
+  kz_pairs_free(pairs);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(operations_are_right_to_31_digits),
+      cmocka_unit_test(polynomials_end_in_doubles),
+      cmocka_unit_test(periods_are_right),
+      cmocka_unit_test(mirror_images_and_lanes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
