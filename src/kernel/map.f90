@@ -7,23 +7,25 @@ module kz_kernel_map
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   implicit none
   private
-  public :: map_t, flow_t, put_state, move_state, WIDTH, PI
+  public :: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
 
   !> Trajectories per tile; a multiple of every vector width.
   integer, parameter :: WIDTH = 64
+  !> Lanes of a map: those that are advanced, and as many states that wait for a free one.
+  integer, parameter :: ROOM = 2*WIDTH
   real(c_double), parameter :: PI = 3.14159265358979323846_c_double
 
   type, abstract :: map_t
     !> angle in half-turns, wrapped to [-1, 1]
-    real(c_double) :: u(WIDTH) = 0
+    real(c_double) :: u(ROOM) = 0
     !> velocity in rad per drive radian
-    real(c_double) :: v(WIDTH) = 0
+    real(c_double) :: v(ROOM) = 0
     !> net turns, counterclockwise +
-    integer(c_int64_t) :: turns(WIDTH) = 0
+    integer(c_int64_t) :: turns(ROOM) = 0
     !> has a label ceased to follow from the state? One that is integrated without its error never does
-    logical :: doubtful(WIDTH) = .false.
+    logical :: doubtful(ROOM) = .false.
     !> does a trapping region hold the state, but not all that its error leaves open? Later it may
-    logical :: straddling(WIDTH) = .false.
+    logical :: straddling(ROOM) = .false.
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state
@@ -31,7 +33,7 @@ module kz_kernel_map
     procedure :: move => move_state
     !> Advances the lanes 1 .. n (or all) by one period.
     procedure(advance_i), deferred :: advance
-    !> Takes the lanes first .. n (first = 1 if left out) from physical coordinates (angle, velocity) to those in which the map
+    !> Takes the lanes first .. n (first = 1 if left out; at most WIDTH lanes) from physical coordinates (angle, velocity) to those in which the map
     !> advances them, and back. The maps in both coordinates are conjugate: same cycles, multipliers, windings and basins.
     !> matrix(:, :, lane), if present, is multiplied by the derivative of the change; flows alone know it.
     procedure :: enter => same_coordinates
@@ -89,7 +91,7 @@ contains
   subroutine put_state(self, lane, u, v)
     !> the map
     class(map_t), intent(inout) :: self
-    !> from 1 to WIDTH
+    !> from 1 to ROOM
     integer, intent(in) :: lane
     !> angle, half-turns in [-1, 1]
     real(c_double), intent(in) :: u

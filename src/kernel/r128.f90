@@ -3,7 +3,7 @@ module kz_kernel_r128
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH
+  use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH, ROOM
   use kz_kernel_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
   use kz_kernel_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
@@ -33,7 +33,10 @@ module kz_kernel_r128
     2.898000241925418772355479264841694691025e-17_rk]
 
   include 'tile.inc'
+  include 'tile_stages.inc'
   include 'processed_tile.inc'
+  include 'processed_tangent.inc'
+  include 'processor.inc'
 
   !> The stages of a period of the processed splitting for the lanes 1 .. n.
   subroutine stages(n_drift, n_kick, n_stages, row, n, u, v)
@@ -56,5 +59,18 @@ module kz_kernel_r128
       end do
     end do
   end subroutine stages
+
+  !> c(1) + c(2) x + c(3) x**2 + ..
+  pure function polynomial(c, x) result(y)
+    real(rk), intent(in) :: c(:)
+    real(rk), intent(in) :: x
+    real(rk) :: y
+    integer :: j
+
+    y = 0
+    do j = size(c), 1, -1
+      y = y*x + c(j)
+    end do
+  end function polynomial
 
 end module kz_kernel_r128

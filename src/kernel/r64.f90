@@ -3,7 +3,7 @@ module kz_kernel_r64
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH
+  use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH, ROOM
   use kz_kernel_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
   use kz_kernel_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
@@ -40,6 +40,9 @@ module kz_kernel_r64
     7.69472732830679049614e-7_rk]
 
   include 'tile.inc'
+  include 'tile_stages.inc'
   include 'processed_tile.inc'
+  include 'processed_tangent.inc'
+  include 'processor.inc'
 
 end module kz_kernel_r64

@@ -103,7 +103,7 @@ contains
       call d%search%flow%enter(WIDTH)
       call d%search%flow%advance(WIDTH)
       call d%search%flow%leave(WIDTH)
-      top = max(top, maxval(abs(d%search%flow%v)))
+      top = max(top, maxval(abs(d%search%flow%v(:WIDTH))))
     end do
   end function max_velocity
 

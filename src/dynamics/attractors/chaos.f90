@@ -52,7 +52,7 @@ contains
     allocate (visits_of(COVER**2), source=0)
     do period = 1, SETTLE + VISITS
       call search%flow%advance(WIDTH)
-      call find_regions(regions, attractors, WIDTH, search%flow%u, search%flow%v, region)
+      call find_regions(regions, attractors, WIDTH, search%flow%u(:WIDTH), search%flow%v(:WIDTH), region)
       if (any(region > 0)) return
       if (period <= SETTLE) cycle
       do lane = 1, WIDTH

@@ -3,7 +3,7 @@
 !> doubtful: its label is not decided. It is trapped once a trapping region holds the whole ellipse of P.
 module kz_maps_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
+  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
   use kz_attractors_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t, find_regions
   use kz_maps_states, only: angle_difference, separation
@@ -25,7 +25,7 @@ module kz_maps_covariance
     class(flow_t), allocatable :: shown !< the map's states in physical coordinates, in which the two are compared
     type(regions_t), pointer :: regions => null()
     type(attractor_t), pointer :: attractors(:) => null()
-    real(dp) :: p(3, WIDTH) = 0 !< theta theta, theta v, v v: rad, rad per drive radian
+    real(dp) :: p(3, ROOM) = 0 !< theta theta, theta v, v v: rad, rad per drive radian
   contains
     procedure :: put
     procedure :: move
@@ -110,7 +110,7 @@ contains
     self%u(:n) = self%flow%u(:n)
     self%v(:n) = self%flow%v(:n)
     self%turns(:n) = self%flow%turns(:n)
-    call find_regions(self%regions, self%attractors, n, self%u, self%v, region)
+    call find_regions(self%regions, self%attractors, n, self%u(:n), self%v(:n), region)
     do lane = 1, n
       error = hypot(separation(self%shown%u(lane), self%shown%v(lane), self%finer%u(lane), self%finer%v(lane)), &
                     rounding(self)*hypot(PI, self%v(lane)))

@@ -1,7 +1,8 @@
-!> Follows many starts with any map until each is trapped: lanes are refilled as starts settle.
+!> Follows many starts with any map until each is trapped: another start takes the lane of one that has settled. Starts enter the
+!> coordinates of the map many at a time, and wait.
 module kz_dynamics_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
-  use kz_kernel_map, only: map_t, WIDTH
+  use kz_kernel_map, only: map_t, WIDTH, ROOM
   use kz_attractors_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t, find_regions, chaos_region
   implicit none
@@ -15,12 +16,14 @@ module kz_dynamics_label
 
   !> What the lanes of the map carry.
   type :: lanes_t
-    integer :: active = 0               !< lanes 1 .. active are in use
-    integer(c_int64_t) :: start(WIDTH)  !< which start
-    integer(c_int64_t) :: age(WIDTH)    !< periods since then
-    integer(c_int64_t) :: most(WIDTH)   !< periods that it is followed at most
-    integer :: guest_of(WIDTH)          !< chaotic attractor whose cover it is in
-    integer :: stay(WIDTH)              !< for so many periods
+    integer :: active = 0              !< lanes 1 .. active are advanced
+    integer :: waiting = 0             !< starts that wait for a lane:
+    integer :: queue(WIDTH)            !< in these, the last first
+    integer(c_int64_t) :: start(ROOM)  !< which start
+    integer(c_int64_t) :: age(ROOM)    !< periods since then
+    integer(c_int64_t) :: most(ROOM)   !< periods that it is followed at most
+    integer :: guest_of(ROOM)          !< chaotic attractor whose cover it is in
+    integer :: stay(ROOM)              !< for so many periods
   end type lanes_t
 
 contains
@@ -43,55 +46,74 @@ contains
     integer(c_int64_t), intent(inout) :: periods(:)
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
-    integer :: region(WIDTH)
+    integer :: region(WIDTH), lane
 
     next = 1
-    do
-      do while (lanes%active < WIDTH .and. next <= size(label))
-        call refill(next)
-      end do
-      if (lanes%active == 0) return
+    do lane = 1, WIDTH
+      call occupy(lane)
+    end do
+    do while (lanes%active > 0)
       call map%advance(lanes%active)
       lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
-      call find_regions(regions, attractors, lanes%active, map%u, map%v, region)
+      call find_regions(regions, attractors, lanes%active, map%u(:lanes%active), map%v(:lanes%active), region)
       call judge(map, regions, lanes, region)
-      call take_settled(1)
+      do lane = lanes%active, 1, -1
+        if (region(lane) == 0 .and. lanes%age(lane) < lanes%most(lane)) cycle
+        call settle(lane, region(lane))
+        call occupy(lane)
+      end do
     end do
   contains
-    !> Puts the next starts into the free lanes. Those that lie inside a trapping region leave at once.
-    subroutine refill(next)
-      integer(c_int64_t), intent(inout) :: next
-      integer :: first, lane
+    !> A start that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.
+    subroutine occupy(lane)
+      integer, intent(in) :: lane
 
-      first = lanes%active + 1
-      do lane = first, int(min(int(WIDTH, c_int64_t), lanes%active + size(label) - next + 1))
-        lanes%start(lane) = next
-        lanes%most(lane) = periods(next)
-        call map%put(lane, state(1, next), state(2, next))
-        next = next + 1
-        lanes%active = lane
-      end do
-      lanes%age(first:) = 0
-      lanes%guest_of(first:) = 0
-      call map%enter(lanes%active, first=first)
-      call find_regions(regions, attractors, lanes%active - first + 1, map%u(first:), map%v(first:), region(first:))
-      call take_settled(first)
-    end subroutine refill
-
-    !> The lanes first .. active whose region is not 0, or whose time is up, leave; the last ones move into their places.
-    subroutine take_settled(first)
-      integer, intent(in) :: first
-      integer :: lane
-
-      do lane = lanes%active, first, -1
-        if (region(lane) == 0 .and. lanes%age(lane) < lanes%most(lane)) cycle
-        label(lanes%start(lane)) = region(lane)
-        periods(lanes%start(lane)) = lanes%age(lane)
-        state(:, lanes%start(lane)) = [map%u(lane), map%v(lane)]
+      if (lanes%waiting == 0) call let_in
+      if (lanes%waiting > 0) then
+        lanes%active = max(lanes%active, lane)
+        call move(map, lanes, lanes%queue(lanes%waiting), lane)
+        lanes%waiting = lanes%waiting - 1
+      else if (lane <= lanes%active) then
         if (lane < lanes%active) call move(map, lanes, lanes%active, lane)
         lanes%active = lanes%active - 1
+      end if
+    end subroutine occupy
+
+    !> Puts the next starts into the lanes behind the first WIDTH. Those that lie inside a trapping region leave at once.
+    subroutine let_in
+      integer :: found(WIDTH), n, i
+
+      do while (lanes%waiting == 0 .and. next <= size(label))
+        n = int(min(int(WIDTH, c_int64_t), size(label) - next + 1))
+        do i = WIDTH + 1, WIDTH + n
+          lanes%start(i) = next
+          lanes%most(i) = periods(next)
+          call map%put(i, state(1, next), state(2, next))
+          next = next + 1
+        end do
+        lanes%age(WIDTH + 1:) = 0
+        lanes%guest_of(WIDTH + 1:) = 0
+        call map%enter(WIDTH + n, first=WIDTH + 1)
+        call find_regions(regions, attractors, n, map%u(WIDTH + 1:WIDTH + n), map%v(WIDTH + 1:WIDTH + n), found)
+        do i = n, 1, -1 ! the first start is to leave the queue first
+          if (found(i) == 0 .and. lanes%most(WIDTH + i) > 0) then
+            lanes%waiting = lanes%waiting + 1
+            lanes%queue(lanes%waiting) = WIDTH + i
+          else
+            call settle(WIDTH + i, found(i))
+          end if
+        end do
       end do
-    end subroutine take_settled
+    end subroutine let_in
+
+    subroutine settle(lane, a)
+      integer, intent(in) :: lane
+      integer, intent(in) :: a
+
+      label(lanes%start(lane)) = a
+      periods(lanes%start(lane)) = lanes%age(lane)
+      state(:, lanes%start(lane)) = [map%u(lane), map%v(lane)]
+    end subroutine settle
   end subroutine follow
 
   subroutine move(map, lanes, from, to)
@@ -118,7 +140,7 @@ contains
     integer :: lane
 
     with_covers = size(regions%covered) > 0
-    if (.not. (with_covers .or. any(map%straddling(:lanes%active)) .or. any(map%doubtful(:lanes%active)))) return
+    if (.not. with_covers .and. count(map%straddling(:lanes%active) .or. map%doubtful(:lanes%active)) == 0) return
     do lane = 1, lanes%active
       if (map%straddling(lane)) region(lane) = merge(DOUBTFUL, 0, lanes%age(lane) >= lanes%most(lane))
       if (region(lane) /= 0) then

@@ -2,7 +2,7 @@
 module kz_maps_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_maps_states, only: enter_states
-  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, PI
+  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
   use kz_kernel_step_table, only: pendulum_t
   use kz_maps_states, only: wrapped
   use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
@@ -15,8 +15,8 @@ module kz_maps_reference_map
   type, extends(map_t) :: reference_map_t
     private
     type(drive_t) :: drive
-    real(qp) :: theta(WIDTH) = 0    !< rad
-    real(qp) :: velocity(WIDTH) = 0 !< rad per drive radian
+    real(qp) :: theta(ROOM) = 0    !< rad
+    real(qp) :: velocity(ROOM) = 0 !< rad per drive radian
     real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
     real(dp), allocatable :: start_u(:)   !< their half-turns as doubles
     integer :: last = 0 !< the start that was put last

@@ -5,7 +5,7 @@
 module kz_maps_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: map_t, flow_t, WIDTH
-  use kz_maps_states, only: midperiod_angle
+  use kz_maps_states, only: midperiod_angle, MIDPERIOD
   implicit none
   private
   public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, node_velocity, inner_top, table_map_t, make_table_map, &
@@ -200,7 +200,7 @@ contains
     lowest = self%points/2 - 1
     highest = self%table%n_velocity - 1 - lowest
     do lane = 1, WIDTH
-      w = midperiod_angle(self%u(lane), self%v(lane))
+      w = self%u(lane) + MIDPERIOD*self%v(lane)
       w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
       place%fold(lane) = merge(1.0_dp, -1.0_dp, w > 0 .or. (.not. w < 0 .and. self%v(lane) >= 0))
       if (.not. abs(self%v(lane)) > 0 .and. (.not. abs(w) > 0 .or. abs(w) >= 1)) place%fold(lane) = 0
@@ -244,7 +244,7 @@ contains
         call quintic_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
       end select
       do lane = 1, n
-        x(lane) = self%u(lane) + p%fold(lane)*(shift(1, lane) - midperiod_angle(0.0_dp, shift(2, lane)))
+        x(lane) = self%u(lane) + p%fold(lane)*(shift(1, lane) - MIDPERIOD*shift(2, lane))
         y(lane) = self%v(lane) + p%fold(lane)*shift(2, lane)
       end do
     end associate

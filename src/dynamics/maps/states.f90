@@ -4,10 +4,13 @@ module kz_maps_states
   use kz_kernel_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: wrapped, enter_states, leave_states, angle_difference, separation, same_state, midperiod_angle, rounded
+  public :: wrapped, enter_states, leave_states, angle_difference, separation, same_state, midperiod_angle, rounded, MIDPERIOD
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
+  !> Half-turns of a free flight of unit velocity from the strobe to mid-period. (Loops over vectors take it: a function of another
+  !> file would be called state by state.)
+  real(dp), parameter :: MIDPERIOD = 1
 
 contains
 
@@ -71,7 +74,7 @@ contains
     real(dp), intent(in) :: v
     real(dp) :: w
 
-    w = u + v
+    w = u + MIDPERIOD*v
   end function midperiod_angle
 
   !> As numbers are compared where an order depends on them: to 1e-9.

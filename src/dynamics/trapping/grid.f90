@@ -1,13 +1,14 @@
 !> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi, each labelled with an
 !> attractor, overlapped by trapping ellipses, or open.
 module kz_trapping_grid
-  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_attractors_cycles, only: attractor_t
   use kz_trapping_ellipses, only: in_ellipse
+  use kz_trapping_places, only: look_up, side, wrapped_midperiod_angle, WORD
   use kz_maps_states, only: angle_difference, midperiod_angle
   implicit none
   private
-  public :: regions_t, make_regions, draw_attractors, find_regions, ellipse_at, fold_cell, cover_cell, chaos_region
+  public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, fold_cell, cover_cell, chaos_region
 
   !> An ellipse that overlaps a cell, and the next one of that cell.
   type :: ellipse_overlap_t
@@ -22,15 +23,13 @@ module kz_trapping_grid
     integer :: n_velocity = 0 !< cells from -top to top
     real(dp) :: top = 0
     integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
+    integer(int32), allocatable :: closed(:) !< a bit for each cell and one for the outside, in this order: may a region be there?
     integer, allocatable :: drawn(:, :) !< the same by ellipses alone: what has grown since does not hide them
     type(ellipse_overlap_t), allocatable :: overlaps(:)
     integer :: n_overlaps = 0
     integer :: n_drawn = 0    !< attractors that have been drawn
     integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
   end type regions_t
-
-  !> The grid's entry for velocities outside it.
-  integer, parameter :: OUTSIDE = -huge(0)
 
   !> Cells of a chaotic attractor's cover along an axis.
   integer, parameter, public :: COVER = 512
@@ -54,6 +53,8 @@ contains
     allocate (regions%label(0:regions%n_theta - 1, 0:n_velocity - 1), source=0)
     allocate (regions%drawn, source=regions%label)
     allocate (regions%overlaps(64), regions%covered(0))
+    allocate (regions%closed(0:size(regions%label)/WORD))
+    call note_closed(regions)
   end function make_regions
 
   !> Draws the ellipses and covers of the attractors that are new since the last time.
@@ -78,8 +79,28 @@ contains
       regions%covered(attractors(a)%cover) = a
     end do
     where (regions%label <= 0) regions%label = regions%drawn
+    call note_closed(regions)
     regions%n_drawn = size(attractors)
   end subroutine draw_attractors
+
+  !> The bits of all cells from their labels: the map of open cells that stays in the cache.
+  subroutine note_closed(regions)
+    !> the trapping regions
+    type(regions_t), intent(inout) :: regions
+    integer :: cell
+
+    regions%closed = 0
+    call set_bit(size(regions%label))
+    do cell = 0, size(regions%label) - 1
+      if (regions%label(mod(cell, regions%n_theta), cell/regions%n_theta) /= 0) call set_bit(cell)
+    end do
+  contains
+    subroutine set_bit(cell)
+      integer, intent(in) :: cell
+
+      regions%closed(cell/WORD) = ibset(regions%closed(cell/WORD), mod(cell, WORD))
+    end subroutine set_bit
+  end subroutine note_closed
 
   !> Number (from 1) of the cover's cell that holds (u, v); 0 outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
   pure function cover_cell(regions, u, v) result(cell)
@@ -92,7 +113,7 @@ contains
     integer :: cell
     real(dp) :: fold, y
 
-    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(u, v))
+    fold = side(u, v)
     cell = 0
     y = (fold*v/regions%top + 1)*(COVER/2)
     if (.not. (y >= 0 .and. y < COVER .and. abs(u) <= 1)) return
@@ -193,89 +214,31 @@ contains
     integer, intent(out) :: label(n)
     integer :: i
 
-    call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%label, n, u, v, label)
+    call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%closed, n, u, v, label)
     do i = 1, n
-      if (label(i) < 0) label(i) = find_region(regions, attractors, label(i), u(i), v(i))
-      if (label(i) > 0 .and. is_mirrored(wrapped_midperiod_angle(u(i), v(i)), v(i))) label(i) = attractors(label(i))%mirror
+      if (label(i) > 0) label(i) = find_region(regions, attractors, label(i) - 1, u(i), v(i))
     end do
   end subroutine find_regions
 
-  !> The grid's entries for n states, folded to the stored half; OUTSIDE beyond its velocities.
-  pure subroutine look_up(n_theta, n_velocity, per_u, top, grid, n, u, v, entry)
-    !> stored columns of the grid
-    integer, intent(in) :: n_theta
-    !> rows of the grid
-    integer, intent(in) :: n_velocity
-    !> columns in a half-turn
-    real(dp), intent(in) :: per_u
-    !> largest velocity of the grid, rad per drive radian
-    real(dp), intent(in) :: top
-    !> regions%label, cell by cell
-    integer, intent(in) :: grid(0:n_theta*n_velocity - 1)
-    !> states
-    integer, intent(in) :: n
-    !> angles, half-turns in [-1, 1]
-    real(dp), intent(in) :: u(n)
-    !> velocities, rad per drive radian
-    real(dp), intent(in) :: v(n)
-    !> what the grid holds at each state
-    integer, intent(out) :: entry(n)
-    real(dp) :: w, y, per_v
-    integer :: i
-
-    per_v = n_velocity/(2*top)
-    do i = 1, n
-      w = wrapped_midperiod_angle(u(i), v(i))
-      y = (merge(-v(i), v(i), is_mirrored(w, v(i))) + top)*per_v
-      entry(i) = -1
-      if (y >= 0 .and. y < n_velocity .and. abs(w) <= 1) entry(i) = min(int(abs(w)*per_u), n_theta - 1) + n_theta*int(y)
-    end do
-    do i = 1, n
-      if (entry(i) >= 0) then
-        entry(i) = grid(entry(i))
-      else
-        entry(i) = OUTSIDE
-      end if
-    end do
-  end subroutine look_up
-
-  !> The attractor that holds (u, v), folded, where the grid's entry is an overlap or OUTSIDE.
-  function find_region(regions, attractors, entry, u, v) result(a)
+  !> The attractor whose region holds (u, v), which lies in that cell of the stored half, or outside.
+  function find_region(regions, attractors, cell, u, v) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    integer, intent(in) :: entry
+    integer, intent(in) :: cell
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     integer :: a
     real(dp) :: fold
 
-    fold = merge(-1.0_dp, 1.0_dp, is_mirrored(wrapped_midperiod_angle(u, v), v))
-    if (entry == OUTSIDE) then
+    fold = side(wrapped_midperiod_angle(u, v), v)
+    if (cell == size(regions%label)) then
       a = ellipse_at(attractors, fold*u, fold*v)
     else
-      a = overlap_at(regions, attractors, -entry, fold*u, fold*v)
+      a = regions%label(mod(cell, regions%n_theta), cell/regions%n_theta)
+      if (a < 0) a = overlap_at(regions, attractors, -a, fold*u, fold*v)
     end if
+    if (a > 0 .and. fold < 0) a = attractors(a)%mirror
   end function find_region
-
-  !> The mid-period angle, wrapped to [-1, 1].
-  elemental function wrapped_midperiod_angle(u, v) result(w)
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-    real(dp) :: w
-    real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
-
-    w = midperiod_angle(u, v)
-    w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
-  end function wrapped_midperiod_angle
-
-  !> Does (u, v) lie in the half that is not stored?
-  elemental function is_mirrored(u, v) result(mirrored)
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-    logical :: mirrored
-
-    mirrored = .not. (u > 0 .or. (.not. u < 0 .and. v >= 0))
-  end function is_mirrored
 
   !> The attractor of the first ellipse that holds (u, v), in the list that begins with overlap `first`; 0 = none.
   function overlap_at(regions, attractors, first, u, v) result(a)

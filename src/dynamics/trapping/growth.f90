@@ -8,7 +8,7 @@ module kz_trapping_growth
   use kz_attractors_cycles, only: attractor_t
   use kz_trapping_ellipses, only: in_ellipse
   use kz_trapping_cell_images, only: images_t, PERIODS, corners_of, extent
-  use kz_trapping_grid, only: regions_t, fold_cell
+  use kz_trapping_grid, only: regions_t, fold_cell, note_closed
   use kz_maps_states, only: midperiod_angle
   implicit none
   private
@@ -64,6 +64,7 @@ contains
     call grow(circle, images, waiting)
     where (regions%label <= 0 .and. circle%label(:regions%n_theta - 1, :) > 0) &
       regions%label = circle%label(:regions%n_theta - 1, :)
+    call note_closed(regions)
   end subroutine grow_regions
 
   function make_circle(regions, attractors) result(circle)

@@ -1,0 +1,83 @@
+!> Where states lie in the grid of trapping regions, many at once. (A file of its own: called, not copied into a caller, its loop goes
+!> over vectors.)
+module kz_trapping_places
+  use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
+  use kz_maps_states, only: MIDPERIOD
+  implicit none
+  private
+  public :: look_up, wrapped_midperiod_angle, side
+
+  !> Cells in a word of bits.
+  integer, parameter, public :: WORD = bit_size(0_int32)
+  !> Adding it rounds to an integer.
+  real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
+
+contains
+
+  !> In vectors: the numbers (from 1) of the cells that hold n states, folded to the stored half, the last number for those outside;
+  !> 0 where the cell is open.
+  pure subroutine look_up(n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
+    !> stored columns of the grid
+    integer, intent(in) :: n_theta
+    !> rows of the grid
+    integer, intent(in) :: n_velocity
+    !> columns in a half-turn
+    real(dp), intent(in) :: per_u
+    !> largest velocity of the grid, rad per drive radian
+    real(dp), intent(in) :: top
+    !> a bit for each cell, then one for the outside
+    integer(int32), intent(in) :: closed(0:n_theta*n_velocity/WORD)
+    !> states
+    integer, intent(in) :: n
+    !> angles, half-turns in [-1, 1]
+    real(dp), intent(in) :: u(n)
+    !> velocities, rad per drive radian
+    real(dp), intent(in) :: v(n)
+    !> number of the cell, from 1; 0 = open
+    integer, intent(out) :: cell(n)
+    real(dp) :: w, y, c, per_v, outside, columns, rows
+    integer :: i
+
+    columns = n_theta
+    rows = n_velocity
+    outside = columns*rows
+    per_v = rows/(2*top)
+    do i = 1, n
+      w = u(i) + MIDPERIOD*v(i)
+      w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+      y = (side(w, v(i))*v(i) + top)*per_v
+      c = aint(abs(w)*per_u)
+      c = merge(c, columns - 1, c < columns) + columns*aint(y)
+      c = merge(c, outside, y >= 0)
+      c = merge(c, outside, y < rows)
+      cell(i) = int(merge(c, outside, abs(w) <= 1)) ! a lost state is outside
+    end do
+    do i = 1, n
+      cell(i) = iand(ishft(closed(ishft(cell(i), -5)), -iand(cell(i), WORD - 1)), 1)*(cell(i) + 1)
+    end do
+  end subroutine look_up
+
+  !> The mid-period angle, wrapped to [-1, 1].
+  elemental function wrapped_midperiod_angle(u, v) result(w)
+    !> angle, half-turns
+    real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
+    real(dp), intent(in) :: v
+    real(dp) :: w
+
+    w = u + MIDPERIOD*v
+    w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+  end function wrapped_midperiod_angle
+
+  !> 1 where (u, v) lies in the half that is stored, -1 where its mirror image does.
+  elemental function side(u, v) result(fold)
+    !> angle, half-turns
+    real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
+    real(dp), intent(in) :: v
+    real(dp) :: fold
+
+    fold = merge(1.0_dp, -1.0_dp, merge(u, v, abs(u) > 0) >= 0)
+  end function side
+
+end module kz_trapping_places
