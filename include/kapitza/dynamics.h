@@ -144,6 +144,23 @@ int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *f
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
 int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);
 
+/* ---- charts ---- */
+
+/* Where a motion of one of many pendulums ends. */
+typedef struct {
+  int32_t period;        /* 0 = chaotic: not settled, and neighbours part; -1 = not settled */
+  int32_t winding;       /* net turns per period */
+  int32_t centre;        /* 0 down, 1 inverted, 2 rotating, 3 none of these */
+  int32_t settling_time; /* drive periods until the motion is within 1e-5 rad of where it was a period of the cycle before */
+  double exponent; /* largest Lyapunov exponent, per drive period: of the cycle, or of 1000 periods of a motion without one */
+} kz_chart_ending;
+
+/* Ends of the motions of n pendulums from one start (half-turns, velocity), by `steps` steps of split6 a period: followed until
+ * they come back within 1e-5 rad after up to max_period periods, then Newton's method. A cycle that does not attract is left to be
+ * left; a start that sits on one has not settled. max_periods [n]: 0 = not followed. */
+void kz_chart_ends(int32_t steps, int64_t n, const kz_pendulum *pendulum, const double start[2], int32_t max_period,
+                   const int64_t *max_periods, kz_chart_ending *endings);
+
 /* ---- manifolds ---- */
 
 /* One branch of the stable or unstable manifold of a saddle of the map of published values. */

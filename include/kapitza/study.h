@@ -114,6 +114,18 @@ typedef struct {
   int64_t transient, samples;         /* drive periods at each value before the record, and of it */
 } kz_sweep_plan;
 
+/* Study `chart`: ends of the same starts over a plane of two keys of the pendulum mapping. */
+enum { KZ_CHART_MOST_PERIOD = 64 };
+typedef struct {
+  int32_t parameter; /* row of kz_sweep_parameters */
+  kz_axis values;    /* both ends included */
+} kz_chart_axis;
+typedef struct {
+  kz_chart_axis x, y;
+  kz_reals theta, velocity;        /* starts: rad, rad per drive radian; one velocity serves all angles */
+  int64_t max_period, max_periods; /* max_periods unset: INT64_MIN */
+} kz_chart_plan;
+
 /* The pendulum mapping as written, in one of three forms; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
@@ -164,6 +176,8 @@ typedef struct {
   kz_tradeoff_plan tradeoff;
   bool has_sweep;
   kz_sweep_plan sweep;
+  bool has_chart;
+  kz_chart_plan chart;
 } kz_scene;
 
 /* Steps a period of the study `orbit`: those of the scene, or more where a fast motion needs them; a multiple of the samples. */
@@ -187,11 +201,15 @@ extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 const char *kz_sweep_words(void);
 const char *kz_sweep_measure_words(void);
 
-/* Value i of the sweep, both ends exact. */
+/* Value i of n >= 2 values, or of one, with both ends exact. */
+double kz_axis_value(const kz_axis *values, int64_t i);
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
 
-/* The scene's pendulum with its swept key at `value`; false where that is none (not finite, negative damping, less inertia than
- * a point). */
+/* The scene's pendulum with n of its keys (rows of kz_sweep_parameters) at other values; false where that is none (not finite,
+ * negative damping, less inertia than a point). */
+bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum);
+
+/* The same with the swept key at `value`. */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
 
 /* What a study would cost. */

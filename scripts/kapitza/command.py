@@ -3,13 +3,14 @@
 import sys
 from collections.abc import Callable
 
-from kapitza.plots import basin, orbit, potential, stability, sweep, tradeoff
+from kapitza.plots import basin, chart, orbit, potential, stability, sweep, tradeoff
 from kapitza.report import command as report
 from kapitza.result import run
 
 # KIND -> a function that takes the other words of the command line.
 KINDS: dict[str, Callable[[list[str]], None]] = {
     "basin": basin.main,
+    "chart": chart.main,
     "orbit": orbit.main,
     "potential": potential.main,
     "report": report.main,

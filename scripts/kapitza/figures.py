@@ -18,6 +18,7 @@ _CHART: _Row = ("", "stability", [])
 _GROWTH: _Row = ("", "stability", ["--view", "growth"])
 _FREQUENCY: _Row = ("", "stability", ["--view", "frequency"])
 _ERRORS: _Row = ("", "stability", ["--view", "errors"])
+_ENDS: _Row = ("", "chart", ["--dpi", "130"])
 _POTENTIAL: _Row = ("", "potential", [])
 _TRADE: _Row = ("", "tradeoff", [])
 
@@ -58,6 +59,8 @@ _SCENES = {
     "butikov-fig10c": [_ORBIT],
     "butikov-fig11": [_CHART],
     "butikov-fig12": [_ORBIT],
+    "chart-blackburn": [_ENDS],
+    "chart-butikov": [_ENDS],
     "formula-errors": [_ERRORS],
     "manifolds-fig12": [_MANIFOLDS],
     "saddles-fig12": [_SADDLES],

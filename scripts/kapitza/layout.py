@@ -31,6 +31,8 @@ NEEDED = {
     "tradeoff": Part(_over("setting", "label", "method", "precision", "scheme", "interpolation", "wrong", "wrong_low", "wrong_high",
                            "seconds", "seconds_per_million_cells", "pareto"), ("floor", "samples")),
     "basin": Part({"theta": "theta", "velocity": "velocity"} | _over("velocity theta", "attractor", "settling_time", "evidence")),
+    "chart": Part({"x": "x", "y": "y"} | _over("start", "start_theta", "start_velocity")
+                  | _over("start y x", "period", "winding", "centre", "end", "exponent", "settling_time"), ("x_parameter", "y_parameter")),
     "manifolds": Part(_over("point", "theta", "velocity", "arc_length", "saddle", "branch", "kind", "polyline")),
     "saddles": Part(_over("saddle", "period", "winding", "name", "index") | _over("saddle phase", "strobe_theta", "strobe_velocity")
                     | _over("saddle pair", "multiplier_re", "multiplier_im")),
@@ -54,9 +56,9 @@ OPTIONAL = {
 # What is not a number, and what counts or is a code (with the largest code, where there is one).
 TEXT = {"name", "label", "scheme", "branch_name"}
 CODES = {"period": None, "centre": 3, "evidence": 4, "settling_time": None, "method": 1, "precision": 2, "interpolation": 2,
-         "branch_period": None, "branch_centre": 3, "kind": 1}
-GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release"}  # axes that go up
-WORDS = {"parameter", "parameter_units"}  # attributes that are text; all others that a part names are numbers
+         "branch_period": None, "branch_centre": 3, "kind": 1, "end": 3}
+GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y"}  # axes that go up
+WORDS = {"parameter", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; all others that a part names are numbers
 WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pictures name its parameters
 NUMBERS = {"quality_factor", "damping", *(f"tongue_{tongue}_lowest_{axis}" for tongue in (1, 2) for axis in "km")}  # where they are given
 

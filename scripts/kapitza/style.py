@@ -101,6 +101,11 @@ def _oklab(colour: str) -> np.ndarray:
     return _OKLAB[1] @ np.cbrt(_OKLAB[0] @ linear)
 
 
+def motion_colour(period: int, winding: int, centre: int) -> str:
+    """The colour (hex) of a motion by itself, outside of any catalogue."""
+    return _colour(0, period, winding, centre, 0)
+
+
 def _colour(index: int, period: int, winding: int, centre: int, mirror: int) -> str:
     name = kind(period, winding, centre)
     lighter = 0.0

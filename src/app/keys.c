@@ -28,6 +28,13 @@
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
 
+#define CHART_AXIS(axis, help)                                                                                                \
+  MAPPING("chart." #axis, NULL, KZ_NO_FIELD, help),                                                                           \
+      ROW("chart." #axis ".parameter", KZ_KEY_WORD, NULL, AT(chart.axis.parameter),                                           \
+          "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words), \
+      REAL("chart." #axis ".min", "", -DBL_MAX, DBL_MAX, NULL, chart.axis.values.min, "First value."),                        \
+      REAL("chart." #axis ".max", "", -DBL_MAX, DBL_MAX, NULL, chart.axis.values.max, "Last value."),                         \
+      INTEGER("chart." #axis ".count", 2, 1e5, "500", chart.axis.values.count, "Values, both ends included.")
 #define STABILITY_DAMPING(form_, name, low_, help) \
   ROW("stability." #name, KZ_KEY_REAL, "", AT(stability.name), help, .unit = "", .low = low_, .high = 1e5, .form = form_)
 
@@ -223,6 +230,17 @@ const kz_key kz_keys[] = {
     REAL("sweep.start.velocity", "rad per drive radian", -1e9, 1e9, "0", sweep.start_velocity, "Velocity."),
     INTEGER("sweep.transient", 0, 1e7, "400", sweep.transient, "Drive periods of strobe at each value before the record."),
     INTEGER("sweep.samples", 1, 1e5, "64", sweep.samples, "Strobe points of each walk at each value."),
+
+    MAPPING("chart", "", AT(has_chart), "Study: where the same starts end, over a plane of two keys of the pendulum mapping."),
+    CHART_AXIS(x, "The key along the picture."),
+    CHART_AXIS(y, "The key up the picture."),
+    MAPPING("chart.start", NULL, KZ_NO_FIELD, "Starts, at t = 0; each has a chart of its own."),
+    ROW("chart.start.theta", KZ_KEY_REALS, NULL, AT(chart.theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),
+    ROW("chart.start.velocity", KZ_KEY_REALS, "[0]", AT(chart.velocity), "Velocities; one serves all angles.",
+        .unit = "rad per drive radian", .low = -1e3, .high = 1e3),
+    INTEGER("chart.max_period", 1, KZ_CHART_MOST_PERIOD, "16", chart.max_period, "Longest period of a cycle that is told."),
+    INTEGER("chart.max_periods", 1, 1e8, "", chart.max_periods,
+            "Drive periods after which a motion counts as not settled; left out: what the damping needs, 2000 at least."),
 
     {.path = NULL},
 };

@@ -143,26 +143,42 @@ static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
               "has no window to label; add a basin study to the scene");
 }
 
-/* One value of the swept key: in the range of the key itself, and a pendulum. */
-static void sweep_value(kz_reading *reading, const kz_scene *scene, const char *path, double value) {
+/* One value of a key of the pendulum mapping: in the range of the key itself, and a pendulum. */
+static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t parameter, const char *path, double value) {
   char key[64];
   kz_pendulum pendulum;
   const kz_node *node = kz_tree_find(reading->root, path);
-  snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[scene->sweep.parameter].name);
+  snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[parameter].name);
   const double low = kz_key_find(reading->keys, key)->low;
   if (isnan(value)) return;
   if (value < low)
     kz_complain(reading, node, path, "%s is below what %s takes; %s%g", shortest(value).text, key,
                 low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
-  else if (!reading->message[0] && !kz_sweep_pendulum(scene, value, &pendulum))
+  else if (!reading->message[0] && !kz_pendulum_at(scene, 1, &parameter, &value, &pendulum))
     kz_complain(reading, node, path,
                 "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; a less extreme value",
                 shortest(value).text);
 }
 
+/* The values of a key of the pendulum mapping that `path` walks along. */
+static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t parameter, const kz_axis *values,
+                             const char *path) {
+  char key[64], name[64];
+  if (parameter == KZ_UNSET_WORD) return;
+  snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[parameter].name);
+  snprintf(name, sizeof name, "%s.parameter", path);
+  if (!kz_tree_find(reading->root, key))
+    kz_complain(reading, kz_tree_find(reading->root, name), name,
+                "%s is not given in the pendulum mapping; name a key that is written there",
+                kz_sweep_parameters[parameter].name);
+  snprintf(name, sizeof name, "%s.min", path);
+  parameter_value(reading, scene, parameter, name, values->min);
+  snprintf(name, sizeof name, "%s.max", path);
+  parameter_value(reading, scene, parameter, name, values->max);
+}
+
 static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   kz_sweep_plan *sweep = &scene->sweep;
-  char key[64];
   if (!scene->has_sweep) return;
   theta_window(reading, &sweep->theta, "sweep.theta");
   check_axis(reading, &sweep->velocity, "sweep.velocity");
@@ -170,14 +186,26 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   if (scene->has_basin && !isnan(scene->basin.accuracy))
     kz_complain(reading, kz_tree_find(reading->root, "basin.accuracy"), "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
-  if (sweep->parameter == KZ_UNSET_WORD) return;
-  const kz_node *node = kz_tree_find(reading->root, "sweep.parameter");
-  snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[sweep->parameter].name);
-  if (!kz_tree_find(reading->root, key))
-    kz_complain(reading, node, "sweep.parameter", "%s is not given in the pendulum mapping; name a key that is written there",
-                kz_sweep_parameters[sweep->parameter].name);
-  sweep_value(reading, scene, "sweep.min", sweep->values.min);
-  sweep_value(reading, scene, "sweep.max", sweep->values.max);
+  parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
+}
+
+static void chart_axis_rules(kz_reading *reading, kz_scene *scene, const kz_chart_axis *axis, const char *path) {
+  check_axis(reading, &axis->values, path);
+  parameter_values(reading, scene, axis->parameter, &axis->values, path);
+}
+
+static void chart_rules(kz_reading *reading, kz_scene *scene) {
+  const kz_chart_plan *chart = &scene->chart;
+  if (!scene->has_chart) return;
+  chart_axis_rules(reading, scene, &chart->x, "chart.x");
+  chart_axis_rules(reading, scene, &chart->y, "chart.y");
+  if (chart->x.parameter == chart->y.parameter && chart->y.parameter != KZ_UNSET_WORD)
+    kz_complain(reading, kz_tree_find(reading->root, "chart.y.parameter"), "chart.y.parameter",
+                "is that of chart.x too; name another key of the pendulum mapping");
+  if (chart->velocity.count != 1 && chart->velocity.count != chart->theta.count)
+    kz_complain(reading, kz_tree_find(reading->root, "chart.start.velocity"), "chart.start.velocity",
+                "has %lld values for %lld angles; give one for each angle, or one for all", (long long)chart->velocity.count,
+                (long long)chart->theta.count);
 }
 
 /* Scheme and steps that the scene comes to, for one that is right. */
@@ -238,9 +266,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules, attractors_rules,  saddles_rules,  manifolds_rules,
-                             orbit_rules, stability_rules,   tradeoff_rules, pendulum_rules,
-                             sweep_rules, orbit_range_rules, settling_rules, numerics_rules};
+static const rule rules[] = {basin_rules,       attractors_rules, saddles_rules,  manifolds_rules, orbit_rules,
+                             stability_rules,   tradeoff_rules,   pendulum_rules, sweep_rules,     chart_rules,
+                             orbit_range_rules, settling_rules,   numerics_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -8,7 +8,7 @@ module kz_kernel_r64
   use kz_kernel_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
   private
-  public :: make_tile, make_processed_tile, sine
+  public :: make_tile, make_processed_tile, sine, SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI, VECTOR
 
   !> Vector loops run over the whole tile.
   integer, parameter :: VECTOR = 16

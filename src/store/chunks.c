@@ -8,18 +8,19 @@
 
 static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20;
 
-/* An array of one or two dimensions as rows and columns, and its chunks. */
+/* An array of one to three dimensions as sheets of rows and columns, and its chunks, which are one sheet thick. */
 typedef struct {
-  hsize_t rows, columns, chunk_rows, chunk_columns;
+  hsize_t sheets, rows, columns, chunk_rows, chunk_columns;
   size_t item;
   int rank;
 } layout;
 
 static layout layout_of(int rank, const hsize_t *lengths, const hsize_t *chunk, size_t item) {
   const bool flat = rank == 1;
-  return (layout){.rows = flat ? 1 : lengths[0],
+  return (layout){.sheets = rank == 3 ? lengths[0] : 1,
+                  .rows = flat ? 1 : lengths[rank - 2],
                   .columns = lengths[rank - 1],
-                  .chunk_rows = flat ? 1 : chunk[0],
+                  .chunk_rows = flat ? 1 : chunk[rank - 2],
                   .chunk_columns = chunk[rank - 1],
                   .item = item,
                   .rank = rank};
@@ -33,6 +34,7 @@ kz_status kz_chunks_set(hid_t creation, int rank, const hsize_t *lengths, size_t
   for (int d = rank - 1; d >= 0; --d) {
     const hsize_t fit = bytes < CHUNK_BYTES ? CHUNK_BYTES / bytes : 1;
     if (chunk[d] > fit) chunk[d] = fit;
+    if (d == rank - 3) chunk[d] = 1;
     bytes *= chunk[d];
   }
   KZ_HDF5(H5Pset_chunk(creation, rank, chunk));
@@ -50,12 +52,12 @@ static void gather(const layout *l, const char *data, hsize_t row, hsize_t colum
     memcpy(chunk + r * l->chunk_columns * l->item, data + ((row + r) * l->columns + column) * l->item, columns * l->item);
 }
 
-static kz_status write_chunk(hid_t dataset, const layout *l, hsize_t row, hsize_t column, const char *chunk) {
-  const hsize_t at[2] = {row, column};
+static kz_status write_chunk(hid_t dataset, const layout *l, hsize_t sheet, hsize_t row, hsize_t column, const char *chunk) {
+  const hsize_t at[KZ_MAX_DIMENSIONS] = {sheet, row, column};
   void *packed;
   size_t bytes;
   KZ_TRY(kz_pack(chunk, l->item, l->chunk_rows * l->chunk_columns, &packed, &bytes));
-  const herr_t written = H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, at + 2 - l->rank, bytes, packed);
+  const herr_t written = H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, at + KZ_MAX_DIMENSIONS - l->rank, bytes, packed);
   free(packed);
   KZ_HDF5(written);
   return KZ_OK;
@@ -64,11 +66,12 @@ static kz_status write_chunk(hid_t dataset, const layout *l, hsize_t row, hsize_
 static kz_status write_chunks(hid_t dataset, const layout *l, const char *data) {
   char *chunk = malloc(l->chunk_rows * l->chunk_columns * l->item);
   kz_status status = chunk ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for a chunk of the result file");
-  for (hsize_t row = 0; row < l->rows; row += l->chunk_rows)
-    for (hsize_t column = 0; status == KZ_OK && column < l->columns; column += l->chunk_columns) {
-      gather(l, data, row, column, chunk);
-      status = write_chunk(dataset, l, row, column, chunk);
-    }
+  for (hsize_t sheet = 0; sheet < l->sheets; sheet++, data += l->rows * l->columns * l->item)
+    for (hsize_t row = 0; row < l->rows; row += l->chunk_rows)
+      for (hsize_t column = 0; status == KZ_OK && column < l->columns; column += l->chunk_columns) {
+        gather(l, data, row, column, chunk);
+        status = write_chunk(dataset, l, sheet, row, column, chunk);
+      }
   free(chunk);
   return status;
 }

@@ -1,4 +1,4 @@
-/* The part of the table of table.h for the groups saddles and manifolds. */
+/* The part of the table of table.h for the groups saddles, manifolds and chart. */
 #include "table.h"
 
 const kz_variable kz_saddle_variables[] = {
@@ -67,5 +67,35 @@ const kz_variable kz_saddle_variables[] = {
      {0}},
     {"manifolds", "kind", KZ_INT8, {"point"}, NONE, "which manifold", {"unstable", "stable"}},
     {"manifolds", "polyline", KZ_INT32, {"point"}, NONE, "neighbours in the list are joined where this is the same", {0}},
+
+    {"chart", "x", KZ_REAL, {"x"}, "@x_units", "value of the key x_parameter of the pendulum", {0}},
+    {"chart", "y", KZ_REAL, {"y"}, "@y_units", "value of the key y_parameter of the pendulum", {0}},
+    {"chart", "start", KZ_INT32, {"start"}, NONE, "place of the start in the list", {0}},
+    {"chart", "start_theta", KZ_REAL, {"start"}, ANGLE, "angle of the start from down", {0}},
+    {"chart", "start_velocity", KZ_REAL, {"start"}, VELOCITY, "angular velocity of the start", {0}},
+    {"chart", "period", KZ_INT16, {"start", "y", "x"}, PERIODS, "period of the cycle in which the motion ends; 0 = none", {0}},
+    {"chart",
+     "end",
+     KZ_INT8,
+     {"start", "y", "x"},
+     NONE,
+     "in what the motion ends",
+     {"cycle", "chaotic", "not_settled", "no_damped_pendulum"}},
+    {"chart", "winding", KZ_INT32, {"start", "y", "x"}, NONE, "net turns in one period of the cycle, + counterclockwise", {0}},
+    {"chart",
+     "centre",
+     KZ_INT8,
+     {"start", "y", "x"},
+     NONE,
+     "what the cycle moves about",
+     {"down", "inverted", "rotating", "none"}},
+    {"chart", "exponent", KZ_REAL, {"start", "y", "x"}, RATE, "largest Lyapunov exponent of the end", {0}},
+    {"chart",
+     "settling_time",
+     KZ_INT32,
+     {"start", "y", "x"},
+     PERIODS,
+     "until the motion is within 1e-5 rad of where it was a period of the cycle before",
+     {0}},
 };
 const size_t kz_saddle_variable_count = sizeof kz_saddle_variables / sizeof *kz_saddle_variables;

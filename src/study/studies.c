@@ -2,6 +2,7 @@
 #include "accuracy/tradeoff.h"
 #include "attractors/attractors.h"
 #include "basin/basin.h"
+#include "chart/chart.h"
 #include "kapitza/study.h"
 #include "manifolds/manifolds.h"
 #include "orbit/orbit.h"
@@ -19,6 +20,7 @@ const kz_study kz_studies[] = {
     {"stability", kz_stability_wanted, kz_stability_cost, kz_stability_run, NULL},
     {"potential", kz_potential_wanted, kz_potential_cost, kz_potential_run, NULL},
     {"sweep", kz_sweep_wanted, kz_sweep_cost, kz_sweep_run, kz_sweep_check},
+    {"chart", kz_chart_wanted, kz_chart_cost, kz_chart_run, NULL},
     {"tradeoff", kz_tradeoff_wanted, kz_tradeoff_cost, kz_tradeoff_run, kz_tradeoff_check},
 };
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];

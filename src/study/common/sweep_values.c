@@ -1,4 +1,4 @@
-/* The values of a sweep: which key they are of, and the pendulum at each. */
+/* The values of sweeps and charts: which keys they are of, and the pendulum at each. */
 #include <math.h>
 #include <string.h>
 
@@ -32,9 +32,9 @@ const char *kz_sweep_words(void) {
   return words;
 }
 
-bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum) {
+bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum) {
   kz_parameters parameters = scene->parameters;
-  *(double *)((char *)&parameters.written + kz_sweep_parameters[scene->sweep.parameter].offset) = value;
+  for (int i = 0; i < n; i++) *(double *)((char *)&parameters.written + kz_sweep_parameters[parameter[i]].offset) = value[i];
   if (kz_parameters_resolve(&parameters) != KZ_OK) {
     kz_message_clear();
     return false;
@@ -43,8 +43,15 @@ bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulu
   return pendulum->beta >= 0 && (isnan(parameters.written.mass) || kz_inertia_is_possible(&parameters.written));
 }
 
+bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum) {
+  return kz_pendulum_at(scene, 1, &scene->sweep.parameter, &value, pendulum);
+}
+
+double kz_axis_value(const kz_axis *values, int64_t i) {
+  if (i == values->count - 1) return values->max;
+  return values->min + (values->max - values->min) * ((double)i / (double)(values->count - 1));
+}
+
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i) {
-  const kz_axis *axis = &plan->values;
-  if (i == axis->count - 1) return axis->max;
-  return axis->min + (axis->max - axis->min) * ((double)i / (double)(axis->count - 1));
+  return kz_axis_value(&plan->values, i);
 }

@@ -1,0 +1,118 @@
+"""Draws a chart of kapitza: where the same starts end, over a plane of two keys of the pendulum.
+
+    kapitza-plot chart chart-blackburn.h5                      the ends, with the curves of a study stability of the same file
+    kapitza-plot chart chart-blackburn.h5 --view exponent      the largest Lyapunov exponent
+    kapitza-plot chart chart-blackburn.h5 --view settling      how long the motions take
+"""
+
+import argparse
+from collections.abc import Iterator
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm, TwoSlopeNorm, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+
+from kapitza import style
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
+from kapitza.result import BadFile, Result
+
+CYCLE, CHAOTIC = 0, 1  # codes of the variable `end`
+NAMES = {"k": "k = (natural / drive frequency)²", "m": "drive amplitude m", "drive_frequency": "drive frequency Ω (natural frequencies)",
+         "drive_amplitude": "drive amplitude ε", "damping": "damping β", "quality_factor": "quality factor Q"}
+VIEWS = ("ends", "exponent", "settling")
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("chart", __doc__, "a chart of ends")
+    parser.add_argument("--view", choices=VIEWS, default="ends")
+    return parsed(parser, words)
+
+
+def kinds(chart: xarray.Dataset) -> tuple[np.ndarray, list[str]]:
+    """The colours (rgb) of one start's ends, and the kinds of motion among them, the most frequent first."""
+    classes, place, counts = np.unique(np.stack([chart[name].values.ravel() for name in ("end", "period", "winding", "centre")]), axis=1,
+                                       return_inverse=True, return_counts=True)
+    rows = [tuple(int(value) for value in row) for row in classes.T]
+    palette = np.array([to_rgb(style.motion_colour(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else style.UNSETTLED) for row in rows])
+    share: dict[str, int] = {}
+    for row, count in zip(rows, counts, strict=True):
+        name = style.kind(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else "not settled"
+        share[name] = share.get(name, 0) + int(count)
+    return palette[place.ravel()].reshape(*chart["end"].shape, 3), sorted(share, key=lambda name: -share[name])
+
+
+def draw_ends(axes: Axes, chart: xarray.Dataset, *, legend: bool = True) -> Axes:
+    """Ends of one start, coloured as the motions are in all figures."""
+    colours, names = kinds(chart)
+    axes.pcolormesh(chart["x"], chart["y"], colours, shading="nearest", rasterized=True)
+    if legend:
+        patches = [Patch(facecolor=style.KINDS.get(name, style.UNSETTLED), edgecolor=style.FAINT, label=name) for name in names]
+        axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8)
+    return axes
+
+
+def draw_number(axes: Axes, chart: xarray.Dataset, view: str) -> Axes:
+    """Exponents or settling times of one start."""
+    if view == "exponent":
+        values, text = chart["exponent"].values, "largest Lyapunov exponent, per drive period"
+        norm = TwoSlopeNorm(0, min(np.nanquantile(values, 0.02), -1e-6), max(np.nanquantile(values, 0.998), 1e-6))
+        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap="RdBu_r", norm=norm, shading="nearest", rasterized=True)
+    else:
+        values, text = np.maximum(chart["settling_time"].values, 1), "settling time, drive periods"
+        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap="viridis", norm=LogNorm(), shading="nearest", rasterized=True)
+    axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, pad=0.01)
+    return axes
+
+
+def linear_curves(result: Result, chart: xarray.Dataset) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """The exact curves of a study stability of the same file, in the coordinates of the chart where they have any."""
+    keys = chart.attrs["x_parameter"], chart.attrs["y_parameter"]
+    if "stability" not in result.groups or keys not in (("k", "m"), ("drive_frequency", "drive_amplitude")):
+        return
+    stability = result.group("stability")
+    for name in curve_names(stability):
+        if exact_of(name) is not None or is_branch(stability, name):
+            continue
+        k, m = whole_curve(stability, name)
+        if keys[0] == "k":
+            yield k, m
+            continue
+        for sign in (-1, 1):  # about inverted, about down
+            inside = sign * k > 0
+            yield 1 / np.sqrt(sign * k[inside]), m[inside]
+
+
+def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legend: bool = True) -> Axes:
+    """One start."""
+    if view == "ends":
+        draw_ends(axes, chart, legend=legend)
+    else:
+        draw_number(axes, chart, view)
+    for x, y in linear_curves(result, chart):
+        axes.plot(x, y, color=style.INK, linewidth=0.8)
+    axes.set(xlim=chart["x"].values[[0, -1]], ylim=chart["y"].values[[0, -1]])
+    for which, label in (("x", axes.set_xlabel), ("y", axes.set_ylabel)):
+        key = chart.attrs[f"{which}_parameter"]
+        label(NAMES.get(key, key.replace("_", " ")))
+    axes.set_title(f"start: θ = {float(chart['start_theta']):g}, velocity {float(chart['start_velocity']):g}", fontsize=9)
+    return axes
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    """The page: one panel for each start."""
+    chart = result.group("chart")
+    if chart.sizes["x"] < 2 or chart.sizes["y"] < 2:
+        raise BadFile(f"{result.path}: the chart has no area")
+    figure = new_figure(8.2, 4.8 * chart.sizes["start"])
+    for place, axes in enumerate(np.atleast_1d(figure.subplots(chart.sizes["start"], 1))):
+        panel(axes, result, chart.isel(start=place), arguments.view)
+    entitle(figure, result, f"{chart.sizes['x']} x {chart.sizes['y']} points")
+    return figure
+
+
+def main(words: list[str]) -> None:
+    write_picture(parse_arguments(words), draw)

@@ -1,0 +1,153 @@
+!> Newton's method on the cycles that many motions come near, each of a pendulum of its own.
+module kz_plane_closing
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_kernel_map, only: WIDTH, PI
+  use kz_kernel_mixed_tile, only: mixed_tile_t, track_t
+  use kz_attractors_newton, only: solved, eigenvalues
+  use kz_maps_states, only: angle_difference
+  implicit none
+  private
+  public :: closed_t, close_motions
+
+  !> Steps of the method, the one that is short enough, how far it may lead (rad), and how near a point that comes back sooner must be.
+  integer, parameter :: STEPS = 8
+  real(dp), parameter :: SHORT = 1e-9_dp, FAR = 1e-2_dp, BACK = 1e-7_dp
+  integer, parameter :: DOWN = 0, INVERTED = 1, ROTATING = 2, ELSEWHERE = 3
+
+  !> What became of a motion.
+  type :: closed_t
+    logical :: found = .false.      !< it comes back, and the method found where
+    logical :: attracts = .false.
+    integer :: period = 0
+    integer :: winding = 0
+    integer :: centre = ELSEWHERE
+    real(dp) :: exponent = 0        !< per drive period
+    real(dp) :: distance = 0        !< of the motion from the cycle, rad
+  end type closed_t
+
+  !> The orbits of all lanes, with what is known after each period.
+  type :: orbits_t
+    real(dp), allocatable :: u(:, :)            !< lane, periods from 0 on
+    real(dp), allocatable :: v(:, :)
+    real(dp), allocatable :: matrix(:, :, :, :) !< 2, 2, lane, periods from 1 on
+    type(track_t), allocatable :: track(:)      !< of periods from 1 on
+    integer, allocatable :: winding(:, :)
+  end type orbits_t
+
+contains
+
+  !> The cycles near the present states of the lanes 1 .. n; they begin with the longest period.
+  subroutine close_motions(tile, n, period, closed)
+    !> pendulums and states
+    type(mixed_tile_t), intent(inout) :: tile
+    !> lanes in use
+    integer, intent(in) :: n
+    !> periods after which the motions come back, descending
+    integer, intent(in) :: period(:)
+    !> what became of each
+    type(closed_t), intent(out) :: closed(:)
+    type(orbits_t) :: orbits
+    real(dp) :: start(2, WIDTH), x(2, WIDTH), step(2)
+    integer :: iteration, i
+
+    start(1, :n) = tile%u(:n)
+    start(2, :n) = tile%v(:n)
+    x(:, :n) = start(:, :n)
+    do iteration = 1, STEPS
+      call follow(tile, n, period, x, orbits)
+      do i = 1, n
+        step = solved(orbits%matrix(:, :, i, period(i)), residual(orbits, i, period(i)))
+        closed(i)%found = norm2(step) < SHORT
+        if (norm2(step) < FAR) x(:, i) = x(:, i) - [step(1)/PI, step(2)]
+      end do
+      if (all(closed(:n)%found)) exit
+    end do
+    do i = 1, n
+      closed(i)%distance = norm2([PI*angle_difference(x(1, i), start(1, i)), x(2, i) - start(2, i)])
+      closed(i)%found = closed(i)%found .and. closed(i)%distance < FAR
+      if (closed(i)%found) call describe(tile, orbits, i, period(i), closed(i))
+    end do
+  end subroutine close_motions
+
+  !> All orbits from x, each through its period.
+  subroutine follow(tile, n, period, x, orbits)
+    type(mixed_tile_t), intent(inout) :: tile
+    integer, intent(in) :: n
+    integer, intent(in) :: period(:)
+    real(dp), intent(in) :: x(:, :)
+    type(orbits_t), intent(out) :: orbits
+    type(track_t) :: track
+    real(dp) :: matrix(2, 2, WIDTH)
+    integer :: t, lanes, i
+
+    allocate (orbits%u(n, 0:period(1)), orbits%v(n, 0:period(1)), orbits%matrix(2, 2, n, period(1)))
+    allocate (orbits%track(period(1)), orbits%winding(n, period(1)))
+    do i = 1, n
+      call tile%put(i, x(1, i), x(2, i))
+      matrix(:, :, i) = reshape([1, 0, 0, 1], [2, 2])
+    end do
+    orbits%u(:, 0) = x(1, :n)
+    orbits%v(:, 0) = x(2, :n)
+    do t = 1, period(1)
+      lanes = count(period(:n) >= t)
+      call tile%advance_tangent(lanes, matrix, track)
+      orbits%u(:lanes, t) = tile%u(:lanes)
+      orbits%v(:lanes, t) = tile%v(:lanes)
+      orbits%matrix(:, :, :lanes, t) = matrix(:, :, :lanes)
+      orbits%track(t) = track
+      do i = 1, lanes
+        orbits%winding(i, t) = int(tile%turns(i)) + nint(0.5_dp*(tile%u(i) - x(1, i)))
+      end do
+    end do
+  end subroutine follow
+
+  !> How far lane i is from its start after some periods: rad, rad per drive radian.
+  pure function residual(orbits, i, periods) result(shift)
+    type(orbits_t), intent(in) :: orbits
+    integer, intent(in) :: i
+    integer, intent(in) :: periods
+    real(dp) :: shift(2)
+
+    shift = [PI*angle_difference(orbits%u(i, periods), orbits%u(i, 0)), orbits%v(i, periods) - orbits%v(i, 0)]
+  end function residual
+
+  !> Smallest period, winding, exponent and centre of the closed orbit of lane i.
+  subroutine describe(tile, orbits, i, period, closed)
+    type(mixed_tile_t), intent(in) :: tile
+    type(orbits_t), intent(in) :: orbits
+    integer, intent(in) :: i
+    integer, intent(in) :: period
+    type(closed_t), intent(inout) :: closed
+    complex(dp) :: multiplier(2)
+    integer :: p
+
+    do p = 1, period - 1
+      if (mod(period, p) == 0 .and. norm2(residual(orbits, i, p)) < BACK) exit
+    end do
+    multiplier = eigenvalues(orbits%matrix(:, :, i, p), product(tile%decay(i, :))**(tile%n_steps*p))
+    closed%period = p
+    closed%winding = orbits%winding(i, p)
+    closed%attracts = abs(multiplier(1)) < 1
+    closed%exponent = log(abs(multiplier(1)))/p
+    closed%centre = centre_of(orbits%track(p), i, p*tile%n_steps, closed%winding)
+  end subroutine describe
+
+  !> Down or inverted where the motion stays within half a turn of it and its mean within pi/4, as in catalogues.
+  pure function centre_of(track, i, samples, winding) result(centre)
+    type(track_t), intent(in) :: track
+    integer, intent(in) :: i
+    integer, intent(in) :: samples
+    integer, intent(in) :: winding
+    integer :: centre
+    real(dp) :: mean, nearest
+
+    centre = ROTATING
+    if (winding /= 0) return
+    centre = ELSEWHERE
+    mean = track%total(i)/samples
+    nearest = anint(mean)
+    if (abs(mean - nearest) < 0.25_dp .and. max(track%highest(i) - nearest, nearest - track%lowest(i)) < 1) &
+      centre = merge(DOWN, INVERTED, modulo(nearest, 2.0_dp) < 0.5_dp)
+  end function centre_of
+
+end module kz_plane_closing

@@ -1,0 +1,221 @@
+!> Where motions of many pendulums end: each is followed until it comes back to a point of its own, and Newton's method then tells
+!> the cycle; those that never do are held for chaotic where neighbours part.
+module kz_plane_ends
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
+  use kz_kernel_map, only: WIDTH, PI
+  use kz_kernel_mixed_tile, only: mixed_tile_t, track_t, make_mixed_tile
+  use kz_kernel_step_table, only: pendulum_t
+  use kz_plane_closing, only: closed_t, close_motions
+  use kz_plane_recurrence, only: past_t, make_past
+  implicit none
+  private
+  public :: motion_t, ending_t, find_ends
+
+  !> Periods after a cycle that does not attract before the next one is tried.
+  integer, parameter :: PAUSE = 32
+  !> rad: a motion so near a cycle that does not attract does not leave it for long.
+  real(dp), parameter :: ON_IT = 1e-9_dp
+  !> Of the exponent of a motion that has not settled: blocks of periods, and the standard errors that it must exceed.
+  integer, parameter :: BLOCKS = 10, BLOCK = 100
+  real(dp), parameter :: CONFIDENCE = 5
+  integer, parameter :: OPEN = -1, CHAOTIC = 0
+
+  !> A motion on its way, to be begun or gone on with.
+  type :: motion_t
+    integer :: id = 0                    !< place of its end
+    integer(c_int64_t) :: age = 0        !< drive periods since its start
+    integer(c_int64_t) :: longest = 0    !< drive periods after which it counts as not settled
+    integer(c_int64_t) :: pause = 0      !< age before which no cycle is tried
+    integer :: back = 0                  !< periods after which it has come back
+    type(pendulum_t) :: pendulum
+    real(dp) :: u = 0                    !< half-turns
+    real(dp) :: v = 0                    !< rad per drive radian
+  end type motion_t
+
+  type, bind(C) :: ending_t
+    integer(c_int32_t) :: period = OPEN
+    integer(c_int32_t) :: winding = 0
+    integer(c_int32_t) :: centre = 3
+    integer(c_int32_t) :: settling_time = 0
+    real(dp) :: exponent = 0
+  end type ending_t
+
+contains
+
+  !> Follows all motions. They are taken from the end of the list, which comes back empty.
+  subroutine find_ends(n_steps, max_period, motions, endings)
+    !> steps of split6 in a drive period
+    integer, intent(in) :: n_steps
+    !> longest period of a cycle
+    integer, intent(in) :: max_period
+    !> the motions, each with the place of its end
+    type(motion_t), allocatable, intent(inout) :: motions(:)
+    !> their ends
+    type(ending_t), intent(inout) :: endings(:)
+    type(mixed_tile_t) :: tile
+    type(past_t) :: past
+    type(motion_t) :: lane(WIDTH)
+    type(motion_t), allocatable :: near(:), tired(:)
+    integer :: n, n_waiting
+
+    call make_mixed_tile(n_steps, tile)
+    call make_past(max_period, past)
+    allocate (near(0), tired(0))
+    n = 0
+    n_waiting = size(motions)
+    do
+      do while (n < WIDTH .and. n_waiting > 0)
+        n = n + 1
+        lane(n) = motions(n_waiting)
+        n_waiting = n_waiting - 1
+        call load(tile, n, lane(n))
+        call past%begin(n, tile)
+      end do
+      if (n == 0 .and. size(near) == 0) exit
+      if (n > 0) call one_period(tile, past, lane, n, near, tired)
+      if (size(near) >= WIDTH .or. (n == 0 .and. size(near) > 0)) call settle(n_steps, near, motions, n_waiting, endings)
+    end do
+    call judge(n_steps, tired, endings)
+    deallocate (motions)
+    allocate (motions(0))
+  end subroutine find_ends
+
+  subroutine load(tile, lane, motion)
+    type(mixed_tile_t), intent(inout) :: tile
+    integer, intent(in) :: lane
+    type(motion_t), intent(in) :: motion
+
+    call tile%set_pendulum(lane, motion%pendulum)
+    call tile%put(lane, motion%u, motion%v)
+  end subroutine load
+
+  !> Lanes that have come back leave for `near`, those that have gone on for too long for `tired`.
+  subroutine one_period(tile, past, lane, n, near, tired)
+    type(mixed_tile_t), intent(inout) :: tile
+    type(past_t), intent(inout) :: past
+    type(motion_t), intent(inout) :: lane(WIDTH)
+    integer, intent(inout) :: n
+    type(motion_t), allocatable, intent(inout) :: near(:)
+    type(motion_t), allocatable, intent(inout) :: tired(:)
+    integer :: back(WIDTH), i
+    logical :: leaves(WIDTH)
+
+    call tile%advance(n)
+    lane(:n)%age = lane(:n)%age + 1
+    call past%find(n, tile, back)
+    call past%note(n, tile)
+    lane(:n)%back = back(:n)
+    leaves(:n) = (back(:n) > 0 .and. lane(:n)%age >= lane(:n)%pause) .or. lane(:n)%age >= lane(:n)%longest
+    if (.not. any(leaves(:n))) return
+    do i = n, 1, -1
+      if (.not. leaves(i)) cycle
+      lane(i)%u = tile%u(i)
+      lane(i)%v = tile%v(i)
+      if (back(i) > 0) then
+        near = [near, lane(i)]
+      else
+        tired = [tired, lane(i)]
+      end if
+      if (i < n) then
+        lane(i) = lane(n)
+        call tile%move(n, i)
+        call past%move(n, i)
+      end if
+      n = n - 1
+    end do
+  end subroutine one_period
+
+  !> The cycles of up to a tile of motions that have come back; those whose cycle does not attract go on later.
+  subroutine settle(n_steps, near, motions, n_waiting, endings)
+    integer, intent(in) :: n_steps
+    type(motion_t), allocatable, intent(inout) :: near(:)
+    type(motion_t), intent(inout) :: motions(:)
+    integer, intent(inout) :: n_waiting
+    type(ending_t), intent(inout) :: endings(:)
+    type(mixed_tile_t) :: tile
+    type(motion_t) :: lane(WIDTH)
+    type(closed_t) :: closed(WIDTH)
+    integer :: n, i, j
+
+    n = 0
+    call make_mixed_tile(n_steps, tile)
+    do j = maxval(near%back), 1, -1
+      do i = 1, min(size(near), WIDTH)
+        if (near(i)%back /= j) cycle
+        n = n + 1
+        lane(n) = near(i)
+        call load(tile, n, near(i))
+      end do
+    end do
+    near = near(n + 1:)
+    call close_motions(tile, n, lane(:n)%back, closed)
+    do i = 1, n
+      associate (motion => lane(i))
+        if (closed(i)%found .and. closed(i)%attracts) then
+          endings(motion%id) = ending_t(closed(i)%period, closed(i)%winding, closed(i)%centre, int(motion%age, c_int32_t), &
+                                        closed(i)%exponent)
+        else if (motion%age >= motion%longest .or. (closed(i)%found .and. closed(i)%distance < ON_IT)) then
+          endings(motion%id) = ending_t(settling_time=int(motion%longest, c_int32_t), exponent=closed(i)%exponent)
+        else
+          motion%pause = motion%age + PAUSE
+          n_waiting = n_waiting + 1
+          motions(n_waiting) = motion
+        end if
+      end associate
+    end do
+  end subroutine settle
+
+  !> Motions that have not settled: chaotic where neighbours part.
+  subroutine judge(n_steps, tired, endings)
+    integer, intent(in) :: n_steps
+    type(motion_t), intent(in) :: tired(:)
+    type(ending_t), intent(inout) :: endings(:)
+    type(mixed_tile_t) :: tile
+    real(dp) :: rate(BLOCKS, WIDTH), mean, error
+    integer :: first, n, i
+
+    if (size(tired) == 0) return
+    call make_mixed_tile(n_steps, tile)
+    do first = 1, size(tired), WIDTH
+      n = min(WIDTH, size(tired) - first + 1)
+      do i = 1, n
+        call load(tile, i, tired(first + i - 1))
+      end do
+      call growth(tile, n, rate)
+      do i = 1, n
+        mean = sum(rate(:, i))/BLOCKS
+        error = sqrt(sum((rate(:, i) - mean)**2)/(BLOCKS*(BLOCKS - 1)))
+        associate (motion => tired(first + i - 1))
+          endings(motion%id) = ending_t(merge(CHAOTIC, OPEN, mean > CONFIDENCE*error), &
+                                        settling_time=int(motion%longest, c_int32_t), exponent=mean)
+        end associate
+      end do
+    end do
+  end subroutine judge
+
+  !> rate(b, i): how fast neighbours of lane i part in block b, per drive period.
+  subroutine growth(tile, n, rate)
+    type(mixed_tile_t), intent(inout) :: tile
+    integer, intent(in) :: n
+    real(dp), intent(out) :: rate(BLOCKS, WIDTH)
+    type(track_t) :: track
+    real(dp) :: matrix(2, 2, WIDTH), size_now
+    integer :: b, t, i
+
+    do i = 1, n
+      matrix(:, :, i) = reshape([1, 0, 0, 1], [2, 2])
+    end do
+    rate = 0
+    do b = 1, BLOCKS
+      do t = 1, BLOCK
+        call tile%advance_tangent(n, matrix, track)
+        do i = 1, n
+          size_now = norm2(matrix(:, :, i))
+          rate(b, i) = rate(b, i) + log(size_now)/BLOCK
+          matrix(:, :, i) = matrix(:, :, i)/size_now
+        end do
+      end do
+    end do
+  end subroutine growth
+
+end module kz_plane_ends

@@ -1,0 +1,213 @@
+!> A tile of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
+!> each lane stand in tables; its kicks are k and m times those of all.
+module kz_kernel_mixed_tile
+  use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
+  use kz_kernel_r64, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI, VECTOR
+  use kz_kernel_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
+  use kz_kernel_step_table, only: pendulum_t
+  implicit none
+  private
+  public :: mixed_tile_t, track_t, make_mixed_tile
+
+  !> Kicks of a step, each after a drift; a drift more ends it.
+  integer, parameter :: KICKS = SCHEMES(SPLIT6_ROW + 1)%kicks, DRIFTS = KICKS + 1
+  !> An angle of so many turns has no fraction left: the state is lost.
+  real(rk), parameter :: MOST_TURNS = 1e15_rk
+
+  type, extends(map_t) :: mixed_tile_t
+    integer :: n_steps = 0
+    real(rk) :: time(DRIFTS) = 0               !< of the drifts of a step, drive radians
+    real(rk) :: weight(KICKS) = 0              !< of a kick: of k
+    real(rk), allocatable :: swing(:, :)       !< and of m: kick, step
+    real(rk) :: k(WIDTH) = 0
+    real(rk) :: m(WIDTH) = 0
+    real(rk) :: drift(WIDTH, DRIFTS) = 0       !< half-turns per unit of velocity
+    real(rk) :: decay(WIDTH, DRIFTS) = 0
+  contains
+    procedure :: set_pendulum
+    procedure :: move
+    procedure :: advance
+    procedure :: advance_tangent
+  end type mixed_tile_t
+
+  !> Angles at the ends of the steps, unwrapped, half-turns.
+  type :: track_t
+    real(rk) :: total(WIDTH) = 0
+    real(rk) :: lowest(WIDTH) = huge(1.0_rk)
+    real(rk) :: highest(WIDTH) = -huge(1.0_rk)
+  end type track_t
+
+contains
+
+  !> A tile without pendulums yet.
+  subroutine make_mixed_tile(n_steps, tile)
+    !> steps of split6 in a drive period
+    integer, intent(in) :: n_steps
+    !> its tables that all pendulums share
+    type(mixed_tile_t), intent(out) :: tile
+    type(stage_t) :: stages(2*KICKS + 1)
+    real(rk) :: clock, step
+    integer :: i, s
+
+    stages = scheme_stages(SCHEMES(SPLIT6_ROW + 1))
+    step = 2*PI/n_steps
+    tile%n_steps = n_steps
+    tile%time = step*real(stages(1::2)%share, rk)
+    tile%weight = step*real(stages(2::2)%share, rk)
+    allocate (tile%swing(KICKS, n_steps))
+    do i = 1, n_steps
+      clock = i - 1
+      do s = 1, KICKS
+        clock = clock + real(stages(2*s - 1)%share, rk)
+        tile%swing(s, i) = tile%weight(s)*cos(2*PI*(clock/n_steps))
+      end do
+    end do
+  end subroutine make_mixed_tile
+
+  !> Gives a lane its pendulum.
+  subroutine set_pendulum(self, lane, pendulum)
+    class(mixed_tile_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    real(rk) :: half(DRIFTS)
+
+    half = 0.5_rk*pendulum%beta*self%time
+    self%k(lane) = pendulum%k
+    self%m(lane) = pendulum%m
+    self%decay(lane, :) = exp(-2*half)
+    self%drift(lane, :) = INVERSE_PI*self%time
+    where (abs(half) > 0) self%drift(lane, :) = self%drift(lane, :)*exp(-half)*(sinh(half)/half)
+  end subroutine set_pendulum
+
+  subroutine move(self, from, to)
+    class(mixed_tile_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    call move_state(self, from, to)
+    self%k(to) = self%k(from)
+    self%m(to) = self%m(from)
+    self%drift(to, :) = self%drift(from, :)
+    self%decay(to, :) = self%decay(from, :)
+  end subroutine move
+
+  subroutine advance(self, n)
+    class(mixed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer :: lanes, i
+
+    lanes = min(VECTOR*((n + VECTOR - 1)/VECTOR), WIDTH)
+    do i = 1, self%n_steps
+      call one_step(self, i, lanes, self%u, self%v)
+    end do
+    call wrap(self, lanes)
+  end subroutine advance
+
+  subroutine one_step(self, step, n, u, v)
+    class(mixed_tile_t), intent(in) :: self
+    integer, intent(in) :: step
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: u(WIDTH)
+    real(rk), intent(inout) :: v(WIDTH)
+    real(rk) :: weight, swing
+    integer :: s, i
+
+    do s = 1, KICKS
+      weight = self%weight(s)
+      swing = self%swing(s, step)
+      do i = 1, n
+        u(i) = u(i) + self%drift(i, s)*v(i)
+        v(i) = self%decay(i, s)*v(i) - (weight*self%k(i) - swing*self%m(i))*sine(u(i))
+      end do
+    end do
+    u(:n) = u(:n) + self%drift(:n, DRIFTS)*v(:n)
+    v(:n) = self%decay(:n, DRIFTS)*v(:n)
+  end subroutine one_step
+
+  !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was; the angles on the
+  !> way join `track`.
+  subroutine advance_tangent(self, n, matrix, track)
+    class(mixed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: matrix(2, 2, WIDTH)
+    type(track_t), intent(inout) :: track
+    real(rk) :: c(WIDTH, 2, 2), angle(WIDTH)
+    integer :: lanes, i, j
+
+    lanes = min(VECTOR*((n + VECTOR - 1)/VECTOR), WIDTH)
+    do j = 1, 2
+      c(:, :, j) = transpose(matrix(:, j, :))
+    end do
+    c(n + 1:, :, :) = 0
+    do i = 1, self%n_steps
+      call tangent_step(self, i, lanes, self%u, self%v, c)
+      angle(:n) = self%u(:n) + 2*real(self%turns(:n), rk)
+      track%total(:n) = track%total(:n) + angle(:n)
+      track%lowest(:n) = min(track%lowest(:n), angle(:n))
+      track%highest(:n) = max(track%highest(:n), angle(:n))
+    end do
+    call wrap(self, lanes)
+    do j = 1, 2
+      matrix(:, j, :n) = transpose(c(:n, :, j))
+    end do
+  end subroutine advance_tangent
+
+  !> A step, and its derivative c(i, :, j): column j of the tangent map of lane i.
+  subroutine tangent_step(self, step, n, u, v, c)
+    class(mixed_tile_t), intent(in) :: self
+    integer, intent(in) :: step
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: u(WIDTH)
+    real(rk), intent(inout) :: v(WIDTH)
+    real(rk), intent(inout) :: c(WIDTH, 2, 2)
+    real(rk) :: weight, swing, kick, drift, decay
+    integer :: s, i
+
+    do s = 1, KICKS
+      weight = self%weight(s)
+      swing = self%swing(s, step)
+      do i = 1, n
+        drift = PI*self%drift(i, s)
+        decay = self%decay(i, s)
+        kick = weight*self%k(i) - swing*self%m(i)
+        u(i) = u(i) + self%drift(i, s)*v(i)
+        v(i) = decay*v(i) - kick*sine(u(i))
+        kick = kick*sine(u(i) + 0.5_rk)
+        c(i, 1, 1) = c(i, 1, 1) + drift*c(i, 2, 1)
+        c(i, 1, 2) = c(i, 1, 2) + drift*c(i, 2, 2)
+        c(i, 2, 1) = decay*c(i, 2, 1) - kick*c(i, 1, 1)
+        c(i, 2, 2) = decay*c(i, 2, 2) - kick*c(i, 1, 2)
+      end do
+    end do
+    do i = 1, n
+      u(i) = u(i) + self%drift(i, DRIFTS)*v(i)
+      v(i) = self%decay(i, DRIFTS)*v(i)
+      c(i, 1, :) = c(i, 1, :) + PI*self%drift(i, DRIFTS)*c(i, 2, :)
+      c(i, 2, :) = self%decay(i, DRIFTS)*c(i, 2, :)
+    end do
+  end subroutine tangent_step
+
+  !> Brings the angles back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
+  subroutine wrap(self, n)
+    class(mixed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk) :: turn
+    integer :: i
+
+    do i = 1, n
+      turn = (0.5_rk*self%u(i) + MAGIC) - MAGIC
+      self%u(i) = self%u(i) - 2*turn
+      if (abs(turn) < MOST_TURNS) then
+        self%turns(i) = self%turns(i) + int(turn, ik)
+      else
+        self%u(i) = ieee_value(turn, ieee_quiet_nan)
+      end if
+    end do
+  end subroutine wrap
+
+  include 'sine.inc'
+
+end module kz_kernel_mixed_tile

@@ -1,0 +1,134 @@
+/* Study `chart`: tiles of points of the plane, each a pendulum of its own. */
+#include "chart.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/cells.h"
+
+enum { POINTS = 256, LEAST_STEPS = 8, MOST_STEPS = 4000 };
+/* Error that a drive period may have, rad: ends are cycles that Newton's method finds, and a motion only has to be led to its own. */
+static const double TOLERANCE = 1e-8;
+/* Of split6: the steps with which errors are measured, and those below which rounding prevails. */
+static const double MEASURED_STEPS = 24, ROUNDING = 1e-13;
+/* Time of a step of one motion, s. */
+static const double STEP_SECONDS = 2.5e-8;
+
+typedef struct {
+  kz_chart_ending ending[POINTS];
+} tile_record;
+
+bool kz_chart_wanted(const kz_scene *scene) {
+  return scene->has_chart;
+}
+
+double kz_chart_velocity(const kz_chart_plan *plan, int64_t place) {
+  return plan->velocity.values[plan->velocity.count == 1 ? 0 : place];
+}
+
+static int64_t points_of(const kz_chart_plan *plan) {
+  return plan->x.values.count * plan->y.values.count;
+}
+
+static int64_t tiles_of(const kz_chart_plan *plan) {
+  return (points_of(plan) + POINTS - 1) / POINTS;
+}
+
+/* The pendulum of a point; false where it has none, or no damping. */
+static bool pendulum_of(const kz_scene *scene, int64_t point, kz_pendulum *pendulum) {
+  const kz_chart_plan *plan = &scene->chart;
+  const int64_t columns = plan->x.values.count;
+  const int32_t parameter[] = {plan->x.parameter, plan->y.parameter};
+  const double value[] = {kz_axis_value(&plan->x.values, point % columns), kz_axis_value(&plan->y.values, point / columns)};
+  return kz_pendulum_at(scene, 2, parameter, value, pendulum) && pendulum->beta > 0;
+}
+
+static int64_t periods_of(const kz_chart_plan *plan, double beta) {
+  return plan->max_periods < 0 ? kz_settling_periods(beta) : plan->max_periods;
+}
+
+kz_cost kz_chart_cost(const kz_scene *scene) {
+  const kz_chart_plan *plan = &scene->chart;
+  const double motions = (double)points_of(plan) * (double)plan->theta.count;
+  const int64_t corner = points_of(plan) - 1;
+  double beta = 0;
+  for (int i = 0; i <= 4; i++) {
+    kz_pendulum pendulum;
+    if (pendulum_of(scene, corner * i / 4, &pendulum)) beta += pendulum.beta / 5;
+  }
+  const double periods = beta > 0 ? fmin(2 * 12 / (2 * M_PI * beta), (double)periods_of(plan, beta)) : 0;
+  return (kz_cost){.cells = (int64_t)motions,
+                   .disk_bytes = 2 * motions * sizeof(kz_chart_ending),
+                   .first_bytes = 3 * motions * sizeof(kz_chart_ending),
+                   .core_seconds = STEP_SECONDS * 12 * periods * motions};
+}
+
+/* Steps of split6 that keep the error of a period: measured for the strongest of n pendulums, and scaled by the order of the
+ * scheme. */
+static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_speed) {
+  double strongest = -1, error;
+  int64_t which = 0;
+  for (int64_t i = 0; i < n; i++) {
+    const double strength = fabs(pendulum[i].k) + fabs(pendulum[i].m);
+    if (strength > strongest) which = i;
+    strongest = fmax(strongest, strength);
+  }
+  const double speed[] = {0, fmax(start_speed, 1 + 2 * sqrt(strongest))};
+  const double measured = fmin(MEASURED_STEPS * ceil(sqrt(fmax(1, strongest))), MOST_STEPS);
+  const kz_numerics numerics = {
+      .scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)measured, .precision = KZ_DOUBLE};
+  kz_step_errors(pendulum + which, &numerics, 1, speed, &error);
+  const double steps = ceil(measured * pow(fmax(error, ROUNDING) / TOLERANCE, 1.0 / 6));
+  return (int32_t)fmin(fmax(steps, LEAST_STEPS), MOST_STEPS);
+}
+
+static kz_status work(void *context, int64_t tile, void *record) {
+  const kz_scene *scene = context;
+  const kz_chart_plan *plan = &scene->chart;
+  const int64_t place = tile / tiles_of(plan), first = tile % tiles_of(plan) * POINTS, left = points_of(plan) - first;
+  const int64_t n = left < POINTS ? left : POINTS;
+  kz_pendulum pendulum[POINTS];
+  int64_t periods[POINTS];
+  double start[2];
+  tile_record *out = record;
+  for (int64_t i = 0; i < n; i++) {
+    const bool damped = pendulum_of(scene, first + i, pendulum + i);
+    if (!damped) pendulum[i] = (kz_pendulum){0, 0, 0};
+    periods[i] = damped ? periods_of(plan, pendulum[i].beta) : 0;
+  }
+  kz_start_state(plan->theta.values[place], kz_chart_velocity(plan, place), start);
+  kz_chart_ends(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->max_period, periods, out->ending);
+  for (int64_t i = 0; i < n; i++)
+    if (periods[i] == 0) out->ending[i] = (kz_chart_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
+  return KZ_OK;
+}
+
+/* The tiles without the ends of the last of each start, in place. */
+static void pack(const kz_chart_plan *plan, tile_record *records) {
+  kz_chart_ending *endings = (kz_chart_ending *)records;
+  const int64_t points = points_of(plan);
+  for (int64_t place = 1; place < plan->theta.count; place++)
+    memmove(endings + place * points, records + place * tiles_of(plan), (size_t)points * sizeof *endings);
+}
+
+kz_status kz_chart_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+  const kz_chart_plan *plan = &scene->chart;
+  const bool here = kz_ranks_own(ranks) == 0;
+  const kz_stage stage = {.name = "ends",
+                          .n_tiles = tiles_of(plan) * plan->theta.count,
+                          .record_bytes = sizeof(tile_record),
+                          .work = work,
+                          .context = (void *)scene,
+                          .keep = true};
+  tile_record *records = here ? malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
+  kz_status status =
+      kz_ranks_agree(ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of a chart"));
+  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
+  if (status == KZ_OK && here) {
+    pack(plan, records);
+    status = kz_chart_publish(plan, (const kz_chart_ending *)records, store, summary);
+  }
+  free(records);
+  return status;
+}

@@ -1,0 +1,20 @@
+/* Study `chart`. */
+#ifndef KAPITZA_STUDY_CHART_H
+#define KAPITZA_STUDY_CHART_H
+
+#include "kapitza/dynamics.h"
+#include "kapitza/study.h"
+
+enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one without damping */
+
+bool kz_chart_wanted(const kz_scene *scene);
+kz_cost kz_chart_cost(const kz_scene *scene);
+kz_status kz_chart_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+
+/* The group /chart and the summary, from endings [starts][y][x]. Rank 0. */
+kz_status kz_chart_publish(const kz_chart_plan *plan, const kz_chart_ending *endings, kz_store *store, FILE *summary);
+
+/* Start `place` of the list: rad, rad per drive radian. */
+double kz_chart_velocity(const kz_chart_plan *plan, int64_t place);
+
+#endif

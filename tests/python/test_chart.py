@@ -1,0 +1,71 @@
+"""The study chart: ends against single runs and the linear theory, starts that cannot settle, ranks, pictures."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import datasets, plot
+from kapitza import Result
+
+STARTS = [0.3, 2.9, np.pi]
+CYCLE, CHAOTIC, NOT_SETTLED, NO_PENDULUM = range(4)
+SCENE = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
+         "chart": {"x": {"parameter": "m", "min": 0, "max": 0.72, "count": 13},
+                   "y": {"parameter": "damping", "min": 0, "max": 0.3, "count": 5},
+                   "start": {"theta": STARTS}, "max_period": 8}}
+
+
+@pytest.fixture(scope="module")
+def chart(kapitza, tmp_path_factory):
+    """The group of the scene above, the summary and the file."""
+    folder = tmp_path_factory.mktemp("chart")
+    (folder / "s.yaml").write_text(json.dumps(SCENE))
+    done = kapitza("run", "s.yaml", ranks=2, folder=folder)
+    return Result(folder / "s.h5").group("chart"), done.stdout, folder / "s.h5"
+
+
+def test_ends_are_those_of_single_runs(chart, kapitza, tmp_path):
+    """Period and winding as `where` has them, wherever double precision decides."""
+    group, _, _ = chart
+    decided = 0
+    for column, row, place in ((2, 1, 0), (4, 4, 1), (6, 2, 1), (8, 1, 1), (9, 3, 0), (10, 4, 0), (11, 1, 0), (12, 2, 1)):
+        point = group.isel(x=column, y=row, start=place)
+        pendulum = {"k": 0.05, "damping": float(point["y"]), "m": float(point["x"])}
+        (tmp_path / "w.yaml").write_text(json.dumps({"pendulum": pendulum,
+                                                     "attractors": {"velocity": {"min": -2, "max": 2}, "starts": 256}}))
+        end = json.loads(kapitza("where", "w.yaml", STARTS[place], 0, "--json", folder=tmp_path).stdout)
+        if not end["decided"] or end["period"] == 0 or end["period"] > 8:
+            continue
+        decided += 1
+        assert (int(point["end"]), int(point["period"]), int(point["winding"])) == (CYCLE, end["period"], end["winding"]), pendulum
+    assert decided >= 6
+
+
+def test_the_rest_decays_as_linear_theory_says(chart):
+    """Without drive every start hangs down in the end, at the rate pi beta per period (underdamped: beta < 2 sqrt k)."""
+    group, _, _ = chart
+    still = group.isel(x=0, y=slice(1, None), start=slice(0, 2))
+    assert (still["period"] == 1).all() and (still["centre"] == 0).all() and (still["winding"] == 0).all()
+    assert still["exponent"].values == pytest.approx(np.broadcast_to(-np.pi * still["y"].values, (2, 4)), abs=1e-7)
+    assert (still["settling_time"] > 10).all() and (still["settling_time"] < 200).all()
+
+
+def test_what_cannot_settle_is_told(chart):
+    """No damping: no end; a start on the inverted rest: it ends there where that attracts, and nowhere where it does not."""
+    group, summary, _ = chart
+    assert (group["end"].isel(y=0) == NO_PENDULUM).all() and np.isnan(group["exponent"].isel(y=0)).all()
+    resting = group.isel(start=2, y=slice(1, None))
+    attracts = resting["end"] == CYCLE
+    assert (resting["centre"].values[attracts] == 1).all() and (resting["exponent"].values[attracts] < 0).all()
+    assert (resting["end"].values[~attracts] == NOT_SETTLED).all() and (resting["exponent"].values[~attracts] > 0).all()
+    assert attracts.any() and not attracts.all() and not attracts.isel(x=0).any()
+    assert "no damped pendulum 20.00 %" in summary
+
+
+def test_any_number_of_ranks_and_every_view(chart, kapitza, tmp_path):
+    _, _, path = chart
+    kapitza("run", path.with_suffix(".yaml"), "-o", "again.h5", ranks=3, folder=tmp_path)
+    assert datasets(tmp_path / "again.h5") == datasets(path)
+    for view in ("ends", "exponent", "settling"):
+        done = plot("chart", path, "-o", tmp_path / f"{view}.png", "--view", view, "--dpi", 40)
+        assert done.returncode == 0 and (tmp_path / f"{view}.png").stat().st_size > 4000, done.stderr
