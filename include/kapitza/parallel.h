@@ -24,15 +24,11 @@ typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_prog
 /* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and sets up the ranks.
  * `ranks` is NULL or must be ended also where this fails. Collective. */
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks);
-/* Frees `ranks` (NULL too), its lock of the checkpoint, and leaves through MPI_Finalize. Collective. */
+/* Frees `ranks` (NULL too) and leaves through MPI_Finalize. Collective. */
 void kz_ranks_end(kz_ranks *ranks);
 
 /* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `ranks` may be NULL. */
 void kz_ranks_abandon(kz_ranks *ranks, kz_status status) __attribute__((noreturn));
-/* The path of the checkpoint where it holds finished work, else NULL. */
-const char *kz_ranks_saved(const kz_ranks *ranks);
-/* Removes a checkpoint that holds none. */
-void kz_ranks_forget(const kz_ranks *ranks);
 
 int kz_ranks_own(const kz_ranks *ranks);
 int kz_ranks_count(const kz_ranks *ranks);
@@ -86,7 +82,7 @@ void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds);
  * signal handler, with "stopped by SIGUSR1" or the like. NULL: no longer. After kz_ranks_set_time_limit. */
 void kz_ranks_set_overdue(kz_ranks *ranks, void (*leave)(const char *reason));
 
-/* Checkpoint of a run: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is
+/* A checkpoint: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is
  * text (scene, version, numerics: one "name: value" a line) that a resumed run must match; a difference is refused naming
  * the first line that differs. Collective. */
 typedef struct {
@@ -95,14 +91,28 @@ typedef struct {
   bool resume; /* go on from an existing file */
   bool force;  /* discard an existing file */
 } kz_checkpoint_plan;
-kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan);
-/* Closes it; removes the file when `complete`, or where no kept stage has begun. Without an open one: KZ_OK. Collective. */
-kz_status kz_checkpoint_close(kz_ranks *ranks, bool complete);
+typedef struct kz_checkpoint kz_checkpoint;
+/* *checkpoint: NULL where this fails; to be closed. */
+kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz_checkpoint **checkpoint);
+/* Closes and frees it (NULL: KZ_OK); removes the file when `complete`, or where it holds no finished work. Collective. */
+kz_status kz_checkpoint_close(kz_ranks *ranks, kz_checkpoint *checkpoint, bool complete);
+/* The path of a checkpoint that holds finished work of any rank; NULL where it holds none, or `checkpoint` is NULL. */
+const char *kz_checkpoint_saved(const kz_checkpoint *checkpoint);
+/* Removes the file of a checkpoint (NULL: none) that holds none. Safe in a signal handler, as kz_checkpoint_saved. */
+void kz_checkpoint_forget(const kz_checkpoint *checkpoint);
+/* KZ_STOPPED of a stage, once all ranks have agreed on it: adds to the message whether and where the finished work was saved. */
+kz_status kz_checkpoint_stopped(const kz_checkpoint *checkpoint);
 /* Removes a checkpoint that outlived its complete file: only one that no process holds and that has this fingerprint. */
 void kz_checkpoint_clear(const char *path, const char *fingerprint);
 /* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that
  * differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
+
+/* What stages run on. */
+typedef struct {
+  kz_ranks *ranks;
+  kz_checkpoint *checkpoint; /* of the records of kept stages; NULL: nothing is kept */
+} kz_run;
 
 /* Records of varying length that stay with the ranks that made them. */
 typedef struct {
@@ -140,9 +150,9 @@ typedef struct {
 /* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless
  * everywhere). The first failing rank stops the others, and all return its status. Collective. KZ_STOPPED: a signal or the
  * time limit came before the last tile was begun; finished kept records are on disk. Kept stages must come in the same
- * order in every run. Without an open checkpoint nothing is kept. `ranks` NULL: this rank alone does all tiles in order, keeps
- * nothing and hears no stop request; not for pieces. */
-kz_status kz_stage_run(kz_ranks *ranks, const kz_stage *stage, void *records);
+ * order in every run. `run` NULL: this rank alone does all tiles in order, keeps nothing and hears no stop request; not for
+ * pieces. */
+kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
 
 /* What becomes of pieces: each rank makes a message of each of its own, rank 0 takes all messages, in no order. Both may return
  * KZ_FAILED; `make` fills message [message_bytes, at most 1 GiB] and says how many bytes it used, more than 0. */

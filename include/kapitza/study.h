@@ -229,7 +229,7 @@ typedef struct {
   const char *name;
   bool (*wanted)(const kz_scene *scene);
   kz_cost (*cost)(const kz_scene *scene);
-  kz_status (*run)(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+  kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
 } kz_study;
 extern const kz_study kz_studies[];

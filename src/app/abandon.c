@@ -14,7 +14,7 @@
 static struct {
   bool armed;
   int rank; /* as the launcher told it */
-  kz_ranks *ranks;
+  kz_run run;
   char part[PATH_MAX + 16]; /* the half file; "" = there is none yet */
 } here;
 
@@ -45,9 +45,9 @@ static void append_number(line *l, unsigned number) {
 /* "kapitza: WHAT; finished work is in ...", or OTHERWISE. */
 static void say(const char *what, const char *otherwise) {
   line l = {.length = 0};
-  const char *saved = here.ranks ? kz_ranks_saved(here.ranks) : NULL;
+  const char *saved = kz_checkpoint_saved(here.run.checkpoint);
   here.armed = false;
-  if (here.ranks) kz_ranks_forget(here.ranks);
+  kz_checkpoint_forget(here.run.checkpoint);
   append(&l, "kapitza: ");
   append(&l, what);
   append(&l, saved ? "; finished work is in " : otherwise);
@@ -67,7 +67,7 @@ static void say_error(const char *what) {
 
 static void leave(const char *what) {
   say_error(what);
-  kz_ranks_abandon(here.ranks, KZ_FAILED);
+  kz_ranks_abandon(here.run.ranks, KZ_FAILED);
 }
 
 static void without_memory(void) {
@@ -102,11 +102,11 @@ void kz_abandon_arm(void) {
   signal(SIGABRT, at_abort);
 }
 
-void kz_abandon_ranks(kz_ranks *ranks, const char *path) {
-  here.ranks = ranks;
+void kz_abandon_run(const kz_run *run, const char *path) {
+  here.run = *run;
   here.part[0] = '\0';
   if (path) snprintf(here.part, sizeof here.part, "%s.part", path);
-  if (ranks) kz_ranks_set_overdue(ranks, path ? overdue : NULL);
+  if (run->ranks) kz_ranks_set_overdue(run->ranks, path ? overdue : NULL);
 }
 
 void kz_abandon_disarm(void) {

@@ -73,8 +73,9 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
 /* A rank that cannot go on ends all ranks with one line and status 1 (75 where a stop was asked), from here to disarming. */
 void kz_abandon_arm(void);
 void kz_abandon_disarm(void);
-/* The ranks that it ends (NULL: none), and the result whose half file it removes (NULL: there is none). */
-void kz_abandon_ranks(kz_ranks *ranks, const char *path);
+/* The ranks that it ends and the checkpoint that it names (NULL: none), and the result whose half file it removes (NULL: there is
+ * none). */
+void kz_abandon_run(const kz_run *run, const char *path);
 
 /* The sum of what the wanted studies cost; the memory is that of the most demanding one. */
 kz_cost kz_cost_of(const kz_scene *scene);

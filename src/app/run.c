@@ -13,7 +13,7 @@
 
 typedef struct {
   const kz_options *options;
-  kz_ranks *ranks;
+  kz_run run;
   bool first; /* rank 0: reads, writes and speaks */
   char *text; /* of the scene, `length` bytes and a NUL */
   uint64_t length;
@@ -30,12 +30,13 @@ typedef struct {
 /* Every rank has the bytes that rank 0 read, so that all come to the same result. */
 static kz_status share_text(job *j) {
   size_t length = 0;
-  KZ_TRY(kz_ranks_agree(j->ranks, j->first ? kz_scene_load(j->options->scene, &j->text, &length) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(j->run.ranks, j->first ? kz_scene_load(j->options->scene, &j->text, &length) : KZ_OK));
   j->length = length;
-  KZ_TRY(kz_ranks_broadcast(j->ranks, &j->length, sizeof j->length));
+  KZ_TRY(kz_ranks_broadcast(j->run.ranks, &j->length, sizeof j->length));
   if (!j->first) j->text = calloc(1, j->length + 1);
-  KZ_TRY(kz_ranks_agree(j->ranks, j->text ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", j->options->scene)));
-  return kz_ranks_broadcast(j->ranks, j->text, j->length);
+  KZ_TRY(
+      kz_ranks_agree(j->run.ranks, j->text ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", j->options->scene)));
+  return kz_ranks_broadcast(j->run.ranks, j->text, j->length);
 }
 
 static kz_status read_scene(job *j) {
@@ -49,16 +50,16 @@ static kz_status read_scene(job *j) {
 /* One scene, one program, one name of the result: whatever command line each rank was given. */
 static kz_status agree_on_scene(job *j) {
   KZ_TRY(share_text(j));
-  KZ_TRY(kz_ranks_agree(j->ranks, read_scene(j)));
-  KZ_TRY(kz_ranks_compare(j->ranks, j->fingerprint, "scene or program"));
-  KZ_TRY(kz_ranks_agree(j->ranks, kz_output_name(j->options, j->path, sizeof j->path)));
-  return kz_ranks_compare(j->ranks, j->path, "name of the result");
+  KZ_TRY(kz_ranks_agree(j->run.ranks, read_scene(j)));
+  KZ_TRY(kz_ranks_compare(j->run.ranks, j->fingerprint, "scene or program"));
+  KZ_TRY(kz_ranks_agree(j->run.ranks, kz_output_name(j->options, j->path, sizeof j->path)));
+  return kz_ranks_compare(j->run.ranks, j->path, "name of the result");
 }
 
 /* *complete: there is nothing left to do. */
 static kz_status check_output(job *j, bool *complete) {
-  KZ_TRY(kz_ranks_agree(j->ranks, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
-  return kz_ranks_broadcast(j->ranks, complete, sizeof *complete);
+  KZ_TRY(kz_ranks_agree(j->run.ranks, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
+  return kz_ranks_broadcast(j->run.ranks, complete, sizeof *complete);
 }
 
 /* All that can be refused before modelling. */
@@ -66,8 +67,8 @@ static kz_status prepare(job *j, bool *complete) {
   KZ_TRY(agree_on_scene(j));
   KZ_TRY(check_output(j, complete));
   const kz_cost cost = kz_cost_of(&j->scene);
-  KZ_TRY(kz_ranks_agree(j->ranks, kz_cost_check(&cost, j->ranks)));
-  KZ_TRY(kz_ranks_agree(j->ranks, j->first && !*complete ? kz_studies_check(&j->scene) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(j->run.ranks, kz_cost_check(&cost, j->run.ranks)));
+  KZ_TRY(kz_ranks_agree(j->run.ranks, j->first && !*complete ? kz_studies_check(&j->scene) : KZ_OK));
   if (j->first && !*complete) kz_settling_warn(&j->scene, stderr);
   return KZ_OK;
 }
@@ -82,28 +83,36 @@ static kz_status open_log(job *j) {
       return kz_fail(KZ_REFUSED, "--log: %s: is a name of the result; use another name", name);
   KZ_TRY(kz_log_open(name, &j->log));
   char ranks[16];
-  snprintf(ranks, sizeof ranks, "%d", kz_ranks_count(j->ranks));
+  snprintf(ranks, sizeof ranks, "%d", kz_ranks_count(j->run.ranks));
   const char *const fields[] = {"program", "kapitza",        "version", KZ_VERSION, "git_revision", KZ_GIT_REVISION,
                                 "command", j->options->line, "file",    j->path,    "#ranks",       ranks,
                                 NULL};
-  kz_log_event(j->log, kz_ranks_seconds(j->ranks), "begin", fields);
-  kz_ranks_set_log(j->ranks, j->log);
+  kz_log_event(j->log, kz_ranks_seconds(j->run.ranks), "begin", fields);
+  kz_ranks_set_log(j->run.ranks, j->log);
   return KZ_OK;
 }
 
 /* What was said on the way, and how it ended. */
 static kz_status close_log(job *j, kz_status status) {
-  const double seconds = kz_ranks_seconds(j->ranks);
+  const double seconds = kz_ranks_seconds(j->run.ranks);
   char code[16], outside[32];
   snprintf(code, sizeof code, "%d", (int)status);
-  snprintf(outside, sizeof outside, "%.6f", kz_ranks_outside(j->ranks));
+  snprintf(outside, sizeof outside, "%.6f", kz_ranks_outside(j->run.ranks));
   if (j->summary) fflush(j->summary);
   kz_log_warnings(j->log, seconds, j->words ? j->words : "");
   kz_log_event(j->log, seconds, "end",
                (const char *const[]){"#status", code, "#outside", outside, "message", kz_message(), NULL});
-  kz_ranks_set_log(j->ranks, NULL);
+  kz_ranks_set_log(j->run.ranks, NULL);
   const kz_status closed = kz_log_close(j->log, j->options->log);
   j->log = NULL;
+  return status == KZ_OK ? closed : status;
+}
+
+static kz_status close_checkpoint(job *j, kz_status status, bool complete) {
+  kz_checkpoint *checkpoint = j->run.checkpoint;
+  j->run.checkpoint = NULL;
+  kz_abandon_run(&j->run, NULL);
+  const kz_status closed = kz_checkpoint_close(j->run.ranks, checkpoint, complete);
   return status == KZ_OK ? closed : status;
 }
 
@@ -112,12 +121,11 @@ static kz_status open_checkpoint(job *j, bool *complete) {
   char name[PATH_MAX + 16];
   const kz_options *o = j->options;
   snprintf(name, sizeof name, "%s.checkpoint", j->path);
-  KZ_TRY(kz_checkpoint_open(
-      j->ranks, &(kz_checkpoint_plan){.path = name, .fingerprint = j->fingerprint, .resume = o->resume, .force = o->force}));
+  const kz_checkpoint_plan plan = {.path = name, .fingerprint = j->fingerprint, .resume = o->resume, .force = o->force};
+  KZ_TRY(kz_checkpoint_open(j->run.ranks, &plan, &j->run.checkpoint));
+  kz_abandon_run(&j->run, NULL);
   const kz_status status = check_output(j, complete);
-  if (status == KZ_OK && !*complete) return KZ_OK;
-  kz_checkpoint_close(j->ranks, false);
-  return status;
+  return status == KZ_OK && !*complete ? KZ_OK : close_checkpoint(j, status, false);
 }
 
 static kz_status write_root(job *j) {
@@ -143,7 +151,7 @@ static kz_status write_root(job *j) {
                {"Conventions", "CF-1.8"}};
   for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
     KZ_TRY(kz_store_text(j->store, "/", texts[i].name, texts[i].value));
-  return kz_store_integer(j->store, "/", "ranks", kz_ranks_count(j->ranks));
+  return kz_store_integer(j->store, "/", "ranks", kz_ranks_count(j->run.ranks));
 }
 
 static kz_status write_pendulum(job *j) {
@@ -179,11 +187,11 @@ static kz_status open_outputs(job *j) {
 }
 
 static kz_status run_studies(job *j) {
-  KZ_TRY(kz_ranks_agree(j->ranks, j->first ? open_outputs(j) : KZ_OK));
-  kz_abandon_ranks(j->ranks, j->path);
+  KZ_TRY(kz_ranks_agree(j->run.ranks, j->first ? open_outputs(j) : KZ_OK));
+  kz_abandon_run(&j->run, j->path);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(&j->scene))
-      KZ_TRY(kz_ranks_agree(j->ranks, kz_studies[i].run(&j->scene, j->ranks, j->store, j->summary)));
+      KZ_TRY(kz_ranks_agree(j->run.ranks, kz_studies[i].run(&j->scene, &j->run, j->store, j->summary)));
   return KZ_OK;
 }
 
@@ -205,17 +213,16 @@ static kz_status complete_store(job *j) {
 }
 
 static kz_status finish(job *j, kz_status status) {
-  if (j->store && status == KZ_OK) status = kz_store_real(j->store, "/", "wall_seconds", kz_ranks_seconds(j->ranks));
+  if (j->store && status == KZ_OK) status = kz_store_real(j->store, "/", "wall_seconds", kz_ranks_seconds(j->run.ranks));
   if (j->store && status == KZ_OK) {
     status = complete_store(j);
   } else if (j->store) {
     kz_store_discard(j->store);
   }
   j->store = NULL;
-  status = kz_ranks_agree(j->ranks, status);
-  kz_abandon_ranks(j->ranks, NULL);
-  const kz_status closed = kz_checkpoint_close(j->ranks, status == KZ_OK || status == KZ_REFUSED);
-  if (status == KZ_OK) status = closed;
+  status = kz_ranks_agree(j->run.ranks, status);
+  if (status == KZ_STOPPED) status = kz_checkpoint_stopped(j->run.checkpoint);
+  status = close_checkpoint(j, status, status == KZ_OK || status == KZ_REFUSED);
   if (status == KZ_OK && j->first) print_summary(j);
   return status;
 }
@@ -232,10 +239,10 @@ static kz_status leave_complete(job *j) {
 
 static kz_status carry_out(job *j) {
   bool complete = false;
-  kz_ranks_set_progress(j->ranks, j->options->progress);
-  kz_ranks_set_time_limit(j->ranks, j->options->time_limit);
+  kz_ranks_set_progress(j->run.ranks, j->options->progress);
+  kz_ranks_set_time_limit(j->run.ranks, j->options->time_limit);
   KZ_TRY(prepare(j, &complete));
-  KZ_TRY(kz_ranks_agree(j->ranks, j->first && j->options->log ? open_log(j) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(j->run.ranks, j->first && j->options->log ? open_log(j) : KZ_OK));
   if (!complete) KZ_TRY(open_checkpoint(j, &complete));
   return complete ? leave_complete(j) : finish(j, run_studies(j));
 }
@@ -251,19 +258,19 @@ static void free_job(job *j) {
 
 kz_status kz_app_run(const kz_options *options) {
   job j = {.options = options};
-  kz_status status = kz_ranks_start(NULL, NULL, &j.ranks);
+  kz_status status = kz_ranks_start(NULL, NULL, &j.run.ranks);
   if (status == KZ_OK) {
-    kz_abandon_ranks(j.ranks, NULL);
-    j.first = kz_ranks_own(j.ranks) == 0;
+    kz_abandon_run(&j.run, NULL);
+    j.first = kz_ranks_own(j.run.ranks) == 0;
     status = carry_out(&j);
-    if (j.first && options->timings && (status == KZ_OK || status == KZ_STOPPED)) kz_timings_print(j.ranks, stdout);
+    if (j.first && options->timings && (status == KZ_OK || status == KZ_STOPPED)) kz_timings_print(j.run.ranks, stdout);
     status = kz_scene_locate(status, j.text, j.length, options->scene, options->n_sets, options->sets);
     if (j.log) status = close_log(&j, status);
     if (!j.first) kz_message_clear(); /* all have agreed on it: rank 0 speaks, */
     status = kz_say(status);          /* before any rank ends: mpirun ends the others once one has failed */
   }
-  kz_abandon_ranks(NULL, NULL);
-  kz_ranks_end(j.ranks);
+  kz_abandon_run(&(kz_run){0}, NULL);
+  kz_ranks_end(j.run.ranks);
   free_job(&j);
   return status;
 }

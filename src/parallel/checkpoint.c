@@ -1,21 +1,25 @@
-/* What one rank does with the file of a checkpoint. */
+/* What one rank knows of its checkpoint. */
 #include "checkpoint.h"
 
-#include <stdlib.h>
+#include <stdio.h>
 #include <unistd.h>
 
-void kz_checkpoint_release(kz_checkpoint *checkpoint) {
-  if (checkpoint->file >= 0) close(checkpoint->file);
-  free(checkpoint->path);
-  *checkpoint = (kz_checkpoint){.file = -1};
-}
+enum { MESSAGE_BYTES = 2048 };
 
-bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint) {
-  return checkpoint->file >= 0 && checkpoint->ours && kz_header_is_marked(checkpoint);
+const char *kz_checkpoint_saved(const kz_checkpoint *checkpoint) {
+  return checkpoint && checkpoint->ours && kz_header_is_marked(checkpoint) ? checkpoint->path : NULL;
 }
 
 void kz_checkpoint_forget(const kz_checkpoint *checkpoint) {
-  if (checkpoint->file >= 0 && checkpoint->ours && !kz_header_is_marked(checkpoint) &&
+  if (checkpoint && checkpoint->ours && !kz_header_is_marked(checkpoint) &&
       kz_file_lock_names(checkpoint->path, checkpoint->file))
     unlink(checkpoint->path);
+}
+
+kz_status kz_checkpoint_stopped(const kz_checkpoint *checkpoint) {
+  char reason[MESSAGE_BYTES];
+  const char *saved = kz_checkpoint_saved(checkpoint);
+  snprintf(reason, sizeof reason, "%s", kz_message());
+  kz_message_clear();
+  return kz_fail(KZ_STOPPED, "%s; %s%s", reason, saved ? "finished work is in " : "nothing was saved", saved ? saved : "");
 }

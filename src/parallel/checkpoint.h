@@ -12,9 +12,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "kapitza/common.h"
+#include "kapitza/parallel.h"
 
-typedef struct {
+struct kz_checkpoint {
   int file; /* -1: none is open */
   char *path;
   bool ours;     /* begun by this run, or by one with the same fingerprint */
@@ -22,19 +22,12 @@ typedef struct {
   uint64_t seed; /* checksum of the header */
   int64_t end;   /* offset of the next section */
   int64_t n_sections;
-} kz_checkpoint;
+};
 
 enum { KZ_PAGE = 4096 };
 static inline int64_t kz_whole_pages(int64_t bytes) {
   return (bytes + KZ_PAGE - 1) / KZ_PAGE * KZ_PAGE;
 }
-
-/* True where an open checkpoint holds finished records, of any rank of this run or of an earlier one. */
-bool kz_checkpoint_holds_work(const kz_checkpoint *checkpoint);
-/* Removes an open checkpoint that is ours and holds none, unless another file has its name now. */
-void kz_checkpoint_forget(const kz_checkpoint *checkpoint);
-/* Closes this rank's file, which gives its locks back. The file stays. */
-void kz_checkpoint_release(kz_checkpoint *checkpoint);
 
 /* Opens or creates the file at `path` for rank 0, locks it against every other run, and waits for
  * ranks of an earlier run that are still writing. `existed` tells whether it was there. */

@@ -1,8 +1,10 @@
 /* Opening and closing the checkpoint together. */
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "checkpoint.h"
 #include "ranks.h"
 
 /* Rank 0 decides whether the file is gone on from or begun anew. */
@@ -16,24 +18,35 @@ static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan
   return kz_file_lock_share(plan->path, file_lock.file);
 }
 
-/* A file that holds no work of this run or an earlier one is not left behind. */
-static void abandon(kz_checkpoint *checkpoint, int rank) {
-  if (rank == 0) kz_checkpoint_forget(checkpoint);
-  kz_checkpoint_release(checkpoint);
+/* A file that holds no work of this run or an earlier one is not left behind. Closing the file gives its locks back. */
+static void release(kz_checkpoint *checkpoint, int rank) {
+  if (checkpoint->file >= 0) {
+    if (rank == 0) kz_checkpoint_forget(checkpoint);
+    close(checkpoint->file);
+  }
+  free(checkpoint->path);
+  free(checkpoint);
 }
 
-kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan) {
-  kz_checkpoint *checkpoint = &ranks->checkpoint;
-  checkpoint->path = strdup(plan->path);
-  kz_status status = checkpoint->path ? KZ_OK : kz_fail(KZ_FAILED, "%s: out of memory", plan->path);
-  if (status == KZ_OK && ranks->rank == 0) status = begin(checkpoint, plan);
-  status = kz_ranks_agree(ranks, status);
-  if (status == KZ_OK) {
-    status = ranks->rank != 0 ? kz_file_lock_join(plan->path, &checkpoint->file) : KZ_OK;
-    status = kz_ranks_agree(ranks, status);
+static kz_status open_together(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz_checkpoint *checkpoint) {
+  KZ_TRY(kz_ranks_agree(ranks, ranks->rank == 0 ? begin(checkpoint, plan) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(ranks, ranks->rank != 0 ? kz_file_lock_join(plan->path, &checkpoint->file) : KZ_OK));
+  return kz_ranks_broadcast(ranks, &checkpoint->ours, sizeof checkpoint->ours);
+}
+
+kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz_checkpoint **checkpoint) {
+  kz_checkpoint *opened = *checkpoint = NULL;
+  kz_status status = KZ_FAILED;
+  if ((opened = malloc(sizeof *opened))) {
+    *opened = (kz_checkpoint){.file = -1, .path = strdup(plan->path)};
+    if (opened->path) status = KZ_OK;
   }
-  if (status == KZ_OK) status = kz_ranks_broadcast(ranks, &checkpoint->ours, sizeof checkpoint->ours);
-  if (status != KZ_OK) abandon(checkpoint, ranks->rank);
+  status = kz_ranks_agree(ranks, status == KZ_OK ? KZ_OK : kz_fail(KZ_FAILED, "%s: out of memory", plan->path));
+  if (status == KZ_OK) status = open_together(ranks, plan, opened);
+  if (status == KZ_OK)
+    *checkpoint = opened;
+  else if (opened)
+    release(opened, ranks->rank);
   return status;
 }
 
@@ -58,15 +71,14 @@ static kz_status keep_file(const kz_checkpoint *checkpoint) {
   return kz_fail(KZ_FAILED, "%s: cannot be saved: %s", checkpoint->path, strerror(errno));
 }
 
-kz_status kz_checkpoint_close(kz_ranks *ranks, bool complete) {
-  kz_checkpoint *checkpoint = &ranks->checkpoint;
-  if (checkpoint->file < 0) return KZ_OK;
+kz_status kz_checkpoint_close(kz_ranks *ranks, kz_checkpoint *checkpoint, bool complete) {
+  if (!checkpoint) return KZ_OK;
   kz_status status = KZ_OK;
   if (complete) {
     if (ranks->rank == 0) status = remove_file(checkpoint);
-  } else if (kz_checkpoint_holds_work(checkpoint))
+  } else if (kz_checkpoint_saved(checkpoint))
     status = keep_file(checkpoint);
   status = kz_ranks_agree(ranks, status);
-  abandon(checkpoint, ranks->rank);
+  release(checkpoint, ranks->rank);
   return status;
 }

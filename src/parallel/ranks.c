@@ -36,7 +36,6 @@ kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   if (!started) return kz_fail(KZ_FAILED, "out of memory while starting");
   started->comm = MPI_COMM_NULL;
   started->mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
-  started->checkpoint.file = -1;
   *ranks = started;
   KZ_MPI(MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &started->thread_level));
   kz_signals_catch();
@@ -46,7 +45,6 @@ kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
 
 void kz_ranks_end(kz_ranks *ranks) {
   if (ranks) {
-    kz_checkpoint_release(&ranks->checkpoint);
     free(ranks->timings);
     if (ranks->terminal) fclose(ranks->terminal);
     if (ranks->comm != MPI_COMM_NULL) MPI_Comm_free(&ranks->comm);
@@ -72,14 +70,6 @@ void kz_ranks_abandon(kz_ranks *ranks, kz_status status) {
     MPI_Abort(MPI_COMM_WORLD, status);
   }
   _exit(status);
-}
-
-const char *kz_ranks_saved(const kz_ranks *ranks) {
-  return kz_checkpoint_holds_work(&ranks->checkpoint) ? ranks->checkpoint.path : NULL;
-}
-
-void kz_ranks_forget(const kz_ranks *ranks) {
-  kz_checkpoint_forget(&ranks->checkpoint);
 }
 
 int kz_ranks_own(const kz_ranks *ranks) {
@@ -163,12 +153,4 @@ kz_status kz_ranks_interrupted(const kz_ranks *ranks) {
   if (ranks->limit > 0 && kz_clock() - ranks->start >= ranks->limit)
     return kz_fail(KZ_STOPPED, "stopped by the time limit of %g s", ranks->limit);
   return KZ_OK;
-}
-
-kz_status kz_ranks_stopped(const kz_ranks *ranks) {
-  char reason[MESSAGE_BYTES];
-  const char *saved = kz_ranks_saved(ranks);
-  snprintf(reason, sizeof reason, "%s", kz_message());
-  kz_message_clear();
-  return kz_fail(KZ_STOPPED, "%s; %s%s", reason, saved ? "finished work is in " : "nothing was saved", saved ? saved : "");
 }

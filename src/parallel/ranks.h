@@ -5,7 +5,6 @@
 #include <mpi.h>
 #include <pthread.h>
 
-#include "checkpoint.h"
 #include "kapitza/parallel.h"
 
 struct kz_ranks {
@@ -21,7 +20,6 @@ struct kz_ranks {
   int64_t n_timings;
   double staged;  /* processor seconds of this process within stages */
   FILE *terminal; /* /dev/tty once opened, else NULL */
-  kz_checkpoint checkpoint;
 };
 
 /* Carries a failed MPI call up with MPI's own text, file and line. */
@@ -36,8 +34,5 @@ kz_status kz_mpi_fail(int code, const char *file, int line);
 void kz_signals_catch(void);
 /* The name of the signal that asked for a stop, NULL if none came. */
 const char *kz_signals_caught(void);
-
-/* KZ_STOPPED of kz_ranks_interrupted, once all ranks have left their work: the message tells whether and where that work was saved. */
-kz_status kz_ranks_stopped(const kz_ranks *ranks);
 
 #endif

@@ -15,6 +15,7 @@ static const int64_t TILES_MAX = (int64_t)1 << 44;
 
 typedef struct {
   kz_ranks *ranks;
+  kz_checkpoint *checkpoint;
   const kz_stage *stage;
   char *records;      /* [n_tiles][record_bytes]: complete on rank 0 */
   bool kept;          /* finished records go to the section */
@@ -52,15 +53,14 @@ static kz_status prepare(stage_run *run) {
 static void recall_records(stage_run *run, int64_t *done) {
   const kz_stage *stage = run->stage;
   for (int64_t tile = 0; run->ranks->rank == 0 && tile < stage->n_tiles; ++tile)
-    done[tile] =
-        kz_section_recall(&run->ranks->checkpoint, &run->section, tile, run->records + (size_t)tile * stage->record_bytes);
+    done[tile] = kz_section_recall(run->checkpoint, &run->section, tile, run->records + (size_t)tile * stage->record_bytes);
 }
 
 /* Pieces found in the checkpoint are dealt out to the ranks. */
 static kz_status recall_pieces(stage_run *run, int64_t *done) {
   const kz_ranks *ranks = run->ranks;
   for (int64_t tile = ranks->rank; tile < run->stage->n_tiles; tile += ranks->size) {
-    if (!kz_section_recall(&ranks->checkpoint, &run->section, tile, run->buffer)) continue;
+    if (!kz_section_recall(run->checkpoint, &run->section, tile, run->buffer)) continue;
     done[tile] = 1;
     KZ_TRY(kz_pieces_add(run->stage->pieces, tile, run->buffer, kz_section_used(&run->section, run->buffer)));
   }
@@ -72,7 +72,7 @@ static kz_status recall(stage_run *run) {
   kz_ranks *ranks = run->ranks;
   const int64_t n_tiles = run->stage->n_tiles;
   bool known = false;
-  kz_status status = ranks->rank == 0 ? kz_section_open(&ranks->checkpoint, run->stage, &run->section, &known) : KZ_OK;
+  kz_status status = ranks->rank == 0 ? kz_section_open(run->checkpoint, run->stage, &run->section, &known) : KZ_OK;
   KZ_TRY(kz_ranks_agree(ranks, status));
   KZ_TRY(kz_ranks_broadcast(ranks, &run->section, sizeof run->section));
   KZ_TRY(kz_ranks_broadcast(ranks, &known, sizeof known));
@@ -87,7 +87,7 @@ static kz_status recall(stage_run *run) {
   run->n_left = 0;
   for (int64_t tile = 0; tile < n_tiles; ++tile)
     if (!run->left[tile]) run->left[run->n_left++] = tile;
-  kz_section_adopt(&ranks->checkpoint, &run->section);
+  kz_section_adopt(run->checkpoint, &run->section);
   return KZ_OK;
 }
 
@@ -102,7 +102,7 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
     return kz_fail(KZ_FAILED, "stage %s: out of memory for the records", stage->name);
   KZ_TRY(stage->work(stage->context, tile, record));
   if (stage->pieces) KZ_TRY(kz_pieces_add(stage->pieces, tile, record, *(uint64_t *)record));
-  return run->kept ? kz_section_save(&run->ranks->checkpoint, &run->section, tile, record) : KZ_OK;
+  return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
 }
 
 /* Draws and does tiles until none is left; whoever cannot go on halts all ranks. */
@@ -127,7 +127,7 @@ static kz_status do_tiles(stage_run *run) {
 /* A tile by all ranks. Sections of the stages that it runs count for this tile alone; those of the next tile take their place. */
 static kz_status do_together(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
-  kz_checkpoint *checkpoint = &run->ranks->checkpoint;
+  kz_checkpoint *checkpoint = run->checkpoint;
   const kz_checkpoint outside = *checkpoint;
   void *record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   checkpoint->seed = kz_bytes_checksum(checkpoint->seed, &tile, sizeof tile);
@@ -177,7 +177,6 @@ static kz_status run_stage(stage_run *run) {
   kz_work_end(&run->work);
   if (status == KZ_OK && !together) status = kz_timing_note(run->ranks, run->n_left, &watch, &run->work, &idle);
   kz_meter_end(&run->meter, status == KZ_OK, idle);
-  if (status == KZ_STOPPED && !together) return kz_ranks_stopped(run->ranks);
   KZ_TRY(status);
   return deliver(run);
 }
@@ -190,10 +189,14 @@ static kz_status run_alone(const kz_stage *stage, char *records) {
   return KZ_OK;
 }
 
-kz_status kz_stage_run(kz_ranks *ranks, const kz_stage *stage, void *records) {
-  if (!ranks) return run_alone(stage, records);
-  stage_run run = {.ranks = ranks, .stage = stage, .records = records, .n_left = stage->n_tiles};
-  run.kept = stage->keep && ranks->checkpoint.file >= 0;
+kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
+  if (!on) return run_alone(stage, records);
+  stage_run run = {.ranks = on->ranks,
+                   .checkpoint = on->checkpoint,
+                   .stage = stage,
+                   .records = records,
+                   .kept = stage->keep && on->checkpoint,
+                   .n_left = stage->n_tiles};
   const kz_status status = run_stage(&run);
   kz_record_buffer_end(&run.buffered);
   free(run.buffer);

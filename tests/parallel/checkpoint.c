@@ -37,7 +37,7 @@ static kz_status run_named(const char *name, job *j) {
   const kz_stage stage = {
       .name = name, .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = fill, .context = j, .keep = true, .everywhere = true};
   memset(records, 0, sizeof records);
-  return kz_stage_run(ranks, &stage, records);
+  return run_stage(&stage, records);
 }
 
 static bool is_right(void) {
@@ -49,7 +49,7 @@ static bool is_right(void) {
 
 static kz_status open_with(const char *fingerprint, bool resume, bool force) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = fingerprint, .resume = resume, .force = force};
-  return kz_checkpoint_open(ranks, &plan);
+  return open_checkpoint(&plan);
 }
 
 /* A run that does some tiles and fails; how many it did. A checkpoint stays where it did any. */
@@ -57,7 +57,7 @@ static int64_t leave_partial(int64_t failing) {
   job j = {.failing = failing};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   assert_all(run_named("first", &j) == (failing < 0 ? KZ_OK : KZ_FAILED));
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   const int64_t done = sum(j.done);
   assert_all(!first() || (access(path, R_OK) == 0) == (done > 0));
   return done;
@@ -69,7 +69,7 @@ static int64_t resume(void) {
   assert_all(open_with(FINGERPRINT, true, false) == KZ_OK);
   assert_all(run_named("first", &j) == KZ_OK);
   assert_all(is_right());
-  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  assert_all(close_checkpoint(true) == KZ_OK);
   assert_all(!first() || access(path, F_OK) != 0);
   return sum(j.done);
 }
@@ -174,7 +174,7 @@ static void an_existing_file_needs_a_word(void **state) {
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   assert_all(run_named("first", &j) == KZ_OK && is_right());
   assert_all(sum(j.done) == N_TILES);
-  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  assert_all(close_checkpoint(true) == KZ_OK);
 }
 
 static void sections_follow_each_other(void **state) {
@@ -183,22 +183,22 @@ static void sections_follow_each_other(void **state) {
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   assert_all(run_named("first", &j) == KZ_OK);
   assert_all(run_named("second", &k) == KZ_FAILED);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(open_with(FINGERPRINT, true, false) == KZ_OK);
   assert_all(run_named("first", &again) == KZ_OK && is_right());
   assert_all(sum(again.done) == 0);
   assert_all(run_named("second", &again) == KZ_OK && is_right());
   assert_all(sum(again.done) == N_TILES - sum(k.done));
   assert_all(run_named("third", &again) == KZ_OK && is_right());
-  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  assert_all(close_checkpoint(true) == KZ_OK);
 }
 
 static void nothing_kept_leaves_nothing(void **state) {
   (void)state;
   assert_all(open_with(FINGERPRINT, false, false) == KZ_OK);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(!first() || access(path, F_OK) != 0);
-  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  assert_all(close_checkpoint(true) == KZ_OK);
 }
 
 static void a_wrong_path_is_refused(void **state) {
@@ -206,9 +206,9 @@ static void a_wrong_path_is_refused(void **state) {
   const kz_checkpoint_plan missing = {.path = "/proc/nowhere/a.checkpoint", .fingerprint = ""};
   const kz_checkpoint_plan device = {.path = "/dev/null", .fingerprint = "", .resume = true};
   const kz_checkpoint_plan directory = {.path = "/dev", .fingerprint = "", .resume = true};
-  assert_all(kz_checkpoint_open(ranks, &missing) == KZ_REFUSED);
-  assert_all(kz_checkpoint_open(ranks, &device) == KZ_REFUSED);
-  assert_all(kz_checkpoint_open(ranks, &directory) == KZ_REFUSED);
+  assert_all(open_checkpoint(&missing) == KZ_REFUSED);
+  assert_all(open_checkpoint(&device) == KZ_REFUSED);
+  assert_all(open_checkpoint(&directory) == KZ_REFUSED);
 }
 
 /* A link in the checkpoint's place, where it may lead nowhere, is neither followed nor removed. */
@@ -232,7 +232,7 @@ static void only_the_own_checkpoint_is_cleared(void **state) {
   assert_all(open_with(FINGERPRINT, true, false) == KZ_OK);
   if (first()) kz_checkpoint_clear(path, FINGERPRINT); /* it is in use */
   assert_all(!first() || access(path, F_OK) == 0);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   if (first()) kz_checkpoint_clear(path, FINGERPRINT);
   assert_all(!first() || access(path, F_OK) != 0);
 }
@@ -243,7 +243,7 @@ static void a_run_without_records_leaves_nothing(void **state) {
   assert_all(open_with(FINGERPRINT, false, false) == KZ_OK);
   assert_all(kz_ranks_count(ranks) > 1 || run_named("first", &j) == KZ_FAILED);
   assert_all(!first() || access(path, F_OK) == 0);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(!first() || access(path, F_OK) != 0);
 }
 
@@ -258,9 +258,9 @@ static void a_removed_file_is_noticed(void **state) {
   kz_stage stage = {
       .name = "first", .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = remove_and_fill, .context = &j, .keep = true};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
-  const kz_status status = kz_stage_run(ranks, &stage, records);
+  const kz_status status = run_stage(&stage, records);
   assert_all(status == KZ_FAILED && strstr(kz_message(), "was removed during the run"));
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_FAILED);
+  assert_all(close_checkpoint(false) == KZ_FAILED);
 }
 
 static void too_large_for_the_disk_is_known_early(void **state) {
@@ -269,10 +269,10 @@ static void too_large_for_the_disk_is_known_early(void **state) {
   kz_stage stage = {
       .name = "huge", .n_tiles = (int64_t)1 << 43, .record_bytes = N_BYTES, .work = fill, .context = &j, .keep = true};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
-  const kz_status status = kz_stage_run(ranks, &stage, records);
+  const kz_status status = run_stage(&stage, records);
   assert_all(status == KZ_FAILED && strstr(kz_message(), "no room"));
   assert_all(j.done == 0);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
 }
 
 int main(void) {

@@ -26,7 +26,7 @@ static double open_against(double seconds, kz_status expected) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
   const pid_t child = kz_ranks_own(ranks) == 0 ? lock_for(seconds) : 0;
   const double begun = kz_clock();
-  const kz_status status = kz_checkpoint_open(ranks, &plan);
+  const kz_status status = open_checkpoint(&plan);
   const double took = kz_clock() - begun;
   assert_all(status == expected && (status == KZ_OK || strstr(kz_message(), "held by another process")));
   if (child > 0) waitpid(child, NULL, 0);
@@ -37,7 +37,7 @@ static void orphans_are_waited_for(void **state) {
   (void)state;
   const double took = open_against(1.5, KZ_OK);
   assert_all(kz_ranks_own(ranks) != 0 || (took > 1.0 && took < 6.0));
-  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  assert_all(close_checkpoint(true) == KZ_OK);
 }
 
 static void a_running_program_is_refused(void **state) {
@@ -50,10 +50,10 @@ static void a_rank_of_this_run_holds_it(void **state) {
   (void)state;
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .force = true};
   struct flock byte = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
-  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
+  assert_all(open_checkpoint(&plan) == KZ_OK);
   const int other = open(path, O_RDWR);
   assert_all(fcntl(other, F_OFD_SETLK, &byte) == -1);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(fcntl(other, F_OFD_GETLK, &byte) == 0 && byte.l_type == F_UNLCK);
   close(other);
 }

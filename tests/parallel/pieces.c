@@ -31,7 +31,7 @@ static kz_status fill(void *context, int64_t tile, void *record) {
 static kz_status run(job *j, kz_pieces *pieces) {
   const kz_stage stage = {
       .name = "pieces", .n_tiles = N_TILES, .record_bytes = MOST, .work = fill, .context = j, .keep = true, .pieces = pieces};
-  return kz_stage_run(ranks, &stage, NULL);
+  return run_stage(&stage, NULL);
 }
 
 /* A message: the tile, and the last byte of its record. */
@@ -65,9 +65,9 @@ static bool has_all(const job *j) {
   return true;
 }
 
-static void open_checkpoint(bool resume) {
+static void open_pieces(bool resume) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "a: 1\n", .resume = resume, .force = !resume};
-  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
+  assert_all(open_checkpoint(&plan) == KZ_OK);
 }
 
 static int64_t sum(int64_t mine) {
@@ -107,19 +107,19 @@ static void finished_pieces_are_found_again(void **state) {
   (void)state;
   job j = {.failing = 45};
   kz_pieces pieces = {0};
-  open_checkpoint(false);
+  open_pieces(false);
   assert_all(run(&j, &pieces) == KZ_FAILED);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   kz_pieces_free(&pieces);
   const int64_t done = sum(j.done);
   spoil(7);
   struct stat facts;
   assert_all(stat(path, &facts) == 0 && facts.st_blocks * 512 < (N_TILES + 4) * 2 * PAGE && facts.st_size > 10 * MOST);
-  open_checkpoint(true);
+  open_pieces(true);
   j = (job){.failing = -1};
   assert_all(run(&j, &pieces) == KZ_OK && sum(j.done) == N_TILES - done + 1 && sum(pieces.n) == N_TILES);
   assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
-  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  assert_all(close_checkpoint(true) == KZ_OK);
   kz_pieces_free(&pieces);
 }
 

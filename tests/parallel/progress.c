@@ -27,7 +27,7 @@ static void show(kz_progress progress, int64_t n_tiles, int end, int file) {
   const int before = dup(STDERR_FILENO);
   dup2(end, STDERR_FILENO);
   kz_ranks_set_progress(ranks, progress);
-  const kz_status status = kz_stage_run(ranks, &stage, records);
+  const kz_status status = run_stage(&stage, records);
   dup2(before, STDERR_FILENO);
   close(before);
   assert_int_equal(status, KZ_OK);

@@ -17,6 +17,21 @@
 #include "kapitza/parallel.h"
 
 static kz_ranks *ranks;
+static kz_checkpoint *checkpoint; /* NULL: none is open */
+
+static inline kz_status run_stage(const kz_stage *stage, void *records) {
+  return kz_stage_run(&(kz_run){.ranks = ranks, .checkpoint = checkpoint}, stage, records);
+}
+
+static inline kz_status open_checkpoint(const kz_checkpoint_plan *plan) {
+  return kz_checkpoint_open(ranks, plan, &checkpoint);
+}
+
+static inline kz_status close_checkpoint(bool complete) {
+  kz_checkpoint *closed = checkpoint;
+  checkpoint = NULL;
+  return kz_checkpoint_close(ranks, closed, complete);
+}
 
 #define assert_all(condition) assert_on_all((condition), #condition, __LINE__)
 

@@ -47,7 +47,7 @@ static void records_arrive_on_rank_0(void **state) {
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
   record *records = kz_ranks_own(ranks) == 0 ? malloc(N_TILES * sizeof *records) : NULL;
-  assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
+  assert_all(run_stage(&stage, records) == KZ_OK);
   assert_all(kz_ranks_own(ranks) != 0 || is_right(records, N_TILES));
   assert_all(j.dirty == 0);
   free(records);
@@ -60,7 +60,7 @@ static void records_arrive_everywhere(void **state) {
   static record records[N_TILES];
   for (int again = 0; again < 3; ++again) {
     memset(records, 0x55, sizeof records);
-    assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
+    assert_all(run_stage(&stage, records) == KZ_OK);
     assert_all(is_right(records, N_TILES));
   }
 }
@@ -72,7 +72,7 @@ static void few_tiles_are_enough(void **state) {
     job j = {.failing = -1};
     const kz_stage stage = stage_of(&j, n, true);
     memset(records, 0, sizeof records);
-    assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
+    assert_all(run_stage(&stage, records) == KZ_OK);
     assert_all(is_right(records, n));
     assert_all(j.done <= n);
   }
@@ -83,7 +83,7 @@ static void all_ranks_take_part(void **state) {
   job j = {.failing = -1, .seconds = 0.005};
   const kz_stage stage = stage_of(&j, N_TILES, true);
   static record records[N_TILES];
-  assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
+  assert_all(run_stage(&stage, records) == KZ_OK);
   assert_all(j.done > 0 && j.done < (kz_ranks_count(ranks) == 1 ? N_TILES + 1 : N_TILES));
 }
 
@@ -93,7 +93,7 @@ static void a_failing_tile_ends_all_ranks(void **state) {
   for (int64_t failing = 0; failing < N_TILES; failing += 57) {
     job j = {.failing = failing, .seconds = 0.001};
     const kz_stage stage = stage_of(&j, N_TILES, true);
-    const kz_status status = kz_stage_run(ranks, &stage, records);
+    const kz_status status = run_stage(&stage, records);
     char expected[64];
     snprintf(expected, sizeof expected, "tile %lld fails", (long long)failing);
     assert_all(status == KZ_FAILED && strcmp(kz_message(), expected) == 0);
@@ -105,7 +105,7 @@ static void a_missing_array_ends_all_ranks(void **state) {
   (void)state;
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
-  assert_all(kz_stage_run(ranks, &stage, NULL) == KZ_FAILED);
+  assert_all(run_stage(&stage, NULL) == KZ_FAILED);
   assert_all(j.done == 0);
 }
 
@@ -122,7 +122,7 @@ static void records_beyond_a_message_arrive(void **state) {
   const kz_stage stage = {
       .name = "large", .n_tiles = 7, .record_bytes = n, .work = fill_large, .context = &n, .everywhere = true};
   char *records = malloc(7 * n);
-  assert_all(kz_stage_run(ranks, &stage, records) == KZ_OK);
+  assert_all(run_stage(&stage, records) == KZ_OK);
   int wrong = 0;
   for (int t = 0; t < 7; ++t) wrong += records[(size_t)t * n] != t + 1 || records[(size_t)(t + 1) * n - 1] != t + 1;
   assert_all(wrong == 0);
@@ -149,7 +149,7 @@ static void memory_that_runs_out_on_one_rank_ends_all(void **state) {
   char *records = rank == 0 ? malloc(20 * n) : NULL;
   struct rlimit before;
   if (rank == last && rank > 0) limit_memory(&before);
-  const kz_status status = kz_stage_run(ranks, &stage, records);
+  const kz_status status = run_stage(&stage, records);
   if (rank == last && rank > 0) setrlimit(RLIMIT_AS, &before);
   assert_all(last == 0 ? status == KZ_OK : status == KZ_FAILED && strstr(kz_message(), "out of memory") != NULL);
   free(records);
@@ -186,7 +186,7 @@ static void rank_0_answers_amid_its_own_tile(void **state) {
   assert_all(fcntl(t.file, F_SETFL, O_APPEND) == 0);
   const kz_stage stage = {.name = "wait", .n_tiles = N_TILES, .record_bytes = 1, .work = wait_for_others, .context = &t};
   char records[N_TILES];
-  const kz_status status = kz_stage_run(ranks, &stage, records);
+  const kz_status status = run_stage(&stage, records);
   assert_all(kz_ranks_own(ranks) != 0 || unlink(t.path) == 0);
   assert_all(status == KZ_OK && count(&t) == N_TILES);
   close(t.file);

@@ -20,7 +20,8 @@ static kz_status run(int64_t *done, bool keep) {
   const kz_stage stage = {
       .name = "cells", .n_tiles = N_TILES, .record_bytes = sizeof *records, .work = fill, .context = done, .keep = keep};
   memset(records, 0, sizeof records);
-  return kz_stage_run(ranks, &stage, records);
+  const kz_status status = run_stage(&stage, records);
+  return status == KZ_STOPPED ? kz_checkpoint_stopped(checkpoint) : status;
 }
 
 static bool is_right(void) {
@@ -35,13 +36,13 @@ static void the_time_limit_stops_and_resumes(void **state) {
   int64_t done = 0, more = 0;
   kz_ranks_set_time_limit(ranks, 0.05);
   pause_for(0.05);
-  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
+  assert_all(open_checkpoint(&plan) == KZ_OK);
   assert_all(run(&done, true) == KZ_STOPPED && done == 0 && strstr(kz_message(), "nothing was saved"));
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   kz_ranks_set_time_limit(ranks, 0);
-  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
+  assert_all(open_checkpoint(&plan) == KZ_OK);
   assert_all(run(&more, true) == KZ_OK && (kz_ranks_own(ranks) != 0 || is_right()));
-  assert_all(kz_checkpoint_close(ranks, true) == KZ_OK);
+  assert_all(close_checkpoint(true) == KZ_OK);
 }
 
 /* From here on the request stays. */
@@ -50,14 +51,14 @@ static void a_signal_to_one_rank_stops_all(void **state) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
   int64_t done = 0;
   raising = 20;
-  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
+  assert_all(open_checkpoint(&plan) == KZ_OK);
   const double begun = kz_clock();
   const kz_status status = run(&done, true);
   assert_all(status == KZ_STOPPED && strstr(kz_message(), "SIGUSR1") && strstr(kz_message(), path));
   assert_all(kz_clock() - begun < 10);
   assert_all(done < N_TILES / 4); /* the others hear of it with their next batch */
   assert_all(run(&done, true) == KZ_STOPPED);
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(kz_ranks_own(ranks) != 0 || unlink(path) == 0);
 }
 
@@ -65,10 +66,10 @@ static void nothing_is_promised_where_nothing_was_kept(void **state) {
   (void)state;
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
   int64_t done = 0;
-  assert_all(kz_checkpoint_open(ranks, &plan) == KZ_OK);
+  assert_all(open_checkpoint(&plan) == KZ_OK);
   const kz_status status = run(&done, false);
   assert_all(status == KZ_STOPPED && strstr(kz_message(), path) == NULL && strstr(kz_message(), "nothing was saved"));
-  assert_all(kz_checkpoint_close(ranks, false) == KZ_OK);
+  assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(access(path, F_OK) != 0);
 }
 

@@ -34,16 +34,16 @@ static kz_status fill(void *context, int64_t tile, void *bytes) {
   return KZ_OK;
 }
 
-static kz_status run_stages(kz_ranks *ranks, int log) {
+static kz_status run_stages(const kz_run *run, int log) {
   job j = {.seed = 1, .log = log};
   kz_stage stage = {
       .name = "table", .n_tiles = N_TILES, .record_bytes = sizeof(record), .work = fill, .context = &j, .keep = true};
   stage.everywhere = true;
-  KZ_TRY(kz_stage_run(ranks, &stage, table));
+  KZ_TRY(kz_stage_run(run, &stage, table));
   j = (job){.seed = 2, .below = (const record *)table, .log = log};
   stage.name = "cells";
   stage.everywhere = false;
-  return kz_stage_run(ranks, &stage, cells);
+  return kz_stage_run(run, &stage, cells);
 }
 
 static kz_status save(const char *path) {
@@ -57,24 +57,26 @@ static kz_status save(const char *path) {
 }
 
 /* The result may have been finished by ranks of the earlier run while this one waited for its checkpoint: ask after opening. */
-static kz_status work(kz_ranks *ranks, const char *path, bool resume, int log) {
+static kz_status work(const kz_run *run, const char *path, bool resume, int log) {
   bool done = resume && access(path, F_OK) == 0;
-  KZ_TRY(kz_ranks_broadcast(ranks, &done, sizeof done));
+  KZ_TRY(kz_ranks_broadcast(run->ranks, &done, sizeof done));
   if (done) return KZ_OK;
-  KZ_TRY(run_stages(ranks, log));
-  return kz_ranks_agree(ranks, kz_ranks_own(ranks) == 0 ? save(path) : KZ_OK);
+  KZ_TRY(run_stages(run, log));
+  return kz_ranks_agree(run->ranks, kz_ranks_own(run->ranks) == 0 ? save(path) : KZ_OK);
 }
 
-static kz_status run(kz_ranks *ranks, const char *path, bool resume) {
+static kz_status run_worker(kz_ranks *ranks, const char *path, bool resume) {
   char name[4096];
   snprintf(name, sizeof name, "%s.log", path);
   const int log = open(name, O_WRONLY | O_CREAT | O_APPEND, 0666);
   KZ_TRY(kz_ranks_agree(ranks, log < 0 ? kz_fail(KZ_REFUSED, "%s: cannot be created", name) : KZ_OK));
   snprintf(name, sizeof name, "%s.checkpoint", path);
   const kz_checkpoint_plan plan = {.path = name, .fingerprint = "program: worker\n", .resume = resume};
-  KZ_TRY(kz_checkpoint_open(ranks, &plan));
-  const kz_status status = work(ranks, path, resume, log);
-  const kz_status closed = kz_checkpoint_close(ranks, status == KZ_OK);
+  kz_run run = {.ranks = ranks};
+  KZ_TRY(kz_checkpoint_open(ranks, &plan, &run.checkpoint));
+  kz_status status = work(&run, path, resume, log);
+  if (status == KZ_STOPPED) status = kz_checkpoint_stopped(run.checkpoint);
+  const kz_status closed = kz_checkpoint_close(ranks, run.checkpoint, status == KZ_OK);
   return status == KZ_OK ? closed : status;
 }
 
@@ -82,7 +84,7 @@ int main(int n, char **words) {
   if (n < 2) return KZ_REFUSED;
   kz_ranks *ranks = NULL;
   kz_status status = kz_ranks_start(&n, &words, &ranks);
-  if (status == KZ_OK) status = run(ranks, words[1], n > 2 && strcmp(words[2], "--resume") == 0);
+  if (status == KZ_OK) status = run_worker(ranks, words[1], n > 2 && strcmp(words[2], "--resume") == 0);
   if (status != KZ_OK && kz_launch_rank() <= 0) fprintf(stderr, "worker: %s\n", kz_message());
   kz_ranks_end(ranks);
   return (int)status;

@@ -34,7 +34,7 @@ int main(int n, char **words) {
     void *records = malloc((size_t)l.n_tiles);
     if (kz_ranks_count(ranks) > 1 && kz_ranks_own(ranks) == kz_ranks_count(ranks) - 1) l.seconds *= atof(words[3]);
     kz_ranks_set_progress(ranks, KZ_PROGRESS_ALWAYS);
-    status = kz_stage_run(ranks, &stage, records);
+    status = kz_stage_run(&(kz_run){.ranks = ranks}, &stage, records);
     free(records);
   }
   if (status != KZ_OK) fprintf(stderr, "uneven: %s\n", kz_message());

@@ -52,7 +52,7 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
 
 /* Tries the configurations from the cheapest on, two at a time; the first that meets the accuracy is chosen. `best`: the lowest
  * number of wrong labels. */
-static kz_status climb(walk *w, kz_ranks *ranks, double accuracy, kz_choice *choice, int64_t *best) {
+static kz_status climb(walk *w, const kz_run *run, double accuracy, kz_choice *choice, int64_t *best) {
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
   kz_measured measured[2];
   *best = w->reference->samples;
@@ -65,7 +65,7 @@ static kz_status climb(walk *w, kz_ranks *ranks, double accuracy, kz_choice *cho
                       .context = w,
                       .keep = true,
                       .everywhere = true};
-    KZ_TRY(kz_stage_run(ranks, &stage, measured));
+    KZ_TRY(kz_stage_run(run, &stage, measured));
     for (int64_t i = 0; i < stage.n_tiles && !choice->config; i++) {
       choice->tried++;
       choice->wrong = measured[i].wrong;
@@ -95,26 +95,26 @@ static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
           100 * wrong.high, 100 * flips.share);
 }
 
-static kz_status choose(const kz_reference_labels *reference, kz_ranks *ranks, double accuracy, kz_choice *choice) {
+static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
   int64_t best;
   walk w;
   order(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
-  KZ_TRY(climb(&w, ranks, accuracy, choice, &best));
+  KZ_TRY(climb(&w, run, accuracy, choice, &best));
   return choice->config ? KZ_OK : refuse(accuracy, choice, best);
 }
 
-kz_status kz_accuracy_choose(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary, kz_choice *choice) {
+kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
   const double accuracy = scene->basin.accuracy;
   kz_reference_labels reference = {0};
   char *path = kz_reference_path(store);
-  kz_status status = kz_reference_labels_make(scene, ranks, samples_for(accuracy), path, &reference);
-  if (status == KZ_OK) status = choose(&reference, ranks, accuracy, choice);
+  kz_status status = kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference);
+  if (status == KZ_OK) status = choose(&reference, run, accuracy, choice);
   if (status == KZ_OK && path) status = kz_reference_labels_save(&reference, path);
   if (status == KZ_OK && summary) tell(choice, accuracy, summary);
   kz_reference_labels_free(&reference);
   free(path);
-  return kz_ranks_agree(ranks, status);
+  return kz_ranks_agree(run->ranks, status);
 }
 
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store) {

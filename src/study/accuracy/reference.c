@@ -55,18 +55,18 @@ typedef struct {
 } probes;
 
 /* The states of probes that do not settle, packed to the front: *open of them. */
-static kz_status follow_probes(const kz_reference_labels *reference, kz_ranks *ranks, kz_dynamics *dynamics, probes *p,
+static kz_status follow_probes(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics, probes *p,
                                int64_t *open) {
   const int64_t n = reference->total < PROBES ? reference->total : PROBES;
   *open = 0;
   for (int64_t i = 0; i < n; i++) kz_cell_state(reference->plan, kz_reference_labels_cell(reference, i), p->state + 2 * i);
-  KZ_TRY(kz_settle(ranks, dynamics, reference->plan->max_periods, n, p->state, p->label));
+  KZ_TRY(kz_settle(run, dynamics, reference->plan->max_periods, n, p->state, p->label));
   for (int64_t i = 0; i < n; i++)
     if (p->label[i] == 0) memcpy(p->state + 2 * (*open)++, p->state + 2 * i, 2 * sizeof(double));
   return KZ_OK;
 }
 
-static kz_status find_attractors(const kz_reference_labels *reference, kz_ranks *ranks, kz_dynamics *dynamics, probes *p) {
+static kz_status find_attractors(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics, probes *p) {
   const kz_basin_plan *plan = reference->plan;
   const kz_search search = {.window = kz_window_of(&plan->theta, &plan->velocity),
                             .starts = plan->starts,
@@ -74,37 +74,37 @@ static kz_status find_attractors(const kz_reference_labels *reference, kz_ranks 
                             .max_periods = plan->max_periods,
                             .cells = reference->total,
                             .max_velocity = reference->max_velocity};
-  KZ_TRY(kz_search_window(ranks, dynamics, &search, p->state, p->label));
+  KZ_TRY(kz_search_window(run, dynamics, &search, p->state, p->label));
   for (int round = 0; round < ROUNDS; round++) {
     const int64_t known = kz_dynamics_count(dynamics);
     int64_t n;
-    KZ_TRY(follow_probes(reference, ranks, dynamics, p, &n));
+    KZ_TRY(follow_probes(reference, run, dynamics, p, &n));
     if (n == 0) break;
-    KZ_TRY(kz_discover(ranks, dynamics, plan->max_periods, n, p->state, p->label));
+    KZ_TRY(kz_discover(run, dynamics, plan->max_periods, n, p->state, p->label));
     if (kz_dynamics_count(dynamics) == known) break;
   }
   kz_dynamics_update(dynamics);
   return kz_dynamics_count(dynamics) <= INT16_MAX ? KZ_OK : kz_fail(KZ_FAILED, "more than %d attractors", INT16_MAX);
 }
 
-static kz_status prepare(kz_reference_labels *reference, kz_ranks *ranks, kz_dynamics *dynamics) {
+static kz_status prepare(kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
   const kz_basin_plan *plan = reference->plan;
   probes p = {.most = plan->starts > PROBES ? plan->starts : PROBES};
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
   p.label = malloc((size_t)p.most * sizeof *p.label);
   kz_status status = p.state && p.label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
-  status = kz_ranks_agree(ranks, status);
+  status = kz_ranks_agree(run->ranks, status);
   reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
-  if (status == KZ_OK) status = find_attractors(reference, ranks, dynamics, &p);
+  if (status == KZ_OK) status = find_attractors(reference, run, dynamics, &p);
   free(p.state);
   free(p.label);
-  KZ_TRY(kz_ranks_agree(ranks, status));
+  KZ_TRY(kz_ranks_agree(run->ranks, status));
   reference->packed_size = kz_dynamics_packed_size(dynamics);
   reference->packed = malloc((size_t)reference->packed_size * sizeof(double) + 1);
   reference->labels = calloc((size_t)reference->samples + 1, sizeof *reference->labels);
   if (reference->packed) kz_dynamics_pack(dynamics, reference->packed_size, reference->packed);
-  return kz_ranks_agree(ranks,
+  return kz_ranks_agree(run->ranks,
                         reference->packed && reference->labels ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
 }
 
@@ -182,15 +182,15 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
 }
 
 /* What rank 0 found in the cache, on every rank. */
-static kz_status share_known(kz_ranks *ranks, const char *path, kz_reference_labels *reference, int64_t *known) {
-  *known = kz_ranks_own(ranks) == 0 && path ? kz_reference_labels_recall(path, reference) : 0;
-  KZ_TRY(kz_ranks_broadcast(ranks, known, sizeof *known));
-  return kz_ranks_broadcast(ranks, reference->labels, (size_t)*known * sizeof *reference->labels);
+static kz_status share_known(const kz_run *run, const char *path, kz_reference_labels *reference, int64_t *known) {
+  *known = kz_ranks_own(run->ranks) == 0 && path ? kz_reference_labels_recall(path, reference) : 0;
+  KZ_TRY(kz_ranks_broadcast(run->ranks, known, sizeof *known));
+  return kz_ranks_broadcast(run->ranks, reference->labels, (size_t)*known * sizeof *reference->labels);
 }
 
-static kz_status follow_samples(kz_reference_labels *reference, kz_ranks *ranks, const char *path, kz_dynamics *dynamics) {
+static kz_status follow_samples(kz_reference_labels *reference, const kz_run *run, const char *path, kz_dynamics *dynamics) {
   reference_job h = {.reference = reference, .dynamics = dynamics};
-  KZ_TRY(share_known(ranks, path, reference, &h.known));
+  KZ_TRY(share_known(run, path, reference, &h.known));
   kz_stage stage = {.name = "truth",
                     .n_tiles = (reference->samples + TILE - 1) / TILE,
                     .record_bytes = TILE * sizeof(kz_reference_label),
@@ -199,23 +199,23 @@ static kz_status follow_samples(kz_reference_labels *reference, kz_ranks *ranks,
                     .keep = true,
                     .everywhere = true};
   kz_reference_label *records = malloc((size_t)stage.n_tiles * stage.record_bytes);
-  kz_status status = kz_ranks_agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
+  kz_status status = kz_ranks_agree(run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK) memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);
   free(records);
   return status;
 }
 
-kz_status kz_reference_labels_make(const kz_scene *scene, kz_ranks *ranks, int64_t samples, const char *path,
+kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int64_t samples, const char *path,
                                    kz_reference_labels *reference) {
   const kz_basin_plan *plan = &scene->basin;
   *reference = (kz_reference_labels){
       .plan = plan, .pendulum = scene->parameters.pendulum, .total = plan->theta.count * plan->velocity.count};
   reference->samples = samples < reference->total ? samples : reference->total;
   kz_dynamics *dynamics = NULL;
-  kz_status status = kz_ranks_agree(ranks, make_dynamics(reference, &dynamics));
-  if (status == KZ_OK) status = prepare(reference, ranks, dynamics);
-  if (status == KZ_OK) status = follow_samples(reference, ranks, path, dynamics);
+  kz_status status = kz_ranks_agree(run->ranks, make_dynamics(reference, &dynamics));
+  if (status == KZ_OK) status = prepare(reference, run, dynamics);
+  if (status == KZ_OK) status = follow_samples(reference, run, path, dynamics);
   if (dynamics) kz_dynamics_free(dynamics);
   return status;
 }

@@ -34,7 +34,7 @@ typedef struct {
 /* Makes the reference labels of a damped scene's basin, of at most `samples` cells, on every rank. `path` (rank 0; NULL = none)
  * names the cache: labels of the same sample that it holds are not computed again. The stage is kept by a checkpoint.
  * Collective. */
-kz_status kz_reference_labels_make(const kz_scene *scene, kz_ranks *ranks, int64_t samples, const char *path,
+kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int64_t samples, const char *path,
                                    kz_reference_labels *reference);
 /* Writes the cache where there are more labels than it holds. Rank 0. */
 kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path);

@@ -99,7 +99,7 @@ static void rate(const kz_reference_labels *reference, kz_trade *trade) {
   kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
 }
 
-static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, kz_ranks *ranks) {
+static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
   measuring m = {reference, trade};
   kz_stage stage = {.name = "settings",
                     .n_tiles = trade->count,
@@ -110,28 +110,28 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
                     .everywhere = true};
   for (int64_t i = 0; i < trade->count; i++)
     trade->numerics[i] = kz_config_numerics(trade->configs[i], &reference->pendulum, reference->plan);
-  KZ_TRY(kz_stage_run(ranks, &stage, trade->measured));
+  KZ_TRY(kz_stage_run(run, &stage, trade->measured));
   rate(reference, trade);
   return KZ_OK;
 }
 
-static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   kz_reference_labels reference = {0};
   kz_trade trade = {0};
   char *path = kz_reference_path(store);
-  kz_status status = kz_ranks_agree(ranks, allocate(&scene->tradeoff, &trade));
-  if (status == KZ_OK) status = kz_reference_labels_make(scene, ranks, scene->tradeoff.samples, path, &reference);
-  if (status == KZ_OK) status = kz_ranks_agree(ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
-  if (status == KZ_OK) status = run_settings(&reference, &trade, ranks);
+  kz_status status = kz_ranks_agree(run->ranks, allocate(&scene->tradeoff, &trade));
+  if (status == KZ_OK) status = kz_reference_labels_make(scene, run, scene->tradeoff.samples, path, &reference);
+  if (status == KZ_OK) status = kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
+  if (status == KZ_OK) status = run_settings(&reference, &trade, run);
   if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);
   kz_reference_labels_free(&reference);
   free_trade(&trade);
   free(path);
-  return kz_ranks_agree(ranks, status);
+  return kz_ranks_agree(run->ranks, status);
 }
 
-kz_status kz_tradeoff_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  if (scene->parameters.pendulum.beta > 0) return run_damped(scene, ranks, store, summary);
+kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta > 0) return run_damped(scene, run, store, summary);
   if (summary) fprintf(summary, "tradeoff: without damping nothing attracts, and no label can be wrong\n");
   return KZ_OK;
 }

@@ -50,13 +50,13 @@ static kz_status allocate(const kz_scene *scene, finding *s) {
   return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
 }
 
-static kz_status discover(kz_ranks *ranks, finding *s) {
+static kz_status discover(const kz_run *run, finding *s) {
   kz_search search = {.window = kz_window_of(&s->plan->theta, &s->plan->velocity),
                       .starts = s->plan->starts,
                       .seed = s->plan->seed,
                       .max_periods = s->max_periods};
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
-  KZ_TRY(kz_search_window(ranks, s->dynamics, &search, s->state, s->label));
+  KZ_TRY(kz_search_window(run, s->dynamics, &search, s->state, s->label));
   s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
   if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
   for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->label[i]]++;
@@ -79,18 +79,18 @@ static kz_status publish(const kz_scene *scene, const finding *s, kz_store *stor
 }
 
 /* Without damping areas are conserved and nothing attracts. */
-static kz_status run_undamped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  if (kz_ranks_own(ranks) != 0) return KZ_OK;
+static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  if (kz_ranks_own(run->ranks) != 0) return KZ_OK;
   fprintf(summary, "attractors: without damping nothing attracts\n");
   return kz_catalogue_write(&(kz_catalogue){0}, &scene->parameters.pendulum, false, store);
 }
 
-kz_status kz_attractors_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, ranks, store, summary);
+kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
   finding s = {.plan = &scene->attractors, .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
-  kz_status status = kz_ranks_agree(ranks, allocate(scene, &s));
-  if (status == KZ_OK) status = kz_ranks_agree(ranks, discover(ranks, &s));
-  if (status == KZ_OK && kz_ranks_own(ranks) == 0) status = publish(scene, &s, store, summary);
+  kz_status status = kz_ranks_agree(run->ranks, allocate(scene, &s));
+  if (status == KZ_OK) status = kz_ranks_agree(run->ranks, discover(run, &s));
+  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = publish(scene, &s, store, summary);
   if (s.dynamics) kz_dynamics_free(s.dynamics);
   free(s.state);
   free(s.label);

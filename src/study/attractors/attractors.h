@@ -7,6 +7,6 @@
 bool kz_attractors_wanted(const kz_scene *scene);
 kz_cost kz_attractors_cost(const kz_scene *scene);
 kz_status kz_attractors_check(const kz_scene *scene);
-kz_status kz_attractors_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 #endif

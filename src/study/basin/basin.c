@@ -28,15 +28,15 @@ typedef struct {
   int32_t *followed;        /* [n, whole tiles], rank 0 */
 } sample;
 
-static kz_status take_sample(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, sample *s) {
+static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, sample *s) {
   s->n = kz_doubt_cells(plan);
   s->cell = malloc((size_t)s->n * sizeof *s->cell + 1);
   s->label = calloc((size_t)s->n + 1, sizeof *s->label);
-  s->followed = kz_ranks_own(ranks) == 0 ? malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
-  const bool has_room = s->cell && s->label && (s->followed || kz_ranks_own(ranks) != 0);
-  KZ_TRY(kz_ranks_agree(ranks, has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s->n)));
+  s->followed = kz_ranks_own(run->ranks) == 0 ? malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
+  const bool has_room = s->cell && s->label && (s->followed || kz_ranks_own(run->ranks) != 0);
+  KZ_TRY(kz_ranks_agree(run->ranks, has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s->n)));
   for (int64_t i = 0; i < s->n; i++) s->cell[i] = kz_doubt_cell(plan, i);
-  return kz_doubt_follow(plan, ranks, dynamics, s->followed);
+  return kz_doubt_follow(plan, run, dynamics, s->followed);
 }
 
 /* What is known besides the cells. Rank 0. */
@@ -52,11 +52,11 @@ static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, con
 
 static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz_catalogue *catalogue, sample *s,
                               kz_store *store, FILE *summary) {
-  kz_ranks *ranks = labelling->ranks;
+  const kz_run *run = labelling->run;
   KZ_TRY(kz_label_window(labelling));
-  KZ_TRY(take_sample(&scene->basin, ranks, labelling->dynamics, s));
-  KZ_TRY(kz_ranks_agree(ranks, kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue)));
-  KZ_TRY(kz_ranks_agree(ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
+  KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
+  KZ_TRY(kz_ranks_agree(run->ranks, kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue)));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   kz_chunks chunks = {.labelling = labelling,
                       .catalogue = catalogue,
                       .store = store,
@@ -64,13 +64,13 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
                       .sample = s->cell,
                       .sample_label = s->label};
   KZ_TRY(kz_cells_write(&chunks));
-  return kz_ranks_agree(ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK);
+  return kz_ranks_agree(run->ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK);
 }
 
-static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   kz_labelling labelling = {.plan = plan,
-                            .ranks = ranks,
+                            .run = run,
                             .tiles = kz_tiles_of(scene, CELLS),
                             .batch = kz_tile_cells(scene, CELLS),
                             .search = {.window = kz_window_of(&plan->theta, &plan->velocity),
@@ -84,7 +84,7 @@ static kz_status run_damped(const kz_scene *scene, kz_ranks *ranks, kz_store *st
   sample s = {0};
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = labelling.dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics");
-  status = kz_ranks_agree(ranks, status);
+  status = kz_ranks_agree(run->ranks, status);
   if (status == KZ_OK) {
     labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &labelling.search.window);
     status = write_window(scene, &labelling, &catalogue, &s, store, summary);
@@ -108,23 +108,23 @@ static kz_status write_undamped(const kz_scene *scene, kz_store *store, FILE *su
   return kz_basin_write(scene, &(kz_catalogue){0}, &labels, store, summary);
 }
 
-static kz_status run_undamped(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  return kz_ranks_agree(ranks, store ? write_undamped(scene, store, summary) : KZ_OK);
+static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  return kz_ranks_agree(run->ranks, store ? write_undamped(scene, store, summary) : KZ_OK);
 }
 
 /* With basin.accuracy: the scene with what the program chose. */
-static kz_status run_accurate(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+static kz_status run_accurate(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   kz_choice choice;
   kz_scene chosen = *scene;
-  KZ_TRY(kz_accuracy_choose(scene, ranks, store, summary, &choice));
+  KZ_TRY(kz_accuracy_choose(scene, run, store, summary, &choice));
   kz_config_apply(choice.config, &chosen);
-  KZ_TRY(run_damped(&chosen, ranks, store, summary));
-  return kz_ranks_agree(ranks, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
+  KZ_TRY(run_damped(&chosen, run, store, summary));
+  return kz_ranks_agree(run->ranks, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
 }
 
-kz_status kz_basin_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, ranks, store, summary);
-  return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, ranks, store, summary);
+kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
+  return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, run, store, summary);
 }
 
 bool kz_basin_wanted(const kz_scene *scene) {

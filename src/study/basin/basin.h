@@ -29,6 +29,6 @@ double kz_basin_warn_steps(const kz_scene *scene, FILE *summary);
 bool kz_basin_wanted(const kz_scene *scene);
 kz_cost kz_basin_cost(const kz_scene *scene);
 kz_status kz_basin_check(const kz_scene *scene);
-kz_status kz_basin_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 #endif

@@ -167,17 +167,17 @@ static kz_status deliver(kz_chunks *c) {
   kz_labelling *l = c->labelling;
   const kz_delivery delivery = {
       .name = "file", .message_bytes = message_room(kz_tile_room(&l->tiles)), .make = make, .take = take, .context = c};
-  KZ_TRY(kz_pieces_deliver(l->ranks, &l->pieces, &delivery));
-  KZ_TRY(kz_ranks_sum(l->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
-  KZ_TRY(kz_ranks_sum(l->ranks, c->cells_of, c->catalogue->count));
-  KZ_TRY(kz_ranks_sum(l->ranks, c->sample_label, c->n_sample));
+  KZ_TRY(kz_pieces_deliver(l->run->ranks, &l->pieces, &delivery));
+  KZ_TRY(kz_ranks_sum(l->run->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
+  KZ_TRY(kz_ranks_sum(l->run->ranks, c->cells_of, c->catalogue->count));
+  KZ_TRY(kz_ranks_sum(l->run->ranks, c->sample_label, c->n_sample));
   for (int64_t i = 0; i < c->catalogue->count; i++)
     c->catalogue->entries[i].fraction = (double)c->cells_of[i] / (double)l->tiles.cells;
-  return kz_ranks_agree(l->ranks, c->store && !l->tiles.whole ? count_rows(c) : KZ_OK);
+  return kz_ranks_agree(l->run->ranks, c->store && !l->tiles.whole ? count_rows(c) : KZ_OK);
 }
 
 kz_status kz_cells_write(kz_chunks *c) {
-  kz_status status = kz_ranks_agree(c->labelling->ranks, allocate(c));
+  kz_status status = kz_ranks_agree(c->labelling->run->ranks, allocate(c));
   if (status == KZ_OK) status = deliver(c);
   free(c->ids);
   free(c->periods);

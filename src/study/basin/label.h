@@ -24,7 +24,7 @@ typedef struct {
   kz_search search; /* of the starts */
   kz_tiles tiles;
   int64_t batch; /* cells that are followed together */
-  kz_ranks *ranks;
+  const kz_run *run;
   kz_workspace *work;  /* of this rank */
   kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */
   kz_pieces pieces;    /* tiles of this rank, packed */

@@ -56,7 +56,7 @@ static void label_batch(const kz_labelling *l, int64_t n, kz_labelled *out) {
 kz_status kz_label_cells(const kz_labelling *l, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out) {
   for (int64_t done = 0; done < n; done += l->batch) {
     const int64_t part = n - done < l->batch ? n - done : l->batch;
-    KZ_TRY(kz_ranks_interrupted(l->ranks));
+    KZ_TRY(kz_ranks_interrupted(l->run->ranks));
     for (int64_t i = 0; i < part; i++)
       kz_cell_state(l->plan, cells ? cells[done + i] : first + done + i, l->work->start + 2 * i);
     label_batch(l, part, out + done);

@@ -12,7 +12,7 @@ enum {
 kz_status kz_open_count(kz_labelling *l) {
   int64_t *before = memset(l->before, 0, (size_t)(l->tiles.own + 1) * sizeof *before);
   for (int64_t i = 0; i < l->pieces.n; i++) before[l->pieces.list[i].tile + 1] = kz_labels_open(&l->pieces.list[i]);
-  KZ_TRY(kz_ranks_sum(l->ranks, before, l->tiles.own + 1));
+  KZ_TRY(kz_ranks_sum(l->run->ranks, before, l->tiles.own + 1));
   for (int64_t tile = 0; tile < l->tiles.own; tile++) before[tile + 1] += before[tile];
   return KZ_OK;
 }
@@ -35,8 +35,8 @@ kz_status kz_open_pick(kz_labelling *l, int64_t from, int64_t of, int64_t n, int
   kz_status status = KZ_OK;
   memset(cell, 0, (size_t)n * sizeof *cell);
   for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++) status = pick_from(l, &l->pieces.list[i], from, of, n, cell);
-  KZ_TRY(kz_ranks_agree(l->ranks, status));
-  return kz_ranks_sum(l->ranks, cell, n);
+  KZ_TRY(kz_ranks_agree(l->run->ranks, status));
+  return kz_ranks_sum(l->run->ranks, cell, n);
 }
 
 static kz_status label_open(void *context, int64_t tile, void *record) {
@@ -78,20 +78,21 @@ static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, in
   kz_labelled *found = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   void *record = malloc(kz_labels_room(l));
   kz_status status = found && record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)l->n_open);
-  status = kz_ranks_agree(l->ranks, status);
-  if (status == KZ_OK) status = kz_stage_run(l->ranks, &stage, found);
+  status = kz_ranks_agree(l->run->ranks, status);
+  if (status == KZ_OK) status = kz_stage_run(l->run, &stage, found);
   for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++)
     status = merge(l, &l->pieces.list[i], l->before[from], found, record);
   free(found);
   free(record);
-  return kz_ranks_agree(l->ranks, status);
+  return kz_ranks_agree(l->run->ranks, status);
 }
 
 kz_status kz_open_label(kz_labelling *l, const char *name) {
   const int64_t *before = l->before, all = before[l->tiles.own];
   const int64_t most = all < MOST_OPEN ? all : MOST_OPEN;
   int64_t *open = malloc((size_t)most * sizeof *open + 1);
-  kz_status status = kz_ranks_agree(l->ranks, open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)most));
+  kz_status status =
+      kz_ranks_agree(l->run->ranks, open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)most));
   for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {
     for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
     if (before[to] > before[from]) status = label_tiles(l, name, from, to, open);

@@ -15,13 +15,13 @@ static kz_status discover(kz_labelling *l, bool again) {
   double *state = malloc((size_t)n * 2 * sizeof *state);
   int32_t *label = malloc((size_t)n * sizeof *label);
   int64_t *cell = malloc((size_t)n * sizeof *cell);
-  kz_status status =
-      kz_ranks_agree(l->ranks, state && label && cell ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
+  kz_status status = kz_ranks_agree(
+      l->run->ranks, state && label && cell ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   if (status == KZ_OK && again) status = kz_open_pick(l, 0, all, n, cell);
   for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cell_state(plan, cell[i], state + 2 * i);
   if (status == KZ_OK)
-    status = again ? kz_discover(l->ranks, l->dynamics, plan->max_periods, n, state, label)
-                   : kz_search_window(l->ranks, l->dynamics, &l->search, state, label);
+    status = again ? kz_discover(l->run, l->dynamics, plan->max_periods, n, state, label)
+                   : kz_search_window(l->run, l->dynamics, &l->search, state, label);
   if (status == KZ_OK && kz_dynamics_count(l->dynamics) > INT16_MAX)
     status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) l->reached[label[i]]++;
@@ -45,7 +45,7 @@ static kz_status label_tiles(kz_labelling *l) {
                     .context = l,
                     .keep = true,
                     .pieces = &l->pieces};
-  return kz_stage_run(l->ranks, &stage, NULL);
+  return kz_stage_run(l->run, &stage, NULL);
 }
 
 /* Before cells are labelled by a table alone. What basin.accuracy chose is judged by its labels. */
@@ -56,7 +56,7 @@ static kz_status check_table(const kz_labelling *l) {
 
 static kz_status run_rounds(kz_labelling *l) {
   KZ_TRY(discover(l, false));
-  KZ_TRY(kz_ranks_agree(l->ranks, check_table(l)));
+  KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
   for (int round = 1; round < ROUNDS; round++) {
     char name[32];
@@ -83,13 +83,13 @@ static kz_status allocate(kz_labelling *l) {
 
 /* The starts' counts are the same on every rank, those of tiles each rank's own. */
 static kz_status sum_reached(kz_labelling *l) {
-  for (int i = 0; i <= INT16_MAX && kz_ranks_own(l->ranks) != 0; i++) l->reached[i] = 0;
+  for (int i = 0; i <= INT16_MAX && kz_ranks_own(l->run->ranks) != 0; i++) l->reached[i] = 0;
   for (int64_t i = 0; i < l->pieces.n; i++) kz_labels_note_reached(l, &l->pieces.list[i]);
-  return kz_ranks_sum(l->ranks, l->reached, INT16_MAX + 1);
+  return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);
 }
 
 kz_status kz_label_window(kz_labelling *l) {
-  KZ_TRY(kz_ranks_agree(l->ranks, allocate(l)));
+  KZ_TRY(kz_ranks_agree(l->run->ranks, allocate(l)));
   KZ_TRY(run_rounds(l));
   return sum_reached(l);
 }

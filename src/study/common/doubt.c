@@ -45,7 +45,7 @@ kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, cons
   return (kz_doubt){n, kz_share_of_part(doubtful, n, of), kz_share_of_part(differing, n, of)};
 }
 
-kz_status kz_doubt_follow(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, int32_t *followed) {
+kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed) {
   sample s = {.plan = plan, .dynamics = dynamics};
   kz_stage stage = {.name = "doubt",
                     .n_tiles = (kz_doubt_cells(plan) + TILE - 1) / TILE,
@@ -53,7 +53,7 @@ kz_status kz_doubt_follow(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamic
                     .work = follow_tile,
                     .context = &s,
                     .keep = true};
-  return kz_stage_run(ranks, &stage, followed);
+  return kz_stage_run(run, &stage, followed);
 }
 
 static void tell(const kz_doubt *doubt, bool with_table, FILE *summary) {

@@ -21,7 +21,7 @@ int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i);
 /* Follows the sample; followed [kz_doubt_cells, rounded up to KZ_DOUBT_TILE] is filled on rank 0, NULL elsewhere. Its stage is kept by
  * a checkpoint. Collective. */
 enum { KZ_DOUBT_TILE = 256 };
-kz_status kz_doubt_follow(const kz_basin_plan *plan, kz_ranks *ranks, kz_dynamics *dynamics, int32_t *followed);
+kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed);
 /* What that tells about the labels of the sample's cells: numbers of the same dynamics. */
 kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, const int64_t *label);
 

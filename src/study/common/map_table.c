@@ -17,7 +17,8 @@ static kz_status table_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-kz_status kz_map_table_make(kz_ranks *ranks, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity) {
+kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity,
+                            double max_velocity) {
   table t = {dynamics, n_velocity};
   kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
   kz_stage stage = {.name = "map table",
@@ -29,8 +30,8 @@ kz_status kz_map_table_make(kz_ranks *ranks, kz_dynamics *dynamics, int64_t n_th
                     .everywhere = true};
   double *rows = malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table");
-  if (ranks) status = kz_ranks_agree(ranks, status);
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, rows);
+  if (run) status = kz_ranks_agree(run->ranks, status);
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);
   free(rows);
   return status;

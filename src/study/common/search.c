@@ -39,8 +39,8 @@ typedef struct {
   int32_t label[TILE];
 } followed;
 
-static kz_status agree(kz_ranks *ranks, kz_status status) {
-  return ranks != NULL ? kz_ranks_agree(ranks, status) : status;
+static kz_status agree(const kz_run *run, kz_status status) {
+  return run != NULL ? kz_ranks_agree(run->ranks, status) : status;
 }
 
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
@@ -61,7 +61,7 @@ static void list_open(following *f) {
 }
 
 /* Follows the open starts for f->periods; those that are trapped get their label. */
-static kz_status follow_stretch(kz_ranks *ranks, following *f) {
+static kz_status follow_stretch(const kz_run *run, following *f) {
   kz_stage stage = {.name = "attractors",
                     .n_tiles = (f->n + TILE - 1) / TILE,
                     .record_bytes = sizeof(followed),
@@ -70,8 +70,8 @@ static kz_status follow_stretch(kz_ranks *ranks, following *f) {
                     .keep = true,
                     .everywhere = true};
   followed *records = malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
-  kz_status status = agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n));
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
+  kz_status status = agree(run, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n));
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
     const followed *record = records + i / TILE;
     memcpy(f->state + 2 * f->open[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
@@ -83,11 +83,11 @@ static kz_status follow_stretch(kz_ranks *ranks, following *f) {
 }
 
 /* The same for any number of periods, in stretches: what is done is kept, and a stop request is heard. */
-static kz_status follow_open(kz_ranks *ranks, following *f, int64_t periods) {
+static kz_status follow_open(const kz_run *run, following *f, int64_t periods) {
   const int64_t share = periods / STRETCHES, stretch = share > STRETCH ? share : STRETCH;
   for (int64_t done = 0; done < periods && f->n > 0; done += f->periods) {
     f->periods = periods - done < stretch ? periods - done : stretch;
-    KZ_TRY(follow_stretch(ranks, f));
+    KZ_TRY(follow_stretch(run, f));
   }
   return KZ_OK;
 }
@@ -113,7 +113,7 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
 }
 
 /* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: room. */
-static kz_status seek(kz_ranks *ranks, seeking *s, double *record) {
+static kz_status seek(const kz_run *run, seeking *s, double *record) {
   const kz_stage stage = {.name = s->n > 0 ? "cycles" : "chaos",
                           .n_tiles = 1,
                           .record_bytes = (size_t)s->size * sizeof(double),
@@ -121,85 +121,85 @@ static kz_status seek(kz_ranks *ranks, seeking *s, double *record) {
                           .context = s,
                           .keep = true,
                           .everywhere = true};
-  KZ_TRY(kz_stage_run(ranks, &stage, record));
+  KZ_TRY(kz_stage_run(run, &stage, record));
   memcpy(s->found, record, (size_t)s->size * sizeof(double));
   kz_dynamics_adopt(s->dynamics, s->found + (s->n > 0 ? 1 : 0));
   return KZ_OK;
 }
 
 /* Room for what is found and for a record of it, freed by the caller. */
-static kz_status make_room(kz_ranks *ranks, seeking *s) {
+static kz_status make_room(const kz_run *run, seeking *s) {
   s->found = calloc(2 * (size_t)s->size, sizeof(double));
-  return agree(ranks, s->found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors"));
+  return agree(run, s->found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors"));
 }
 
 /* Looks for cycles among the first open starts. */
-static kz_status find_cycles(kz_ranks *ranks, const following *f, double closeness) {
+static kz_status find_cycles(const kz_run *run, const following *f, double closeness) {
   seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
-  kz_status status = make_room(ranks, &s);
+  kz_status status = make_room(run, &s);
   for (int64_t first = 0; first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
     s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
     for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
     if (status == KZ_OK) memset(s.found, 0, (size_t)s.size * sizeof(double));
-    while (status == KZ_OK && (int64_t)s.found[0] < s.n) status = seek(ranks, &s, s.found + s.size);
+    while (status == KZ_OK && (int64_t)s.found[0] < s.n) status = seek(run, &s, s.found + s.size);
   }
   free(s.found);
   return status;
 }
 
 /* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
-static kz_status find_chaos(kz_ranks *ranks, following *f) {
+static kz_status find_chaos(const kz_run *run, following *f) {
   seeking s = {.dynamics = f->dynamics, .size = kz_dynamics_chaos_size()};
-  kz_status status = make_room(ranks, &s);
+  kz_status status = make_room(run, &s);
   for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
     memcpy(s.state, f->state + 2 * f->open[(attempt * 7) % f->n], 2 * sizeof(double));
-    status = seek(ranks, &s, s.found + s.size);
+    status = seek(run, &s, s.found + s.size);
     if (status != KZ_OK || kz_dynamics_count(f->dynamics) == known) continue;
     kz_dynamics_update(f->dynamics);
-    status = follow_open(ranks, f, CHAOS_PERIODS);
+    status = follow_open(run, f, CHAOS_PERIODS);
   }
   free(s.found);
   return status;
 }
 
-static kz_status discover(kz_ranks *ranks, following *f, int64_t max_periods) {
+static kz_status discover(const kz_run *run, following *f, int64_t max_periods) {
   int64_t length = FIRST_LENGTH, done = 0;
   for (;;) {
     kz_dynamics_update(f->dynamics);
-    KZ_TRY(follow_open(ranks, f, length));
+    KZ_TRY(follow_open(run, f, length));
     done += length;
     if (f->n == 0) return KZ_OK;
     const int64_t known = kz_dynamics_count(f->dynamics);
-    KZ_TRY(find_cycles(ranks, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
+    KZ_TRY(find_cycles(run, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
     if (kz_dynamics_count(f->dynamics) > known) continue;
     if (done >= max_periods) break;
     length = 2 * length < max_periods - done ? 2 * length : max_periods - done;
   }
-  return find_chaos(ranks, f);
+  return find_chaos(run, f);
 }
 
 /* All starts are open. */
-static kz_status open_all(kz_ranks *ranks, following *f) {
+static kz_status open_all(const kz_run *run, following *f) {
   f->open = malloc((size_t)(f->all + 1) * sizeof *f->open);
-  KZ_TRY(agree(ranks, f->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->all)));
+  KZ_TRY(agree(run, f->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->all)));
   memset(f->label, 0, (size_t)f->all * sizeof *f->label);
   list_open(f);
   return KZ_OK;
 }
 
-kz_status kz_settle(kz_ranks *ranks, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label) {
+kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label) {
   following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
-  kz_status status = open_all(ranks, &f);
-  if (status == KZ_OK) status = follow_open(ranks, &f, periods);
+  kz_status status = open_all(run, &f);
+  if (status == KZ_OK) status = follow_open(run, &f, periods);
   free(f.open);
   return status;
 }
 
-kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
+kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
   following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
-  kz_status status = open_all(ranks, &f);
-  if (status == KZ_OK) status = discover(ranks, &f, max_periods);
+  kz_status status = open_all(run, &f);
+  if (status == KZ_OK) status = discover(run, &f, max_periods);
   free(f.open);
   return status;
 }
@@ -209,15 +209,15 @@ int64_t kz_regions_cells(int64_t cells) {
   return (int64_t)fmin(fmax(FEWEST_CELLS, 0.7 * sqrt((double)cells)), MOST_CELLS);
 }
 
-kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
+kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
   const int64_t cells = kz_regions_cells(search->cells);
   const int64_t pilots = cells > 0 && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts,
                 rest = search->starts - pilots;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, search->max_velocity);
-  KZ_TRY(kz_discover(ranks, dynamics, search->max_periods, pilots, state, label));
+  KZ_TRY(kz_discover(run, dynamics, search->max_periods, pilots, state, label));
   if (cells > 0) kz_dynamics_fine_regions(dynamics, cells, search->max_velocity);
   if (search->table_theta > 0)
-    KZ_TRY(kz_map_table_make(ranks, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
-  return rest > 0 ? kz_discover(ranks, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
+    KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
+  return rest > 0 ? kz_discover(run, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
 }

@@ -18,18 +18,18 @@ typedef struct {
 
 /* Finds the attractors that the starts end on. Where regions grow, the first starts are pilots: the regions grow around
  * the attractors of most of the window, and the other starts settle soon. state [starts][2], label [starts] as of kz_discover. */
-kz_status kz_search_window(kz_ranks *ranks, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
+kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
 
 /* Cells along an axis of a grid of trapping regions that pays back where so many cells are to be labelled; 0 = none does. */
 int64_t kz_regions_cells(int64_t cells);
 
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
  * they end on; those join the catalogue and the regions (coarse or fine) of `dynamics` on every rank. label [n] =
- * attractor from 1, 0 where the start has not settled on any. Collective; `ranks` NULL = this rank alone. */
-kz_status kz_discover(kz_ranks *ranks, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label);
+ * attractor from 1, 0 where the start has not settled on any. Collective; `run` NULL = this rank alone. */
+kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label);
 
 /* Follows n starts (state [n][2], in and out) up to `periods` periods: label [n] = attractor, 0 where the start has not
  * settled. In kept stages. Collective. */
-kz_status kz_settle(kz_ranks *ranks, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
+kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
 
 #endif

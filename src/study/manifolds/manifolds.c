@@ -80,12 +80,13 @@ static kz_status make_tasks(const kz_manifolds_plan *plan, kz_store *store, work
 }
 
 /* The list of rank 0 on every rank. Collective. */
-static kz_status share_tasks(kz_ranks *ranks, work_list *list) {
-  KZ_TRY(kz_ranks_broadcast(ranks, &list->count, sizeof list->count));
+static kz_status share_tasks(const kz_run *run, work_list *list) {
+  KZ_TRY(kz_ranks_broadcast(run->ranks, &list->count, sizeof list->count));
   const size_t bytes = (size_t)list->count * sizeof *list->tasks;
-  if (kz_ranks_own(ranks) != 0) list->tasks = malloc(bytes + 1);
-  KZ_TRY(kz_ranks_agree(ranks, list->tasks || bytes == 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory for branches of manifolds")));
-  return bytes > 0 ? kz_ranks_broadcast(ranks, list->tasks, bytes) : KZ_OK;
+  if (kz_ranks_own(run->ranks) != 0) list->tasks = malloc(bytes + 1);
+  KZ_TRY(kz_ranks_agree(run->ranks,
+                        list->tasks || bytes == 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory for branches of manifolds")));
+  return bytes > 0 ? kz_ranks_broadcast(run->ranks, list->tasks, bytes) : KZ_OK;
 }
 
 static kz_status grow(void *context, int64_t tile, void *record) {
@@ -159,19 +160,19 @@ static kz_status publish(const kz_manifolds_plan *plan, const work_list *list, c
   return status;
 }
 
-kz_status kz_manifolds_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  const bool here = kz_ranks_own(ranks) == 0;
+kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  const bool here = kz_ranks_own(run->ranks) == 0;
   work_list list = {.pendulum = &scene->parameters.pendulum};
   grown *records = NULL;
-  kz_status status = kz_ranks_agree(ranks, here ? make_tasks(&scene->manifolds, store, &list) : KZ_OK);
-  if (status == KZ_OK) status = share_tasks(ranks, &list);
+  kz_status status = kz_ranks_agree(run->ranks, here ? make_tasks(&scene->manifolds, store, &list) : KZ_OK);
+  if (status == KZ_OK) status = share_tasks(run, &list);
   if (status == KZ_OK) {
     if (here) records = malloc((size_t)list.count * sizeof *records + 1);
-    status = kz_ranks_agree(ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of manifolds"));
+    status = kz_ranks_agree(run->ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of manifolds"));
   }
   const kz_stage stage = {
       .name = "manifolds", .n_tiles = list.count, .record_bytes = sizeof(grown), .work = grow, .context = &list, .keep = true};
-  if (status == KZ_OK && list.count > 0) status = kz_stage_run(ranks, &stage, records);
+  if (status == KZ_OK && list.count > 0) status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK && here) status = publish(&scene->manifolds, &list, records, store, summary);
   free(list.tasks);
   free(records);

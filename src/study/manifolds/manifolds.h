@@ -6,6 +6,6 @@
 
 bool kz_manifolds_wanted(const kz_scene *scene);
 kz_cost kz_manifolds_cost(const kz_scene *scene);
-kz_status kz_manifolds_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 #endif

@@ -63,12 +63,13 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
 }
 
 /* Where the motion starts, on every rank; `period` of a listed attractor. Collective. */
-static kz_status start(kz_orbit *orbit, kz_ranks *ranks, kz_store *store) {
+static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
   const kz_orbit_plan *plan = orbit->plan;
   orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
-  const bool recalls = plan->attractor >= 0 && kz_ranks_own(ranks) == 0;
-  KZ_TRY(kz_ranks_agree(ranks, recalls ? recall(store, plan->attractor, &orbit->cycle.state, &orbit->cycle.period) : KZ_OK));
-  return kz_ranks_broadcast(ranks, &orbit->cycle, sizeof orbit->cycle);
+  const bool recalls = plan->attractor >= 0 && kz_ranks_own(run->ranks) == 0;
+  KZ_TRY(
+      kz_ranks_agree(run->ranks, recalls ? recall(store, plan->attractor, &orbit->cycle.state, &orbit->cycle.period) : KZ_OK));
+  return kz_ranks_broadcast(run->ranks, &orbit->cycle, sizeof orbit->cycle);
 }
 
 typedef struct {
@@ -87,7 +88,7 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
 }
 
 /* The transient in stretches, so that a stop request is heard and what is done is kept. Collective. */
-static kz_status skip_transient(kz_orbit *orbit, kz_ranks *ranks) {
+static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
   const int64_t transient = orbit->plan->transient;
   for (int64_t done = 0; done < transient; done += STRETCH) {
     char name[32];
@@ -101,7 +102,7 @@ static kz_status skip_transient(kz_orbit *orbit, kz_ranks *ranks) {
                             .context = &stretch,
                             .keep = true,
                             .everywhere = true};
-    KZ_TRY(kz_stage_run(ranks, &stage, &orbit->cycle.state));
+    KZ_TRY(kz_stage_run(run, &stage, &orbit->cycle.state));
   }
   return KZ_OK;
 }
@@ -158,16 +159,16 @@ static kz_status find_features(kz_orbit *orbit, kz_store *store, FILE *summary) 
   return KZ_OK;
 }
 
-static kz_status model(kz_orbit *orbit, const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  KZ_TRY(kz_ranks_agree(ranks, kz_model_make(scene, &orbit->model)));
-  KZ_TRY(start(orbit, ranks, store));
-  KZ_TRY(skip_transient(orbit, ranks));
-  return kz_ranks_own(ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
+static kz_status model(kz_orbit *orbit, const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  KZ_TRY(kz_ranks_agree(run->ranks, kz_model_make(scene, &orbit->model)));
+  KZ_TRY(start(orbit, run, store));
+  KZ_TRY(skip_transient(orbit, run));
+  return kz_ranks_own(run->ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
 }
 
-kz_status kz_orbit_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   kz_orbit orbit = {.plan = &scene->orbit, .pendulum = scene->parameters.pendulum, .lyapunov = NAN, .lyapunov_error = NAN};
-  kz_status status = model(&orbit, scene, ranks, store, summary);
+  kz_status status = model(&orbit, scene, run, store, summary);
   kz_orbit_features_free(&orbit.features);
   kz_motion_free(&orbit.motion);
   kz_model_free(&orbit.model);

@@ -24,6 +24,6 @@ void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
 bool kz_orbit_wanted(const kz_scene *scene);
 kz_cost kz_orbit_cost(const kz_scene *scene);
 kz_status kz_orbit_check(const kz_scene *scene);
-kz_status kz_orbit_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 #endif

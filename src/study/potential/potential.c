@@ -87,8 +87,8 @@ static void summarise(const curves *c, FILE *summary) {
   }
 }
 
-kz_status kz_potential_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  if (kz_ranks_own(ranks) != 0) return KZ_OK;
+kz_status kz_potential_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  if (kz_ranks_own(run->ranks) != 0) return KZ_OK;
   curves c = {.plan = &scene->potential};
   kz_status status = allocate(&c);
   if (status == KZ_OK) {

@@ -89,7 +89,7 @@ static void collect(kz_dynamics *dynamics, int64_t n_tiles, const scanned *recor
 }
 
 /* One round: the catalogue of rank 0 grows. Collective. */
-static kz_status run_scan(kz_ranks *ranks, scan *s, int round, kz_dynamics *dynamics) {
+static kz_status run_scan(const kz_run *run, scan *s, int round, kz_dynamics *dynamics) {
   char name[32];
   snprintf(name, sizeof name, "saddles %d", round + 1);
   const kz_stage stage = {.name = name,
@@ -98,28 +98,28 @@ static kz_status run_scan(kz_ranks *ranks, scan *s, int round, kz_dynamics *dyna
                           .work = scan_rows,
                           .context = s,
                           .keep = true};
-  const bool here = kz_ranks_own(ranks) == 0;
+  const bool here = kz_ranks_own(run->ranks) == 0;
   scanned *records = here ? malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
   const bool ready = s->theta && s->velocity && (records || !here);
-  kz_status status = kz_ranks_agree(ranks, ready ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a scan of starts"));
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
+  kz_status status = kz_ranks_agree(run->ranks, ready ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a scan of starts"));
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK && here) collect(dynamics, stage.n_tiles, records);
   free(records);
   return status;
 }
 
 /* A round, and on rank 0 the list of what is known then. */
-static kz_status run_round(const kz_scene *scene, kz_ranks *ranks, int round, kz_dynamics *dynamics, kz_cycle_list *cycles,
+static kz_status run_round(const kz_scene *scene, const kz_run *run, int round, kz_dynamics *dynamics, kz_cycle_list *cycles,
                            kz_index_sums *sums) {
   const kz_saddles_plan *plan = &scene->saddles;
   scan s = {.pendulum = &scene->parameters.pendulum, .max_period = plan->max_period};
   cells_of(plan, round, &s.n_theta, &s.n_velocity);
   s.theta = nodes(plan->theta.min, plan->theta.max, s.n_theta);
   s.velocity = nodes(is_mirrored(plan) ? 0 : plan->velocity.min, plan->velocity.max, s.n_velocity);
-  kz_status status = run_scan(ranks, &s, round, dynamics);
+  kz_status status = run_scan(run, &s, round, dynamics);
   free(s.theta);
   free(s.velocity);
-  if (status != KZ_OK || kz_ranks_own(ranks) != 0) return status;
+  if (status != KZ_OK || kz_ranks_own(run->ranks) != 0) return status;
   kz_cycle_list_free(cycles);
   free(sums->entries);
   *sums = (kz_index_sums){0};
@@ -128,27 +128,27 @@ static kz_status run_round(const kz_scene *scene, kz_ranks *ranks, int round, kz
 }
 
 /* Rounds until two agree and the sums are 0; without damping the sums say nothing. Collective. */
-static kz_status run_rounds(const kz_scene *scene, kz_ranks *ranks, kz_dynamics *dynamics, kz_cycle_list *cycles,
+static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_dynamics *dynamics, kz_cycle_list *cycles,
                             kz_index_sums *sums) {
   int64_t before = -1;
   int32_t enough = 0;
   for (int round = 0; round < ROUNDS && !enough; round++) {
-    KZ_TRY(kz_ranks_agree(ranks, run_round(scene, ranks, round, dynamics, cycles, sums)));
+    KZ_TRY(kz_ranks_agree(run->ranks, run_round(scene, run, round, dynamics, cycles, sums)));
     enough = cycles->count == before && (sums->open == 0 || scene->parameters.pendulum.beta <= 0);
     before = cycles->count;
-    KZ_TRY(kz_ranks_broadcast(ranks, &enough, sizeof enough));
+    KZ_TRY(kz_ranks_broadcast(run->ranks, &enough, sizeof enough));
   }
   return KZ_OK;
 }
 
-kz_status kz_saddles_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_saddles_plan *plan = &scene->saddles;
   kz_cycle_list cycles = {0};
   kz_index_sums sums = {0};
   kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
-  kz_status status = kz_ranks_agree(ranks, dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a catalogue of cycles"));
-  if (status == KZ_OK) status = run_rounds(scene, ranks, dynamics, &cycles, &sums);
-  if (status == KZ_OK && kz_ranks_own(ranks) == 0) {
+  kz_status status = kz_ranks_agree(run->ranks, dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a catalogue of cycles"));
+  if (status == KZ_OK) status = run_rounds(scene, run, dynamics, &cycles, &sums);
+  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) {
     status = kz_saddles_write(&cycles, &sums, store);
     kz_saddles_print(scene, &cycles, &sums, summary);
   }

@@ -7,7 +7,7 @@
 
 bool kz_saddles_wanted(const kz_scene *scene);
 kz_cost kz_saddles_cost(const kz_scene *scene);
-kz_status kz_saddles_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 /* The unstable ones among the cycles and the index sums: group /saddles. */
 kz_status kz_saddles_write(const kz_cycle_list *cycles, const kz_index_sums *sums, kz_store *store);

@@ -121,12 +121,12 @@ static kz_status curve_tile(void *context, int64_t tile, void *record) {
 }
 
 /* Runs a stage; *records is NULL where this rank receives none. */
-static kz_status run_stage(kz_ranks *ranks, const kz_stage *stage, void **records) {
-  bool here = kz_ranks_own(ranks) == 0;
+static kz_status run_stage(const kz_run *run, const kz_stage *stage, void **records) {
+  bool here = kz_ranks_own(run->ranks) == 0;
   *records = here ? malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
   kz_status status = !here || *records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the records of stage %s", stage->name);
-  KZ_TRY(kz_ranks_agree(ranks, status));
-  return kz_stage_run(ranks, stage, *records);
+  KZ_TRY(kz_ranks_agree(run->ranks, status));
+  return kz_stage_run(run, stage, *records);
 }
 
 static void unpack_chart(kz_chart *chart, const chart_record *records) {
@@ -149,7 +149,7 @@ static void unpack_curves(kz_chart *chart, const curve_record *records) {
   }
 }
 
-static kz_status model_chart(kz_ranks *ranks, kz_chart *chart) {
+static kz_status model_chart(const kz_run *run, kz_chart *chart) {
   int64_t points = chart->plan->k.count * chart->plan->m.count;
   const kz_stage stage = {.name = "chart",
                           .n_tiles = tiles_of(points, POINTS),
@@ -158,13 +158,13 @@ static kz_status model_chart(kz_ranks *ranks, kz_chart *chart) {
                           .context = chart,
                           .keep = true};
   void *records;
-  kz_status status = run_stage(ranks, &stage, &records);
+  kz_status status = run_stage(run, &stage, &records);
   if (status == KZ_OK && records) unpack_chart(chart, records);
   free(records);
   return status;
 }
 
-static kz_status model_curves(kz_ranks *ranks, kz_chart *chart) {
+static kz_status model_curves(const kz_run *run, kz_chart *chart) {
   if (chart->n_tasks == 0) return KZ_OK;
   const kz_stage stage = {.name = "curves",
                           .n_tiles = chart->n_tasks * tiles_of(chart->plan->k.count, PIECE),
@@ -173,19 +173,19 @@ static kz_status model_curves(kz_ranks *ranks, kz_chart *chart) {
                           .context = chart,
                           .keep = true};
   void *records;
-  kz_status status = run_stage(ranks, &stage, &records);
+  kz_status status = run_stage(run, &stage, &records);
   if (status == KZ_OK && records) unpack_curves(chart, records);
   free(records);
   return status;
 }
 
-kz_status kz_stability_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_stability_plan *plan = &scene->stability;
   kz_chart chart = {.plan = plan, .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor}};
-  kz_status status = kz_ranks_agree(ranks, allocate(&chart, kz_ranks_own(ranks) == 0));
-  if (status == KZ_OK) status = model_chart(ranks, &chart);
-  if (status == KZ_OK) status = model_curves(ranks, &chart);
-  if (status == KZ_OK && kz_ranks_own(ranks) == 0) {
+  kz_status status = kz_ranks_agree(run->ranks, allocate(&chart, kz_ranks_own(run->ranks) == 0));
+  if (status == KZ_OK) status = model_chart(run, &chart);
+  if (status == KZ_OK) status = model_curves(run, &chart);
+  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) {
     status = kz_chart_write(&chart, store);
     kz_chart_summarise(&chart, summary);
   }

@@ -1,6 +1,6 @@
 /* Catalogues of neighbouring values joined into branches. Every attractor of a value is carried to the next one by continuation;
  * where it arrives, it is the same branch, whether the search there had found it or not. What no lower value leads to is
- * carried back to where it began. Rounds of walks, spread over the ranks, until nothing is left to walk. */
+ * carried back to where it began. Rounds of walks, spread over the run, until nothing is left to walk. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -106,9 +106,9 @@ static kz_status join(const walking *w, const task *t, const outcome *out, int64
 }
 
 /* One round of walks; the nodes it added take the places of the tasks. */
-static kz_status walk_round(walking *w, kz_ranks *ranks, task *tasks, int64_t *n) {
+static kz_status walk_round(walking *w, const kz_run *run, task *tasks, int64_t *n) {
   outcome *outcomes = malloc((size_t)*n * sizeof *outcomes);
-  kz_status status = kz_ranks_agree(ranks, outcomes ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
+  kz_status status = kz_ranks_agree(run->ranks, outcomes ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
   w->tasks = tasks;
   const kz_stage stage = {.name = "sweep branches",
                           .n_tiles = *n,
@@ -117,7 +117,7 @@ static kz_status walk_round(walking *w, kz_ranks *ranks, task *tasks, int64_t *n
                           .context = w,
                           .keep = true,
                           .everywhere = true};
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, outcomes);
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, outcomes);
   int64_t left = 0, added;
   for (int64_t i = 0; status == KZ_OK && i < *n; i++) {
     status = join(w, tasks + i, outcomes + i, &added);
@@ -125,7 +125,7 @@ static kz_status walk_round(walking *w, kz_ranks *ranks, task *tasks, int64_t *n
   }
   free(outcomes);
   *n = left;
-  return kz_ranks_agree(ranks, status);
+  return kz_ranks_agree(run->ranks, status);
 }
 
 /* Cycles without a neighbour in that direction, the ends of the range left out. */
@@ -151,12 +151,12 @@ static int64_t drop_edge(const walking *w, task *tasks, int64_t n) {
   return left;
 }
 
-static kz_status walk_all(walking *w, kz_ranks *ranks, bool forward) {
+static kz_status walk_all(walking *w, const kz_run *run, bool forward) {
   task *tasks = malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
-  kz_status status = kz_ranks_agree(ranks, tasks ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
+  kz_status status = kz_ranks_agree(run->ranks, tasks ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
   int64_t n = status == KZ_OK ? list_tasks(w, forward, tasks) : 0;
   while (status == KZ_OK && n > 0) {
-    status = walk_round(w, ranks, tasks, &n);
+    status = walk_round(w, run, tasks, &n);
     n = drop_edge(w, tasks, n);
   }
   free(tasks);
@@ -228,17 +228,17 @@ static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   }
 }
 
-kz_status kz_sweep_branches_make(const kz_scene *scene, kz_ranks *ranks, const kz_sweep_catalogue *catalogue,
+kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const kz_sweep_catalogue *catalogue,
                                  kz_sweep_branches *branches) {
   walking w = {.scene = scene, .branches = branches};
   kz_status status = KZ_OK;
   for (int64_t i = 0; i < scene->sweep.values.count; i++)
     for (int64_t j = 0; status == KZ_OK && j < catalogue[i].count; j++)
       status = add_node(branches, catalogue[i].entries + j, i);
-  KZ_TRY(kz_ranks_agree(ranks, status));
-  KZ_TRY(walk_all(&w, ranks, true));
-  KZ_TRY(walk_all(&w, ranks, false));
+  KZ_TRY(kz_ranks_agree(run->ranks, status));
+  KZ_TRY(walk_all(&w, run, true));
+  KZ_TRY(walk_all(&w, run, false));
   join_chaotic(branches);
   set_known_ends(scene, branches);
-  return kz_ranks_agree(ranks, list_branches(branches));
+  return kz_ranks_agree(run->ranks, list_branches(branches));
 }

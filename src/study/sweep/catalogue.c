@@ -17,7 +17,7 @@ enum {
 /* One value at work. */
 typedef struct {
   const kz_scene *scene;
-  kz_ranks *ranks;
+  const kz_run *run;
   kz_dynamics *dynamics;
   int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
   double *state;             /* [starts or cells][2] */
@@ -87,8 +87,8 @@ static kz_status label_open(labelling *l) {
                           .keep = true,
                           .everywhere = true};
   int32_t *label = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  kz_status status = kz_ranks_agree(l->s->ranks, label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
-  if (status == KZ_OK) status = kz_stage_run(l->s->ranks, &stage, label);
+  kz_status status = kz_ranks_agree(l->s->run->ranks, label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
+  if (status == KZ_OK) status = kz_stage_run(l->s->run, &stage, label);
   for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->open[i]] = label[i];
   free(label);
   if (status == KZ_OK) list_open(l);
@@ -105,14 +105,14 @@ static kz_status label_rounds(labelling *l) {
     if (round == ROUNDS - 1 || l->n == 0) return KZ_OK;
     const int64_t n = l->n < s->n_starts ? l->n : s->n_starts;
     for (int64_t i = 0; i < n; i++) kz_cell_state(&s->scene->basin, l->open[i], s->state + 2 * i);
-    KZ_TRY(kz_discover(s->ranks, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
+    KZ_TRY(kz_discover(s->run, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
     if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
   }
 }
 
 static kz_status label_grid(searching *s) {
   labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .open = malloc((size_t)s->n_cells * sizeof *l.open)};
-  kz_status status = kz_ranks_agree(s->ranks, l.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
+  kz_status status = kz_ranks_agree(s->run->ranks, l.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
   if (status == KZ_OK) status = label_rounds(&l);
   free(l.open);
   return status;
@@ -186,36 +186,36 @@ static kz_status discover(searching *s) {
       .table_theta = basin && basin->method != KZ_METHOD_DIRECT ? basin->table_theta : 0,
       .table_velocity = basin ? basin->table_velocity : 0};
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
-  return kz_search_window(s->ranks, s->dynamics, &search, s->state, s->label);
+  return kz_search_window(s->run, s->dynamics, &search, s->state, s->label);
 }
 
 static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
   KZ_TRY(discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
-  KZ_TRY(kz_ranks_agree(s->ranks, s->hits ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
+  KZ_TRY(kz_ranks_agree(s->run->ranks, s->hits ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
   catalogue->samples = count_hits(s);
   return collect(s, catalogue);
 }
 
 typedef struct {
   const kz_scene *scene;
-  kz_ranks *ranks;
+  const kz_run *run;
 } sweeping;
 
 static kz_status work(void *context, int64_t tile, void *record) {
   const sweeping *sweep = context;
-  searching s = {.scene = sweep->scene, .ranks = sweep->ranks};
+  searching s = {.scene = sweep->scene, .run = sweep->run};
   kz_pendulum pendulum;
   if (!kz_sweep_pendulum(s.scene, kz_sweep_value(&s.scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  kz_status status = kz_ranks_agree(s.ranks, begin(&pendulum, &s));
+  kz_status status = kz_ranks_agree(s.run->ranks, begin(&pendulum, &s));
   if (status == KZ_OK) status = search(&s, record);
   end(&s);
   return status;
 }
 
-kz_status kz_sweep_catalogues(const kz_scene *scene, kz_ranks *ranks, kz_sweep_catalogue *catalogue) {
-  sweeping sweep = {scene, ranks};
+kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {
+  sweeping sweep = {scene, run};
   const kz_stage stage = {.name = "sweep attractors",
                           .n_tiles = scene->sweep.values.count,
                           .record_bytes = sizeof *catalogue,
@@ -224,5 +224,5 @@ kz_status kz_sweep_catalogues(const kz_scene *scene, kz_ranks *ranks, kz_sweep_c
                           .keep = true,
                           .everywhere = true,
                           .together = true};
-  return kz_stage_run(ranks, &stage, catalogue);
+  return kz_stage_run(run, &stage, catalogue);
 }

@@ -30,7 +30,7 @@ typedef struct {
 
 typedef struct {
   const kz_scene *scene;
-  kz_ranks *ranks;
+  const kz_run *run;
   kz_path path;
   double critical; /* NaN = none */
   double *amplitude;
@@ -116,10 +116,10 @@ static kz_status follow_back(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_status run(fluttering *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
+static kz_status run_stage(fluttering *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
   const kz_stage stage = {
       .name = name, .n_tiles = n_tiles, .record_bytes = bytes, .work = work, .context = f, .keep = true, .everywhere = true};
-  return kz_stage_run(f->ranks, &stage, records);
+  return kz_stage_run(f->run, &stage, records);
 }
 
 /* From where flutter was found to all values of the range beyond. */
@@ -127,7 +127,7 @@ static kz_status follow_on(fluttering *f) {
   leg after;
   f->before = (leg){.at = f->begun.at, .flutter = f->begun.flutter};
   for (f->step = 0; f->step < f->scene->sweep.values.count && !f->before.lost; f->step += LEG) {
-    KZ_TRY(run(f, "flutter", follow_leg, 1, sizeof after, &after));
+    KZ_TRY(run_stage(f, "flutter", follow_leg, 1, sizeof after, &after));
     for (int64_t i = 0; i < LEG; i++)
       if (!isnan(after.amplitude[i])) f->amplitude[value_at(f, f->step + i)] = after.amplitude[i];
     f->before = after;
@@ -138,8 +138,9 @@ static kz_status follow_on(fluttering *f) {
 static kz_status return_to_birth(fluttering *f) {
   const int64_t count = f->scene->sweep.values.count, n = (count + LEG - 1) / LEG;
   double *amplitude = malloc((size_t)(n * LEG) * sizeof *amplitude);
-  kz_status status = kz_ranks_agree(f->ranks, amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
-  if (status == KZ_OK) status = run(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
+  kz_status status =
+      kz_ranks_agree(f->run->ranks, amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
+  if (status == KZ_OK) status = run_stage(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
   for (int64_t i = 0; status == KZ_OK && i < count; i++)
     if (!isnan(amplitude[i])) f->amplitude[i] = amplitude[i];
   free(amplitude);
@@ -149,7 +150,7 @@ static kz_status return_to_birth(fluttering *f) {
 /* From a critical value to all the flutter that it begins; *reaches = that comes to the range. */
 static kz_status follow(fluttering *f, bool *reaches) {
   for (f->side = 1; f->side >= -1; f->side -= 2) {
-    KZ_TRY(run(f, "flutter's beginning", begin, 1, sizeof f->begun, &f->begun));
+    KZ_TRY(run_stage(f, "flutter's beginning", begin, 1, sizeof f->begun, &f->begun));
     if (!f->begun.found) continue;
     KZ_TRY(follow_on(f));
     KZ_TRY(return_to_birth(f));
@@ -164,7 +165,7 @@ static kz_status find_flutter(fluttering *f) {
   double critical[GROUP], first = NAN;
   bool reaches = false;
   for (f->piece = 0; f->piece < PIECES && !reaches; f->piece += GROUP) {
-    KZ_TRY(run(f, "critical values", find_critical, GROUP, sizeof *critical, critical));
+    KZ_TRY(run_stage(f, "critical values", find_critical, GROUP, sizeof *critical, critical));
     for (int i = 0; i < GROUP && !reaches; i++) {
       f->critical = critical[i];
       if (isnan(f->critical)) continue;
@@ -235,18 +236,19 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
   return kz_store_real(store, "sweep", "fit_exponent_error", law.exponent_error);
 }
 
-kz_status kz_sweep_flutter(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const int64_t n = scene->sweep.values.count;
   fluttering f = {.scene = scene,
-                  .ranks = ranks,
+                  .run = run,
                   .path = kz_sweep_path(scene),
                   .critical = NAN,
                   .amplitude = malloc((size_t)n * sizeof(double))};
-  kz_status status = kz_ranks_agree(ranks, f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
+  kz_status status =
+      kz_ranks_agree(run->ranks, f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
   for (int64_t i = 0; status == KZ_OK && i < n; i++) f.amplitude[i] = NAN;
   if (status == KZ_OK) status = find_flutter(&f);
   if (status == KZ_OK && store) status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
   if (status == KZ_OK && store) status = write_fit(&f, store, summary);
   free(f.amplitude);
-  return kz_ranks_agree(ranks, status);
+  return kz_ranks_agree(run->ranks, status);
 }

@@ -139,8 +139,8 @@ static kz_status write_ranges(const kz_scene *scene, const void *records, kz_sto
   return KZ_OK;
 }
 
-kz_status kz_sweep_flutter_range(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_stage stage = {
       .name = "sweep flutter zone", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(flutter_range), .work = work};
-  return kz_sweep_stage(scene, ranks, &stage, write_ranges, store, summary);
+  return kz_sweep_stage(scene, run, &stage, write_ranges, store, summary);
 }

@@ -174,8 +174,8 @@ static kz_status write_release(const kz_scene *scene, const void *all, kz_store 
   return KZ_OK;
 }
 
-kz_status kz_sweep_release(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_stage stage = {
       .name = "sweep releases", .n_tiles = scene->sweep.values.count, .record_bytes = sizeof(released), .work = work};
-  return kz_sweep_stage(scene, ranks, &stage, write_release, store, summary);
+  return kz_sweep_stage(scene, run, &stage, write_release, store, summary);
 }

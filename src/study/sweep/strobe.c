@@ -64,7 +64,7 @@ static kz_status work(void *context, int64_t tile, void *record) {
 }
 
 /* One leg of both walks; its points go to their places in `points` [walks][values][2][samples]. */
-static kz_status run_leg(walking *w, kz_ranks *ranks, double *points) {
+static kz_status run_leg(walking *w, const kz_run *run, double *points) {
   const kz_sweep_plan *plan = &w->scene->sweep;
   const size_t value = (size_t)(2 * w->samples) * sizeof(double);
   const kz_stage stage = {.name = "sweep strobe",
@@ -75,8 +75,9 @@ static kz_status run_leg(walking *w, kz_ranks *ranks, double *points) {
                           .keep = true,
                           .everywhere = true};
   char *records = malloc(WALKS * stage.record_bytes);
-  kz_status status = kz_ranks_agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
+  kz_status status =
+      kz_ranks_agree(run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
   for (int64_t walk = 0; status == KZ_OK && walk < WALKS; walk++) {
     const char *record = records + (size_t)walk * stage.record_bytes;
     memcpy(w->state + walk, record, sizeof *w->state);
@@ -89,7 +90,7 @@ static kz_status run_leg(walking *w, kz_ranks *ranks, double *points) {
 }
 
 /* All values, in legs. */
-static kz_status walk(const kz_scene *scene, kz_ranks *ranks, double *points) {
+static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) {
   const kz_sweep_plan *plan = &scene->sweep;
   const strobe_state start = {plan->start_theta, plan->start_velocity};
   const int64_t at_once = LEG_PERIODS / (plan->transient + plan->samples);
@@ -97,10 +98,10 @@ static kz_status walk(const kz_scene *scene, kz_ranks *ranks, double *points) {
   for (w.first = 0; w.first < plan->values.count; w.first += w.values) {
     int64_t left = plan->transient;
     for (w.pushed = true, w.samples = 0, w.skip = LEG_PERIODS; left > LEG_PERIODS; left -= LEG_PERIODS, w.pushed = false)
-      KZ_TRY(run_leg(&w, ranks, NULL));
+      KZ_TRY(run_leg(&w, run, NULL));
     w.skip = left;
     w.samples = plan->samples;
-    KZ_TRY(run_leg(&w, ranks, points));
+    KZ_TRY(run_leg(&w, run, points));
   }
   return KZ_OK;
 }
@@ -128,11 +129,12 @@ static kz_status write_strobe(const kz_scene *scene, const double *points, kz_st
   return status;
 }
 
-kz_status kz_sweep_strobe(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   double *points = calloc((size_t)(WALKS * scene->sweep.values.count * 2 * scene->sweep.samples), sizeof *points);
-  kz_status status = kz_ranks_agree(ranks, points ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
-  if (status == KZ_OK) status = walk(scene, ranks, points);
+  kz_status status =
+      kz_ranks_agree(run->ranks, points ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
+  if (status == KZ_OK) status = walk(scene, run, points);
   if (status == KZ_OK && store) status = write_strobe(scene, points, store, summary);
   free(points);
-  return kz_ranks_agree(ranks, status);
+  return kz_ranks_agree(run->ranks, status);
 }

@@ -61,34 +61,35 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
                    .core_seconds = all_seconds(scene)};
 }
 
-kz_status kz_sweep_stage(const kz_scene *scene, kz_ranks *ranks, const kz_stage *stage, kz_records_fn write, kz_store *store,
+kz_status kz_sweep_stage(const kz_scene *scene, const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store,
                          FILE *summary) {
   kz_stage kept = *stage;
   kept.context = (void *)scene;
   kept.keep = true;
   void *records = malloc((size_t)stage->n_tiles * stage->record_bytes);
-  kz_status status = kz_ranks_agree(ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the stage %s", stage->name));
-  if (status == KZ_OK) status = kz_stage_run(ranks, &kept, records);
-  if (status == KZ_OK && kz_ranks_own(ranks) == 0) status = write(scene, records, store, summary);
+  kz_status status =
+      kz_ranks_agree(run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the stage %s", stage->name));
+  if (status == KZ_OK) status = kz_stage_run(run, &kept, records);
+  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = write(scene, records, store, summary);
   free(records);
-  return kz_ranks_agree(ranks, status);
+  return kz_ranks_agree(run->ranks, status);
 }
 
 /* The catalogues and what joins them. */
-static kz_status run_branches(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
   if (!kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS) && !kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) return KZ_OK;
   kz_sweep_branches branches = {0};
   kz_sweep_catalogue *catalogue = malloc((size_t)plan->values.count * sizeof *catalogue);
   kz_status status = catalogue ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld catalogues", (long long)plan->values.count);
-  status = kz_ranks_agree(ranks, status);
-  if (status == KZ_OK) status = kz_sweep_catalogues(scene, ranks, catalogue);
-  if (status == KZ_OK) status = kz_sweep_branches_make(scene, ranks, catalogue, &branches);
-  if (status == KZ_OK && kz_ranks_own(ranks) == 0)
+  status = kz_ranks_agree(run->ranks, status);
+  if (status == KZ_OK) status = kz_sweep_catalogues(scene, run, catalogue);
+  if (status == KZ_OK) status = kz_sweep_branches_make(scene, run, catalogue, &branches);
+  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0)
     status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
   kz_sweep_branches_free(&branches);
   free(catalogue);
-  return kz_ranks_agree(ranks, status);
+  return kz_ranks_agree(run->ranks, status);
 }
 
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
@@ -108,13 +109,13 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
   return KZ_OK;
 }
 
-kz_status kz_sweep_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
-  typedef kz_status (*run)(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
-#define RUN(code, word, run) run,
-  static const run runs[] = {KZ_SWEEP_MEASURES(RUN)};
-  KZ_TRY(kz_ranks_agree(ranks, kz_ranks_own(ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
-  KZ_TRY(run_branches(scene, ranks, store, summary));
+kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  typedef kz_status (*run_fn)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+#define RUN(code, word, procedure) procedure,
+  static const run_fn runs[] = {KZ_SWEEP_MEASURES(RUN)};
+  KZ_TRY(kz_ranks_agree(run->ranks, kz_ranks_own(run->ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
+  KZ_TRY(run_branches(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
-    if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, ranks, store, summary));
+    if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
   return KZ_OK;
 }

@@ -71,7 +71,7 @@ typedef struct {
 } kz_sweep_catalogue;
 
 /* Fills catalogue [values.count] on every rank. Collective. */
-kz_status kz_sweep_catalogues(const kz_scene *scene, kz_ranks *ranks, kz_sweep_catalogue *catalogue);
+kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue);
 
 /* ---- branches: the same attractor along the values ---- */
 
@@ -91,7 +91,7 @@ typedef struct {
 } kz_sweep_branches;
 
 /* Joins the catalogues by continuation. *branches is the same on every rank; freed by kz_sweep_branches_free. Collective. */
-kz_status kz_sweep_branches_make(const kz_scene *scene, kz_ranks *ranks, const kz_sweep_catalogue *catalogue,
+kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const kz_sweep_catalogue *catalogue,
                                  kz_sweep_branches *branches);
 void kz_sweep_branches_free(kz_sweep_branches *branches);
 
@@ -101,15 +101,15 @@ kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogu
 
 /* ---- the other measures: each runs its stage and, on rank 0, writes its variables. Collective. ---- */
 
-kz_status kz_sweep_flutter(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
-kz_status kz_sweep_flutter_range(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
-kz_status kz_sweep_release(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
-kz_status kz_sweep_strobe(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 /* What such a measure does with its records on rank 0. */
 typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, kz_store *store, FILE *summary);
 /* Runs a kept stage whose `work` takes the scene as context, then `write`. Collective. */
-kz_status kz_sweep_stage(const kz_scene *scene, kz_ranks *ranks, const kz_stage *stage, kz_records_fn write, kz_store *store,
+kz_status kz_sweep_stage(const kz_scene *scene, const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store,
                          FILE *summary);
 
 /* Releases from rest at t = 0, `angle` [n] rad from inverted: stays [n] = 1 where the motion stays within half a turn of it. */
@@ -122,6 +122,6 @@ void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
 bool kz_sweep_wanted(const kz_scene *scene);
 kz_cost kz_sweep_cost(const kz_scene *scene);
 kz_status kz_sweep_check(const kz_scene *scene);
-kz_status kz_sweep_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 #endif
