@@ -53,7 +53,10 @@ static void say(const char *what, const char *otherwise) {
   append(&l, saved ? "; finished work is in " : otherwise);
   append(&l, saved ? saved : "");
   append(&l, saved ? ", --resume goes on from it\n" : "\n");
-  if (speaks() && write(STDERR_FILENO, l.text, l.length) < 0) return; /* a failed write cannot be reported */
+  if (!speaks())
+    sleep(1); /* whose end may end them all: the one that speaks comes first */
+  else if (write(STDERR_FILENO, l.text, l.length) < 0)
+    return; /* a failed write cannot be reported */
 }
 
 static void say_error(const char *what) {
