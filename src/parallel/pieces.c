@@ -136,7 +136,7 @@ static kz_status deliver(mail *m, int64_t total) {
   m->making.processor += m->taking.processor;
   if (status == KZ_OK) status = kz_timing_note(ranks, total, &watch, &m->making, &idle);
   kz_meter_end(&m->meter, status == KZ_OK, idle);
-  return status == KZ_STOPPED ? kz_ranks_stopped(ranks) : status;
+  return status;
 }
 
 kz_status kz_pieces_deliver(kz_ranks *ranks, const kz_pieces *pieces, const kz_delivery *delivery) {
