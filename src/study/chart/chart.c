@@ -112,9 +112,9 @@ static void pack(const kz_chart_plan *plan, tile_record *records) {
     memmove(endings + place * points, records + place * tiles_of(plan), (size_t)points * sizeof *endings);
 }
 
-kz_status kz_chart_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary) {
+kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_chart_plan *plan = &scene->chart;
-  const bool here = kz_ranks_own(ranks) == 0;
+  const bool here = kz_ranks_own(run->ranks) == 0;
   const kz_stage stage = {.name = "ends",
                           .n_tiles = tiles_of(plan) * plan->theta.count,
                           .record_bytes = sizeof(tile_record),
@@ -123,8 +123,8 @@ kz_status kz_chart_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, 
                           .keep = true};
   tile_record *records = here ? malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
   kz_status status =
-      kz_ranks_agree(ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of a chart"));
-  if (status == KZ_OK) status = kz_stage_run(ranks, &stage, records);
+      kz_ranks_agree(run->ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of a chart"));
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK && here) {
     pack(plan, records);
     status = kz_chart_publish(plan, (const kz_chart_ending *)records, store, summary);

@@ -9,7 +9,7 @@ enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one witho
 
 bool kz_chart_wanted(const kz_scene *scene);
 kz_cost kz_chart_cost(const kz_scene *scene);
-kz_status kz_chart_run(const kz_scene *scene, kz_ranks *ranks, kz_store *store, FILE *summary);
+kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 /* The group /chart and the summary, from endings [starts][y][x]. Rank 0. */
 kz_status kz_chart_publish(const kz_chart_plan *plan, const kz_chart_ending *endings, kz_store *store, FILE *summary);
