@@ -1,8 +1,9 @@
-"""kapitza-plot KIND FILE: one table says which function draws which kind of result, or reports on it."""
+"""kapitza-plot KIND FILE: one table says which function draws which kind of result, reports on it, or opens it to ParaView."""
 
 import sys
 from collections.abc import Callable
 
+from kapitza import vtkhdf
 from kapitza.plots import basin, chart, orbit, potential, stability, sweep, tradeoff
 from kapitza.report import command as report
 from kapitza.result import run
@@ -17,6 +18,7 @@ KINDS: dict[str, Callable[[list[str]], None]] = {
     "stability": stability.main,
     "sweep": sweep.main,
     "tradeoff": tradeoff.main,
+    "vtkhdf": vtkhdf.main,
 }
 USAGE = f"""\
 usage: kapitza-plot KIND FILE [options]
