@@ -22,6 +22,7 @@ from kapitza.plots.common import argument_parser, parsed, title_text, write_pict
 from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.skeleton import mark_manifolds, mark_saddles
+from kapitza.plots.units import add_si, pivot_frequency, show_in
 from kapitza.result import BadFile, Result
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#e58a2b", "#8c1d18"]
@@ -39,6 +40,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
                         help="draw the manifolds of the study manifolds: stable ones black, unstable ones white")
     parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
+    add_si(parser, "velocities in rad/s, settling times in s")
     parser.add_argument("--no-legend", action="store_true")
     parser.add_argument("--no-dots", action="store_true", help="leave out the strobe points of the attractors")
     arguments = parsed(parser, words)
@@ -182,8 +184,18 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
         mark_saddles(axes, basin, result.group("saddles"), centre=centre)
     if arguments.degrees:
         label_axes(axes, Plane(basin, centre), degrees=True)
+    if arguments.si:
+        show_in_si(figure, pivot_frequency(result))
     write_titles(axes, result, basin)
     return figure
+
+
+def show_in_si(figure: Figure, omega: float) -> None:
+    """Velocities in rad/s, and the bar of settling times in seconds; `omega`: the drive's angular frequency, rad/s."""
+    axes, *bars = [figure.axes[0], *figure.axes[0].child_axes]
+    show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)")
+    for bar in bars:
+        show_in(bar.yaxis, 2 * np.pi / omega, "time until trapped, plus one drive period (s)")
 
 
 def main(words: list[str]) -> None:

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from kapitza import style
 from kapitza.plots.branches import parameter_text
 
+SQUARE_LABEL = "amplitude² / rad²"
 FLUTTER = style.KINDS["flutter"]
 ZONE = (FLUTTER, FLUTTER, FLUTTER, style.INK, style.KINDS["inverted"])  # area, end, asymmetry, releases, onset
 
@@ -31,7 +32,7 @@ def draw_square(axes: Axes, sweep: xarray.Dataset, *, colours: str = FLUTTER, le
     axes.plot(distance, amplitude[there] ** 2, color=colours, lw=1.6, label="amplitude²")
     near = amplitude[there][np.argmin(np.abs(distance))] ** 2 / np.abs(distance).min() if there.any() else np.nan
     axes.plot(distance, near * distance, color=style.FAINT, lw=0.8, ls="--", label=f"tangent, {np.sqrt(near):.3f}² rad² per unit")
-    axes.set(xlabel=f"{parameter_text(sweep)} − critical value", ylabel="amplitude² / rad²", ylim=(0, None))
+    axes.set(xlabel=f"{parameter_text(sweep)} − critical value", ylabel=SQUARE_LABEL, ylim=(0, None))
     if legend:
         axes.plot([], [], " ", label=f"fitted slope {fit['fit_slope']:.3f} ± {fit['fit_slope_stderr']:.3f}")
         axes.plot([], [], " ", label=f"exponent {fit['fit_exponent']:.4f} ± {fit['fit_exponent_error']:.4f}")

@@ -60,11 +60,11 @@ def draw_differences(axes: Axes, potential: xarray.Dataset, *, colours: Sequence
     return _over_the_circle(axes)
 
 
-def _over_the_circle(axes: Axes) -> Axes:
-    axes.set_xlabel("slow angle from down (rad)")
+def _over_the_circle(axes: Axes, *, degrees: bool = False) -> Axes:
+    axes.set_xlabel("slow angle from down" if degrees else "slow angle from down (rad)")
     axes.set_xlim(0, 2 * np.pi)
     axes.xaxis.set_major_locator(MultipleLocator(np.pi / 2))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: style.pi_text(x / np.pi)))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{np.degrees(x):.0f}°" if degrees else style.pi_text(x / np.pi)))
     return axes
 
 
@@ -75,10 +75,17 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
     draw_energy(above, potential)
     draw_differences(below, potential, legend=False)
+    _over_the_circle(below, degrees=arguments.degrees)
     above.set_xlabel("")
     entitle(figure, result, f"k = {result.pendulum['k']:.6g},  β = {result.pendulum['beta']:.6g}")
     return figure
 
 
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("potential", __doc__, "a potential")
+    parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
+    return parsed(parser, words)
+
+
 def main(words: list[str]) -> None:
-    write_picture(parsed(argument_parser("potential", __doc__, "a potential"), words), draw)
+    write_picture(parse_arguments(words), draw)

@@ -21,16 +21,20 @@ from matplotlib.patches import Patch
 from kapitza import style
 from kapitza.plots.branches import branch_colours, draw_lives, draw_shares, named_branches, parameter_text
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.flutter import draw_amplitude, draw_square, draw_zone
+from kapitza.plots.flutter import SQUARE_LABEL, draw_amplitude, draw_square, draw_zone
+from kapitza.plots.units import show_in
 from kapitza.result import BadFile, Result
 
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
+STROBE_LABEL = "θ at the strobe"
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("sweep", __doc__, "a sweep")
     parser.add_argument("--view", choices=[name for name, _, _ in VIEWS], help="default: the first that the file has")
+    parser.add_argument("--degrees", action="store_true",
+                        help="strobe points and squared amplitudes in degrees too, as all other angles are")
     return parsed(parser, words)
 
 
@@ -62,7 +66,7 @@ def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: 
               color=colours or (UP if up else DOWN), rasterized=True)
     if legend:
         axes.set_title("going up" if up else "going down", fontsize=9, fontweight="normal")
-    axes.set(xlabel=parameter_text(sweep), ylabel="θ at the strobe", xlim=(value[0], value[-1]))
+    axes.set(xlabel=parameter_text(sweep), ylabel=STROBE_LABEL, xlim=(value[0], value[-1]))
     axes.set_yticks([0, 0.5, 1, 1.5, 2], [style.pi_text(tick) for tick in (0, 0.5, 1, 1.5, 2)])
     return axes
 
@@ -148,10 +152,21 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
     return ",  ".join(kept)
 
 
+def show_degrees(figure: Figure) -> None:
+    """The axes that are not in degrees by themselves: strobe points (parts of pi) and squared amplitudes (rad²)."""
+    for axes in figure.axes:
+        if axes.get_ylabel() == STROBE_LABEL:
+            axes.set_yticks([0, 0.5, 1, 1.5, 2], ["0°", "90°", "180°", "270°", "360°"])
+        elif axes.get_ylabel() == SQUARE_LABEL:
+            show_in(axes.yaxis, np.degrees(1) ** 2, "amplitude² / degrees²")
+
+
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page of the view that was asked for, or of the first that the file has."""
     sweep = result.group("sweep")
     figure = chosen_view(result, sweep, arguments.view)(sweep)
+    if arguments.degrees:
+        show_degrees(figure)
     entitle(figure, result, f"{sweep.sizes['value']} values", fixed_text(result, sweep))
     return figure
 
