@@ -1,4 +1,4 @@
-"""Draws the figures of scripts/kapitza/figures.py: each scene is run once, each figure drawn from its result (see scripts/reproduce)."""
+"""Draws the figures of scripts/kapitza/figures.py, each scene run once, and writes the papers' numbers (see scripts/reproduce)."""
 
 import argparse
 import fnmatch
@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 from kapitza.figures import FIGURES
+from papers.page import find_numbers, write_page
 
 ROOT = Path(__file__).resolve().parents[1]
 RESULTS = ROOT / "results"
@@ -15,11 +16,12 @@ RESULTS = ROOT / "results"
 
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("pattern", nargs="?", default="*", help="names of the figures, as a shell pattern (default: all)")
+    parser.add_argument("pattern", nargs="?", help="names of the figures, as a shell pattern (default: all, and the numbers)")
+    parser.add_argument("--numbers", action="store_true", help="no figure: only the numbers of the papers, docs/results.md")
     parser.add_argument("--ranks", type=int, default=int(os.environ.get("RANKS", os.cpu_count())))
     parser.add_argument("--list", action="store_true", help="print the table and run nothing")
     arguments = parser.parse_args()
-    arguments.figures = [figure for figure in FIGURES if fnmatch.fnmatch(figure[0], arguments.pattern)]
+    arguments.figures = [figure for figure in FIGURES if fnmatch.fnmatch(figure[0], arguments.pattern or "*")]
     if not arguments.figures:
         parser.error(f"no figure is called {arguments.pattern}; --list shows the names")
     return arguments
@@ -38,12 +40,7 @@ def run_scene(scene, ranks):
     return step(*run, "--force") if status == 2 else status
 
 
-def main():
-    arguments = parse_arguments()
-    if arguments.list:
-        for name, scene, kind, options in arguments.figures:
-            print(f"{name:28} scenes/{scene}.yaml  {kind} {' '.join(options)}")
-        return
+def draw_figures(arguments):
     RESULTS.mkdir(exist_ok=True)
     for scene in dict.fromkeys(scene for _, scene, _, _ in arguments.figures):
         if status := run_scene(scene, arguments.ranks):
@@ -51,6 +48,30 @@ def main():
     for name, scene, kind, options in arguments.figures:
         if status := step(sys.executable, f"scripts/plot_{kind}.py", f"results/{scene}.h5", "-o", f"results/{name}.png", *options):
             sys.exit(status)
+
+
+def write_numbers():
+    """docs/results.md; status 1 and a line for each number that failed."""
+    found = find_numbers(lambda words: print("reproduce:", words, flush=True))
+    failed = write_page(found, ROOT / "docs" / "results.md")
+    print(f"reproduce: docs/results.md has {sum(len(numbers) for _, numbers in found)} numbers, {len(failed)} failed")
+    for number in failed:
+        print(f"reproduce: FAILED: {number.place}: {number.quantity}: ours {number.ours:.12g}, paper {number.printed or '-'}, "
+              f"reference {'-' if number.reference is None else format(number.reference, '.12g')}", file=sys.stderr)
+    if failed:
+        sys.exit(1)
+
+
+def main():
+    arguments = parse_arguments()
+    if arguments.list:
+        for name, scene, kind, options in arguments.figures:
+            print(f"{name:28} scenes/{scene}.yaml  {kind} {' '.join(options)}")
+        return
+    if not arguments.numbers:
+        draw_figures(arguments)
+    if arguments.numbers or not arguments.pattern:
+        write_numbers()
 
 
 if __name__ == "__main__":

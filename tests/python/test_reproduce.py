@@ -1,13 +1,18 @@
-"""The table of figures: every scene that it names exists, every scene is named, every name is used once."""
+"""The table of figures: every scene that it names exists, every scene is named, every name is used once. The papers' numbers."""
 
+import json
 import re
 import shlex
 import subprocess
 import sys
 
-from conftest import ROOT
+from conftest import PROGRAM, ROOT
 from kapitza.command import KINDS
 from kapitza.figures import FIGURES
+from papers import butikov
+from papers.number import FAILED, Number
+from papers.page import write_page
+from papers.runs import Runs
 
 
 def test_every_scene_has_a_figure_and_every_figure_a_scene():
@@ -45,3 +50,32 @@ def test_the_commands_of_the_gallery_are_valid(kapitza):
     assert len(commands) > 12
     for command in commands:
         kapitza("check", *shlex.split(command))
+
+
+def test_verdicts():
+    """What is printed counts to half a unit of its last digit, a reference to its bar; a remark that explains nothing fails."""
+    def verdict(ours, **more):
+        return Number("place", "quantity", ours, **more).verdict
+    assert verdict(0.12905, printed="0.129") == verdict(0.1285, printed="0.129") == verdict(37.8, printed="40", printed_bar=5) == "right"
+    assert verdict(0.1284, printed="0.129") == verdict(1.0, reference=1.1, bar=0.09) == verdict(float("nan"), reference=1) == FAILED
+    assert verdict(0.1284, printed="0.129", remark="why") == "erratum" and verdict(0.129, printed="0.129", remark="why") == FAILED
+    assert verdict(0.1284, printed="0.129", remark="why", kind="approximation") == "approximation"
+    assert verdict(0.129, printed="0.129", reference=0.13, bar=1e-6) == FAILED
+
+
+def test_a_part_of_the_papers_numbers(kapitza):
+    """The cheapest parts are found anew; the page in docs/ holds every part of them, with what is not right explained."""
+    known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
+    with Runs(PROGRAM) as runs:
+        numbers = [number for part in (butikov.zones, butikov.subharmonic_orbits) for number in part(runs, known)]
+    assert len(numbers) > 100 and {number.verdict for number in numbers} == {"right", "approximation", "erratum"}
+    page = (ROOT / "docs" / "results.md").read_text()
+    assert all(f"| {number.place} | {number.quantity} |" in page for number in numbers)
+    assert page.count("\n| ") > 900 and "FAILED |" not in page
+
+
+def test_a_number_that_fails_is_said(tmp_path):
+    wrong = Number("Fig. 1", "m", 0.2, "0.1")
+    assert write_page([("A paper", [wrong, Number("Fig. 2", "k", 0.1, reference=0.1)])], tmp_path / "results.md") == [wrong]
+    text = (tmp_path / "results.md").read_text()
+    assert "2 numbers: 1 right, 0 approximation, 0 erratum, 1 FAILED" in text and "| Fig. 1 | m | 0.1 | 0.2 | 1.0e-01 | FAILED |" in text

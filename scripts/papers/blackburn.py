@@ -1,0 +1,282 @@
+"""The numbers of Blackburn, Smith and Groenbech-Jensen (1992). A function gives those of one part of the paper."""
+
+import numpy as np
+
+from .number import Number
+from .runs import at, curves, cycle, sweep
+
+FIVE = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.5}
+
+
+def boundaries(runs, known):
+    """Eqs (5), (6), Figs 3 and 4: where both positions at rest are stable."""
+    names = ("damped_0", "damped_1", "exact_1", "exact_2", "blackburn_lower", "blackburn_upper", "blackburn_down_upper")
+    for name, row in known.items():
+        if not name.startswith("blackburn_fig4_Omega"):
+            continue
+        omega, quality = name.removeprefix("blackburn_fig4_Omega").split("_Q")
+        k, damping = float(omega) ** -2, {} if quality == "None" else {"quality_factor": float(quality)}
+        chart, _ = curves(runs, -k, k, 2, names, **damping)
+        where = f"Omega = {omega}, " + (f"Q = {quality}" if damping else "no damping")
+        lower, upper = ("damped_0", "damped_1") if damping else ("exact_1", "exact_2")
+        for what, curve, sign, key in (
+            ("lower", lower, -1, "eps_lower_exact"),
+            ("upper", upper, -1, "eps_upper_exact"),
+            ("down, upper", upper, 1, "eps_down_upper_exact"),
+        ):
+            yield Number("Fig. 4", f"{what} boundary, {where}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
+        for equation, curve, sign, key in (
+            ("(5)", "blackburn_lower", -1, "eq5"),
+            ("(6)", "blackburn_upper", -1, "eq6"),
+            ("(6) about down", "blackburn_down_upper", 1, "eq6_down"),
+        ):
+            if not damping:
+                yield Number(equation, f"epsilon at Omega = {omega}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
+    k = 1 / 121
+    free, _ = curves(runs, -k, k, 2, names)
+    damped, _ = curves(runs, -k, k, 2, names, quality_factor=5.0)
+    yield Number("(5)", "lower boundary at Omega = 11", at(free, -k, "blackburn_lower"), "0.129")
+    yield Number("(6)", "upper boundary at Omega = 11", at(free, -k, "blackburn_upper"), "0.465")
+    yield Number(
+        "Sec. III",
+        "upper boundary at Omega = 11, exact",
+        at(free, -k, "exact_2"),
+        "0.465",
+        remark="(6) is a chord of the exact curve",
+        kind="approximation",
+    )
+    yield Number("Sec. III", "onset of flutter at Omega = 11, Q = 5", at(damped, -k, "damped_1"), "0.468")
+    yield Number(
+        "Sec. II",
+        "onset of the inverted state at Omega = 11, Q = 5",
+        at(damped, -k, "damped_0"),
+        "0.12",
+        remark="0.129; at 0.125 no release stays",
+    )
+    fine, _ = curves(runs, -0.0276, -0.0275, 1001, ["exact_2"])
+    order = np.argsort(fine["exact_2"])
+    yield Number(
+        "Sec. II",
+        "delta of curve 2 at epsilon = 0.5",
+        np.interp(0.5, fine["exact_2"][order], fine["k"][order]),
+        "-0.02756",
+        known["blackburn_delta_at_eps0.5_exact"],
+        1e-9,
+    )
+
+
+def potential(runs, known):
+    """(11), (12), Fig. 5: the effective potential; the values at one angle by quadrature (docs/stability.md)."""
+    pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+    values, _ = runs({"pendulum": pendulum, "potential": {"drive_amplitudes": [0.13, 0.3], "theta": {"count": 20001}}}, "potential")
+    from scipy.interpolate import CubicSpline
+
+    for name, what, exact in (
+        ("energy", "exact", 0.030434554),
+        ("energy_blackburn", "(11)", 0.030237336),
+        ("energy_simple", "(12)", 0.030307184),
+    ):
+        yield Number(
+            "Fig. 5",
+            f"potential at theta = 2, epsilon = 0.3, {what}",
+            CubicSpline(values["theta"], values[name][1])(2.0),
+            reference=exact,
+            bar=6e-10,
+        )
+    rim = known["blackburn_fig6_7_release"]["11_20_0.13"]["well_rim_from_top_deg"]
+    yield Number(
+        "(12)", "rim of the well at epsilon = 0.13, degrees from inverted", 180 - np.degrees(values["rim"][0]), reference=rim, bar=1e-9
+    )
+
+
+def releases(runs, known):
+    """Figs 6 and 7: releases from rest, scanned in whole degrees as the figures were; and Fig. 6's sentence on them.
+
+    A reference of 0 says that one degree fails. The edge is known less well where motions settle slowly (epsilon = 0.13 and below)
+    and where it is fractal (0.3 and above); below the onset of the inverted state there is none.
+    """
+    groups = {}
+    for name, row in known["blackburn_fig6_7_release"].items():
+        omega, quality, epsilon = map(float, name.split("_"))
+        if row["first_fail_deg"] is not None and epsilon > float(known[f"blackburn_fig4_Omega{omega:g}_QNone"]["eps_lower_exact"]):
+            groups.setdefault((omega, quality), []).append((epsilon, row))
+    for (omega, quality), rows in groups.items():
+        pairs = [rows[i : i + 2] if i + 1 < len(rows) else rows[i - 1 : i + 1] for i in range(0, len(rows), 2)]
+        for pair in pairs:
+            values, _ = sweep(
+                runs,
+                {"quality_factor": quality, "drive_frequency": omega, "drive_amplitude": 0.3},
+                "drive_amplitude",
+                pair[0][0],
+                pair[1][0],
+                2,
+                "release_angle",
+            )
+            for index, (epsilon, row) in enumerate(pair):
+                yield Number(
+                    "Fig. 6" if quality == 20 else "Fig. 7",
+                    f"first release that fails, Omega = {omega:g}, Q = {quality:g}, epsilon = {epsilon:g}, degrees",
+                    np.degrees(values["release_angle_scan"][index]),
+                    reference=row["first_fail_deg"],
+                    bar=_release_bar(epsilon, row["first_fail_deg"]),
+                )
+    values, _ = sweep(
+        runs, {"quality_factor": 20, "drive_frequency": 11, "drive_amplitude": 0.3}, "drive_amplitude", 0.13, 0.135, 2, "release_angle"
+    )
+    yield Number(
+        "Fig. 6",
+        "releases stay up to more than, degrees (epsilon = 0.13)",
+        np.degrees(values["release_angle"][0]),
+        "45",
+        remark="holds for 0.15 <= epsilon <= 0.49 alone",
+    )
+
+
+def _release_bar(epsilon, first):
+    if first == 0:
+        return 1.0
+    return 2e-5 if 0.13 < epsilon < 0.3 else 1e-3
+
+
+def flutter(runs, known):
+    """Figs 8, 9, 10 and the text: flutter, its amplitude, where it begins and how it ends."""
+    for release, row in known["blackburn_fig8_turning_points_deg_Q5_Omega11_eps0.5"].items():
+        orbit = {"start": {"theta": np.pi + np.radians(float(release)), "velocity": 0}, "periods": 20}
+        values, _ = runs({"pendulum": FIVE, "orbit": orbit}, "orbit")
+        for turn, exact in enumerate(row["first12"]):
+            yield Number(
+                "Fig. 8",
+                f"turning point {turn + 1} after a release of {release} degrees",
+                np.degrees(values["maximum_angle"][turn]),
+                reference=exact,
+                bar=2e-3,
+            )
+    for row in known["blackburn_fig9_10_flutter_Q5_Omega11"]:
+        values, _ = cycle(
+            runs, FIVE | {"drive_amplitude": float(row["eps"])}, np.pi + float(row["phi_strobe"]), float(row["dphi_strobe"]), period=2
+        )
+        amplitude = np.abs(values["maximum_angle"]).max()
+        yield Number("Figs 9, 10", f"amplitude of flutter at epsilon = {row['eps']}, rad", amplitude, reference=row["amp_rad"], bar=1e-8)
+        if row["eps"] == "0.5":
+            yield Number(
+                "Fig. 8", "final amplitude at epsilon = 0.5, degrees", np.degrees(amplitude), "40", row["amp_deg"], 1e-6, printed_bar=5
+            )
+    values, attributes = sweep(runs, FIVE, "drive_amplitude", 0.4683, 0.473, 48, "flutter_amplitude")
+    yield Number(
+        "Sec. III",
+        "onset of flutter from the multiplier -1",
+        attributes["critical_value"],
+        "0.468",
+        known["blackburn_fig4_upper_flutter"]["Omega11_Q5"]["eps_c"],
+        1e-12,
+    )
+    yield Number(
+        "Fig. 10",
+        "exponent of the amplitude (a straight line over the square root)",
+        attributes["fit_exponent"],
+        "0.5",
+        printed_bar=attributes["fit_exponent_error"],
+    )
+
+
+def flutter_ends(runs, known):
+    """The dots of Fig. 4 and the text's 0.53: the cycle loses its symmetry and doubles its period; releases fail earlier."""
+    for low, high, count in ((5, 15, 11), (20, 30, 2)):
+        values, _ = sweep(runs, FIVE, "drive_frequency", low, high, count, "flutter_zone")
+        for index, omega in enumerate(values["value"]):
+            row = known["blackburn_fig4_upper_flutter"].get(f"Omega{round(omega)}_Q5")
+            if row is None:
+                continue
+            yield Number("Fig. 4", f"flutter begins at Omega = {omega:g}", values["flutter_onset"][index], reference=row["eps_c"], bar=1e-9)
+            yield Number(
+                "Fig. 4",
+                f"flutter loses its symmetry at Omega = {omega:g}",
+                values["flutter_asymmetry"][index],
+                reference=row["eps_symmetry_breaking"],
+                bar=1e-6,
+            )
+            if omega == 11:
+                end = known["blackburn_flutter_cascade_Q5_Omega11"]["eps_period_doubling_of_asymmetric_flutter"]
+                yield Number(
+                    "Sec. III",
+                    "flutter ends",
+                    values["flutter_end"][index],
+                    "0.53",
+                    end,
+                    1e-6,
+                    "0.53 is a limit of releases from rest; the attractor lives on, and doubles its period at 0.5717",
+                )
+
+
+RANGES = {
+    "period3_top": ("inverted 3-nodding", 0.46, 0.475, 16),
+    "period9_top": ("inverted 9-nodding", 0.46, 0.475, 16),
+    "period4_top": ("inverted 4-nodding", 0.5195, 0.5235, 5),
+    "period2_bottom": ("down 2-nodding", 0.43, 0.55, 9),
+    "spin_+1/1": ("rotation +1/1", 0.03, 0.05, 5),
+}
+
+
+def lives(runs, known):
+    """From where to where the attractors of Figs 11 to 15 exist."""
+    for name, ends in known["attractor_existence_ranges_Q5_Omega11"].items():
+        words, low, high, count = RANGES[name]
+        values, _ = sweep(runs, FIVE, "drive_amplitude", low, high, count, "attractors", starts=4096)
+        row = [str(found) for found in values["branch_name"]].index(words)
+        for what, side in (("begins", "low"), ("ends", "high")):
+            if low < ends[side]["eps"] < high:
+                yield Number(
+                    "Figs 11-15",
+                    f"{words} {what}, epsilon",
+                    values["branch_start" if side == "low" else "branch_end"][row],
+                    reference=ends[side]["eps"],
+                    bar=1e-7,
+                )
+
+
+def attractors(runs, known):
+    """Figs 11 to 15: every attractor of the five pictures, and its share of starts with |v| < 3 (reference: 1500 random starts)."""
+    for epsilon, table in known["blackburn_fig11_15_attractors_Q5_Omega11"].items():
+        scene = {
+            "pendulum": FIVE | {"drive_amplitude": float(epsilon)},
+            "basin": {"theta": {"count": 300}, "velocity": {"min": -3, "max": 3, "count": 300}},
+        }
+        values, _ = runs(scene, "attractors")
+        for row in table["attractors"]:
+            points = np.array(row["strobe_points"], dtype=float)
+            gap = np.abs(np.exp(1j * values["strobe_theta"]) - np.exp(1j * points[0, 0])) + np.abs(values["strobe_velocity"] - points[0, 1])
+            id_, phase = np.unravel_index(np.nanargmin(gap), gap.shape)
+            what = f"{row['kind']} at epsilon = {epsilon}"
+            exact = max((complex(text) for text in row["multipliers"]), key=lambda value: (abs(value), value.imag))
+            share, doubt = row["basin_frac_v3"], 4 * np.sqrt(max(row["basin_frac_v3"], 1 / 1500) / 1500)
+            yield Number("Figs 11-15", f"period of {what}", values["period"][id_], reference=row["period"])
+            yield Number("Figs 11-15", f"winding of {what}", values["winding"][id_], reference=row["winding_total"])
+            yield Number(
+                "Figs 11-15", f"strobe velocity of {what}", values["strobe_velocity"][id_, phase], reference=points[0, 1], bar=1e-9
+            )
+            yield Number("Figs 11-15", f"multiplier, real part, of {what}", values["multiplier_re"][id_, 0], reference=exact.real, bar=1e-7)
+            yield Number("Figs 11-15", f"share of {what}", values["fraction"][id_], reference=share, bar=doubt)
+
+
+def cores(runs, known):
+    """Figs 11 to 15: how far up theta = pi, in steps of 0.005 of the velocity, starts stay about inverted; finer steps find more gaps."""
+    for epsilon, row in known["blackburn_fig11_15_core_extent_v_at_theta_pi"].items():
+        scene = {
+            "pendulum": FIVE | {"drive_amplitude": float(epsilon)},
+            "basin": {
+                "theta": {"min": np.pi - 1e-9, "max": np.pi + 1e-9, "count": 1},
+                "velocity": {"min": 0.0025, "max": 0.2025, "count": 40},
+            },
+        }
+        labels, centre = runs(scene, "basin")[0], runs(scene, "attractors")[0]["centre"]
+        leaves = centre[labels["attractor"][:, 0]] != 1
+        yield Number(
+            "Figs 11-15",
+            f"first velocity above theta = pi that leaves, epsilon = {epsilon}",
+            labels["velocity"][np.argmax(leaves)],
+            reference=row["first_fail_v_at_top"],
+            bar=0.0051,
+        )
+
+
+PARTS = [boundaries, potential, releases, flutter, flutter_ends, lives, attractors, cores]

@@ -1,0 +1,254 @@
+"""The numbers of Butikov (2018). A function gives those of one part of the paper; equations and figures are counted as printed."""
+
+import numpy as np
+
+from .number import Number
+from .runs import at, curves, cycle, undamped
+
+CURVES = {f"curve{n}": [f"exact_{n}", f"butikov_{n}", *([f"butikov_{n}_refined"] if n > 3 else [])] for n in range(1, 6)}
+FORMULAS = {1: "(3)", 2: "(4)", 3: "(5)", 4: "(6)", 5: "(7)"}
+
+
+def zones(runs, known):
+    """Fig. 1: the transition curves without damping, exact and by every formula."""
+    names = [name for row in CURVES.values() for name in row]
+    value = undamped(runs, names)
+    for n in range(1, 6):
+        for row in known[f"butikov_fig1_curve{n}"]:
+            k = float(row["k"])
+            yield Number(f"Fig. 1, curve {n}", f"m at k = {k:.9g}", value(k, f"exact_{n}"), reference=row["m_exact"], bar=1e-9)
+            yield Number(FORMULAS[n], f"m at k = {k:.9g}", value(k, f"butikov_{n}"), reference=row["m_formula"], bar=1e-9)
+            if n > 3:
+                yield Number(
+                    "(17)" if n == 4 else "(19)",
+                    f"m at k = {k:.9g}",
+                    value(k, f"butikov_{n}_refined"),
+                    reference=row["m_formula2"],
+                    bar=1e-9,
+                )
+    yield Number("(4)", "m at k = 0", value(0, "butikov_2"), "0.4542", known["butikov_k0_curve2_m_formula"], 1e-12)
+    yield Number(
+        "(4)",
+        "m at k = 0, exact",
+        value(0, "exact_2"),
+        "0.4542",
+        known["butikov_k0_curve2_m_exact"],
+        1e-12,
+        "(4) has three harmonics",
+        "approximation",
+    )
+
+
+def turns(runs, known):
+    """Where curve 3 turns back: the last k at which it exists, and the middle of its two branches there."""
+    for name, low, high, printed in (("exact_3", 0.63042, 0.630421, True), ("butikov_3", 0.65 - 1e-9, 0.65 + 1e-9, False)):
+        chart, _ = curves(runs, low, high, 10001, [name])
+        last = np.flatnonzero(np.isfinite(chart[name]))[-1]
+        exact = known[f"butikov_curve3_turning_point_{'exact' if printed else 'formula'}"]
+        middle = (chart[name][last] + chart[f"{name}_upper"][last]) / 2
+        remark = ("(5) is an approximation", "approximation") if printed else ()
+        what = "exact" if printed else "by (5)"
+        yield Number("Fig. 1, curve 3", f"k where it turns back, {what}", chart["k"][last], "0.65", exact["k"], 1e-9, *remark)
+        yield Number("Fig. 1, curve 3", f"m where it turns back, {what}", middle, "1.6", exact["m"], 1e-7, *remark)
+
+
+def parametric_oscillation(runs, known):
+    """Fig. 2: the nodding of period 2 at Omega = 3.2, m = 0.388; the paper does not say its Q."""
+    for name, row in known["butikov_fig2_omega3.2_a0.388"].items():
+        if not name.startswith("Q"):
+            continue
+        pendulum = {"quality_factor": float(name[1:]), "drive_frequency": 3.2, "drive_amplitude": 0.388}
+        values, attributes = cycle(runs, pendulum, round(float(row["theta"]), 3), round(float(row["v"]), 3))
+        if name == "Q20":
+            yield Number("Fig. 2", "period of the oscillation, drive periods", attributes["period"], "2")
+        yield Number("Fig. 2", f"strobe theta at Q = {name[1:]}", values["strobe_theta"][0], reference=row["theta"], bar=1e-9)
+        yield Number("Fig. 2", f"strobe velocity at Q = {name[1:]}", values["strobe_velocity"][0], reference=row["v"], bar=1e-9)
+        yield Number(
+            "Fig. 2",
+            f"amplitude at Q = {name[1:]}, degrees",
+            np.degrees(np.abs(values["maximum_angle"]).max()),
+            reference=row["amp_deg"],
+            bar=5e-4,
+        )
+
+
+def _cosine(values, line):
+    return float(values["line_amplitude"][line] * np.cos(values["line_phase"][line]))
+
+
+def _sine(values, line):
+    return float(-values["line_amplitude"][line] * np.sin(values["line_phase"][line]))
+
+
+def third_harmonics(runs, known):
+    """Fig. 3 on curve 3; on curve 2 without gravity, and Fig. 4: flutter there."""
+    row = known["butikov_fig3"]
+    k = float(row["k_from_omega"])
+    chart, _ = curves(runs, k, 2 * k, 2, ["exact_3", "butikov_3"])
+    yield Number("Fig. 3", "m at omega = 1.529 omega0, exact", at(chart, k, "exact_3"), reference=row["m_exact"], bar=1e-9)
+    yield Number("Fig. 3", "m at omega = 1.529 omega0, by (5)", at(chart, k, "butikov_3"), reference=row["m_formula"], bar=1e-9)
+    values, _ = cycle(runs, {"k": k, "damping": 0, "m": float(row["m_exact"])}, 0.1, 0, model="mathieu", period=2)
+    yield Number(
+        "Fig. 3",
+        "C3/C1",
+        _cosine(values, 3) / _cosine(values, 1),
+        "-0.112",
+        row["C3/C1_exact"],
+        1e-9,
+        "the formula at the stated k and m gives -0.110",
+    )
+    boundary = float(known["butikov_k0_curve2_m_exact"])
+    values, _ = cycle(runs, {"k": 0, "damping": 0, "m": boundary}, 0, 0.1, model="mathieu", period=2)
+    yield Number(
+        "Fig. 4",
+        "S3/S1 on the boundary",
+        _sine(values, 3) / _sine(values, 1),
+        "-0.1009",
+        known["butikov_k0_S3_over_S1_exact"],
+        1e-9,
+        "three harmonics",
+        "approximation",
+    )
+    for name, row in known["butikov_fig4_k0"].items():
+        damping, m = name.removeprefix("beta").split("_m")
+        values, _ = cycle(runs, {"k": 0, "damping": float(damping), "m": float(m)}, float(row["theta"]), float(row["v"]), period=2)
+        lines, where = values["line_amplitude"], f"beta = {damping}, m = {m}"
+        yield Number("Fig. 4", f"S1 at {where}, rad", lines[1], reference=row["A1"], bar=1e-8)
+        yield Number("Fig. 4", f"modulus of S3/S1 at {where}", lines[3] / lines[1], reference=row["A3_over_A1"], bar=1e-8)
+        yield Number("Fig. 4", f"modulus of S5/S1 at {where}", lines[5] / lines[1], reference=row["A5_over_A1"], bar=1e-8)
+
+
+def nodding(runs, known):
+    """Figs 7 and 8, whose k, m and Q are not stated: multiple nodding of every kind."""
+    for row in known["multiple_nodding_cycles"].values():
+        points = np.array(row["strobe_theta_v_at_t0"], dtype=float)
+        pendulum = {"k": row["k"], "damping": float(row["beta"]), "m": row["m"]}
+        values, attributes = cycle(runs, pendulum, *(points[0] + [1e-3, -1e-3]))
+        where = f"{row['n']}-nodding about {'down' if row['about'] == 'bottom' else 'inverted'}, k = {row['k']}, m = {row['m']}"
+        exact = max((complex(text) for text in row["multipliers_of_P_n"]), key=lambda value: value.imag)
+        ours = complex(attributes["multiplier_re"], attributes["multiplier_im"])
+        strongest, amplitude = max(row["spectrum_amplitudes"].items(), key=lambda line: line[1])
+        yield Number("Figs 7, 8", f"period of the {where}", attributes["period"], reference=row["n"])
+        yield Number("Figs 7, 8", f"strobe velocity of the {where}", values["strobe_velocity"][0], reference=points[0, 1], bar=1e-9)
+        yield Number("Figs 7, 8", f"multiplier, real part, of the {where}", ours.real, reference=exact.real, bar=1e-7)
+        yield Number(
+            "Figs 7, 8",
+            f"line {strongest} of the {where}, rad",
+            values["line_amplitude"][int(strongest.split("/")[0])],
+            reference=amplitude,
+            bar=1e-8,
+        )
+
+
+def subharmonics(runs, known):
+    """Fig. 9: the curves of order n, exact and by (21) with its signs corrected."""
+    value = undamped(runs, subharmonics=(2, 4, 6))
+    for n in (2, 4, 6):
+        for row in known[f"butikov_fig9_n{n}"]:
+            k, printed = float(row["k"]), row["roots_as_printed"]
+            yield Number("Fig. 9", f"m at n = {n}, k = {k:g}", value(k, f"subharmonic_{n}"), reference=row["m_exact"], bar=1e-9)
+            ours = value(k, f"butikov_subharmonic_{n}")
+            if printed:
+                yield Number(
+                    "(21)",
+                    f"m at n = {n}, k = {k:g}",
+                    ours,
+                    printed[0],
+                    row["m_eq21"],
+                    1e-9,
+                    "the last terms of rows 3 to 5 must be minus, as the paper's own (22) has them",
+                )
+
+
+def subharmonic_orbits(runs, known):
+    """(22) and Fig. 10: orbits that close after six drive periods."""
+    exact = known["butikov_eq22"]["exact"]
+    m = undamped(runs, subharmonics=(2, 4, 6))(0, "subharmonic_6")
+    yield Number("(22)", "m at k = 0, n = 6", m, "0.2256", exact["m_exact"], 1e-12)
+    yield Number("Fig. 10a", "m", m, "0.226", exact["m_exact"], 1e-12)
+    values, _ = runs("butikov-fig10a", "orbit")
+    printed = {"A5": ("0.163",), "A7": ("-0.083",), "A11": ("-0.006", "the paper's own equation gives -0.0055"), "A13": ("0.002",)}
+    for name, words in printed.items():
+        yield Number("(22)", f"{name}/A1", _sine(values, int(name[1:])) / _sine(values, 1), words[0], exact[name], 1e-10, *words[1:])
+    for letter, leading, omega in (("b", 5, "1.155"), ("c", 7, "0.845")):
+        row = known[f"butikov_fig10{letter}"]
+        m, near = float(row["m_printed"]), float(row["k_exact_at_m"])
+        axes = {"k": {"min": near - 2e-4, "max": near + 2e-4, "count": 401}, "m": {"min": m, "max": m, "count": 1}}
+        grid, _ = runs({"stability": axes}, "stability")
+        order = np.argsort(grid["angle"][0])
+        k = np.interp(1 / 6, grid["angle"][0][order], grid["k"][order])
+        yield Number(f"Fig. 10{letter}", f"omega/omega0 at m = {m:g}", 1 / np.sqrt(k), omega, row["omega_exact_at_m"], 1e-8)
+        pendulum = {"k": float(row["k"]), "damping": 0, "m": float(row["m_exact_at_k"])}
+        values, attributes = cycle(runs, pendulum, 0, 0.1, model="mathieu", period=6)
+        yield Number(f"Fig. 10{letter}", "strongest line, sixths of the drive frequency", attributes["dominant_line"], str(leading))
+        for line, relative in row["harmonics_rel_to_dominant"].items():
+            j = int(line.split("/")[0])
+            yield Number(
+                f"Fig. 10{letter}",
+                f"line {line} beside {leading}/6",
+                _sine(values, j) / _sine(values, leading),
+                reference=relative,
+                bar=1e-8,
+            )
+
+
+def damped_tongues(runs, known):
+    """Section 6, Figs 11 and 12: the tongues of parametric resonance with damping."""
+    names, lowest = ("damped_1", "damped_2", "butikov_damped_1", "butikov_damped_2"), {}
+    for quality in (5, 10, 20, 100, 1000):
+        chart, lowest[quality] = curves(runs, 0.1, 1.5, 15, names, quality_factor=quality)
+        if f"butikov_sec6_Q{quality}" not in known:
+            continue
+        for tongue, tuned in ((1, "m_at_k0.25"), (2, "m_at_k1")):
+            for kind, suffix in ((f"tongue{tongue}_exact", ""), (f"tongue{tongue}_eq{24 + tongue}", "_determinant")):
+                row = known[f"butikov_sec6_Q{quality}"][kind]
+                by = f", by ({24 + tongue}) corrected" if suffix else ""
+                for what, key, name in (
+                    ("lowest k", "k_min", "lowest_k"),
+                    ("lowest m", "m_min", "lowest_m"),
+                    ("m at exact tuning", tuned, "tuned_m"),
+                ):
+                    yield Number(
+                        "Sec. 6",
+                        f"tongue {tongue}, Q = {quality}: {what}{by}",
+                        lowest[quality][f"tongue_{tongue}_{name}{suffix}"],
+                        reference=row[key],
+                        bar=1e-8,
+                    )
+    five, fine = lowest[5], lowest[1000]
+    yield Number("Sec. 6", "tongue 1, Q = 5: lowest k", five["tongue_1_lowest_k"], "0.244")
+    yield Number("Sec. 6", "tongue 1, Q = 5: lowest m", five["tongue_1_lowest_m"], "0.099")
+    yield Number("Sec. 6", "tongue 1, Q = 5: m at k = 1/4", five["tongue_1_tuned_m"], "0.1002")
+    remark = "a point of the curve, not its lowest; (26) needs 2(k - 1) in rows 2 and 3"
+    yield Number("Sec. 6", "tongue 2, Q = 5: lowest k", five["tongue_2_lowest_k"], "1.106", remark=remark)
+    yield Number("Sec. 6", "tongue 2, Q = 5: lowest m", five["tongue_2_lowest_m"], "0.999", remark=remark)
+    yield Number("Sec. 6", "tongue 1: lowest m times Q, Q = 1000", 1000 * fine["tongue_1_lowest_m"], "0.5")
+    yield Number(
+        "Sec. 6",
+        "tongue 2: lowest m times sqrt(Q), Q = 1000",
+        np.sqrt(1000) * fine["tongue_2_lowest_m"],
+        "2.32",
+        remark="2 / sqrt(Q); 2.32 belongs to exact tuning, k = 1",
+    )
+    yield Number("Sec. 6", "tongue 2: m at k = 1 times sqrt(Q), Q = 1000", np.sqrt(1000) * fine["tongue_2_tuned_m"], "2.32")
+    yield from _damped_curves(runs, known)
+
+
+def _damped_curves(runs, known):
+    for tongue in (1, 2):
+        rows = next(rows for name, rows in known.items() if name.startswith(f"butikov_fig11_Q5_tongue{tongue}"))
+        for k, exact, formula in (map(float, row) for row in rows):
+            names = (f"damped_{tongue}", f"butikov_damped_{tongue}")
+            chart, _ = curves(runs, k, k + 0.01, 2, names, quality_factor=5)
+            yield Number("Fig. 11", f"tongue {tongue}, Q = 5: m at k = {k:g}", at(chart, k, names[0]), reference=exact, bar=1e-9)
+            yield Number(
+                f"({24 + tongue}) corrected", f"tongue {tongue}, Q = 5: m at k = {k:g}", at(chart, k, names[1]), reference=formula, bar=1e-9
+            )
+    values, _ = runs("butikov-fig12", "orbit")
+    scale = values["line_amplitude"][1]
+    for name, relative in next(row for key, row in known.items() if key.startswith("butikov_fig12")).items():
+        part = _cosine if name[0] == "C" else _sine
+        yield Number("Fig. 12", f"{name} beside the first harmonic", part(values, int(name[1])) / scale, reference=relative, bar=1e-7)
+
+
+PARTS = [zones, turns, parametric_oscillation, third_harmonics, nodding, subharmonics, subharmonic_orbits, damped_tongues]
