@@ -36,7 +36,7 @@ double kz_clock(void);
 
 /* Words of scenes and files, in the order of their codes (KZ_SINGLE ..., KZ_METHOD_ICM ..., KZ_LINEAR ...). */
 #define KZ_PRECISION_WORDS "single", "double", "quad"
-#define KZ_METHOD_WORDS "icm", "direct"
+#define KZ_METHOD_WORDS "icm", "direct", "exact"
 #define KZ_INTERPOLATION_WORDS "linear", "cubic", "quintic"
 
 /* Such a list of two or three as one text, "single|double|quad". */

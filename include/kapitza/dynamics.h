@@ -34,21 +34,9 @@ void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_v
 /* Draws the ellipses and covers of new attractors into the regions, and lets a fine grid's grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
-/* Ways to follow a start: the scene's map; the same in double precision at most, enough for a search; the scene's map with the error
- * of each orbit beside it (Fortran: covariance.f90); or interpolated cell mapping over 2, 4 or 6 nodes an axis of the map table. */
-enum {
-  KZ_FOLLOW_DIRECT = 0,
-  KZ_FOLLOW_SEARCH = 1,
-  KZ_FOLLOW_LINEAR = 2,
-  KZ_FOLLOW_ERRORS = 3,
-  KZ_FOLLOW_CUBIC = 4,
-  KZ_FOLLOW_QUINTIC = 6
-};
-/* Of KZ_FOLLOW_ERRORS: the label of an orbit whose error, from the last place of its start, its steps and rounding, outgrows what a
- * label bears. Any other label, 0 too, is decided: the errors do not change it. An orbit is trapped once a trapping region holds it
- * with its error. */
-enum { KZ_DOUBTFUL = -1 };
-
+/* Ways to follow a start: the scene's map; the same in double precision at most, enough for a search; or interpolated cell mapping
+ * over 2, 4 or 6 nodes an axis of the map table. */
+enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SEARCH = 1, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_CUBIC = 4, KZ_FOLLOW_QUINTIC = 6 };
 /* Follows n starts state [n][2] until each is trapped: label [n] = attractor, 0 where it has not settled; periods [n] = first
  * period inside a trapping region, max_periods where none. The states of those that have not settled become where they are then. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t max_periods, double *state, int32_t *label,
@@ -58,6 +46,18 @@ void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t m
  * rad per drive radian, both taken as exact. */
 void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                                   int32_t *label, int64_t *periods);
+
+/* Precisions in which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; quad precision,
+ * by Taylor series. */
+enum { KZ_RUNG_DOUBLE = 0, KZ_RUNG_QUAD = 1, KZ_RUNGS = 2 };
+/* The label of an orbit whose error outgrows what a label bears. Any other label, 0 too, is decided: the errors do not change it. */
+enum { KZ_DOUBTFUL = -1 };
+
+/* kz_dynamics_follow on a rung, with the error of each orbit beside it (Fortran: covariance.f90): from the last place of its start,
+ * and from the steps and the rounding of every period. An orbit is trapped once a trapping region holds it with its error. start [n][2]
+ * in rad and rad per drive radian, both taken as exact. */
+void kz_dynamics_follow_errors(kz_dynamics *dynamics, int32_t rung, int64_t n, int64_t max_periods, const double *start,
+                               int32_t *label, int64_t *periods);
 
 /* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
  * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from

@@ -19,7 +19,7 @@ typedef struct {
   int64_t count;
 } kz_axis;
 
-enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1 };
+enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
 enum { KZ_LINEAR = 0, KZ_CUBIC = 1, KZ_QUINTIC = 2 };
 
 typedef struct {
@@ -32,8 +32,7 @@ typedef struct {
   int64_t starts;
   int64_t max_period;
   int64_t seed;
-  bool flag_undecided; /* ask every integrated cell whether the last place of its start changes the label */
-  double accuracy;     /* NaN, or the share of right labels for which the program chooses method, table and numerics */
+  double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
 } kz_basin_plan;
 
 /* A list of a scene. */

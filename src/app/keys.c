@@ -85,7 +85,8 @@ const kz_key kz_keys[] = {
         .unit = "rad", .low = 1e-15, .high = 0.01, CHOSEN),
     WORD("numerics.precision", KZ_JOINED(KZ_PRECISION_WORDS), "double", numerics.precision, "Kind of the arithmetic.", CHOSEN),
 
-    MAPPING("basin", "", AT(has_basin), "Study: the attractors, then a label for every cell of a window."),
+    ROW("basin", KZ_KEY_MAPPING, "", AT(has_basin), "Study: the attractors, then a label for every cell of a window.",
+        .unit = "", .former = "flag_undecided=basin.method exact"),
     MAPPING("basin.theta", "", KZ_NO_FIELD,
             "Angles of the cells; min and max both or neither, width at most 2 pi; neither: the whole circle [-pi, pi)."),
     REAL("basin.theta.min", "rad", -1e6, 1e6, "", basin.theta.min, "Lower edge of the window."),
@@ -96,7 +97,9 @@ const kz_key kz_keys[] = {
     REAL("basin.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.max, "Upper edge of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "direct", basin.method,
-         "direct: every cell is integrated; icm: interpolated cell mapping, the method of the papers.",
+         "direct: every cell is integrated; icm: interpolated cell mapping, the method of the papers; exact: every cell is "
+         "integrated with its error, and again in quad precision where that decides nothing; what is left is flagged in "
+         "evidence.",
          .former = "hybrid=direct", CHOSEN),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),
@@ -109,13 +112,10 @@ const kz_key kz_keys[] = {
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
-    BOOLEAN("basin.flag_undecided", "false", basin.flag_undecided,
-            "Follow integrated cells once more from one unit in the last place beside: where the label differs, double "
-            "precision cannot decide it, and `evidence` says so. Method direct."),
-    REAL("basin.accuracy", "", 0.5, 0.9999, "", basin.accuracy,
+    REAL("basin.accuracy", "", 0.5, 1, "", basin.accuracy,
          "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a "
          "sample "
-         "followed in quad precision shows to be as right (95 % bound)."),
+         "followed in quad precision shows to be as right (95 % bound); 1, or what no setting reaches: method exact."),
 
     MAPPING("tradeoff", "", AT(has_tradeoff),
             "Study: time and wrong labels of many settings on the basin's window, compared with quad precision."),

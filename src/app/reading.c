@@ -74,6 +74,11 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
 
 static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path) {
   char names[1024], list[1024], nearest[64];
+  const kz_key *mapping = kz_key_find(reading->keys, parent);
+  if (mapping && kz_key_renamed(mapping, node->name, nearest, sizeof nearest)) {
+    complain_key(reading, node, path, "is gone; use %s", nearest);
+    return;
+  }
   kz_key_children(reading->keys, parent, names, sizeof names);
   if (kz_key_suggest(node->name, names, nearest, sizeof nearest)) {
     complain_key(reading, node, path, "unknown key; did you mean %s?", nearest);

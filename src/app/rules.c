@@ -54,9 +54,6 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin) return;
   theta_window(reading, &scene->basin.theta, "basin.theta");
   check_axis(reading, &scene->basin.velocity, "basin.velocity");
-  if (scene->basin.flag_undecided && (scene->basin.method == KZ_METHOD_ICM || !isnan(scene->basin.accuracy)))
-    kz_complain(reading, kz_tree_find(reading->root, "basin.flag_undecided"), "basin.flag_undecided",
-                "asks about cells that are integrated; choose basin.method direct");
 }
 
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
@@ -186,6 +183,9 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   if (scene->has_basin && !isnan(scene->basin.accuracy))
     kz_complain(reading, kz_tree_find(reading->root, "basin.accuracy"), "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
+  if (scene->has_basin && scene->basin.method == KZ_METHOD_EXACT)
+    kz_complain(reading, kz_tree_find(reading->root, "basin.method"), "basin.method",
+                "exact labels the cells of one pendulum, and a sweep has many; choose direct or icm");
   parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
 }
 

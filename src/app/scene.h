@@ -39,12 +39,12 @@ typedef struct {
   const char *fallback;            /* default as YAML text; "" = may be left out without one; NULL = required */
   const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto" */
   const char *(*words_from)(void); /* the same where another layer knows them */
-  const char *former;              /* words that are gone, and what to write instead: "old=new|old=new" */
-  char form;                       /* keys of one mapping with different forms exclude each other; 0 = none */
-  size_t offset;                   /* of the field in kz_scene */
-  const char *chosen_by;           /* path of a number instead of which the key is given; NULL = none */
-  size_t chooser;                  /* offset of that number */
-  const char *help;                /* one sentence of the scene reference */
+  const char *former;    /* words, or keys of a mapping, that are gone, and what to write instead: "old=new|old=new" */
+  char form;             /* keys of one mapping with different forms exclude each other; 0 = none */
+  size_t offset;         /* of the field in kz_scene */
+  const char *chosen_by; /* path of a number instead of which the key is given; NULL = none */
+  size_t chooser;        /* offset of that number */
+  const char *help;      /* one sentence of the scene reference */
 } kz_key;
 
 /* The table; a row without path ends it. */

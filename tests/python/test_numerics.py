@@ -9,8 +9,6 @@ from kapitza import Result
 SMALL = ROOT / "scenes" / "small.yaml"
 TINY = ["--set", "basin.theta.count=60", "--set", "basin.velocity.count=60", "--set", "basin.attractors.starts=1024"]
 DIRECT = [*TINY, "--set", "basin.method=direct"]
-FLAGGED = ("--set", "basin.flag_undecided=true", "--set", "basin.theta.count=200", "--set", "basin.velocity.count=200",
-           "--set", "pendulum.drive_amplitude=0.46", "--set", "basin.method=direct")
 
 
 def attributes(path):
@@ -61,23 +59,3 @@ def test_split6_where_the_series_does_not_carry(kapitza, tmp_path):
 def test_bad_words_name_what_would_do(kapitza, tmp_path, words, key):
     done = kapitza("check", SMALL, "--set", words, folder=tmp_path, status=2)
     assert key in done.stderr and done.stderr.count("\n") == 1
-
-
-def test_cells_that_double_precision_cannot_decide_are_flagged(kapitza, tmp_path):
-    """Few of them, about as many as the share of 0.85 % that quad precision finds; no label changes for being asked."""
-    kapitza("run", SMALL, *FLAGGED, "-o", "x.h5", folder=tmp_path)
-    kapitza("run", SMALL, *FLAGGED[2:], "-o", "y.h5", folder=tmp_path)
-    asked, silent = (Result(tmp_path / name).group("basin") for name in ("x.h5", "y.h5"))
-    flagged = asked["evidence"].values == 3
-    assert 0.005 < flagged.mean() < 0.012
-    assert np.array_equal(flagged, flagged[::-1, ::-1])
-    assert attributes(tmp_path / "x.h5")["undecided"] == np.count_nonzero(flagged)
-    assert np.array_equal(asked["attractor"].values, silent["attractor"].values)
-    assert silent["evidence"].values.max() == 2
-
-
-@pytest.mark.parametrize("options", [["basin.method=icm"], ["basin={velocity: {min: -2, max: 2}, accuracy: 0.99}"]])
-def test_a_map_table_is_not_asked_about_the_last_place(kapitza, tmp_path, options):
-    words = [word for option in [*options, "basin.flag_undecided=true"] for word in ("--set", option)]
-    done = kapitza("check", SMALL, *words, folder=tmp_path, status=2)
-    assert "basin.flag_undecided" in done.stderr and done.stderr.count("\n") == 1

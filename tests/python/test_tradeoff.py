@@ -128,11 +128,17 @@ def without_method(accuracy):
     return WINDOW[0], WINDOW[1] % accuracy
 
 
-def test_an_accuracy_out_of_reach_is_refused(kapitza, tmp_path):
-    done = kapitza("run", SMALL, "-o", "no.h5", "--set", "pendulum.drive_amplitude=0.460", *without_method(0.999),
-                   folder=tmp_path, status=2)
-    assert "basin.accuracy: 0.999 is out of reach" in done.stderr and "flips" in done.stderr
-    assert list(tmp_path.iterdir()) == []
+def test_what_no_other_setting_reaches_is_exact(kapitza, tmp_path):
+    """And so is an accuracy of 1, which needs no reference labels."""
+    window = "basin={theta: {count: 20}, velocity: {min: -2, max: 2, count: 20}, accuracy: %g}"
+    for accuracy, tried in (1, False), (0.999, True):
+        done = kapitza("run", SMALL, "-o", "exact.h5", "--force", "--set", "pendulum.drive_amplitude=0.460", "--set",
+                       window % accuracy, folder=tmp_path)
+        assert f"accuracy {accuracy:g}: exact" in done.stdout and ("settings tried none meets it" in done.stdout) == tried
+        assert (tmp_path / "exact.h5.truth").exists() == tried
+        with h5py.File(tmp_path / "exact.h5") as file:
+            basin = file["basin"].attrs
+            assert (basin["setting"], basin["method"]) == ("exact", "exact") and "wrong" not in basin
 
 
 def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):

@@ -93,7 +93,7 @@ class Start:
 
     def view(self, request, methods):
         """The scene of one view; `coarse`: a quick look with a coarse map table."""
-        basin = {key: value for key, value in self.scene["basin"].items() if key not in ("accuracy", "flag_undecided", "proof")}
+        basin = {key: value for key, value in self.scene["basin"].items() if key not in ("accuracy", "proof")}
         width, height = (_count(request.get(name), name) for name in ("width", "height"))
         if width * height > MOST_CELLS:
             raise BadRequest(f"{width} x {height} cells are too many; at most {MOST_CELLS}")

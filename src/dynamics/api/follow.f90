@@ -1,20 +1,27 @@
 !> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics.h).
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
-  use kz_maps_states, only: leave_states
+  use kz_maps_states, only: leave_states, half_turns
   use kz_kernel_map, only: map_t
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_step_table, only: numerics_t
-  use kz_maps_covariance, only: covariant_map_t, make_covariant_map
+  use kz_maps_covariant_map, only: covariant_map_t, make_covariant_map
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_dynamics_label, only: follow
   use kz_maps_map_table, only: table_map_t, make_table_map
+  use kz_maps_precise_map, only: precise_map_t, make_precise_map
   use kz_maps_reference_map, only: reference_map_t, make_reference_map
   implicit none
   private
 
   !> Ways of dynamics.h; those that remain are the nodes of the table's stencil.
-  integer(c_int32_t), parameter :: DIRECT = 0, SETTLE = 1, COVARIANCE = 3
+  integer(c_int32_t), parameter :: DIRECT = 0, SETTLE = 1
+  !> Rungs of dynamics.h.
+  integer(c_int32_t), parameter :: RUNG_DOUBLE = 0
+  !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
+  real(dp), parameter :: QUAD_ERROR = 1e-31_dp
+  !> Steps a period of the series.
+  integer, parameter :: QUAD_STEPS = 18
 
 contains
 
@@ -36,30 +43,12 @@ contains
       call follow(d%flow, d%regions, d%attractors, state, label, periods)
     case (SETTLE)
       call follow(d%search%flow, d%regions, d%attractors, state, label, periods)
-    case (COVARIANCE)
-      call make_map_with_errors(d, map)
-      call follow(map, d%regions, d%attractors, state, label, periods)
     case default
       allocate (map, source=make_table_map(d%table, int(way), d%search%flow))
       call follow(map, d%regions, d%attractors, state, label, periods)
     end select
     call leave_open(d, state, label)
   end subroutine follow_starts
-
-  subroutine make_map_with_errors(d, map)
-    type(dynamics_t), intent(inout) :: d
-    class(map_t), allocatable, intent(out) :: map
-    type(numerics_t) :: halved
-    type(covariant_map_t), allocatable :: with_errors
-
-    if (.not. allocated(d%finer)) then
-      halved = numerics_t(d%numerics%scheme, 2*d%numerics%steps_per_period, DOUBLE, fastest=d%numerics%fastest)
-      call make_flow(d%search%pendulum, halved, .true., d%finer)
-    end if
-    allocate (with_errors)
-    call make_covariant_map(d%flow, d%finer, d%regions, d%attractors, with_errors)
-    call move_alloc(with_errors, map)
-  end subroutine make_map_with_errors
 
   !> The states of the starts that have not settled, in physical coordinates again.
   subroutine leave_open(d, state, label)
@@ -95,5 +84,58 @@ contains
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)
   end subroutine follow_reference
+
+  subroutine follow_errors(handle, rung, n, max_periods, start, label, periods) bind(C, name='kz_dynamics_follow_errors')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: rung
+    integer(c_int64_t), value :: n
+    integer(c_int64_t), value :: max_periods
+    real(dp), intent(in) :: start(2, n)
+    integer(c_int32_t), intent(out) :: label(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+    class(map_t), allocatable :: map
+    real(dp), allocatable :: state(:, :)
+
+    d => of_handle(handle)
+    allocate (state, source=start)
+    if (rung == RUNG_DOUBLE) then
+      state(1, :) = half_turns(start(1, :))
+      call make_covariant(d, map)
+    else
+      call make_precise(d, start, state(1, :), map)
+    end if
+    periods = max_periods
+    call follow(map, d%regions, d%attractors, state, label, periods)
+  end subroutine follow_errors
+
+  subroutine make_covariant(d, map)
+    type(dynamics_t), intent(inout) :: d
+    class(map_t), allocatable, intent(out) :: map
+    type(numerics_t) :: halved
+    type(covariant_map_t), allocatable :: covariant
+
+    if (.not. allocated(d%finer)) then
+      halved = numerics_t(d%numerics%scheme, 2*d%numerics%steps_per_period, DOUBLE, fastest=d%numerics%fastest)
+      call make_flow(d%search%pendulum, halved, .true., d%finer)
+    end if
+    allocate (covariant)
+    call make_covariant_map(d%flow, d%finer, d%regions, d%attractors, covariant)
+    call move_alloc(covariant, map)
+  end subroutine make_covariant
+
+  subroutine make_precise(d, start, u, map)
+    type(dynamics_t), intent(in), target :: d
+    real(dp), intent(in) :: start(:, :)
+    real(dp), intent(out) :: u(:)
+    class(map_t), allocatable, intent(out) :: map
+    type(reference_map_t), allocatable :: quad
+    type(precise_map_t), allocatable :: precise
+
+    allocate (quad, precise)
+    call make_reference_map(quad, d%search%pendulum, QUAD_STEPS, d%search%flow, start, u)
+    call make_precise_map(quad, QUAD_ERROR, d%search%flow, d%regions, d%attractors, precise)
+    call move_alloc(precise, map)
+  end subroutine make_precise
 
 end module kz_api_follow

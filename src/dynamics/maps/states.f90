@@ -1,13 +1,16 @@
 !> States of the stroboscopic map, (half-turns, rad per drive radian): their distance, and when two count as one.
 module kz_maps_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
+  use, intrinsic :: iso_fortran_env, only: qp => real128
   use kz_kernel_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: wrapped, enter_states, leave_states, angle_difference, separation, same_state, midperiod_angle, rounded, MIDPERIOD
+  public :: wrapped, half_turns, enter_states, leave_states, angle_difference, separation, same_state, midperiod_angle, rounded, &
+            MIDPERIOD
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
+  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
   !> Half-turns of a free flight of unit velocity from the strobe to mid-period. (Loops over vectors take it: a function of another
   !> file would be called state by state.)
   real(dp), parameter :: MIDPERIOD = 1
@@ -22,6 +25,17 @@ contains
 
     w = u - 2*anint(0.5_dp*u)
   end function wrapped
+
+  !> An angle in rad as half-turns in [-1, 1], right to the last place however many turns it has.
+  elemental function half_turns(theta) result(u)
+    !> rad
+    real(dp), intent(in) :: theta
+    real(dp) :: u
+    real(qp) :: exact
+
+    exact = theta/PI_QUAD
+    u = real(exact - 2*anint(0.5_qp*exact), dp)
+  end function half_turns
 
   !> Shortest difference of two angles in half-turns, in [-1, 1].
   elemental function angle_difference(a, b) result(d)

@@ -10,14 +10,16 @@
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double ROOM = 3;
 
-/* Cells with reference labels for an accuracy. */
+/* Cells with reference labels for an accuracy; none for 1, which method exact alone has. */
 static int64_t samples_for(double accuracy) {
+  if (accuracy >= 1) return 0;
   const double n = ROOM * (double)kz_share_sample(1 - accuracy);
   return (int64_t)fmax(1000, ceil(n));
 }
 
 void kz_accuracy_cost(double accuracy, kz_cost *cost) {
   static const double mean_periods = 30, period_seconds = 2e-4, setting_seconds = 0.5;
+  if (accuracy >= 1) return;
   cost->core_seconds += (double)samples_for(accuracy) * mean_periods * period_seconds + 10 * setting_seconds;
 }
 
@@ -50,12 +52,10 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
   return kz_config_measure(w->ladder[w->first + tile], w->reference, 0, record);
 }
 
-/* Tries the configurations from the cheapest on, two at a time; the first that meets the accuracy is chosen. `best`: the lowest
- * number of wrong labels. */
-static kz_status climb(walk *w, const kz_run *run, double accuracy, kz_choice *choice, int64_t *best) {
+/* Tries the configurations from the cheapest on, two at a time; the first that meets the accuracy is chosen, else `exact`. */
+static kz_status climb(walk *w, const kz_run *run, double accuracy, kz_choice *choice) {
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
   kz_measured measured[2];
-  *best = w->reference->samples;
   for (w->first = 0; w->first < w->count && !choice->config; w->first += step) {
     const int64_t left = w->count - w->first;
     kz_stage stage = {.name = "settings",
@@ -69,24 +69,22 @@ static kz_status climb(walk *w, const kz_run *run, double accuracy, kz_choice *c
     for (int64_t i = 0; i < stage.n_tiles && !choice->config; i++) {
       choice->tried++;
       choice->wrong = measured[i].wrong;
-      if (measured[i].wrong < *best) *best = measured[i].wrong;
       if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy) choice->config = w->ladder[w->first + i];
     }
   }
+  if (!choice->config) choice->config = kz_config_exact;
   return KZ_OK;
 }
 
-static kz_status refuse(double accuracy, const kz_choice *choice, int64_t best) {
-  const kz_share reached = kz_share_of(best, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
-  return kz_fail(
-      KZ_REFUSED,
-      "basin.accuracy: %.10g is out of reach: of %lld cells followed in quad precision the best setting labels %.3f %% "
-      "wrongly, %.3f %% at the end of the 95 %% interval, and the last place of the start alone flips %.3f %%; at most %.4f",
-      accuracy, (long long)choice->samples, 100 * reached.share, 100 * reached.high, 100 * flips.share,
-      floor(1e4 * (1 - reached.high)) / 1e4);
-}
-
 static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
+  if (choice->config == kz_config_exact) {
+    fprintf(summary, "accuracy %.10g: exact: every label is decided or flagged", accuracy);
+    if (choice->samples > 0)
+      fprintf(summary, "; of the %lld other settings tried none meets it on %lld cells", (long long)choice->tried,
+              (long long)choice->samples);
+    fprintf(summary, "\n");
+    return;
+  }
   const kz_share wrong = kz_share_of(choice->wrong, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
   fprintf(summary,
           "accuracy %.10g: %s, the cheapest of %lld settings tried that meets it: %lld of %lld cells wrong, at most %.3f %% "
@@ -96,17 +94,20 @@ static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
 }
 
 static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
-  int64_t best;
   walk w;
   order(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
-  KZ_TRY(climb(&w, run, accuracy, choice, &best));
-  return choice->config ? KZ_OK : refuse(accuracy, choice, best);
+  return climb(&w, run, accuracy, choice);
 }
 
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
   const double accuracy = scene->basin.accuracy;
   kz_reference_labels reference = {0};
+  if (samples_for(accuracy) == 0) {
+    *choice = (kz_choice){.config = kz_config_exact};
+    if (summary) tell(choice, accuracy, summary);
+    return KZ_OK;
+  }
   char *path = kz_reference_path(store);
   kz_status status = kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference);
   if (status == KZ_OK) status = choose(&reference, run, accuracy, choice);
@@ -121,6 +122,7 @@ kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *
   const kz_share wrong = kz_share_of(choice->wrong, choice->samples);
   KZ_TRY(kz_store_real(store, "basin", "accuracy", accuracy));
   KZ_TRY(kz_store_text(store, "basin", "setting", choice->config->label));
+  if (choice->config == kz_config_exact) return KZ_OK;
   KZ_TRY(kz_store_integer(store, "basin", "samples", choice->samples));
   KZ_TRY(kz_store_real(store, "basin", "wrong", wrong.share));
   KZ_TRY(kz_store_real(store, "basin", "wrong_low", wrong.low));

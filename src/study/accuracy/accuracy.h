@@ -11,8 +11,7 @@ typedef struct {
 } kz_choice;
 
 /* The cheapest configuration by kz_config_cost whose share of wrong labels of the sample is at most 1 - accuracy at the upper
- * end of its 95 % interval. KZ_REFUSED names the best share reached and the share that rounding of the start flips.
- * Collective. */
+ * end of its 95 % interval, or method exact, where none is or accuracy is 1. Collective. */
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice);
 
 /* The choice as attributes of /basin. Rank 0. */

@@ -14,7 +14,8 @@ enum { CHUNK = 16384 }; /* cells labelled at a time */
 /* Arrays of one chunk: too large for the stack. */
 typedef struct {
   double state[2 * CHUNK];
-  int64_t periods[CHUNK];
+  int64_t periods[CHUNK], place[CHUNK];
+  int32_t found[CHUNK];
 } workspace;
 
 typedef struct {
@@ -31,12 +32,32 @@ static double seconds(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Labels [n] of the cells first, first + 1, ... of the sample by method exact; KZ_DOUBTFUL where no rung decides. */
+static void decide_cells(const measurement *g, int64_t first, int64_t n, int32_t *label) {
+  workspace *w = g->work;
+  for (int64_t i = 0; i < n; i++) label[i] = KZ_DOUBTFUL;
+  for (int32_t rung = 0; rung < KZ_RUNGS; rung++) {
+    int64_t open = 0;
+    for (int64_t i = 0; i < n; i++) {
+      if (label[i] != KZ_DOUBTFUL) continue;
+      kz_cell_start(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * open);
+      w->place[open++] = i;
+    }
+    kz_dynamics_follow_errors(g->dynamics, rung, open, g->reference->plan->max_periods, w->state, w->found, w->periods);
+    for (int64_t i = 0; i < open; i++) label[w->place[i]] = w->found[i];
+  }
+}
+
 /* Labels [n] of the first n cells in the order of the sample. */
 static void label_cells(const measurement *g, int64_t n, int32_t *label) {
   const kz_config *s = g->config;
   workspace *w = g->work;
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
+    if (s->method == KZ_METHOD_EXACT) {
+      decide_cells(g, first, some, label + first);
+      continue;
+    }
     for (int64_t i = 0; i < some; i++)
       kz_cell_state(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
     kz_dynamics_follow(g->dynamics, kz_way(s->method, s->interpolation), some, g->reference->plan->max_periods, w->state,
@@ -50,6 +71,7 @@ static int64_t largest_count_error(const kz_reference_labels *reference, const i
   int64_t largest = 0;
   memset(surplus, 0, (size_t)(known + 1) * sizeof *surplus);
   for (int64_t i = 0; i < reference->samples; i++) {
+    if (label[i] == KZ_DOUBTFUL) continue;
     surplus[label[i]]++;
     surplus[reference->labels[i].label]--;
   }
@@ -60,8 +82,12 @@ static int64_t largest_count_error(const kz_reference_labels *reference, const i
 
 static void compare(const kz_reference_labels *reference, const int32_t *label, kz_measured *m) {
   int64_t at[KZ_REFERENCE_FAR + 1] = {0}, seen = 0;
-  for (int64_t i = 0; i < reference->samples; i++)
-    if (label[i] != reference->labels[i].label) at[reference->labels[i].distance]++;
+  for (int64_t i = 0; i < reference->samples; i++) {
+    if (label[i] == KZ_DOUBTFUL)
+      m->undecided++;
+    else if (label[i] != reference->labels[i].label)
+      at[reference->labels[i].distance]++;
+  }
   for (int distance = 1; distance <= KZ_REFERENCE_FAR; distance++) m->wrong += at[distance];
   m->inside = m->wrong - at[1];
   for (int distance = 1; distance <= KZ_REFERENCE_FAR && m->wrong > 0 && m->distance == 0; distance++)
@@ -75,8 +101,7 @@ static kz_status set_up(measurement *g) {
   const int64_t cells = kz_regions_cells(g->reference->total);
   if (cells > 0) kz_dynamics_fine_regions(g->dynamics, cells, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
-  if (s->method != KZ_METHOD_DIRECT)
-    KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
+  if (s->method == KZ_METHOD_ICM) KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   return KZ_OK;
 }
 

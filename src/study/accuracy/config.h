@@ -20,6 +20,8 @@ typedef struct {
 /* The table. Labels that end in -1992 name the methods of the first published maps of these basins. */
 extern const kz_config kz_configs[];
 extern const int kz_config_count;
+/* The row of method exact. */
+extern const kz_config *const kz_config_exact;
 
 /* For the cells of a basin of a pendulum. */
 kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, const kz_basin_plan *plan);
@@ -32,7 +34,8 @@ double kz_config_cost(const kz_config *config, double cells, double mean_periods
 
 /* One configuration on the sampled cells. */
 typedef struct {
-  int64_t wrong;       /* sampled cells whose label differs from the reference */
+  int64_t wrong;       /* sampled cells whose label differs from the reference, of those that are decided */
+  int64_t undecided;   /* of method exact alone */
   int64_t inside;      /* of these, those without another label next to them */
   int64_t distance;    /* median distance of the wrong ones from another label, cells; 0 where none is wrong */
   int64_t count_error; /* the largest surplus or lack of cells of one attractor */

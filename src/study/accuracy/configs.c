@@ -40,8 +40,10 @@ const kz_config kz_configs[] = {
     ICM("icm-1000", KZ_QUINTIC, 1000),
     ICM("icm-2000", KZ_QUINTIC, 2000),
     {"icm-single-500", KZ_METHOD_ICM, "split6", 8, 0, KZ_SINGLE, KZ_QUINTIC, 500, false},
+    {"exact", KZ_METHOD_EXACT, "processed", KZ_AUTO, 1e-12, KZ_DOUBLE, KZ_QUINTIC, 1000, false},
 };
 const int kz_config_count = sizeof kz_configs / sizeof kz_configs[0];
+const kz_config *const kz_config_exact = kz_configs + sizeof kz_configs / sizeof kz_configs[0] - 1;
 
 const char *kz_tradeoff_words(void) {
   static char words[1024];
@@ -85,7 +87,7 @@ double kz_config_cost(const kz_config *config, double cells, double mean_periods
   /* Measured weights, in kicks in double precision: a look-up in the table, the question whether a region holds the state. */
   static const double look_up = 30, look_up_node = 2.5, asked = 15;
   const double nodes = (double)config->nodes, period = period_kicks(config);
-  if (config->method == KZ_METHOD_DIRECT) return cells * mean_periods * (asked + period);
+  if (config->method != KZ_METHOD_ICM) return cells * mean_periods * (asked + period);
   return 0.5 * nodes * nodes * period +
          cells * mean_periods * (asked + look_up + look_up_node * kz_stencil(config->interpolation));
 }

@@ -165,8 +165,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   if (first + n <= h->known) return KZ_OK;
   for (int64_t i = 0; i < n; i++) {
     cell[i] = kz_reference_labels_cell(h->reference, first + i);
-    start[2 * i] = kz_axis_centre(&plan->theta, cell[i] % plan->theta.count);
-    start[2 * i + 1] = kz_axis_centre(&plan->velocity, cell[i] / plan->theta.count);
+    kz_cell_start(plan, cell[i], start + 2 * i);
   }
   follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
   for (int64_t i = 0; i < n; i++) {

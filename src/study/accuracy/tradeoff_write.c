@@ -35,6 +35,7 @@ static kz_status write_measures(const kz_reference_labels *reference, const kz_t
   COLUMN(double, "wrong", trade->wrong[i]);
   COLUMN(double, "wrong_low", kz_share_of(m[i].wrong, reference->samples).low);
   COLUMN(double, "wrong_high", kz_share_of(m[i].wrong, reference->samples).high);
+  COLUMN(double, "undecided", (double)m[i].undecided / n);
   COLUMN(double, "wrong_inside", (double)m[i].inside / n);
   COLUMN(double, "wrong_distance", m[i].wrong > 0 ? (double)m[i].distance : NAN);
   COLUMN(double, "fraction_error", (double)m[i].count_error / n);
@@ -65,9 +66,17 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
   fprintf(summary, "%c %-20s %-7s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
           trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], kz_precision_names[s->precision],
           scheme_name(trade->numerics + i), (int)trade->numerics[i].steps_per_period,
-          s->method == KZ_METHOD_DIRECT ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes,
-          100 * wrong.share, 100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples,
-          trade->seconds[i], 1e6 * m->cell);
+          s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes, 100 * wrong.share,
+          100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples, trade->seconds[i],
+          1e6 * m->cell);
+}
+
+/* What the settings of method exact leave undecided. */
+static void tell_undecided(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
+  for (int64_t i = 0; i < trade->count; i++)
+    if (trade->configs[i]->method == KZ_METHOD_EXACT)
+      fprintf(summary, "%s leaves %lld of %lld cells undecided, which count as neither right nor wrong\n",
+              trade->configs[i]->label, (long long)trade->measured[i].undecided, (long long)reference->samples);
 }
 
 /* Names the configurations whose labels are random here. */
@@ -107,6 +116,7 @@ kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade
   KZ_TRY(write_measures(reference, trade, store));
   KZ_TRY(write_attributes(reference, trade, store));
   print(reference, trade, summary);
+  tell_undecided(reference, trade, summary);
   warn(reference, trade, summary);
   return KZ_OK;
 }

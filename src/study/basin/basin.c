@@ -17,7 +17,7 @@ enum { CELLS = 16384 }; /* of a tile, about: so many that the few that take long
 static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_labels *labels, FILE *summary) {
   labels->step_error = kz_basin_warn_steps(scene, summary);
   labels->table_error = NAN;
-  if (scene->basin.method == KZ_METHOD_DIRECT) return;
+  if (scene->basin.method != KZ_METHOD_ICM) return;
   labels->table_error = kz_dynamics_table_defect(dynamics, kz_stencil(scene->basin.interpolation));
   kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
@@ -42,10 +42,12 @@ static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dy
 /* What is known besides the cells. Rank 0. */
 static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, const sample *s, FILE *summary) {
   kz_dynamics *dynamics = chunks->labelling->dynamics;
+  const bool exact = scene->basin.method == KZ_METHOD_EXACT;
   kz_labels labels = {.cells = chunks->labelling->tiles.cells,
                       .counts = chunks->counts,
                       .trapped_share = kz_dynamics_trapped_share(dynamics),
-                      .doubt = kz_doubt_count(&scene->basin, s->followed, s->label)};
+                      .doubt = exact ? kz_doubt_of_all(chunks->counts.doubtful, kz_own_cells(&scene->basin))
+                                     : kz_doubt_count(&scene->basin, s->followed, s->label)};
   measure_numerics(scene, dynamics, &labels, summary);
   return kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary);
 }
@@ -54,7 +56,7 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
                               kz_store *store, FILE *summary) {
   const kz_run *run = labelling->run;
   KZ_TRY(kz_label_window(labelling));
-  KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
+  if (scene->basin.method != KZ_METHOD_EXACT) KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
   KZ_TRY(kz_ranks_agree(run->ranks, kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue)));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   kz_chunks chunks = {.labelling = labelling,
@@ -78,7 +80,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
                                        .seed = plan->seed,
                                        .max_periods = plan->max_periods,
                                        .cells = plan->theta.count * plan->velocity.count,
-                                       .table_theta = plan->method == KZ_METHOD_DIRECT ? 0 : plan->table_theta,
+                                       .table_theta = plan->method == KZ_METHOD_ICM ? plan->table_theta : 0,
                                        .table_velocity = plan->table_velocity}};
   kz_catalogue catalogue = {0};
   sample s = {0};
@@ -104,7 +106,7 @@ static kz_status write_undamped(const kz_scene *scene, kz_store *store, FILE *su
   const kz_labels labels = {.cells = tiles.cells, .counts = {.unsettled = tiles.cells}, .step_error = NAN, .table_error = NAN};
   fprintf(summary, "basin: without damping nothing attracts: every cell is labelled -1\n");
   KZ_TRY(kz_basin_declare(scene, &tiles, store));
-  KZ_TRY(kz_chunks_write_unsettled(&tiles, (uint32_t)scene->basin.max_periods, store));
+  KZ_TRY(kz_chunks_write_unsettled(&scene->basin, &tiles, store));
   return kz_basin_write(scene, &(kz_catalogue){0}, &labels, store, summary);
 }
 
@@ -140,7 +142,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   const kz_basin_plan *plan = &scene->basin;
   const kz_tiles tiles = kz_tiles_of(scene, CELLS);
   double cells = (double)plan->theta.count * (double)plan->velocity.count;
-  double nodes = plan->method == KZ_METHOD_DIRECT ? 0 : (double)plan->table_theta * (double)plan->table_velocity;
+  double nodes = plan->method == KZ_METHOD_ICM ? (double)plan->table_theta * (double)plan->table_velocity : 0;
   double regions = pow((double)kz_regions_cells(plan->theta.count * plan->velocity.count), 2);
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
@@ -148,10 +150,13 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
-  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1};
+  const int32_t method = plan->accuracy >= 1 ? KZ_METHOD_EXACT : plan->method;
+  /* exact: with tangent map, finer steps and changes of coordinates; then one cell of 25 in quad precision */
+  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_EXACT] = 20};
+  static const double others[] = {[KZ_METHOD_ICM] = 7e-8, [KZ_METHOD_DIRECT] = 0, [KZ_METHOD_EXACT] = 1e-4 / 25};
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const double periods = kz_settling_cells(pendulum->beta, plan->max_periods);
-  double cell_period = integrated[plan->method] * period + (plan->method == KZ_METHOD_DIRECT ? 0 : 7e-8);
+  double cell_period = integrated[method] * period + others[method];
   kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
                   .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes(cells),
                   .memory_bytes = 14 * nodes + 100 * regions + 40 * (double)kz_tile_room(&tiles),

@@ -97,7 +97,7 @@ static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *sto
 kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store) {
   KZ_TRY(write_axis(&scene->basin.theta, "theta", store));
   KZ_TRY(write_axis(&scene->basin.velocity, "velocity", store));
-  return kz_chunks_declare(tiles, store);
+  return kz_chunks_declare(&scene->basin, tiles, store);
 }
 
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
@@ -112,13 +112,13 @@ kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, c
             "; motions here shrink e-fold in some %.0f: basin.max_periods, or basin.attractors.max_period, may be too small",
             1 / (M_PI * scene->parameters.pendulum.beta));
   fprintf(summary, "\n");
-  if (plan->flag_undecided) {
-    fprintf(summary, "%lld cells are undecided: the last place of the start changes their label\n",
+  if (plan->method == KZ_METHOD_EXACT) {
+    fprintf(summary, "%lld cells are undecided: not even quad precision tells where they end\n",
             (long long)labels->counts.undecided);
     KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.undecided));
   }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
   KZ_TRY(write_numerics(scene, store));
-  KZ_TRY(kz_doubt_write(&labels->doubt, plan->method != KZ_METHOD_DIRECT, store, summary));
+  KZ_TRY(kz_doubt_write(&labels->doubt, plan->method, store, summary));
   return write_measures(plan, labels, store, summary);
 }

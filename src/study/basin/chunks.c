@@ -8,9 +8,14 @@
 
 #include "kapitza/store.h"
 
-enum { VARIABLES = 3 };
-static const char *const variables[VARIABLES] = {"attractor", "settling_time", "evidence"};
-static const size_t items[VARIABLES] = {sizeof(int16_t), sizeof(uint32_t), sizeof(uint8_t)};
+enum { VARIABLES = 4 };
+static const char *const variables[VARIABLES] = {"attractor", "settling_time", "evidence", "other_attractor"};
+static const size_t items[VARIABLES] = {sizeof(int16_t), sizeof(uint32_t), sizeof(uint8_t), sizeof(int16_t)};
+
+/* The last one is of method exact. */
+static int count_variables(const kz_basin_plan *plan) {
+  return plan->method == KZ_METHOD_EXACT ? VARIABLES : VARIABLES - 1;
+}
 
 /* A chunk of each variable, packed; a message has one or two of them. */
 typedef struct {
@@ -28,7 +33,7 @@ static bool is_circle(const kz_basin_plan *plan) {
   return plan->theta.max - plan->theta.min == 2 * M_PI;
 }
 
-/* The cells of the tile in c->ids, c->periods, c->evidence. */
+/* The cells of the tile in c->ids, c->evidence. */
 static void count(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
@@ -46,10 +51,10 @@ static void count(kz_chunks *c, int64_t tile) {
 
 static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
   const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
-  const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence};
+  const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence, c->others};
   head h = {.tile = tile};
   char *end = message + *bytes + sizeof h;
-  for (int v = 0; v < VARIABLES; v++) {
+  for (int v = 0; v < count_variables(c->labelling->plan); v++) {
     if ((h.bytes[v] = kz_pack_into(arrays[v], n, items[v], end)) == 0)
       return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
     end += h.bytes[v];
@@ -59,6 +64,19 @@ static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *b
   return KZ_OK;
 }
 
+/* The id of a number of kz_dynamics, or of its mirror image; -1 of none. */
+static int16_t id_of(const kz_chunks *c, int16_t label, bool mirrored) {
+  const int32_t id = label > 0 ? c->catalogue->id_of[label] : -1;
+  return (int16_t)(mirrored && id >= 0 ? c->catalogue->entries[id].mirror : id);
+}
+
+/* Two ids change places and become those of the mirror images. */
+static void swap_mirrored(const kz_chunks *c, int16_t *a, int16_t *b) {
+  const int16_t former = *a;
+  *a = (int16_t)(*b < 0 ? *b : c->catalogue->entries[*b].mirror);
+  *b = (int16_t)(former < 0 ? former : c->catalogue->entries[former].mirror);
+}
+
 /* The cells of a tile from its own ones: the second half of the tile in the middle mirrors the first. */
 static void fill(kz_chunks *c, int64_t tile) {
   const kz_labelling *l = c->labelling;
@@ -66,21 +84,23 @@ static void fill(kz_chunks *c, int64_t tile) {
   for (int64_t i = 0; i < n; i++) {
     const bool mirrored = i >= own;
     const kz_labelled *cell = &l->cell[mirrored ? n - 1 - i : i];
-    const int32_t id = cell->label > 0 ? c->catalogue->id_of[cell->label] : -1;
-    c->ids[i] = (int16_t)(mirrored && id >= 0 ? c->catalogue->entries[id].mirror : id);
+    c->ids[i] = id_of(c, cell->label, mirrored);
+    c->others[i] = id_of(c, cell->other, mirrored);
     c->periods[i] = cell->periods;
-    c->evidence[i] = id < 0 ? KZ_UNSETTLED : cell->periods == 0 ? KZ_INSIDE : cell->evidence;
+    c->evidence[i] = cell->evidence;
+    if (cell->evidence != KZ_UNDECIDED && c->ids[i] < 0) c->evidence[i] = KZ_UNSETTLED;
+    if (cell->evidence == KZ_FOLLOWED && cell->periods == 0) c->evidence[i] = KZ_INSIDE;
+    c->counts.doubtful += !mirrored && cell->evidence >= KZ_UNDECIDED;
   }
 }
 
 /* The tile becomes its mirror image. */
 static void mirror(kz_chunks *c, int64_t n) {
   for (int64_t i = 0, j = n - 1; i <= j; i++, j--) {
-    const int16_t id = c->ids[i], other = c->ids[j];
     const uint32_t periods = c->periods[i];
     const uint8_t evidence = c->evidence[i];
-    c->ids[i] = (int16_t)(other < 0 ? other : c->catalogue->entries[other].mirror);
-    c->ids[j] = (int16_t)(id < 0 ? id : c->catalogue->entries[id].mirror);
+    swap_mirrored(c, c->ids + i, c->ids + j);
+    swap_mirrored(c, c->others + i, c->others + j);
     c->periods[i] = c->periods[j];
     c->periods[j] = periods;
     c->evidence[i] = c->evidence[j];
@@ -115,7 +135,7 @@ static kz_status make(void *context, const kz_piece *piece, void *message, size_
 static kz_status write_chunks(const kz_chunks *c, const head *h, const char *packed) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t place[] = {h->tile / tiles->across * tiles->chunk[0], h->tile % tiles->across * tiles->chunk[1]};
-  for (int v = 0; v < VARIABLES; packed += h->bytes[v++])
+  for (int v = 0; v < count_variables(c->labelling->plan); packed += h->bytes[v++])
     KZ_TRY(kz_store_chunk(c->store, "basin", variables[v], place, packed, h->bytes[v]));
   return KZ_OK;
 }
@@ -132,8 +152,8 @@ static kz_status take(void *context, const void *message, size_t bytes) {
   return KZ_OK;
 }
 
-kz_status kz_chunks_declare(const kz_tiles *tiles, kz_store *store) {
-  for (int v = 0; v < VARIABLES; v++) KZ_TRY(kz_store_chunked(store, "basin", variables[v], tiles->chunk));
+kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store) {
+  for (int v = 0; v < count_variables(plan); v++) KZ_TRY(kz_store_chunked(store, "basin", variables[v], tiles->chunk));
   return KZ_OK;
 }
 
@@ -142,8 +162,9 @@ static kz_status allocate(kz_chunks *c) {
   c->ids = calloc(n + 1, sizeof *c->ids);
   c->periods = calloc(n + 1, sizeof *c->periods);
   c->evidence = calloc(n + 1, sizeof *c->evidence);
+  c->others = calloc(n + 1, sizeof *c->others);
   c->cells_of = calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
-  if (c->ids && c->periods && c->evidence && c->cells_of) return KZ_OK;
+  if (c->ids && c->periods && c->evidence && c->others && c->cells_of) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
 }
 
@@ -182,24 +203,26 @@ kz_status kz_cells_write(kz_chunks *c) {
   free(c->ids);
   free(c->periods);
   free(c->evidence);
+  free(c->others);
   free(c->cells_of);
   return status;
 }
 
-kz_status kz_chunks_write_unsettled(const kz_tiles *tiles, uint32_t periods, kz_store *store) {
+kz_status kz_chunks_write_unsettled(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store) {
   const size_t n = (size_t)kz_tile_room(tiles);
-  kz_labelling labelling = {.tiles = *tiles};
+  kz_labelling labelling = {.plan = plan, .tiles = *tiles};
   kz_chunks c = {.labelling = &labelling,
                  .store = store,
                  .ids = malloc(n * sizeof *c.ids),
                  .periods = malloc(n * sizeof *c.periods),
-                 .evidence = calloc(n, sizeof *c.evidence)};
+                 .evidence = calloc(n, sizeof *c.evidence),
+                 .others = malloc(n * sizeof *c.others)};
   char *message = malloc(message_room((int64_t)n));
-  const bool has_room = c.ids && c.periods && c.evidence && message;
+  const bool has_room = c.ids && c.periods && c.evidence && c.others && message;
   kz_status status = has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
   for (size_t i = 0; status == KZ_OK && i < n; i++) {
-    c.ids[i] = -1;
-    c.periods[i] = periods;
+    c.ids[i] = c.others[i] = -1;
+    c.periods[i] = (uint32_t)plan->max_periods;
   }
   size_t bytes = 0;
   if (status == KZ_OK) status = pack(&c, 0, message, &bytes);
@@ -210,6 +233,7 @@ kz_status kz_chunks_write_unsettled(const kz_tiles *tiles, uint32_t periods, kz_
   free(c.ids);
   free(c.periods);
   free(c.evidence);
+  free(c.others);
   free(message);
   return status;
 }

@@ -17,14 +17,15 @@ typedef struct {
   int16_t *ids;          /* a tile */
   uint32_t *periods;
   uint8_t *evidence;
+  int16_t *others;   /* second candidates */
   int64_t *cells_of; /* [attractors] cells */
 } kz_chunks;
 
 /* Declares the variables of the cells, whose dimensions are there. Rank 0. */
-kz_status kz_chunks_declare(const kz_tiles *tiles, kz_store *store);
+kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store);
 /* Writes all labels and counts them; the last five fields are its own. Collective. */
 kz_status kz_cells_write(kz_chunks *chunks);
 /* Writes cells that have not settled in `periods`. Rank 0. */
-kz_status kz_chunks_write_unsettled(const kz_tiles *tiles, uint32_t periods, kz_store *store);
+kz_status kz_chunks_write_unsettled(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store);
 
 #endif

@@ -5,15 +5,17 @@
 #include "common/search.h"
 #include "tiles.h"
 
-/* How a label was found: the values of the file's variable `evidence`. */
-enum { KZ_UNSETTLED = 0, KZ_INSIDE = 1, KZ_FOLLOWED = 2, KZ_UNDECIDED = 3 };
+/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: of method exact, not decided by the scene's
+ * own numerics. */
+enum { KZ_UNSETTLED = 0, KZ_INSIDE = 1, KZ_FOLLOWED = 2, KZ_UNDECIDED = 3, KZ_IN_QUAD = 4 };
 
 /* A cell. */
 typedef struct {
   uint32_t periods;
-  int16_t label;    /* number of kz_dynamics, 0 = not settled */
-  uint8_t evidence; /* KZ_FOLLOWED or KZ_UNDECIDED */
-  uint8_t unused;   /* 0 */
+  int16_t label;     /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL until a rung decides it */
+  int16_t other;     /* of an undecided cell: the second candidate, 0 = none */
+  uint8_t evidence;  /* from KZ_FOLLOWED on */
+  uint8_t unused[3]; /* 0 */
 } kz_labelled;
 
 typedef struct kz_workspace kz_workspace;
@@ -28,8 +30,10 @@ typedef struct {
   kz_workspace *work;  /* of this rank */
   kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */
   kz_pieces pieces;    /* tiles of this rank, packed */
-  int64_t *before;     /* [own tiles + 1] unsettled cells in the tiles before */
-  int64_t n_open;      /* cells of the present stage that labels unsettled ones again, */
+  int rung;            /* of the present stage, KZ_RUNGS: candidates of what none decides */
+  int16_t wanted;      /* label of the open cells: 0 or KZ_DOUBTFUL */
+  int64_t *before;     /* [own tiles + 1] open cells in the tiles before */
+  int64_t n_open;      /* cells of the present stage that labels open ones again, */
   const int64_t *open; /* [n_open] */
   int64_t *reached;    /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
 } kz_labelling;

@@ -16,16 +16,25 @@ kz_status kz_label_cells(const kz_labelling *labelling, int64_t first, const int
 size_t kz_labels_room(const kz_labelling *labelling);
 /* Packs the own cells of a tile, labelling->cell. */
 kz_status kz_labels_pack(const kz_labelling *labelling, int64_t tile, void *record);
-/* Unsettled cells of a packed tile. */
-int64_t kz_labels_open(const kz_piece *piece);
+/* Cells of a packed tile with the label `wanted`, 0 or KZ_DOUBTFUL. */
+int64_t kz_labels_open(const kz_piece *piece, int16_t wanted);
 /* Counts the attractors that it reaches. */
 void kz_labels_note_reached(const kz_labelling *labelling, const kz_piece *piece);
 
-/* Counts the unsettled cells of all tiles: labelling->before. Collective. */
-kz_status kz_open_count(kz_labelling *labelling);
-/* Numbers of n of the unsettled cells from .. from + of - 1, evenly chosen, in order: cell [n], on every rank. Collective. */
+/* Labels n cells on labelling->rung, from their centres start [n][2] in rad and rad per drive radian; on KZ_RUNGS: finds the candidates of
+ * cells that no rung decides. label, periods [n]: room. */
+void kz_rung_label(const kz_labelling *labelling, int64_t n, const double *start, int32_t *label, int64_t *periods,
+                   kz_labelled *out);
+/* Labels those that the first rung leaves, in stages of round `round`. Collective. */
+kz_status kz_rungs_climb(kz_labelling *labelling, int round);
+/* Cells that a rung takes at a time. */
+int64_t kz_rung_tile(int rung);
+
+/* Counts the cells of all tiles with the label `wanted`, which are open then: labelling->before. Collective. */
+kz_status kz_open_count(kz_labelling *labelling, int16_t wanted);
+/* Numbers of n of the open cells from .. from + of - 1, evenly chosen, in order: cell [n], on every rank. Collective. */
 kz_status kz_open_pick(kz_labelling *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell);
-/* Labels the unsettled cells of all tiles once more, in stages `name`. Collective. */
+/* Labels the open cells of all tiles on labelling->rung, in stages `name`. Collective. */
 kz_status kz_open_label(kz_labelling *labelling, const char *name);
 
 #endif

@@ -1,17 +1,20 @@
-/* Cells that have not settled: counted, picked and labelled again, a bounded number at a time. */
+/* Open cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "label_parts.h"
 
-enum {
-  MOST_OPEN = 1 << 20, /* cells that a rank lists at a time; more than a tile has */
-  TILE = 4096          /* of them, at most */
-};
+enum { MOST_OPEN = 1 << 20 }; /* cells that a rank lists at a time; more than a tile has */
 
-kz_status kz_open_count(kz_labelling *l) {
+static int64_t tile_size(const kz_labelling *l) {
+  const int64_t most = kz_rung_tile(l->rung);
+  return l->batch < most ? l->batch : most;
+}
+
+kz_status kz_open_count(kz_labelling *l, int16_t wanted) {
+  l->wanted = wanted;
   int64_t *before = memset(l->before, 0, (size_t)(l->tiles.own + 1) * sizeof *before);
-  for (int64_t i = 0; i < l->pieces.n; i++) before[l->pieces.list[i].tile + 1] = kz_labels_open(&l->pieces.list[i]);
+  for (int64_t i = 0; i < l->pieces.n; i++) before[l->pieces.list[i].tile + 1] = kz_labels_open(&l->pieces.list[i], wanted);
   KZ_TRY(kz_ranks_sum(l->run->ranks, before, l->tiles.own + 1));
   for (int64_t tile = 0; tile < l->tiles.own; tile++) before[tile + 1] += before[tile];
   return KZ_OK;
@@ -24,7 +27,7 @@ static kz_status pick_from(kz_labelling *l, const kz_piece *piece, int64_t from,
   if (i >= n || from + i * of / n >= end || end == number) return KZ_OK;
   KZ_TRY(kz_labels_unpack(l, piece));
   for (int64_t k = 0; i < n && number < end; k++) {
-    if (l->cell[k].label != 0) continue;
+    if (l->cell[k].label != l->wanted) continue;
     if (from + i * of / n == number) cell[i++] = first + k;
     number++;
   }
@@ -41,11 +44,11 @@ kz_status kz_open_pick(kz_labelling *l, int64_t from, int64_t of, int64_t n, int
 
 static kz_status label_open(void *context, int64_t tile, void *record) {
   const kz_labelling *l = context;
-  const int64_t size = l->batch < TILE ? l->batch : TILE, first = tile * size, left = l->n_open - first;
+  const int64_t size = tile_size(l), first = tile * size, left = l->n_open - first;
   return kz_label_cells(l, 0, l->open + first, left < size ? left : size, record);
 }
 
-/* The new labels of the listed cells, of which the first is unsettled cell `from`, replace those of a tile of this rank. */
+/* The new labels of the listed cells, of which the first is open cell `from`, replace those of a tile of this rank. */
 static kz_status merge(kz_labelling *l, kz_piece *piece, int64_t from, const kz_labelled *found, void *record) {
   int64_t number = l->before[piece->tile] - from;
   const int64_t end = l->before[piece->tile + 1] - from;
@@ -53,7 +56,7 @@ static kz_status merge(kz_labelling *l, kz_piece *piece, int64_t from, const kz_
   if (number < 0 || number == end || end > l->n_open) return KZ_OK;
   KZ_TRY(kz_labels_unpack(l, piece));
   for (int64_t k = 0; number < end; k++)
-    if (l->cell[k].label == 0) l->cell[k] = found[number++];
+    if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
   KZ_TRY(kz_labels_pack(l, piece->tile, record));
   KZ_TRY(kz_pieces_add(&packed, piece->tile, record, *(uint64_t *)record));
   free(piece->data);
@@ -62,9 +65,9 @@ static kz_status merge(kz_labelling *l, kz_piece *piece, int64_t from, const kz_
   return KZ_OK;
 }
 
-/* The unsettled cells of tiles from .. to - 1. */
+/* The open cells of tiles from .. to - 1. */
 static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, int64_t to, int64_t *open) {
-  const int64_t size = l->batch < TILE ? l->batch : TILE;
+  const int64_t size = tile_size(l);
   l->open = open;
   l->n_open = l->before[to] - l->before[from];
   kz_stage stage = {.name = name,

@@ -54,19 +54,22 @@ static kz_status check_table(const kz_labelling *l) {
   return kz_steps_check_table(l->plan, kz_dynamics_table_defect(l->dynamics, kz_stencil(l->plan->interpolation)));
 }
 
+/* `exact` alone leaves doubtful cells. */
 static kz_status run_rounds(kz_labelling *l) {
   KZ_TRY(discover(l, false));
   KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
+  KZ_TRY(kz_rungs_climb(l, 1));
   for (int round = 1; round < ROUNDS; round++) {
     char name[32];
-    KZ_TRY(kz_open_count(l));
+    KZ_TRY(kz_open_count(l, 0));
     if (l->before[l->tiles.own] == 0) return KZ_OK;
     const int64_t known = kz_dynamics_count(l->dynamics);
     KZ_TRY(discover(l, true));
     if (kz_dynamics_count(l->dynamics) == known) return KZ_OK;
     snprintf(name, sizeof name, "cells %d", round + 1);
     KZ_TRY(kz_open_label(l, name));
+    KZ_TRY(kz_rungs_climb(l, round + 1));
   }
   return KZ_OK;
 }

@@ -40,9 +40,15 @@ void kz_start_state(double theta, double velocity, double state[2]) {
   state[1] = velocity;
 }
 
+void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]) {
+  start[0] = kz_axis_centre(&plan->theta, f % plan->theta.count);
+  start[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
+}
+
 void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
-  kz_start_state(kz_axis_centre(&plan->theta, f % plan->theta.count), kz_axis_centre(&plan->velocity, f / plan->theta.count),
-                 state);
+  double start[2];
+  kz_cell_start(plan, f, start);
+  kz_start_state(start[0], start[1], state);
 }
 
 int32_t kz_stencil(int32_t interpolation) {
@@ -54,7 +60,7 @@ const char *const kz_interpolation_names[] = {KZ_INTERPOLATION_WORDS};
 const char *const kz_precision_names[] = {KZ_PRECISION_WORDS};
 
 int32_t kz_way(int32_t method, int32_t interpolation) {
-  return method == KZ_METHOD_DIRECT ? KZ_FOLLOW_DIRECT : kz_stencil(interpolation);
+  return method == KZ_METHOD_ICM ? kz_stencil(interpolation) : KZ_FOLLOW_DIRECT;
 }
 
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {

@@ -24,7 +24,8 @@ int64_t kz_own_cells(const kz_basin_plan *plan);
 
 /* The state of a start in rad and rad per drive radian: half-turns in [-1, 1] and velocity. */
 void kz_start_state(double theta, double velocity, double state[2]);
-/* State of cell f, velocity-major. */
+/* Centre of cell f, velocity-major, in rad and rad per drive radian; its state. */
+void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]);
 void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
 
 /* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */

@@ -18,18 +18,18 @@ int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i) {
 }
 
 int64_t kz_doubt_cells(const kz_basin_plan *plan) {
-  const int64_t own = kz_own_cells(plan);
+  const int64_t own = plan->method == KZ_METHOD_EXACT ? 0 : kz_own_cells(plan);
   return own < SAMPLE ? own : SAMPLE;
 }
 
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const sample *s = context;
   int32_t *label = record;
-  double state[2 * TILE];
+  double start[2 * TILE];
   int64_t periods[TILE];
   const int64_t first = tile * TILE, left = kz_doubt_cells(s->plan) - first, n = left < TILE ? left : TILE;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(s->plan, kz_doubt_cell(s->plan, first + i), state + 2 * i);
-  kz_dynamics_follow(s->dynamics, KZ_FOLLOW_ERRORS, n, s->plan->max_periods, state, label, periods);
+  for (int64_t i = 0; i < n; i++) kz_cell_start(s->plan, kz_doubt_cell(s->plan, first + i), start + 2 * i);
+  kz_dynamics_follow_errors(s->dynamics, KZ_RUNG_DOUBLE, n, s->plan->max_periods, start, label, periods);
   return KZ_OK;
 }
 
@@ -56,14 +56,23 @@ kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynam
   return kz_stage_run(run, &stage, followed);
 }
 
-static void tell(const kz_doubt *doubt, bool with_table, FILE *summary) {
+kz_doubt kz_doubt_of_all(int64_t doubtful, int64_t n) {
+  return (kz_doubt){n, kz_share_of_part(doubtful, n, n), kz_share_of_part(0, n, n)};
+}
+
+static void tell(const kz_doubt *doubt, int32_t method, FILE *summary) {
   const kz_share *share = &doubt->doubtful, *other = &doubt->differing;
+  if (method == KZ_METHOD_EXACT) {
+    fprintf(summary, "%.3g %% of the cells are doubtful by the scene's own numerics: followed again in more precision\n",
+            100 * share->share);
+    return;
+  }
   fprintf(
       summary,
       "%.3g %% of the labels are doubtful (95 %%: %.3g to %.3g %%): steps and rounding may change them; %lld cells integrated "
       "again\n",
       100 * share->share, 100 * share->low, 100 * share->high, (long long)doubt->cells);
-  if (with_table)
+  if (method == KZ_METHOD_ICM)
     fprintf(summary, "%.3g %% more (95 %%: %.3g to %.3g %%) are labelled otherwise than by integration\n", 100 * other->share,
             100 * other->low, 100 * other->high);
   if (share->share > MANY)
@@ -85,9 +94,9 @@ static kz_status write_share(const char *name, const kz_share *share, kz_store *
   return KZ_OK;
 }
 
-kz_status kz_doubt_write(const kz_doubt *doubt, bool with_table, kz_store *store, FILE *summary) {
+kz_status kz_doubt_write(const kz_doubt *doubt, int32_t method, kz_store *store, FILE *summary) {
   if (doubt->cells == 0) return KZ_OK;
-  tell(doubt, with_table, summary);
+  tell(doubt, method, summary);
   KZ_TRY(write_share("doubtful", &doubt->doubtful, store));
   return write_share("differing", &doubt->differing, store);
 }

@@ -8,12 +8,12 @@
 #include "share.h"
 
 typedef struct {
-  int64_t cells;      /* of the sample; 0 = nothing was asked */
+  int64_t cells;      /* that were asked about; 0 = none */
   kz_share doubtful;  /* share whose label steps and rounding may change */
   kz_share differing; /* share with another label than a decided one: errors of the map table */
 } kz_doubt;
 
-/* Cells of the sample. */
+/* Cells of the sample; none for method exact, which asks about all cells. */
 int64_t kz_doubt_cells(const kz_basin_plan *plan);
 /* Cell i of the sample, one of the kz_own_cells: a function of the window, its cells and the seed alone. */
 int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i);
@@ -22,10 +22,12 @@ int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i);
  * a checkpoint. Collective. */
 enum { KZ_DOUBT_TILE = 256 };
 kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed);
-/* What that tells about the labels of the sample's cells: numbers of the same dynamics. */
+/* What method exact tells: of n cells. */
+kz_doubt kz_doubt_of_all(int64_t doubtful, int64_t n);
+/* What the sample tells about the labels of the sample's cells: numbers of the same dynamics. */
 kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, const int64_t *label);
 
 /* Attributes of /basin, and what people read of them. Rank 0. */
-kz_status kz_doubt_write(const kz_doubt *doubt, bool with_table, kz_store *store, FILE *summary);
+kz_status kz_doubt_write(const kz_doubt *doubt, int32_t method, kz_store *store, FILE *summary);
 
 #endif

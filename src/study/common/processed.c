@@ -45,7 +45,7 @@ static void add_window(demand *d, const kz_axis *theta, const kz_axis *velocity,
 
 static void add_basin(demand *d, const kz_basin_plan *plan) {
   add_window(d, &plan->theta, &plan->velocity, plan->method == KZ_METHOD_ICM ? plan->table_velocity : 0);
-  d->tolerance = fmin(d->tolerance, kz_steps_tolerance(plan));
+  if (plan->method != KZ_METHOD_EXACT) d->tolerance = fmin(d->tolerance, kz_steps_tolerance(plan));
 }
 
 static void add_pendulum(demand *d, const kz_scene *scene) {

@@ -183,7 +183,7 @@ static kz_status discover(searching *s) {
       .seed = sweep->seed,
       .max_periods = s->max_periods,
       .cells = basin ? basin->theta.count * basin->velocity.count : 0,
-      .table_theta = basin && basin->method != KZ_METHOD_DIRECT ? basin->table_theta : 0,
+      .table_theta = basin && basin->method == KZ_METHOD_ICM ? basin->table_theta : 0,
       .table_velocity = basin ? basin->table_velocity : 0};
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
   return kz_search_window(s->run, s->dynamics, &search, s->state, s->label);

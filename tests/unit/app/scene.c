@@ -157,7 +157,7 @@ static void errors_name_place_key_and_remedy(void **state) {
   (void)state;
   expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
   expect_refused(GOOD "  method: imc\n", NULL,
-                 "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct (did you mean icm?)");
+                 "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct, exact (did you mean icm?)");
   expect_refused(
       GOOD "  max_periods: 1.5x\n", NULL,
       "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; it must be an integer from 1 to 4000000000");
@@ -177,8 +177,9 @@ static void errors_name_place_key_and_remedy(void **state) {
 /* A word that is gone is answered with the one to use. */
 static void gone_words_name_the_new_one(void **state) {
   (void)state;
-  expect_refused(GOOD "  method: hybrid\n", NULL,
-                 "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct (it is gone: use direct)");
+  expect_refused(
+      GOOD "  method: hybrid\n", NULL,
+      "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct, exact (it is gone: use direct)");
 }
 
 /* What the processed splitting does not carry is left to split6 with its own number of steps. */
@@ -203,7 +204,7 @@ static void first_error_in_document_order(void **state) {
   expect_refused("basin:\n  velocity: {min: 2, max: -2}\npendulum: {k: nan}\n", NULL,
                  "s.yaml:2:27: basin.velocity.max: -2 is too small; it must be greater than min = 2");
   expect_refused("basin:\n  method: xyz\n", NULL,
-                 "s.yaml:2:11: basin.method: \"xyz\" is unknown; it must be one of icm, direct");
+                 "s.yaml:2:11: basin.method: \"xyz\" is unknown; it must be one of icm, direct, exact");
 }
 
 static void scalars_are_strict(void **state) {

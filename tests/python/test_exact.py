@@ -1,0 +1,101 @@
+"""Method exact: every label decided in as much precision as it takes, or flagged."""
+
+import h5py
+import numpy as np
+import pytest
+from conftest import ROOT, datasets
+
+SMALL = ROOT / "scenes" / "small.yaml"
+# Some 13 % of these labels are wrong by any method in double precision.
+LONG = """\
+pendulum: {quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}
+basin:
+  theta: {count: 24}
+  velocity: {min: -2, max: 2, count: 24}
+  method: exact
+  attractors: {starts: 512}
+"""
+# What of its numerics alone gets wrong.
+COARSE = ("--set", "numerics={scheme: split6, steps_per_period: 16, precision: single}")
+UNSETTLED, UNDECIDED, IN_QUAD = 0, 3, 4
+
+
+def cells(path):
+    with h5py.File(path) as file:
+        basin, names = file["basin"], [*file["attractors/name"].asstr(), ""]
+        return {name: basin[name][:] for name in basin} | dict(basin.attrs) | {"name": np.take(names, basin["attractor"][:])}
+
+
+@pytest.fixture(scope="module")
+def exact(kapitza, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("exact")
+    (folder / "s.yaml").write_text(LONG)
+    return folder, kapitza("run", "s.yaml", "--timings", ranks=2, folder=folder)
+
+
+def test_labels_hang_on_no_numerics(kapitza, exact):
+    """A fifth of the labels of coarse steps in single precision are wrong; followed in quad precision from there all are right."""
+    folder, done = exact
+    kapitza("run", "s.yaml", "-o", "direct.h5", *COARSE, "--set", "basin.method=direct", folder=folder)
+    kapitza("run", "s.yaml", "-o", "coarse.h5", *COARSE, folder=folder)
+    fine, coarse, direct = (cells(folder / name) for name in ("s.h5", "coarse.h5", "direct.h5"))
+    decided = (fine["evidence"] != UNDECIDED) & (coarse["evidence"] != UNDECIDED)
+    assert decided.mean() > 0.9
+    assert np.array_equal(fine["name"][decided], coarse["name"][decided])
+    assert np.mean(direct["name"] != fine["name"]) > 0.1
+    assert coarse["doubtful_share"] > fine["doubtful_share"] > 0.1
+    assert {"cells 1", "quad 1"} <= {line[:8].strip() for line in done.stdout.splitlines()}
+
+
+def test_what_is_left_is_flagged_with_two_candidates(exact):
+    folder, done = exact
+    basin = cells(folder / "s.h5")
+    undecided = basin["evidence"] == UNDECIDED
+    assert 0 < np.count_nonzero(undecided) == basin["undecided"] < 0.1 * undecided.size
+    assert f"{basin['undecided']} cells are undecided" in done.stdout
+    assert np.array_equal(undecided, basin["other_attractor"] >= 0)
+    assert np.all(basin["other_attractor"][undecided] != basin["attractor"][undecided])
+    doubtful = np.count_nonzero(basin["evidence"] >= UNDECIDED) / undecided.size
+    assert basin["doubtful_share"] == basin["doubtful_share_low"] == basin["doubtful_share_high"] == pytest.approx(doubtful)
+
+
+def test_ranks_and_stops_change_nothing(kapitza, exact):
+    folder, _ = exact
+    stops = 0
+    for ranks in [1, 3] * 15:
+        limit = 0.2 * 1.6**stops  # s: at last enough for the longest tile
+        done = kapitza("run", "s.yaml", "-o", "parts.h5", "--resume", "--time-limit", f"{limit:.3f}", ranks=ranks, folder=folder,
+                       status=None)
+        if done.returncode != 75:
+            break
+        stops += 1
+    assert done.returncode == 0 and stops > 0, (stops, done.stderr)
+    assert datasets(folder / "parts.h5") == datasets(folder / "s.h5")
+
+
+def test_mirrored_cells_have_mirrored_labels(exact):
+    folder, _ = exact
+    basin = cells(folder / "s.h5")
+    with h5py.File(folder / "s.h5") as file:
+        mirror = np.append(file["attractors/mirror"][:], -1)  # the last one: of -1
+    for name in "attractor", "other_attractor":
+        assert np.array_equal(mirror[basin[name]], basin[name][::-1, ::-1])
+
+
+def test_nothing_is_exact_without_damping(kapitza, tmp_path):
+    kapitza("run", SMALL, "-o", "x.h5", "--set", "pendulum={k: 0.01, damping: 0, m: 0.3}", "--set", "basin.method=exact", folder=tmp_path)
+    basin = cells(tmp_path / "x.h5")
+    assert np.all(basin["attractor"] == -1) and np.all(basin["other_attractor"] == -1) and np.all(basin["evidence"] == UNSETTLED)
+
+
+def test_a_sweep_is_not_exact(kapitza, tmp_path):
+    sweep = "sweep={parameter: drive_amplitude, min: 0.3, max: 0.31, count: 2, measure: [basin_fractions]}"
+    done = kapitza("check", SMALL, "--set", "basin.method=exact", "--set", sweep, folder=tmp_path, status=2)
+    assert "basin.method: exact labels the cells of one pendulum" in done.stderr and done.stderr.count("\n") == 1
+
+
+def test_the_former_flag_names_what_replaces_it(kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text(LONG.replace("method: exact", "flag_undecided: true"))
+    for words in ["s.yaml"], [SMALL, "--set", "basin.flag_undecided=true"]:
+        done = kapitza("check", *words, folder=tmp_path, status=2)
+        assert "basin.flag_undecided: is gone; use basin.method exact" in done.stderr
