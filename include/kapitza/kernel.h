@@ -153,4 +153,29 @@ void kz_pairs_free(kz_pairs *pairs);
  * neighbours; the mirror image goes to the mirror image, to the bit. */
 void kz_pairs_advance(const kz_pairs *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity, int64_t *turns);
 
+/* ---- enclosures ---- */
+
+/* Sets of states that are proved to hold the true motion: no error of a scheme, no rounding is left out. Taylor polynomials, whose
+ * remainders follow from bounds in the complex plane (enclosure_plan.c), in doubles with bounds on every rounding. Parameters and
+ * starts are the doubles given. Rounding to nearest and the compiler's arithmetic are trusted. */
+
+/* All states centre + matrix z with |z[i]| <= reach[i]. A set that begins with reach 1 holds the image of every start
+ * centre0 + matrix0 y, |y[i]| <= 1: z is a function of y with |z[i] - y[i]| <= reach[i] - 1 and |dz[i]/dy[j] - (i == j)| <=
+ * bend[i][j]. A set that has been lost has reach INFINITY. */
+typedef struct {
+  double theta, velocity; /* of the centre: rad in [-pi, pi] or beyond by rounding, rad per drive radian */
+  double matrix[2][2];    /* rows: theta, velocity */
+  double reach[2];
+  double bend[2][2];
+} kz_enclosure;
+
+/* A plan for sets whose centres are not faster than `fastest` (rad per drive radian); those that are get lost. KZ_REFUSED, without
+ * a message, where it takes more than 4096 steps a period. */
+typedef struct kz_enclosure_plan kz_enclosure_plan;
+kz_status kz_enclosure_plan_create(const kz_pendulum *pendulum, double fastest, kz_enclosure_plan **plan);
+void kz_enclosure_plan_free(kz_enclosure_plan *plan);
+
+/* Advances n sets [n] through one drive period, whole turns left out. Multiples of 8 go together at best speed. */
+void kz_enclosures_advance(const kz_enclosure_plan *plan, int64_t n, kz_enclosure *set);
+
 #endif
