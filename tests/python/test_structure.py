@@ -26,6 +26,11 @@ def modules():
     return {name: path for path in FORTRAN for name in re.findall(r"^module (\w+)", path.read_text(), re.MULTILINE)}
 
 
+def test_a_module_is_named_after_its_folder_and_file():
+    named = {path.relative_to(SOURCES): name for name, path in modules().items()}
+    assert not {path: name for path, name in named.items() if name != f"kz_{path.parent.name}_{path.stem}"}
+
+
 def place_of(include, path):
     """The file that `path` includes by that name."""
     layer = SOURCES / path.relative_to(SOURCES).parts[0] if path.is_relative_to(SOURCES) else SOURCES

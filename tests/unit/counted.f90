@@ -5,7 +5,7 @@ module kz_test_counted
   use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
   use kz_kernel_schemes, only: SPLIT6_ROW
   use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_attractors_cycle_search, only: search_t, find_cycle
   implicit none
   private

@@ -4,7 +4,7 @@ module kz_api_close_cycle
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow
   use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_attractors_cycles, only: attractor_t, close_cycle
+  use kz_cycles_cycles, only: attractor_t, close_cycle
   use kz_maps_states, only: enter_states, leave_states
   implicit none
   private

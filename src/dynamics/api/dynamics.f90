@@ -8,7 +8,7 @@ module kz_api_dynamics
   use kz_attractors_chaos, only: find_chaos
   use kz_trapping_growth, only: grow_regions
   use kz_trapping_cell_images, only: PERIODS, make_images
-  use kz_attractors_cycles, only: attractor_t, enter_points
+  use kz_cycles_cycles, only: attractor_t, enter_points
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_trapping_grid, only: make_regions, draw_attractors
   use kz_attractors_cycle_search, only: find_cycle, append

@@ -3,7 +3,7 @@ module kz_api_handle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
   use kz_kernel_map, only: flow_t
   use kz_kernel_step_table, only: numerics_t
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_trapping_cell_images, only: images_t
   use kz_trapping_grid, only: regions_t
   use kz_attractors_cycle_search, only: search_t

@@ -6,8 +6,8 @@ module kz_api_saddles
   use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: known, append_with_mirror
-  use kz_attractors_cycles, only: attractor_t, close_cycle, enter_points, symmetrise
-  use kz_attractors_features, only: find_features
+  use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise
+  use kz_cycles_features, only: find_features
   use kz_saddles_scan, only: scan_strip
   implicit none
   private

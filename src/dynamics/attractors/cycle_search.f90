@@ -3,10 +3,10 @@ module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_step_table, only: pendulum_t
-  use kz_attractors_cycles, only: attractor_t, polish_cycle, enter_points, mirror_image, listed_from_lowest
+  use kz_cycles_cycles, only: attractor_t, polish_cycle, enter_points, mirror_image, listed_from_lowest
   use kz_trapping_ellipses, only: find_ellipses
-  use kz_attractors_newton, only: n_periods, eigenvalues
-  use kz_attractors_features, only: find_features
+  use kz_cycles_newton, only: n_periods, eigenvalues
+  use kz_cycles_features, only: find_features
   use kz_trapping_grid, only: ellipse_at
   use kz_maps_states, only: separation, same_state
   implicit none

@@ -1,12 +1,12 @@
 !> One cycle carried from parameters to parameters: include/kapitza/dynamics.h.
-module kz_attractors_continuation
+module kz_cycles_continuation
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
   use kz_kernel_step_table, only: pendulum_t
-  use kz_attractors_cycles, only: attractor_t, orbit_of
-  use kz_attractors_newton, only: eigenvalues, n_periods, solved, minimal_period
-  use kz_attractors_features, only: find_features
+  use kz_cycles_cycles, only: attractor_t, orbit_of
+  use kz_cycles_newton, only: eigenvalues, n_periods, solved, minimal_period
+  use kz_cycles_features, only: find_features
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private
@@ -187,4 +187,4 @@ contains
     least = minval(separation(cycle%u, cycle%v, x(1), x(2)))
   end function nearest_point
 
-end module kz_attractors_continuation
+end module kz_cycles_continuation

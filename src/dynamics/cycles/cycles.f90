@@ -1,8 +1,8 @@
 !> Cycles of the stroboscopic map: from a state nearby to strobe points and multipliers, symmetry, mirror image.
-module kz_attractors_cycles
+module kz_cycles_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_attractors_newton, only: newton, minimal_period, eigenvalues
+  use kz_cycles_newton, only: newton, minimal_period, eigenvalues
   use kz_maps_states, only: angle_difference, enter_states, same_state, rounded
   implicit none
   private
@@ -201,4 +201,4 @@ contains
     cycle%form = cshift(cycle%form, first - 1, dim=2)
   end subroutine listed_from_lowest
 
-end module kz_attractors_cycles
+end module kz_cycles_cycles

@@ -1,9 +1,9 @@
 !> Features of an attractor over continuous time: mean, amplitude, centre.
-module kz_attractors_features
+module kz_cycles_features
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_step_table, only: pendulum_t
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -113,4 +113,4 @@ contains
     extremum = c(0) + s*(c(1) + s*(c(2) + s*(c(3) + s*(c(4) + s*c(5)))))
   end function turning_angle
 
-end module kz_attractors_features
+end module kz_cycles_features

@@ -1,10 +1,10 @@
 !> The error of an orbit as the covariance P of its state. A period carries it to J P J^T + d**2 1, with the tangent map J and the
 !> error d that steps and rounding make within the period. An orbit whose error grows large is doubtful: its label is not decided.
 !> It is trapped once a trapping region holds the whole ellipse of P.
-module kz_maps_covariance
+module kz_labels_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, WIDTH, PI
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t, find_regions
   use kz_maps_states, only: angle_difference
   implicit none
@@ -103,4 +103,4 @@ contains
     inside = all(label == a)
   end function holds
 
-end module kz_maps_covariance
+end module kz_labels_covariance

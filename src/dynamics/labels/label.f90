@@ -1,9 +1,9 @@
 !> Follows many starts with any map until each is trapped: another start takes the lane of one that has settled. Starts enter the
 !> coordinates of the map many at a time, and wait.
-module kz_dynamics_label
+module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_kernel_map, only: map_t, WIDTH, ROOM
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
@@ -167,4 +167,4 @@ contains
     lanes%age(lane) = lanes%age(lane) - STAY + 1
   end subroutine visit
 
-end module kz_dynamics_label
+end module kz_labels_label

@@ -3,9 +3,9 @@
 module kz_maps_precise_map
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t
-  use kz_maps_covariance, only: judge_errors
+  use kz_labels_covariance, only: judge_errors
   use kz_maps_states, only: separation
   implicit none
   private

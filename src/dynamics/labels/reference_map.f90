@@ -1,5 +1,5 @@
 !> The reference as a stroboscopic map: states in quad precision, seen by the trapping regions as doubles.
-module kz_maps_reference_map
+module kz_labels_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_maps_states, only: enter_states
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
@@ -105,4 +105,4 @@ contains
     call enter_states(self%flow, self%u(:n), self%v(:n))
   end subroutine advance
 
-end module kz_maps_reference_map
+end module kz_labels_reference_map

@@ -3,7 +3,7 @@
 module kz_saddles_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_attractors_newton, only: n_periods, eigenvalues
+  use kz_cycles_newton, only: n_periods, eigenvalues
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private

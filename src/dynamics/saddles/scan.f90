@@ -3,7 +3,7 @@
 module kz_saddles_scan
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_attractors_newton, only: solved
+  use kz_cycles_newton, only: solved
   use kz_maps_states, only: angle_difference, separation
   use kz_saddles_zeros, only: triangle_zeros
   implicit none

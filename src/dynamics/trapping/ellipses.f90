@@ -6,7 +6,7 @@
 module kz_trapping_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, WIDTH, PI
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_maps_states, only: angle_difference
   implicit none
   private

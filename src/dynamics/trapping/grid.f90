@@ -2,7 +2,7 @@
 !> attractor, overlapped by trapping ellipses, or open.
 module kz_trapping_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_trapping_ellipses, only: in_ellipse
   use kz_trapping_places, only: look_up, side, wrapped_midperiod_angle, WORD
   use kz_maps_states, only: angle_difference, midperiod_angle

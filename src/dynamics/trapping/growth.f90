@@ -5,7 +5,7 @@
 !> the end result does not depend on the order.
 module kz_trapping_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double, int8 => c_int8_t
-  use kz_attractors_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_trapping_ellipses, only: in_ellipse
   use kz_trapping_cell_images, only: images_t, PERIODS, corners_of, extent
   use kz_trapping_grid, only: regions_t, fold_cell, note_closed
