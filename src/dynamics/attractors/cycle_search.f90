@@ -3,7 +3,7 @@ module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: flow_t, PI
   use kz_kernel_step_table, only: pendulum_t
-  use kz_cycles_cycles, only: attractor_t, polish_cycle, enter_points, mirror_image, listed_from_lowest
+  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
   use kz_trapping_ellipses, only: find_ellipses
   use kz_cycles_newton, only: n_periods, eigenvalues
   use kz_cycles_features, only: find_features
@@ -104,8 +104,9 @@ contains
       found = .false.
       if (n_blurred(period) >= BLURRED_TRIES) return
       if (repels(search, period, u(0), v(0))) return
-      call polish_cycle(search%fine, search%pendulum%beta, period, start(1), start(2), max(0.1_dp, 20*distance(period)), candidate, &
+      call close_cycle(search%fine, search%pendulum%beta, period, start(1), start(2), max(0.1_dp, 20*distance(period)), candidate, &
                         found, blurred)
+      if (found) call complete_attractor(candidate, found)
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
       if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_mirror(search, candidate, attractors)

@@ -6,7 +6,7 @@ module kz_cycles_cycles
   use kz_maps_states, only: angle_difference, enter_states, same_state, rounded
   implicit none
   private
-  public :: attractor_t, close_cycle, polish_cycle, orbit_of, enter_points, symmetrise, mirror_image, listed_from_lowest
+  public :: attractor_t, close_cycle, complete_attractor, orbit_of, enter_points, symmetrise, mirror_image, listed_from_lowest
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
@@ -69,34 +69,18 @@ contains
     cycle%multiplier = eigenvalues(matrix, exp(-2*PI*beta*period))
   end subroutine close_cycle
 
-  !> close_cycle, `found` only where the cycle attracts.
-  subroutine polish_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
-    !> a fine flow
-    class(flow_t), intent(inout) :: flow
-    !> damping
-    real(dp), intent(in) :: beta
-    !> a period that closes the cycle
-    integer, intent(in) :: n
-    !> start, half-turns
-    real(dp), intent(in) :: u
-    !> start, rad per drive radian
-    real(dp), intent(in) :: v
-    !> farthest that the cycle may lie from the start, rad
-    real(dp), intent(in) :: max_distance
-    !> the cycle: points, multipliers, period, winding
-    type(attractor_t), intent(out) :: cycle
-    !> whether a cycle was found
-    logical, intent(out) :: found
-    !> whether it was left undecided by rounding
-    logical, intent(out) :: blurred
+  !> Whether a closed cycle attracts; then its exponent and its symmetry become known.
+  subroutine complete_attractor(cycle, attracts)
+    !> what close_cycle found
+    type(attractor_t), intent(inout) :: cycle
+    !> its larger multiplier lies inside the unit circle
+    logical, intent(out) :: attracts
 
-    call close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
-    if (.not. found) return
-    found = abs(cycle%multiplier(1)) < 1
-    if (.not. found) return
+    attracts = abs(cycle%multiplier(1)) < 1
+    if (.not. attracts) return
     cycle%lyapunov = log(abs(cycle%multiplier(1)))/cycle%period
     call symmetrise(cycle)
-  end subroutine polish_cycle
+  end subroutine complete_attractor
 
   !> Strobe points, winding and monodromy of the closed orbit through x.
   subroutine orbit_of(flow, period, x, cycle, matrix)

@@ -112,7 +112,8 @@ contains
 
       label(lanes%start(lane)) = a
       periods(lanes%start(lane)) = lanes%age(lane)
-      state(:, lanes%start(lane)) = [map%u(lane), map%v(lane)]
+      state(1, lanes%start(lane)) = map%u(lane)
+      state(2, lanes%start(lane)) = map%v(lane)
     end subroutine settle
   end subroutine follow
 

@@ -18,8 +18,7 @@ module kz_labels_reference_map
     real(qp) :: theta(ROOM) = 0    !< rad
     real(qp) :: velocity(ROOM) = 0 !< rad per drive radian
     real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
-    real(dp), allocatable :: start_u(:)   !< their half-turns as doubles
-    integer :: last = 0 !< the start that was put last
+    integer :: last = 0 !< number of the start that was put last
     class(flow_t), allocatable :: flow !< in whose coordinates the trapping regions see the states
   contains
     procedure :: put
@@ -48,22 +47,17 @@ contains
     call make_drive(map%drive, pendulum%k, pendulum%beta, pendulum%m, n_steps)
     allocate (map%start, source=start)
     u = wrapped(start(1, :)/PI)
-    allocate (map%start_u, source=u)
     allocate (map%flow, source=flow)
   end subroutine make_reference_map
 
-  !> Puts the next start that looks like (u, v).
+  !> Puts the next start, which is (u, v) in double precision.
   subroutine put(self, lane, u, v)
     class(reference_map_t), intent(inout) :: self
     integer, intent(in) :: lane
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
 
-    do
-      self%last = self%last + 1
-      if (.not. (self%start_u(self%last) < u .or. self%start_u(self%last) > u .or. &
-                 self%start(2, self%last) < v .or. self%start(2, self%last) > v)) exit
-    end do
+    self%last = self%last + 1
     call put_state(self, lane, u, v)
     self%theta(lane) = real(self%start(1, self%last), qp)
     self%velocity(lane) = real(self%start(2, self%last), qp)

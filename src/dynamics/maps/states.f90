@@ -108,15 +108,8 @@ contains
     real(dp), intent(inout) :: u(:)
     !> velocities, rad per drive radian; in and out
     real(dp), intent(inout) :: v(:)
-    integer :: first, n
 
-    do first = 1, size(u), WIDTH
-      n = min(WIDTH, size(u) - first + 1)
-      call put_states(flow, n, u(first:), v(first:))
-      call flow%enter(n)
-      u(first:first + n - 1) = flow%u(:n)
-      v(first:first + n - 1) = flow%v(:n)
-    end do
+    call change_states(flow, .true., u, v)
   end subroutine enter_states
 
   !> And back.
@@ -127,27 +120,31 @@ contains
     real(dp), intent(inout) :: u(:)
     !> velocities, rad per drive radian; in and out
     real(dp), intent(inout) :: v(:)
-    integer :: first, n
 
-    do first = 1, size(u), WIDTH
-      n = min(WIDTH, size(u) - first + 1)
-      call put_states(flow, n, u(first:), v(first:))
-      call flow%leave(n)
-      u(first:first + n - 1) = flow%u(:n)
-      v(first:first + n - 1) = flow%v(:n)
-    end do
+    call change_states(flow, .false., u, v)
   end subroutine leave_states
 
-  subroutine put_states(flow, n, u, v)
+  subroutine change_states(flow, entering, u, v)
     class(flow_t), intent(inout) :: flow
-    integer, intent(in) :: n
-    real(dp), intent(in) :: u(:)
-    real(dp), intent(in) :: v(:)
-    integer :: lane
+    logical, intent(in) :: entering
+    real(dp), intent(inout) :: u(:)
+    real(dp), intent(inout) :: v(:)
+    integer :: first, last, n, lane
 
-    do lane = 1, n
-      call flow%put(lane, u(lane), v(lane))
+    do first = 1, size(u), WIDTH
+      last = min(first + WIDTH - 1, size(u))
+      n = last - first + 1
+      do lane = 1, n
+        call flow%put(lane, u(first + lane - 1), v(first + lane - 1))
+      end do
+      if (entering) then
+        call flow%enter(n)
+      else
+        call flow%leave(n)
+      end if
+      u(first:last) = flow%u(:n)
+      v(first:last) = flow%v(:n)
     end do
-  end subroutine put_states
+  end subroutine change_states
 
 end module kz_maps_states

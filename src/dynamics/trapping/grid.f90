@@ -28,6 +28,7 @@ module kz_trapping_grid
     type(ellipse_overlap_t), allocatable :: overlaps(:)
     integer :: n_overlaps = 0
     integer :: n_drawn = 0    !< attractors that have been drawn
+    integer, allocatable :: mirror(:) !< of each of them, the number of its mirror image
     integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
   end type regions_t
 
@@ -81,6 +82,7 @@ contains
     where (regions%label <= 0) regions%label = regions%drawn
     call note_closed(regions)
     regions%n_drawn = size(attractors)
+    regions%mirror = attractors%mirror
   end subroutine draw_attractors
 
   !> The bits of all cells from their labels: the map of open cells that stays in the cache.
@@ -232,12 +234,12 @@ contains
 
     fold = side(wrapped_midperiod_angle(u, v), v)
     if (cell == size(regions%label)) then
-      a = ellipse_at(attractors, fold*u, fold*v)
+      a = ellipse_at(attractors(:regions%n_drawn), fold*u, fold*v)
     else
       a = regions%label(mod(cell, regions%n_theta), cell/regions%n_theta)
       if (a < 0) a = overlap_at(regions, attractors, -a, fold*u, fold*v)
     end if
-    if (a > 0 .and. fold < 0) a = attractors(a)%mirror
+    if (a > 0 .and. fold < 0) a = regions%mirror(a)
   end function find_region
 
   !> The attractor of the first ellipse that holds (u, v), in the list that begins with overlap `first`; 0 = none.

@@ -48,7 +48,7 @@ contains
     type(waiting_t) :: waiting
     integer :: k, i, l, a
 
-    circle = make_circle(regions, attractors)
+    circle = make_circle(regions)
     do l = 0, regions%n_velocity - 1
       do i = 0, regions%n_theta - 1
         do k = 1, size(PERIODS)
@@ -67,9 +67,8 @@ contains
     call note_closed(regions)
   end subroutine grow_regions
 
-  function make_circle(regions, attractors) result(circle)
+  function make_circle(regions) result(circle)
     type(regions_t), intent(in) :: regions
-    type(attractor_t), intent(in) :: attractors(:)
     type(circle_t) :: circle
     integer :: i, l
 
@@ -77,7 +76,7 @@ contains
     circle%n_theta = regions%n_theta
     circle%n_velocity = regions%n_velocity
     allocate (circle%label(0:2*regions%n_circle - 1, 0:regions%n_velocity - 1), source=0_int8)
-    circle%mirror = int(merge(attractors%mirror, 0, attractors%mirror <= MOST_GROWN), int8)
+    circle%mirror = int(merge(regions%mirror, 0, regions%mirror <= MOST_GROWN), int8)
     do l = 0, regions%n_velocity - 1
       do i = 0, regions%n_theta - 1
         if (regions%label(i, l) > 0) call set(circle, i, l, regions%label(i, l))
@@ -124,7 +123,7 @@ contains
     do while (t > 0)
       a = regions%overlaps(t)%attractor
       if (holds(regions, attractors(a), regions%overlaps(t)%point, x, y, slack_x, slack_y, mirrored)) then
-        if (mirrored) a = attractors(a)%mirror
+        if (mirrored) a = regions%mirror(a)
         return
       end if
       t = regions%overlaps(t)%next

@@ -1,0 +1,129 @@
+!> The C interface of dynamics: the catalogue of attractors (include/kapitza/dynamics.h).
+module kz_api_catalogue
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_f_pointer
+  use kz_kernel_map, only: PI
+  use kz_api_handle, only: dynamics_t, of_handle
+  use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpack
+  use kz_attractors_cycle_search, only: append
+  use kz_cycles_cycles, only: attractor_t, enter_points
+  implicit none
+  private
+
+  type, bind(C) :: attractor_row_t
+    integer(c_int32_t) :: period, winding, centre, symmetric, mirror
+    real(dp) :: mean, mean_velocity, amplitude, multiplier_re(2), multiplier_im(2), lyapunov, lyapunov_error
+  end type attractor_row_t
+
+contains
+
+  subroutine adopt(handle, flat) bind(C, name='kz_dynamics_adopt')
+    type(c_ptr), value :: handle
+    type(c_ptr), value :: flat
+    type(dynamics_t), pointer :: d
+    real(dp), pointer :: values(:)
+    type(attractor_t), allocatable :: new(:)
+    integer :: i
+
+    d => of_handle(handle)
+    call c_f_pointer(flat, values, [max(packed_cycle_size(d%search%max_period), packed_chaos_size())])
+    call unpack(values, new)
+    do i = 1, size(new)
+      call append_known(d, new(i))
+    end do
+  end subroutine adopt
+
+  function packed_size(handle) bind(C, name='kz_dynamics_packed_size') result(n)
+    type(c_ptr), value :: handle
+    integer(c_int64_t) :: n
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    n = size(packed(d%attractors))
+  end function packed_size
+
+  subroutine pack_catalogue(handle, n, flat) bind(C, name='kz_dynamics_pack')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    real(dp), intent(out) :: flat(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    flat = packed(d%attractors)
+  end subroutine pack_catalogue
+
+  subroutine unpack_catalogue(handle, n, flat) bind(C, name='kz_dynamics_unpack')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    real(dp), intent(in) :: flat(n)
+    type(dynamics_t), pointer :: d
+    type(attractor_t), allocatable :: known(:)
+    integer :: i
+
+    d => of_handle(handle)
+    call unpack(flat, known)
+    deallocate (d%attractors)
+    allocate (d%attractors(0))
+    do i = 1, size(known)
+      call append_known(d, known(i))
+    end do
+  end subroutine unpack_catalogue
+
+  !> An attractor that was found elsewhere; its strobe points in the coordinates of this map are found again.
+  subroutine append_known(d, attractor)
+    type(dynamics_t), intent(inout) :: d
+    type(attractor_t), intent(in) :: attractor
+    type(attractor_t) :: entered
+
+    entered = attractor
+    if (entered%period > 0) call enter_points(d%search%flow, entered)
+    call append(d%attractors, entered)
+  end subroutine append_known
+
+  function attractor_count(handle) bind(C, name='kz_dynamics_count') result(n)
+    type(c_ptr), value :: handle
+    integer(c_int64_t) :: n
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    n = size(d%attractors)
+  end function attractor_count
+
+  subroutine attractor_row(handle, number, row, theta, velocity) bind(C, name='kz_dynamics_attractor')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: number
+    type(attractor_row_t), intent(out) :: row
+    real(dp), intent(inout) :: theta(*)
+    real(dp), intent(inout) :: velocity(*)
+    type(dynamics_t), pointer :: d
+    integer :: n
+
+    d => of_handle(handle)
+    associate (a => d%attractors(number))
+      row = attractor_row_t(a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, a%mean_velocity, &
+                            a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
+      n = a%period
+      if (n == 0) return ! a chaotic attractor has no strobe points
+      theta(:n) = half_open(a%u)
+      velocity(:n) = a%v + 0.0_dp
+    end associate
+  end subroutine attractor_row
+
+  !> Half-turns to rad in [-pi, pi), never -0.
+  elemental function half_open(u) result(theta)
+    real(dp), intent(in) :: u
+    real(dp) :: theta
+
+    theta = PI*u + 0.0_dp
+    if (theta >= PI) theta = -PI
+  end function half_open
+
+  subroutine attractor_order(handle, number) bind(C, name='kz_dynamics_order')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), intent(out) :: number(*)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    number(:size(d%attractors)) = order_of(d%attractors)
+  end subroutine attractor_order
+
+end module kz_api_catalogue
