@@ -5,11 +5,11 @@ module kz_api_follow
   use kz_kernel_map, only: map_t
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_step_table, only: numerics_t
-  use kz_maps_covariant_map, only: covariant_map_t, make_covariant_map
+  use kz_labels_covariant_map, only: covariant_map_t, make_covariant_map
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_labels_label, only: follow
   use kz_maps_map_table, only: table_map_t, make_table_map
-  use kz_maps_precise_map, only: precise_map_t, make_precise_map
+  use kz_labels_precise_map, only: precise_map_t, make_precise_map
   use kz_labels_reference_map, only: reference_map_t, make_reference_map
   implicit none
   private

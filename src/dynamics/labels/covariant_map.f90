@@ -1,5 +1,5 @@
 !> Orbits of the scene's map with their errors beside them.
-module kz_maps_covariant_map
+module kz_labels_covariant_map
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
   use kz_cycles_cycles, only: attractor_t
@@ -138,4 +138,4 @@ contains
     rounding = max(self%flow%rounding, epsilon(1.0_dp))
   end function rounding
 
-end module kz_maps_covariant_map
+end module kz_labels_covariant_map

@@ -1,6 +1,6 @@
 !> Orbits in more than double precision with their errors beside them. Their tangent map is the scene's own in double precision,
 !> which is enough for an error.
-module kz_maps_precise_map
+module kz_labels_precise_map
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
   use kz_cycles_cycles, only: attractor_t
@@ -111,4 +111,4 @@ contains
     self%turns(:n) = self%inner%turns(:n)
   end subroutine show
 
-end module kz_maps_precise_map
+end module kz_labels_precise_map
