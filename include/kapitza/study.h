@@ -22,6 +22,24 @@ typedef struct {
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
 enum { KZ_LINEAR = 0, KZ_CUBIC = 1, KZ_QUINTIC = 2 };
 
+/* A list of a scene. */
+enum { KZ_LIST_MAX = 256 };
+typedef struct {
+  int64_t count;
+  double values[KZ_LIST_MAX];
+} kz_reals;
+typedef struct {
+  int64_t count;
+  int64_t values[KZ_LIST_MAX];
+} kz_integers;
+
+enum { KZ_MOST_SHOCK_SIZES = 16 };
+/* Smallest shocks that leave a basin. The size of one is hypot(dtheta, dv / scale). */
+typedef struct {
+  double scale; /* rad per drive radian that count as much as 1 rad */
+  kz_reals sizes;
+} kz_shocks_plan;
+
 typedef struct {
   kz_axis theta;    /* rad; the whole circle is [-pi, pi) */
   kz_axis velocity; /* rad per drive radian */
@@ -33,18 +51,9 @@ typedef struct {
   int64_t max_period;
   int64_t seed;
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
+  bool has_shocks;
+  kz_shocks_plan shocks;
 } kz_basin_plan;
-
-/* A list of a scene. */
-enum { KZ_LIST_MAX = 256 };
-typedef struct {
-  int64_t count;
-  double values[KZ_LIST_MAX];
-} kz_reals;
-typedef struct {
-  int64_t count;
-  int64_t values[KZ_LIST_MAX];
-} kz_integers;
 
 /* Study `attractors`: the counts of the axes are not used. */
 typedef struct {
@@ -66,6 +75,14 @@ typedef struct {
   int32_t kind;
   double length, spacing, max_speed;
 } kz_manifolds_plan;
+
+/* Study `edge`: of the basins of two starts. */
+typedef struct {
+  double first[2], second[2]; /* rad, rad per drive radian */
+  int64_t periods;            /* drive periods that the edge is followed at most */
+  int64_t max_period;         /* longest cycle that is told */
+} kz_edge_plan;
+enum { KZ_EDGE_MOST_PERIOD = 64 };
 
 /* Study `orbit`. Unset: NaN (start), INT64_MIN (attractor, periods, period). */
 typedef struct {
@@ -111,6 +128,7 @@ typedef struct {
   int64_t starts, max_period, seed;
   double start_theta, start_velocity; /* of the bifurcation diagram */
   int64_t transient, samples;         /* drive periods at each value before the record, and of it */
+  double shock_scale;                 /* of resilience, as kz_shocks_plan has it */
 } kz_sweep_plan;
 
 /* Study `chart`: ends of the same starts over a plane of two keys of the pendulum mapping. */
@@ -163,6 +181,8 @@ typedef struct {
   kz_attractors_plan attractors;
   bool has_saddles;
   kz_saddles_plan saddles;
+  bool has_edge;
+  kz_edge_plan edge;
   bool has_manifolds;
   kz_manifolds_plan manifolds;
   bool has_orbit;

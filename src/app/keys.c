@@ -28,6 +28,10 @@
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
 
+#define EDGE_START(place, help)                                                                 \
+  MAPPING("edge." #place, NULL, KZ_NO_FIELD, help),                                             \
+      REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, edge.place[0], "Angle from down."), \
+      REAL("edge." #place ".velocity", "rad per drive radian", -1e9, 1e9, NULL, edge.place[1], "Velocity.")
 #define CHART_AXIS(axis, help)                                                                                                \
   MAPPING("chart." #axis, NULL, KZ_NO_FIELD, help),                                                                           \
       ROW("chart." #axis ".parameter", KZ_KEY_WORD, NULL, AT(chart.axis.parameter),                                           \
@@ -117,6 +121,13 @@ const kz_key kz_keys[] = {
          "sample "
          "followed in quad precision shows to be as right (95 % bound); 1, or what no setting reaches: method exact."),
 
+    MAPPING("basin.shocks", "", AT(basin.has_shocks),
+            "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
+    REAL("basin.shocks.scale", "rad per drive radian", 1e-6, 1e6, "1", basin.shocks.scale,
+         "Change of the velocity that counts as much as 1 rad; the size of a shock is hypot(dtheta, dv/scale)."),
+    ROW("basin.shocks.sizes", KZ_KEY_REALS, "[0.1, 0.3, 1]", AT(basin.shocks.sizes),
+        "Sizes up to which the share of harmless shocks is told, ascending.", .unit = "rad", .low = KZ_ABOVE_ZERO, .high = 1e3),
+
     MAPPING("tradeoff", "", AT(has_tradeoff),
             "Study: time and wrong labels of many settings on the basin's window, compared with quad precision."),
     INTEGER("tradeoff.samples", 10, 1e6, "4000", tradeoff.samples, "Random cells that are compared."),
@@ -158,6 +169,12 @@ const kz_key kz_keys[] = {
          "nearer."),
     REAL("manifolds.max_speed", "rad per drive radian", KZ_ABOVE_ZERO, 1e3, "2", manifolds.max_speed,
          "Parts at larger speeds are left out."),
+
+    MAPPING("edge", "", AT(has_edge), "Study: the saddle on the edge between the basins of two starts, by edge tracking."),
+    EDGE_START(first, "A start; the edge of its basin is followed."),
+    EDGE_START(second, "A start that ends elsewhere."),
+    INTEGER("edge.periods", 1, 1e6, "2000", edge.periods, "Drive periods that the edge is followed at most."),
+    INTEGER("edge.max_period", 1, KZ_EDGE_MOST_PERIOD, "16", edge.max_period, "Longest period of a cycle that is told."),
 
     MAPPING("orbit", "", AT(has_orbit), "Study: one motion, its strobe points, turning points and spectrum."),
     MAPPING("orbit.start", "", KZ_NO_FIELD, "Where it starts, at t = 0; this or an attractor."),
@@ -213,7 +230,8 @@ const kz_key kz_keys[] = {
     INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Values, both ends included."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(sweep.measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
-        "of the starts; flutter_amplitude: of the period-2 cycle about inverted; flutter_zone: how far flutter reaches when "
+        "of the starts; resilience: smallest shocks that leave the basins; flutter_amplitude: of the period-2 cycle about "
+        "inverted; flutter_zone: how far flutter reaches when "
         "m is raised; release_angle: from rest; strobe: a bifurcation diagram.",
         .unit = "", .words_from = kz_sweep_measure_words),
     MAPPING("sweep.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
@@ -229,6 +247,8 @@ const kz_key kz_keys[] = {
     REAL("sweep.start.theta", "rad", -1e6, 1e6, "3.1", sweep.start_theta, "Angle from down."),
     REAL("sweep.start.velocity", "rad per drive radian", -1e9, 1e9, "0", sweep.start_velocity, "Velocity."),
     INTEGER("sweep.transient", 0, 1e7, "400", sweep.transient, "Drive periods of strobe at each value before the record."),
+    REAL("sweep.shock_scale", "rad per drive radian", 1e-6, 1e6, "1", sweep.shock_scale,
+         "Change of the velocity that counts as much as 1 rad in resilience."),
     INTEGER("sweep.samples", 1, 1e5, "64", sweep.samples, "Strobe points of each walk at each value."),
 
     MAPPING("chart", "", AT(has_chart), "Study: where the same starts end, over a plane of two keys of the pendulum mapping."),

@@ -56,6 +56,20 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   check_axis(reading, &scene->basin.velocity, "basin.velocity");
 }
 
+/* Sizes of shocks go up, as an axis does. */
+static void shocks_rules(kz_reading *reading, kz_scene *scene) {
+  const kz_reals *sizes = &scene->basin.shocks.sizes;
+  const kz_node *node = kz_tree_find(reading->root, "basin.shocks.sizes");
+  if (!scene->has_basin || !scene->basin.has_shocks) return;
+  if (sizes->count < 1 || sizes->count > KZ_MOST_SHOCK_SIZES)
+    kz_complain(reading, node, "basin.shocks.sizes", "has %lld values; from 1 to %d", (long long)sizes->count,
+                KZ_MOST_SHOCK_SIZES);
+  for (int64_t i = 1; i < sizes->count; i++)
+    if (!(sizes->values[i] > sizes->values[i - 1]))
+      kz_complain(reading, node, "basin.shocks.sizes", "%s does not exceed the size before it; sizes must go up",
+                  shortest(sizes->values[i]).text);
+}
+
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_attractors) return;
   theta_window(reading, &scene->attractors.theta, "attractors.theta");
@@ -69,6 +83,16 @@ static void saddles_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_saddles) return;
   theta_window(reading, &scene->saddles.theta, "saddles.theta");
   check_axis(reading, &scene->saddles.velocity, "saddles.velocity");
+}
+
+static void edge_rules(kz_reading *reading, kz_scene *scene) {
+  if (!scene->has_edge) return;
+  if (!scene->has_basin && !scene->has_attractors)
+    kz_complain(reading, kz_tree_child(reading->root, "edge"), "edge",
+                "has no catalogue of ends; add a basin or attractors study to the scene");
+  else if (!reading->message[0] && !(scene->parameters.pendulum.beta > 0))
+    kz_complain(reading, kz_tree_child(reading->root, "edge"), "edge",
+                "needs damping: without it nothing attracts, and there are no basins");
 }
 
 static void manifolds_rules(kz_reading *reading, kz_scene *scene) {
@@ -266,9 +290,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,       attractors_rules, saddles_rules,  manifolds_rules, orbit_rules,
-                             stability_rules,   tradeoff_rules,   pendulum_rules, sweep_rules,     chart_rules,
-                             orbit_range_rules, settling_rules,   numerics_rules};
+static const rule rules[] = {basin_rules, shocks_rules,    attractors_rules,  saddles_rules,  manifolds_rules,
+                             orbit_rules, stability_rules, tradeoff_rules,    pendulum_rules, sweep_rules,
+                             chart_rules, edge_rules,      orbit_range_rules, settling_rules, numerics_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -3,6 +3,7 @@
 #include "attractors/attractors.h"
 #include "basin/basin.h"
 #include "chart/chart.h"
+#include "edge/edge.h"
 #include "kapitza/study.h"
 #include "manifolds/manifolds.h"
 #include "orbit/orbit.h"
@@ -16,6 +17,7 @@ const kz_study kz_studies[] = {
     {"attractors", kz_attractors_wanted, kz_attractors_cost, kz_attractors_run, kz_attractors_check},
     {"saddles", kz_saddles_wanted, kz_saddles_cost, kz_saddles_run, NULL},
     {"manifolds", kz_manifolds_wanted, kz_manifolds_cost, kz_manifolds_run, NULL},
+    {"edge", kz_edge_wanted, kz_edge_cost, kz_edge_run, NULL},
     {"orbit", kz_orbit_wanted, kz_orbit_cost, kz_orbit_run, kz_orbit_check},
     {"stability", kz_stability_wanted, kz_stability_cost, kz_stability_run, NULL},
     {"potential", kz_potential_wanted, kz_potential_cost, kz_potential_run, NULL},

@@ -70,6 +70,9 @@ SCENES = {
     "chart with velocities for other angles": (GOOD + "chart: {x: {parameter: drive_frequency, min: 2, max: 3}, "
         "y: {parameter: drive_amplitude, min: 0, max: 1}, start: {theta: [1, 2, 3], velocity: [0, 1]}}\n",
         "9:143", "chart.start.velocity: has 2 values for 3 angles"),
+    "edge without ends": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nedge: {first: {theta: 0, "
+        "velocity: 0}, second: {theta: 1, velocity: 0}}\n", "2:7", "edge: has no catalogue of ends"),
+    "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: 0.5 does not exceed"),
     "sweep without a measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: []}\n",
         "9:74", "sweep.measure"),
     "sweep with an unknown measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: [angle]}\n",

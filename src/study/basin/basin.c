@@ -6,10 +6,13 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "accuracy/accuracy.h"
 #include "common/settling.h"
+#include "common/resilience.h"
 #include "common/step_table.h"
+#include "shocks_write.h"
 
 enum { CELLS = 16384 }; /* of a tile, about: so many that the few that take long hardly leave lanes empty */
 
@@ -52,6 +55,25 @@ static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, con
   return kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary);
 }
 
+/* How far the motions of the catalogue are from the edges of their basins. Collective. */
+static kz_status find_shocks(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue,
+                             kz_store *store, FILE *summary) {
+  const kz_basin_plan *plan = &scene->basin;
+  kz_resilience_plan asked = {.scale = plan->shocks.scale,
+                              .farthest = 2 * kz_axis_fastest(&plan->velocity),
+                              .n_sizes = plan->shocks.sizes.count,
+                              .max_periods = plan->max_periods};
+  kz_resilience *point = NULL;
+  int64_t n = 0;
+  if (!plan->has_shocks) return KZ_OK;
+  memcpy(asked.size, plan->shocks.sizes.values, (size_t)asked.n_sizes * sizeof *asked.size);
+  kz_status status = kz_ranks_agree(labelling->run->ranks, kz_resilience_list(labelling->dynamics, catalogue, &n, &point));
+  if (status == KZ_OK) status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
+  if (status == KZ_OK && store) status = kz_shocks_write(&asked, catalogue, n, point, store, summary);
+  free(point);
+  return kz_ranks_agree(labelling->run->ranks, status);
+}
+
 static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz_catalogue *catalogue, sample *s,
                               kz_store *store, FILE *summary) {
   const kz_run *run = labelling->run;
@@ -66,7 +88,8 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
                       .sample = s->cell,
                       .sample_label = s->label};
   KZ_TRY(kz_cells_write(&chunks));
-  return kz_ranks_agree(run->ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK);
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK));
+  return find_shocks(scene, labelling, catalogue, store, summary);
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

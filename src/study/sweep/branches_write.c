@@ -124,6 +124,21 @@ static double high_of(const kz_sweep_node *node, int64_t samples) {
   return kz_share_of(node->entry.hits, samples).high;
 }
 
+static double shock_angle_of(const kz_sweep_node *node, int64_t samples) {
+  (void)samples;
+  return node->entry.shock[0];
+}
+
+static double shock_kick_of(const kz_sweep_node *node, int64_t samples) {
+  (void)samples;
+  return node->entry.shock[1];
+}
+
+static double shock_size_of(const kz_sweep_node *node, int64_t samples) {
+  (void)samples;
+  return node->entry.shock[2];
+}
+
 static kz_status write_matrix(const writing *w, const char *name, cell_fn cell) {
   const kz_sweep_branches *b = w->branches;
   const int64_t n = w->scene->sweep.values.count * b->n_branches;
@@ -144,14 +159,16 @@ static kz_status write_matrices(const writing *w) {
   static const struct {
     const char *name;
     cell_fn cell;
-    bool fraction;
-  } matrices[] = {{"branch_amplitude", amplitude_of, false}, {"branch_multiplier", multiplier_of, false},
-                  {"branch_theta", theta_of, false},         {"branch_velocity", velocity_of, false},
-                  {"fraction", fraction_of, true},           {"fraction_low", low_of, true},
-                  {"fraction_high", high_of, true}};
-  const bool fractions = kz_sweep_measures(&w->scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
+    int measure; /* that asks for it; the attractors come with all of them */
+  } matrices[] = {
+      {"branch_amplitude", amplitude_of, KZ_SWEEP_ATTRACTORS}, {"branch_multiplier", multiplier_of, KZ_SWEEP_ATTRACTORS},
+      {"branch_theta", theta_of, KZ_SWEEP_ATTRACTORS},         {"branch_velocity", velocity_of, KZ_SWEEP_ATTRACTORS},
+      {"fraction", fraction_of, KZ_SWEEP_BASIN_FRACTIONS},     {"fraction_low", low_of, KZ_SWEEP_BASIN_FRACTIONS},
+      {"fraction_high", high_of, KZ_SWEEP_BASIN_FRACTIONS},    {"shock_angle", shock_angle_of, KZ_SWEEP_RESILIENCE},
+      {"shock_kick", shock_kick_of, KZ_SWEEP_RESILIENCE},      {"shock_size", shock_size_of, KZ_SWEEP_RESILIENCE}};
   for (size_t i = 0; i < sizeof matrices / sizeof matrices[0]; i++)
-    if (fractions || !matrices[i].fraction) KZ_TRY(write_matrix(w, matrices[i].name, matrices[i].cell));
+    if (matrices[i].measure == KZ_SWEEP_ATTRACTORS || kz_sweep_measures(&w->scene->sweep, matrices[i].measure))
+      KZ_TRY(write_matrix(w, matrices[i].name, matrices[i].cell));
   return KZ_OK;
 }
 

@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/catalogue.h"
 #include "common/cells.h"
+#include "common/resilience.h"
 #include "common/search.h"
 #include "common/settling.h"
 #include "sweep.h"
@@ -140,6 +142,7 @@ static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirr
   kz_dynamics_attractor(s->dynamics, number, &row, theta, velocity);
   *mirror = row.mirror;
   kz_sweep_entry entry = {.hits = s->hits[number],
+                          .shock = {NAN, NAN, NAN},
                           .point = {.amplitude = row.amplitude,
                                     .period = row.period,
                                     .winding = row.winding,
@@ -189,13 +192,38 @@ static kz_status discover(searching *s) {
   return kz_search_window(s->run, s->dynamics, &search, s->state, s->label);
 }
 
+/* The smallest shocks over the strobe points of each attractor. Catalogues of a sweep and of a file are in the same order. */
+static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
+  const kz_sweep_plan *sweep = &s->scene->sweep;
+  const kz_resilience_plan plan = {
+      .scale = sweep->shock_scale,
+      .farthest = 2 * kz_axis_fastest(s->n_cells > 0 ? &s->scene->basin.velocity : &sweep->velocity),
+      .max_periods = s->max_periods};
+  kz_catalogue listed = {0};
+  kz_resilience *point = NULL;
+  int64_t n = 0;
+  kz_status status = kz_catalogue_make(s->dynamics, s->hits, &listed);
+  if (status == KZ_OK) status = kz_resilience_list(s->dynamics, &listed, &n, &point);
+  status = kz_ranks_agree(s->run->ranks, status);
+  if (status == KZ_OK) status = kz_resilience_run(s->run, s->dynamics, &plan, n, point);
+  for (int64_t i = 0; status == KZ_OK && i < n; i++)
+    for (int kind = 0; kind < 3; kind++) {
+      double *least = &catalogue->entries[listed.id_of[point[i].number]].shock[kind];
+      *least = fmin(*least, point[i].shock[kind].size); /* of a number and NaN the number */
+    }
+  kz_catalogue_free(&listed);
+  free(point);
+  return status;
+}
+
 static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
   KZ_TRY(discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
   KZ_TRY(kz_ranks_agree(s->run->ranks, s->hits ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
   catalogue->samples = count_hits(s);
-  return collect(s, catalogue);
+  KZ_TRY(kz_ranks_agree(s->run->ranks, collect(s, catalogue)));
+  return kz_sweep_measures(&s->scene->sweep, KZ_SWEEP_RESILIENCE) ? find_shocks(s, catalogue) : KZ_OK;
 }
 
 typedef struct {

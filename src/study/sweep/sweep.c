@@ -30,7 +30,9 @@ static double value_seconds(const kz_scene *scene, const kz_pendulum *pendulum) 
   const double period = 1e-9 * (double)scheme.kicks * scene->numerics.steps_per_period;
   const bool fractions = kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS);
   double seconds = 0;
-  if (fractions || kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS))
+  const bool resilience = kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE);
+  if (resilience) seconds += 5;
+  if (fractions || resilience || kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS))
     seconds += kz_settling_search(pendulum, (double)plan->starts, period, kz_settling_periods(pendulum->beta)) + 0.1;
   if (fractions && scene->has_basin)
     seconds += (double)(scene->basin.table_theta * scene->basin.table_velocity) / 2 * period + 0.1 +
@@ -78,7 +80,9 @@ kz_status kz_sweep_stage(const kz_scene *scene, const kz_run *run, const kz_stag
 /* The catalogues and what joins them. */
 static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
-  if (!kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS) && !kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) return KZ_OK;
+  if (!kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS) && !kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS) &&
+      !kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE))
+    return KZ_OK;
   kz_sweep_branches branches = {0};
   kz_sweep_catalogue *catalogue = malloc((size_t)plan->values.count * sizeof *catalogue);
   kz_status status = catalogue ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld catalogues", (long long)plan->values.count);

@@ -5,10 +5,11 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* What a sweep can measure: its code, its word in the scene, what runs it; NULL: the branches, which serve two measures. */
+/* What a sweep can measure: its code, its word in the scene, what runs it; NULL: the branches, which serve three measures. */
 #define KZ_SWEEP_MEASURES(MEASURE)                                           \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                           \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)                 \
+  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                           \
   MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter) \
   MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range)    \
   MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release)         \
@@ -63,6 +64,7 @@ enum { KZ_SWEEP_MOST = 128 }; /* attractors at one value */
 typedef struct {
   kz_branch_point point; /* period 0 = chaotic: theta, velocity are its mean angle and mean velocity */
   int64_t hits;          /* starts or cells that ended on it */
+  double shock[3];       /* smallest that leave its basin: of the angle, the velocity, both; NaN = none, or not asked */
 } kz_sweep_entry;
 
 typedef struct {

@@ -8,6 +8,7 @@
 #include "common/catalogue.h"
 #include "common/cells.h"
 #include "common/search.h"
+#include "common/starts.h"
 
 enum {
   BESIDE = 4,        /* starts beside each one */
@@ -26,21 +27,6 @@ typedef struct {
   int32_t *label;      /* [n] number of kz_dynamics, 0 = not settled */
   int64_t *reached;    /* [numbers from 1] */
 } asking;
-
-static kz_search search_of(const kz_scene *scene) {
-  const kz_basin_plan *basin = &scene->basin;
-  const kz_attractors_plan *attractors = &scene->attractors;
-  if (!scene->has_basin)
-    return (kz_search){.window = kz_window_of(&attractors->theta, &attractors->velocity),
-                       .starts = attractors->starts,
-                       .seed = attractors->seed,
-                       .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
-  return (kz_search){.window = kz_window_of(&basin->theta, &basin->velocity),
-                     .starts = basin->starts,
-                     .seed = basin->seed,
-                     .max_periods = basin->max_periods,
-                     .cells = basin->theta.count * basin->velocity.count};
-}
 
 static kz_status allocate(asking *a) {
   const int64_t most = a->n > a->search.starts ? a->n : a->search.starts;
@@ -129,7 +115,7 @@ kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, kz_end
   if (!scene->has_basin && !scene->has_attractors)
     return kz_fail(KZ_REFUSED, "scene: has no window to search for attractors; add a basin or attractors study to it");
   if (n == 0 || scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  asking a = {.scene = scene, .search = search_of(scene), .n = n, .start = start};
+  asking a = {.scene = scene, .search = kz_search_of(scene), .n = n, .start = start};
   kz_status status = allocate(&a);
   if (status == KZ_OK) status = discover(&a);
   for (int64_t first = 0; status == KZ_OK && first < n; first += CHUNK)

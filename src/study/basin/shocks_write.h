@@ -1,0 +1,14 @@
+/* The smallest shocks of a basin in its file. */
+#ifndef KAPITZA_STUDY_SHOCKS_WRITE_H
+#define KAPITZA_STUDY_SHOCKS_WRITE_H
+
+#include <stdio.h>
+
+#include "common/catalogue.h"
+#include "common/resilience.h"
+
+/* Group /shocks, and the smallest of each attractor for people. Rank 0. */
+kz_status kz_shocks_write(const kz_resilience_plan *plan, const kz_catalogue *catalogue, int64_t n, const kz_resilience *point,
+                          kz_store *store, FILE *summary);
+
+#endif

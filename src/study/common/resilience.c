@@ -1,0 +1,130 @@
+#include "resilience.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "starts.h"
+
+typedef struct {
+  kz_dynamics *dynamics;
+  const kz_resilience_plan *plan;
+  const kz_resilience *point;
+  const int64_t *own; /* places of the points that are searched */
+} searching;
+
+kz_status kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n, kz_resilience **point) {
+  const int64_t known = kz_dynamics_count(dynamics);
+  int64_t room = 0, count = 0;
+  for (int64_t id = 0; id < catalogue->count; id++) room += catalogue->entries[id].row.period;
+  *point = calloc((size_t)room + 1, sizeof **point);
+  if (!*point) return kz_fail(KZ_FAILED, "no memory for the strobe points of %lld attractors", (long long)catalogue->count);
+  for (int64_t id = 0; id < catalogue->count; id++) {
+    const kz_entry *entry = catalogue->entries + id;
+    int64_t number = 1;
+    while (number < known && catalogue->id_of[number] != id) number++;
+    for (int64_t phase = 0; phase < entry->row.period; phase++)
+      (*point)[count++] =
+          (kz_resilience){.number = number, .phase = phase, .theta = entry->theta[phase], .velocity = entry->velocity[phase]};
+  }
+  *n = count;
+  return KZ_OK;
+}
+
+/* A kz_ends_fn: by direct integration. */
+static void follow(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods) {
+  const searching *s = context;
+  kz_follow_starts(s->dynamics, s->plan->max_periods, n, start, end, periods);
+}
+
+static kz_status work(void *context, int64_t tile, void *record) {
+  searching *s = context;
+  const kz_resilience *point = s->point + s->own[tile];
+  kz_resilience *out = record;
+  const kz_shock_problem problem = {.ends = follow,
+                                    .context = s,
+                                    .from = {point->theta, point->velocity},
+                                    .own = (int32_t)point->number,
+                                    .scale = s->plan->scale,
+                                    .farthest = s->plan->farthest};
+  *out = *point;
+  KZ_TRY(kz_shocks_find(&problem, out->shock));
+  for (int64_t i = 0; i < s->plan->n_sizes; i++) KZ_TRY(kz_shocks_harmless(&problem, s->plan->size[i], out->harmless + i));
+  return KZ_OK;
+}
+
+/* The place of the mirror image of point i, itself where it has none before it. */
+static int64_t image_of(const kz_resilience *point, int64_t i) {
+  for (int64_t j = 0; j < i; j++) {
+    const bool seam = point[i].theta == -M_PI && point[j].theta == -M_PI;
+    if (point[j].velocity == -point[i].velocity && (seam || point[j].theta == -point[i].theta)) return j;
+  }
+  return i;
+}
+
+/* What holds for a point from what was found at its mirror image. */
+static void mirror(const int32_t *mirrored, const kz_resilience *found, kz_resilience *point) {
+  memcpy(point->harmless, found->harmless, sizeof point->harmless);
+  for (int kind = 0; kind < 3; kind++) {
+    const kz_shock *shock = found->shock + kind;
+    point->shock[kind] =
+        (kz_shock){-shock->theta, -shock->velocity, shock->size, shock->end > 0 ? mirrored[shock->end] : shock->end};
+  }
+}
+
+/* mirrored [count + 1]: the number of each attractor's mirror image, to be freed; NULL where there was no memory. */
+static int32_t *mirrors_of(const kz_dynamics *dynamics) {
+  const int64_t n = kz_dynamics_count(dynamics);
+  const size_t room = (size_t)kz_dynamics_packed_size(dynamics);
+  int32_t *mirrored = calloc((size_t)n + 1, sizeof *mirrored);
+  double *points = malloc(2 * room * sizeof *points);
+  for (int64_t number = 1; points && mirrored && number <= n; number++) {
+    kz_attractor row;
+    kz_dynamics_attractor(dynamics, number, &row, points, points + room);
+    mirrored[number] = row.mirror;
+  }
+  if (!points) {
+    free(mirrored);
+    mirrored = NULL;
+  }
+  free(points);
+  return mirrored;
+}
+
+/* Runs the stage over the points that are not mirror images of others, then fills in those. */
+static kz_status search(const kz_run *run, searching *s, int64_t n, int64_t *own, kz_resilience *found, kz_resilience *point) {
+  int32_t *mirrored = mirrors_of(s->dynamics);
+  int64_t n_own = 0;
+  for (int64_t i = 0; i < n; i++)
+    if (image_of(point, i) == i) own[n_own++] = i;
+  const kz_stage stage = {.name = "shocks",
+                          .n_tiles = n_own,
+                          .record_bytes = sizeof *point,
+                          .work = work,
+                          .context = s,
+                          .keep = true,
+                          .everywhere = true};
+  kz_status status =
+      kz_ranks_agree(run->ranks, mirrored ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the mirror images of attractors"));
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, found);
+  for (int64_t i = 0; status == KZ_OK && i < n_own; i++) point[own[i]] = found[i];
+  for (int64_t i = 0; status == KZ_OK && i < n; i++)
+    if (image_of(point, i) != i) mirror(mirrored, point + image_of(point, i), point + i);
+  free(mirrored);
+  return status;
+}
+
+kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
+                            kz_resilience *point) {
+  if (n == 0) return KZ_OK;
+  int64_t *own = malloc((size_t)n * sizeof *own);
+  kz_resilience *found = malloc((size_t)n * sizeof *found);
+  searching s = {dynamics, plan, point, own};
+  kz_status status = kz_ranks_agree(
+      run->ranks, own && found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the shocks of %lld points", (long long)n));
+  if (status == KZ_OK) status = search(run, &s, n, own, found, point);
+  free(own);
+  free(found);
+  return status;
+}

@@ -1,0 +1,217 @@
+#include "shocks.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  LINE = 2048,   /* points on each side of a line */
+  RINGS = 96,    /* of a disc */
+  RAYS = 256,    /* of a disc */
+  FAN = 24,      /* rays on each side of the best one */
+  PIECES = 32,   /* of a bracket, each round */
+  BRACKETS = 4,  /* nearest parts of a boundary that are followed */
+  PASSES = 12,   /* most grids of a search */
+  SPREAD = 4096, /* shocks of a size */
+  MOST = RINGS * RAYS
+};
+/* A bracket is narrow enough, and a fan, where it is so small a part of the distance. */
+static const double NARROW = 1e-13, CLOSED = 1e-6;
+
+/* Room for one batch of starts. */
+typedef struct {
+  const kz_shock_problem *problem;
+  double *start;    /* [MOST][2] */
+  int32_t *end;     /* [MOST] */
+  int64_t *periods; /* [MOST] */
+} room;
+
+/* Rays from the motion: unit vectors of the norm, and where along each another end lies between near and far. */
+typedef struct {
+  double direction[2], near, far;
+  int32_t end;
+} ray;
+
+static kz_status open_room(const kz_shock_problem *problem, room *r) {
+  *r = (room){problem, malloc(2 * MOST * sizeof(double)), malloc(MOST * sizeof(int32_t)), malloc(MOST * sizeof(int64_t))};
+  return r->start && r->end && r->periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a search of shocks");
+}
+
+static void close_room(room *r) {
+  free(r->start);
+  free(r->end);
+  free(r->periods);
+}
+
+static void put(room *r, int64_t i, const double direction[2], double distance) {
+  for (int c = 0; c < 2; c++) r->start[2 * i + c] = r->problem->from[c] + distance * direction[c];
+}
+
+static void follow(room *r, int64_t n) {
+  r->problem->ends(r->problem->context, n, r->start, r->end, r->periods);
+}
+
+/* Narrows the bracket of each of n rays to its first change on `points` inner points; false for a ray whose bracket shows none. The
+ * far end of a bracket counts as another end only where `sure`. */
+static void narrow(room *r, int n, ray *rays, int points, bool sure, bool *crossed) {
+  for (int i = 0; i < n; i++)
+    for (int j = 1; j <= points; j++)
+      put(r, (int64_t)i * points + j - 1, rays[i].direction, rays[i].near + (rays[i].far - rays[i].near) * j / (points + sure));
+  follow(r, (int64_t)n * points);
+  for (int i = 0; i < n; i++) {
+    const double near = rays[i].near, width = rays[i].far - near;
+    const int32_t *end = r->end + (int64_t)i * points;
+    int j = 1;
+    while (j <= points && end[j - 1] == r->problem->own) j++;
+    crossed[i] = j <= points || sure;
+    if (!crossed[i]) continue;
+    rays[i].near = near + width * (j - 1) / (points + sure);
+    if (j > points) continue;
+    rays[i].far = near + width * j / (points + sure);
+    rays[i].end = end[j - 1];
+  }
+}
+
+/* Bisects the brackets of rays that cross. */
+static void bisect(room *r, int n, ray *rays) {
+  bool crossed[2 * FAN + 1];
+  bool open = true;
+  for (int round = 0; open && round < PASSES; round++) {
+    narrow(r, n, rays, PIECES - 1, true, crossed);
+    open = false;
+    for (int i = 0; i < n; i++) open = open || rays[i].far - rays[i].near > NARROW * rays[i].far;
+  }
+}
+
+/* The smallest shock along a direction and its opposite, up to `farthest`. */
+static kz_shock along_line(room *r, double theta, double velocity, double farthest) {
+  kz_shock shock = {NAN, NAN, NAN, -1};
+  double far = farthest;
+  for (int pass = 0; pass < PASSES; pass++) {
+    ray rays[2] = {{{theta, velocity}, 0, far, -1}, {{-theta, -velocity}, 0, far, -1}};
+    bool crossed[2];
+    narrow(r, 2, rays, LINE, false, crossed);
+    const int best = !crossed[0] || (crossed[1] && rays[1].far < rays[0].far);
+    if (!crossed[best]) break;
+    const bool same = rays[best].far >= far * (1 - 1.5 / LINE);
+    far = rays[best].far;
+    bisect(r, 1, rays + best);
+    if (rays[best].far < far) far = rays[best].far;
+    shock = (kz_shock){rays[best].direction[0] * far, rays[best].direction[1] * far, far, rays[best].end};
+    if (same) break;
+  }
+  return shock;
+}
+
+static ray ray_at(const kz_shock_problem *problem, double angle, double near, double far) {
+  return (ray){{cos(angle), problem->scale * sin(angle)}, near, far, -1};
+}
+
+/* The nearest point of the rings of a disc with another end: its distance, and its angle. Not below: infinite. */
+static double nearest_of_disc(room *r, double radius, double *angle) {
+  for (int i = 0; i < RAYS; i++)
+    for (int ring = 0; ring < RINGS; ring++) {
+      const ray one = ray_at(r->problem, 2 * M_PI * i / RAYS, 0, 0);
+      put(r, (int64_t)i * RINGS + ring, one.direction, radius * (ring + 1) / RINGS);
+    }
+  follow(r, MOST);
+  double nearest = INFINITY;
+  for (int i = 0; i < RAYS; i++)
+    for (int ring = 0; ring < RINGS; ring++) {
+      const double distance = radius * (ring + 1) / RINGS;
+      if (r->end[(int64_t)i * RINGS + ring] == r->problem->own) continue;
+      if (distance < nearest) *angle = 2 * M_PI * i / RAYS;
+      nearest = fmin(nearest, distance);
+      break;
+    }
+  return nearest;
+}
+
+/* The distance of the boundary near a ray that crosses it, minimised by ever narrower fans of rays. */
+static kz_shock slide(room *r, double angle, double width, double far) {
+  kz_shock best = {.size = INFINITY, .end = -1};
+  for (double reach = 0.1; width > CLOSED; width /= FAN / 4.0, reach = fmax(reach / 8, 1e-9)) {
+    ray rays[2 * FAN + 1];
+    bool crossed[2 * FAN + 1];
+    double at[2 * FAN + 1];
+    int n = 0;
+    for (int i = 0; i <= 2 * FAN; i++) {
+      at[i] = angle + width * (i - FAN) / FAN;
+      rays[i] = ray_at(r->problem, at[i], far * (1 - reach), far * (1 + reach / 16));
+    }
+    narrow(r, 2 * FAN + 1, rays, 4 * PIECES, false, crossed);
+    for (int i = 0; i <= 2 * FAN; i++) {
+      if (!crossed[i]) continue;
+      at[n] = at[i];
+      rays[n++] = rays[i];
+    }
+    if (n == 0) break;
+    bisect(r, n, rays);
+    for (int i = 0; i < n; i++) {
+      if (!(rays[i].far < best.size)) continue;
+      best = (kz_shock){rays[i].direction[0] * rays[i].far, rays[i].direction[1] * rays[i].far, rays[i].far, rays[i].end};
+      angle = at[i];
+    }
+    far = best.size;
+  }
+  return best;
+}
+
+/* Discs about the motion, each as large as the nearest boundary that the one before has shown. */
+static kz_shock in_disc(room *r, const kz_shock *first) {
+  kz_shock best = *first;
+  for (int pass = 0; pass < PASSES; pass++) {
+    double angle = 0;
+    const double distance = nearest_of_disc(r, best.size * (1 - 1e-9), &angle);
+    if (!isfinite(distance)) break;
+    const kz_shock found = slide(r, angle, 2 * M_PI / RAYS, distance);
+    if (found.size < best.size) best = found;
+  }
+  return best;
+}
+
+/* A shock of one coordinate in the norm of both. */
+static kz_shock in_norm(const kz_shock *shock, double scale) {
+  kz_shock same = *shock;
+  same.size = hypot(shock->theta, shock->velocity / scale);
+  return same;
+}
+
+kz_status kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
+  room r;
+  kz_status status = open_room(problem, &r);
+  if (status == KZ_OK) {
+    shock[0] = along_line(&r, 1, 0, M_PI);
+    shock[1] = along_line(&r, 0, 1, problem->farthest);
+    const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
+    shock[2] = velocity.size < angle.size || isnan(angle.size) ? velocity : angle;
+    if (!isnan(shock[2].size)) {
+      const double at = atan2(shock[2].velocity / problem->scale, shock[2].theta);
+      const kz_shock near = slide(&r, at, 2 * M_PI / RAYS, shock[2].size);
+      if (near.size < shock[2].size) shock[2] = near;
+      shock[2] = in_disc(&r, shock + 2);
+    }
+  }
+  close_room(&r);
+  return status;
+}
+
+kz_status kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
+  static const double GOLDEN = 0.61803398874989484820;
+  room r;
+  double time = 0;
+  KZ_TRY(open_room(problem, &r));
+  *harmless = (kz_harmless){.shocks = SPREAD};
+  for (int i = 0; i < SPREAD; i++)
+    put(&r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
+  follow(&r, SPREAD);
+  for (int i = 0; i < SPREAD; i++) {
+    if (r.end[i] != problem->own) continue;
+    harmless->harmless++;
+    time += (double)r.periods[i];
+  }
+  harmless->return_time = harmless->harmless > 0 ? time / (double)harmless->harmless : NAN;
+  close_room(&r);
+  return KZ_OK;
+}

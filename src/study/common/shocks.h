@@ -1,0 +1,41 @@
+/* The smallest shocks that push a motion out of its basin: a sudden change of angle, of velocity, or of both. Not collective. */
+#ifndef KAPITZA_STUDY_SHOCKS_H
+#define KAPITZA_STUDY_SHOCKS_H
+
+#include <stdint.h>
+
+#include "kapitza/common.h"
+
+/* Where n starts [n][2] (rad, rad per drive radian) end: end [n], periods [n] until then. */
+typedef void (*kz_ends_fn)(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods);
+
+/* What is asked. The size of a shock (dtheta, dv) is hypot(dtheta, dv / scale). */
+typedef struct {
+  kz_ends_fn ends;
+  void *context;
+  double from[2];  /* the motion: rad, rad per drive radian */
+  int32_t own;     /* its end */
+  double scale;    /* velocity that counts as much as 1 rad, rad per drive radian */
+  double farthest; /* largest change of the velocity, rad per drive radian */
+} kz_shock_problem;
+
+/* A shock: end = where it leads, size NaN where none was found. */
+typedef struct {
+  double theta, velocity, size; /* rad, rad per drive radian, rad */
+  int32_t end;
+} kz_shock;
+
+/* Harmless shocks among evenly spread ones of at most `size`. */
+typedef struct {
+  int64_t harmless, shocks;
+  double return_time; /* mean drive periods of the harmless ones until the end is certain */
+} kz_harmless;
+
+/* The smallest shocks: [0] of the angle alone, [1] of the velocity alone (size: the change itself, rad or rad per drive radian), [2]
+ * of both. Lines and discs are searched on ever finer grids, until a finer one finds nothing nearer; then the boundary between the
+ * nearest points is bisected to rounding, and its distance minimised along it. */
+kz_status kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]);
+
+kz_status kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless);
+
+#endif

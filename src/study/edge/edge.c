@@ -1,0 +1,150 @@
+/* Study `edge`: the saddle on the edge between the basins of two starts. The search for attractors is shared by all ranks, the edge is
+ * followed as one tile. */
+#include "edge.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/catalogue.h"
+#include "common/column.h"
+#include "common/settling.h"
+#include "common/starts.h"
+#include "track.h"
+
+typedef struct {
+  const kz_scene *scene;
+  kz_dynamics *dynamics;
+  kz_search search;
+  double *state; /* [starts of the search][2] */
+  int32_t *label;
+} edging;
+
+bool kz_edge_wanted(const kz_scene *scene) {
+  return scene->has_edge;
+}
+
+kz_cost kz_edge_cost(const kz_scene *scene) {
+  const kz_search search = kz_search_of(scene);
+  const double points = (double)scene->edge.periods + 1;
+  return (kz_cost){.disk_bytes = 64 * points + 40 * (double)search.starts,
+                   .memory_bytes = 64 * points + 40 * (double)search.starts,
+                   .core_seconds = 2e-3 * points + kz_settling_search(&scene->parameters.pendulum, (double)search.starts, 1e-6,
+                                                                      search.max_periods)};
+}
+
+/* Record: the edge, then its orbit [periods + 1][2]. */
+static kz_status work(void *context, int64_t tile, void *record) {
+  const edging *e = context;
+  (void)tile;
+  return kz_edge_track(e->scene, e->dynamics, e->search.max_periods, record, (double *)((kz_edge *)record + 1));
+}
+
+static void name_of(const edging *e, int32_t number, char name[KZ_NAME_LENGTH]) {
+  const size_t room = (size_t)kz_dynamics_packed_size(e->dynamics);
+  double *points = malloc(2 * room * sizeof *points);
+  kz_attractor row;
+  snprintf(name, KZ_NAME_LENGTH, "not settled");
+  if (number > 0 && points) {
+    kz_dynamics_attractor(e->dynamics, number, &row, points, points + room);
+    kz_orbit_name(row.period, row.winding, row.centre, name);
+  }
+  free(points);
+}
+
+/* The id in the group saddles, -1 = not there. */
+static kz_status saddle_of(const kz_edge *edge, kz_store *store, int64_t *saddle) {
+  int64_t n = 0, phases = 0;
+  *saddle = -1;
+  KZ_TRY(kz_store_length(store, "saddles", "saddle", &n));
+  KZ_TRY(kz_store_length(store, "saddles", "phase", &phases));
+  for (int64_t i = 0; i < n; i++)
+    for (int64_t phase = 0; phase < phases; phase++) {
+      double theta, velocity;
+      KZ_TRY(kz_store_number(store, "saddles", "strobe_theta", (int64_t[]){i, phase}, &theta));
+      KZ_TRY(kz_store_number(store, "saddles", "strobe_velocity", (int64_t[]){i, phase}, &velocity));
+      const double gap = theta - edge->theta[0];
+      if (hypot(gap - 2 * M_PI * rint(gap / (2 * M_PI)), velocity - edge->velocity[0]) < 1e-8) *saddle = i;
+    }
+  return KZ_OK;
+}
+
+static kz_status write_group(const kz_edge *edge, const double *orbit, kz_store *store) {
+  const int64_t n = edge->n_periods + 1;
+  KZ_TRY(kz_store_dimension(store, "edge", "strobe", n, NULL));
+  KZ_TRY(kz_store_dimension(store, "edge", "phase", edge->period, NULL));
+  KZ_COLUMN(store, "edge", "theta", n, double, orbit[2 * i]);
+  KZ_COLUMN(store, "edge", "velocity", n, double, orbit[2 * i + 1]);
+  KZ_TRY(kz_store_variable(store, "edge", "strobe_theta", edge->theta));
+  KZ_TRY(kz_store_variable(store, "edge", "strobe_velocity", edge->velocity));
+  KZ_TRY(kz_store_integer(store, "edge", "period", edge->period));
+  KZ_TRY(kz_store_integer(store, "edge", "winding", edge->winding));
+  KZ_TRY(kz_store_real(store, "edge", "exponent", edge->exponent));
+  for (int i = 0; edge->period > 0 && i < 2; i++) {
+    char name[32];
+    snprintf(name, sizeof name, "multiplier_%d_re", i + 1);
+    KZ_TRY(kz_store_real(store, "edge", name, edge->multiplier_re[i]));
+    snprintf(name, sizeof name, "multiplier_%d_im", i + 1);
+    KZ_TRY(kz_store_real(store, "edge", name, edge->multiplier_im[i]));
+  }
+  return KZ_OK;
+}
+
+/* What lies between which basins. */
+static kz_status publish(const edging *e, const kz_edge *edge, const double *orbit, kz_store *store, FILE *summary) {
+  char first[KZ_NAME_LENGTH], second[KZ_NAME_LENGTH], name[KZ_NAME_LENGTH] = "no cycle", full[KZ_NAME_LENGTH + 10] = "";
+  int64_t saddle;
+  name_of(e, edge->first_end, first);
+  name_of(e, edge->second_end, second);
+  if (edge->period > 0) kz_orbit_name(edge->period, edge->winding, edge->centre, name);
+  snprintf(full, sizeof full, "%s%s", edge->period > 0 ? "unstable " : "", name);
+  KZ_TRY(write_group(edge, orbit, store));
+  KZ_TRY(kz_store_text(store, "edge", "name", full));
+  KZ_TRY(kz_store_text(store, "edge", "first_end", first));
+  KZ_TRY(kz_store_text(store, "edge", "second_end", second));
+  KZ_TRY(saddle_of(edge, store, &saddle));
+  KZ_TRY(kz_store_integer(store, "edge", "saddle", saddle));
+  fprintf(summary, "edge between %s and %s: ", first, second);
+  if (edge->period > 0)
+    fprintf(summary, "%s of period %d at %.10g, %.10g, multipliers %.10g and %.3g, after %" PRId64 " periods\n", full,
+            edge->period, edge->theta[0], edge->velocity[0], edge->multiplier_re[0], edge->multiplier_re[1], edge->n_periods);
+  else
+    fprintf(summary, "no cycle of up to %" PRId64 " periods in %" PRId64 "; sides part by %.4g per period: %s\n",
+            e->scene->edge.max_period, edge->n_periods, edge->exponent,
+            edge->exponent > 0 ? "a chaotic saddle, or a long cycle" : "not settled");
+  return KZ_OK;
+}
+
+static kz_status allocate(edging *e) {
+  const kz_scene *scene = e->scene;
+  e->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
+                                   scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
+  e->state = malloc(2 * (size_t)e->search.starts * sizeof *e->state);
+  e->label = malloc((size_t)e->search.starts * sizeof *e->label);
+  if (e->dynamics && e->state && e->label) return KZ_OK;
+  return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)e->search.starts);
+}
+
+static kz_status follow(edging *e, const kz_run *run, kz_store *store, FILE *summary) {
+  const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)e->scene->edge.periods + 1) * sizeof(double);
+  const kz_stage stage = {.name = "edge", .n_tiles = 1, .record_bytes = bytes, .work = work, .context = e, .keep = true};
+  KZ_TRY(kz_ranks_agree(run->ranks, allocate(e)));
+  e->search.max_velocity = kz_dynamics_max_velocity(e->dynamics, &e->search.window);
+  KZ_TRY(kz_search_window(run, e->dynamics, &e->search, e->state, e->label));
+  kz_edge *record = malloc(bytes);
+  kz_status status = kz_ranks_agree(run->ranks, record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for an edge"));
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, record);
+  if (status == KZ_OK && store) status = publish(e, record, (const double *)(record + 1), store, summary);
+  free(record);
+  return status;
+}
+
+kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  edging e = {.scene = scene, .search = kz_search_of(scene)};
+  const kz_status status = follow(&e, run, store, summary);
+  if (e.dynamics) kz_dynamics_free(e.dynamics);
+  free(e.state);
+  free(e.label);
+  return status;
+}

@@ -1,0 +1,11 @@
+/* Study `edge`. */
+#ifndef KAPITZA_STUDY_EDGE_H
+#define KAPITZA_STUDY_EDGE_H
+
+#include "kapitza/study.h"
+
+bool kz_edge_wanted(const kz_scene *scene);
+kz_cost kz_edge_cost(const kz_scene *scene);
+kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+
+#endif

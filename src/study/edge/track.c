@@ -1,0 +1,165 @@
+/* J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96 (2006) 174101: edge tracking. */
+#include "track.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/starts.h"
+
+enum { PIECES = 16, ROUNDS = 16 };
+/* rad: sides are brought so near, and bisected again when they are so far apart. */
+static const double NEAR = 1e-10, FAR = 1e-6;
+/* rad: a cycle holds the edge where it comes back so near for HELD periods; the cycle lies so near. */
+static const double BACK = 1e-5, BESIDE = 1e-3;
+enum { HELD = 16 };
+
+typedef struct {
+  kz_dynamics *dynamics;
+  kz_plan *map; /* of published values */
+  int64_t max_periods;
+  double side[2][2]; /* rad, rad per drive radian; the first one's end is `own` */
+  int32_t own, other;
+} pair;
+
+static double wrapped(double angle) {
+  return angle - 2 * M_PI * rint(angle / (2 * M_PI));
+}
+
+static double distance(const double *a, const double *b) {
+  return hypot(wrapped(a[0] - b[0]), a[1] - b[1]);
+}
+
+/* Brings the sides together, about the first change of the end from the first side on. */
+static void bisect(pair *p) {
+  double point[PIECES - 1][2];
+  int32_t end[PIECES - 1];
+  int64_t periods[PIECES - 1];
+  for (int round = 0; round < ROUNDS && distance(p->side[0], p->side[1]) > NEAR; round++) {
+    const double step[2] = {wrapped(p->side[1][0] - p->side[0][0]) / PIECES, (p->side[1][1] - p->side[0][1]) / PIECES};
+    for (int j = 1; j < PIECES; j++)
+      for (int c = 0; c < 2; c++) point[j - 1][c] = p->side[0][c] + j * step[c];
+    kz_follow_starts(p->dynamics, p->max_periods, PIECES - 1, point[0], end, periods);
+    int first = 0;
+    while (first < PIECES - 1 && end[first] == p->own) first++;
+    if (first < PIECES - 1) {
+      memcpy(p->side[1], point[first], sizeof p->side[1]);
+      p->other = end[first];
+    }
+    if (first > 0) memcpy(p->side[0], point[first - 1], sizeof p->side[0]);
+  }
+}
+
+/* One period of both sides; ln of how much they have parted. */
+static double advance(pair *p) {
+  const double before = distance(p->side[0], p->side[1]);
+  double theta[2] = {p->side[0][0], p->side[1][0]}, velocity[2] = {p->side[0][1], p->side[1][1]};
+  int64_t turns[2] = {0};
+  kz_advance(p->map, 2, 1, theta, velocity, turns);
+  for (int i = 0; i < 2; i++) {
+    p->side[i][0] = theta[i];
+    p->side[i][1] = velocity[i];
+  }
+  return log(distance(p->side[0], p->side[1]) / before);
+}
+
+static void middle(const pair *p, double *state) {
+  state[0] = wrapped(p->side[0][0] + wrapped(p->side[1][0] - p->side[0][0]) / 2);
+  state[1] = (p->side[0][1] + p->side[1][1]) / 2;
+}
+
+/* The fewest periods, up to the longest that is told, after which the orbit has come back for HELD periods; 0 = it has not. */
+static int64_t held_period(const double *orbit, int64_t n, int64_t longest) {
+  for (int64_t period = 1; period <= longest; period++) {
+    int64_t back = 0;
+    while (back < HELD && n - back - period >= 0 && distance(orbit + 2 * (n - back), orbit + 2 * (n - back - period)) < BACK)
+      back++;
+    if (back == HELD) return period;
+  }
+  return 0;
+}
+
+/* The saddle on the edge near `state`; false where there is none, or one with no unstable direction. */
+static bool find_saddle(const kz_scene *scene, const double *state, int64_t n, kz_edge *edge) {
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  kz_numerics fine;
+  kz_numerics_fine(pendulum, &fine);
+  double theta = state[0], velocity = state[1];
+  const int64_t period =
+      kz_dynamics_close_cycle(pendulum, &fine, n, BESIDE, &theta, &velocity, edge->multiplier_re, edge->multiplier_im);
+  if (period == 0 || !(hypot(edge->multiplier_re[0], edge->multiplier_im[0]) > 1)) return false;
+  edge->period = (int32_t)period;
+  edge->theta[0] = theta;
+  edge->velocity[0] = velocity;
+  return true;
+}
+
+/* Down or inverted where the closed motion stays within half a turn of it and its mean within pi/4, as in catalogues. */
+static int32_t centre_of(const pair *p, const kz_edge *edge) {
+  enum { SAMPLES = 96 };
+  double theta[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], velocity[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], mean = 0, farthest = 0;
+  const int64_t n = SAMPLES * edge->period;
+  if (edge->winding != 0) return KZ_ROTATING;
+  kz_sample(p->map, edge->period, SAMPLES, edge->theta[0], edge->velocity[0], theta, velocity);
+  for (int64_t i = 0; i < n; i++) mean += theta[i] / (double)n;
+  const double half_turns = rint(mean / M_PI);
+  for (int64_t i = 0; i < n; i++) farthest = fmax(farthest, fabs(theta[i] - M_PI * half_turns));
+  if (fabs(mean - M_PI * half_turns) >= M_PI / 4 || farthest >= M_PI) return KZ_ABOUT_NEITHER;
+  return fmod(half_turns, 2) == 0 ? KZ_ABOUT_DOWN : KZ_ABOUT_INVERTED;
+}
+
+/* Winding, centre and strobe points of the cycle whose first point is known. */
+static void describe(const pair *p, kz_edge *edge) {
+  double theta = edge->theta[0], velocity = edge->velocity[0], from = theta;
+  int64_t turns = 0;
+  for (int32_t i = 0; i < edge->period; i++) {
+    edge->theta[i] = theta >= M_PI ? -M_PI : theta;
+    edge->velocity[i] = velocity;
+    kz_advance(p->map, 1, 1, &theta, &velocity, &turns);
+  }
+  edge->winding = (int32_t)turns + (int32_t)rint((theta - from) / (2 * M_PI));
+  edge->centre = centre_of(p, edge);
+}
+
+static kz_status follow_edge(const kz_scene *scene, pair *p, kz_edge *edge, double *orbit) {
+  const kz_edge_plan *plan = &scene->edge;
+  double growth = 0;
+  for (int64_t t = 0;; t++) {
+    if (distance(p->side[0], p->side[1]) > FAR || t == 0) bisect(p);
+    middle(p, orbit + 2 * t);
+    edge->n_periods = t;
+    edge->exponent = t > 0 ? growth / (double)t : NAN;
+    const int64_t held = held_period(orbit, t, plan->max_period);
+    if (held > 0 && find_saddle(scene, orbit + 2 * t, held, edge)) {
+      describe(p, edge);
+      edge->exponent = log(hypot(edge->multiplier_re[0], edge->multiplier_im[0])) / edge->period;
+      return KZ_OK;
+    }
+    if (t == plan->periods) return KZ_OK;
+    growth += advance(p);
+  }
+}
+
+kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t max_periods, kz_edge *edge, double *orbit) {
+  const kz_edge_plan *plan = &scene->edge;
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  pair p = {.dynamics = dynamics,
+            .max_periods = max_periods,
+            .side = {{plan->first[0], plan->first[1]}, {plan->second[0], plan->second[1]}}};
+  int32_t end[2];
+  int64_t periods[2];
+  kz_numerics fine;
+  kz_numerics_fine(pendulum, &fine);
+  *edge = (kz_edge){.exponent = NAN};
+  kz_follow_starts(dynamics, max_periods, 2, p.side[0], end, periods);
+  if (end[0] == end[1])
+    return kz_fail(KZ_REFUSED, "edge.second|edge.first: ends where the other start does; give starts of two basins");
+  p.own = end[0];
+  p.other = end[1];
+  p.map = kz_plan_create(pendulum, &fine);
+  if (!p.map) return kz_fail(KZ_FAILED, "no memory to follow an edge");
+  const kz_status status = follow_edge(scene, &p, edge, orbit);
+  edge->first_end = p.own;
+  edge->second_end = p.other;
+  kz_plan_free(p.map);
+  return status;
+}

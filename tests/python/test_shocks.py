@@ -1,0 +1,140 @@
+"""Smallest shocks and edges: against brute force on grids, the saddles between basins, ranks, sweeps."""
+
+import json
+import os
+
+import numpy as np
+import pytest
+from conftest import datasets
+from kapitza import Result
+
+FIG11 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.15}
+EXTENSIVE = os.environ.get("KAPITZA_EXTENSIVE")
+SCALE = 0.5
+EDGE = {"first": {"theta": 3.1, "velocity": 0}, "second": {"theta": 0.1, "velocity": 0}}
+
+
+def run(kapitza, folder, scene, ranks=2):
+    (folder / "s.yaml").write_text(json.dumps(scene))
+    done = kapitza("run", "s.yaml", "--force", ranks=ranks, folder=folder)
+    return Result(folder / "s.h5"), done.stdout
+
+
+@pytest.fixture(scope="module")
+def fig11(kapitza, tmp_path_factory):
+    """Shocks and an edge at Fig. 11, beside its saddles of period 1."""
+    folder = tmp_path_factory.mktemp("shocks")
+    scene = {"pendulum": FIG11, "basin": {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60},
+                                          "shocks": {"scale": SCALE, "sizes": [0.05, 0.5]}},
+             "saddles": {"velocity": {"min": -2, "max": 2}}, "edge": EDGE}
+    return *run(kapitza, folder, scene), folder / "s.h5"
+
+
+def grid(kapitza, folder, pendulum, middle, reach, count):
+    """(other labels than at the grid's middle?, theta, velocity) around a point."""
+    window = {"theta": {"min": middle[0] - reach[0], "max": middle[0] + reach[0], "count": count},
+              "velocity": {"min": middle[1] - reach[1], "max": middle[1] + reach[1], "count": count}}
+    result, _ = run(kapitza, folder, {"pendulum": pendulum, "basin": window})
+    cells, attractors = result.group("basin"), result.group("attractors")
+    return cells["attractor"].values, *np.meshgrid(cells["theta"].values, cells["velocity"].values), attractors
+
+
+def wrapped(angle):
+    return angle - 2 * np.pi * np.rint(angle / (2 * np.pi))
+
+
+def check_against_grids(kapitza, folder, pendulum, shocks, row):
+    """No cell nearer than the shock leaves the basin on a grid of the whole neighbourhood, and on a fine grid about the shock's end the
+    nearest that does is as far as the shock, to 1e-6."""
+    point = np.array([shocks["strobe_theta"].values[row], shocks["strobe_velocity"].values[row]])
+    shock = np.array([shocks["shock_theta"].values[row], shocks["shock_velocity"].values[row]])
+    size = float(shocks["shock_size"].values[row])
+    assert np.hypot(shock[0], shock[1] / SCALE) == pytest.approx(size, rel=1e-12)
+
+    def nearest(middle, reach, count):
+        label, theta, velocity, attractors = grid(kapitza, folder, pendulum, middle, reach, count)
+        own = [i for i in range(attractors.sizes["attractor"])
+               if np.nanmin(np.hypot(wrapped(attractors["strobe_theta"].values[i] - point[0]),
+                                     attractors["strobe_velocity"].values[i] - point[1])) < 1e-8]
+        distance = np.hypot(wrapped(theta - point[0]), (velocity - point[1]) / SCALE)
+        return distance[label != own[0]].min(initial=np.inf) if own else np.inf
+
+    assert nearest(point, (1.02 * size, 1.02 * size * SCALE), 401) > size * (1 - 1e-9)
+    fine = 2e-6
+    assert nearest(point + shock, (fine, fine * SCALE), 41) == pytest.approx(size, abs=fine / 20)
+
+
+def test_no_shorter_shock_leaves_the_basin(fig11, kapitza, tmp_path):
+    result, _, _ = fig11
+    shocks = result.group("shocks")
+    rest = [int(row) for row in np.flatnonzero(np.isfinite(shocks["shock_size"].values) & (shocks["phase"].values == 0))]
+    for row in rest if EXTENSIVE else rest[:1]:
+        check_against_grids(kapitza, tmp_path, FIG11, shocks, row)
+
+
+@pytest.mark.skipif(not EXTENSIVE, reason="KAPITZA_EXTENSIVE is not set")
+@pytest.mark.parametrize("amplitude", [0.3, 0.47])
+def test_no_shorter_shock_leaves_the_basins_of_other_scenes(kapitza, tmp_path, amplitude):
+    pendulum = {**FIG11, "drive_amplitude": amplitude}
+    basin = {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60}, "shocks": {"scale": SCALE}}
+    scene = {"pendulum": pendulum, "basin": basin}
+    shocks = run(kapitza, tmp_path, scene)[0].group("shocks")
+    for row in range(shocks.sizes["point"]):
+        check_against_grids(kapitza, tmp_path, pendulum, shocks, row)
+
+
+def test_shocks_are_mirrored_and_agree_with_each_other(fig11):
+    result, summary, _ = fig11
+    shocks, attractors = result.group("shocks"), result.group("attractors")
+    size, angle, kick = (shocks[name].values for name in ("shock_size", "angle", "kick"))
+    assert np.all(size <= np.fmin(np.abs(angle), np.abs(kick) / SCALE) * (1 + 1e-9)) and np.all(size > 0)
+    assert np.all(shocks["shock_end"].values != shocks["attractor"].values)
+    mirror = attractors["mirror"].values[shocks["attractor"].values]
+    for row in range(shocks.sizes["point"]):
+        beside = np.flatnonzero(shocks["attractor"].values == mirror[row])
+        assert np.min(np.abs(size[beside] - size[row])) < 1e-9 * size[row]
+    harmless = shocks["harmless"].values
+    assert np.all(harmless[size > 0.05][:, 0] == 1) and np.all(harmless >= 0) and np.all(harmless <= 1)
+    assert np.all(harmless[size < 0.5][:, 1] < 1)
+    assert "smallest shocks that leave the basin" in summary
+
+
+def test_the_edge_is_a_listed_saddle(fig11):
+    """Between inverted and down lies a saddle of period 1, which the study saddles has too; the orbit stays on the edge."""
+    result, summary, _ = fig11
+    edge, saddles = result.group("edge"), result.group("saddles")
+    row = edge.attrs["saddle"]
+    assert edge.attrs["first_end"] == "inverted" and edge.attrs["name"] == saddles["name"].values[row]
+    assert edge.attrs["period"] == saddles["period"].values[row] and edge.attrs["winding"] == saddles["winding"].values[row]
+    multipliers = [edge.attrs[f"multiplier_{i}_re"] for i in (1, 2)]
+    assert multipliers == pytest.approx(saddles["multiplier_re"].values[row], rel=1e-7)
+    assert multipliers[0] > 1 > multipliers[1] > 0 and edge.attrs["exponent"] == pytest.approx(np.log(multipliers[0]))
+    last = np.array([edge["theta"].values[-1], edge["velocity"].values[-1]])
+    assert np.hypot(wrapped(last[0] - edge["strobe_theta"].values[0]), last[1] - edge["strobe_velocity"].values[0]) < 1e-3
+    assert "edge between inverted and" in summary
+
+
+def test_starts_that_end_alike_have_no_edge(kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": FIG11, "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 256},
+                                                 "edge": {**EDGE, "second": {"theta": 3.11, "velocity": 0}}}))
+    done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
+    assert "edge.second: ends where the other start does" in done.stderr and not (tmp_path / "s.h5").exists()
+
+
+def test_any_number_of_ranks(fig11, kapitza, tmp_path):
+    _, _, path = fig11
+    kapitza("run", path.with_suffix(".yaml"), "-o", "again.h5", ranks=3, folder=tmp_path)
+    assert datasets(tmp_path / "again.h5") == datasets(path)
+
+
+def test_a_sweep_has_the_same_shocks(fig11, kapitza, tmp_path):
+    """At the value of Fig. 11 the smallest over the strobe points of each attractor."""
+    shocks, attractors = fig11[0].group("shocks"), fig11[0].group("attractors")
+    sweep = {"parameter": "drive_amplitude", "min": 0.15, "max": 0.151, "count": 2, "measure": ["resilience"], "starts": 512,
+             "shock_scale": SCALE}
+    table = run(kapitza, tmp_path, {"pendulum": FIG11, "sweep": sweep})[0].group("sweep").isel(value=0)
+    for branch in range(table.sizes["branch"]):
+        rows = np.flatnonzero(attractors["name"].values == table["branch_name"].values[branch])
+        mine = float(table["shock_size"].values[branch])
+        least = [shocks["shock_size"].values[shocks["attractor"].values == row].min() for row in rows]
+        assert np.min(np.abs(np.array(least) - mine)) < 1e-8

@@ -1,0 +1,86 @@
+/* The smallest shocks over label fields whose boundaries are known. */
+#include <math.h>
+#include <stdbool.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "common/shocks.h"
+
+/* Another end inside of an ellipse about (2, 1), below v = -1.7, in a small disc, and in a thin strip at theta = -2.5. */
+static int32_t end_at(double theta, double velocity, bool small) {
+  if (hypot((theta - 2) / 2, velocity - 1) < 0.5) return 2;
+  if (velocity < -1.7) return 3;
+  if (small && hypot(theta - 0.6, velocity + 0.5) < 0.03) return 4;
+  return theta < -2.5 && theta > -2.51 ? 5 : 1;
+}
+
+static void ends(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods) {
+  const bool *small = context;
+  for (int64_t i = 0; i < n; i++) {
+    end[i] = end_at(start[2 * i], start[2 * i + 1], *small);
+    periods[i] = 3;
+  }
+}
+
+/* The distance of the ellipse from the origin in the norm of `scale`, by brute force. */
+static double ellipse_distance(double scale) {
+  double least = INFINITY;
+  for (int i = 0; i < 4000000; i++) {
+    const double angle = 2 * M_PI * i / 4000000;
+    least = fmin(least, hypot(2 + cos(angle), (1 + sin(angle) / 2) / scale));
+  }
+  return least;
+}
+
+static void test_lines_and_discs(void **state) {
+  (void)state;
+  bool small = false;
+  kz_shock_problem problem = {.ends = ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
+  kz_shock shock[3];
+  assert_true(kz_shocks_find(&problem, shock) == KZ_OK);
+  assert_true(fabs(shock[0].theta + 2.5) < 1e-11 && shock[0].velocity == 0 && shock[0].end == 5);
+  assert_true(fabs(shock[1].velocity + 1.7) < 1e-11 && shock[1].theta == 0 && shock[1].end == 3);
+  assert_true(fabs(shock[2].size - ellipse_distance(1)) < 1e-10 && shock[2].end == 2);
+  assert_true(fabs(hypot(shock[2].theta, shock[2].velocity) - shock[2].size) < 1e-14);
+  problem.scale = 0.5;
+  assert_true(kz_shocks_find(&problem, shock) == KZ_OK && fabs(shock[2].size - ellipse_distance(0.5)) < 1e-10);
+  small = true;
+  problem.scale = 1;
+  assert_true(kz_shocks_find(&problem, shock) == KZ_OK);
+  assert_true(fabs(shock[2].size - (hypot(0.6, 0.5) - 0.03)) < 1e-10 && shock[2].end == 4);
+}
+
+static void test_nothing_to_find(void **state) {
+  (void)state;
+  bool small = false;
+  const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {0, 40}, .own = 1, .scale = 1, .farthest = 1};
+  kz_shock shock[3];
+  assert_true(kz_shocks_find(&problem, shock) == KZ_OK);
+  assert_true(fabs(shock[0].size - 2.5) < 1e-11 && isnan(shock[1].size) && isnan(shock[1].velocity) && shock[1].end == -1);
+  assert_true(fabs(shock[2].size - 2.5) < 1e-10);
+}
+
+/* Of shocks of at most 1.4 the share below v = -1.7 is a circular segment. */
+static void test_share_of_harmless_shocks(void **state) {
+  (void)state;
+  bool small = false;
+  const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};
+  kz_harmless harmless;
+  assert_true(kz_shocks_harmless(&problem, 1.4, &harmless) == KZ_OK);
+  const double half = acos(1.2 / 1.4), segment = (half - sin(half) * cos(half)) / M_PI;
+  assert_true(fabs(1 - segment - (double)harmless.harmless / (double)harmless.shocks) < 2e-3 && harmless.return_time == 3);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_lines_and_discs),
+      cmocka_unit_test(test_nothing_to_find),
+      cmocka_unit_test(test_share_of_harmless_shocks),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
