@@ -82,11 +82,12 @@ static kz_status open_log(job *j) {
     if (strncmp(name, j->path, stem) == 0 && strcmp(name + stem, suffixes[i]) == 0)
       return kz_fail(KZ_REFUSED, "--log: %s: is a name of the result; use another name", name);
   KZ_TRY(kz_log_open(name, &j->log));
-  char ranks[16];
+  char ranks[16], cells[32];
   snprintf(ranks, sizeof ranks, "%d", kz_ranks_count(j->run.ranks));
-  const char *const fields[] = {"program", "kapitza",        "version", KZ_VERSION, "git_revision", KZ_GIT_REVISION,
-                                "command", j->options->line, "file",    j->path,    "#ranks",       ranks,
-                                NULL};
+  snprintf(cells, sizeof cells, "%lld", (long long)kz_cost_of(&j->scene).cells);
+  const char *const fields[] = {"program",       "kapitza", "version",        KZ_VERSION, "git_revision",
+                                KZ_GIT_REVISION, "command", j->options->line, "file",     j->path,
+                                "#ranks",        ranks,     "#cells",         cells,      NULL};
   kz_log_event(j->log, kz_ranks_seconds(j->run.ranks), "begin", fields);
   kz_ranks_set_log(j->run.ranks, j->log);
   return KZ_OK;

@@ -25,7 +25,7 @@ static int answer(kz_draw *draw, int rank, const kz_ask *ask) {
   if (ask->state == FAILED) draw->halted = true;
   kz_schedule_note(schedule, rank, ask->seconds);
   if (!draw->halted) batch.n = kz_schedule_grant(schedule, rank, ask->state == WORKING, &batch.first);
-  batch.more = !draw->halted && schedule->next < schedule->end;
+  batch.more = !draw->halted && schedule->next < schedule->end && (batch.n > 0 || ask->state == WORKING);
   if (!batch.more) --draw->asking;
   if (ask->state == FAILED) return MPI_SUCCESS;
   return MPI_Send(&batch, sizeof batch, MPI_BYTE, rank, ANSWER_TAG, draw->ranks->comm);
@@ -124,13 +124,17 @@ static kz_status next_by_message(kz_draw *draw, int64_t *tile) {
 }
 
 /* Rank 0 takes its tiles one by one: they cost no message. */
+static int64_t take_here(kz_draw *draw) {
+  kz_schedule_note(&draw->schedule, 0, seconds_a_tile(draw));
+  if (draw->halted) return -1;
+  if (draw->batch.n == 0) return kz_schedule_take(&draw->schedule, 0);
+  draw->batch.n = 0;
+  return draw->batch.first;
+}
+
 static void next_here(kz_draw *draw, int64_t *tile) {
   pthread_mutex_lock(&draw->ranks->mutex);
-  kz_schedule_note(&draw->schedule, 0, seconds_a_tile(draw));
-  if (!draw->halted && draw->batch.n > 0)
-    draw->batch.n = *tile = 0;
-  else if (!draw->halted && draw->schedule.next < draw->schedule.end)
-    *tile = draw->schedule.next++;
+  *tile = take_here(draw);
   pthread_mutex_unlock(&draw->ranks->mutex);
 }
 

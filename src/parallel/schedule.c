@@ -8,7 +8,7 @@
 static const double BATCH_SECONDS = 0.1, SECONDS_A_RANK = 1e-4;
 
 bool kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks) {
-  *schedule = (kz_schedule){.next = ranks < n_tiles ? ranks : n_tiles, .end = n_tiles, .ranks = ranks};
+  *schedule = (kz_schedule){.next = ranks < n_tiles ? ranks : n_tiles, .end = n_tiles, .ranks = ranks, .taking = ranks};
   schedule->seconds = calloc((size_t)ranks, sizeof *schedule->seconds);
   return schedule->seconds != NULL;
 }
@@ -25,17 +25,39 @@ void kz_schedule_note(kz_schedule *schedule, int rank, double seconds) {
   *known = seconds;
 }
 
+/* Tiles a second of the others; 0 where none is known. */
+static double rate_of_others(const kz_schedule *schedule, double seconds) {
+  static const double rounding = 1e-9; /* of the sum */
+  const double rate = schedule->rate - 1 / seconds;
+  return rate * seconds > rounding ? rate : 0;
+}
+
+/* Takes a rank out where the others need less time for all that is left, and for the tiles that they have in hand, than it for one. */
+static bool retire(kz_schedule *schedule, int rank) {
+  const double seconds = schedule->seconds[rank], others = seconds > 0 ? rate_of_others(schedule, seconds) : 0;
+  if (seconds * others <= (double)(schedule->end - schedule->next + schedule->taking - 1)) return false;
+  schedule->rate = others;
+  schedule->seconds[rank] = 0;
+  --schedule->taking;
+  return true;
+}
+
+int64_t kz_schedule_take(kz_schedule *schedule, int rank) {
+  return schedule->next == schedule->end || retire(schedule, rank) ? -1 : schedule->next++;
+}
+
 int64_t kz_schedule_grant(kz_schedule *schedule, int rank, bool early, int64_t *first) {
   const int64_t left = schedule->end - schedule->next;
   const double seconds = schedule->seconds[rank];
   double tiles = 1;
+  *first = schedule->next;
+  if (left == 0 || (!early && retire(schedule, rank))) return 0;
   if (seconds > 0) {
     const double rest = (double)left / fmax(schedule->rate, 1 / seconds); /* s, of all ranks together */
     if (early && rest < 2 * seconds) return 0;
     tiles = fmin(rest / 2, fmax(BATCH_SECONDS, SECONDS_A_RANK * schedule->ranks)) / seconds;
   }
-  const int64_t n = tiles >= (double)left ? left : tiles > 1 ? (int64_t)tiles : left > 0;
-  *first = schedule->next;
+  const int64_t n = tiles >= (double)left ? left : tiles > 1 ? (int64_t)tiles : 1;
   schedule->next += n;
   return n;
 }

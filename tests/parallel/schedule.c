@@ -55,7 +55,26 @@ static void who_still_works_leaves_the_last_tiles_to_others(void **state) {
   int64_t first;
   assert_int_equal(kz_schedule_grant(&schedule, 3, true, &first), 0);
   assert_true(kz_schedule_grant(&schedule, 0, true, &first) > 0);
+  kz_schedule_end(&schedule);
+}
+
+/* Three fast ranks do what is left in less time than the slow one needs for a tile: it gets no more. The others go on to the end, also
+ * one that is slower than those that have left. */
+static void a_slow_rank_does_not_keep_all_waiting(void **state) {
+  (void)state;
+  kz_schedule schedule = begin(30);
+  int64_t first, given = 0, n;
   assert_int_equal(kz_schedule_grant(&schedule, 3, false, &first), 1);
+  assert_true(kz_schedule_grant(&schedule, 0, false, &first) > 3);
+  assert_int_equal(kz_schedule_grant(&schedule, 3, false, &first), 0);
+  assert_true(schedule.taking == 3 && schedule.rate > 2.99 / FAST && schedule.rate < 3.01 / FAST);
+  kz_schedule_note(&schedule, 0, 10 * SLOW);
+  assert_int_equal(kz_schedule_take(&schedule, 0), -1);
+  kz_schedule_note(&schedule, 1, 100 * SLOW);
+  assert_int_equal(kz_schedule_grant(&schedule, 1, false, &first), 0);
+  kz_schedule_note(&schedule, 2, 1000 * SLOW);
+  while ((n = kz_schedule_grant(&schedule, 2, false, &first)) > 0) given += n;
+  assert_true(given > 0 && schedule.next == schedule.end && schedule.taking == 1);
   kz_schedule_end(&schedule);
 }
 
@@ -74,6 +93,7 @@ int main(void) {
       cmocka_unit_test(a_slow_rank_gets_a_tenth),
       cmocka_unit_test(a_batch_lasts_a_tenth_of_a_second),
       cmocka_unit_test(who_still_works_leaves_the_last_tiles_to_others),
+      cmocka_unit_test(a_slow_rank_does_not_keep_all_waiting),
       cmocka_unit_test(few_tiles_are_not_asked_for),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,9 +1,9 @@
-/* Measures how long ranks are idle: tiles of very different length that sleep, so that ranks may outnumber cores.
+/* Measures how long ranks are idle: tiles that sleep, so that ranks may outnumber cores.
  *
- *   mpirun -n RANKS uneven TILES SECONDS SLOWER      the last rank takes SLOWER times as long; SECONDS is the shortest tile
+ *   mpirun -n RANKS uneven FILE SLOWER      FILE: the seconds of each tile, a line each; the last rank takes SLOWER times as long
  *
- * A fifth of the tiles, side by side, takes five times as long, one in fifty another twenty times. The stage's own line tells the
- * share in which ranks were idle. tests/tools/share_model.py predicts it for any number of ranks. */
+ * The stage's own line tells the share in which ranks were idle. benchmarks/scaling.py makes FILE from the log of a run and predicts the
+ * share for any number of ranks. */
 #include <math.h>
 #include <stdlib.h>
 #include <time.h>
@@ -11,32 +11,52 @@
 #include "kapitza/parallel.h"
 
 typedef struct {
-  int64_t n_tiles;
-  double seconds;
+  int64_t n;
+  double *seconds; /* [n] */
+  double slower;
 } load;
 
 static kz_status rest(void *context, int64_t tile, void *record) {
   const load *l = context;
-  const double draw = fmod(0.6180339887498949 * (double)tile, 1), place = (double)tile / (double)l->n_tiles;
-  const double seconds = l->seconds * (place >= 0.4 && place < 0.6 ? 5 : 1) * (draw < 0.02 ? 20 : 1);
+  const double seconds = l->slower * l->seconds[tile];
   struct timespec time = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * fmod(seconds, 1))};
   nanosleep(&time, NULL);
   *(char *)record = 1;
   return KZ_OK;
 }
 
+static kz_status read_load(const char *path, load *l) {
+  FILE *file = fopen(path, "r");
+  double seconds;
+  while (file && fscanf(file, "%lf", &seconds) == 1) {
+    double *longer = realloc(l->seconds, (size_t)(l->n + 1) * sizeof *longer);
+    if (!longer) break;
+    l->seconds = longer;
+    l->seconds[l->n++] = seconds;
+  }
+  const bool whole = file && feof(file);
+  if (file) fclose(file);
+  return whole ? KZ_OK : kz_fail(KZ_REFUSED, "%s: cannot be read as numbers", path);
+}
+
+static kz_status run(kz_ranks *ranks, const char *path, double slower) {
+  load l = {.slower = kz_ranks_count(ranks) > 1 && kz_ranks_own(ranks) == kz_ranks_count(ranks) - 1 ? slower : 1};
+  kz_status status = read_load(path, &l);
+  char *records = calloc((size_t)l.n + 1, 1);
+  if (status == KZ_OK && !records) status = kz_fail(KZ_FAILED, "out of memory");
+  const kz_stage stage = {.name = "uneven", .n_tiles = l.n, .record_bytes = 1, .work = rest, .context = &l};
+  kz_ranks_set_progress(ranks, KZ_PROGRESS_ALWAYS);
+  if (status == KZ_OK) status = kz_stage_run(&(kz_run){.ranks = ranks}, &stage, records);
+  free(records);
+  free(l.seconds);
+  return status;
+}
+
 int main(int n, char **words) {
   kz_ranks *ranks = NULL;
-  kz_status status = n == 4 ? kz_ranks_start(&n, &words, &ranks) : KZ_REFUSED;
-  if (status == KZ_OK) {
-    load l = {.n_tiles = atoll(words[1]), .seconds = atof(words[2])};
-    const kz_stage stage = {.name = "uneven", .n_tiles = l.n_tiles, .record_bytes = 1, .work = rest, .context = &l};
-    void *records = malloc((size_t)l.n_tiles);
-    if (kz_ranks_count(ranks) > 1 && kz_ranks_own(ranks) == kz_ranks_count(ranks) - 1) l.seconds *= atof(words[3]);
-    kz_ranks_set_progress(ranks, KZ_PROGRESS_ALWAYS);
-    status = kz_stage_run(&(kz_run){.ranks = ranks}, &stage, records);
-    free(records);
-  }
+  kz_status status = n == 3 ? KZ_OK : kz_fail(KZ_REFUSED, "usage: uneven FILE SLOWER");
+  if (status == KZ_OK) status = kz_ranks_start(&n, &words, &ranks);
+  if (status == KZ_OK) status = run(ranks, words[1], atof(words[2]));
   if (status != KZ_OK) fprintf(stderr, "uneven: %s\n", kz_message());
   kz_ranks_end(ranks);
   return (int)status;

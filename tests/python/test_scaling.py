@@ -1,0 +1,80 @@
+"""The model of many ranks (benchmarks/scaling.py): cases with a known answer, and the rules that it shares with src/parallel."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+sys.path.insert(0, str(ROOT / "benchmarks"))
+
+import scaling_model  # noqa: E402
+from scaling import Run, predictions  # noqa: E402
+from scaling_model import Costs, Stage, delivered, resampled  # noqa: E402
+
+FREE = Costs(0, 0, 0)
+
+
+def test_constants_are_those_of_the_program():
+    text = (ROOT / "src" / "parallel" / "schedule.c").read_text()
+    numbers = re.search(r"BATCH_SECONDS = ([\d.e-]+), SECONDS_A_RANK = ([\d.e-]+)", text)
+    assert tuple(map(float, numbers.groups())) == (scaling_model.BATCH_SECONDS, scaling_model.SECONDS_A_RANK)
+
+
+@pytest.mark.parametrize("ranks", [1, 2, 7, 40])
+def test_known_answers(ranks):
+    """Free messages: equal tiles, as many for each; one tile longer than all others; every tile is done once."""
+    even = Stage([0.5] * (ranks * 6), ranks, FREE)
+    assert even.end == pytest.approx(3) and even.idle() == pytest.approx(0)
+    uneven = Stage([0.01] * 50 + [9.0] + [0.01] * 50, ranks, FREE)
+    assert 9 <= uneven.end <= 9 + 1.01 and sorted(sum((rank.tiles for rank in uneven.team), [])) == list(range(101))
+    assert Stage([1.0], ranks, FREE).end == 1  # one tile: the others have nothing to do
+
+
+def test_a_slow_rank_costs_its_own_share():
+    """Three ranks and one ten times slower do the work of 3.1."""
+    stage = Stage([0.001] * 31000, 4, FREE, slower=10)
+    assert stage.end == pytest.approx(10, rel=0.01) and stage.idle() < 0.01 and len(stage.team[3].tiles) == pytest.approx(1000, rel=0.05)
+
+
+def test_nobody_waits_for_a_slow_rank():
+    """Near the end it gets no more tiles: seven others do the last ones in less time than it needs for one."""
+    stage = Stage([0.05] * 730, 8, FREE, slower=10)
+    assert stage.end == pytest.approx(730 * 0.05 / 7.1, rel=0.03) and stage.idle() < 0.03
+
+
+def test_messages_cost_what_the_answers_take():
+    """Tiles of no length: rank 0 answers one request after another."""
+    stage = Stage([1e-9] * 2000, 1001, Costs(0, 0, 1e-3))
+    assert stage.end >= 0.5
+
+
+def test_whole_commands_follow_amdahl():
+    """One second alone, ten shared, and a writer who takes a tenth of a second for each of ten messages."""
+    run = Run(100, [("cells 1", [0.1] * 100)], 1.0)
+    assert [row[1] for row in predictions(run, [1, 2, 10], FREE)] == pytest.approx([11, 6, 2])
+    team = Stage([1.0] * 10, 10, FREE).team
+    assert delivered(team, [0.0] * 10, 0.1) == pytest.approx(1)
+    assert delivered(team, [5.0] * 10, 0.1) == pytest.approx(6)
+
+
+def test_a_finer_grid_takes_as_long_for_a_cell():
+    assert resampled([1.0, 3.0], 4) == pytest.approx([0.5, 0.5, 1.5, 1.5])
+    assert resampled([1.0, 3.0, 2.0], 2) == pytest.approx([2.5, 3.5])
+    run = Run(100**2, [("cells 1", [1.0, 3.0]), ("map table", [1.0]), ("file", [1.0, 1.0])], 0.5, 0.25)
+    finer = run.refined(1000)
+    stages = dict(finer.stages)
+    assert sum(stages["cells 1"]) == pytest.approx(400) and stages["map table"] == [1.0]
+    assert finer.take * len(stages["file"]) == pytest.approx(100 * 2 * 0.25, rel=0.01)
+    assert finer.seconds() == pytest.approx(0.5 + 1 + 100 * (4 + 2 + 0.5), rel=1e-3)
+
+
+def test_a_log_is_read(kapitza, tmp_path):
+    """The seconds of the stages are those of the log, which the program itself wrote."""
+    kapitza("run", ROOT / "scenes" / "small.yaml", "--log", "log.jsonl", folder=tmp_path)
+    run = Run.read(tmp_path / "log.jsonl")
+    assert run.cells == 10_000 and run.take > 0 and [name for name, _ in run.stages][-1] == "file"
+    done = subprocess.run([sys.executable, ROOT / "benchmarks" / "scaling.py", "load", tmp_path / "log.jsonl"], capture_output=True,
+                          text=True, timeout=60)
+    assert list(map(float, done.stdout.split())) == pytest.approx(dict(run.stages)["cells 1"], abs=1e-6)
