@@ -22,6 +22,7 @@ class Kapitza(CMakePackage):
     depends_on("gsl")
     depends_on("fftw@3 precision=double")
     depends_on("libyaml")
+    depends_on("zlib-api")
 
     generator("ninja")
     # Labels depend on how products are rounded: the build refuses other compilers.

@@ -1,5 +1,6 @@
 """What `kapitza check` estimates, against what runs take: memory of the largest rank, disk of the file and the checkpoint."""
 
+import json
 import os
 import re
 import subprocess
@@ -7,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, ROOT
+from conftest import PROGRAM, ROOT, datasets
 
 FIG12 = ROOT / "scenes" / "blackburn-fig12.yaml"
 EXTENSIVE = pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
@@ -65,3 +66,14 @@ def test_ten_billion_cells_can_be_checked(kapitza):
     disk, each, first, shared = estimates(kapitza, 100_000, "direct")
     assert "10000000000" in kapitza("check", *words(100_000, "direct")).stdout
     assert each + first < 2e8 and 1e9 < shared < 1e10 and 1e9 < disk < 1e10
+
+
+@EXTENSIVE
+def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
+    """Two starts find two attractors; 1.4 million cells end elsewhere, more than a rank lists at a time. The same bytes on three ranks."""
+    few = ["--set", "basin.attractors.starts=2", "--set", "basin.max_periods=40"]
+    for ranks in (1, 3):
+        kapitza("run", *words(2600, "direct"), *few, "-o", f"{ranks}.h5", "--log", f"{ranks}.jsonl", folder=tmp_path, ranks=ranks)
+        stages = [json.loads(line).get("stage") for line in (tmp_path / f"{ranks}.jsonl").read_text().splitlines() if '"stage", ' in line]
+        assert stages.count("cells 1") == 1 and stages.count("cells 2") == 2, stages
+    assert datasets(tmp_path / "1.h5") == datasets(tmp_path / "3.h5")
