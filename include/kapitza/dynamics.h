@@ -47,9 +47,9 @@ void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t m
 void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                                   int32_t *label, int64_t *periods);
 
-/* Precisions in which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; quad precision,
- * by Taylor series. */
-enum { KZ_RUNG_DOUBLE = 0, KZ_RUNG_QUAD = 1, KZ_RUNGS = 2 };
+/* Precisions in which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; pairs of
+ * doubles; quad precision, by Taylor series. */
+enum { KZ_RUNG_DOUBLE = 0, KZ_RUNG_PAIRS = 1, KZ_RUNG_QUAD = 2, KZ_RUNGS = 3 };
 /* The label of an orbit whose error outgrows what a label bears. Any other label, 0 too, is decided: the errors do not change it. */
 enum { KZ_DOUBTFUL = -1 };
 

@@ -102,8 +102,8 @@ const kz_key kz_keys[] = {
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "direct", basin.method,
          "direct: every cell is integrated; icm: interpolated cell mapping, the method of the papers; exact: every cell is "
-         "integrated with its error, and again in quad precision where that decides nothing; what is left is flagged in "
-         "evidence.",
+         "integrated with its error, again in pairs of doubles or quad precision where that decides nothing, and flagged in "
+         "evidence where nothing does.",
          .former = "hybrid=direct", CHOSEN),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),

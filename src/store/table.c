@@ -88,7 +88,7 @@ static const kz_variable variables[] = {
      NONE,
      "what the label rests on",
      {"unsettled", "started_inside_a_trapping_region", "followed_into_a_trapping_region", "undecided",
-      "decided_in_quad_precision"}},
+      "decided_in_quad_precision", "decided_in_pairs_of_doubles"}},
     {"basin",
      "other_attractor",
      KZ_INT16,

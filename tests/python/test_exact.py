@@ -17,7 +17,7 @@ basin:
 """
 # What of its numerics alone gets wrong.
 COARSE = ("--set", "numerics={scheme: split6, steps_per_period: 16, precision: single}")
-UNSETTLED, UNDECIDED, IN_QUAD = 0, 3, 4
+UNSETTLED, UNDECIDED, IN_QUAD, IN_PAIRS = 0, 3, 4, 5
 
 
 def cells(path):
@@ -34,7 +34,7 @@ def exact(kapitza, tmp_path_factory):
 
 
 def test_labels_hang_on_no_numerics(kapitza, exact):
-    """A fifth of the labels of coarse steps in single precision are wrong; followed in quad precision from there all are right."""
+    """A fifth of the labels of coarse steps in single precision are wrong; followed in more precision from there all are right."""
     folder, done = exact
     kapitza("run", "s.yaml", "-o", "direct.h5", *COARSE, "--set", "basin.method=direct", folder=folder)
     kapitza("run", "s.yaml", "-o", "coarse.h5", *COARSE, folder=folder)
@@ -44,7 +44,8 @@ def test_labels_hang_on_no_numerics(kapitza, exact):
     assert np.array_equal(fine["name"][decided], coarse["name"][decided])
     assert np.mean(direct["name"] != fine["name"]) > 0.1
     assert coarse["doubtful_share"] > fine["doubtful_share"] > 0.1
-    assert {"cells 1", "quad 1"} <= {line[:8].strip() for line in done.stdout.splitlines()}
+    assert {"cells 1", "pairs 1", "quad 1"} <= {line[:8].strip() for line in done.stdout.splitlines()}
+    assert np.count_nonzero(fine["evidence"] == IN_PAIRS) > np.count_nonzero(fine["evidence"] == IN_QUAD) > 0
 
 
 def test_what_is_left_is_flagged_with_two_candidates(exact):

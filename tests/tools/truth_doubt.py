@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does `doubtful_share` understate? Random pendulums of no scene, labelled by `direct`, against quad precision.
+"""Does `doubtful_share` understate, and does `exact` err? Random pendulums of no scene against quad precision.
 
     tests/tools/truth_doubt.py                              20 pendulums
     tests/tools/truth_doubt.py --pendulums 40 --seed 2 --ranks 2
@@ -7,7 +7,7 @@
 
 For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which judges the same scheme and steps on random
 cells of the same window by quad precision. A share is understated where the wrong share of the judge's cells is above the doubtful one's
-interval. Exit status 1 where one is.
+interval. `exact` labels the same cells: none of those that it decides may be wrong. Exit status 1 where a share is or a label.
 """
 
 import argparse
@@ -27,12 +27,13 @@ SETTING = "processed-1e-12"  # what direct takes by default
 
 
 def compare(kapitza, scene, samples):
-    """(doubtful, low, high) and (wrong, low, high) of a scene."""
-    scene = scene | {"basin": scene["basin"] | {"method": "direct"}, "tradeoff": {"samples": samples, "settings": [SETTING]}}
+    """(doubtful, low, high) and (wrong, low, high) of a scene, and (wrong, undecided) of `exact`."""
+    scene = scene | {"basin": scene["basin"] | {"method": "direct"}, "tradeoff": {"samples": samples, "settings": [SETTING, "exact"]}}
     result = kapitza(scene)
     basin, trade = result.group("basin").attrs, result.group("tradeoff")
     stated = tuple(float(basin[f"doubtful_share{end}"]) for end in ("", "_low", "_high"))
-    return stated, tuple(float(trade[f"wrong{end}"].values[0]) for end in ("", "_low", "_high"))
+    exact = tuple(float(trade[name].values[1]) for name in ("wrong", "undecided"))
+    return stated, tuple(float(trade[f"wrong{end}"].values[0]) for end in ("", "_low", "_high")), exact
 
 
 def understates(stated, wrong):
@@ -48,20 +49,22 @@ def main():
     parser.add_argument("--cells", type=int, default=300, help="of the window, an axis")
     parser.add_argument("--ranks", type=int, default=1)
     arguments = parser.parse_args()
-    print("pendulum, window; % doubtful, its interval; % wrong, its interval (! = understated)")
-    low = 0
+    print("pendulum, window; % doubtful, its interval; % wrong, its interval (! = understated); exact: % wrong, % undecided")
+    low = mistaken = 0
     with tempfile.TemporaryDirectory() as folder:
         kapitza = Kapitza(folder, arguments.ranks)
         for number in range(arguments.first, arguments.pendulums):
             scene = lively_scene(kapitza, np.random.default_rng([arguments.seed, number]), number, arguments.cells)
-            stated, wrong = compare(kapitza, scene, arguments.samples)
+            stated, wrong, exact = compare(kapitza, scene, arguments.samples)
             low += understates(stated, wrong)
+            mistaken += exact[0] > 0
             speeds = scene["basin"]["velocity"]
             names = " ".join(f"{value:g}" for value in [*scene["pendulum"].values(), speeds["min"], speeds["max"]])
             shares = " ".join(f"{100 * share:6.2f}" for share in [*stated, *wrong])
-            print(f"{number:3} {names:42} {shares} {'!' if understates(stated, wrong) else ''}", flush=True)
-    print(f"{low} of {arguments.pendulums - arguments.first} understated")
-    sys.exit(low > 0)
+            mark = "!" if understates(stated, wrong) else " "
+            print(f"{number:3} {names:42} {shares} {mark} {100 * exact[0]:6.3f} {100 * exact[1]:6.3f}", flush=True)
+    print(f"{low} of {arguments.pendulums - arguments.first} understated, exact wrong on {mistaken}")
+    sys.exit(low + mistaken > 0)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@ module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: leave_states, half_turns
   use kz_kernel_map, only: map_t
+  use kz_kernel_pairs, only: pairs_t, make_pairs
   use kz_kernel_plan, only: make_flow, DOUBLE
   use kz_kernel_step_table, only: numerics_t
   use kz_labels_covariant_map, only: covariant_map_t, make_covariant_map
@@ -17,9 +18,11 @@ module kz_api_follow
   !> Ways of dynamics.h; those that remain are the nodes of the table's stencil.
   integer(c_int32_t), parameter :: DIRECT = 0, SETTLE = 1
   !> Rungs of dynamics.h.
-  integer(c_int32_t), parameter :: RUNG_DOUBLE = 0
+  integer(c_int32_t), parameter :: RUNG_DOUBLE = 0, RUNG_PAIRS = 1
   !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
   real(dp), parameter :: QUAD_ERROR = 1e-31_dp
+  !> rad: of a period in pairs of doubles. Smaller ones cost as much as the cells that they would decide cost in quad precision.
+  real(dp), parameter :: PAIRS_ERROR = 1e-28_dp
   !> Steps a period of the series.
   integer, parameter :: QUAD_STEPS = 18
 
@@ -103,7 +106,7 @@ contains
       state(1, :) = half_turns(start(1, :))
       call make_covariant(d, map)
     else
-      call make_precise(d, start, state(1, :), map)
+      call make_precise(d, rung, start, state(1, :), map)
     end if
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)
@@ -124,17 +127,27 @@ contains
     call move_alloc(covariant, map)
   end subroutine make_covariant
 
-  subroutine make_precise(d, start, u, map)
-    type(dynamics_t), intent(in), target :: d
+  subroutine make_precise(d, rung, start, u, map)
+    type(dynamics_t), intent(inout), target :: d
+    integer(c_int32_t), intent(in) :: rung
     real(dp), intent(in) :: start(:, :)
     real(dp), intent(out) :: u(:)
     class(map_t), allocatable, intent(out) :: map
     type(reference_map_t), allocatable :: quad
     type(precise_map_t), allocatable :: precise
+    type(pairs_t), pointer :: pairs
+    real(dp) :: error
 
+    pairs => null()
+    error = QUAD_ERROR
+    if (rung == RUNG_PAIRS) then
+      pairs => d%pairs
+      if (.not. allocated(pairs%level)) call make_pairs(d%search%pendulum, PAIRS_ERROR, d%regions%top, pairs)
+      error = max(error, pairs%error)
+    end if
     allocate (quad, precise)
-    call make_reference_map(quad, d%search%pendulum, QUAD_STEPS, d%search%flow, start, u)
-    call make_precise_map(quad, QUAD_ERROR, d%search%flow, d%regions, d%attractors, precise)
+    call make_reference_map(quad, d%search%pendulum, QUAD_STEPS, d%search%flow, start, u, pairs)
+    call make_precise_map(quad, error, d%search%flow, d%regions, d%attractors, precise)
     call move_alloc(precise, map)
   end subroutine make_precise
 

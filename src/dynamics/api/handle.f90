@@ -2,6 +2,7 @@
 module kz_api_handle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
   use kz_kernel_map, only: flow_t
+  use kz_kernel_pairs, only: pairs_t
   use kz_kernel_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t
   use kz_trapping_cell_images, only: images_t
@@ -20,6 +21,7 @@ module kz_api_handle
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table
+    type(pairs_t) :: pairs             !< tables for pairs of doubles, once they are needed
     type(images_t), allocatable :: images(:) !< of the cells of regions that grow
   end type dynamics_t
 

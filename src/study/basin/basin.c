@@ -174,9 +174,10 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
   const int32_t method = plan->accuracy >= 1 ? KZ_METHOD_EXACT : plan->method;
-  /* exact: with tangent map, finer steps and changes of coordinates; then one cell of 25 in quad precision */
+  /* exact: with tangent map, finer steps and changes of coordinates; then a few cells, and those for long, in
+   * more precision */
   static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_EXACT] = 20};
-  static const double others[] = {[KZ_METHOD_ICM] = 7e-8, [KZ_METHOD_DIRECT] = 0, [KZ_METHOD_EXACT] = 1e-4 / 25};
+  static const double others[] = {[KZ_METHOD_ICM] = 7e-8, [KZ_METHOD_DIRECT] = 0, [KZ_METHOD_EXACT] = 1.5e-6};
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const double periods = kz_settling_cells(pendulum->beta, plan->max_periods);
   double cell_period = integrated[method] * period + others[method];

@@ -17,6 +17,7 @@ typedef struct {
 
 static const rung rungs[KZ_RUNGS + 1] = {
     [KZ_RUNG_DOUBLE] = {"cells", 4096, KZ_FOLLOWED},
+    [KZ_RUNG_PAIRS] = {"pairs", 512, KZ_IN_PAIRS},
     [KZ_RUNG_QUAD] = {"quad", FEW, KZ_IN_QUAD},
     [KZ_RUNGS] = {"candidates", FEW, KZ_UNDECIDED},
 };

@@ -316,11 +316,15 @@ static void test_wrong_labels_are_doubtful(void **state) {
     expected[open] = expected[i];
     memmove(start + 2 * open++, start + 2 * i, 2 * sizeof *start);
   }
+  kz_dynamics_follow_errors(d, KZ_RUNG_PAIRS, open, 2000, start, direct, late);
   kz_dynamics_follow_errors(d, KZ_RUNG_QUAD, open, 2000, start, followed, late);
   doubtful = 0;
   for (int i = 0; i < open; i++) doubtful += followed[i] == KZ_DOUBTFUL;
   for (int i = 0; i < open; i++) assert_true(followed[i] == expected[i] || followed[i] == KZ_DOUBTFUL);
   assert_in_range(doubtful, 0, 4);
+  for (int i = 0; i < open; i++) assert_true(direct[i] == followed[i] || direct[i] == KZ_DOUBTFUL);
+  for (int i = 0; i < open; i++) doubtful -= direct[i] == KZ_DOUBTFUL;
+  assert_in_range(-doubtful, 0, 4);
   kz_dynamics_free(d);
 }
 
