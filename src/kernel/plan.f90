@@ -11,7 +11,7 @@ module kz_kernel_plan
   use kz_kernel_r128, only: make_tile_r128 => make_tile, make_processed_r128 => make_processed_tile
   implicit none
   private
-  public :: make_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE
+  public :: make_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
 
   !> The codes of numerics_t%precision.
   integer, parameter, public :: SINGLE = 0, DOUBLE = 1, QUAD = 2
@@ -78,6 +78,31 @@ contains
       call make_tile_r128(period, flow)
     end select
   end subroutine make_flow
+
+  !> The map of one drive period, and the same with twice the steps, and all terms: their difference is the error of a period.
+  subroutine make_flow_and_finer(pendulum, numerics, flow, finer)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> scheme, steps a period, precision
+    type(numerics_t), intent(in) :: numerics
+    !> the map of one drive period
+    class(flow_t), allocatable, intent(out) :: flow
+    !> with twice the steps
+    class(flow_t), allocatable, intent(out) :: finer
+    type(numerics_t) :: halved
+    type(series_t), allocatable :: series
+
+    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, numerics%precision, fastest=numerics%fastest)
+    if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
+      allocate (series) ! made once: it does not depend on the steps
+      call make_processed_series(pendulum, QUAD_GRADES(numerics%precision), series)
+      call make_processed_flow(pendulum, series, numerics, flow)
+      call make_processed_flow(pendulum, series, halved, finer)
+    else
+      call make_flow(pendulum, numerics, .true., flow)
+      call make_flow(pendulum, halved, .true., finer)
+    end if
+  end subroutine make_flow_and_finer
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
   recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted)

@@ -16,7 +16,7 @@ module kz_kernel_processed_choice
   !> Codes of common.h.
   integer(c_int32_t), parameter :: OK = 0, REFUSED = 2
   !> Numbers of steps are multiples of STRIDE; KZ_MOST_PROCESSED_STEPS of kernel.h.
-  integer, parameter :: STRIDE = 4, FEWEST_STEPS = 12, MOST_STEPS = 160
+  integer, parameter :: STRIDE = 2, FEWEST_STEPS = 12, MOST_STEPS = 160
   !> Coefficients of a kick, least of all.
   integer, parameter :: FEWEST_KICKS = 4
   !> Operations of a step besides the terms of drift and kick.

@@ -27,7 +27,11 @@ contains
     call make_flow(pendulum, numerics, .true., d%flow)
     d%search%pendulum = pendulum
     d%search%max_period = int(max_period)
-    call make_flow(pendulum, coarse, .true., d%search%flow)
+    if (coarse%precision == numerics%precision) then
+      allocate (d%search%flow, source=d%flow)
+    else
+      call make_flow(pendulum, coarse, .true., d%search%flow)
+    end if
     call make_flow(pendulum, fine_numerics(pendulum), .true., d%search%fine)
     call make_flow(pendulum, fine_numerics(pendulum), .false., d%search%sampling_flow)
     allocate (d%attractors(0))

@@ -66,7 +66,8 @@ static kz_status discover(const kz_run *run, finding *s) {
 static kz_status publish(const kz_scene *scene, const finding *s, kz_store *store, FILE *summary) {
   kz_catalogue catalogue = {0};
   const kz_motions motions = motions_of_starts(scene);
-  kz_motions_warn(&motions, summary);
+  const kz_speed_errors classes = kz_motions_errors(&motions);
+  kz_motions_warn(&motions, &classes, summary);
   kz_status status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
   if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
   if (status == KZ_OK) {

@@ -60,10 +60,10 @@ kz_status kz_basin_check(const kz_scene *scene) {
 
 double kz_basin_warn_steps(const kz_scene *scene, FILE *summary) {
   const kz_motions motions = motions_of_basin(scene);
-  const kz_speed_errors classes = kz_step_error_classes(&motions.pendulum, &motions.numerics, motions.fastest);
+  const kz_speed_errors classes = kz_motions_errors(&motions);
   const double worst = kz_worst_error(&classes);
   print_numerics(scene, summary);
   fprintf(summary, ": a period is off by at most %.2g rad, %.2g of a cell\n", worst, worst / motions.cell);
-  kz_motions_warn(&motions, summary);
+  kz_motions_warn(&motions, &classes, summary);
   return worst;
 }

@@ -60,8 +60,12 @@ static void describe_error(const kz_motions *m, double error, size_t bytes, char
     snprintf(text, bytes, "are off by up to %.2g rad after one drive period, where a cell is %.2g wide", error, m->cell);
 }
 
+kz_speed_errors kz_motions_errors(const kz_motions *m) {
+  return kz_step_error_classes(&m->pendulum, &m->numerics, m->fastest);
+}
+
 kz_status kz_motions_check(const kz_motions *m) {
-  const kz_speed_errors classes = kz_step_error_classes(&m->pendulum, &m->numerics, m->fastest);
+  const kz_speed_errors classes = kz_motions_errors(m);
   const int worst = kz_worst_class(&classes);
   if (classes.error[worst] <= m->lost) return KZ_OK;
   char what[120], help[160];
@@ -74,14 +78,13 @@ kz_status kz_motions_check(const kz_motions *m) {
                  classes.speed[worst + 1], what, help);
 }
 
-void kz_motions_warn(const kz_motions *m, FILE *summary) {
-  const kz_speed_errors classes = kz_step_error_classes(&m->pendulum, &m->numerics, m->fastest);
+void kz_motions_warn(const kz_motions *m, const kz_speed_errors *classes, FILE *summary) {
   char help[160];
   for (int c = 0; c < KZ_SPEED_CLASSES; c++)
-    if (classes.error[c] > m->loose)
+    if (classes->error[c] > m->loose)
       fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by up to %.2g rad\n", m->where,
-              classes.speed[c], classes.speed[c + 1], classes.error[c]);
-  if (kz_worst_error(&classes) <= m->loose) return;
+              classes->speed[c], classes->speed[c + 1], classes->error[c]);
+  if (kz_worst_error(classes) <= m->loose) return;
   advice(m, sizeof help, help);
   fprintf(summary, "warning: to get below %.2g rad per period at every speed: numerics.steps_per_period: %s\n", m->loose, help);
 }

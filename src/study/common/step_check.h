@@ -33,7 +33,9 @@ bool kz_motions_find_steps(const kz_motions *motions, kz_numerics *numerics);
 /* KZ_REFUSED where one drive period is off by more than `lost`: the message begins with `keys`, and says at which speeds, and
  * how many steps would do. */
 kz_status kz_motions_check(const kz_motions *motions);
+/* The errors of all classes of speeds. */
+kz_speed_errors kz_motions_errors(const kz_motions *motions);
 /* A line for each class of speeds whose error exceeds `loose`, and what would help. */
-void kz_motions_warn(const kz_motions *motions, FILE *summary);
+void kz_motions_warn(const kz_motions *motions, const kz_speed_errors *classes, FILE *summary);
 
 #endif

@@ -43,14 +43,14 @@ kz_status kz_sweep_check(const kz_scene *scene) {
 
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary) {
   const int64_t n = tried_values(scene);
-  double largest = 0;
+  kz_speed_errors largest = {{0}, {0}};
   kz_motions motions, worst;
   for (int64_t i = 0; i < n; i++) {
     if (!motions_at(scene, i, n, &motions)) continue;
-    const kz_speed_errors classes = kz_step_error_classes(&motions.pendulum, &motions.numerics, motions.fastest);
-    if (kz_worst_error(&classes) <= largest) continue;
-    largest = kz_worst_error(&classes);
+    const kz_speed_errors classes = kz_motions_errors(&motions);
+    if (kz_worst_error(&classes) <= kz_worst_error(&largest)) continue;
+    largest = classes;
     worst = motions;
   }
-  if (largest > 0) kz_motions_warn(&worst, summary);
+  if (kz_worst_error(&largest) > 0) kz_motions_warn(&worst, &largest, summary);
 }
