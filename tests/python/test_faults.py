@@ -167,7 +167,7 @@ LONG = "orbit={start: {theta: 0.5, velocity: 0}, periods: 300000, samples_per_pe
 
 def test_work_in_one_piece_is_left_where_a_stop_is_asked(tmp_path):
     """No tile ends for a minute: the run is left by the clock, what was finished before stays."""
-    reasons = {"SIGUSR1": [], "the time limit": ["--time-limit", "2"]}
+    reasons = {"SIGUSR1": [], "the time limit": ["--time-limit", "5"]}
     runs = []
     for number, (reason, words) in enumerate(reasons.items()):
         folder = tmp_path / str(number)

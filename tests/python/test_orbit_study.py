@@ -174,7 +174,7 @@ def test_contradictions_are_refused(kapitza, tmp_path, name):
 def test_a_long_transient_stops_and_goes_on(kapitza, tmp_path):
     """Stopped by the clock in its transient, resumed on two ranks: the same motion."""
     orbit = {"start": {"theta": 1, "velocity": 0.2}, "transient": 120000, "periods": 5}
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {"k": 0.25, "damping": 0.05, "m": 0.5}, "orbit": orbit}))
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {"k": 0.25, "damping": 0, "m": 0.5}, "orbit": orbit}))
     kapitza("run", "s.yaml", "-o", "whole.h5", folder=tmp_path)
     stopped = kapitza("run", "s.yaml", "-o", "parts.h5", "--time-limit", "0.3", folder=tmp_path, status=None)
     assert stopped.returncode == 75, stopped.stderr
@@ -198,7 +198,7 @@ def test_what_the_pendulum_does_not_allow(kapitza, tmp_path, name):
 @pytest.mark.parametrize("k, m, velocity", [(0.01, 0.3, 20), (0.01, 0.3, 200), (0, 100, 1), (100, 0.3, 1)])
 def test_fast_motion_gets_the_steps_it_needs(model, k, m, velocity):
     """One period against quad precision with a hundred steps a radian."""
-    pendulum = {"k": k, "damping": 0.02, "m": m}
+    pendulum = {"k": k, "damping": 0, "m": m}  # nothing to settle on
     orbit = {"start": {"theta": 0.3, "velocity": velocity}, "periods": 1}
     fine = {"scheme": "split6", "precision": "quad", "steps_per_period": int(100 * (2 + velocity + 2 * sqrt(k + m)))}
     ours, truth = model(pendulum, orbit=orbit).group("orbit"), model(pendulum, orbit=orbit, numerics=fine).group("orbit")

@@ -294,7 +294,7 @@ ALL = "attractors, basin_fractions, flutter_amplitude, release_angle, strobe"
 
 def test_same_bytes_on_any_number_of_ranks_and_resumed(kapitza, tmp_path):
     text = SCENE.format(measure=ALL, low=0.46, high=0.48, count=3, parameter="drive_amplitude", q=5, omega=11,
-                        more=", starts: 128, transient: 100, samples: 16")
+                        more=", starts: 64, transient: 100, samples: 16")
     (tmp_path / "sweep.yaml").write_text(text)
     for ranks in (1, 2, 3):
         kapitza("run", "sweep.yaml", "-o", f"{ranks}.h5", ranks=ranks, folder=tmp_path)

@@ -30,7 +30,8 @@ def table(*arguments, starts):
 @pytest.mark.parametrize("window", [[], ["--set", "basin.theta={min: 2, max: 4, count: 100}"]])
 def test_the_labels_of_a_run(kapitza, tmp_path, window):
     path = tmp_path / "direct.h5"
-    kapitza("run", SMALL, *window, "--set", "basin.method=direct", "-o", path)
+    window = [*window, "--set", "basin.method=direct"]
+    kapitza("run", SMALL, *window, "-o", path)
     basin, attractors = Result(path).group("basin"), Result(path).group("attractors")
     rows, columns = np.divmod(np.arange(7, 10000, 43), 100)
     starts = np.column_stack([basin["theta"].values[columns], basin["velocity"].values[rows]])
