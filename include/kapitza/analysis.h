@@ -79,6 +79,54 @@ typedef struct {
 /* Least squares through n points; all NaN for n < 3. */
 kz_line kz_fit_line(int64_t n, const double *x, const double *y);
 
+/* ---- boundaries of basins ---- */
+
+/* Pairs of starts at one distance, and those among them that end differently. */
+typedef struct {
+  double distance; /* rad */
+  int64_t pairs, uncertain;
+} kz_uncertain;
+
+/* The slope of ln(uncertain share) against ln(distance) between two distances: the uncertainty exponent of C. Grebogi, S. W. McDonald,
+ * E. Ott, J. A. Yorke, Phys. Lett. 99A (1983) 415, which is the dimension of the plane less that of the boundary. */
+typedef struct {
+  double far, near;        /* rad */
+  double slope, low, high; /* with its 95 % interval; NaN = not known, high infinite where no nearer pair was uncertain */
+} kz_slope;
+
+enum { KZ_ENOUGH_UNCERTAIN = 30 };
+/* slope [n - 1]: between neighbours of n distances that go down; returns that between the first and the last one with
+ * KZ_ENOUGH_UNCERTAIN uncertain pairs. The intervals take the shares as independent, which makes them too wide where pairs share starts. */
+kz_slope kz_uncertainty_slopes(int64_t n, const kz_uncertain *uncertain, kz_slope *slope);
+
+enum { KZ_BOX_LEVELS = 8, KZ_BOX_LABELS = 64 };
+/* Boxes of 2^level cells an axis, their edges included, that hold more than one label, and those that hold each one besides another
+ * (labels from 63 on count together): the boundary of a basin when all others are merged (A. Daza, A. Wagemakers,
+ * M. A. F. Sanjuan, Sci. Rep. 8 (2018) 9954), on every scale. */
+typedef struct {
+  int64_t boxes[KZ_BOX_LEVELS];
+  int64_t with[KZ_BOX_LEVELS][KZ_BOX_LABELS];
+} kz_box_counts;
+/* Adds the boxes of label [rows][columns] (-1 = none). Strips of a grid add up where each begins with the last row of the one before and
+ * has 2^(KZ_BOX_LEVELS - 1) rows more. */
+kz_status kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, kz_box_counts *counts);
+/* log2 of how many times more boxes of a level there are than of the next: the box-counting dimension of the boundary there. */
+double kz_boxes_dimension(const kz_box_counts *counts, int level);
+
+/* ---- lifetimes ---- */
+
+/* Mean of exponential times with its 95 % interval (chi-squared; B. Epstein, M. Sobel, J. Am. Stat. Assoc. 48 (1953) 486). Where none has
+ * ended: mean NaN, high infinite. */
+typedef struct {
+  int64_t ended, open;
+  double from; /* what came sooner is left out */
+  double mean, low, high;
+} kz_lifetime;
+/* `ended` motions ended within `total` time that all spent together. */
+kz_lifetime kz_lifetime_of(int64_t ended, double total);
+/* Of the tail of n times (sorted here), where n_open motions had not ended by `longest`. */
+kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double longest);
+
 /* ---- stability ---- */
 
 /* Transition curves of the (damped) Mathieu equation and the effective potential (GSL).

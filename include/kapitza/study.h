@@ -51,6 +51,10 @@ typedef struct {
   int64_t max_period;
   int64_t seed;
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
+  bool has_boundary;
+  struct {
+    int64_t pairs; /* starts, each with a partner at every distance */
+  } boundary;
   bool has_shocks;
   kz_shocks_plan shocks;
 } kz_basin_plan;

@@ -121,6 +121,12 @@ const kz_key kz_keys[] = {
          "sample "
          "followed in quad precision shows to be as right (95 % bound); 1, or what no setting reaches: method exact."),
 
+    MAPPING(
+        "basin.boundary", "", AT(basin.has_boundary),
+        "How fractal the boundaries are: uncertainty exponents over eleven decades, box-counting dimension, basins that share "
+        "their boundary."),
+    INTEGER("basin.boundary.pairs", 100, 1e8, "50000", basin.boundary.pairs,
+            "Starts of the window, each with a partner at 1e-2, 1e-3, ... 1e-12 rad."),
     MAPPING("basin.shocks", "", AT(basin.has_shocks),
             "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
     REAL("basin.shocks.scale", "rad per drive radian", 1e-6, 1e6, "1", basin.shocks.scale,
@@ -230,7 +236,8 @@ const kz_key kz_keys[] = {
     INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Values, both ends included."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(sweep.measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
-        "of the starts; resilience: smallest shocks that leave the basins; flutter_amplitude: of the period-2 cycle about "
+        "of the starts; lifetime: how long motions take that have not settled soon; resilience: smallest shocks that leave the "
+        "basins; flutter_amplitude: of the period-2 cycle about "
         "inverted; flutter_zone: how far flutter reaches when "
         "m is raised; release_angle: from rest; strobe: a bifurcation diagram.",
         .unit = "", .words_from = kz_sweep_measure_words),

@@ -1,4 +1,4 @@
-/* The part of the table of table.h for the groups saddles, manifolds, edge, shocks and chart. */
+/* The part of the table of table.h for the groups saddles, manifolds, edge, shocks, boundary and chart. */
 #include "table.h"
 
 const kz_variable kz_saddle_variables[] = {
@@ -46,6 +46,20 @@ const kz_variable kz_saddle_variables[] = {
     {"saddles", "sum_winding", KZ_INT32, {"sum"}, NONE, "their turns in n periods", {0}},
     {"saddles", "sum_points", KZ_INT32, {"sum"}, NONE, "how many they are, attracting ones included", {0}},
     {"saddles", "index_sum", KZ_INT32, {"sum"}, NONE, "sum of their fixed-point indices; 0 where none is missing", {0}},
+
+    {"boundary", "distance", KZ_REAL, {"distance"}, ANGLE, "distance of the pairs", {0}},
+    {"boundary", "uncertain_share", KZ_REAL, {"distance"}, NONE, "share of the pairs that end differently", {0}},
+    {"boundary", "uncertain_low", KZ_REAL, {"distance"}, NONE, "lower end of its 95 % interval (Wilson)", {0}},
+    {"boundary", "uncertain_high", KZ_REAL, {"distance"}, NONE, "upper end of its 95 % interval (Wilson)", {0}},
+    {"boundary", "slope", KZ_REAL, {"distance"}, NONE, "uncertainty exponent between this distance and the next", {0}},
+    {"boundary", "slope_low", KZ_REAL, {"distance"}, NONE, "lower end of its 95 % interval", {0}},
+    {"boundary", "slope_high", KZ_REAL, {"distance"}, NONE, "upper end of its 95 % interval", {0}},
+    {"boundary", "box", KZ_INT32, {"box"}, NONE, "level of the boxes", {0}},
+    {"boundary", "basin", KZ_INT32, {"basin"}, NONE, "id of the attractor; 63: and all larger ones", {0}},
+    {"boundary", "box_cells", KZ_INT32, {"box"}, NONE, "cells along an edge of a box", {0}},
+    {"boundary", "boxes", KZ_INT32, {"box"}, NONE, "boxes that hold more than one label", {0}},
+    {"boundary", "dimension", KZ_REAL, {"box"}, NONE, "box-counting dimension between this size and the next", {0}},
+    {"boundary", "shared", KZ_REAL, {"box", "basin"}, NONE, "share of these boxes that hold the basin", {0}},
 
     {"shocks", "point", KZ_INT32, {"point"}, NONE, "place of the strobe point in the list", {0}},
     {"shocks", "size", KZ_REAL, {"size"}, ANGLE, "largest size of the shocks: hypot(dtheta, dv / scale)", {0}},

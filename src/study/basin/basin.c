@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "accuracy/accuracy.h"
+#include "boundary.h"
 #include "common/settling.h"
 #include "common/resilience.h"
 #include "common/step_table.h"
@@ -89,6 +90,8 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
                       .sample_label = s->label};
   KZ_TRY(kz_cells_write(&chunks));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_lifetime_write(scene, store, summary) : KZ_OK));
+  KZ_TRY(kz_boundary_find(scene, labelling, catalogue, store, summary));
   return find_shocks(scene, labelling, catalogue, store, summary);
 }
 

@@ -223,6 +223,8 @@ static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
   KZ_TRY(kz_ranks_agree(s->run->ranks, s->hits ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
   catalogue->samples = count_hits(s);
   KZ_TRY(kz_ranks_agree(s->run->ranks, collect(s, catalogue)));
+  if (kz_sweep_measures(&s->scene->sweep, KZ_SWEEP_LIFETIME))
+    KZ_TRY(kz_sweep_lifetime(&s->scene->sweep, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));
   return kz_sweep_measures(&s->scene->sweep, KZ_SWEEP_RESILIENCE) ? find_shocks(s, catalogue) : KZ_OK;
 }
 

@@ -80,9 +80,9 @@ kz_status kz_sweep_stage(const kz_scene *scene, const kz_run *run, const kz_stag
 /* The catalogues and what joins them. */
 static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
-  if (!kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS) && !kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS) &&
-      !kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE))
-    return KZ_OK;
+  bool wanted = false;
+  for (int64_t measure = 0; measure <= KZ_SWEEP_RESILIENCE; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
+  if (!wanted) return KZ_OK;
   kz_sweep_branches branches = {0};
   kz_sweep_catalogue *catalogue = malloc((size_t)plan->values.count * sizeof *catalogue);
   kz_status status = catalogue ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld catalogues", (long long)plan->values.count);
@@ -91,6 +91,8 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
   if (status == KZ_OK) status = kz_sweep_branches_make(scene, run, catalogue, &branches);
   if (status == KZ_OK && kz_ranks_own(run->ranks) == 0)
     status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
+  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0 && kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
+    status = kz_sweep_lifetime_write(plan, catalogue, store);
   kz_sweep_branches_free(&branches);
   free(catalogue);
   return kz_ranks_agree(run->ranks, status);

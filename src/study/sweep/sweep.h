@@ -5,10 +5,11 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* What a sweep can measure: its code, its word in the scene, what runs it; NULL: the branches, which serve three measures. */
+/* What a sweep can measure: its code, its word in the scene, what runs it; NULL: the branches, which serve four measures. */
 #define KZ_SWEEP_MEASURES(MEASURE)                                           \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                           \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)                 \
+  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                               \
   MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                           \
   MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter) \
   MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range)    \
@@ -69,8 +70,14 @@ typedef struct {
 
 typedef struct {
   int64_t count, samples; /* attractors; starts or cells that were followed */
+  kz_lifetime lifetime;   /* of the starts, where it is asked for */
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 } kz_sweep_catalogue;
+
+/* Lifetime of the motions of the sweep's starts at one value, and its variables. The first is collective. */
+kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
+                            kz_lifetime *life);
+kz_status kz_sweep_lifetime_write(const kz_sweep_plan *plan, const kz_sweep_catalogue *catalogue, kz_store *store);
 
 /* Fills catalogue [values.count] on every rank. Collective. */
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue);

@@ -1,0 +1,81 @@
+/* Boundaries of basins in numbers: uncertain pairs, boxes that hold several labels, which labels share their boundary. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/analysis.h"
+
+static const double NORMAL = 1.959963984540054; /* of a 95 % interval */
+
+static kz_slope slope_between(const kz_uncertain *far, const kz_uncertain *near) {
+  kz_slope s = {far->distance, near->distance, NAN, NAN, NAN};
+  const double decades = log(far->distance / near->distance);
+  if (far->uncertain == 0 || near->pairs == 0 || far->pairs == 0) return s;
+  const double far_share = (double)far->uncertain / (double)far->pairs;
+  /* With none seen the share is below 3 in so many pairs, at 95 %: a lower end alone. */
+  if (near->uncertain == 0) {
+    s.low = log(far_share * (double)near->pairs / 3) / decades;
+    s.high = INFINITY;
+    return s;
+  }
+  const double near_share = (double)near->uncertain / (double)near->pairs;
+  const double error =
+      NORMAL / decades * sqrt((1 - far_share) / (double)far->uncertain + (1 - near_share) / (double)near->uncertain);
+  s.slope = log(far_share / near_share) / decades;
+  s.low = s.slope - error;
+  s.high = s.slope + error;
+  return s;
+}
+
+kz_slope kz_uncertainty_slopes(int64_t n, const kz_uncertain *uncertain, kz_slope *slope) {
+  int64_t nearest = 0;
+  for (int64_t i = 0; i + 1 < n; i++) slope[i] = slope_between(uncertain + i, uncertain + i + 1);
+  for (int64_t i = 0; i < n; i++)
+    if (uncertain[i].uncertain >= KZ_ENOUGH_UNCERTAIN) nearest = i;
+  if (nearest == 0) return (kz_slope){NAN, NAN, NAN, NAN, NAN};
+  return slope_between(uncertain, uncertain + nearest);
+}
+
+static uint64_t bit_of(int16_t label) {
+  return label < 0 ? 0 : (uint64_t)1 << (label < KZ_BOX_LABELS - 1 ? label : KZ_BOX_LABELS - 1);
+}
+
+static void count_level(int64_t n, const uint64_t *held, int level, kz_box_counts *counts) {
+  for (int64_t i = 0; i < n; i++) {
+    uint64_t mask = held[i];
+    if ((mask & (mask - 1)) == 0) continue; /* one label at most */
+    counts->boxes[level]++;
+    for (int label = 0; mask != 0; label++, mask >>= 1) counts->with[level][label] += (int64_t)(mask & 1);
+  }
+}
+
+kz_status kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, kz_box_counts *counts) {
+  int64_t across = columns - 1, up = rows - 1;
+  if (across < 1 || up < 1) return KZ_OK;
+  uint64_t *held = malloc((size_t)(across * up) * sizeof *held);
+  if (!held) return kz_fail(KZ_FAILED, "no memory for boxes of %lld labels", (long long)(columns * rows));
+  for (int64_t r = 0; r < up; r++)
+    for (int64_t c = 0; c < across; c++) {
+      const int16_t *corner = label + r * columns + c;
+      held[r * across + c] = bit_of(corner[0]) | bit_of(corner[1]) | bit_of(corner[columns]) | bit_of(corner[columns + 1]);
+    }
+  for (int level = 0; level < KZ_BOX_LEVELS; level++) {
+    count_level(across * up, held, level, counts);
+    const int64_t half_across = across / 2, half_up = up / 2;
+    for (int64_t r = 0; r < half_up; r++)
+      for (int64_t c = 0; c < half_across; c++) {
+        const uint64_t *corner = held + 2 * r * across + 2 * c;
+        held[r * half_across + c] = corner[0] | corner[1] | corner[across] | corner[across + 1];
+      }
+    across = half_across;
+    up = half_up;
+    if (across < 1 || up < 1) break;
+  }
+  free(held);
+  return KZ_OK;
+}
+
+double kz_boxes_dimension(const kz_box_counts *counts, int level) {
+  if (counts->boxes[level] == 0 || counts->boxes[level + 1] == 0) return NAN;
+  return log2((double)counts->boxes[level] / (double)counts->boxes[level + 1]);
+}

@@ -1,0 +1,46 @@
+/* How long motions take that have not settled soon: the mean of an exponential tail of which some are still open. */
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "kapitza/analysis.h"
+
+/* Quantile of the chi-squared distribution: GSL's does not converge for many degrees of freedom, where the formula of E. B. Wilson and
+ * M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684, is right to 1e-5. */
+static double chi_squared(double probability, double freedom) {
+  if (freedom < 400) return gsl_cdf_chisq_Pinv(probability, freedom);
+  const double variance = 2 / (9 * freedom);
+  return freedom * pow(1 - variance + gsl_cdf_ugaussian_Pinv(probability) * sqrt(variance), 3);
+}
+
+kz_lifetime kz_lifetime_of(int64_t ended, double total) {
+  kz_lifetime life = {.ended = ended, .mean = NAN, .low = NAN, .high = INFINITY};
+  if (!(total > 0)) return life;
+  if (ended > 0) {
+    life.mean = total / (double)ended;
+    life.high = 2 * total / chi_squared(0.025, 2 * (double)ended);
+  }
+  life.low = 2 * total / chi_squared(ended > 0 ? 0.975 : 0.95, 2 * (double)ended + 2);
+  return life;
+}
+
+static int compare(const void *a, const void *b) {
+  const double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double longest) {
+  qsort(time, (size_t)n, sizeof *time, compare);
+  const int64_t all = n + n_open;
+  /* Most motions settle at once; the tail is what is left of them after the nine tenths that settle soonest, or after half of those
+   * that settle at all where more are open. */
+  const int64_t soonest = 10 * n_open < all ? (9 * all) / 10 : n / 2;
+  const double from = n > 0 ? time[soonest < n ? soonest : n - 1] : 0;
+  double total = (double)n_open * (longest - from);
+  int64_t ended = 0;
+  for (int64_t i = n - 1; i >= 0 && time[i] > from; i--, ended++) total += time[i] - from;
+  kz_lifetime life = kz_lifetime_of(ended, total);
+  life.from = from;
+  life.open = n_open;
+  return life;
+}

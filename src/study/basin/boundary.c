@@ -1,0 +1,167 @@
+#include "boundary.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "common/column.h"
+#include "common/share.h"
+#include "common/starts.h"
+
+enum {
+  DISTANCES = 11, /* 1e-2 .. 1e-12 rad */
+  STARTS = 64,    /* of a tile, each with a partner at every distance */
+  STRIP = 1 << (KZ_BOX_LEVELS - 1),
+  SHOWN = 4 /* the level of boxes that the summary shows: 16 cells */
+};
+/* A basin holds all of the boundary where it is in so many of the boxes. */
+static const double ALL = 0.99;
+
+typedef struct {
+  const kz_basin_plan *plan;
+  kz_dynamics *dynamics;
+} pairing;
+
+typedef struct {
+  int64_t pairs[DISTANCES], uncertain[DISTANCES];
+} pair_record;
+
+static double distance_of(int d) {
+  return pow(10, -2 - d);
+}
+
+/* Start i of an evenly spread sequence (M. Roberts' R2) and its partners, in directions that spread evenly too: point [1 + DISTANCES][2]. */
+static void spread(const kz_basin_plan *plan, int64_t i, double *point) {
+  const double u = fmod(0.5 + (double)i * 0.75487766624669276, 1), v = fmod(0.5 + (double)i * 0.56984029099805327, 1),
+               angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
+  point[0] = plan->theta.min + u * (plan->theta.max - plan->theta.min);
+  point[1] = plan->velocity.min + v * (plan->velocity.max - plan->velocity.min);
+  for (int d = 0; d < DISTANCES; d++) {
+    point[2 * (d + 1)] = point[0] + distance_of(d) * cos(angle);
+    point[2 * (d + 1) + 1] = point[1] + distance_of(d) * sin(angle);
+  }
+}
+
+static kz_status pair_tile(void *context, int64_t tile, void *record) {
+  enum { ALL_STARTS = STARTS * (1 + DISTANCES) };
+  const pairing *p = context;
+  pair_record *out = record;
+  double point[2 * ALL_STARTS];
+  int32_t end[ALL_STARTS];
+  int64_t periods[ALL_STARTS];
+  for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, point + 2 * (1 + DISTANCES) * i);
+  kz_follow_starts(p->dynamics, p->plan->max_periods, ALL_STARTS, point, end, periods);
+  for (int64_t i = 0; i < STARTS; i++)
+    for (int d = 0; d < DISTANCES; d++) {
+      const int32_t *own = end + (1 + DISTANCES) * i, *other = own + 1 + d;
+      out->pairs[d] += *own > 0 && *other > 0;
+      out->uncertain[d] += *own > 0 && *other > 0 && *own != *other;
+    }
+  return KZ_OK;
+}
+
+static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labelling, kz_uncertain *uncertain) {
+  pairing p = {plan, labelling->dynamics};
+  const kz_stage stage = {.name = "pairs",
+                          .n_tiles = (plan->boundary.pairs + STARTS - 1) / STARTS,
+                          .record_bytes = sizeof(pair_record),
+                          .work = pair_tile,
+                          .context = &p,
+                          .keep = true,
+                          .everywhere = true};
+  pair_record *records = malloc((size_t)stage.n_tiles * sizeof *records);
+  kz_status status =
+      kz_ranks_agree(labelling->run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for pairs of starts"));
+  if (status == KZ_OK) status = kz_stage_run(labelling->run, &stage, records);
+  for (int d = 0; d < DISTANCES; d++) {
+    uncertain[d] = (kz_uncertain){.distance = distance_of(d)};
+    for (int64_t tile = 0; status == KZ_OK && tile < stage.n_tiles; tile++) {
+      uncertain[d].pairs += records[tile].pairs[d];
+      uncertain[d].uncertain += records[tile].uncertain[d];
+    }
+  }
+  free(records);
+  return status;
+}
+
+static kz_status write_pairs(const kz_uncertain *u, kz_store *store, FILE *summary) {
+  kz_slope slope[DISTANCES];
+  double distance[DISTANCES];
+  const kz_slope whole = kz_uncertainty_slopes(DISTANCES, u, slope);
+  slope[DISTANCES - 1] = (kz_slope){NAN, NAN, NAN, NAN, NAN};
+  for (int d = 0; d < DISTANCES; d++) distance[d] = distance_of(d);
+  KZ_TRY(kz_store_dimension(store, "boundary", "distance", DISTANCES, distance));
+#define COLUMN(name, expression) KZ_COLUMN(store, "boundary", name, DISTANCES, double, expression)
+  COLUMN("uncertain_share", kz_share_of(u[i].uncertain, u[i].pairs).share);
+  COLUMN("uncertain_low", kz_share_of(u[i].uncertain, u[i].pairs).low);
+  COLUMN("uncertain_high", kz_share_of(u[i].uncertain, u[i].pairs).high);
+  COLUMN("slope", slope[i].slope);
+  COLUMN("slope_low", slope[i].low);
+  COLUMN("slope_high", slope[i].high);
+  KZ_TRY(kz_store_integer(store, "boundary", "pairs", u[0].pairs));
+  KZ_TRY(kz_store_real(store, "boundary", "uncertainty_exponent", whole.slope));
+  KZ_TRY(kz_store_real(store, "boundary", "uncertainty_exponent_low", whole.low));
+  KZ_TRY(kz_store_real(store, "boundary", "uncertainty_exponent_high", whole.high));
+  KZ_TRY(kz_store_real(store, "boundary", "nearest", whole.near));
+  if (isnan(whole.slope))
+    fprintf(summary, "boundary: too few of the pairs are uncertain to tell an exponent\n");
+  else
+    fprintf(summary, "boundary: uncertainty exponent %.4f (95 %%: %.4f to %.4f) over distances from %.0e to %.0e rad\n",
+            whole.slope, whole.low, whole.high, whole.near, whole.far);
+  return KZ_OK;
+}
+
+/* Boxes of all cells, strip by strip from the file. */
+static kz_status count_boxes(const kz_basin_plan *plan, kz_store *store, kz_box_counts *counts) {
+  const int64_t columns = plan->theta.count, rows = plan->velocity.count;
+  int16_t *label = malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
+  kz_status status = label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)((STRIP + 1) * columns));
+  for (int64_t row = 0; status == KZ_OK && row + 1 < rows; row += STRIP) {
+    const int64_t n = rows - row < STRIP + 1 ? rows - row : STRIP + 1;
+    status = kz_store_rows(store, "basin", "attractor", row, n, label);
+    if (status == KZ_OK) status = kz_boxes_count(columns, n, label, counts);
+  }
+  free(label);
+  return status;
+}
+
+/* Basins in nearly every box of the boundary, on one scale. */
+static void print_shared(const kz_box_counts *b, int64_t basins, FILE *summary) {
+  int64_t all = 0;
+  fprintf(summary, "boundary: box-counting dimension %.4f over boxes of 4 to 64 cells",
+          (kz_boxes_dimension(b, 2) + kz_boxes_dimension(b, 3) + kz_boxes_dimension(b, 4) + kz_boxes_dimension(b, 5)) / 4);
+  for (int64_t i = 0; i < basins; i++) {
+    if (b->boxes[SHOWN] == 0 || (double)b->with[SHOWN][i] < ALL * (double)b->boxes[SHOWN]) continue;
+    fprintf(summary, "%s%lld", all == 0 ? "; basins in 99 % of its boxes of 16 cells: " : ", ", (long long)i);
+    all++;
+  }
+  fprintf(summary, "%s\n", all > 2 ? " (Wada)" : all > 0 ? "" : "; no basin is in 99 % of its boxes of 16 cells");
+}
+
+static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *store, FILE *summary) {
+  const int64_t basins = count < KZ_BOX_LABELS ? count : KZ_BOX_LABELS;
+  KZ_TRY(kz_store_dimension(store, "boundary", "box", KZ_BOX_LEVELS, NULL));
+  KZ_TRY(kz_store_dimension(store, "boundary", "basin", basins, NULL));
+  KZ_COLUMN(store, "boundary", "box_cells", KZ_BOX_LEVELS, int32_t, 1 << i);
+  KZ_COLUMN(store, "boundary", "boxes", KZ_BOX_LEVELS, int32_t, b->boxes[i]);
+  KZ_COLUMN(store, "boundary", "dimension", KZ_BOX_LEVELS, double, i + 1 < KZ_BOX_LEVELS ? kz_boxes_dimension(b, (int)i) : NAN);
+  KZ_COLUMN(store, "boundary", "shared", KZ_BOX_LEVELS * basins, double,
+            b->boxes[i / basins] > 0 ? (double)b->with[i / basins][i % basins] / (double)b->boxes[i / basins] : NAN);
+  if (b->boxes[2] > 0) print_shared(b, basins, summary);
+  return KZ_OK;
+}
+
+kz_status kz_boundary_find(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue, kz_store *store,
+                           FILE *summary) {
+  const kz_basin_plan *plan = &scene->basin;
+  kz_uncertain uncertain[DISTANCES];
+  kz_box_counts counts = {0};
+  if (!plan->has_boundary) return KZ_OK;
+  KZ_TRY(count_pairs(plan, labelling, uncertain));
+  kz_status status = KZ_OK;
+  if (store) {
+    status = write_pairs(uncertain, store, summary);
+    if (status == KZ_OK) status = count_boxes(plan, store, &counts);
+    if (status == KZ_OK) status = write_boxes(&counts, catalogue->count, store, summary);
+  }
+  return kz_ranks_agree(labelling->run->ranks, status);
+}

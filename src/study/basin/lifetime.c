@@ -1,0 +1,64 @@
+/* How long the transients of a window last. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "boundary.h"
+#include "common/cells.h"
+
+enum { CELLS = 1 << 18, ENOUGH = 30 }; /* cells that are looked at, about; ends that make a mean worth telling */
+
+/* The settling times of every step-th row of those that are not mirror images: how many, and how many cells are open. */
+static kz_status read_times(const kz_basin_plan *plan, kz_store *store, double *time, int64_t *n, int64_t *n_open) {
+  const int64_t columns = plan->theta.count, own = (kz_own_cells(plan) + columns - 1) / columns;
+  const int64_t step = 1 + columns * own / CELLS;
+  int16_t *label = malloc((size_t)columns * sizeof *label);
+  uint32_t *periods = malloc((size_t)columns * sizeof *periods);
+  kz_status status = label && periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a row of cells");
+  for (int64_t row = 0; status == KZ_OK && row < own; row += step) {
+    status = kz_store_rows(store, "basin", "attractor", row, 1, label);
+    if (status == KZ_OK) status = kz_store_rows(store, "basin", "settling_time", row, 1, periods);
+    for (int64_t i = 0; status == KZ_OK && i < columns; i++) {
+      *n_open += label[i] < 0;
+      if (label[i] >= 0) time[(*n)++] = periods[i];
+    }
+  }
+  free(label);
+  free(periods);
+  return status;
+}
+
+/* In words, where motions are still open. */
+static void print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
+  if (life->open == 0) return;
+  if (life->ended >= ENOUGH)
+    fprintf(summary, "transients: after %.0f periods motions last %.4g periods more on the average (95 %%: %.4g to %.4g)",
+            life->from, life->mean, life->low, life->high);
+  else
+    fprintf(summary,
+            "transients: %lld motions have not settled and %lld of their kind have: they last %.3g periods or more (95 %%)",
+            (long long)life->open, (long long)life->ended, life->low);
+  if (life->mean < (double)max_periods / 5)
+    fprintf(summary, "; the %lld that are open are more than that leaves, and may never settle", (long long)life->open);
+  else
+    fprintf(summary, "; the %lld that are open may be chaotic transients: a larger max_periods tells", (long long)life->open);
+  fprintf(summary, "\n");
+}
+
+kz_status kz_lifetime_write(const kz_scene *scene, kz_store *store, FILE *summary) {
+  const kz_basin_plan *plan = &scene->basin;
+  const int64_t columns = plan->theta.count;
+  int64_t n = 0, n_open = 0;
+  double *time = malloc((size_t)(CELLS + 2 * columns) * sizeof *time);
+  kz_status status = time ? KZ_OK : kz_fail(KZ_FAILED, "no memory for settling times");
+  if (status == KZ_OK) status = read_times(plan, store, time, &n, &n_open);
+  if (status == KZ_OK) {
+    const kz_lifetime life = kz_lifetime_tail(n, time, n_open, (double)plan->max_periods);
+    print(&life, plan->max_periods, summary);
+    status = kz_store_real(store, "basin", "lifetime", life.mean);
+    if (status == KZ_OK) status = kz_store_real(store, "basin", "lifetime_low", life.low);
+    if (status == KZ_OK) status = kz_store_real(store, "basin", "lifetime_high", life.high);
+    if (status == KZ_OK) status = kz_store_real(store, "basin", "lifetime_after", life.from);
+  }
+  free(time);
+  return status;
+}

@@ -1,0 +1,85 @@
+"""Numbers of basin boundaries and lifetimes: a smooth scene and a fractal one, ranks, a chaotic transient of known lifetime."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import datasets
+from kapitza import Result
+
+FIGURE = {"quality_factor": 5, "drive_frequency": 11}
+
+
+def run(kapitza, folder, scene, ranks=2):
+    (folder / "s.yaml").write_text(json.dumps(scene))
+    done = kapitza("run", "s.yaml", "--force", ranks=ranks, folder=folder)
+    return Result(folder / "s.h5"), done.stdout
+
+
+def scene(amplitude, count=256, pairs=4000):
+    axis = {"min": -2, "max": 2, "count": count}
+    return {"pendulum": {**FIGURE, "drive_amplitude": amplitude},
+            "basin": {"theta": {"min": -3.1, "max": 3.1, "count": count}, "velocity": axis, "boundary": {"pairs": pairs}}}
+
+
+@pytest.fixture(scope="module")
+def fractal(kapitza, tmp_path_factory):
+    """Fig. 14: the result, the summary and the scene's file."""
+    folder = tmp_path_factory.mktemp("boundary")
+    return *run(kapitza, folder, scene(0.47)), folder / "s.yaml"
+
+
+def test_a_fractal_boundary(fractal):
+    """The exponent is small over all decades, and is 2 less the dimension; every share is inside its interval and falls."""
+    result, summary, _ = fractal
+    group = result.group("boundary")
+    share = group["uncertain_share"].values
+    assert np.all(np.diff(share) <= 0) and np.all(group["uncertain_low"] <= share) and np.all(share <= group["uncertain_high"])
+    low, high = (group.attrs[f"uncertainty_exponent_{end}"] for end in ("low", "high"))
+    assert low < group.attrs["uncertainty_exponent"] < high < 0.5
+    assert 1.3 < group["dimension"].values[2:6].mean() < 2
+    shared = group["shared"].values
+    assert np.all((shared >= 0) & (shared <= 1)) and np.all(np.diff(shared[:6], axis=0) > -0.05)
+    assert "boundary: uncertainty exponent" in summary and "box-counting dimension" in summary
+
+
+def test_a_smooth_boundary(kapitza, tmp_path):
+    """About the inverted state at Fig. 11 a few curves are the whole boundary: exponent and dimension 1."""
+    window = scene(0.15, pairs=20000)
+    window["basin"] |= {"theta": {"min": 2.2, "max": 4.08, "count": 256}, "velocity": {"min": -0.1, "max": 0.1, "count": 256}}
+    group = run(kapitza, tmp_path, window)[0].group("boundary")
+    assert group.attrs["uncertainty_exponent_low"] < 1 < group.attrs["uncertainty_exponent_high"]
+    assert group["dimension"].values[:4] == pytest.approx(1, abs=0.05)
+
+
+def test_any_number_of_ranks(fractal, kapitza, tmp_path):
+    _, _, path = fractal
+    kapitza("run", path, "-o", "again.h5", ranks=3, folder=tmp_path)
+    assert datasets(tmp_path / "again.h5") == datasets(path.with_suffix(".h5"))
+
+
+def test_lifetimes_of_a_basin_and_of_a_sweep(fractal, kapitza, tmp_path):
+    """The tail of the settling times; the same from the starts of a sweep, within the intervals."""
+    result, _, _ = fractal
+    basin = result.group("basin")
+    times = basin["settling_time"].values.astype(float)
+    after = basin.attrs["lifetime_after"]
+    tail = times[times > after] - after
+    assert basin.attrs["lifetime"] == pytest.approx(tail.mean(), rel=0.02)
+    assert basin.attrs["lifetime_low"] < basin.attrs["lifetime"] < basin.attrs["lifetime_high"]
+    sweep = {"parameter": "drive_amplitude", "min": 0.47, "max": 0.471, "count": 2, "measure": ["lifetime"], "starts": 1024}
+    table = run(kapitza, tmp_path, {"pendulum": {**FIGURE, "drive_amplitude": 0.3}, "sweep": sweep})[0].group("sweep").isel(value=0)
+    assert float(table["lifetime_low"]) < basin.attrs["lifetime_high"] * 1.5
+    assert float(table["lifetime_low"]) < float(table["lifetime"]) < float(table["lifetime_high"])
+
+
+def test_cells_that_stay_open_are_put_in_words(kapitza, tmp_path):
+    """Most motions at k = 0.25, beta = 0.05, m = 0.465 are long chaotic transients: 2000 periods show that few of them end."""
+    chaos = {"pendulum": {"k": 0.25, "damping": 0.05, "m": 0.465},
+             "basin": {"theta": {"count": 24}, "velocity": {"min": -1, "max": 1, "count": 12}, "max_periods": 2000,
+                       "attractors": {"starts": 64, "max_period": 4}}}
+    result, summary = run(kapitza, tmp_path, chaos)
+    open_cells = int((result.group("basin")["attractor"].values < 0).sum())
+    assert (open_cells > 0) == ("transients: " in summary)
+    if open_cells > 20:
+        assert result.group("basin").attrs["lifetime_low"] > 100

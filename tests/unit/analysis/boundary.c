@@ -1,0 +1,136 @@
+/* Boundaries of known dimension, basins that share theirs, lifetimes of known means. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "kapitza/analysis.h"
+
+enum { SIDE = 2187 }; /* 3^7 */
+static int16_t label[256 + 1][SIDE];
+
+/* The step of Cantor's construction that removes x, counted from 0: its gaps have the Cantor set as their only limit. */
+static int gap_of(double x) {
+  for (int step = 0; step < 34; step++) {
+    x *= 3;
+    const int third = (int)x;
+    if (third == 1) return step;
+    x -= third;
+  }
+  return 34;
+}
+
+static void fill(int16_t (*of)(int row, int column)) {
+  for (int row = 0; row <= 256; row++)
+    for (int column = 0; column < SIDE; column++) label[row][column] = of(row, column);
+}
+
+static int16_t line(int row, int column) {
+  return column - 3 * row > 700;
+}
+
+static int16_t stripes(int row, int column) {
+  (void)row;
+  return (int16_t)(column / 100 % 3);
+}
+
+static int16_t cantor_3(int row, int column) {
+  (void)row;
+  return (int16_t)(gap_of((column + 0.5) / SIDE) % 3);
+}
+
+/* A line has the dimension 1, stripes over a Cantor set 1 + ln 2/ln 3: over the scales of three triadic steps. */
+static void test_dimensions(void **state) {
+  (void)state;
+  kz_box_counts counts = {0};
+  fill(line);
+  assert_true(kz_boxes_count(SIDE, 257, label[0], &counts) == KZ_OK);
+  for (int level = 0; level < 5; level++) assert_true(fabs(kz_boxes_dimension(&counts, level) - 1) < 0.05);
+  memset(&counts, 0, sizeof counts);
+  fill(cantor_3);
+  assert_true(kz_boxes_count(SIDE, 257, label[0], &counts) == KZ_OK);
+  double mean = 0;
+  for (int level = 2; level < 7; level++) mean += kz_boxes_dimension(&counts, level) / 5;
+  assert_true(fabs(mean - (1 + log(2) / log(3))) < 0.06);
+}
+
+/* Gaps taken in turn by three labels share the whole Cantor set (Wada); each boundary of stripes belongs to two of three. */
+static void test_which_basins_share_their_boundary(void **state) {
+  (void)state;
+  kz_box_counts wada = {0}, pairs = {0};
+  fill(cantor_3);
+  assert_true(kz_boxes_count(SIDE, 257, label[0], &wada) == KZ_OK);
+  fill(stripes);
+  assert_true(kz_boxes_count(SIDE, 257, label[0], &pairs) == KZ_OK);
+  for (int i = 0; i < 3; i++) {
+    assert_true((double)wada.with[6][i] > 0.99 * (double)wada.boxes[6]);
+    assert_true(fabs((double)pairs.with[4][i] / (double)pairs.boxes[4] - 2.0 / 3) < 0.05);
+  }
+  assert_true(wada.with[6][3] == 0);
+}
+
+/* Pairs of points on a line whose gaps are coloured by turns: exponent 1 - ln 2/ln 3 over every decade; of one point it is 1. */
+static void test_uncertainty_exponents(void **state) {
+  (void)state;
+  enum { DISTANCES = 7, PAIRS = 40000 };
+  kz_uncertain cantor[DISTANCES], point[DISTANCES];
+  kz_slope slope[DISTANCES - 1];
+  for (int d = 0; d < DISTANCES; d++) {
+    cantor[d] = point[d] = (kz_uncertain){.distance = pow(10, -2 - d), .pairs = PAIRS};
+    for (int i = 0; i < PAIRS; i++) {
+      const double x = fmod(i * 0.61803398874989484820, 1), y = x + cantor[d].distance;
+      cantor[d].uncertain += y < 1 && gap_of(x) % 2 != gap_of(y) % 2;
+      point[d].uncertain += (x < 0.5) != (y < 0.5);
+    }
+  }
+  const double exact = 1 - log(2) / log(3);
+  const kz_slope whole = kz_uncertainty_slopes(DISTANCES, cantor, slope);
+  assert_true(whole.low < exact && exact < whole.high && whole.high - whole.low < 0.1);
+  assert_true(whole.near < 1e-6 && whole.far == 0.01);
+  for (int d = 1; d < 4; d++) assert_true(fabs(slope[d].slope - exact) < 0.15);
+  const kz_slope smooth = kz_uncertainty_slopes(DISTANCES, point, slope);
+  assert_true(smooth.low < 1 && 1 < smooth.high && smooth.near > 1e-4);
+  assert_true(isnan(slope[5].slope) || slope[5].high == INFINITY);
+}
+
+/* Exponential times, some still open: the interval holds the mean; where none has ended, there is a lower end alone. */
+static void test_lifetimes(void **state) {
+  (void)state;
+  enum { N = 4000 };
+  static double time[N];
+  uint64_t seed = 1;
+  int64_t n = 0, open = 0;
+  const double mean = 320, longest = 500;
+  for (int i = 0; i < N; i++) {
+    seed = seed * 6364136223846793005u + 1442695040888963407u;
+    const double t = -mean * log(((double)(seed >> 11) + 0.5) / 9007199254740992.0);
+    if (t < longest)
+      time[n++] = t;
+    else
+      open++;
+  }
+  const kz_lifetime life = kz_lifetime_tail(n, time, open, longest);
+  assert_true(life.low < mean && mean < life.high && life.high - life.low < 0.12 * mean && life.open == open);
+  assert_true(fabs(life.mean - mean) < 0.06 * mean && life.from > 50 && life.from < 250);
+  const kz_lifetime few = kz_lifetime_of(199, 199), more = kz_lifetime_of(201, 201), many = kz_lifetime_of(1000000, 1e6);
+  assert_true(fabs((few.high - 1) / (more.high - 1) - sqrt(201.0 / 199)) < 1e-3 && few.mean == 1 && more.mean == 1);
+  assert_true(fabs((few.low - 1) / (more.low - 1) - sqrt(201.0 / 199)) < 1e-3);
+  assert_true(fabs(many.high - many.low - 2 * 1.96 / 1000) < 1e-5);
+  const kz_lifetime none = kz_lifetime_tail(0, time, 1000, 300);
+  assert_true(isnan(none.mean) && none.high == INFINITY && fabs(none.low - 1000 * 300 / -log(0.05)) < 1e-6 * none.low);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(test_dimensions),
+      cmocka_unit_test(test_which_basins_share_their_boundary),
+      cmocka_unit_test(test_uncertainty_exponents),
+      cmocka_unit_test(test_lifetimes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
