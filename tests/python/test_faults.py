@@ -208,50 +208,6 @@ def test_resume_of_a_complete_file_removes_its_own_checkpoint_alone(kapitza, tmp
     assert [path.name for path in tmp_path.iterdir()] == ["small.h5"]
 
 
-def test_links_that_lead_nowhere(kapitza, tmp_path):
-    """As the result it is there already; as the checkpoint it is refused at once."""
-    (tmp_path / "small.h5").symlink_to("nowhere")
-    for word in ([], ["--resume"]):
-        assert "small.h5: exists" in kapitza("run", SMALL, *FEW, *word, folder=tmp_path, status=2).stderr
-    kapitza("run", SMALL, *FEW, "--force", folder=tmp_path)
-    assert not (tmp_path / "small.h5").is_symlink() and not (tmp_path / "nowhere").exists()
-    (tmp_path / "small.h5").unlink()
-    (tmp_path / "small.h5.checkpoint").symlink_to("nowhere")
-    for word in ([], ["--resume"], ["--force"]):
-        done = kapitza("run", SMALL, *FEW, *word, folder=tmp_path, status=2)
-        assert "small.h5.checkpoint: cannot be used as checkpoint: a link" in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["small.h5.checkpoint"]
-
-
-def test_true_labels_are_not_written_through_a_link(kapitza, tmp_path):
-    (tmp_path / "precious").write_text("mine")
-    (tmp_path / "small.h5.truth.part").symlink_to("precious")
-    kapitza("run", SMALL, *FEW, "--set", "tradeoff={samples: 10, settings: [direct-8]}", folder=tmp_path)
-    assert (tmp_path / "precious").read_text() == "mine"
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["precious", "small.h5", "small.h5.truth"]
-
-
-@pytest.mark.parametrize("suffix", [".part", ".checkpoint", ".truth", ".truth.part", ""])
-@pytest.mark.parametrize("what", ["a folder", "the scene itself"])
-def test_names_beside_the_result_that_are_taken(kapitza, tmp_path, suffix, what):
-    """Nothing is touched, with --force neither."""
-    taken = tmp_path / f"x.h5{suffix}"
-    if what == "a folder":
-        taken.mkdir()
-    else:
-        taken.write_text(SMALL.read_text())
-    done = kapitza("run", SMALL if what == "a folder" else taken, "-o", "x.h5", "--force", folder=tmp_path, status=2)
-    assert f"{taken.name}: is {what}" in done.stderr and [path.name for path in tmp_path.iterdir()] == [taken.name]
-    assert taken.is_dir() or taken.read_text() == SMALL.read_text()
-
-
-def test_a_link_in_the_place_of_the_half_file_leads_nowhere(kapitza, tmp_path):
-    (tmp_path / "precious").write_text("mine")
-    (tmp_path / "small.h5.part").symlink_to("precious")
-    kapitza("run", SMALL, *FEW, folder=tmp_path)
-    assert (tmp_path / "precious").read_text() == "mine" and not (tmp_path / "small.h5").is_symlink()
-
-
 @pytest.mark.parametrize("differs, said", [(["--set", "basin.theta.count=50"], "another scene or program"),
                                            (["-o", "y.h5"], "another name")])
 def test_ranks_that_were_told_different_things(tmp_path, differs, said):

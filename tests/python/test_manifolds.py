@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from conftest import datasets, plot
 from kapitza import Result
+from runge_kutta import runge_kutta
 
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 SADDLES = {"velocity": {"min": -2, "max": 2}}
@@ -25,23 +26,9 @@ def fig12(kapitza, tmp_path_factory):
     return Result(folder / "s.h5"), done.stdout
 
 
-def strobe_map(pendulum, theta, velocity, periods=1, steps=300):
+def strobe_map(pendulum, theta, velocity, periods=1):
     """The strobe map by the classical Runge-Kutta method, to about 1e-9; angles are not wrapped."""
-    k, beta, m = (pendulum[name] for name in ("k", "beta", "m"))
-    h = 2 * np.pi / steps
-
-    def slope(t, x, v):
-        return v, -beta * v - (k - m * np.cos(t)) * np.sin(x)
-
-    for i in range(periods * steps):
-        t = (i % steps) * h
-        a = slope(t, theta, velocity)
-        b = slope(t + h / 2, theta + h / 2 * a[0], velocity + h / 2 * a[1])
-        c = slope(t + h / 2, theta + h / 2 * b[0], velocity + h / 2 * b[1])
-        d = slope(t + h, theta + h * c[0], velocity + h * c[1])
-        theta = theta + h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
-        velocity = velocity + h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
-    return theta, velocity
+    return runge_kutta(pendulum, (theta, velocity), periods, 300, float)
 
 
 def branch_of(group, saddle, branch, kind):

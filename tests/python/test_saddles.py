@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from conftest import datasets, plot
 from kapitza import Result
+from runge_kutta import runge_kutta
 
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 WINDOW = {"velocity": {"min": -2, "max": 2}}
@@ -25,26 +26,6 @@ def fig12(kapitza, tmp_path_factory):
     (folder / "s.yaml").write_text(scene_text(max_period=4))
     done = kapitza("run", "s.yaml", ranks=2, folder=folder)
     return Result(folder / "s.h5").group("saddles"), done.stdout, folder / "s.h5"
-
-
-def runge_kutta(pendulum, state, periods, steps):
-    """Periods of the classical method in extended precision."""
-    k, beta, m = (np.longdouble(pendulum[name]) for name in ("k", "beta", "m"))
-    theta, velocity = (np.array(part, dtype=np.longdouble) for part in state)
-    h = 2 * np.arccos(np.longdouble(-1)) / steps
-
-    def slope(t, x, v):
-        return v, -beta * v - (k - m * np.cos(t)) * np.sin(x)
-
-    for i in range(periods * steps):
-        t = (i % steps) * h
-        a = slope(t, theta, velocity)
-        b = slope(t + h / 2, theta + h / 2 * a[0], velocity + h / 2 * a[1])
-        c = slope(t + h / 2, theta + h / 2 * b[0], velocity + h / 2 * b[1])
-        d = slope(t + h, theta + h * c[0], velocity + h * c[1])
-        theta = theta + h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
-        velocity = velocity + h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
-    return np.array([theta, velocity])
 
 
 def strobe_map(pendulum, state, periods):

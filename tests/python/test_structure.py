@@ -10,6 +10,7 @@ from conftest import PROGRAM, ROOT
 SOURCES = ROOT / "src"
 HEADERS = ROOT / "include" / "kapitza"
 FORTRAN = sorted(SOURCES.rglob("*.f90"))
+LONGEST = 350  # lines of a file
 
 
 def layers():
@@ -29,6 +30,12 @@ def modules():
 def test_a_module_is_named_after_its_folder_and_file():
     named = {path.relative_to(SOURCES): name for name, path in modules().items()}
     assert not {path: name for path, name in named.items() if name != f"kz_{path.parent.name}_{path.stem}"}
+
+
+def test_no_file_is_long():
+    folders = [SOURCES, HEADERS, ROOT / "tests", ROOT / "scripts", ROOT / "benchmarks", ROOT / "cmake"]
+    files = [path for folder in folders for path in folder.rglob("*") if path.suffix in {".c", ".h", ".f90", ".inc", ".py", ".cmake"}]
+    assert not {str(path): n for path in files if (n := len(path.read_text().splitlines())) > LONGEST}
 
 
 def place_of(include, path):

@@ -1,5 +1,6 @@
 kapitza_test(dynamics/continuation LABEL unit LAYER dynamics)
 kapitza_test(dynamics/dynamics LABEL unit LAYER dynamics TIMEOUT 600)
+kapitza_test(dynamics/labels LABEL unit LAYER dynamics TIMEOUT 600)
 kapitza_test(kernel/kernel LABEL unit LAYER kernel)
 kapitza_test(kernel/enclosure LABEL unit LAYER kernel)
 kapitza_test(app/memory_limit LABEL unit LAYER app)

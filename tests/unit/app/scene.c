@@ -4,6 +4,7 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include "../../tools/resolved.h"
 #include "scene.h"
 
 #include <math.h>
@@ -26,15 +27,6 @@ static void expect_refused(const char *text, const char *set, const char *messag
   kz_scene scene;
   assert_int_equal(read_scene(text, set, &scene), KZ_REFUSED);
   assert_string_equal(kz_message(), message);
-}
-
-static char *resolved(const kz_scene *scene) {
-  char *text;
-  size_t size;
-  FILE *out = open_memstream(&text, &size);
-  kz_scene_write(kz_keys, scene, false, out);
-  fclose(out);
-  return text;
 }
 
 static void defaults_are_those_of_the_table(void **state) {

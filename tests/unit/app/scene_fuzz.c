@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../tools/resolved.h"
 #include "scene.h"
 
 enum { LONGEST = 4096 };
@@ -63,20 +64,11 @@ static size_t mutate(char *text, size_t length) {
   }
 }
 
-static char *resolve(const kz_scene *scene) {
-  char *text;
-  size_t size;
-  FILE *out = open_memstream(&text, &size);
-  kz_scene_write(kz_keys, scene, false, out);
-  fclose(out);
-  return text;
-}
-
 static void check_fixed_point(kz_scene *scene) {
-  char *once = resolve(scene);
+  char *once = resolved(scene);
   kz_scene_free(scene);
   if (kz_scene_read(once, strlen(once), "resolved", 0, NULL, scene) != KZ_OK) fail_msg("%s in\n%s", kz_message(), once);
-  char *twice = resolve(scene);
+  char *twice = resolved(scene);
   assert_string_equal(once, twice);
   free(once);
   free(twice);

@@ -1,0 +1,81 @@
+/* Pendulums of quality factor 5 and drive frequency 11 whose attractors in a window are known. */
+#ifndef KAPITZA_TESTS_EXPLORED_H
+#define KAPITZA_TESTS_EXPLORED_H
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "find.h"
+#include "kapitza/kernel.h"
+
+static inline const kz_numerics *numerics(void) {
+  static kz_numerics numerics = {.steps_per_period = 16, .precision = KZ_DOUBLE};
+  numerics.scheme = kz_scheme_find("split6");
+  return &numerics;
+}
+static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
+
+enum { STARTS = 1024 };
+
+/* The sanitizers make everything ten times slower: a part of the starts shows them the same code. */
+#ifdef __SANITIZE_ADDRESS__
+enum { PART = 8 };
+#else
+enum { PART = 1 };
+#endif
+
+/* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow with every
+ * attractor. */
+static inline kz_dynamics *explored_with(const kz_numerics *numerics, double m, int64_t seed, int64_t cells,
+                                         double max_velocity) {
+  kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
+  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics, 12);
+  double *state = malloc(2 * STARTS * sizeof *state);
+  int32_t *label = malloc(STARTS * sizeof *label);
+  int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
+  assert_non_null(d);
+  kz_dynamics_starts(&WINDOW, seed, n, state);
+  if (cells > 0)
+    kz_dynamics_fine_regions(d, cells, max_velocity);
+  else
+    kz_dynamics_coarse_regions(d, max_velocity);
+  for (int round = 0; n > 0 && round < 12; round++) {
+    kz_dynamics_update(d);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 128, state, label, periods);
+    int64_t open = 0;
+    for (int64_t i = 0; i < n; i++)
+      if (label[i] == 0) {
+        memmove(state + 2 * open, state + 2 * i, 2 * sizeof *state);
+        open++;
+      }
+    n = open;
+    const int64_t some = cells > 0 ? 1 : 64;
+    for (int64_t first = 0; first < n; first += some) {
+      find_cycles(d, n - first < some ? n - first : some, state + 2 * first, 0.02);
+      if (cells > 0 && first < 64) kz_dynamics_update(d);
+    }
+  }
+  assert_int_equal(n, 0);
+  free(state);
+  free(label);
+  free(periods);
+  return d;
+}
+
+static inline kz_dynamics *explored(double m, int64_t seed, double max_velocity) {
+  return explored_with(numerics(), m, seed, 0, max_velocity);
+}
+
+/* Regions of a fine grid, and a map table. */
+static inline void with_table(kz_dynamics *d, int64_t nodes, double max_velocity) {
+  kz_dynamics_table_create(d, nodes, nodes, max_velocity);
+  int64_t size = kz_dynamics_table_row_size(d);
+  double *rows = malloc((size_t)(nodes * size) * sizeof *rows);
+  for (int64_t row = 0; row < nodes; row++) kz_dynamics_table_row(d, row, rows + row * size);
+  kz_dynamics_table_set(d, rows);
+  kz_dynamics_fine_regions(d, nodes, max_velocity);
+  free(rows);
+}
+
+#endif

@@ -1,0 +1,19 @@
+/* The resolved text of a scene. */
+#ifndef KAPITZA_TESTS_RESOLVED_H
+#define KAPITZA_TESTS_RESOLVED_H
+
+#include <stdio.h>
+
+#include "scene.h"
+
+/* To be freed. */
+static inline char *resolved(const kz_scene *scene) {
+  char *text;
+  size_t size;
+  FILE *out = open_memstream(&text, &size);
+  kz_scene_write(kz_keys, scene, false, out);
+  fclose(out);
+  return text;
+}
+
+#endif
