@@ -3,9 +3,7 @@
 import numpy as np
 
 from .number import Number
-from .runs import at, curves, cycle, sweep
-
-FIVE = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.5}
+from .runs import FIVE, at, curves, sweep
 
 
 def boundaries(runs, known):
@@ -138,100 +136,6 @@ def _release_bar(epsilon, first):
     return 2e-5 if 0.13 < epsilon < 0.3 else 1e-3
 
 
-def flutter(runs, known):
-    """Figs 8, 9, 10 and the text: flutter, its amplitude, where it begins and how it ends."""
-    for release, row in known["blackburn_fig8_turning_points_deg_Q5_Omega11_eps0.5"].items():
-        orbit = {"start": {"theta": np.pi + np.radians(float(release)), "velocity": 0}, "periods": 20}
-        values, _ = runs({"pendulum": FIVE, "orbit": orbit}, "orbit")
-        for turn, exact in enumerate(row["first12"]):
-            yield Number(
-                "Fig. 8",
-                f"turning point {turn + 1} after a release of {release} degrees",
-                np.degrees(values["maximum_angle"][turn]),
-                reference=exact,
-                bar=2e-3,
-            )
-    for row in known["blackburn_fig9_10_flutter_Q5_Omega11"]:
-        values, _ = cycle(
-            runs, FIVE | {"drive_amplitude": float(row["eps"])}, np.pi + float(row["phi_strobe"]), float(row["dphi_strobe"]), period=2
-        )
-        amplitude = np.abs(values["maximum_angle"]).max()
-        yield Number("Figs 9, 10", f"amplitude of flutter at epsilon = {row['eps']}, rad", amplitude, reference=row["amp_rad"], bar=1e-8)
-        if row["eps"] == "0.5":
-            yield Number(
-                "Fig. 8", "final amplitude at epsilon = 0.5, degrees", np.degrees(amplitude), "40", row["amp_deg"], 1e-6, printed_bar=5
-            )
-    values, attributes = sweep(runs, FIVE, "drive_amplitude", 0.4683, 0.473, 48, "flutter_amplitude")
-    yield Number(
-        "Sec. III",
-        "onset of flutter from the multiplier -1",
-        attributes["critical_value"],
-        "0.468",
-        known["blackburn_fig4_upper_flutter"]["Omega11_Q5"]["eps_c"],
-        1e-12,
-    )
-    yield Number(
-        "Fig. 10",
-        "exponent of the amplitude (a straight line over the square root)",
-        attributes["fit_exponent"],
-        "0.5",
-        printed_bar=attributes["fit_exponent_error"],
-    )
-
-
-def flutter_ends(runs, known):
-    """The dots of Fig. 4 and the text's 0.53: the cycle loses its symmetry and doubles its period; releases fail earlier."""
-    for low, high, count in ((5, 15, 11), (20, 30, 2)):
-        values, _ = sweep(runs, FIVE, "drive_frequency", low, high, count, "flutter_zone")
-        for index, omega in enumerate(values["value"]):
-            row = known["blackburn_fig4_upper_flutter"].get(f"Omega{round(omega)}_Q5")
-            if row is None:
-                continue
-            yield Number("Fig. 4", f"flutter begins at Omega = {omega:g}", values["flutter_onset"][index], reference=row["eps_c"], bar=1e-9)
-            yield Number(
-                "Fig. 4",
-                f"flutter loses its symmetry at Omega = {omega:g}",
-                values["flutter_asymmetry"][index],
-                reference=row["eps_symmetry_breaking"],
-                bar=1e-6,
-            )
-            if omega == 11:
-                end = known["blackburn_flutter_cascade_Q5_Omega11"]["eps_period_doubling_of_asymmetric_flutter"]
-                yield Number(
-                    "Sec. III",
-                    "flutter ends",
-                    values["flutter_end"][index],
-                    "0.53",
-                    end,
-                    1e-6,
-                    "0.53 is a limit of releases from rest; the attractor lives on, and doubles its period at 0.5717",
-                )
-
-
-RANGES = {
-    "period3_top": ("inverted 3-nodding", 0.46, 0.475, 16),
-    "period9_top": ("inverted 9-nodding", 0.46, 0.475, 16),
-    "period4_top": ("inverted 4-nodding", 0.5195, 0.5235, 5),
-    "period2_bottom": ("down 2-nodding", 0.43, 0.55, 9),
-    "spin_+1/1": ("rotation +1/1", 0.03, 0.05, 5),
-}
-
-
-def lives(runs, known):
-    """From where to where the attractors of Figs 11 to 15 exist."""
-    for name, ends in known["attractor_existence_ranges_Q5_Omega11"].items():
-        words, low, high, count = RANGES[name]
-        values, _ = sweep(runs, FIVE, "drive_amplitude", low, high, count, "attractors", starts=4096)
-        row = [str(found) for found in values["branch_name"]].index(words)
-        for what, side in (("begins", "low"), ("ends", "high")):
-            if low < ends[side]["eps"] < high:
-                yield Number(
-                    "Figs 11-15",
-                    f"{words} {what}, epsilon",
-                    values["branch_start" if side == "low" else "branch_end"][row],
-                    reference=ends[side]["eps"],
-                    bar=1e-7,
-                )
 
 
 def attractors(runs, known):
@@ -279,4 +183,4 @@ def cores(runs, known):
         )
 
 
-PARTS = [boundaries, potential, releases, flutter, flutter_ends, lives, attractors, cores]
+PARTS = [boundaries, potential, releases, attractors, cores]

@@ -3,11 +3,14 @@
 import json
 from pathlib import Path
 
-from . import blackburn, butikov
+from . import blackburn, butikov, flutter, tongues
 from .number import FAILED
 from .runs import ROOT, Runs
 
-PAPERS = [("Blackburn, Smith and Groenbech-Jensen (1992)", blackburn), ("Butikov (2018)", butikov)]
+PAPERS = [
+    ("Blackburn, Smith and Groenbech-Jensen (1992)", blackburn.PARTS + flutter.PARTS),
+    ("Butikov (2018)", butikov.PARTS + tongues.PARTS),
+]
 HEAD = """\
 # Every number of the two papers
 
@@ -29,9 +32,9 @@ def find_numbers(say):
     known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
     found = []
     with Runs() as runs:
-        for title, paper in PAPERS:
+        for title, parts in PAPERS:
             numbers = []
-            for part in paper.PARTS:
+            for part in parts:
                 say(f"{title}: {part.__doc__.splitlines()[0]}")
                 numbers += part(runs, known)
             found.append((title, numbers))

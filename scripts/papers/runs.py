@@ -9,6 +9,7 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+FIVE = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.5}  # of Blackburn's Figs 8 to 15
 
 
 class Runs:
@@ -83,3 +84,13 @@ def sweep(runs, pendulum, parameter, low, high, count, measure, **more):
         {"pendulum": pendulum, "sweep": {"parameter": parameter, "min": low, "max": high, "count": count, "measure": [measure], **more}},
         "sweep",
     )
+
+
+def cosine(values, line):
+    """The cosine part of a line of an orbit."""
+    return float(values["line_amplitude"][line] * np.cos(values["line_phase"][line]))
+
+
+def sine(values, line):
+    """Its sine part."""
+    return float(-values["line_amplitude"][line] * np.sin(values["line_phase"][line]))

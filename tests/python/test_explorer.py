@@ -77,6 +77,17 @@ def test_a_quick_look_is_coarse_in_its_table_alone(server):
     assert status == 200 and (view["method"], view["width"], view["height"]) == ("icm", 90, 60)
 
 
+def test_exact_labels_say_how_many_are_undecided(server, kapitza, tmp_path):
+    wanted = VIEW | {"width": 30, "height": 20, "method": "exact"}
+    view = server.request("view", wanted)[1]
+    (tmp_path / "view.yaml").write_text(server.request("scene", wanted)[1]["text"])
+    kapitza("run", "view.yaml", folder=tmp_path)
+    basin = Result(tmp_path / "view.h5").group("basin")
+    assert base64.b64decode(view["labels"]) == basin["attractor"].values.astype("<i2").tobytes()
+    assert (view["method"], view["undecided"]) == ("exact", basin.attrs["undecided"])
+    assert server.request("view", VIEW | {"width": 30, "height": 20})[1]["undecided"] is None
+
+
 def test_what_the_program_refuses_is_said_in_its_words(server):
     status, answer = server.request("view", VIEW | {"window": [1.0, 0.5, -1, 1]})
     assert status == 400 and "basin.theta.max" in answer["error"]
@@ -216,13 +227,14 @@ def test_resolved_scenes_are_read_as_yaml_reads_them(kapitza, name):
 
 def test_in_a_real_browser(server, kapitza, tmp_path):
     """Zoom three times, click, slide, save: what the page shows is what the program says."""
-    with browser(tmp_path, "1280,1000" if SCREENSHOTS else "900,700") as driver:
+    with browser(tmp_path, "1280,1000" if SCREENSHOTS else "760,520") as driver:
         page = Page(driver, server.url)
         check_home(page, kapitza, tmp_path)
         check_zoom(page)
         check_click(page)
         take_screenshot(page)
         check_slider(page, kapitza, tmp_path)
+        check_exact(page)
         check_saved(page, kapitza, tmp_path)
         assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE"] == []
 
@@ -289,6 +301,14 @@ def check_slider(page, kapitza, folder):
     value = page.element("value-drive_amplitude").get_attribute("value")
     assert float(value) == pytest.approx(0.3 * 4**0.1, rel=1e-4)
     assert page.shares() == run_shares(kapitza, folder / "slid.h5", *sets, "--set", f"pendulum.drive_amplitude={value}")
+
+
+def check_exact(page):
+    """Exact labels where they are asked for; then integration again."""
+    for method, words in (("exact", "decided"), ("direct", "method direct")):
+        page.driver.execute_script("arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('change'))",
+                                   page.element("method"), method)
+        assert words in page.wait()
 
 
 def check_saved(page, kapitza, folder):

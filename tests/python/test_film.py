@@ -2,7 +2,7 @@
 
 import film_basin
 import pytest
-from conftest import ROOT, run_script
+from conftest import ROOT, plot, run_script
 
 SCENE = (ROOT / "scenes" / "small.yaml").read_text()
 COUNTS = ("basin.theta.count", "basin.velocity.count")
@@ -21,9 +21,11 @@ def film(tmp_path, monkeypatch):
         command = list(map(str, command))
         if "run" in command:
             command[command.index("--set"):command.index("--set")] = [word for key in COUNTS for word in ("--set", f"{key}=20")]
+            run_command(command)
         else:
             drawn.append(command[-1])
-        run_command(command)
+            done = plot("basin", *command[2:])  # as the script does, in this process
+            assert done.returncode == 0, done.stderr
 
     run_command = film_basin.step
     monkeypatch.setattr(film_basin, "step", step)

@@ -77,7 +77,7 @@ def test_what_pip_installs(made_file, tmp_path):
 @pytest.mark.parametrize("words, status", [([], 2), (["portrait", "FILE"], 2), (["--help"], 0)])
 def test_the_command_names_its_kinds(words, status):
     done = python("-c", "from kapitza.command import main; main()", *words, env=os.environ | {"PYTHONPATH": str(ROOT / "scripts")})
-    assert done.returncode == status and "KIND: basin, orbit" in done.stdout + done.stderr and "Traceback" not in done.stderr
+    assert done.returncode == status and "KIND: basin, chart" in done.stdout + done.stderr and "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("tool", [["mypy"], ["ruff", "check"]])

@@ -5,22 +5,20 @@ import html
 import os
 import re
 import shutil
-import subprocess
-import sys
+from contextlib import chdir
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, plot
 from explorer_page import browser
 from kapitza.result import Result
 
 
 def write_report(*arguments, folder=ROOT):
-    command = [sys.executable, "-c", "from kapitza.command import main; main()", "report", *map(str, arguments)]
-    environment = os.environ | {"PYTHONPATH": str(ROOT / "scripts")}
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120)
+    with chdir(folder):
+        return plot("report", *arguments)
 
 
 @pytest.fixture(scope="module")

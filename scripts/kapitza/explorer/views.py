@@ -20,7 +20,7 @@ def view(path):
             for index, colour in enumerate(style.colours(attractors))]
     return {"labels": base64.b64encode(labels.astype("<i2").tobytes()).decode(), "attractors": rows,
             "height": labels.shape[0], "width": labels.shape[1], "unsettled": float(np.mean(labels < 0)),
-            "unsettled_colour": style.UNSETTLED}
+            "unsettled_colour": style.UNSETTLED, "undecided": int(basin.attrs["undecided"]) if "undecided" in basin.attrs else None}
 
 
 def _points(table, index):

@@ -6,7 +6,7 @@
 """
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 import xarray
@@ -32,39 +32,43 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     return parsed(parser, words)
 
 
-def kinds(chart: xarray.Dataset) -> tuple[np.ndarray, list[str]]:
-    """The colours (rgb) of one start's ends, and the kinds of motion among them, the most frequent first."""
+def kinds(chart: xarray.Dataset, colours: Mapping[str, str] | None = None) -> tuple[np.ndarray, list[str]]:
+    """The colours (rgb) of one start's ends, and the kinds of motion among them, the most frequent first; `colours`: of a kind."""
     classes, place, counts = np.unique(np.stack([chart[name].values.ravel() for name in ("end", "period", "winding", "centre")]), axis=1,
                                        return_inverse=True, return_counts=True)
     rows = [tuple(int(value) for value in row) for row in classes.T]
-    palette = np.array([to_rgb(style.motion_colour(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else style.UNSETTLED) for row in rows])
+    names = [style.kind(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else "not settled" for row in rows]
+    usual = [style.motion_colour(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else style.UNSETTLED for row in rows]
+    palette = np.array([to_rgb((colours or {}).get(name, colour)) for name, colour in zip(names, usual, strict=True)])
     share: dict[str, int] = {}
-    for row, count in zip(rows, counts, strict=True):
-        name = style.kind(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else "not settled"
+    for name, count in zip(names, counts, strict=True):
         share[name] = share.get(name, 0) + int(count)
     return palette[place.ravel()].reshape(*chart["end"].shape, 3), sorted(share, key=lambda name: -share[name])
 
 
-def draw_ends(axes: Axes, chart: xarray.Dataset, *, legend: bool = True) -> Axes:
-    """Ends of one start, coloured as the motions are in all figures."""
-    colours, names = kinds(chart)
-    axes.pcolormesh(chart["x"], chart["y"], colours, shading="nearest", rasterized=True)
+def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True) -> Axes:
+    """Ends of one start, coloured as the motions are in all figures, or by `colours` (kind of motion -> colour)."""
+    image, names = kinds(chart, colours)
+    axes.pcolormesh(chart["x"], chart["y"], image, shading="nearest", rasterized=True)
     if legend:
-        patches = [Patch(facecolor=style.KINDS.get(name, style.UNSETTLED), edgecolor=style.FAINT, label=name) for name in names]
+        known = style.KINDS | dict(colours or {})
+        patches = [Patch(facecolor=known.get(name, style.UNSETTLED), edgecolor=style.FAINT, label=name) for name in names]
         axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8)
     return axes
 
 
-def draw_number(axes: Axes, chart: xarray.Dataset, view: str) -> Axes:
-    """Exponents or settling times of one start."""
+def draw_number(axes: Axes, chart: xarray.Dataset, view: str, *, colours: str | None = None, legend: bool = True) -> Axes:
+    """Exponents or settling times of one start; `colours`: name of a colour map; `legend`: the bar beside it."""
     if view == "exponent":
         values, text = chart["exponent"].values, "largest Lyapunov exponent, per drive period"
         norm = TwoSlopeNorm(0, min(np.nanquantile(values, 0.02), -1e-6), max(np.nanquantile(values, 0.998), 1e-6))
-        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap="RdBu_r", norm=norm, shading="nearest", rasterized=True)
+        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "RdBu_r", norm=norm, shading="nearest", rasterized=True)
     else:
         values, text = np.maximum(chart["settling_time"].values, 1), "settling time, drive periods"
-        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap="viridis", norm=LogNorm(), shading="nearest", rasterized=True)
-    axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, pad=0.01)
+        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "viridis", norm=LogNorm(), shading="nearest",
+                                rasterized=True)
+    if legend:
+        axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, pad=0.01)
     return axes
 
 
@@ -91,7 +95,7 @@ def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legen
     if view == "ends":
         draw_ends(axes, chart, legend=legend)
     else:
-        draw_number(axes, chart, view)
+        draw_number(axes, chart, view, legend=legend)
     for x, y in linear_curves(result, chart):
         axes.plot(x, y, color=style.INK, linewidth=0.8)
     axes.set(xlim=chart["x"].values[[0, -1]], ylim=chart["y"].values[[0, -1]])

@@ -25,23 +25,35 @@ function request(scale = 1) {
     method: element("method").value, pendulum: page.pendulum };
 }
 
-// A quick look, then the view itself; a later call ends this one.
+// What a view is computed by, one after the other: a quick look, the method chosen; before exact labels those by integration.
+function steps() {
+  const chosen = element("method").value, fine = chosen === "exact" ? "direct" : chosen;
+  const list = [{ words: "a quick look ...", scale: 0.25, coarse: true, method: fine }, { words: "computing the labels ...", scale: 1, coarse: false, method: fine }];
+  if (chosen === "exact") list.push({ words: "deciding every label ...", scale: 1, coarse: false, method: "exact" });
+  return list;
+}
+
+// Each step in turn; a later call ends this one.
 async function compute() {
-  const order = ++page.order;
+  const order = ++page.order, list = steps();
   try {
-    for (const coarse of [true, false]) {
-      say("computing", coarse ? "a quick look ..." : "computing the labels ...");
-      const view = await ask("view", { ...request(coarse ? 0.25 : 1), coarse });
+    for (const step of list) {
+      say("computing", step.words);
+      const view = await ask("view", { ...request(step.scale), coarse: step.coarse, method: step.method });
       if (!view || order !== page.order) return;
       page.view = view;
       page.image = labelImage(view);
       writeLegend();
       draw();
-      if (!coarse) say("done", `${view.width} × ${view.height} starts, method ${view.method}`);
+      if (step === list.at(-1)) say("done", `${view.width} × ${view.height} starts, method ${view.method}` + undecidedWords(view));
     }
   } catch (error) {
     if (order === page.order) say("error", error.message);
   }
+}
+
+function undecidedWords(view) {
+  return view.undecided === null ? "" : view.undecided === 0 ? ", every label decided" : `, ${view.undecided} undecided`;
 }
 
 function computeSoon() {
