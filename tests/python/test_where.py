@@ -39,9 +39,9 @@ def test_the_labels_of_a_run(kapitza, tmp_path, window):
     ids = np.array([int(row["attractor"]) for row in found])
     assert np.array_equal(ids, basin["attractor"].values[rows, columns])
     apart = np.array([int(row["settling_time"]) for row in found]) - basin["settling_time"].values[rows, columns].astype(int)
-    assert np.abs(apart).max() <= 1 and np.mean(apart != 0) < 0.02  # an orbit may be at the edge of a region
+    assert np.abs(apart).max() <= 1 and np.mean(apart != 0) < 0.02  # at the edge of a trapping region, which moves by 1e-13
     assert [row["name"] for row in found] == [str(attractors["name"].values[index]) for index in ids]
-    assert np.array_equal([float(row["strobe_theta"]) for row in found], attractors["strobe_theta"].values[ids, 0])
+    assert [float(row["strobe_theta"]) for row in found] == pytest.approx(attractors["strobe_theta"].values[ids, 0], abs=1e-11)
 
 
 def test_json_holds_the_whole_orbit():
