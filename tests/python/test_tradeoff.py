@@ -15,6 +15,8 @@ import pytest
 import reference_coverage
 from conftest import PROGRAM, ROOT, datasets
 from kapitza import Result
+from kapitza.layout import CODES
+from kapitza.plots.tradeoff import WAYS, way
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
 from reference_check import Catalogue, reference_labels  # noqa: E402
@@ -151,6 +153,11 @@ def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):
 def test_accuracy_excludes_what_it_chooses(kapitza, tmp_path, key):
     done = kapitza("check", SMALL, *without_method(0.995), "--set", key, folder=tmp_path, status=2)
     assert f"{key.split('=')[0]}: contradicts basin.accuracy" in done.stderr
+
+
+def test_every_method_has_its_line():
+    ways = [way(code, 1, "processed", 2) for code in range(CODES["method"] + 1)]
+    assert ways == ["table, quintic", "direct, processed", "exact"] and set(ways) <= set(WAYS)
 
 
 def test_a_trade_needs_a_basin(kapitza, tmp_path):

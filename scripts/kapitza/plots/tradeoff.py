@@ -21,13 +21,15 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.result import Result
 
-METHODS, PRECISIONS, INTERPOLATIONS = ("icm", "direct"), ("single", "double", "quad"), ("linear", "cubic", "quintic")
+METHODS, PRECISIONS = ("icm", "direct", "exact"), ("single", "double", "quad")
+INTERPOLATIONS = ("linear", "cubic", "quintic")
 # Way to label -> colour and marker.
 WAYS = {
     "direct, split6": ("#2f6db3", "o"),
     "direct, rk4": ("#7a4fa3", "s"),
     "direct, processed": ("#12806a", "v"),
     "direct, single": ("#8fb4dc", "o"),
+    "exact": (style.INK, "*"),
     "table, linear": ("#c2452f", "D"),
     "table, cubic": ("#e08a3c", "^"),
     "table, quintic": ("#f2b233", "P"),
@@ -44,6 +46,8 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
 def way(method_code: int, precision_code: int, scheme: str, interpolation_code: int) -> str:
     """A key of WAYS."""
     method, precision = METHODS[method_code], PRECISIONS[precision_code]
+    if method == "exact":
+        return method
     name = "direct" if method == "direct" else "table"
     if precision == "single":
         return f"{name}, single"

@@ -101,6 +101,7 @@ static kz_status set_up(measurement *g) {
   const int64_t cells = kz_regions_cells(g->reference->total);
   if (cells > 0) kz_dynamics_fine_regions(g->dynamics, cells, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
+  if (s->method == KZ_METHOD_EXACT) decide_cells(g, 0, 0, NULL); /* makes the tables of the rungs */
   if (s->method == KZ_METHOD_ICM) KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   return KZ_OK;
 }
