@@ -37,7 +37,7 @@ def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=2000, help="points along each axis (default: 2000)")
     parser.add_argument("--points", type=int, default=200, help="points that scipy takes (default: 200)")
-    parser.add_argument("--truths", type=int, default=40, help="of these, compared with 30 digits (default: 40)")
+    parser.add_argument("--exact", type=int, default=40, help="of these, compared with 30 digits (default: 40)")
     parser.add_argument("--rounds", type=int, default=3, help="repeats; the median counts (default: 3)")
     parser.add_argument("--damping", type=float, default=0.05)
     parser.add_argument("--tolerance", type=float, default=1e-12, help="of scipy, relative (default: 1e-12)")
@@ -102,14 +102,14 @@ def measure(arguments, folder):
     start = time.perf_counter()
     theirs = [scipy_multiplier(*point, arguments.damping, arguments.tolerance) for point in zip(k, m, strict=True)]
     per_point = (time.perf_counter() - start) / arguments.points
-    some = range(min(arguments.truths, arguments.points))
-    truth = np.array([float(true_multiplier(k[i], m[i], arguments.damping)) for i in some])
+    some = range(min(arguments.exact, arguments.points))
+    exact = np.array([float(true_multiplier(k[i], m[i], arguments.damping)) for i in some])
     growth = chart["log_multiplier"].values[rows, columns]
     whole = per_point * arguments.count**2 / 2
     return {"points": arguments.count**2, "seconds": ours, "scipy_seconds_per_point": per_point,
             "scipy_seconds_two_cores": whole, "ratio": whole / ours,
-            "largest_error": float(np.abs(np.exp(growth[: len(truth)]) / truth - 1).max()),
-            "scipy_largest_error": float(np.abs(np.array(theirs)[: len(truth)] / truth - 1).max())}
+            "largest_error": float(np.abs(np.exp(growth[: len(exact)]) / exact - 1).max()),
+            "scipy_largest_error": float(np.abs(np.array(theirs)[: len(exact)] / exact - 1).max())}
 
 
 def main():

@@ -95,7 +95,7 @@ def check_file(path, count, seed, processes, max_periods):
     result = Result(path)
     basin, catalogue = result.group("basin"), Catalogue(result)
     if not catalogue.pendulum[1] > 0:
-        raise BadFile(f"{path}: undamped, nothing to judge")
+        raise BadFile(f"{path}: undamped, there is nothing to compare")
     row, column = sample_cells(basin["attractor"].shape, count, seed)
     theta, velocity = basin["theta"].values[column], basin["velocity"].values[row]
     labels = basin["attractor"].values[row, column].astype(np.int64)

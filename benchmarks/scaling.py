@@ -67,13 +67,13 @@ class Run:
 
     def predict(self, ranks, costs):
         """Seconds of what lies between the stages and of each stage, on so many ranks with cores of their own."""
-        seconds, team = {"between": self.between}, None
+        seconds, workers = {"between": self.between}, None
         for name, tiles in self.stages:
             if name == "file":
-                spent = delivered(team, tiles, self.take)
+                spent = delivered(workers, tiles, self.take)
             else:
                 stage = Stage(tiles, ranks, costs)
-                spent, team = stage.end, stage.team if name == "cells 1" else team
+                spent, workers = stage.end, stage.workers if name == "cells 1" else workers
             seconds[name] = seconds.get(name, 0) + spent + (COLLECTIVES * collective(ranks, costs) if ranks > 1 else 0)
         return seconds
 

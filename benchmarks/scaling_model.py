@@ -81,12 +81,12 @@ class Stage:
     def __init__(self, seconds, ranks, costs, slower=1.0):
         self.seconds, self.costs, self.slower, self.desk = seconds, costs, slower, 0.0
         self.schedule = Schedule(len(seconds), ranks)
-        self.team = [Rank(i, i, int(i < len(seconds))) for i in range(ranks)]
+        self.workers = [Rank(i, i, int(i < len(seconds))) for i in range(ranks)]
         self.end = self._run()
 
     def idle(self):
         """The share of their time in which ranks had nothing to do."""
-        return 1 - sum(rank.busy for rank in self.team) / (self.end * len(self.team)) if self.end > 0 else 0.0
+        return 1 - sum(rank.busy for rank in self.workers) / (self.end * len(self.workers)) if self.end > 0 else 0.0
 
     def _ask(self, rank, time, early):
         self.desk = max(self.desk, time + self.costs.message + self.costs.look) + self.costs.answer
@@ -115,25 +115,25 @@ class Stage:
         return time, rank.first - 1
 
     def _run(self):
-        queue, end = [(0.0, rank.number) for rank in self.team], 0.0
+        queue, end = [(0.0, rank.number) for rank in self.workers], 0.0
         while queue:
             time, number = heapq.heappop(queue)
-            rank = self.team[number]
+            rank = self.workers[number]
             begins, tile = self._take(rank, time)
             end = max(end, begins)
             if tile == WAIT:
                 heapq.heappush(queue, (begins, number))
             elif tile is not None:
-                spent = self.seconds[tile] * (self.slower if number == len(self.team) - 1 > 0 else 1)
+                spent = self.seconds[tile] * (self.slower if number == len(self.workers) - 1 > 0 else 1)
                 rank.busy += spent
                 rank.tiles.append(tile)
                 heapq.heappush(queue, (begins + spent, number))
         return end
 
 
-def delivered(team, make, take):
+def delivered(workers, make, take):
     """Seconds of the stage `file`: each rank packs what it labelled, rank 0 writes everybody's messages between its own."""
-    packing = [sum(make[tile] for tile in rank.tiles) for rank in team]
+    packing = [sum(make[tile] for tile in rank.tiles) for rank in workers]
     return max(max(packing), packing[0] + take * len(make))
 
 

@@ -1,4 +1,4 @@
-"""One number of a paper: what is printed, what other methods give, what the program gives, and the verdict."""
+"""One number of a paper: what is printed, what other methods give, what the program gives, and the agreement."""
 
 from dataclasses import dataclass
 from decimal import Decimal
@@ -33,7 +33,7 @@ class Number:
         return abs(self.ours - float(self.printed)) <= bar * (1 + 1e-9)
 
     @property
-    def verdict(self) -> str:
+    def agreement(self) -> str:
         """right, erratum, approximation or FAILED; a remark that explains nothing is a failure too."""
         if self.reference is not None and not abs(self.ours - self.reference) <= self.bar:
             return FAILED

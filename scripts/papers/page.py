@@ -14,7 +14,7 @@ PAPERS = [
 HEAD = """\
 # Every number of the two papers
 
-What the papers print, what this program finds, and the verdict. `scripts/reproduce --numbers` runs the program and writes this page;
+What the papers print, what this program finds, and the agreement. `scripts/reproduce --numbers` runs the program and writes this page;
 do not edit.
 
 - **right**: ours rounds to what is printed, or meets the reference within the stated bar.
@@ -44,18 +44,18 @@ def find_numbers(say):
 def write_page(found, path: Path):
     """The page; returns the numbers that failed."""
     every = [number for _, numbers in found for number in numbers]
-    failed = [number for number in every if number.verdict == FAILED]
-    counts = {word: sum(number.verdict == word for number in every) for word in ("right", "approximation", "erratum", FAILED)}
+    failed = [number for number in every if number.agreement == FAILED]
+    counts = {word: sum(number.agreement == word for number in every) for word in ("right", "approximation", "erratum", FAILED)}
     lines = [HEAD, f"{len(every)} numbers: " + ", ".join(f"{count} {word}" for word, count in counts.items()) + ".\n"]
     lines += [
         "## What failed\n",
-        *(_table(failed, "place", "quantity", "paper", "reference", "ours", "verdict") if failed else ["Nothing.\n"]),
+        *(_table(failed, "place", "quantity", "paper", "reference", "ours", "agreement") if failed else ["Nothing.\n"]),
     ]
     for title, numbers in found:
         printed = [number for number in numbers if number.printed]
         lines += [
             f"## {title}: what is printed\n",
-            *_table(printed, "place", "quantity", "paper", "ours", "ours - paper", "verdict", "remark"),
+            *_table(printed, "place", "quantity", "paper", "ours", "ours - paper", "agreement", "remark"),
             f"## {title}: what its figures and equations hold\n",
             *_table(
                 [number for number in numbers if not number.printed],
@@ -65,7 +65,7 @@ def write_page(found, path: Path):
                 "ours",
                 "ours - reference",
                 "bar",
-                "verdict",
+                "agreement",
             ),
         ]
     lines += [(Path(__file__).parent / "errata.md").read_text()]
@@ -82,7 +82,7 @@ CELLS = {
     "ours - paper": lambda number: f"{number.ours - float(number.printed):.1e}",
     "ours - reference": lambda number: f"{number.ours - number.reference:.1e}",
     "bar": lambda number: f"{number.bar:.1e}" if number.bar else "equal",
-    "verdict": lambda number: number.verdict,
+    "agreement": lambda number: number.agreement,
     "remark": lambda number: number.remark,
 }
 

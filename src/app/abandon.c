@@ -78,16 +78,16 @@ static void without_memory(void) {
 }
 
 /* Libraries print their own words, then exit (gfortran's) or abort (FFTW). */
-static const char GAVE_UP[] = "a library gave up, as for lack of memory,";
+static const char LIBRARY_ENDED[] = "a library ended the program, probably because memory ran out,";
 
 static void at_exit(void) {
-  if (here.armed) leave(GAVE_UP);
+  if (here.armed) leave(LIBRARY_ENDED);
 }
 
 /* MPI could wait for the allocator that has just aborted: the launcher ends the other ranks. */
 static void at_abort(int number) {
   (void)number;
-  if (here.armed) say_error(GAVE_UP);
+  if (here.armed) say_error(LIBRARY_ENDED);
   _exit(KZ_FAILED);
 }
 

@@ -94,7 +94,7 @@ contains
     type(level_t), intent(out) :: level
     real(qp) :: start(2, N_PROBES), image(2, N_PROBES)
     real(c_double) :: factor, fastest
-    type(level_t) :: trial
+    type(level_t) :: candidate
     integer :: n, fewest
 
     fastest = max(SLOWEST, RATIO*slowest_speed)
@@ -110,12 +110,12 @@ contains
     end do
     fewest = FEWEST_KICKS
     do while (fewest < level%n_kick)
-      call make_level(pendulum, series, n, (fewest + level%n_kick)/2, fastest, tolerance, trial)
-      trial%error = measure(trial, start, image)
-      if (trial%error <= tolerance) then
-        level = trial
+      call make_level(pendulum, series, n, (fewest + level%n_kick)/2, fastest, tolerance, candidate)
+      candidate%error = measure(candidate, start, image)
+      if (candidate%error <= tolerance) then
+        level = candidate
       else
-        fewest = trial%n_kick + 1
+        fewest = candidate%n_kick + 1
       end if
     end do
   end subroutine choose_level

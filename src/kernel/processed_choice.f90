@@ -133,8 +133,8 @@ contains
     real(c_double), intent(in) :: tolerance
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
-    type(numerics_t) :: trial
-    real(c_double) :: trial_error
+    type(numerics_t) :: candidate
+    real(c_double) :: candidate_error
     integer :: fewest, drifts, kicks
 
     numerics%drift_terms = MOST_DRIFTS(numerics%precision)
@@ -142,27 +142,27 @@ contains
     call climb_steps(pendulum, series, probes, tolerance, FEWEST_STEPS, MOST_STEPS, numerics, error)
     if (error > tolerance) return
     fewest = numerics%steps_per_period
-    trial = numerics
+    candidate = numerics
     do drifts = MOST_DRIFTS(numerics%precision), 1, -1
       do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
-        trial%drift_terms = drifts
-        trial%kick_terms = kicks
-        if (cheaper_steps(numerics, trial) < fewest) cycle
-        call climb_steps(pendulum, series, probes, tolerance, fewest, cheaper_steps(numerics, trial), trial, trial_error)
-        if (trial_error > tolerance) exit
-        numerics = trial
-        error = trial_error
+        candidate%drift_terms = drifts
+        candidate%kick_terms = kicks
+        if (cheaper_steps(numerics, candidate) < fewest) cycle
+        call climb_steps(pendulum, series, probes, tolerance, fewest, cheaper_steps(numerics, candidate), candidate, candidate_error)
+        if (candidate_error > tolerance) exit
+        numerics = candidate
+        error = candidate_error
       end do
     end do
   end subroutine climb
 
-  !> How many steps of a trial cost less than what is chosen.
-  pure function cheaper_steps(chosen, trial) result(steps)
+  !> How many steps of a candidate cost less than what is chosen.
+  pure function cheaper_steps(chosen, candidate) result(steps)
     type(numerics_t), intent(in) :: chosen
-    type(numerics_t), intent(in) :: trial
+    type(numerics_t), intent(in) :: candidate
     integer :: steps
 
-    steps = (chosen%steps_per_period*operations(chosen) - 1)/operations(trial)
+    steps = (chosen%steps_per_period*operations(chosen) - 1)/operations(candidate)
   end function cheaper_steps
 
   pure function operations(numerics) result(n)
@@ -207,24 +207,24 @@ contains
     real(c_double), intent(in) :: tolerance
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
-    type(numerics_t) :: trial
-    real(c_double) :: trial_error, enough
+    type(numerics_t) :: candidate
+    real(c_double) :: candidate_error, enough
     integer :: drifts, kicks
 
     numerics%drift_terms = MOST_DRIFTS(numerics%precision)
     numerics%kick_terms = MOST_KICKS(numerics%precision)
     error = measure(pendulum, series, probes, numerics)
     enough = max(tolerance, 1.2_c_double*error)
-    trial = numerics
+    candidate = numerics
     do drifts = MOST_DRIFTS(numerics%precision), 1, -1
       do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
-        trial%drift_terms = drifts
-        trial%kick_terms = kicks
-        if (operations(trial) >= operations(numerics)) cycle
-        trial_error = measure(pendulum, series, probes, trial)
-        if (trial_error > enough) exit
-        numerics = trial
-        error = trial_error
+        candidate%drift_terms = drifts
+        candidate%kick_terms = kicks
+        if (operations(candidate) >= operations(numerics)) cycle
+        candidate_error = measure(pendulum, series, probes, candidate)
+        if (candidate_error > enough) exit
+        numerics = candidate
+        error = candidate_error
       end do
     end do
   end subroutine fit_terms

@@ -26,7 +26,7 @@ typedef struct {
   kz_batch batch;     /* in hand */
   kz_batch granted;   /* the answer to a request that is under way */
   MPI_Request answer; /* MPI_REQUEST_NULL: none is awaited */
-  /* rank 0 alone; under team->mutex while the thread runs */
+  /* rank 0 alone; under ranks->mutex while the thread runs */
   kz_schedule schedule;
   int asking;  /* ranks that will ask once more */
   bool halted; /* nobody gets any more */

@@ -26,5 +26,5 @@ kz_status kz_hdf5_fail(const char *file, int line) {
 kz_status kz_hdf5_start(void) {
   H5dont_atexit(); /* fails, and need not be heard, where HDF5 has started before */
   if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0) return KZ_OK;
-  return kz_fail(KZ_FAILED, "HDF5 cannot be started, as for lack of memory");
+  return kz_fail(KZ_FAILED, "HDF5 cannot be started, probably because memory ran out");
 }

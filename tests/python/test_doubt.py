@@ -9,8 +9,8 @@ import pytest
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "tests" / "tools"))
+from doubt_coverage import compare  # noqa: E402
 from reference_coverage import Kapitza  # noqa: E402
-from truth_doubt import compare  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"
 NAMES = [f"{name}_share{end}" for name in ("doubtful", "differing") for end in ("", "_low", "_high")]
@@ -62,5 +62,5 @@ def test_wrong_share_is_not_understated(tmp_path):
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes; KAPITZA_EXTENSIVE=1 runs it")
 def test_twenty_random_pendulums():
-    done = subprocess.run([sys.executable, ROOT / "tests" / "tools" / "truth_doubt.py"], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, ROOT / "tests" / "tools" / "doubt_coverage.py"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -148,11 +148,11 @@ TRIED = {
     "first value of a sweep": ("pendulum: {quality_factor: 5, drive_frequency: 1, drive_amplitude: 0}\nsweep: {parameter: "
                                "drive_frequency, min: 1e-3, max: 10, count: 99, measure: [attractors]}\n", "2:8: sweep",
                                "at drive_frequency = 0.001, with"),
-    "judge of a trade-off": ("numerics: {steps_per_period: 9000}\n" + SPRING + "basin: {velocity: {min: -1e4, max: 1e4}}\n"
+    "reference of a trade-off": ("numerics: {steps_per_period: 9000}\n" + SPRING + "basin: {velocity: {min: -1e4, max: 1e4}}\n"
                              "tradeoff: {samples: 10}\n", "3:19: basin.velocity", "for reference labels"),
-    "judge of an accuracy": (SPRING + "basin: {velocity: {min: -1e6, max: 1}, accuracy: 0.9}\n", "2:19: basin.velocity",
+    "reference of an accuracy": (SPRING + "basin: {velocity: {min: -1e6, max: 1}, accuracy: 0.9}\n", "2:19: basin.velocity",
                              "for reference labels"),
-    "judge without end": ("pendulum: {k: 1e300, damping: 0.05, m: 0.3}\nbasin: {velocity: {min: -1, max: 1}, accuracy: 0.9}\n",
+    "reference without end": ("pendulum: {k: 1e300, damping: 0.05, m: 0.3}\nbasin: {velocity: {min: -1, max: 1}, accuracy: 0.9}\n",
                           "2:19: basin.velocity", "for reference labels"),
 }
 

@@ -54,13 +54,13 @@ def test_the_commands_of_the_gallery_are_valid(kapitza):
 
 def test_verdicts():
     """What is printed counts to half a unit of its last digit, a reference to its bar; a remark that explains nothing fails."""
-    def verdict(ours, **more):
-        return Number("place", "quantity", ours, **more).verdict
-    assert verdict(0.12905, printed="0.129") == verdict(0.1285, printed="0.129") == verdict(37.8, printed="40", printed_bar=5) == "right"
-    assert verdict(0.1284, printed="0.129") == verdict(1.0, reference=1.1, bar=0.09) == verdict(float("nan"), reference=1) == FAILED
-    assert verdict(0.1284, printed="0.129", remark="why") == "erratum" and verdict(0.129, printed="0.129", remark="why") == FAILED
-    assert verdict(0.1284, printed="0.129", remark="why", kind="approximation") == "approximation"
-    assert verdict(0.129, printed="0.129", reference=0.13, bar=1e-6) == FAILED
+    def found(ours, **more):
+        return Number("place", "quantity", ours, **more).agreement
+    assert found(0.12905, printed="0.129") == found(0.1285, printed="0.129") == found(37.8, printed="40", printed_bar=5) == "right"
+    assert found(0.1284, printed="0.129") == found(1.0, reference=1.1, bar=0.09) == found(float("nan"), reference=1) == FAILED
+    assert found(0.1284, printed="0.129", remark="why") == "erratum" and found(0.129, printed="0.129", remark="why") == FAILED
+    assert found(0.1284, printed="0.129", remark="why", kind="approximation") == "approximation"
+    assert found(0.129, printed="0.129", reference=0.13, bar=1e-6) == FAILED
 
 
 def test_a_part_of_the_papers_numbers(kapitza):
@@ -68,7 +68,7 @@ def test_a_part_of_the_papers_numbers(kapitza):
     known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
     with Runs(PROGRAM) as runs:
         numbers = [number for part in (butikov.zones, butikov.subharmonic_orbits) for number in part(runs, known)]
-    assert len(numbers) > 100 and {number.verdict for number in numbers} == {"right", "approximation", "erratum"}
+    assert len(numbers) > 100 and {number.agreement for number in numbers} == {"right", "approximation", "erratum"}
     page = (ROOT / "docs" / "results.md").read_text()
     assert all(f"| {number.place} | {number.quantity} |" in page for number in numbers)
     assert page.count("\n| ") > 900 and "FAILED |" not in page

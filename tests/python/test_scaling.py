@@ -28,14 +28,14 @@ def test_known_answers(ranks):
     even = Stage([0.5] * (ranks * 6), ranks, FREE)
     assert even.end == pytest.approx(3) and even.idle() == pytest.approx(0)
     uneven = Stage([0.01] * 50 + [9.0] + [0.01] * 50, ranks, FREE)
-    assert 9 <= uneven.end <= 9 + 1.01 and sorted(sum((rank.tiles for rank in uneven.team), [])) == list(range(101))
+    assert 9 <= uneven.end <= 9 + 1.01 and sorted(sum((rank.tiles for rank in uneven.workers), [])) == list(range(101))
     assert Stage([1.0], ranks, FREE).end == 1  # one tile: the others have nothing to do
 
 
 def test_a_slow_rank_costs_its_own_share():
     """Three ranks and one ten times slower do the work of 3.1."""
     stage = Stage([0.001] * 31000, 4, FREE, slower=10)
-    assert stage.end == pytest.approx(10, rel=0.01) and stage.idle() < 0.01 and len(stage.team[3].tiles) == pytest.approx(1000, rel=0.05)
+    assert stage.end == pytest.approx(10, rel=0.01) and stage.idle() < 0.01 and len(stage.workers[3].tiles) == pytest.approx(1000, rel=0.05)
 
 
 def test_nobody_waits_for_a_slow_rank():
@@ -54,9 +54,9 @@ def test_whole_commands_follow_amdahl():
     """One second alone, ten shared, and a writer who takes a tenth of a second for each of ten messages."""
     run = Run(100, [("cells 1", [0.1] * 100)], 1.0)
     assert [row[1] for row in predictions(run, [1, 2, 10], FREE)] == pytest.approx([11, 6, 2])
-    team = Stage([1.0] * 10, 10, FREE).team
-    assert delivered(team, [0.0] * 10, 0.1) == pytest.approx(1)
-    assert delivered(team, [5.0] * 10, 0.1) == pytest.approx(6)
+    workers = Stage([1.0] * 10, 10, FREE).workers
+    assert delivered(workers, [0.0] * 10, 0.1) == pytest.approx(1)
+    assert delivered(workers, [5.0] * 10, 0.1) == pytest.approx(6)
 
 
 def test_a_finer_grid_takes_as_long_for_a_cell():

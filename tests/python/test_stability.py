@@ -202,7 +202,7 @@ def test_potential_draws(kapitza, tmp_path):
 
 
 def test_benchmark_measures_speed_and_error(kapitza):
-    script = [sys.executable, ROOT / "benchmarks" / "benchmark_stability.py", "--json", "--count", "60", "--points", "6", "--truths", "6",
+    script = [sys.executable, ROOT / "benchmarks" / "benchmark_stability.py", "--json", "--count", "60", "--points", "6", "--exact", "6",
               "--rounds", "1"]
     figures = json.loads(subprocess.run(script, check=True, capture_output=True, text=True).stdout)
     assert figures["largest_error"] < 1e-12 and figures["scipy_largest_error"] < 1e-8

@@ -28,8 +28,8 @@ def test_labels_of_a_zoom_are_right(kapitza, tmp_path, method):
     """With the scheme's own 24 steps, off by 500 cells a period, 55 % of these labels are wrong."""
     done = kapitza("run", scene(tmp_path, 1e-7, 30, method), "--set", "basin.icm={theta: 500, velocity: 500}", folder=tmp_path)
     assert "192 steps a drive period (its own number is 24)" in done.stdout and "warning: at speeds" not in done.stdout
-    verdict, _ = reference_check.check_file(tmp_path / "zoom.h5", 200, 1, 2, 4000)
-    assert verdict["wrong"] <= 12 and verdict["unsettled"] == 0
+    comparison, _ = reference_check.check_file(tmp_path / "zoom.h5", 200, 1, 2, 4000)
+    assert comparison["wrong"] <= 12 and comparison["unsettled"] == 0
     with h5py.File(tmp_path / "zoom.h5") as file:
         assert file["basin"].attrs["steps_per_period"] == 192
         assert file["basin"].attrs["step_error"] < 0.01 * 2e-7 / 30
@@ -84,8 +84,8 @@ def test_quad_precision_carries_them(kapitza, tmp_path):
     kapitza("run", path, "--set", "basin.icm={theta: 100, velocity: 100}", "--set", "basin.attractors.starts=256", folder=tmp_path)
     with h5py.File(tmp_path / "zoom.h5") as file:
         assert file["basin"].attrs["step_error"] < 5e-15
-    verdict, _ = reference_check.check_file(tmp_path / "zoom.h5", 16, 1, 2, 4000)
-    assert verdict["wrong"] == 0
+    comparison, _ = reference_check.check_file(tmp_path / "zoom.h5", 16, 1, 2, 4000)
+    assert comparison["wrong"] == 0
 
 
 def test_unsettled_cells_are_no_basin(kapitza, tmp_path):

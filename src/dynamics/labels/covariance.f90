@@ -11,7 +11,7 @@ module kz_labels_covariance
   private
   public :: judge_errors, spread, largest_error
 
-  !> rad: the standard deviation of a state that a label bears. Of 1657 wrong labels (quad truth; epsilon = 0.3 and 0.46, Q =
+  !> rad: the standard deviation of a state that a label bears. Of 1657 wrong labels (against quad precision; epsilon = 0.3 and 0.46, Q =
   !> 20, rk4, single precision) 0.03 found all and 0.1 all but one; twice as many labels are doubtful as are wrong.
   real(dp), parameter :: TOLERABLE = 0.03_dp
   !> Half-axes of the ellipse, in standard deviations, and points of its rim that must lie in the trapping region.
@@ -20,7 +20,7 @@ module kz_labels_covariance
 
 contains
 
-  !> The errors of n lanes over the period that they have just made: which are doubtful now, which straddle the border of a region.
+  !> The errors of n lanes over the period that they have just made: which are doubtful now, which straddle the edge of a region.
   subroutine judge_errors(map, regions, attractors, n, tangent, error, seen, p)
     !> the map of the lanes, in its coordinates
     class(map_t), intent(inout) :: map

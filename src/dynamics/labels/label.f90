@@ -56,7 +56,7 @@ contains
       call map%advance(lanes%active)
       lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
       call find_regions(regions, attractors, lanes%active, map%u(:lanes%active), map%v(:lanes%active), region)
-      call judge(map, regions, lanes, region)
+      call correct_regions(map, regions, lanes, region)
       do lane = lanes%active, 1, -1
         if (region(lane) == 0 .and. lanes%age(lane) < lanes%most(lane)) cycle
         call settle(lane, region(lane))
@@ -132,7 +132,7 @@ contains
   end subroutine move
 
   !> What errors and chaotic attractors make of the regions in which the lanes are.
-  subroutine judge(map, regions, lanes, region)
+  subroutine correct_regions(map, regions, lanes, region)
     class(map_t), intent(in) :: map
     type(regions_t), intent(in) :: regions
     type(lanes_t), intent(inout) :: lanes
@@ -151,7 +151,7 @@ contains
       end if
       if (map%doubtful(lane) .and. lanes%guest_of(lane) == 0) region(lane) = DOUBTFUL
     end do
-  end subroutine judge
+  end subroutine correct_regions
 
   !> An orbit that has stayed in a cover for STAY periods counts as captured from the period in which it entered.
   subroutine visit(lanes, lane, host, region)

@@ -13,7 +13,7 @@ module kz_maps_step_error
 
   !> States of a class of speeds.
   integer, parameter :: STATES = 8*WIDTH
-  !> Such a sample has seen more than the inverse of this of the largest error (tests/extremes/trial.c holds it against dense
+  !> Such a sample has seen more than the inverse of this of the largest error (tests/extremes/step_error.c holds it against dense
   !> ones).
   real(dp), parameter :: SAFETY = 2
 

@@ -75,7 +75,7 @@ contains
       if (n > 0) call one_period(tile, past, lane, n, near, tired)
       if (size(near) >= WIDTH .or. (n == 0 .and. size(near) > 0)) call settle(n_steps, near, motions, n_waiting, endings)
     end do
-    call judge(n_steps, tired, endings)
+    call classify(n_steps, tired, endings)
     deallocate (motions)
     allocate (motions(0))
   end subroutine find_ends
@@ -166,7 +166,7 @@ contains
   end subroutine settle
 
   !> Motions that have not settled: chaotic where neighbours part.
-  subroutine judge(n_steps, tired, endings)
+  subroutine classify(n_steps, tired, endings)
     integer, intent(in) :: n_steps
     type(motion_t), intent(in) :: tired(:)
     type(ending_t), intent(inout) :: endings(:)
@@ -191,7 +191,7 @@ contains
         end associate
       end do
     end do
-  end subroutine judge
+  end subroutine classify
 
   !> rate(b, i): how fast neighbours of lane i part in block b, per drive period.
   subroutine growth(tile, n, rate)

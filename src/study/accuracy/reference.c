@@ -190,7 +190,7 @@ static kz_status share_known(const kz_run *run, const char *path, kz_reference_l
 static kz_status follow_samples(kz_reference_labels *reference, const kz_run *run, const char *path, kz_dynamics *dynamics) {
   reference_job h = {.reference = reference, .dynamics = dynamics};
   KZ_TRY(share_known(run, path, reference, &h.known));
-  kz_stage stage = {.name = "truth",
+  kz_stage stage = {.name = "reference labels",
                     .n_tiles = (reference->samples + TILE - 1) / TILE,
                     .record_bytes = TILE * sizeof(kz_reference_label),
                     .work = label_tile,

@@ -48,7 +48,7 @@ static kz_status label_tiles(kz_labelling *l) {
   return kz_stage_run(l->run, &stage, NULL);
 }
 
-/* Before cells are labelled by a table alone. What basin.accuracy chose is judged by its labels. */
+/* Before cells are labelled by a table alone. What basin.accuracy chose is chosen by its labels. */
 static kz_status check_table(const kz_labelling *l) {
   if (l->plan->method != KZ_METHOD_ICM || !isnan(l->plan->accuracy)) return KZ_OK;
   return kz_steps_check_table(l->plan, kz_dynamics_table_defect(l->dynamics, kz_stencil(l->plan->interpolation)));

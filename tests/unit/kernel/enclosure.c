@@ -58,9 +58,9 @@ static void sets_hold_the_motion(void **state) {
   (void)state;
   srand(1);
   int kept = 0;
-  for (int trial = 0; trial < 40; trial++) {
-    const kz_pendulum pendulum = {uniform(-0.05, 0.3), trial % 4 ? uniform(0, 0.1) : 0, uniform(-0.6, 0.6)};
-    const double fastest = uniform(0.5, 5), half = trial % 2 ? 2e-3 : 1e-5;
+  for (int draw = 0; draw < 40; draw++) {
+    const kz_pendulum pendulum = {uniform(-0.05, 0.3), draw % 4 ? uniform(0, 0.1) : 0, uniform(-0.6, 0.6)};
+    const double fastest = uniform(0.5, 5), half = draw % 2 ? 2e-3 : 1e-5;
     kz_enclosure_plan *plan;
     assert_int_equal(kz_enclosure_plan_create(&pendulum, fastest + 1, &plan), KZ_OK);
     kz_enclosure start[SETS], set[SETS];

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Does `doubtful_share` understate, and does `exact` err? Random pendulums of no scene against quad precision.
 
-    tests/tools/truth_doubt.py                              20 pendulums
-    tests/tools/truth_doubt.py --pendulums 40 --seed 2 --ranks 2
-    tests/tools/truth_doubt.py --first 14 --samples 400     the last six of them, in less time
+    tests/tools/doubt_coverage.py                              20 pendulums
+    tests/tools/doubt_coverage.py --pendulums 40 --seed 2 --ranks 2
+    tests/tools/doubt_coverage.py --first 14 --samples 400     the last six of them, in less time
 
-For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which judges the same scheme and steps on random
-cells of the same window by quad precision. A share is understated where the wrong share of the judge's cells is above the doubtful one's
-interval. `exact` labels the same cells: none of those that it decides may be wrong. Exit status 1 where a share is or a label.
+For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which compares the same scheme and steps on
+random cells of the same window by quad precision. A share is understated where the wrong share of the cells of the trade-off is above
+the doubtful one's interval. `exact` labels the same cells: none of those that it decides may be wrong. Exit status 1 where a share is
+or a label.
 """
 
 import argparse
@@ -45,7 +46,7 @@ def main():
     parser.add_argument("--pendulums", type=int, default=20)
     parser.add_argument("--first", type=int, default=0, help="number of the first one")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--samples", type=int, default=4000, help="cells that are judged")
+    parser.add_argument("--samples", type=int, default=4000, help="cells that are compared")
     parser.add_argument("--cells", type=int, default=300, help="of the window, an axis")
     parser.add_argument("--ranks", type=int, default=1)
     arguments = parser.parse_args()

@@ -13,7 +13,7 @@
 enum { ANGLES = 128, SPEEDS = 64, N = ANGLES * SPEEDS, CLASSES = 4, PENDULUMS = 12, MORE = 150, FINE = 192 };
 
 static const double PI = 3.14159265358979323846;
-/* rad: where rounding takes over, the finer steps are no truth any more. */
+/* rad: where rounding takes over, the finer steps are no reference any more. */
 static const double ROUNDING = 2e-12;
 
 /* Speeds of one class on a grid, ends included, every class with angles of its own. */
