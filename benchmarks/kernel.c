@@ -72,7 +72,7 @@ static void make_probes(const kz_pendulum *pendulum, probes *p) {
   static kz_reference_state states[PROBES];
   int64_t turns[PROBES];
   spread(PROBES, p->theta, p->velocity);
-  kz_reference_start(PROBES, p->theta, p->velocity, states);
+  kz_reference_start(PROBES, p->theta, p->velocity, NULL, states);
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, PROBES, 1, states);
   kz_reference_read(PROBES, states, p->theta1, p->velocity1, turns);
 }

@@ -12,6 +12,7 @@ import json
 import math
 import subprocess
 import sys
+from decimal import Decimal, getcontext
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,7 @@ from kapitza import BadFile, Result, run  # noqa: E402
 
 REFERENCE_LABEL = ROOT / "build" / "benchmarks" / "reference_label"
 NONE = -1
+DEGREE = Decimal("0.0174532925199432957692369076848861271344")
 
 
 def wilson(wrong, n, z=1.959963984540054):
@@ -57,7 +59,18 @@ class Catalogue:
 
 
 def states_text(theta, velocity):
-    return "".join(f"{a!r} {b!r}\n" for a, b in zip(theta.tolist(), velocity.tolist(), strict=True))
+    """A line per state, every digit of it: doubles are exact numbers too."""
+    return "".join(f"{Decimal(a)} {Decimal(b)}\n" for a, b in zip(theta.tolist(), velocity.tolist(), strict=True))
+
+
+def centres(basin, name):
+    """The cell centres of an axis: doubles, or decimal numbers of 40 digits where the window was given by its centre."""
+    if f"{name}_offset" not in basin:
+        return basin[name].values
+    getcontext().prec = 40
+    text = basin.attrs[f"{name}_centre"]
+    unit = DEGREE if text.endswith(" deg") else 1
+    return np.array([unit * Decimal(text.removesuffix(" deg")) + Decimal(offset) for offset in basin[f"{name}_offset"].values.tolist()])
 
 
 def reference_labels(catalogue, theta, velocity, max_periods=4000, processes=2):
@@ -97,7 +110,7 @@ def check_file(path, count, seed, processes, max_periods):
     if not catalogue.pendulum[1] > 0:
         raise BadFile(f"{path}: undamped, there is nothing to compare")
     row, column = sample_cells(basin["attractor"].shape, count, seed)
-    theta, velocity = basin["theta"].values[column], basin["velocity"].values[row]
+    theta, velocity = centres(basin, "theta")[column], centres(basin, "velocity")[row]
     labels = basin["attractor"].values[row, column].astype(np.int64)
     true_labels = reference_labels(catalogue, theta, velocity, max_periods, processes)
     counts = compare(labels, true_labels, catalogue) | {"file": str(path), "method": basin.attrs.get("method", ""), "seed": seed}

@@ -1,11 +1,13 @@
 /* Labels states by following them in quad precision to an attractor of a given catalogue. Knows nothing of the program's
  * trapping regions: an orbit is captured once it has come within a small circle of an attractor's strobe sequence, in phase,
- * and then, never leaving the circle, has shrunk its distance tenfold.
+ * and then, never leaving the circle, has shrunk its distance tenfold. States may have 34 digits.
  *
  * stdin: as catalogue.h says.  stdout, a line per state: label (-1 = captured by none), periods followed. */
+#define __STDC_WANT_IEC_60559_TYPES_EXT__ 1 /* strtof128 */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "catalogue.h"
 #include "kapitza/kernel.h"
@@ -74,18 +76,28 @@ static void follow(const labeller *j, int n, kz_reference_state *states, orbit *
   }
 }
 
+/* A number of stdin as a double and what is left of it: it may have more digits than a double. */
+static bool read_number(double *high, double *low) {
+  char text[128], *end;
+  if (scanf("%127s", text) != 1) return false;
+  const _Float128 number = strtof128(text, &end);
+  *high = (double)number;
+  *low = (double)(number - *high);
+  return *end == '\0';
+}
+
 /* Labels the next batch of stdin; its size, 0 at the end. */
 static int label_batch(const labeller *j) {
   static kz_reference_state states[BATCH];
-  double theta[BATCH], velocity[BATCH];
+  double theta[BATCH], velocity[BATCH], low[BATCH][2];
   orbit orbits[BATCH], *under_way[BATCH];
   int n = 0;
-  while (n < BATCH && scanf("%lf %lf", &theta[n], &velocity[n]) == 2) {
+  while (n < BATCH && read_number(&theta[n], &low[n][0]) && read_number(&velocity[n], &low[n][1])) {
     orbits[n] = (orbit){.label = -1, .expected = -1};
     under_way[n] = &orbits[n];
     n++;
   }
-  kz_reference_start(n, theta, velocity, states);
+  kz_reference_start(n, theta, velocity, low[0], states);
   follow(j, n, states, under_way);
   for (int i = 0; i < n; i++) printf("%d %ld\n", orbits[i].label, orbits[i].periods);
   return n;

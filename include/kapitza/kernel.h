@@ -125,8 +125,9 @@ typedef struct {
   int64_t turns;
 } kz_reference_state;
 
-/* States [n] at t = 0 from doubles: theta [n] in rad, velocity [n] in rad per drive radian, both taken as exact. */
-void kz_reference_start(int64_t n, const double *theta, const double *velocity, kz_reference_state *states);
+/* States [n] at t = 0 from doubles: theta [n] in rad, velocity [n] in rad per drive radian; low [n][2]: what is to be added to them,
+ * below their last places; NULL = nothing. The sums are taken as exact. */
+void kz_reference_start(int64_t n, const double *theta, const double *velocity, const double *low, kz_reference_state *states);
 
 /* Advances states [n] through `periods` whole periods with `steps` >= 1 a period, halved for a state whose series does not
  * converge on them. A motion that no halving carries (some 1e7 times faster than the drive) becomes NaN. A state's result

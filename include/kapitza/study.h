@@ -13,11 +13,28 @@
 #include "kapitza/parallel.h"
 #include "kapitza/store.h"
 
-/* An axis of cells or of values: n cells between min and max (basin), or n values with both ends (charts, sweeps). */
+/* A number of any digits: its text (radians, or degrees with " deg" behind), and the sum of two doubles nearest to it; "" = not given. */
+enum { KZ_DECIMAL_LENGTH = 128 };
+typedef struct {
+  char text[KZ_DECIMAL_LENGTH];
+  double high, low;
+} kz_decimal;
+
+/* An axis of cells or of values: n cells between min and max (basin), or n values with both ends (charts, sweeps). A window may be given
+ * by its centre and width, finer than doubles are; min and max are then the nearest doubles. */
 typedef struct {
   double min, max;
   int64_t count;
+  kz_decimal centre, width;
 } kz_axis;
+
+/* Whether the cells of an axis are too narrow for doubles to tell apart: only method exact labels them. */
+bool kz_axis_is_deep(const kz_axis *axis);
+
+/* The edges of a window as written; NaN = not given. */
+typedef struct {
+  double min, max;
+} kz_edges;
 
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
 enum { KZ_LINEAR = 0, KZ_CUBIC = 1, KZ_QUINTIC = 2 };
@@ -43,6 +60,7 @@ typedef struct {
 typedef struct {
   kz_axis theta;    /* rad; the whole circle is [-pi, pi) */
   kz_axis velocity; /* rad per drive radian */
+  kz_edges theta_edges, velocity_edges;
   int32_t method;
   int64_t table_theta, table_velocity; /* nodes of the map table */
   int32_t interpolation;

@@ -64,9 +64,16 @@ void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t 
 
 void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes) {
   static const char *const nouns[] = {
-      [KZ_KEY_MAPPING] = "a mapping of ",   [KZ_KEY_TEXT] = "one line of text", [KZ_KEY_WORD] = "one of ",
-      [KZ_KEY_BOOLEAN] = "true or false",   [KZ_KEY_INTEGER] = "an integer",    [KZ_KEY_COUNT] = "an integer",
-      [KZ_KEY_REAL] = "a number",           [KZ_KEY_WORDS] = "a list out of ",  [KZ_KEY_INTEGERS] = "a list of integers",
+      [KZ_KEY_MAPPING] = "a mapping of ",
+      [KZ_KEY_TEXT] = "one line of text",
+      [KZ_KEY_WORD] = "one of ",
+      [KZ_KEY_BOOLEAN] = "true or false",
+      [KZ_KEY_INTEGER] = "an integer",
+      [KZ_KEY_COUNT] = "an integer",
+      [KZ_KEY_REAL] = "a number",
+      [KZ_KEY_DECIMAL] = "a number",
+      [KZ_KEY_WORDS] = "a list out of ",
+      [KZ_KEY_INTEGERS] = "a list of integers",
       [KZ_KEY_REALS] = "a list of numbers",
   };
   char names[512] = "", detail[512] = "";

@@ -24,6 +24,12 @@
 #define BOOLEAN(path, fallback, field, help) ROW(path, KZ_KEY_BOOLEAN, fallback, AT(field), help, .unit = "")
 #define REAL(path, unit_, low_, high_, fallback, field, help) \
   ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_)
+/* The two ways to give a window: by its edges, and by its middle. */
+#define EDGE(path, unit_, limit, fallback, field, help) \
+  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = -limit, .high = limit, .form = 'a')
+#define DECIMAL(path, unit_, low_, high_, fallback, field, help) \
+  ROW(path, KZ_KEY_DECIMAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_, .form = 'b')
+#define CENTRE_HELP "Middle of the window; any number of digits, of which some 32 count."
 #define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
@@ -92,13 +98,18 @@ const kz_key kz_keys[] = {
     ROW("basin", KZ_KEY_MAPPING, "", AT(has_basin), "Study: the attractors, then a label for every cell of a window.",
         .unit = "", .former = "flag_undecided=basin.method exact"),
     MAPPING("basin.theta", "", KZ_NO_FIELD,
-            "Angles of the cells; min and max both or neither, width at most 2 pi; neither: the whole circle [-pi, pi)."),
-    REAL("basin.theta.min", "rad", -1e6, 1e6, "", basin.theta.min, "Lower edge of the window."),
-    REAL("basin.theta.max", "rad", -1e6, 1e6, "", basin.theta.max, "Upper edge of the window."),
+            "Angles of the cells; min and max, or centre and width, at most 2 pi; neither: the whole circle [-pi, pi)."),
+    EDGE("basin.theta.min", "rad", 1e6, "", basin.theta_edges.min, "Lower edge of the window."),
+    EDGE("basin.theta.max", "rad", 1e6, "", basin.theta_edges.max, "Upper edge of the window."),
+    DECIMAL("basin.theta.centre", "rad", -1e6, 1e6, "", basin.theta.centre, CENTRE_HELP),
+    DECIMAL("basin.theta.width", "rad", KZ_ABOVE_ZERO, 7, "", basin.theta.width, "Width of the window."),
     INTEGER("basin.theta.count", 1, 1e6, "1000", basin.theta.count, "Cells along theta."),
     MAPPING("basin.velocity", NULL, KZ_NO_FIELD, "Velocities of the cells."),
-    REAL("basin.velocity.min", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.min, "Lower edge of the window."),
-    REAL("basin.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.max, "Upper edge of the window."),
+    EDGE("basin.velocity.min", "rad per drive radian", 1e9, NULL, basin.velocity_edges.min, "Lower edge of the window."),
+    EDGE("basin.velocity.max", "rad per drive radian", 1e9, NULL, basin.velocity_edges.max, "Upper edge of the window."),
+    DECIMAL("basin.velocity.centre", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.centre, CENTRE_HELP),
+    DECIMAL("basin.velocity.width", "rad per drive radian", KZ_ABOVE_ZERO, 2e9, NULL, basin.velocity.width,
+            "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "direct", basin.method,
          "direct: every cell is integrated; icm: interpolated cell mapping, the method of the papers; exact: every cell is "

@@ -32,6 +32,43 @@ static void check_axis(kz_reading *reading, const kz_axis *axis, const char *pat
                 shortest(axis->max).text, cell);
 }
 
+static bool is_exact(const kz_basin_plan *plan) {
+  return isnan(plan->accuracy) ? plan->method == KZ_METHOD_EXACT : plan->accuracy >= 1;
+}
+
+/* A window by its middle: cells that pairs of doubles can tell apart, and the method where doubles cannot. */
+static void check_centred(kz_reading *reading, const kz_basin_plan *plan, const kz_axis *axis, const char *path) {
+  static const double pairs = 0x1p-102; /* some last places of a pair of doubles */
+  char name[128];
+  snprintf(name, sizeof name, "%s.width", path);
+  const kz_node *node = kz_tree_find(reading->root, name);
+  const double cell = axis->width.high / (double)(axis->count > 0 ? axis->count : 1);
+  if (cell < pairs * fmax(fabs(axis->centre.high), axis->width.high))
+    kz_complain(reading, node, name,
+                "%s leaves cells of width %g, too narrow for 32 digits; use a wider window or a smaller count",
+                axis->width.text, cell);
+  else if (kz_axis_is_deep(axis) && !is_exact(plan))
+    kz_complain(reading, node, name, "%s leaves cells of width %g, too narrow for double precision; choose basin.method exact",
+                axis->width.text, cell);
+}
+
+/* The axis of a basin from its edges, or from its centre and width. */
+static void set_axis(kz_reading *reading, const kz_basin_plan *plan, kz_edges edges, kz_axis *axis, const char *path) {
+  char name[128];
+  axis->min = edges.min;
+  axis->max = edges.max;
+  if (!axis->centre.text[0] && !axis->width.text[0]) return;
+  const bool has_centre = axis->centre.text[0];
+  snprintf(name, sizeof name, "%s.%s", path, has_centre ? "width" : "centre");
+  if (!has_centre || !axis->width.text[0]) {
+    kz_complain(reading, NULL, name, "is missing beside %s; give both", has_centre ? "centre" : "width");
+    return;
+  }
+  axis->min = axis->centre.high - axis->width.high / 2;
+  axis->max = axis->centre.high + axis->width.high / 2;
+  check_centred(reading, plan, axis, path);
+}
+
 /* Both edges or neither; neither is the whole circle. */
 static void theta_window(kz_reading *reading, kz_axis *theta, const char *path) {
   char min[128], max[128];
@@ -52,8 +89,17 @@ static void theta_window(kz_reading *reading, kz_axis *theta, const char *path) 
 
 static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin) return;
-  theta_window(reading, &scene->basin.theta, "basin.theta");
-  check_axis(reading, &scene->basin.velocity, "basin.velocity");
+  kz_basin_plan *plan = &scene->basin;
+  set_axis(reading, plan, plan->theta_edges, &plan->theta, "basin.theta");
+  set_axis(reading, plan, plan->velocity_edges, &plan->velocity, "basin.velocity");
+  if (!plan->theta.centre.text[0]) {
+    theta_window(reading, &plan->theta, "basin.theta");
+    plan->theta_edges = (kz_edges){plan->theta.min, plan->theta.max};
+  } else if (plan->theta.width.high > 2 * M_PI) {
+    kz_complain(reading, kz_tree_find(reading->root, "basin.theta.width"), "basin.theta.width",
+                "%s is too wide; it must be at most 2 pi", plan->theta.width.text);
+  }
+  if (!plan->velocity.centre.text[0]) check_axis(reading, &plan->velocity, "basin.velocity");
 }
 
 /* Sizes of shocks go up, as an axis does. */

@@ -1,4 +1,5 @@
-/* Strict scalars: decimal numbers only, no octal look, no nan, nothing quoted. */
+/* Strict scalars: decimal numbers only, no octal look, no nan, nothing quoted but numbers of many digits. */
+#define __STDC_WANT_IEC_60559_TYPES_EXT__ 1 /* strtof128 */
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
@@ -77,6 +78,28 @@ const char *kz_scalar_angle(const kz_node *node, double *value) {
   const char *wrong = kz_scalar_real(&degrees, value);
   if (!wrong) *value = *value / 180 * M_PI;
   return wrong;
+}
+
+/* A number, as the sum of two doubles that is nearest to it; the text may be longer than doubles can tell. */
+const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value) {
+  static const char unit[] = " deg", radians[] = "0.0174532925199432957692369076848861271344";
+  char number[KZ_DECIMAL_LENGTH];
+  bool whole;
+  const char *wrong = kz_scalar_text(node);
+  if (wrong) return wrong;
+  if (strlen(node->text) >= sizeof number) return "has more than 127 characters";
+  const char *tail = is_angle ? strstr(node->text, unit) : NULL;
+  const bool degrees = tail && tail[sizeof unit - 1] == '\0';
+  snprintf(number, sizeof number, "%.*s", (int)(degrees ? tail - node->text : (long)strlen(node->text)), node->text);
+  if (!is_decimal(number, &whole)) return "is not a finite decimal number";
+  const _Float128 quad = strtof128(number, NULL) * (degrees ? strtof128(radians, NULL) : 1);
+  value->high = (double)quad;
+  if (!isfinite(value->high)) return "is too large for double precision";
+  const size_t mantissa = strcspn(number, "eE");
+  if (value->high == 0.0 && strcspn(number, "123456789") < mantissa) return "is too small for double precision";
+  value->low = (double)(quad - value->high);
+  memcpy(value->text, node->text, strlen(node->text) + 1);
+  return NULL;
 }
 
 const char *kz_scalar_boolean(const kz_node *node, bool *value) {

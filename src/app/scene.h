@@ -21,6 +21,7 @@ typedef enum {
   KZ_KEY_INTEGER,  /* int64_t; KZ_UNSET_INTEGER */
   KZ_KEY_COUNT,    /* int32_t; KZ_UNSET_WORD */
   KZ_KEY_REAL,     /* double; NaN where absent */
+  KZ_KEY_DECIMAL,  /* kz_decimal; its text is "" where absent */
   KZ_KEY_WORDS,    /* kz_integers: indices */
   KZ_KEY_INTEGERS, /* kz_integers */
   KZ_KEY_REALS     /* kz_reals */
@@ -97,6 +98,8 @@ const char *kz_scalar_integer(const kz_node *node, int64_t *value);
 const char *kz_scalar_real(const kz_node *node, double *value);
 /* An angle in rad, or in degrees with " deg" behind the number; value in rad. */
 const char *kz_scalar_angle(const kz_node *node, double *value);
+/* A number of any digits, in quotes or not; of an angle also in degrees. The text is kept. */
+const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
 const char *kz_scalar_text(const kz_node *node);
 

@@ -60,6 +60,7 @@ static void open_value(const kz_key *key, FILE *out) {
       write_words(kz_key_words(key), out);
       break;
     case KZ_KEY_REAL:
+    case KZ_KEY_DECIMAL:
     case KZ_KEY_REALS:
       write_number(key, "number", out);
       break;
@@ -69,17 +70,21 @@ static void open_value(const kz_key *key, FILE *out) {
 }
 
 static void write_key(const kz_key *key, FILE *out) {
-  const bool list = key->type >= KZ_KEY_WORDS, angle = kz_key_is_angle(key);
+  const bool list = key->type >= KZ_KEY_WORDS, angle = kz_key_is_angle(key), decimal = key->type == KZ_KEY_DECIMAL;
   if (list) fprintf(out, "{\"type\": \"array\", \"minItems\": 1, \"maxItems\": %d, \"items\": ", KZ_LIST_MAX);
   const bool word_too = key->type == KZ_KEY_COUNT && key->words; /* a number or a word, as "auto" */
-  if (angle) fputs("{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+ deg$\"}, ", out);
+  if (angle || decimal)
+    fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+%s$\"}, ",
+            !angle    ? ""
+            : decimal ? "( deg)?"
+                      : " deg");
   if (word_too) {
     fputs("{\"anyOf\": [", out);
     write_words(key->words, out);
     fputs("}, ", out);
   }
   open_value(key, out);
-  if (angle || word_too) fputs("}]", out);
+  if (angle || decimal || word_too) fputs("}]", out);
   if (list) fputc('}', out);
   if (key->fallback && key->fallback[0]) {
     fputs(", \"default\": ", out);

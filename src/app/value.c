@@ -79,13 +79,23 @@ static const char *read_real(const kz_key *key, const kz_node *node, void *field
   return NULL;
 }
 
+static const char *read_decimal(const kz_key *key, const kz_node *node, void *field) {
+  kz_decimal value;
+  const char *wrong = kz_scalar_decimal(node, kz_key_is_angle(key), &value);
+  if (wrong) return wrong;
+  if (value.high < key->low || value.high > key->high) return "is out of range";
+  *(kz_decimal *)field = value;
+  return NULL;
+}
+
 typedef const char *(*read_function)(const kz_key *key, const kz_node *node, void *field);
 
 /* One value, or one value of a list, by the type of its key. */
 static const read_function readers[] = {
-    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,        [KZ_KEY_BOOLEAN] = read_boolean,
-    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count,      [KZ_KEY_REAL] = read_real,
-    [KZ_KEY_WORDS] = read_index,     [KZ_KEY_INTEGERS] = read_integer, [KZ_KEY_REALS] = read_real,
+    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,   [KZ_KEY_BOOLEAN] = read_boolean,
+    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count, [KZ_KEY_REAL] = read_real,
+    [KZ_KEY_DECIMAL] = read_decimal, [KZ_KEY_WORDS] = read_index, [KZ_KEY_INTEGERS] = read_integer,
+    [KZ_KEY_REALS] = read_real,
 };
 
 static bool is_list(const kz_key *key) {
@@ -141,6 +151,9 @@ void kz_value_clear(const kz_key *key, void *scene) {
     case KZ_KEY_REAL:
       *(double *)field = NAN;
       break;
+    case KZ_KEY_DECIMAL:
+      *(kz_decimal *)field = (kz_decimal){.text = ""};
+      break;
     default:
       *count_of(key, field) = 0;
   }
@@ -161,6 +174,8 @@ static bool is_set(const kz_key *key, const void *field) {
       return *(const int64_t *)field != KZ_UNSET_INTEGER;
     case KZ_KEY_REAL:
       return !isnan(*(const double *)field);
+    case KZ_KEY_DECIMAL:
+      return ((const kz_decimal *)field)->text[0] != '\0';
     default:
       return *count_of(key, (void *)field) > 0;
   }
@@ -226,6 +241,9 @@ void kz_value_print(const kz_key *key, const void *scene, FILE *out) {
       break;
     case KZ_KEY_REAL:
       print_real(*(const double *)field, out);
+      break;
+    case KZ_KEY_DECIMAL:
+      print_text(((const kz_decimal *)field)->text, out);
       break;
     default:
       print_list(key, field, out);

@@ -15,14 +15,19 @@ module kz_kernel_reference
 
 contains
 
-  subroutine start(n, theta, velocity, states) bind(C, name='kz_reference_start')
+  subroutine start(n, theta, velocity, low, states) bind(C, name='kz_reference_start')
     integer(c_int64_t), value :: n
     real(c_double), intent(in) :: theta(n)
     real(c_double), intent(in) :: velocity(n)
+    real(c_double), intent(in), optional :: low(2, n)
     type(reference_state_t), intent(out) :: states(n)
 
     states%theta = real(theta, qp)
     states%velocity = real(velocity, qp)
+    if (present(low)) then
+      states%theta = states%theta + low(1, :)
+      states%velocity = states%velocity + low(2, :)
+    end if
     states%turns = 0
   end subroutine start
 

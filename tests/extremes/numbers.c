@@ -37,7 +37,7 @@ static double true_error(const kz_pendulum *pendulum, const kz_numerics *numeric
   kz_reference_state states[N];
   int64_t turns[N] = {0};
   put_starts(speed, theta, velocity);
-  kz_reference_start(N, theta, velocity, states);
+  kz_reference_start(N, theta, velocity, NULL, states);
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, N, 1, states);
   kz_reference_read(N, states, theta_true, velocity_true, turns);
   advance(pendulum, numerics, theta, velocity);

@@ -1,6 +1,7 @@
 """Windows whose cells are small: the error of a drive period is held against a cell, and the labels against quad precision."""
 
 import json
+import os
 import re
 
 import h5py
@@ -8,6 +9,8 @@ import numpy as np
 import pytest
 import reference_check
 from conftest import datasets
+from kapitza import Result
+from kapitza.plots.plane import Plane
 
 THETA, VELOCITY = -2.3671728704614576, 17.0
 PENDULUM = {"k": 0.1, "damping": 0.1, "m": 0.4}
@@ -110,3 +113,75 @@ def test_the_exponent_has_its_distances(small_result):
         cell = 2 * np.pi / 100
         assert attributes["uncertainty_exponent_nearest"] == pytest.approx(cell)
         assert attributes["uncertainty_exponent_farthest"] == pytest.approx(4 * cell)
+
+
+# Points of boundaries that windows shrink upon: of the zooms above, and of Fig. 12 of the paper at v = 1.42.
+BOUNDARY = "-2.36717282205514094284618936441679792892500699963420629501343"
+FIG12_BOUNDARY = "-0.264011425069458192092654683104843683"
+EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
+UNDECIDED = 3
+
+
+def deep(folder, theta, velocity, width, count, pendulum=PENDULUM):
+    """Writes a window of count x count cells by its centre and width."""
+    basin = {name: {"centre": centre, "width": width, "count": count} for name, centre in (("theta", theta), ("velocity", velocity))}
+    (folder / "deep.yaml").write_text(json.dumps({"pendulum": pendulum, "basin": basin | {"method": "exact"}}))
+    return "deep.yaml"
+
+
+def wrong_labels(path):
+    """How many decided labels quad precision does not confirm; the shares that are undecided, and that doubles do not decide."""
+    with h5py.File(path) as file:
+        evidence = file["basin/evidence"][:]
+    _, (_, _, labels, true_labels) = reference_check.check_file(path, evidence.size, 1, 2, 4000)
+    evidence = evidence[reference_check.sample_cells(evidence.shape, evidence.size, 1)]
+    wrong = (labels != true_labels) & (evidence != UNDECIDED)
+    return np.count_nonzero(wrong), np.mean(evidence == UNDECIDED), np.mean(evidence >= UNDECIDED)
+
+
+@pytest.mark.parametrize("width, precise", [("2e-7", 0.05), ("1e-10", 0.5), ("1e-15", 0.9), ("1e-20", 0.8)])
+def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width, precise):
+    kapitza("run", deep(tmp_path, BOUNDARY, "17", width, 30 if EXTENSIVE else 8), folder=tmp_path)
+    wrong, undecided, more = wrong_labels(tmp_path / "deep.h5")
+    assert wrong == 0 and undecided < 0.1 and more > precise
+    with h5py.File(tmp_path / "deep.h5") as file:
+        assert len(np.unique(file["basin/attractor"][:])) > 1
+
+
+@pytest.mark.skipif(not EXTENSIVE, reason="takes minutes: KAPITZA_EXTENSIVE=1")
+@pytest.mark.parametrize("width", ["1e-7", "1e-10", "1e-15", "1e-20", "1e-25"])
+def test_a_zoom_into_fig12(kapitza, tmp_path, width):
+    kapitza("run", deep(tmp_path, FIG12_BOUNDARY, "1.42", width, 20, SMALL), folder=tmp_path)
+    wrong, undecided, _ = wrong_labels(tmp_path / "deep.h5")
+    assert wrong == 0 and undecided < (0.1 if width == "1e-25" else 0.01)
+
+
+def test_a_deep_window_in_its_file(kapitza, tmp_path):
+    """Offsets that tell the cells apart, the centre as it was written, a scene that gives the same file again, a picture with axes."""
+    path = deep(tmp_path, BOUNDARY, "17", "1e-18", 6)
+    kapitza("run", path, ranks=2, folder=tmp_path)
+    basin = Result(tmp_path / "deep.h5").group("basin")
+    assert np.all(np.diff(basin["theta"].values) == 0)
+    assert basin["theta_offset"].values == pytest.approx((np.arange(6) - 2.5) / 6 * 1e-18, rel=1e-15)
+    assert basin.attrs["theta_centre"] == BOUNDARY and basin.attrs["velocity_centre"] == "17"
+    with h5py.File(tmp_path / "deep.h5") as file:
+        (tmp_path / "again.yaml").write_text(file.attrs["scene_resolved"])
+    kapitza("run", "again.yaml", folder=tmp_path)
+    assert datasets(tmp_path / "deep.h5") == datasets(tmp_path / "again.h5")
+    plane = Plane(basin, "down")
+    assert plane.theta_range == pytest.approx((-5e-19, 5e-19)) and plane.centres == {"theta": BOUNDARY, "velocity": "17"}
+    assert plane.inside(np.array([0.0]), np.array([0.0]))[0].size == 0
+
+
+def test_a_window_about_the_origin_mirrors(kapitza, tmp_path):
+    """Given by its middle in degrees, it has the labels of the same window given by its edges."""
+    axes = "basin={theta: {%s, count: 10}, velocity: {%s, count: 10}, attractors: {starts: 512}}"
+    windows = {"middle": ("centre: 0, width: 360 deg", "centre: 0, width: 4"), "edges": ("min: -180 deg, max: 180 deg", "min: -2, max: 2")}
+    for name, window in windows.items():
+        (tmp_path / f"{name}.yaml").write_text(json.dumps({"pendulum": SMALL}))
+        kapitza("run", f"{name}.yaml", "--set", axes % window, folder=tmp_path)
+    with h5py.File(tmp_path / "middle.h5") as file, h5py.File(tmp_path / "edges.h5") as edges:
+        labels, mirror = file["basin/attractor"][:], np.append(file["attractors/mirror"][:], -1)
+        assert np.array_equal(mirror[labels], labels[::-1, ::-1])
+        assert np.array_equal(labels, edges["basin/attractor"][:])
+        assert np.array_equal(file["basin/theta"][:], -file["basin/theta"][:][::-1])

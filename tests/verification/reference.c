@@ -20,7 +20,7 @@ typedef struct {
 static motion carried(kz_pendulum pendulum, int32_t steps, int64_t periods, double theta, double velocity) {
   kz_reference_state state;
   motion end;
-  kz_reference_start(1, &theta, &velocity, &state);
+  kz_reference_start(1, &theta, &velocity, NULL, &state);
   kz_reference_advance(&pendulum, steps, 1, periods, &state);
   kz_reference_read(1, &state, &end.theta, &end.velocity, &end.turns);
   return end;
@@ -129,7 +129,7 @@ static void batches_and_calls_do_not_matter(void **unused) {
     theta0[i] = theta[i] = i - 2.1;
     velocity0[i] = velocity[i] = 0.3 * i - 0.7;
   }
-  kz_reference_start(N, theta, velocity, states);
+  kz_reference_start(N, theta, velocity, NULL, states);
   for (int call = 0; call < 10; call++) kz_reference_advance(&pendulum, KZ_REFERENCE_STEPS, N, 3, states);
   kz_reference_read(N, states, theta, velocity, turns);
   for (int i = 0; i < N; i++) {

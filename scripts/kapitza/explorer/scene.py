@@ -16,6 +16,7 @@ SLIDERS = [("drive_amplitude", "drive_frequency", "quality_factor"), ("m", "k", 
 WINDOW = {"theta": {"min": -math.pi, "max": math.pi}, "velocity": {"min": -2.0, "max": 2.0}}
 COARSE = {"icm": {"theta": 300, "velocity": 300}, "attractors": {"starts": 1024}}
 MOST_CELLS = 2_000_000
+NARROWEST = 1e-11     # width of a window, relative to its edges, whose pixels doubles can tell apart
 PERIODS = (24, 400)  # drive periods of a motion that is played: at least, at most
 SAMPLES = 48         # of a motion, a drive period
 
@@ -65,6 +66,8 @@ class Start:
             raise BadFile(f"{self.path}: holds no scene")
         self.scene = {key: whole[key] for key in ("title", "pendulum", "numerics", "basin") if key in whole}
         self.scene["basin"] = {**copy.deepcopy(WINDOW), **self.scene.get("basin", {})}
+        for name in WINDOW:
+            self.scene["basin"][name] = _edges(self.scene["basin"][name], f"{self.path}: basin.{name}")
 
     @property
     def title(self):
@@ -117,6 +120,18 @@ class Start:
         return self.moved(request.get("pendulum", {})) | {"orbit": {
             "start": {"theta": theta, "velocity": velocity},
             "periods": max(least, min(most, periods)), "samples_per_period": SAMPLES}}
+
+
+def _edges(axis, place):
+    """A window by its edges, also where the scene gives centre and width: the explorer's numbers are doubles."""
+    if "centre" not in axis:
+        return axis
+    centre, width = (math.radians(float(text.removesuffix(" deg"))) if text.endswith(" deg") else float(text)
+                     for text in (axis["centre"], axis["width"]))
+    low, high = centre - width / 2, centre + width / 2
+    if width < NARROWEST * max(abs(low), abs(high)):
+        raise BadFile(f"{place}: is {width:g} wide, finer than the explorer can show; kapitza run can")
+    return {key: value for key, value in axis.items() if key not in ("centre", "width")} | {"min": low, "max": high}
 
 
 def _is_hdf5(path):

@@ -8,12 +8,15 @@ from matplotlib.axes import Axes
 
 from kapitza import style
 
+DEEP = 1e-9  # width of a window whose axis no tick label could tell from its centre
+
 
 class Plane:
     """The window of starts as drawn: cells in the order of the picture, and its edges."""
 
     def __init__(self, basin: xarray.Dataset, centre: str) -> None:
-        theta, velocity = basin["theta"].values, basin["velocity"].values
+        self.centres = {name: str(basin.attrs[f"{name}_centre"]) for name in ("theta", "velocity") if _is_deep(basin, name)}
+        theta, velocity = (basin[f"{name}_offset" if name in self.centres else name].values for name in ("theta", "velocity"))
         width = _step(theta) * len(theta)
         self.whole_circle = abs(width - 2 * np.pi) < 1e-9
         turn = len(theta) // 2 if self.whole_circle and centre == "inverted" else 0
@@ -32,9 +35,9 @@ class Plane:
         return axes.imshow(image, extent=(*self.theta_range, *self.velocity_range), origin="lower", aspect="auto", **colours)
 
     def inside(self, theta: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Every image of the points, theta + 2 pi n, that lies in the window (edges included)."""
+        """Every image of the points, theta + 2 pi n, that lies in the window (edges included); none where they are not known so finely."""
         theta, velocity = np.ravel(theta), np.ravel(velocity)
-        known = np.isfinite(theta)
+        known = np.isfinite(theta) & (not self.centres)
         theta, velocity = theta[known], velocity[known]
         (left, right), (low, high) = self.theta_range, self.velocity_range
         turns = np.arange(np.floor((left - np.pi) / (2 * np.pi)), np.ceil((right + np.pi) / (2 * np.pi)) + 1)
@@ -59,6 +62,12 @@ class Plane:
         return float(height / width) if 1 / 3 <= height / width <= 1.5 else 0.7
 
 
+def _is_deep(basin: xarray.Dataset, name: str) -> bool:
+    """Whether an axis is narrower than its values can tell, so that it is drawn by distances from its centre."""
+    offset = basin.get(f"{name}_offset")
+    return offset is not None and f"{name}_centre" in basin.attrs and _step(offset.values) * len(offset) < DEEP
+
+
 def _step(centres: np.ndarray) -> float:
     """Width of a cell; a single cell is drawn one unit wide."""
     return (centres[-1] - centres[0]) / (len(centres) - 1) if len(centres) > 1 else 1.0
@@ -77,7 +86,10 @@ def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
         axes.set_xticks(ticks * unit, [f"{tick:.0f}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
     elif degrees:
         axes.xaxis.set_major_formatter(lambda theta, _: f"{np.degrees(theta):.6g}°".replace("-", "−"))
-    axes.set_xlabel("angle θ from down" + ("" if degrees else " (rad)"))
-    axes.set_ylabel("velocity dθ/d(ωt) (rad per drive radian)")
+    theta, velocity = (f" − {plane.centres[name]}" if name in plane.centres else "" for name in ("theta", "velocity"))
+    axes.set_xlabel(f"angle θ from down{theta}" + ("" if degrees else " (rad)"))
+    axes.set_ylabel(f"velocity dθ/d(ωt){velocity} (rad per drive radian)")
+    for axis, centre in ((axes.xaxis, theta), (axes.yaxis, velocity)):
+        axis.label.set_fontsize(8 if centre else axis.label.get_fontsize())
     axes.tick_params(direction="out", length=3)
     return axes

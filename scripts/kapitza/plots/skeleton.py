@@ -27,6 +27,9 @@ def mark_manifolds(axes: Axes, basin: xarray.Dataset, manifolds: xarray.Dataset,
                    centre: str = "down") -> Axes:
     """Every polyline at every image that lies in the window, in the colours of unstable and stable ones, each with a thin rim."""
     theta, velocity, kind = (manifolds[name].values for name in ("theta", "velocity", "kind"))
+    plane = Plane(basin, centre)
+    if plane.centres:  # curves are not known as finely as such a window is
+        return label_axes(axes, plane)
     joined = (np.diff(manifolds["polyline"].values) == 0) & (np.abs(np.diff(theta)) < np.pi)
     pieces = np.split(np.arange(len(theta)), np.flatnonzero(~joined) + 1)
     for number, (colour, rim) in enumerate(zip(colours, (style.INK, "white"), strict=True)):
@@ -36,4 +39,4 @@ def mark_manifolds(axes: Axes, basin: xarray.Dataset, manifolds: xarray.Dataset,
             for turn in (-2 * np.pi, 0, 2 * np.pi):
                 axes.plot(theta[piece] + turn, velocity[piece], color=rim, linewidth=1.5, zorder=2)
                 axes.plot(theta[piece] + turn, velocity[piece], color=colour, linewidth=0.8, zorder=2.1)
-    return label_axes(axes, Plane(basin, centre))
+    return label_axes(axes, plane)

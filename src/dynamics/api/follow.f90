@@ -88,12 +88,13 @@ contains
     call follow(map, d%regions, d%attractors, state, label, periods)
   end subroutine follow_reference
 
-  subroutine follow_errors(handle, rung, n, max_periods, start, label, periods) bind(C, name='kz_dynamics_follow_errors')
+  subroutine follow_errors(handle, rung, n, max_periods, start, low, label, periods) bind(C, name='kz_dynamics_follow_errors')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: rung
     integer(c_int64_t), value :: n
     integer(c_int64_t), value :: max_periods
     real(dp), intent(in) :: start(2, n)
+    real(dp), intent(in), optional :: low(2, n)
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
     type(dynamics_t), pointer :: d
@@ -106,7 +107,7 @@ contains
       state(1, :) = half_turns(start(1, :))
       call make_covariant(d, map)
     else
-      call make_precise(d, rung, start, state(1, :), map)
+      call make_precise(d, rung, start, state(1, :), map, low)
     end if
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)
@@ -127,12 +128,13 @@ contains
     call move_alloc(covariant, map)
   end subroutine make_covariant
 
-  subroutine make_precise(d, rung, start, u, map)
+  subroutine make_precise(d, rung, start, u, map, low)
     type(dynamics_t), intent(inout), target :: d
     integer(c_int32_t), intent(in) :: rung
     real(dp), intent(in) :: start(:, :)
     real(dp), intent(out) :: u(:)
     class(map_t), allocatable, intent(out) :: map
+    real(dp), intent(in), optional :: low(:, :)
     type(reference_map_t), allocatable :: quad
     type(precise_map_t), allocatable :: precise
     type(pairs_t), pointer :: pairs
@@ -146,7 +148,7 @@ contains
       error = max(error, pairs%error)
     end if
     allocate (quad, precise)
-    call make_reference_map(quad, d%search%pendulum, QUAD_STEPS, d%search%flow, start, u, pairs)
+    call make_reference_map(quad, d%search%pendulum, QUAD_STEPS, d%search%flow, start, u, pairs, low)
     call make_precise_map(quad, error, d%search%flow, d%regions, d%attractors, precise)
     call move_alloc(precise, map)
   end subroutine make_precise

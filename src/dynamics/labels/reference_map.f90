@@ -21,6 +21,7 @@ module kz_labels_reference_map
     real(qp) :: theta(ROOM) = 0    !< rad
     real(qp) :: velocity(ROOM) = 0 !< rad per drive radian
     real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
+    real(dp), allocatable :: low(:, :)    !< (2, n): what is to be added to them
     integer :: last = 0 !< number of the start that was put last
     class(flow_t), allocatable :: flow !< in whose coordinates the trapping regions see the states
   contains
@@ -33,7 +34,7 @@ module kz_labels_reference_map
 contains
 
   !> A map of starts given in rad: they are put in their order, each by its half-turns u, and moved as exact numbers.
-  subroutine make_reference_map(map, pendulum, n_steps, flow, start, u, pairs)
+  subroutine make_reference_map(map, pendulum, n_steps, flow, start, u, pairs, low)
     !> the map
     type(reference_map_t), intent(out) :: map
     !> k, beta, m
@@ -48,10 +49,15 @@ contains
     real(dp), intent(out) :: u(:)
     !> what moves the states; Taylor series, if left out or null
     type(pairs_t), pointer, intent(in), optional :: pairs
+    !> (2, n): what is to be added to the starts; nothing if left out
+    real(dp), intent(in), optional :: low(:, :)
 
     if (present(pairs)) map%pairs => pairs
     call make_drive(map%drive, pendulum%k, pendulum%beta, pendulum%m, n_steps)
     allocate (map%start, source=start)
+    allocate (map%low, mold=start)
+    map%low = 0
+    if (present(low)) map%low = low
     u = wrapped(start(1, :)/PI)
     allocate (map%flow, source=flow)
   end subroutine make_reference_map
@@ -65,8 +71,8 @@ contains
 
     self%last = self%last + 1
     call put_state(self, lane, u, v)
-    self%theta(lane) = real(self%start(1, self%last), qp)
-    self%velocity(lane) = real(self%start(2, self%last), qp)
+    self%theta(lane) = real(self%start(1, self%last), qp) + self%low(1, self%last)
+    self%velocity(lane) = real(self%start(2, self%last), qp) + self%low(2, self%last)
   end subroutine put
 
   subroutine enter(self, n, matrix, first)

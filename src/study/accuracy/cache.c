@@ -7,6 +7,8 @@
 
 #include "reference.h"
 
+enum { KEY_LENGTH = 512 + 4 * KZ_DECIMAL_LENGTH };
+
 /* FNV-1a of 64 bits (Fowler, Noll & Vo). */
 static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
   for (size_t i = 0; i < bytes; i++) sum = (sum ^ ((const unsigned char *)data)[i]) * 0x100000001b3u;
@@ -17,9 +19,10 @@ static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
 static void print_key(const kz_reference_labels *reference, char *key, size_t bytes) {
   const kz_basin_plan *p = reference->plan;
   const uint64_t attractors = checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
-  snprintf(key, bytes, "kapitza truth 1: %a %a %a; %a %a %lld; %a %a %lld; %lld %lld; %016llx\n", reference->pendulum.k,
+  snprintf(key, bytes, "kapitza truth 1: %a %a %a; %a %a %lld%s%s; %a %a %lld%s%s; %lld %lld; %016llx\n", reference->pendulum.k,
            reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max, (long long)p->theta.count,
-           p->velocity.min, p->velocity.max, (long long)p->velocity.count, (long long)p->seed, (long long)p->max_periods,
+           p->theta.centre.text, p->theta.width.text, p->velocity.min, p->velocity.max, (long long)p->velocity.count,
+           p->velocity.centre.text, p->velocity.width.text, (long long)p->seed, (long long)p->max_periods,
            (unsigned long long)attractors);
 }
 
@@ -47,7 +50,7 @@ static char *verified(char *text, const char *key) {
 }
 
 int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *reference) {
-  char key[512];
+  char key[KEY_LENGTH];
   print_key(reference, key, sizeof key);
   char *text = read_all(path), *line = text ? verified(text, key) : NULL;
   int64_t n = 0;
@@ -96,7 +99,7 @@ static kz_status write_all(const char *path, const char *text) {
 }
 
 kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path) {
-  char key[512], *text = NULL;
+  char key[KEY_LENGTH], *text = NULL;
   size_t bytes = 0;
   print_key(reference, key, sizeof key);
   if (count_held(path, key) >= reference->samples) return KZ_OK;

@@ -1,5 +1,6 @@
 /* Study `basin`: measures of the labelled grid, its groups in the file, its summary. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "basin.h"
@@ -12,7 +13,7 @@ typedef struct {
 
 /* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
 static exponent uncertainty(const kz_basin_plan *plan, const kz_labels *labels) {
-  const double cell = (plan->theta.max - plan->theta.min) / (double)plan->theta.count;
+  const double cell = kz_axis_step(&plan->theta);
   double x[KZ_DISTANCES], y[KZ_DISTANCES];
   int64_t n = 0;
   for (; n < KZ_DISTANCES; n++) {
@@ -85,11 +86,22 @@ static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
 }
 
+/* Distances from the centre, and the centre as it was written: doubles may not tell the cells apart. */
+static kz_status write_offsets(const kz_axis *axis, const char *name, double *values, kz_store *store) {
+  char label[32];
+  for (int64_t i = 0; i < axis->count; i++) values[i] = kz_axis_offset(axis, i);
+  snprintf(label, sizeof label, "%s_offset", name);
+  KZ_TRY(kz_store_variable(store, "basin", label, values));
+  snprintf(label, sizeof label, "%s_centre", name);
+  return kz_store_text(store, "basin", label, axis->centre.text);
+}
+
 static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {
   double *centres = malloc((size_t)axis->count * sizeof *centres);
   if (!centres) return kz_fail(KZ_FAILED, "no memory for the axis %s", name);
   for (int64_t i = 0; i < axis->count; i++) centres[i] = kz_axis_centre(axis, i);
   kz_status status = kz_store_dimension(store, "basin", name, axis->count, centres);
+  if (status == KZ_OK && axis->centre.text[0]) status = write_offsets(axis, name, centres, store);
   free(centres);
   return status;
 }

@@ -14,7 +14,8 @@ typedef struct {
 } head;
 
 struct kz_workspace {
-  double state[2 * KZ_BATCH]; /* of method exact: cell centres in rad and rad per drive radian */
+  double state[2 * KZ_BATCH]; /* of method exact: cell centres in rad and rad per drive radian, */
+  double low[2 * KZ_BATCH];   /* and what is to be added to them */
   int32_t label[KZ_BATCH];
   int64_t periods[KZ_BATCH];
 };
@@ -38,10 +39,15 @@ kz_status kz_label_cells(const kz_labelling *l, int64_t first, const int64_t *ce
     const int64_t part = n - done < l->batch ? n - done : l->batch;
     KZ_TRY(kz_ranks_interrupted(l->run->ranks));
     const bool exact = l->plan->method == KZ_METHOD_EXACT;
-    for (int64_t i = 0; i < part; i++)
-      (exact ? kz_cell_start : kz_cell_state)(l->plan, cells ? cells[done + i] : first + done + i, l->work->state + 2 * i);
+    for (int64_t i = 0; i < part; i++) {
+      const int64_t f = cells ? cells[done + i] : first + done + i;
+      if (exact)
+        kz_cell_pairs(l->plan, f, l->work->state + 2 * i, l->work->low + 2 * i);
+      else
+        kz_cell_state(l->plan, f, l->work->state + 2 * i);
+    }
     if (exact)
-      kz_rung_label(l, part, l->work->state, l->work->label, l->work->periods, out + done);
+      kz_rung_label(l, part, l->work->state, l->work->low, l->work->label, l->work->periods, out + done);
     else
       label_batch(l, part, out + done);
   }

@@ -23,8 +23,8 @@ void kz_labels_note_reached(const kz_labelling *labelling, const kz_piece *piece
 
 /* Labels n cells on labelling->rung, from their centres start [n][2] in rad and rad per drive radian; on KZ_RUNGS: finds the candidates of
  * cells that no rung decides. label, periods [n]: room. */
-void kz_rung_label(const kz_labelling *labelling, int64_t n, const double *start, int32_t *label, int64_t *periods,
-                   kz_labelled *out);
+void kz_rung_label(const kz_labelling *labelling, int64_t n, const double *start, const double *low, int32_t *label,
+                   int64_t *periods, kz_labelled *out);
 /* Labels those that the first rung leaves, in stages of round `round`. Collective. */
 kz_status kz_rungs_climb(kz_labelling *labelling, int round);
 /* Cells that a rung takes at a time. */

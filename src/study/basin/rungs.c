@@ -67,12 +67,13 @@ static void find_candidates(const kz_labelling *l, int64_t n, const double *star
   find_others(l, n, state, out);
 }
 
-void kz_rung_label(const kz_labelling *l, int64_t n, const double *start, int32_t *label, int64_t *periods, kz_labelled *out) {
+void kz_rung_label(const kz_labelling *l, int64_t n, const double *start, const double *low, int32_t *label, int64_t *periods,
+                   kz_labelled *out) {
   if (l->rung == KZ_RUNGS) {
     find_candidates(l, n, start, out);
     return;
   }
-  kz_dynamics_follow_errors(l->dynamics, l->rung, n, l->plan->max_periods, start, label, periods);
+  kz_dynamics_follow_errors(l->dynamics, l->rung, n, l->plan->max_periods, start, low, label, periods);
   for (int64_t i = 0; i < n; i++)
     out[i] = (kz_labelled){.periods = (uint32_t)periods[i], .label = (int16_t)label[i], .evidence = rungs[l->rung].evidence};
 }

@@ -3,7 +3,31 @@
 #include <float.h>
 #include <math.h>
 
+/* Enough cells on each side of the centre in an exact number of halves; a quad has more digits than a pair. */
+static _Float128 centre_of(const kz_axis *axis, int64_t i) {
+  const _Float128 width = (_Float128)axis->width.high + axis->width.low,
+                  middle = (_Float128)axis->centre.high + axis->centre.low;
+  return (_Float128)(2 * i + 1 - axis->count) * (width / (_Float128)(2 * axis->count)) + middle;
+}
+
+void kz_axis_pair(const kz_axis *axis, int64_t i, double pair[2]) {
+  const _Float128 centre = centre_of(axis, i);
+  const bool is_centred = axis->centre.text[0];
+  pair[0] = is_centred ? (double)centre : kz_axis_centre(axis, i);
+  pair[1] = is_centred ? (double)(centre - pair[0]) : 0;
+}
+
+double kz_axis_offset(const kz_axis *axis, int64_t i) {
+  return (double)(2 * i + 1 - axis->count) * (axis->width.high / (2.0 * (double)axis->count));
+}
+
+bool kz_axis_is_deep(const kz_axis *axis) {
+  return axis->centre.text[0] &&
+         axis->width.high / (double)axis->count < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max));
+}
+
 double kz_axis_centre(const kz_axis *axis, int64_t i) {
+  if (axis->centre.text[0]) return (double)centre_of(axis, i);
   return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
          (axis->min + axis->max) / 2;
 }
@@ -12,21 +36,31 @@ double kz_axis_fastest(const kz_axis *velocity) {
   return fmax(fabs(velocity->min), fabs(velocity->max));
 }
 
+double kz_axis_step(const kz_axis *axis) {
+  return (axis->centre.text[0] ? axis->width.high : axis->max - axis->min) / (double)axis->count;
+}
+
 static double width(const kz_axis *axis) {
-  const double extent = axis->max - axis->min;
-  return extent > DBL_EPSILON ? extent / (double)axis->count : INFINITY;
+  return kz_axis_step(axis) * (double)axis->count > DBL_EPSILON ? kz_axis_step(axis) : INFINITY;
 }
 
 double kz_cell_size(const kz_basin_plan *plan) {
   return fmin(width(&plan->theta), width(&plan->velocity));
 }
 
+/* Half of what is added to a window whose cells doubles cannot tell apart. */
+static double margin(const kz_axis *axis) {
+  static const double around = 5e-7;
+  return kz_axis_is_deep(axis) ? around : 0;
+}
+
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity) {
-  return (kz_window){theta->min, theta->max, velocity->min, velocity->max};
+  return (kz_window){theta->min - margin(theta), theta->max + margin(theta), velocity->min - margin(velocity),
+                     velocity->max + margin(velocity)};
 }
 
 static bool is_symmetric(const kz_axis *axis) {
-  return axis->min == -axis->max;
+  return axis->min == -axis->max && axis->centre.high == 0;
 }
 
 int64_t kz_own_cells(const kz_basin_plan *plan) {
@@ -43,6 +77,16 @@ void kz_start_state(double theta, double velocity, double state[2]) {
 void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]) {
   start[0] = kz_axis_centre(&plan->theta, f % plan->theta.count);
   start[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
+}
+
+void kz_cell_pairs(const kz_basin_plan *plan, int64_t f, double start[2], double low[2]) {
+  double theta[2], velocity[2];
+  kz_axis_pair(&plan->theta, f % plan->theta.count, theta);
+  kz_axis_pair(&plan->velocity, f / plan->theta.count, velocity);
+  for (int part = 0; part < 2; part++) {
+    (part ? low : start)[0] = theta[part];
+    (part ? low : start)[1] = velocity[part];
+  }
 }
 
 void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {

@@ -5,8 +5,13 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* Centre of cell i; exactly mirrored in a symmetric window. */
+/* Centre of cell i; exactly mirrored in a symmetric window. Of a window given by its centre and width also as a pair of doubles, and
+ * relative to the centre. */
 double kz_axis_centre(const kz_axis *axis, int64_t i);
+void kz_axis_pair(const kz_axis *axis, int64_t i, double pair[2]);
+double kz_axis_offset(const kz_axis *axis, int64_t i);
+/* Width of a cell. */
+double kz_axis_step(const kz_axis *axis);
 /* The largest speed on an axis of velocities. */
 double kz_axis_fastest(const kz_axis *velocity);
 
@@ -14,6 +19,7 @@ double kz_axis_fastest(const kz_axis *velocity);
  * point to all motions and does not count; INFINITY where both are. */
 double kz_cell_size(const kz_basin_plan *plan);
 
+/* Where attractors are looked for: the window; of one that is a point to doubles a neighbourhood. */
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
 
 /* Cells of a tile of labels, at most `most`: few where each may take long, so that a stop loses seconds of work. */
@@ -26,6 +32,8 @@ int64_t kz_own_cells(const kz_basin_plan *plan);
 void kz_start_state(double theta, double velocity, double state[2]);
 /* Centre of cell f, velocity-major, in rad and rad per drive radian; its state. */
 void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]);
+/* The same with what is to be added to it where doubles cannot tell the cells apart. */
+void kz_cell_pairs(const kz_basin_plan *plan, int64_t f, double start[2], double low[2]);
 void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
 
 /* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */

@@ -26,7 +26,7 @@ static void true_place(const kz_pendulum *pendulum, const kz_enclosure *start, c
   double theta = start->theta + start->matrix[0][0] * y[0], velocity = start->velocity + start->matrix[1][1] * y[1];
   kz_reference_state state;
   int64_t turns;
-  kz_reference_start(1, &theta, &velocity, &state);
+  kz_reference_start(1, &theta, &velocity, NULL, &state);
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, 1, periods, &state);
   kz_reference_read(1, &state, &theta, &velocity, &turns);
   const double x = remainder(theta - set->theta, 2 * M_PI), v = velocity - set->velocity;

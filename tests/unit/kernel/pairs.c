@@ -105,7 +105,7 @@ static double error_of(const kz_pairs *pairs, const kz_pendulum *pendulum, doubl
   quad state[2];
   double largest = 0;
   starts(fastest, &s);
-  kz_reference_start(N, zero, zero, reference);
+  kz_reference_start(N, zero, zero, NULL, reference);
   for (int i = 0; i < N; i++) {
     state[0] = PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]), state[1] = (quad)s.velocity[i][0] + s.velocity[i][1];
     memcpy(reference[i].quads, state, sizeof state);
