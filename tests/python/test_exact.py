@@ -64,7 +64,7 @@ def test_ranks_and_stops_change_nothing(kapitza, exact):
     folder, _ = exact
     stops = 0
     for ranks in [1, 3] * 15:
-        limit = 0.2 * 1.6**stops  # s: at last enough for the longest tile
+        limit = 0.2 * 2.2**stops  # s: at last enough for the longest tile
         done = kapitza("run", "s.yaml", "-o", "parts.h5", "--resume", "--time-limit", f"{limit:.3f}", ranks=ranks, folder=folder,
                        status=None)
         if done.returncode != 75:
