@@ -70,6 +70,7 @@ static void write_row(const kz_key *keys, const kz_key *key, FILE *out) {
 void kz_scene_reference(const kz_key *keys, FILE *out) {
   fputs(
       "# The keys of a scene\n\n"
+      "Every key that a scene can hold: what it accepts, its default, what it means.\n"
       "Written by `kapitza keys` from the program's own table; do not edit. `-` = may be left out and has no default.\n"
       "Keys with a letter are ways to give the same: only those of one letter stand together, and required means within that "
       "letter.\n\n",

@@ -16,6 +16,11 @@ def test_every_page_is_in_the_index():
     assert listed == {path.stem for path in PAGES} - {"index"} and all(f"({name}.md)" in index for name in listed)
 
 
+def test_every_page_opens_with_what_it_answers():
+    """A sentence under the title, before any heading, list, table, picture or command."""
+    assert not [path.name for path in PAGES if not re.match(r"# .+\n\n[A-Z]", path.read_text())]
+
+
 @pytest.mark.parametrize("page", [ROOT / "README.md", *PAGES], ids=lambda path: path.stem)
 def test_links_lead_to_files(page):
     links = re.findall(r"\]\((?!https?:)([^)#\s]+)", page.read_text())

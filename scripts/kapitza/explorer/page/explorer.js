@@ -45,15 +45,16 @@ async function compute() {
       page.image = labelImage(view);
       writeLegend();
       draw();
-      if (step === list.at(-1)) say("done", `${view.width} × ${view.height} starts, method ${view.method}` + undecidedWords(view));
+      if (step === list.at(-1)) say("done", viewWords(view));
     }
   } catch (error) {
     if (order === page.order) say("error", error.message);
   }
 }
 
-function undecidedWords(view) {
-  return view.undecided === null ? "" : view.undecided === 0 ? ", every label decided" : `, ${view.undecided} undecided`;
+function viewWords(view) {
+  const open = view.undecided === null ? "" : view.undecided === 0 ? ", every label decided" : `, ${view.undecided} undecided`;
+  return `${view.width} × ${view.height} starts, method ${view.method}${open}`;
 }
 
 function computeSoon() {
@@ -118,7 +119,7 @@ async function play(theta, velocity) {
     page.motion = answer.motion;
     player.play(answer.motion);
     const complete = page.view && JSON.stringify(page.view.window) === JSON.stringify(page.window) && page.view.width === request().width;
-    if (complete) say("done", "");
+    if (complete) say("done", viewWords(page.view));
     else compute();
   } catch (error) {
     if (order === page.order) say("error", error.message);
