@@ -193,7 +193,8 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
 def show_in_si(figure: Figure, omega: float) -> None:
     """Velocities in rad/s, and the bar of settling times in seconds; `omega`: the drive's angular frequency, rad/s."""
     axes, *bars = [figure.axes[0], *figure.axes[0].child_axes]
-    show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)")
+    words = axes.get_ylabel().removesuffix(" (rad per drive radian)")  # of a narrow window: less its centre, in drive units
+    show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)" if words == "velocity dθ/d(ωt)" else f"ω × ({words}) (rad/s)")
     for bar in bars:
         show_in(bar.yaxis, 2 * np.pi / omega, "time until trapped, plus one drive period (s)")
 
