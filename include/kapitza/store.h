@@ -57,7 +57,7 @@ kz_status kz_store_number(kz_store *store, const char *group, const char *name, 
 
 /* Bytes that n packed numbers of `item` bytes take at most. */
 size_t kz_pack_room(size_t n, size_t item);
-/* Packs n numbers of `item` bytes into `packed` [kz_pack_room]: how many bytes that took, a function of the numbers alone; 0 where
+/* Packs n numbers of `item` bytes, of which neighbours are often equal, into `packed` [kz_pack_room]: how many bytes that took, a function of the numbers alone; 0 where
  * memory ran out. */
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed);
 /* The reverse; false where memory ran out, or `packed` [bytes] does not hold n such numbers. */

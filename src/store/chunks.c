@@ -56,7 +56,7 @@ static kz_status write_chunk(hid_t dataset, const layout *l, hsize_t sheet, hsiz
   const hsize_t at[KZ_MAX_DIMENSIONS] = {sheet, row, column};
   void *packed;
   size_t bytes;
-  KZ_TRY(kz_pack(chunk, l->item, l->chunk_rows * l->chunk_columns, &packed, &bytes));
+  KZ_TRY(kz_pack(chunk, l->item, l->chunk_rows * l->chunk_columns, l->item < sizeof(double), &packed, &bytes));
   const herr_t written = H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, at + KZ_MAX_DIMENSIONS - l->rank, bytes, packed);
   free(packed);
   KZ_HDF5(written);

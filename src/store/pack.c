@@ -4,15 +4,13 @@
 #include <stdlib.h>
 #include <zlib.h>
 
-static const size_t REAL_BYTES = 8;
-
 /* Byte b of item i goes to place b n + i. */
 static void shuffle(const unsigned char *items, size_t item, size_t n, unsigned char *out) {
   for (size_t b = 0; b < item; ++b)
     for (size_t i = 0; i < n; ++i) out[b * n + i] = items[i * item + b];
 }
 
-/* Labels come in runs: looking for nothing else takes half the time and packs better. Bytes of real numbers do not. */
+/* Where bytes come in runs, looking for nothing else takes half the time and packs better. */
 static kz_status deflate_all(unsigned char *in, size_t n, int strategy, void **packed, size_t *bytes) {
   z_stream stream = {.zalloc = Z_NULL, .zfree = Z_NULL, .opaque = Z_NULL};
   if (n > UINT_MAX / 2 || deflateInit2(&stream, KZ_PACK_LEVEL, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, strategy) != Z_OK)
@@ -32,12 +30,12 @@ static kz_status deflate_all(unsigned char *in, size_t n, int strategy, void **p
   return kz_fail(KZ_FAILED, "out of memory for packing %zu bytes", n);
 }
 
-kz_status kz_pack(const void *items, size_t item, size_t n, void **packed, size_t *bytes) {
+kz_status kz_pack(const void *items, size_t item, size_t n, bool in_runs, void **packed, size_t *bytes) {
   unsigned char *shuffled = malloc(item * n + 1);
   *packed = NULL;
   if (!shuffled) return kz_fail(KZ_FAILED, "out of memory for packing %zu bytes", item * n);
   shuffle(items, item, n, shuffled);
-  const kz_status status = deflate_all(shuffled, item * n, item < REAL_BYTES ? Z_RLE : Z_DEFAULT_STRATEGY, packed, bytes);
+  const kz_status status = deflate_all(shuffled, item * n, in_runs ? Z_RLE : Z_DEFAULT_STRATEGY, packed, bytes);
   free(shuffled);
   return status;
 }

@@ -2,13 +2,15 @@
 #ifndef KAPITZA_STORE_PACK_H
 #define KAPITZA_STORE_PACK_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "kapitza/common.h"
 
 enum { KZ_PACK_LEVEL = 4 }; /* of deflate; what the file says of it */
 
-/* Packs n items of `item` bytes each: first bytes of all items, second bytes, ..., then deflated. *packed is freed by the caller. */
-kz_status kz_pack(const void *items, size_t item, size_t n, void **packed, size_t *bytes);
+/* Packs n items of `item` bytes each: first bytes of all items, second bytes, ..., then deflated. in_runs: neighbours are
+ * often equal, as labels are. *packed is freed by the caller. */
+kz_status kz_pack(const void *items, size_t item, size_t n, bool in_runs, void **packed, size_t *bytes);
 
 #endif

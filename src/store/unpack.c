@@ -13,7 +13,7 @@ size_t kz_pack_room(size_t n, size_t item) {
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed) {
   void *made;
   size_t bytes;
-  if (kz_pack(numbers, item, n, &made, &bytes) != KZ_OK) return 0;
+  if (kz_pack(numbers, item, n, true, &made, &bytes) != KZ_OK) return 0;
   const bool fits = bytes <= kz_pack_room(n, item);
   if (fits) memcpy(packed, made, bytes);
   free(made);
