@@ -5,6 +5,7 @@
 #ifndef KAPITZA_DYNAMICS_H
 #define KAPITZA_DYNAMICS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "kapitza/kernel.h"
@@ -188,5 +189,44 @@ void kz_step_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, in
 
 /* The largest error of one period of the map table (`points` nodes an axis), rad. Needs the table. */
 double kz_dynamics_table_defect(kz_dynamics *dynamics, int32_t points);
+
+/* ---- proof ---- */
+
+/* Trapping regions that are proved: every start in them ends on the attractor that they are labelled with, under the true flow (the
+ * enclosures of kernel.h). A grid of closed cells over the whole circle and velocities from -top to top; its second half mirrors the
+ * first. Cells join by induction: the first ones lie in an ellipse that is proved to contract onto a cycle, the others are proved to
+ * reach cells that have joined. Numbers of attractors are 1 .. KZ_PROOF_MOST; nothing here is collective. */
+enum { KZ_PROOF_MOST = 255 };
+typedef struct kz_proof kz_proof;
+
+/* An open grid of even numbers of columns and rows. KZ_REFUSED, without a message, where `top` (rad per drive radian) is too fast for
+ * enclosures. *proof is to be freed in every case; NULL may be. */
+kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, kz_proof **proof);
+void kz_proof_free(kz_proof *proof);
+
+/* Around a strobe point: all states point + axes z, |z| <= radius; 0 = none. */
+typedef struct {
+  double radius, axes[2][2];
+} kz_proof_ellipse;
+/* Does the map of `period` drive periods carry the ellipse into itself and contract it? Then all its starts end on one cycle. */
+bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse);
+/* The largest ellipse around a strobe point (rad, rad per drive radian) whose starts are proved to end on one cycle of that period. */
+kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity);
+/* Cells inside the ellipse join attractor `number`, their mirror images its mirror image `mirror`. */
+void kz_proof_draw(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
+                   const kz_proof_ellipse *ellipse);
+
+/* Cells of the first half. */
+int64_t kz_proof_own(const kz_proof *proof);
+/* label [n] of cells first .. first + n - 1: those that are open are followed through up to 16 periods, until cells of one attractor
+ * cover their image. The grid stays as it is. */
+void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *label);
+/* Takes the labels of the first half; mirror [number]: of the mirror image, mirror[0] = 0. Returns how many cells were open before. */
+int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirror[KZ_PROOF_MOST + 1]);
+/* Cells become four with their label. */
+kz_status kz_proof_refine(kz_proof *proof);
+
+/* The attractor on which a start is proved to end, 0 = none; on the edge of two cells both must say so. */
+uint8_t kz_proof_at(const kz_proof *proof, double theta, double velocity);
 
 #endif

@@ -68,6 +68,7 @@ typedef struct {
   int64_t starts;
   int64_t max_period;
   int64_t seed;
+  bool proof;      /* prove trapping regions of the true flow */
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;
   struct {

@@ -21,6 +21,7 @@ _ERRORS: _Row = ("", "stability", ["--view", "errors"])
 _ENDS: _Row = ("", "chart", ["--dpi", "130"])
 _POTENTIAL: _Row = ("", "potential", [])
 _TRADE: _Row = ("", "tradeoff", [])
+_PROVED: _Row = ("", "basin", ["--quantity", "evidence", "--dpi", "90"])
 
 _SCENES = {
     "bifurcation": [_SWEEP],
@@ -63,6 +64,7 @@ _SCENES = {
     "chart-butikov": [_ENDS],
     "formula-errors": [_ERRORS],
     "manifolds-fig12": [_MANIFOLDS],
+    "proof-fig12": [_PROVED],
     "saddles-fig12": [_SADDLES],
     "small": [_BASIN],
     "tradeoff-fig11": [_TRADE],

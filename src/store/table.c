@@ -90,7 +90,7 @@ static const kz_variable variables[] = {
      NONE,
      "what the label rests on",
      {"unsettled", "started_inside_a_trapping_region", "followed_into_a_trapping_region", "undecided",
-      "decided_in_quad_precision", "decided_in_pairs_of_doubles"}},
+      "decided_in_quad_precision", "decided_in_pairs_of_doubles", "started_inside_a_proved_region"}},
     {"basin",
      "other_attractor",
      KZ_INT16,

@@ -25,7 +25,7 @@ from kapitza.plots.skeleton import mark_manifolds, mark_saddles
 from kapitza.plots.units import add_si, pivot_frequency, show_in
 from kapitza.result import BadFile, Result
 
-EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#8c1d18", "#e58a2b", "#e8c34a"]
+EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#8c1d18", "#e58a2b", "#e8c34a", "#3f8f5b"]
 PLANE_WIDTH = 5.6  # inches, the same in every figure
 
 

@@ -13,6 +13,7 @@
 #include "common/settling.h"
 #include "common/resilience.h"
 #include "common/step_table.h"
+#include "proof.h"
 #include "shocks_write.h"
 
 enum { CELLS = 16384 }; /* of a tile, about: so many that the few that take long hardly leave lanes empty */
@@ -75,15 +76,17 @@ static kz_status find_shocks(const kz_scene *scene, const kz_labelling *labellin
   return kz_ranks_agree(labelling->run->ranks, status);
 }
 
-static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz_catalogue *catalogue, sample *s,
-                              kz_store *store, FILE *summary) {
+static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz_proof *proof, kz_catalogue *catalogue,
+                              sample *s, kz_store *store, FILE *summary) {
   const kz_run *run = labelling->run;
   KZ_TRY(kz_label_window(labelling));
+  if (proof) KZ_TRY(kz_prove_regions(run, labelling->dynamics, proof));
   if (scene->basin.method != KZ_METHOD_EXACT) KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
   KZ_TRY(kz_ranks_agree(run->ranks, kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue)));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   kz_chunks chunks = {.labelling = labelling,
                       .catalogue = catalogue,
+                      .proof = proof,
                       .store = store,
                       .n_sample = s->n,
                       .sample = s->cell,
@@ -109,16 +112,19 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
                                        .table_theta = plan->method == KZ_METHOD_ICM ? plan->table_theta : 0,
                                        .table_velocity = plan->table_velocity}};
   kz_catalogue catalogue = {0};
+  kz_proof *proof;
   sample s = {0};
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
-  kz_status status = labelling.dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics");
+  kz_status status = kz_proof_plan(scene, &proof);
+  if (!labelling.dynamics) status = kz_fail(KZ_FAILED, "no memory for the dynamics");
   status = kz_ranks_agree(run->ranks, status);
   if (status == KZ_OK) {
     labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &labelling.search.window);
-    status = write_window(scene, &labelling, &catalogue, &s, store, summary);
+    status = write_window(scene, &labelling, proof, &catalogue, &s, store, summary);
   }
   if (labelling.dynamics) kz_dynamics_free(labelling.dynamics);
   kz_labelling_free(&labelling);
+  kz_proof_free(proof);
   kz_catalogue_free(&catalogue);
   free(s.cell);
   free(s.label);
@@ -186,12 +192,13 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double cell_period = integrated[method] * period + others[method];
   kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
                   .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes(cells),
-                  .memory_bytes = 14 * nodes + 100 * regions + 40 * (double)kz_tile_room(&tiles),
+                  .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_room(&tiles),
                   .first_bytes = 4e6,
                   .shared_bytes = 0.2 * cells,
                   .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
                                   nodes / 2 * table_period + regions / 2 * (8 * table_period + 1e-6) +
-                                  cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period};
+                                  cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period +
+                                  kz_proof_seconds(scene)};
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }

@@ -5,6 +5,7 @@
 #include "basin.h"
 #include "common/processed.h"
 #include "common/step_check.h"
+#include "proof.h"
 
 static kz_motions motions_of_basin(const kz_scene *scene) {
   kz_motions motions =
@@ -53,6 +54,10 @@ kz_status kz_basin_check(const kz_scene *scene) {
   const kz_motions motions = motions_of_basin(scene);
   kz_numerics reference;
   if (!(motions.pendulum.beta > 0)) return KZ_OK;
+  kz_proof *proof;
+  const kz_status status = kz_proof_plan(scene, &proof);
+  kz_proof_free(proof);
+  KZ_TRY(status);
   if (isnan(scene->basin.accuracy)) return kz_motions_check(&motions);
   if (scene->basin.accuracy >= 1) return KZ_OK;
   return kz_reference_labels_numerics(&scene->basin, &motions.pendulum, &reference);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/cells.h"
 #include "kapitza/store.h"
 
 enum { VARIABLES = 4 };
@@ -39,6 +40,7 @@ static void count(kz_chunks *c, int64_t tile) {
   const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
   for (int64_t i = 0; i < n; i++) {
     c->counts.undecided += c->evidence[i] == KZ_UNDECIDED;
+    c->counts.proved += c->evidence[i] == KZ_PROVED;
     if (c->ids[i] < 0)
       c->counts.unsettled++;
     else
@@ -77,6 +79,12 @@ static void swap_mirrored(const kz_chunks *c, int16_t *a, int16_t *b) {
   *b = (int16_t)(former < 0 ? former : c->catalogue->entries[former].mirror);
 }
 
+/* Own cells that the scene's own numerics do not decide. */
+static void count_doubtful(kz_chunks *c, int64_t tile) {
+  for (int64_t i = 0; i < kz_tile_own(&c->labelling->tiles, tile); i++)
+    c->counts.doubtful += c->labelling->cell[i].evidence >= KZ_UNDECIDED;
+}
+
 /* The cells of a tile from its own ones: the second half of the tile in the middle mirrors the first. */
 static void fill(kz_chunks *c, int64_t tile) {
   const kz_labelling *l = c->labelling;
@@ -90,7 +98,30 @@ static void fill(kz_chunks *c, int64_t tile) {
     c->evidence[i] = cell->evidence;
     if (cell->evidence != KZ_UNDECIDED && c->ids[i] < 0) c->evidence[i] = KZ_UNSETTLED;
     if (cell->evidence == KZ_FOLLOWED && cell->periods == 0) c->evidence[i] = KZ_INSIDE;
-    c->counts.doubtful += !mirrored && cell->evidence >= KZ_UNDECIDED;
+  }
+}
+
+/* What is proved of cell f, the present tile's own cell i, replaces its label. True where that was another one. */
+static bool take_proof(const kz_chunks *c, int64_t f, int64_t i) {
+  const kz_basin_plan *plan = c->labelling->plan;
+  kz_labelled *cell = &c->labelling->cell[i];
+  const uint8_t proved = kz_proof_at(c->proof, kz_axis_centre(&plan->theta, f % plan->theta.count),
+                                     kz_axis_centre(&plan->velocity, f / plan->theta.count));
+  if (proved == 0) return false;
+  const bool refuted = cell->label != proved && cell->evidence != KZ_UNDECIDED;
+  cell->label = proved;
+  cell->other = 0;
+  cell->evidence = KZ_PROVED;
+  return refuted;
+}
+
+/* The same for the own cells of a tile; refuted ones count with their mirror images. */
+static void take_proofs(kz_chunks *c, int64_t tile) {
+  const kz_tiles *tiles = &c->labelling->tiles;
+  const int64_t first = kz_tile_first(tiles, tile), n = c->proof ? kz_tile_own(tiles, tile) : 0;
+  for (int64_t i = 0; i < n; i++) {
+    const bool twice = tiles->own_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells;
+    if (take_proof(c, first + i, i)) c->counts.refuted += twice ? 2 : 1;
   }
 }
 
@@ -122,6 +153,8 @@ static kz_status make(void *context, const kz_piece *piece, void *message, size_
   const int64_t image = tiles->n - 1 - piece->tile;
   KZ_TRY(kz_labels_unpack(c->labelling, piece));
   note_sample(c, piece->tile);
+  count_doubtful(c, piece->tile);
+  take_proofs(c, piece->tile);
   fill(c, piece->tile);
   count(c, piece->tile);
   *bytes = 0;

@@ -6,8 +6,8 @@
 #include "tiles.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: of method exact, not decided by the scene's
- * own numerics. */
-enum { KZ_UNSETTLED = 0, KZ_INSIDE = 1, KZ_FOLLOWED = 2, KZ_UNDECIDED = 3, KZ_IN_QUAD = 4, KZ_IN_PAIRS = 5 };
+ * own numerics. KZ_PROVED: of basin.proof, whatever the method; no tile has it. */
+enum { KZ_UNSETTLED = 0, KZ_INSIDE = 1, KZ_FOLLOWED = 2, KZ_UNDECIDED = 3, KZ_IN_QUAD = 4, KZ_IN_PAIRS = 5, KZ_PROVED = 6 };
 
 /* A cell. */
 typedef struct {

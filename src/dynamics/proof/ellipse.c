@@ -1,0 +1,97 @@
+/* The first trapping region of an attractor: an ellipse around a strobe point that the n-period map F carries into itself and contracts.
+ *
+ * In the eigenbasis M of the monodromy, E = centre + r M (unit disc), the enclosure of F gives for y in the disc
+ *   r^-1 M^-1 (F - centre) = d + B z(y),  |z[i] - y[i]| <= reach[i] - 1,  |dz/dy - 1| <= bend.
+ * |d| + |B| + |B (reach - 1)| < 1: F(E) lies inside E. |B| + |B bend| < 1: F contracts E in this norm, for E is convex. So E holds
+ * exactly one fixed point of F, and every start in E ends on its cycle (Banach). */
+#include <math.h>
+
+#include "proof.h"
+
+static const double LARGEST = 1, SMALLEST = 1e-4,
+                    SHRINK = 0.85; /* radii; axes have an area of 1, or a length of 1 where real */
+
+static void advance(const kz_enclosure_plan *plan, int64_t periods, kz_enclosure *set) {
+  for (int64_t i = 0; i < periods && isfinite(set->reach[0]); i++) kz_enclosures_advance(plan, 1, set);
+}
+
+void kz_proof_solve(const double M[2][2], const double x[2], double z[2]) {
+  const double det = M[0][0] * M[1][1] - M[0][1] * M[1][0];
+  z[0] = (M[1][1] * x[0] - M[0][1] * x[1]) / det;
+  z[1] = (M[0][0] * x[1] - M[1][0] * x[0]) / det;
+}
+
+/* Real and imaginary part of the eigenvector (J01, mu - J00) of a complex mu. */
+static void complex_basis(const double J[2][2], double half, double root, double M[2][2]) {
+  const double scale = sqrt(fabs(J[0][1]) * root);
+  M[0][0] = J[0][1] / scale;
+  M[0][1] = 0;
+  M[1][0] = (half - J[0][0]) / scale;
+  M[1][1] = root / scale;
+}
+
+static void real_basis(const double J[2][2], double half, double root, double M[2][2]) {
+  for (int c = 0; c < 2; c++) {
+    const double mu = half + (c == 0 ? root : -root);
+    const bool upper = fabs(J[0][1]) > fabs(J[1][0]);
+    const double x = upper ? J[0][1] : mu - J[1][1], v = upper ? mu - J[0][0] : J[1][0];
+    M[0][c] = x / hypot(x, v);
+    M[1][c] = v / hypot(x, v);
+  }
+}
+
+/* The eigenbasis of the monodromy, to some digits; false where two eigenvalues are too near to each other, or it is not bounded. */
+static bool find_axes(const kz_enclosure_plan *plan, int64_t period, const double centre[2], double M[2][2]) {
+  const double tiny = 1e-6;
+  kz_enclosure near = {.theta = centre[0], .velocity = centre[1], .matrix = {{tiny, 0}, {0, tiny}}, .reach = {1, 1}};
+  advance(plan, period, &near);
+  if (!isfinite(near.reach[0])) return false;
+  double J[2][2];
+  for (int i = 0; i < 4; i++) J[i / 2][i % 2] = near.matrix[i / 2][i % 2] / tiny;
+  const double half = (J[0][0] + J[1][1]) / 2, det = J[0][0] * J[1][1] - J[0][1] * J[1][0], square = half * half - det;
+  if (!(fabs(square) > 1e-8) || fabs(J[0][1]) + fabs(J[1][0]) < 1e-8) return false;
+  (square < 0 ? complex_basis : real_basis)(J, half, sqrt(fabs(square)), M);
+  return fabs(M[0][0] * M[1][1] - M[0][1] * M[1][0]) > 1e-6;
+}
+
+static double spectral_norm(const double B[2][2]) {
+  const double squares = B[0][0] * B[0][0] + B[0][1] * B[0][1] + B[1][0] * B[1][0] + B[1][1] * B[1][1];
+  const double det = B[0][0] * B[1][1] - B[0][1] * B[1][0];
+  return sqrt((squares + sqrt(fmax(squares * squares - 4 * det * det, 0))) / 2);
+}
+
+/* Length of |B| x, x >= 0. */
+static double length_of(const double B[2][2], double x, double y) {
+  return hypot(fabs(B[0][0]) * x + fabs(B[0][1]) * y, fabs(B[1][0]) * x + fabs(B[1][1]) * y);
+}
+
+bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse) {
+  const double r = ellipse->radius, most = 1 - KZ_PROOF_ROUNDING;
+  kz_enclosure set = {.theta = theta, .velocity = velocity, .reach = {1, 1}};
+  for (int i = 0; i < 4; i++) set.matrix[i / 2][i % 2] = r * ellipse->axes[i / 2][i % 2];
+  advance(proof->plan, period, &set);
+  if (!isfinite(set.reach[0])) return false;
+  const double off[2] = {remainder(set.theta - theta, 2 * M_PI) / r, (set.velocity - velocity) / r};
+  double d[2], B[2][2];
+  kz_proof_solve(ellipse->axes, off, d);
+  for (int j = 0; j < 2; j++) {
+    const double column[2] = {set.matrix[0][j] / r, set.matrix[1][j] / r};
+    double z[2];
+    kz_proof_solve(ellipse->axes, column, z);
+    B[0][j] = z[0];
+    B[1][j] = z[1];
+  }
+  const double norm = spectral_norm(B), moved = length_of(B, set.reach[0] - 1, set.reach[1] - 1);
+  const double bent = hypot(length_of(B, set.bend[0][0], set.bend[1][0]), length_of(B, set.bend[0][1], set.bend[1][1]));
+  return hypot(d[0], d[1]) + norm + moved < most && norm + bent < most;
+}
+
+kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity) {
+  const double centre[2] = {theta, velocity};
+  kz_proof_ellipse ellipse = {.radius = 0};
+  if (!find_axes(proof->plan, period, centre, ellipse.axes)) return ellipse;
+  ellipse.radius = LARGEST;
+  while (ellipse.radius > SMALLEST && !kz_proof_traps(proof, period, theta, velocity, &ellipse)) ellipse.radius *= SHRINK;
+  ellipse.radius = ellipse.radius > SMALLEST ? kz_proof_grow_rings(proof->plan, centre, &ellipse) : 0;
+  return ellipse;
+}

@@ -1,0 +1,91 @@
+/* The grid of a proof: cells of the strobe plane, each open or proved to end on an attractor. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "proof.h"
+
+kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, kz_proof **proof) {
+  kz_proof *made = *proof = calloc(1, sizeof *made);
+  if (!made) return kz_fail(KZ_FAILED, "no memory for a proof");
+  made->columns = columns;
+  made->rows = rows;
+  made->top = top;
+  made->label = calloc((size_t)(columns * rows), sizeof *made->label);
+  if (!made->label)
+    return kz_fail(KZ_FAILED, "no memory for a proof on %lld x %lld cells", (long long)columns, (long long)rows);
+  return kz_enclosure_plan_create(pendulum, top + fabs(pendulum->k) + fabs(pendulum->m), &made->plan);
+}
+
+void kz_proof_free(kz_proof *proof) {
+  if (!proof) return;
+  kz_enclosure_plan_free(proof->plan);
+  free(proof->label);
+  free(proof);
+}
+
+kz_status kz_proof_refine(kz_proof *proof) {
+  const int64_t columns = 2 * proof->columns, rows = 2 * proof->rows;
+  uint8_t *label = malloc((size_t)(columns * rows));
+  if (!label) return kz_fail(KZ_FAILED, "no memory for a proof on %lld x %lld cells", (long long)columns, (long long)rows);
+  for (int64_t row = 0; row < rows; row++)
+    for (int64_t i = 0; i < columns; i++) label[row * columns + i] = proof->label[row / 2 * proof->columns + i / 2];
+  free(proof->label);
+  proof->label = label;
+  proof->columns = columns;
+  proof->rows = rows;
+  return KZ_OK;
+}
+
+void kz_proof_half_cell(const kz_proof *proof, double half[2]) {
+  half[0] = M_PI / (double)proof->columns;
+  half[1] = proof->top / (double)proof->rows;
+}
+
+void kz_proof_centre(const kz_proof *proof, int64_t f, double state[2]) {
+  double half[2];
+  kz_proof_half_cell(proof, half);
+  state[0] = (double)(2 * (f % proof->columns) + 1 - proof->columns) * half[0];
+  state[1] = (double)(2 * (f / proof->columns) + 1 - proof->rows) * half[1];
+}
+
+int64_t kz_proof_own(const kz_proof *proof) {
+  return proof->columns * proof->rows / 2;
+}
+
+int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirror[KZ_PROOF_MOST + 1]) {
+  const int64_t own = kz_proof_own(proof);
+  int64_t added = 0;
+  for (int64_t f = 0; f < own; f++) {
+    added += label[f] != 0 && proof->label[f] == 0;
+    proof->label[f] = label[f];
+    proof->label[2 * own - 1 - f] = mirror[label[f]];
+  }
+  return added;
+}
+
+/* The corner of cell f that is farthest from the centre of an ellipse, in its norm. */
+static double farthest_corner(const kz_proof *proof, int64_t f, const double centre[2], const kz_proof_ellipse *ellipse) {
+  double half[2], cell[2], farthest = 0;
+  kz_proof_half_cell(proof, half);
+  kz_proof_centre(proof, f, cell);
+  for (int corner = 0; corner < 4; corner++) {
+    const double x[2] = {remainder(cell[0] - centre[0], 2 * M_PI) + (corner % 2 ? half[0] : -half[0]),
+                         cell[1] - centre[1] + (corner / 2 ? half[1] : -half[1])};
+    double z[2];
+    kz_proof_solve(ellipse->axes, x, z);
+    farthest = fmax(farthest, hypot(z[0], z[1]));
+  }
+  return farthest;
+}
+
+void kz_proof_draw(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
+                   const kz_proof_ellipse *ellipse) {
+  const int64_t cells = proof->columns * proof->rows;
+  const double centre[2] = {theta, velocity};
+  for (int64_t f = 0; f < cells; f++) {
+    if (!(farthest_corner(proof, f, centre, ellipse) < ellipse->radius * (1 - KZ_PROOF_ROUNDING))) continue;
+    proof->label[f] = number;
+    proof->label[cells - 1 - f] = mirror;
+  }
+}
