@@ -45,8 +45,11 @@ double kz_clock(void);
 
 /* ---- memory ---- */
 
-/* Memory of the Fortran layers. Code that gfortran makes for automatic arrays, temporaries and assignments does not look
- * whether there was memory: the build renames malloc, calloc and realloc in those layers to the functions here, which do. */
+/* Memory of the Fortran layers. Code that gfortran makes for automatic arrays, temporaries, assignments and copies of components
+ * does not look whether there was memory: so it is at 561 of the 724 places where these layers ask for some. The build renames
+ * malloc, calloc and realloc in those layers to the functions here, which do look. Neither of the language's own means serves:
+ * allocate(stat=) reaches no temporary, automatic array or copied component, and -fcheck=mem leaves 101 of the places unchecked,
+ * each a crash, and answers at the others with several lines of the library. */
 
 /* As in C, but they return only where there was memory. */
 void *kz_malloc(size_t bytes);

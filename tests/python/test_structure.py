@@ -256,9 +256,14 @@ def test_the_guide_names_files_that_exist():
     assert {word for name, _ in rows for word in name.split()} >= {
         "scheme", "study", "key", "variable", "measure", "interpolation", "plot", "curve", "colour", "test"}
     for name, files in rows:
-        paths = re.findall(r"`((?:src|include|scripts|docs|tests|scenes)/[^`]*)`", files)
-        assert 1 <= len(paths) <= 4, name
+        ways = [re.findall(r"`((?:src|include|scripts|docs|tests|scenes)/[^`]*)`", way) for way in files.split("; in Python")]
+        assert all(1 <= len(way) <= 3 for way in ways), name
+        paths = sum(ways, [])
         missing = [path for path in paths if not re.search("[A-Z]", path) and not (ROOT / path).exists()]
         assert not missing, name
     folders = re.findall(r"^\| `(src/[a-z/]+)` \|", guide, re.MULTILINE)
     assert folders and all((ROOT / folder).is_dir() for folder in folders)
+    drawn = guide.split("```")[1]
+    assert {path.name for path in (SOURCES / "dynamics").iterdir()} <= {folder.split("/")[-1] for folder in folders}
+    assert {path.name for layer in ("study", "dynamics") for path in (SOURCES / layer).iterdir() if path.is_dir()} <= set(
+        re.findall(r"\w+", drawn))
