@@ -9,7 +9,7 @@ module kz_labels_covariance
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: judge_errors, spread, largest_error
+  public :: classify_errors, spread, largest_error
 
   !> rad: the standard deviation of a state that a label bears. Of 1657 wrong labels (against quad precision; epsilon = 0.3 and 0.46, Q =
   !> 20, rk4, single precision) 0.03 found all and 0.1 all but one; twice as many labels are doubtful as are wrong.
@@ -21,7 +21,7 @@ module kz_labels_covariance
 contains
 
   !> The errors of n lanes over the period that they have just made: which are doubtful now, which straddle the edge of a region.
-  subroutine judge_errors(map, regions, attractors, n, tangent, error, seen, p)
+  subroutine classify_errors(map, regions, attractors, n, tangent, error, seen, p)
     !> the map of the lanes, in its coordinates
     class(map_t), intent(inout) :: map
     !> the trapping regions
@@ -52,7 +52,7 @@ contains
                                            p(:, lane) + [1, 0, 1]*seen(lane)**2, region(lane))
       end if
     end do
-  end subroutine judge_errors
+  end subroutine classify_errors
 
   !> P over a period with the tangent map `matrix` and an error of the period's own, in every direction alike.
   pure subroutine spread(matrix, error, p)

@@ -4,7 +4,7 @@ module kz_labels_covariant_map
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t
-  use kz_labels_covariance, only: judge_errors
+  use kz_labels_covariance, only: classify_errors
   use kz_maps_states, only: separation
   implicit none
   private
@@ -114,7 +114,7 @@ contains
     self%turns(:n) = self%flow%turns(:n)
     error(:n) = hypot(separation(self%shown%u(:n), self%shown%v(:n), self%finer%u(:n), self%finer%v(:n)), &
                       rounding(self)*hypot(PI, self%v(:n)))
-    call judge_errors(self, self%regions, self%attractors, n, tangent, error, SEEN, self%p)
+    call classify_errors(self, self%regions, self%attractors, n, tangent, error, SEEN, self%p)
   end subroutine advance
 
   !> The present states of lanes first .. n in physical coordinates.

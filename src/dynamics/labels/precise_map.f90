@@ -5,7 +5,7 @@ module kz_labels_precise_map
   use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t
-  use kz_labels_covariance, only: judge_errors
+  use kz_labels_covariance, only: classify_errors
   use kz_maps_states, only: separation
   implicit none
   private
@@ -98,7 +98,7 @@ contains
     call show(self, n)
     error(:n) = self%error*hypot(PI, self%v(:n))
     seen(:n) = separation(self%u(:n), self%v(:n), self%flow%u(:n), self%flow%v(:n))
-    call judge_errors(self, self%regions, self%attractors, n, tangent, error, seen, self%p)
+    call classify_errors(self, self%regions, self%attractors, n, tangent, error, seen, self%p)
   end subroutine advance
 
   !> What the inner map shows of its states.
