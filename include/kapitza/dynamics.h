@@ -91,6 +91,10 @@ int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *
  * may be more than fit. */
 int64_t kz_dynamics_scan_cycles(const kz_pendulum *pendulum, int64_t max_period, int64_t n_theta, const double *theta,
                                 int64_t n_velocity, const double *velocity, int64_t most, double *cycle);
+/* Cycles of `period` periods, or of a divisor, to which Newton's method leads, stabilised in eight ways (Davidchack and Lai), from seeds
+ * [n_seeds][2]: half-turns, velocity. cycle [most][3] and the result as before. */
+int64_t kz_dynamics_stabilised_cycles(const kz_pendulum *pendulum, int64_t period, int64_t n_seeds, const double *seed,
+                                      int64_t most, double *cycle);
 /* Adds a cycle [3] so found, and its mirror image, to the catalogue unless it is there; returns how many are known then. Such a
  * catalogue, of cycles that need not attract, is for reading and ordering alone: it has no trapping regions. */
 int64_t kz_dynamics_add_cycle(kz_dynamics *dynamics, const double *cycle);

@@ -8,7 +8,7 @@ module kz_api_saddles
   use kz_attractors_cycle_search, only: known, append_with_mirror
   use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise
   use kz_cycles_features, only: find_features
-  use kz_saddles_scan, only: scan_strip
+  use kz_saddles_scan, only: scan_strip, search_from
   implicit none
   private
 
@@ -34,16 +34,44 @@ contains
     real(dp), intent(out) :: cycle(3, most)
     integer(c_int64_t) :: n
     class(flow_t), allocatable :: flow
-    type(numerics_t) :: numerics
     real(dp), allocatable :: found(:, :)
 
-    numerics = fine_numerics(pendulum)
-    numerics%steps_per_period = numerics%steps_per_period/FEWER
-    call make_flow(pendulum, numerics, .true., flow)
+    call make_flow(pendulum, scan_numerics(pendulum), .true., flow)
     call scan_strip(flow, theta/PI, velocity, int(max_period), found)
     n = size(found, 2)
     cycle(:, :min(n, most)) = found(:, :min(n, most))
   end function scan_cycles
+
+  function stabilised_cycles(pendulum, period, n_seeds, seed, most, cycle) bind(C, name='kz_dynamics_stabilised_cycles') result(n)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int64_t), value :: period
+    integer(c_int64_t), value :: n_seeds
+    !> half-turns, rad per drive radian
+    real(dp), intent(in) :: seed(2, n_seeds)
+    !> cycles that fit
+    integer(c_int64_t), value :: most
+    !> period, half-turns, velocity
+    real(dp), intent(out) :: cycle(3, most)
+    integer(c_int64_t) :: n
+    class(flow_t), allocatable :: flow
+    real(dp), allocatable :: found(:, :)
+
+    call make_flow(pendulum, scan_numerics(pendulum), .true., flow)
+    call search_from(flow, int(period), seed, found)
+    n = size(found, 2)
+    cycle(:, :min(n, most)) = found(:, :min(n, most))
+  end function stabilised_cycles
+
+  !> What cycles are found with.
+  pure function scan_numerics(pendulum) result(numerics)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t) :: numerics
+
+    numerics = fine_numerics(pendulum)
+    numerics%steps_per_period = numerics%steps_per_period/FEWER
+  end function scan_numerics
 
   function add_cycle(handle, given) bind(C, name='kz_dynamics_add_cycle') result(n)
     type(c_ptr), value :: handle

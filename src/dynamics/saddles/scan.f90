@@ -8,11 +8,18 @@ module kz_saddles_scan
   use kz_saddles_zeros, only: triangle_zeros
   implicit none
   private
-  public :: scan_strip
+  public :: scan_strip, search_from
 
   !> Newton's method from a seed: most steps, the longest (rad), the one that is short enough, and speeds at which it is lost.
   integer, parameter :: STEPS = 16
   real(dp), parameter :: LONGEST = 0.3_dp, CLOSE = 1e-7_dp, FASTEST = 1e3_dp
+  !> The method of R. L. Davidchack and Y.-C. Lai, Phys. Rev. E 60 (1999) 6172: a multiple of the displacement's length times each of
+  !> these turns and reflections is added to the derivative, so that other seeds lead to a cycle than those beside it. Most steps, and
+  !> the multiples for the first period and how they grow with it.
+  integer, parameter :: STABILISED_STEPS = 150
+  real(dp), parameter :: STRENGTHS(3) = [1, 8, 64], GROWTH = 1.3_dp
+  real(dp), parameter :: TURNS(2, 2, 8) = reshape([1, 0, 0, 1, -1, 0, 0, -1, 1, 0, 0, -1, -1, 0, 0, 1, &
+                                                   0, 1, 1, 0, 0, -1, -1, 0, 0, 1, -1, 0, 0, -1, 1, 0], [2, 2, 8])
   !> Derivatives by differences: a distance (rad), and how many seeds share a tile.
   real(dp), parameter :: BESIDE = 1e-7_dp
   integer, parameter :: SEEDS = (WIDTH - 1)/3
@@ -44,6 +51,28 @@ contains
       call close_seeds(flow, n, seed(:, :n_seeds), points, found)
     end do
   end subroutine scan_strip
+
+  !> The cycles of n periods to which Newton's method leads from the seeds, stabilised in all ways: points of other cycles are good
+  !> ones, as long cycles pass by shorter ones.
+  subroutine search_from(flow, n, seed, found)
+    !> the map of one drive period in physical coordinates
+    class(flow_t), intent(inout) :: flow
+    !> periods
+    integer, intent(in) :: n
+    !> half-turns, rad per drive radian
+    real(dp), intent(in) :: seed(:, :)
+    !> for each cycle: period, half-turns, velocity; to 1e-7 or better
+    real(dp), allocatable, intent(out) :: found(:, :)
+    real(dp), allocatable :: points(:, :)
+    integer :: i, j
+
+    allocate (found(3, 0), points(3, 0))
+    do j = 1, size(STRENGTHS)
+      do i = 1, size(TURNS, 3)
+        call close_seeds(flow, n, seed, points, found, STRENGTHS(j)*GROWTH**(n - 1)*TURNS(:, :, i))
+      end do
+    end do
+  end subroutine search_from
 
   !> shift(:, n, i, j) = F^n(x) - x of node (i, j), turns counted: rad, rad per drive radian.
   subroutine displacements(flow, u, v, max_period, shift)
@@ -94,13 +123,15 @@ contains
   end subroutine find_seeds
 
   !> Newton's method from all seeds of one period, a tile at a time; new cycles join `found`, their points `points`.
-  subroutine close_seeds(flow, n, seed, points, found)
+  subroutine close_seeds(flow, n, seed, points, found, turn)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: n
     real(dp), intent(in) :: seed(:, :)
     !> points of known cycles: period, half-turns, velocity
     real(dp), allocatable, intent(inout) :: points(:, :)
     real(dp), allocatable, intent(inout) :: found(:, :)
+    !> stabilises the method
+    real(dp), intent(in), optional :: turn(2, 2)
     real(dp) :: x(2, SEEDS), orbit(2, n, SEEDS)
     logical :: closed(SEEDS)
     integer :: first, lanes, period, i, j
@@ -108,7 +139,7 @@ contains
     do first = 1, size(seed, 2), SEEDS
       lanes = min(SEEDS, size(seed, 2) - first + 1)
       x(:, :lanes) = seed(:, first:first + lanes - 1)
-      call close_lanes(flow, n, lanes, x, closed)
+      call close_lanes(flow, n, lanes, x, closed, turn)
       if (.not. any(closed(:lanes))) cycle
       call follow_lanes(flow, n, lanes, x, orbit)
       do i = 1, lanes
@@ -122,19 +153,20 @@ contains
   end subroutine close_seeds
 
   !> Fixed points of F^n by Newton's method in all lanes at once; x = the last iterate of each.
-  subroutine close_lanes(flow, n, lanes, x, closed)
+  subroutine close_lanes(flow, n, lanes, x, closed, turn)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: n
     integer, intent(in) :: lanes
     real(dp), intent(inout) :: x(2, SEEDS)
     logical, intent(out) :: closed(SEEDS)
+    real(dp), intent(in), optional :: turn(2, 2)
     real(dp) :: step(2)
     integer :: open(SEEDS), n_open, left, iteration, lane, i
 
     closed = .false.
     open = [(i, i=1, SEEDS)]
     n_open = lanes
-    do iteration = 1, STEPS
+    do iteration = 1, merge(STABILISED_STEPS, STEPS, present(turn))
       do lane = 1, n_open
         call put_neighbours(flow, lane, x(:, open(lane)))
       end do
@@ -144,7 +176,7 @@ contains
       left = 0
       do lane = 1, n_open
         i = open(lane)
-        step = newton_step(flow, lane, x(:, i))
+        step = newton_step(flow, lane, x(:, i), turn)
         closed(i) = norm2(step) < CLOSE
         if (norm2(step) > LONGEST) step = step*(LONGEST/norm2(step))
         x(:, i) = [angle_difference(x(1, i), step(1)/PI), x(2, i) - step(2)]
@@ -169,19 +201,22 @@ contains
   end subroutine put_neighbours
 
   !> The step of Newton's method at x, from its image and those of its neighbours: rad.
-  function newton_step(flow, lane, x) result(step)
+  function newton_step(flow, lane, x, turn) result(step)
     class(flow_t), intent(in) :: flow
     integer, intent(in) :: lane
     real(dp), intent(in) :: x(2)
+    real(dp), intent(in), optional :: turn(2, 2)
     real(dp) :: step(2)
-    real(dp) :: matrix(2, 2)
+    real(dp) :: matrix(2, 2), shift(2)
     integer :: i, j
 
     i = 3*lane - 2
     do j = 1, 2
       matrix(:, j) = [PI*angle_difference(flow%u(i + j), flow%u(i)), flow%v(i + j) - flow%v(i)]/BESIDE
     end do
-    step = solved(matrix, [PI*angle_difference(flow%u(i), x(1)), flow%v(i) - x(2)])
+    shift = [PI*angle_difference(flow%u(i), x(1)), flow%v(i) - x(2)]
+    if (present(turn)) matrix = matrix - norm2(shift)*turn
+    step = solved(matrix, shift)
   end function newton_step
 
   !> The first n points of the orbits from x.

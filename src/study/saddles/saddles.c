@@ -9,7 +9,8 @@
 
 enum {
   FIRST_CELLS = 256, /* cells of the first round along the longer side of the window */
-  ROUNDS = 5,        /* at most; each halves the cells */
+  ROUNDS = 3,        /* of grids at most; each halves the cells */
+  MORE_ROUNDS = 6,   /* of searches from known cycles, at most */
   ROWS = 8,          /* rows of cells in a tile */
   MOST_CYCLES = 4096 /* of a tile */
 };
@@ -108,18 +109,22 @@ static kz_status run_scan(const kz_run *run, scan *s, int round, kz_dynamics *dy
   return status;
 }
 
-/* A round, and on rank 0 the list of what is known then. */
-static kz_status run_round(const kz_scene *scene, const kz_run *run, int round, kz_dynamics *dynamics, kz_cycle_list *cycles,
-                           kz_index_sums *sums) {
+/* A round of grids: the catalogue of rank 0 grows. */
+static kz_status run_round(const kz_scene *scene, const kz_run *run, int round, kz_dynamics *dynamics) {
   const kz_saddles_plan *plan = &scene->saddles;
   scan s = {.pendulum = &scene->parameters.pendulum, .max_period = plan->max_period};
   cells_of(plan, round, &s.n_theta, &s.n_velocity);
   s.theta = nodes(plan->theta.min, plan->theta.max, s.n_theta);
   s.velocity = nodes(is_mirrored(plan) ? 0 : plan->velocity.min, plan->velocity.max, s.n_velocity);
-  kz_status status = run_scan(run, &s, round, dynamics);
+  const kz_status status = run_scan(run, &s, round, dynamics);
   free(s.theta);
   free(s.velocity);
-  if (status != KZ_OK || kz_ranks_own(run->ranks) != 0) return status;
+  return status;
+}
+
+/* What is known now. Rank 0. */
+static kz_status list_known(const kz_saddles_plan *plan, const kz_dynamics *dynamics, kz_cycle_list *cycles,
+                            kz_index_sums *sums) {
   kz_cycle_list_free(cycles);
   free(sums->entries);
   *sums = (kz_index_sums){0};
@@ -127,14 +132,19 @@ static kz_status run_round(const kz_scene *scene, const kz_run *run, int round, 
   return kz_index_sums_make(cycles, plan->max_period, sums);
 }
 
-/* Rounds until two agree and the sums are 0; without damping the sums say nothing. Collective. */
+/* Rounds of grids, then of searches from what they showed, until two agree and the sums are 0; without damping the sums say nothing.
+ * Collective. */
 static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_dynamics *dynamics, kz_cycle_list *cycles,
                             kz_index_sums *sums) {
   int64_t before = -1;
   int32_t enough = 0;
-  for (int round = 0; round < ROUNDS && !enough; round++) {
-    KZ_TRY(kz_ranks_agree(run->ranks, run_round(scene, run, round, dynamics, cycles, sums)));
-    enough = cycles->count == before && (sums->open == 0 || scene->parameters.pendulum.beta <= 0);
+  for (int round = 0; round < ROUNDS + MORE_ROUNDS && !enough; round++) {
+    kz_status status = round < ROUNDS ? run_round(scene, run, round, dynamics)
+                                      : kz_saddles_stabilise(scene, run, round - ROUNDS, cycles, dynamics);
+    if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = list_known(&scene->saddles, dynamics, cycles, sums);
+    KZ_TRY(kz_ranks_agree(run->ranks, status));
+    const bool same = cycles->count == before, undamped = scene->parameters.pendulum.beta <= 0;
+    enough = same && (sums->open == 0 || undamped);
     before = cycles->count;
     KZ_TRY(kz_ranks_broadcast(run->ranks, &enough, sizeof enough));
   }
