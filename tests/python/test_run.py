@@ -89,6 +89,10 @@ MEASURED = {
     "Q = 5": (FIG12 % 5 + SMALLER % 2048, 0.3),
     "Q = 50": (FIG12 % 50 + SMALLER % 1024, 8.7),
     "Q = 200": (FIG12 % 200 + SMALLER % 1024, 24),
+    "exact": ("pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.46}\n"
+              "basin: {velocity: {min: -2, max: 2}, method: exact}\n", 10),
+    "accuracy of 1": ("pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.46}\n"
+                      "basin: {velocity: {min: -2, max: 2}, accuracy: 1}\n", 10),
     "Q = 50, direct": (FIG12 % 50 + "basin: {theta: {count: 80}, velocity: {min: -2, max: 2, count: 80}, method: direct, "
                        "icm: {theta: 200, velocity: 200}, attractors: {starts: 1024}}\n", 8.3),
     "Q = 50, no grid": (FIG12 % 50 + "attractors: {velocity: {min: -2, max: 2}, starts: 2048}\n", 6.2),

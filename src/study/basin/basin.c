@@ -179,14 +179,15 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
   static const double kick_seconds[] = {[KZ_SINGLE] = 4e-10, [KZ_DOUBLE] = 8e-10, [KZ_QUAD] = 2e-6};
-  double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
+  const bool chosen = plan->accuracy >= 1; /* exact, with the processed splitting: some 40 kicks */
+  double kicks = chosen ? 40 : (double)scheme.kicks * scene->numerics.steps_per_period;
   double period = kicks * kick_seconds[scene->numerics.precision];
   double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
-  const int32_t method = plan->accuracy >= 1 ? KZ_METHOD_EXACT : plan->method;
+  const int32_t method = chosen ? KZ_METHOD_EXACT : plan->method;
   /* exact: with tangent map, finer steps and changes of coordinates; then a few cells, and those for long, in
    * more precision */
-  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_EXACT] = 20};
-  static const double others[] = {[KZ_METHOD_ICM] = 7e-8, [KZ_METHOD_DIRECT] = 0, [KZ_METHOD_EXACT] = 1.5e-6};
+  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_EXACT] = 12};
+  static const double others[] = {[KZ_METHOD_ICM] = 7e-8, [KZ_METHOD_DIRECT] = 0, [KZ_METHOD_EXACT] = 4e-7};
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const double periods = kz_settling_cells(pendulum->beta, plan->max_periods);
   double cell_period = integrated[method] * period + others[method];
@@ -199,6 +200,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
                                   nodes / 2 * table_period + regions / 2 * (8 * table_period + 1e-6) +
                                   cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period +
                                   kz_proof_seconds(scene)};
+  if (method == KZ_METHOD_EXACT) cost.core_seconds += 0.5; /* tables of the pairs of doubles */
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;
 }
