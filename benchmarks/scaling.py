@@ -25,7 +25,7 @@ COLLECTIVES = 10  # calls of a stage (src/parallel/stage.c)
 TILE_CELLS, BOX = 16384, 5  # of a tile: whole rows, a multiple of five (src/study/basin/tiles.c); the mirrored half costs none
 GRID = ("cells 1", "file")  # stages whose tiles become more with the grid
 WRITING = "file: writing"
-CHUNKS_SECONDS = 1.35e-4  # of rank 0 for the six chunks of a message, besides those for their bytes: tiles of 40,000 and 500,000 cells
+WRITING_CELL = 2.2e-10  # s of rank 0 for the packed bytes of a cell: messages of 10^6 cells against those of 80,000
 COLOURS = ("#2f6db3", "#c2452f", "#12806a")
 
 
@@ -58,8 +58,8 @@ class Run:
         n = math.ceil(grid / max(BOX, TILE_CELLS // grid // BOX * BOX) / 2)
         more = grid * grid / self.cells
         stages = [(name, [more * s for s in resampled(tiles, n)] if name in GRID else tiles) for name, tiles in self.stages]
-        packed = max(0.0, self.take - CHUNKS_SECONDS) * more * len(dict(self.stages)["file"]) / n
-        return Run(grid * grid, stages, self.between, CHUNKS_SECONDS + packed)
+        longer = grid * grid / n - self.cells / len(dict(self.stages)["file"])  # messages, in cells
+        return Run(grid * grid, stages, self.between, self.take + WRITING_CELL * longer)
 
     def seconds(self):
         """Of one rank."""
