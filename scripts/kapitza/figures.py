@@ -5,6 +5,7 @@ A row is a scene, named after the paper and its figure (docs/theory.md), and its
 
 _Row = tuple[str, str, list[str]]
 _BASIN: _Row = ("", "basin", ["--centre", "inverted"])
+_ZOOM: _Row = ("", "basin", [])
 _INVERTED: _Row = ("-inverted", "basin", ["--centre", "inverted", "--attractor", "inverted"])
 _FLUTTER: _Row = ("-flutter", "basin", ["--centre", "inverted", "--attractor", "flutter"])
 _SADDLES: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--dpi", "90"])
@@ -75,6 +76,7 @@ _SCENES = {
     "tradeoff-strong-drive": [_TRADE],
     "tradeoff-weak-damping": [_TRADE],
     "tradeoff-zero-gravity": [_TRADE],
+    "zoom-fig12": [_ZOOM],
 }
 
 # (name, scene, kind, options); a scene is run once for all its figures.

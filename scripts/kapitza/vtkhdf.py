@@ -40,13 +40,14 @@ def write(result: Result, output: Path) -> None:
 
 
 def _window(result: Result) -> tuple[list[int], list[float], list[float]]:
-    """Extent, lower corner and size of the cells: theta along x, velocity along y; BadFile where the group is not whole."""
+    """Extent, lower corner and size of the cells: theta along x, velocity along y, from the centre where the window was given
+    by it; BadFile where the group is not whole."""
     with h5py.File(result.path, "r") as file:
         group = file["basin"]
         lacking = [name for name in ("theta", "velocity", *VARIABLES) if name not in group]
         if lacking:
             raise BadFile(f"{result.path}: incomplete, the group basin lacks {', '.join(lacking)}")
-        axes = [group[name][:] for name in ("theta", "velocity")]
+        axes = [group[f"{name}_offset" if f"{name}_offset" in group else name][:] for name in ("theta", "velocity")]
         shape = (len(axes[1]), len(axes[0]))
         if 0 in shape or any(group[name].shape != shape for name in VARIABLES):
             raise BadFile(f"{result.path}: the group basin has variables of another shape than its axes")

@@ -57,54 +57,51 @@ contains
     type(series_t), allocatable :: series
     type(level_t), allocatable :: levels(:)
     logical :: halting(size(ieee_usual))
-    real(c_double) :: slowest_of_level
     integer :: n
 
     call make_drive(pairs%drive, pendulum%k, pendulum%beta, pendulum%m, TAYLOR_STEPS)
     pairs%error = ROUNDING
     n = 0
-    allocate (levels(MOST_LEVELS))
+    allocate (levels(0:MOST_LEVELS))
     if (pendulum%beta <= MOST_DAMPING) then
       call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
       call ieee_set_halting_mode(ieee_usual, .false.)
       allocate (series)
       call make_processed_series(pendulum, QUAD_GRADES, series)
-      slowest_of_level = 0
-      do while (n < size(levels) .and. slowest_of_level < fastest)
-        call choose_level(pendulum, series, pairs%drive, tolerance, slowest_of_level, levels(n + 1))
+      do while (n < MOST_LEVELS .and. levels(n)%fastest < fastest)
+        call choose_level(pendulum, series, pairs%drive, tolerance, levels(n), levels(n + 1))
         if (levels(n + 1)%error > tolerance) exit
         n = n + 1
-        slowest_of_level = levels(n)%fastest
         pairs%error = max(pairs%error, levels(n)%error)
       end do
       call ieee_set_flag(ieee_usual, .false.)
       call ieee_set_halting_mode(ieee_usual, halting)
     end if
-    allocate (pairs%level, source=levels(:n))
+    allocate (pairs%level, source=levels(1:n))
   end subroutine make_pairs
 
-  !> The fewest steps whose measured error is at most the tolerance for speeds between `slowest` and the level's fastest; then the
-  !> fewest coefficients of a kick.
-  subroutine choose_level(pendulum, series, drive, tolerance, slowest_speed, level)
+  !> The fewest steps whose measured error is at most the tolerance for speeds beyond those of the slower level; then the fewest
+  !> coefficients of a kick.
+  subroutine choose_level(pendulum, series, drive, tolerance, slower, level)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
     type(drive_t), intent(in) :: drive
     real(c_double), intent(in) :: tolerance
-    real(c_double), intent(in) :: slowest_speed
+    type(level_t), intent(in) :: slower
     type(level_t), intent(out) :: level
     real(qp) :: start(2, N_PROBES), image(2, N_PROBES)
     real(c_double) :: factor, fastest
     type(level_t) :: candidate
     integer :: n, fewest
 
-    fastest = max(SLOWEST, RATIO*slowest_speed)
-    call make_probes(drive, slowest_speed, fastest, start, image)
-    n = FEWEST_STEPS
+    fastest = max(SLOWEST, RATIO*slower%fastest)
+    call make_probes(drive, slower%fastest, fastest, start, image)
+    n = max(FEWEST_STEPS, STRIDE*int(1.25_c_double*slower%n_steps/STRIDE)) ! twice the speed needs some 1.5 times the steps
     do
       call make_level(pendulum, series, n, MOST_KICKS(2), fastest, tolerance, level)
       level%error = measure(level, start, image)
       if (level%error <= tolerance) exit
-      factor = min(2.0_c_double, (min(level%error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER))
+      factor = min(4.0_c_double, (min(level%error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER))
       n = max(n + STRIDE, STRIDE*int(n*factor/STRIDE))
       if (n > MOST_STEPS) return
     end do

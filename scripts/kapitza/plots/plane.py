@@ -73,6 +73,11 @@ def _step(centres: np.ndarray) -> float:
     return (centres[-1] - centres[0]) / (len(centres) - 1) if len(centres) > 1 else 1.0
 
 
+def _less(centre: str) -> str:
+    """" − 1.5" or " + 1.5" of a centre 1.5 or -1.5, as an axis says from where it counts."""
+    return f" + {centre[1:]}" if centre.startswith("-") else f" − {centre}" if centre else ""
+
+
 def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
     """Angle in degrees or in units of pi, velocity in its own unit."""
     axes.set_xlim(plane.theta_range)
@@ -86,10 +91,12 @@ def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
         axes.set_xticks(ticks * unit, [f"{tick:.0f}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
     elif degrees:
         axes.xaxis.set_major_formatter(lambda theta, _: f"{np.degrees(theta):.6g}°".replace("-", "−"))
-    theta, velocity = (f" − {plane.centres[name]}" if name in plane.centres else "" for name in ("theta", "velocity"))
+    theta, velocity = (_less(plane.centres.get(name, "")) for name in ("theta", "velocity"))
     axes.set_xlabel(f"angle θ from down{theta}" + ("" if degrees else " (rad)"))
     axes.set_ylabel(f"velocity dθ/d(ωt){velocity} (rad per drive radian)")
     for axis, centre in ((axes.xaxis, theta), (axes.yaxis, velocity)):
         axis.label.set_fontsize(8 if centre else axis.label.get_fontsize())
+    if velocity:
+        axes.yaxis.get_offset_text().set_x(-0.11)  # beside the line of parameters
     axes.tick_params(direction="out", length=3)
     return axes
