@@ -32,9 +32,9 @@ static bool march(const kz_pendulum *p, double dr, majorant *at) {
     const double y = at->y + dr * to.w;
     const bool holds = w <= to.w && y <= to.y;
     if (holds) break;
-    if (!(y < 30) || i == 29) return false;
     to.w = w * (1 + CAUTION);
     to.y = (at->y + dr * to.w) * (1 + CAUTION);
+    if (!(to.y < 30) || i == 29) return false;
   }
   const double stiffness = stretch * cosh(to.y), rest = 1 - dr * p->beta - dr * dr * stiffness;
   if (!(rest > 0.5)) return false;
