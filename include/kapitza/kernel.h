@@ -31,7 +31,7 @@ typedef struct {
 
 /* The table of schemes. Rows 0 .. kz_scheme_count() - 1. */
 typedef struct {
-  char name[16];         /* rk4, split4, split6, split6-11 */
+  char name[16];         /* rk4, split6, processed */
   int32_t order;         /* order of convergence */
   int32_t kicks;         /* sines per step */
   int32_t default_steps; /* steps per period where the scene gives none */

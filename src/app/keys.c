@@ -84,7 +84,7 @@ const kz_key kz_keys[] = {
     ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
         "Integrator; processed: one kick a step, the fastest by far, and split6 where it does not reach the tolerance; the "
         "split ones are exact in the damping; rk4 is the classical one.",
-        .unit = "", .words_from = scheme_words, CHOSEN),
+        .unit = "", .words_from = scheme_words, .former = "split4=split6|split6-11=split6", CHOSEN),
     COUNT("numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
           "Whole steps of the scheme in a drive period; auto: as many as tolerance and speeds need (processed), or the "
           "scheme's own number, or as many as small cells need (others).",

@@ -1,6 +1,6 @@
 !> Table of the integration schemes: name, order, coefficients, source.
 !>
-!> A split scheme alternates an exact damped drift with a kick. Its row gives one half of two palindromes (drifts, kicks);
+!> A split scheme alternates an exact damped drift with a kick, drifts first and last. Its row gives one half of two palindromes (drifts, kicks);
 !> the middle entries follow from consistency: the drifts of a step sum to 1, and so do the kicks.
 module kz_kernel_schemes
   use, intrinsic :: iso_fortran_env, only: real128
@@ -10,8 +10,8 @@ module kz_kernel_schemes
 
   integer, parameter :: qp = real128
 
-  !> What a step begins with. RUNGE_KUTTA rows have no split coefficients.
-  integer, parameter, public :: RUNGE_KUTTA = 0, KICK_FIRST = 1, DRIFT_FIRST = 2, PROCESSED = 3
+  !> Kinds of scheme; SPLIT rows alone have coefficients.
+  integer, parameter, public :: RUNGE_KUTTA = 0, SPLIT = 1, PROCESSED = 2
 
   type :: scheme_t
     character(16) :: name
@@ -38,22 +38,12 @@ module kz_kernel_schemes
   type(scheme_t), parameter :: SCHEMES(*) = [ &
     scheme_t('rk4', 4, 4, 100, RUNGE_KUTTA, 0, 0, O, O, &
              'classical fourth-order Runge-Kutta, the method of BSG 1992'), &
-    scheme_t('split4', 4, 6, 40, KICK_FIRST, 2, 3, &
-             [0.245298957184271_qp, 0.604872665711080_qp, O, O, O, O, O], &
-             [0.0829844064174052_qp, 0.396309801498368_qp, -0.0390563049223486_qp, O, O, O], &
-             BLANES_MOAN//'SRKN, 6 stages, order 4'), &
-    scheme_t('split6', 6, 14, 24, DRIFT_FIRST, 7, 6, &
+    scheme_t('split6', 6, 14, 24, SPLIT, 7, 6, &
              [0.0378593198406116_qp, 0.102635633102435_qp, -0.0258678882665587_qp, 0.314241403071447_qp, &
               -0.130144459517415_qp, 0.106417700369543_qp, -0.00879424312851058_qp], &
              [0.09171915262446165_qp, 0.183983170005006_qp, -0.05653436583288827_qp, 0.004914688774712854_qp, &
               0.143761127168358_qp, 0.328567693746804_qp], &
              BLANES_MOAN//'SRKN, 14 stages, order 6'), &
-    scheme_t('split6-11', 6, 11, 32, KICK_FIRST, 5, 5, &
-             [0.123229775946271_qp, 0.290553797799558_qp, -0.127049212625417_qp, -0.246331761062075_qp, &
-              0.357208872795928_qp, O, O], &
-             [0.0414649985182624_qp, 0.198128671918067_qp, -0.0400061921041533_qp, 0.0752539843015807_qp, &
-              -0.0115113874206879_qp, O], &
-             BLANES_MOAN//'SRKN, 11 stages, order 6'), &
     scheme_t('processed', 14, 1, 40, PROCESSED, 0, 0, O, O, &
              'one modified kick a step between two changes of coordinates (docs/theory.md)')]
 
@@ -68,22 +58,13 @@ contains
     !> a row with a split form
     type(scheme_t), intent(in) :: scheme
     type(stage_t) :: stages(2*scheme%kicks + 1)
-    logical :: kicks_outside
-    integer :: n, n_outer, n_inner
+    integer :: n
 
-    kicks_outside = scheme%form == KICK_FIRST
     n = size(stages)
-    n_outer = scheme%kicks + 1
-    n_inner = scheme%kicks
-    stages(1:n:2)%is_kick = kicks_outside
-    stages(2:n:2)%is_kick = .not. kicks_outside
-    if (kicks_outside) then
-      stages(1:n:2)%share = palindrome(scheme%kick(:scheme%n_kick), n_outer)
-      stages(2:n:2)%share = palindrome(scheme%drift(:scheme%n_drift), n_inner)
-    else
-      stages(1:n:2)%share = palindrome(scheme%drift(:scheme%n_drift), n_outer)
-      stages(2:n:2)%share = palindrome(scheme%kick(:scheme%n_kick), n_inner)
-    end if
+    stages(1:n:2)%is_kick = .false.
+    stages(1:n:2)%share = palindrome(scheme%drift(:scheme%n_drift), scheme%kicks + 1)
+    stages(2:n:2)%is_kick = .true.
+    stages(2:n:2)%share = palindrome(scheme%kick(:scheme%n_kick), scheme%kicks)
   end function scheme_stages
 
   !> The whole palindrome of length n, summing to 1, from its given first entries.

@@ -78,8 +78,8 @@ contains
     end do
   end subroutine rk4_tables
 
-  !> Walks through all entries of all steps. Fused: a kick that follows a kick is added to it; else every step is complete in
-  !> itself.
+  !> Walks through all entries of all steps. Fused: the last drift of a step is one with the first of the next; else every step is
+  !> complete in itself.
   subroutine split_tables(period, pendulum, stages, fused)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
@@ -101,11 +101,7 @@ contains
           cycle
         end if
         kick = stages(s)%share*period%step*force(pendulum, (i + clock)/period%n_steps)
-        if (fused .and. n > 0 .and. s == 1) then
-          period%kick(n) = period%kick(n) + kick
-        else
-          call append(kick)
-        end if
+        call append(kick)
       end do
       if (.not. fused .and. shift > 0) call append(0.0_qp)
       period%step_end(i + 1) = n

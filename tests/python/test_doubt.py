@@ -27,9 +27,10 @@ def doubt(kapitza, folder, *options, ranks=None):
 
 def test_shares_are_stored_told_and_warned_of(kapitza, tmp_path):
     shares, summary = doubt(kapitza, tmp_path, "--set", "numerics.scheme=split6", "--set", "basin.method=icm")
-    assert 0.04 < shares["doubtful_share_low"] < shares["doubtful_share"] < shares["doubtful_share_high"] < 0.1
-    assert shares["doubtful_share_high"] - shares["doubtful_share_low"] < 0.015
-    assert 0 < shares["differing_share"] < 0.03, "errors of a coarse map table"
+    # Measured: 8.6 % (8.14 .. 9.09) and 0.88 %. So few cells grow no regions: orbits are trapped later, and more lose their labels.
+    assert 0.078 < shares["doubtful_share_low"] < shares["doubtful_share"] < shares["doubtful_share_high"] < 0.094
+    assert shares["doubtful_share_high"] - shares["doubtful_share_low"] < 0.01
+    assert 0.006 < shares["differing_share"] < 0.012, "errors of a coarse map table"
     assert f"{100 * shares['doubtful_share']:.3g} % of the labels are doubtful" in summary
     assert "warning: more than 5 % of the labels are doubtful" in summary and "labelled otherwise than by integration" in summary
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <cmocka.h>
 #include <math.h>
+#include <stdbool.h>
 
 #include "kapitza/kernel.h"
 
@@ -41,25 +42,27 @@ static void check_orders(int precision, const int *steps, double tolerance) {
                  (kz_numerics){.scheme = row, .steps_per_period = 2 * steps[row], .precision = precision, .fastest = FASTEST});
     double order = log2(coarse / fine);
     print_message("kind %d, %-9s order %.2f (errors %.1e, %.1e)\n", precision, scheme.name, order, coarse, fine);
-    assert_true(fabs(order - scheme.order) <
-                tolerance * (row == kz_scheme_find("processed") ? 2.5 : 1)); /* its errors fall to rounding at once */
+    /* Measured: within 0.25, but 14.8 for the processed splitting in double, whose 22 steps err by 1e-13: with more than 11 to begin
+     * with only rounding would be left. */
+    const bool steep = precision == KZ_DOUBLE && row == kz_scheme_find("processed");
+    assert_true(fabs(order - scheme.order) < (steep ? 1 : tolerance));
     if (precision == KZ_SINGLE) assert_true(order > scheme.order - 1.6 || fine < 3e-6);
   }
 }
 
 static void test_single(void **state) {
   (void)state;
-  check_orders(KZ_SINGLE, (const int[]){8, 3, 2, 2, 6}, HUGE_VAL); /* rounding ends it early: see that errors reach it */
+  check_orders(KZ_SINGLE, (const int[]){8, 2, 6}, HUGE_VAL); /* rounding ends it early: see that errors reach it */
 }
 
 static void test_double(void **state) {
   (void)state;
-  check_orders(KZ_DOUBLE, (const int[]){100, 20, 12, 12, 11}, 0.4);
+  check_orders(KZ_DOUBLE, (const int[]){100, 12, 11}, 0.4);
 }
 
 static void test_quad(void **state) {
   (void)state;
-  check_orders(KZ_QUAD, (const int[]){100, 20, 12, 12, 14}, 0.4);
+  check_orders(KZ_QUAD, (const int[]){100, 12, 14}, 0.4);
 }
 
 /* Undamped, the split schemes conserve area through 1e5 periods and stay where they belong. */

@@ -26,7 +26,7 @@ int64_t kz_settling_periods(double beta) {
 /* The first rounds know no trapping region. From a mean of some 256 periods on, every doubling of it leaves unsettled starts,
  * whose slow spirals Newton's method then follows to cycles of up to 48 periods. */
 double kz_settling_search(const kz_pendulum *pendulum, double starts, double period, int64_t max_periods) {
-  static const double first_round = 128, slow = 256, asked = 400, newton_seconds = 1e-2, least = 0.1;
+  static const double first_round = 128, slow = 256, asked = 400, newton_seconds = 1e-2, least = 0.25;
   if (!(pendulum->beta > 0)) return 0;
   const double mean = fmin(kz_settling_mean(pendulum->beta), (double)max_periods);
   const double doublings = 0.25 * log2(1 + pow(mean / slow, 4));
