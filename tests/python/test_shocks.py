@@ -73,9 +73,8 @@ def test_no_shorter_shock_leaves_the_basin(fig11, kapitza, tmp_path):
 
 
 @pytest.mark.skipif(not EXTENSIVE, reason="KAPITZA_EXTENSIVE is not set")
-@pytest.mark.parametrize("amplitude", [0.3, 0.47])
-def test_no_shorter_shock_leaves_the_basins_of_other_scenes(kapitza, tmp_path, amplitude):
-    pendulum = {**FIG11, "drive_amplitude": amplitude}
+def test_no_shorter_shock_leaves_the_basins_of_another_scene(kapitza, tmp_path):
+    pendulum = {**FIG11, "drive_amplitude": 0.3}
     basin = {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60}, "shocks": {"scale": SCALE}}
     scene = {"pendulum": pendulum, "basin": basin}
     shocks = run(kapitza, tmp_path, scene)[0].group("shocks")
