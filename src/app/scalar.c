@@ -1,5 +1,4 @@
 /* Strict scalars: decimal numbers only, no octal look, no nan, nothing quoted but numbers of many digits. */
-#define __STDC_WANT_IEC_60559_TYPES_EXT__ 1 /* strtof128 */
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
@@ -8,6 +7,9 @@
 #include <string.h>
 
 #include "scene.h"
+
+/* Of libquadmath, whose header is in a folder of gcc. */
+__float128 strtoflt128(const char *text, char **end);
 
 static const char *skip_digits(const char *c) {
   while (isdigit((unsigned char)*c)) c++;
@@ -92,7 +94,7 @@ const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *va
   const bool degrees = tail && tail[sizeof unit - 1] == '\0';
   snprintf(number, sizeof number, "%.*s", (int)(degrees ? tail - node->text : (long)strlen(node->text)), node->text);
   if (!is_decimal(number, &whole)) return "is not a finite decimal number";
-  const _Float128 quad = strtof128(number, NULL) * (degrees ? strtof128(radians, NULL) : 1);
+  const __float128 quad = strtoflt128(number, NULL) * (degrees ? strtoflt128(radians, NULL) : 1);
   value->high = (double)quad;
   if (!isfinite(value->high)) return "is too large for double precision";
   const size_t mantissa = strcspn(number, "eE");

@@ -97,7 +97,7 @@ contains
       allocate (series) ! made once: it does not depend on the steps
       call make_processed_series(pendulum, QUAD_GRADES(numerics%precision), series)
       call make_processed_flow(pendulum, series, numerics, flow)
-      call make_processed_flow(pendulum, series, halved, finer)
+      call make_processed_flow(pendulum, series, halved, finer, refined=2)
     else
       call make_flow(pendulum, numerics, .true., flow)
       call make_flow(pendulum, halved, .true., finer)
@@ -105,7 +105,7 @@ contains
   end subroutine make_flow_and_finer
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
-  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted)
+  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> the series of the pendulum
@@ -116,6 +116,8 @@ contains
     class(flow_t), allocatable, intent(out) :: flow
     !> the drift is fitted up to this speed; the fastest, if left out
     real(c_double), intent(in), optional :: fitted
+    !> steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
+    integer, intent(in), optional :: refined
     type(numerics_t) :: fine
     type(processed_t) :: table
     class(flow_t), allocatable :: fallback
@@ -132,6 +134,7 @@ contains
     if (fastest < huge(fastest)) then
       fine = fine_numerics(pendulum)
       fine%precision = numerics%precision
+      if (present(refined)) fine%steps_per_period = refined*fine%steps_per_period
       call make_flow(pendulum, fine, .false., fallback)
     end if
     call make_processed(pendulum, series, int(numerics%steps_per_period), drifts, kicks, fit, table)

@@ -102,5 +102,5 @@ def test_the_control_group_of_the_process_counts(tmp_path, group):
     limit.write_text("70000000")
     words = ["bash", "-c", f'echo $$ > {folder}/cgroup.procs && exec "$@"', "grouped", PROGRAM, "check", SMALL]
     assert run(words, tmp_path).returncode == 0
-    done = run([*words, "--set", "basin.theta.count=2000", "--set", "basin.velocity.count=2000"], tmp_path)
+    done = run([*words, "--set", "basin.theta.count=20000", "--set", "basin.velocity.count=20000"], tmp_path)
     assert done.returncode == 2 and "70.0 MB" in done.stderr, done.stderr

@@ -15,7 +15,7 @@ def test_the_answer_of_the_tutorial(kapitza, tmp_path):
     low, high = map(float, re.search(r"stands a push of (0\.\d+) .* at (0\.\d+) it ends", done.stdout).groups())
     assert 0 < high - low < 1e-8 and "(decided)" in done.stdout
     step = high - low
-    theta = f"{{min: {math.pi - 1e-12!r}, max: {math.pi + 1e-12!r}, count: 1}}"
+    theta = f"{{min: {math.pi - 1e-9!r}, max: {math.pi + 1e-9!r}, count: 1}}"
     velocity = f"{{min: {low - step / 2!r}, max: {high + step / 2!r}, count: 2}}"
     kapitza("run", "push.yaml", "--set", f"basin.theta={theta}", "--set", f"basin.velocity={velocity}", "--set", "basin.method=direct",
             "-o", "edge.h5", folder=tmp_path)

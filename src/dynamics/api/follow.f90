@@ -106,8 +106,10 @@ contains
     if (rung == RUNG_DOUBLE) then
       state(1, :) = half_turns(start(1, :))
       call make_covariant(d, map)
-    else
+    else if (present(low)) then
       call make_precise(d, rung, start, state(1, :), map, low)
+    else
+      call make_precise(d, rung, start, state(1, :), map)
     end if
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)

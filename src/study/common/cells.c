@@ -4,14 +4,14 @@
 #include <math.h>
 
 /* Enough cells on each side of the centre in an exact number of halves; a quad has more digits than a pair. */
-static _Float128 centre_of(const kz_axis *axis, int64_t i) {
-  const _Float128 width = (_Float128)axis->width.high + axis->width.low,
-                  middle = (_Float128)axis->centre.high + axis->centre.low;
-  return (_Float128)(2 * i + 1 - axis->count) * (width / (_Float128)(2 * axis->count)) + middle;
+static __float128 centre_of(const kz_axis *axis, int64_t i) {
+  const __float128 width = (__float128)axis->width.high + axis->width.low,
+                   middle = (__float128)axis->centre.high + axis->centre.low;
+  return (__float128)(2 * i + 1 - axis->count) * (width / (__float128)(2 * axis->count)) + middle;
 }
 
 void kz_axis_pair(const kz_axis *axis, int64_t i, double pair[2]) {
-  const _Float128 centre = centre_of(axis, i);
+  const __float128 centre = centre_of(axis, i);
   const bool is_centred = axis->centre.text[0];
   pair[0] = is_centred ? (double)centre : kz_axis_centre(axis, i);
   pair[1] = is_centred ? (double)(centre - pair[0]) : 0;

@@ -185,7 +185,7 @@ kz_status kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
     shock[0] = along_line(&r, 1, 0, M_PI);
     shock[1] = along_line(&r, 0, 1, problem->farthest);
     const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
-    shock[2] = velocity.size < angle.size || isnan(angle.size) ? velocity : angle;
+    shock[2] = isless(velocity.size, angle.size) || isnan(angle.size) ? velocity : angle;
     if (!isnan(shock[2].size)) {
       const double at = atan2(shock[2].velocity / problem->scale, shock[2].theta);
       const kz_shock near = slide(&r, at, 2 * M_PI / RAYS, shock[2].size);
