@@ -1,5 +1,6 @@
 """Runs that are stopped again and again come to their end, with the same bytes: everything that takes longer than seconds is kept."""
 
+import os
 import time
 
 import pytest
@@ -42,7 +43,7 @@ sweep: {parameter: drive_amplitude, min: 0.3, max: 0.31, count: 3, starts: 1024,
 SHARE, MOST = 0.4, 60  # of the time of the undisturbed run, longer with every stop; starts of the program
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", SCENES if os.environ.get("KAPITZA_EXTENSIVE") else list(SCENES)[:2])
 def test_a_run_that_is_stopped_again_and_again_ends(kapitza, tmp_path, name):
     (tmp_path / "s.yaml").write_text(SCENES[name])
     begun = time.monotonic()

@@ -20,7 +20,7 @@ enum { STARTS = 1024 };
 
 /* The sanitizers make everything ten times slower: a part of the starts shows them the same code. */
 #ifdef __SANITIZE_ADDRESS__
-enum { PART = 8 };
+enum { PART = 20 };
 #else
 enum { PART = 1 };
 #endif
