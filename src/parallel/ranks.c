@@ -30,8 +30,7 @@ static kz_status connect_ranks(kz_ranks *ranks) {
 
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   kz_signals_catch();
-  /* alone it needs no daemon of Open MPI 4, which would take most of the time of a short run */
-  if (kz_launch_rank() < 0) setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  kz_launch_rank();
   kz_ranks *started = calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
   if (!started) return kz_fail(KZ_FAILED, "out of memory while starting");
   started->comm = MPI_COMM_NULL;

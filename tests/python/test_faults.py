@@ -188,7 +188,6 @@ def test_work_in_one_piece_is_left_where_a_stop_is_asked(tmp_path):
 def test_what_batch_systems_send_asks_for_a_stop(tmp_path, name):
     process = start("run", SMALL, *SLOW, folder=tmp_path, ranks=None)
     wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
-    assert Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text() == ""  # no daemon of the MPI library
     process.send_signal(getattr(signal, name))
     _, errors = process.communicate(timeout=60)
     assert process.returncode == 75 and f"stopped by {name}" in errors
