@@ -1,6 +1,7 @@
 /* A checkpoint in use: waited for while its ranks end, refused where they do not. */
 #define _GNU_SOURCE
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 
 #include "ranks.h"
@@ -21,7 +22,7 @@ static pid_t lock_for(double seconds) {
   return child;
 }
 
-/* Opens against a holder; the time it took. */
+/* Opens against a process that holds the file for so long or until the end of the test; the time it took. */
 static double open_against(double seconds, kz_status expected) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
   const pid_t child = kz_ranks_own(ranks) == 0 ? lock_for(seconds) : 0;
@@ -29,21 +30,21 @@ static double open_against(double seconds, kz_status expected) {
   const kz_status status = open_checkpoint(&plan);
   const double took = kz_clock() - begun;
   assert_all(status == expected && (status == KZ_OK || strstr(kz_message(), "held by another process")));
-  if (child > 0) waitpid(child, NULL, 0);
+  if (child > 0) kill(child, SIGKILL), waitpid(child, NULL, 0);
   return took;
 }
 
 static void orphans_are_waited_for(void **state) {
   (void)state;
   const double took = open_against(1.5, KZ_OK);
-  assert_all(kz_ranks_own(ranks) != 0 || (took > 1.0 && took < 6.0));
+  assert_all(kz_ranks_own(ranks) != 0 || (took > 1.0));
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
 static void a_running_program_is_refused(void **state) {
   (void)state;
-  const double took = open_against(17, KZ_REFUSED);
-  assert_all(kz_ranks_own(ranks) != 0 || (took > 14.0 && took < 17.0));
+  const double took = open_against(60, KZ_REFUSED);
+  assert_all(kz_ranks_own(ranks) != 0 || took > 14.0);
 }
 
 static void a_rank_of_this_run_holds_it(void **state) {

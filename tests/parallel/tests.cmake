@@ -7,6 +7,7 @@ endforeach()
 kapitza_test(schedule LABEL parallel LAYER parallel)
 target_include_directories(test_parallel_schedule PRIVATE ${PROJECT_SOURCE_DIR}/src/parallel)
 kapitza_test(file_lock LABEL parallel LAYER parallel RANKS 2 TIMEOUT 60)
+set_tests_properties(parallel.file_lock.ranks-2 PROPERTIES PROCESSORS 1 COST 100) # mostly waits: first, beside another test
 kapitza_test(stage LABEL parallel LAYER parallel TIMEOUT 60) # and without mpirun
 kapitza_test(progress LABEL parallel LAYER parallel TIMEOUT 60)
 

@@ -5,6 +5,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
@@ -162,6 +163,23 @@ def run_until_stopped(kapitza):
         raise AssertionError(f"no time limit stops the run midway: {done.stderr}")
 
     return call
+
+
+def saved_bytes(checkpoint):
+    """Bytes of finished records, nearly: those that are not 0 (room is allocated beforehand); 0 before the first record."""
+    data = checkpoint.read_bytes() if checkpoint.exists() else b""
+    marked = data[32:40] != bytes(8)  # the last word of the head
+    return len(data) - data.count(0) if marked else 0
+
+
+def runs_until_saved(process, checkpoint, before):
+    """Waits until more is saved than `before`, or the process has ended; does it still run?"""
+    section_head = 72
+    while process.poll() is None:
+        if saved_bytes(checkpoint) > before + section_head:
+            return True
+        time.sleep(0.005)
+    return False
 
 
 @pytest.fixture(scope="session")

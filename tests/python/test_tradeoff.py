@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections import Counter
 
 import h5py
@@ -13,7 +12,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 import reference_coverage
-from conftest import PROGRAM, ROOT, datasets
+from conftest import PROGRAM, ROOT, datasets, runs_until_saved, saved_bytes
 from kapitza import Result
 from kapitza.layout import CODES
 from kapitza.plots.tradeoff import WAYS, way
@@ -74,26 +73,18 @@ def test_a_stopped_study_is_resumed(kapitza, tmp_path, reference):
     assert untimed(tmp_path / "two.h5") == untimed(reference)
 
 
-def grown(process, checkpoint, size):
-    """Waits until the checkpoint is larger than `size` or the process has ended; does it still run?"""
-    while process.poll() is None:
-        if checkpoint.exists() and checkpoint.stat().st_size > size:
-            return True
-        time.sleep(0.01)
-    return False
-
-
 def test_a_killed_study_is_resumed(tmp_path, reference):
     """Killed whenever a few tiles more are saved, on one rank, until it gets through."""
     command = [PROGRAM, "run", SMALL, "-o", "two.h5", "--set", "pendulum.drive_amplitude=0.46", "--set", SETTINGS, "--resume"]
-    checkpoint, kills, size = tmp_path / "two.h5.checkpoint", 0, 0
+    checkpoint, kills = tmp_path / "two.h5.checkpoint", 0
     while True:
+        before = saved_bytes(checkpoint)
         process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL)
-        if kills == 2 or not grown(process, checkpoint, size):
+        if kills == 2 or not runs_until_saved(process, checkpoint, before):
             break
         process.send_signal(signal.SIGKILL)
         process.wait()
-        kills, size = kills + 1, checkpoint.stat().st_size
+        kills += 1
     assert process.wait() == 0 and kills == 2
     assert untimed(tmp_path / "two.h5") == untimed(reference)
 
