@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -145,26 +146,6 @@ def kapitza():
     return call
 
 
-@pytest.fixture(scope="session")
-def run_until_stopped(kapitza):
-    """As kapitza, with a time limit that stops the run when some of its work is saved, however fast the machine is."""
-
-    def call(*arguments, folder, **words):
-        limit = 2.0
-        for _ in range(16):
-            before = set(folder.iterdir())
-            done = kapitza(*arguments, "--time-limit", f"{limit:.3f}", folder=folder, status=None, **words)
-            if done.returncode == 75 and "finished work is in" in done.stderr:
-                return done
-            assert done.returncode in (0, 75), done.stderr
-            for path in set(folder.iterdir()) - before:
-                path.unlink()
-            limit *= 0.6 if done.returncode == 0 else 1.3
-        raise AssertionError(f"no time limit stops the run midway: {done.stderr}")
-
-    return call
-
-
 def saved_bytes(checkpoint):
     """Bytes of finished records, nearly: those that are not 0 (room is allocated beforehand); 0 before the first record."""
     data = checkpoint.read_bytes() if checkpoint.exists() else b""
@@ -180,6 +161,19 @@ def runs_until_saved(process, checkpoint, before):
             return True
         time.sleep(0.005)
     return False
+
+
+def run_until_saved(*words, file, folder, ranks=2):
+    """kapitza run WORDS, asked to stop by SIGUSR1 as soon as more of FILE's work is saved; what it says to that."""
+    checkpoint = folder / f"{file}.checkpoint"
+    before = saved_bytes(checkpoint)
+    process = subprocess.Popen(["mpirun", "-n", str(ranks), PROGRAM, "run", *words], cwd=folder, text=True,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    assert runs_until_saved(process, checkpoint, before), process.communicate()
+    process.send_signal(signal.SIGUSR1)
+    _, errors = process.communicate(timeout=120)
+    assert process.returncode == 75 and f"stopped by SIGUSR1; finished work is in {checkpoint.name}" in errors, errors
+    return errors
 
 
 @pytest.fixture(scope="session")

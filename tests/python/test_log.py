@@ -4,7 +4,7 @@ import json
 
 import h5py
 import pytest
-from conftest import ROOT
+from conftest import ROOT, run_until_saved
 
 SMALL = ROOT / "scenes" / "small.yaml"
 
@@ -32,12 +32,12 @@ def test_a_log_tells_stages_and_the_end(kapitza, tmp_path):
         assert 0 < file.attrs["wall_seconds"] <= lines[-1]["seconds"] and {"compiler", "mpi", "hdf5"} <= set(file.attrs)
 
 
-def test_a_log_goes_on_and_tells_how_a_run_was_stopped(kapitza, run_until_stopped, tmp_path):
+def test_a_log_goes_on_and_tells_how_a_run_was_stopped(kapitza, tmp_path):
     log = ["--log", "log.jsonl"]
     slow = ["--set", "basin.method=direct", "--set", "numerics.steps_per_period=1000"]
-    run_until_stopped("run", SMALL, *slow, *log, folder=tmp_path)
+    run_until_saved(SMALL, *slow, *log, file="small.h5", folder=tmp_path)
     first = events(tmp_path / "log.jsonl")
-    assert first[-1]["status"] == 75 and "time limit" in first[-1]["message"]
+    assert first[-1]["status"] == 75 and "stopped by SIGUSR1" in first[-1]["message"]
     kapitza("run", SMALL, *log, "-o", "other.h5", folder=tmp_path)
     assert events(tmp_path / "log.jsonl")[: len(first)] == first
 

@@ -7,12 +7,12 @@ from datetime import UTC, datetime
 import h5py
 import pytest
 import yaml
-from conftest import ROOT, datasets
+from conftest import ROOT, datasets, run_until_saved
 from kapitza import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
 # A short search, then some seconds of cells.
-SLOW = ["--set", "basin.method=direct", "--set", "basin.theta.count=800", "--set", "basin.velocity.count=800",
+SLOW = ["--set", "basin.method=direct", "--set", "basin.theta.count=400", "--set", "basin.velocity.count=400",
         "--set", "numerics.steps_per_period=160", "--set", "basin.attractors.starts=128"]
 
 
@@ -59,9 +59,11 @@ def test_resume_of_a_complete_file_is_success_at_once(kapitza, tmp_path):
     kapitza("run", SMALL, "-o", "x.h5", "--force", folder=tmp_path)
 
 
-def test_time_limit_saves_and_resume_ends_with_the_same_bytes(kapitza, run_until_stopped, tmp_path):
-    done = run_until_stopped("run", SMALL, *SLOW, ranks=2, folder=tmp_path)
-    assert "time limit" in done.stderr and done.stderr.count("\n") == 1 and "error" not in done.stderr
+def test_a_stop_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path):
+    none = kapitza("run", SMALL, *SLOW, "--time-limit", "0.001", ranks=2, folder=tmp_path, status=75)
+    assert none.stderr == "kapitza: stopped by the time limit of 0.001 s; nothing was saved\n" and not list(tmp_path.iterdir())
+    errors = run_until_saved(SMALL, *SLOW, file="small.h5", folder=tmp_path)
+    assert errors.count("\n") == 1 and "error" not in errors
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5.checkpoint"]
     other = kapitza("run", SMALL, *SLOW, "--resume", "--set", "basin.max_periods=1999", folder=tmp_path, status=2)
     assert "basin.max_periods: 2000" in other.stderr and "basin.max_periods: 1999" in other.stderr

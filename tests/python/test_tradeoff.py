@@ -104,14 +104,14 @@ def test_the_cache_is_used_extended_and_not_trusted_blindly(kapitza, tmp_path, r
 
 
 def test_an_accuracy_within_reach_is_met(kapitza, tmp_path):
-    done = kapitza("run", SMALL, "-o", "met.h5", "--set", "pendulum.drive_amplitude=0.150", *without_method(0.995),
+    done = kapitza("run", SMALL, "-o", "met.h5", "--set", "pendulum.drive_amplitude=0.150", *without_method(0.98),
                    folder=tmp_path, ranks=2)
-    assert "accuracy 0.995: processed-1e-4, the cheapest of 1 " in done.stdout  # smooth boundaries: 0 of 2295 cells wrong
+    assert "accuracy 0.98: processed-1e-4, the cheapest of 1 " in done.stdout  # smooth boundaries: 0 of 1000 cells wrong
     with h5py.File(tmp_path / "met.h5") as file:
         basin = file["basin"].attrs
-        assert basin["wrong_high"] <= 0.005 and basin["setting"] in done.stdout
+        assert basin["wrong_high"] <= 0.02 and basin["setting"] in done.stdout
         scene = file.attrs["scene_resolved"]
-    assert "accuracy: 0.995" in scene and "method" not in scene and "scheme" not in scene
+    assert "accuracy: 0.98" in scene and "method" not in scene and "scheme" not in scene
     (tmp_path / "again.yaml").write_text(scene)
     kapitza("run", "again.yaml", folder=tmp_path)
     assert datasets(tmp_path / "again.h5") == datasets(tmp_path / "met.h5")

@@ -5,19 +5,25 @@
 #include "boundary.h"
 #include "common/cells.h"
 
-enum { CELLS = 1 << 18, ENOUGH = 30 }; /* cells that are looked at, about; ends that make a mean worth telling */
+enum {
+  CELLS = 1 << 18, /* that are looked at, about */
+  BLOCK = 1 << 14, /* cells read at once, or a row */
+  ENOUGH = 30      /* ends that make a mean worth telling */
+};
 
 /* The settling times of every step-th row of those that are not mirror images: how many, and how many cells are open. */
 static kz_status read_times(const kz_basin_plan *plan, kz_store *store, double *time, int64_t *n, int64_t *n_open) {
   const int64_t columns = plan->theta.count, own = (kz_own_cells(plan) + columns - 1) / columns;
-  const int64_t step = 1 + columns * own / CELLS;
-  int16_t *label = malloc((size_t)columns * sizeof *label);
-  uint32_t *periods = malloc((size_t)columns * sizeof *periods);
-  kz_status status = label && periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a row of cells");
-  for (int64_t row = 0; status == KZ_OK && row < own; row += step) {
-    status = kz_store_rows(store, "basin", "attractor", row, 1, label);
-    if (status == KZ_OK) status = kz_store_rows(store, "basin", "settling_time", row, 1, periods);
-    for (int64_t i = 0; status == KZ_OK && i < columns; i++) {
+  const int64_t step = 1 + columns * own / CELLS, near = BLOCK / columns / step * step, rows = near > 0 ? near : 1;
+  int16_t *label = malloc((size_t)(rows * columns) * sizeof *label);
+  uint32_t *periods = malloc((size_t)(rows * columns) * sizeof *periods);
+  kz_status status = label && periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for rows of cells");
+  for (int64_t row = 0; status == KZ_OK && row < own; row += near > 0 ? near : step) {
+    const int64_t here = own - row < rows ? own - row : rows;
+    status = kz_store_rows(store, "basin", "attractor", row, here, label);
+    if (status == KZ_OK) status = kz_store_rows(store, "basin", "settling_time", row, here, periods);
+    for (int64_t i = 0; status == KZ_OK && i < here * columns; i++) {
+      if (i / columns % step != 0) continue;
       *n_open += label[i] < 0;
       if (label[i] >= 0) time[(*n)++] = periods[i];
     }
