@@ -57,9 +57,10 @@ enum { KZ_DOUBTFUL = -1 };
 /* kz_dynamics_follow on a rung, with the error of each orbit beside it (Fortran: covariance.f90): from the last place of its start,
  * and from the steps and the rounding of every period. An orbit is trapped once a trapping region holds it with its error. start [n][2]
  * in rad and rad per drive radian; low [n][2]: what is to be added to them, below their last places; NULL = nothing. The sums are taken as
- * exact. */
+ * exact. reach [n], NULL = not asked: how far an orbit may be off when it is trapped, rad (three standard deviations); it means nothing on
+ * a chaotic attractor and with KZ_DOUBTFUL. */
 void kz_dynamics_follow_errors(kz_dynamics *dynamics, int32_t rung, int64_t n, int64_t max_periods, const double *start,
-                               const double *low, int32_t *label, int64_t *periods);
+                               const double *low, int32_t *label, int64_t *periods, double *reach);
 
 /* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
  * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from

@@ -38,6 +38,8 @@ module kz_kernel_map
     !> matrix(:, :, lane), if present, is multiplied by the derivative of the change; flows alone know it.
     procedure :: enter => same_coordinates
     procedure :: leave => same_coordinates
+    !> How far the state of a lane may be off where it follows its error, rad; 0 where it does not.
+    procedure :: reach => no_reach
   end type map_t
 
   !> A map that is integrated: it also knows its derivative and what happens within the period.
@@ -86,6 +88,16 @@ contains
     end associate
     if (present(matrix) .or. present(first)) return
   end subroutine same_coordinates
+
+  pure function no_reach(self, lane) result(reach)
+    class(map_t), intent(in) :: self
+    integer, intent(in) :: lane
+    real(c_double) :: reach
+
+    associate (unused => self, unused_too => lane)
+    end associate
+    reach = 0
+  end function no_reach
 
   !> Puts a state into a lane.
   subroutine put_state(self, lane, u, v)

@@ -88,7 +88,8 @@ contains
     call follow(map, d%regions, d%attractors, state, label, periods)
   end subroutine follow_reference
 
-  subroutine follow_errors(handle, rung, n, max_periods, start, low, label, periods) bind(C, name='kz_dynamics_follow_errors')
+  subroutine follow_errors(handle, rung, n, max_periods, start, low, label, periods, reach) &
+    bind(C, name='kz_dynamics_follow_errors')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: rung
     integer(c_int64_t), value :: n
@@ -97,6 +98,7 @@ contains
     real(dp), intent(in), optional :: low(2, n)
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
+    real(dp), intent(out), optional :: reach(n)
     type(dynamics_t), pointer :: d
     class(map_t), allocatable :: map
     real(dp), allocatable :: state(:, :)
@@ -112,7 +114,7 @@ contains
       call make_precise(d, rung, start, state(1, :), map)
     end if
     periods = max_periods
-    call follow(map, d%regions, d%attractors, state, label, periods)
+    call follow(map, d%regions, d%attractors, state, label, periods, reach)
   end subroutine follow_errors
 
   subroutine make_covariant(d, map)

@@ -3,13 +3,13 @@
 !> It is trapped once a trapping region holds the whole ellipse of P.
 module kz_labels_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: map_t, WIDTH, PI
+  use kz_kernel_map, only: map_t, move_state, WIDTH, ROOM, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t, find_regions
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: classify_errors, spread, largest_error
+  public :: error_map_t, move_error, spread
 
   !> rad: the standard deviation of a state that a label bears. Of 1657 wrong labels (against quad precision; epsilon = 0.3 and 0.46, Q =
   !> 20, rk4, single precision) 0.03 found all and 0.1 all but one; twice as many labels are doubtful as are wrong.
@@ -18,16 +18,45 @@ module kz_labels_covariance
   real(dp), parameter :: DEVIATIONS = 3
   integer, parameter :: RIM = 8
 
+  !> A map whose orbits carry their errors.
+  type, abstract, extends(map_t) :: error_map_t
+    type(regions_t), pointer :: regions => null()            !< the trapping regions
+    type(attractor_t), pointer :: attractors(:) => null()    !< the catalogue, numbered from 1
+    real(dp) :: p(3, ROOM) = 0 !< theta theta, theta v, v v: rad, rad per drive radian
+  contains
+    !> Starts the error of a lane, rad, in every direction alike.
+    procedure :: start_error
+    procedure :: classify_errors
+    procedure :: reach
+  end type error_map_t
+
 contains
 
+  subroutine start_error(self, lane, error)
+    class(error_map_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: error
+
+    self%p(:, lane) = [1, 0, 1]*error**2
+  end subroutine start_error
+
+  !> Copies the state of a lane and its error to another one.
+  subroutine move_error(map, from, to)
+    !> the map
+    class(error_map_t), intent(inout) :: map
+    !> lane, from 1
+    integer, intent(in) :: from
+    !> lane, from 1
+    integer, intent(in) :: to
+
+    call move_state(map, from, to)
+    map%p(:, to) = map%p(:, from)
+  end subroutine move_error
+
   !> The errors of n lanes over the period that they have just made: which are doubtful now, which straddle the edge of a region.
-  subroutine classify_errors(map, regions, attractors, n, tangent, error, seen, p)
-    !> the map of the lanes, in its coordinates
-    class(map_t), intent(inout) :: map
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
+  subroutine classify_errors(self, n, tangent, error, seen)
+    !> the map, whose states are in the coordinates of the regions
+    class(error_map_t), intent(inout) :: self
     !> lanes 1 .. n
     integer, intent(in) :: n
     !> (2, 2, n): derivative of the period
@@ -36,23 +65,30 @@ contains
     real(dp), intent(in) :: error(:)
     !> [n] how far the states are from where the regions see them, rad
     real(dp), intent(in) :: seen(:)
-    !> (3, n): theta theta, theta v, v v; rad, rad per drive radian
-    real(dp), intent(inout) :: p(:, :)
     integer :: region(WIDTH), lane
 
-    call find_regions(regions, attractors, n, map%u(:n), map%v(:n), region)
+    call find_regions(self%regions, self%attractors, n, self%u(:n), self%v(:n), region)
     do lane = 1, n
-      call spread(tangent(:, :, lane), error(lane), p(:, lane))
-      map%straddling(lane) = .false.
-      if (.not. largest_error(p(:, lane)) <= TOLERABLE) then
-        map%doubtful(lane) = .true.
-        p(:, lane) = 0
+      call spread(tangent(:, :, lane), error(lane), self%p(:, lane))
+      self%straddling(lane) = .false.
+      if (.not. largest_error(self%p(:, lane)) <= TOLERABLE) then
+        self%doubtful(lane) = .true.
+        self%p(:, lane) = 0
       else if (region(lane) > 0) then
-        map%straddling(lane) = .not. holds(regions, attractors, map%u(lane), map%v(lane), &
-                                           p(:, lane) + [1, 0, 1]*seen(lane)**2, region(lane))
+        self%straddling(lane) = .not. holds(self%regions, self%attractors, self%u(lane), self%v(lane), &
+                                            self%p(:, lane) + [1, 0, 1]*seen(lane)**2, region(lane))
       end if
     end do
   end subroutine classify_errors
+
+  !> Half the longer axis of the ellipse that a trapping region must hold.
+  pure function reach(self, lane)
+    class(error_map_t), intent(in) :: self
+    integer, intent(in) :: lane
+    real(dp) :: reach
+
+    reach = DEVIATIONS*largest_error(self%p(:, lane))
+  end function reach
 
   !> P over a period with the tangent map `matrix` and an error of the period's own, in every direction alike.
   pure subroutine spread(matrix, error, p)

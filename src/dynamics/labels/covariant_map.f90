@@ -1,23 +1,20 @@
 !> Orbits of the scene's map with their errors beside them.
 module kz_labels_covariant_map
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
+  use kz_kernel_map, only: flow_t, put_state, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t
-  use kz_labels_covariance, only: classify_errors
+  use kz_labels_covariance, only: error_map_t, move_error
   use kz_maps_states, only: separation
   implicit none
   private
   public :: covariant_map_t, make_covariant_map
 
-  type, extends(map_t) :: covariant_map_t
+  type, extends(error_map_t) :: covariant_map_t
     private
     class(flow_t), allocatable :: flow  !< the map
     class(flow_t), allocatable :: finer !< the same pendulum with smaller errors: it shows those of the map
     class(flow_t), allocatable :: shown !< the map's states in physical coordinates, in which the two are compared
-    type(regions_t), pointer :: regions => null()
-    type(attractor_t), pointer :: attractors(:) => null()
-    real(dp) :: p(3, ROOM) = 0 !< theta theta, theta v, v v: rad, rad per drive radian
   contains
     procedure :: put
     procedure :: move
@@ -56,7 +53,7 @@ contains
 
     call put_state(self, lane, u, v)
     call self%flow%put(lane, u, v)
-    self%p(:, lane) = [1, 0, 1]*(rounding(self)*hypot(PI*u, v))**2
+    call self%start_error(lane, rounding(self)*hypot(PI*u, v))
   end subroutine put
 
   !> What the change of coordinates misses, as the way back shows it, is an error of the start.
@@ -84,9 +81,8 @@ contains
     integer, intent(in) :: from
     integer, intent(in) :: to
 
-    call move_state(self, from, to)
+    call move_error(self, from, to)
     call self%flow%move(from, to)
-    self%p(:, to) = self%p(:, from)
   end subroutine move
 
   !> One period of n lanes and of their errors.
@@ -114,7 +110,7 @@ contains
     self%turns(:n) = self%flow%turns(:n)
     error(:n) = hypot(separation(self%shown%u(:n), self%shown%v(:n), self%finer%u(:n), self%finer%v(:n)), &
                       rounding(self)*hypot(PI, self%v(:n)))
-    call classify_errors(self, self%regions, self%attractors, n, tangent, error, SEEN, self%p)
+    call self%classify_errors(n, tangent, error, SEEN)
   end subroutine advance
 
   !> The present states of lanes first .. n in physical coordinates.

@@ -31,7 +31,7 @@ contains
   !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled, DOUBTFUL;
   !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts (half-turns,
   !> rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
-  subroutine follow(map, regions, attractors, state, label, periods)
+  subroutine follow(map, regions, attractors, state, label, periods, reach)
     !> what moves the states by one period
     class(map_t), intent(inout) :: map
     !> the trapping regions
@@ -44,6 +44,8 @@ contains
     integer(c_int32_t), intent(out) :: label(:)
     !> most periods, in; first period inside a trapping region, out
     integer(c_int64_t), intent(inout) :: periods(:)
+    !> how far the orbits may be off when they are left, rad
+    real(dp), intent(out), optional :: reach(:)
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
     integer :: region(WIDTH), lane
@@ -114,6 +116,7 @@ contains
       periods(lanes%start(lane)) = lanes%age(lane)
       state(1, lanes%start(lane)) = map%u(lane)
       state(2, lanes%start(lane)) = map%v(lane)
+      if (present(reach)) reach(lanes%start(lane)) = map%reach(lane)
     end subroutine settle
   end subroutine follow
 

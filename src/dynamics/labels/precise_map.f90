@@ -2,23 +2,20 @@
 !> which is enough for an error.
 module kz_labels_precise_map
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
+  use kz_kernel_map, only: map_t, flow_t, put_state, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_trapping_grid, only: regions_t
-  use kz_labels_covariance, only: classify_errors
+  use kz_labels_covariance, only: error_map_t, move_error
   use kz_maps_states, only: separation
   implicit none
   private
   public :: precise_map_t, make_precise_map
 
-  type, extends(map_t) :: precise_map_t
+  type, extends(error_map_t) :: precise_map_t
     private
     class(map_t), allocatable :: inner !< shows its states in the coordinates of `flow`
     class(flow_t), allocatable :: flow !< the scene's map
     real(dp) :: error = 0              !< of a start and of a period of the inner map, relative to hypot(pi, v)
-    type(regions_t), pointer :: regions => null()
-    type(attractor_t), pointer :: attractors(:) => null()
-    real(dp) :: p(3, ROOM) = 0 !< theta theta, theta v, v v: rad, rad per drive radian
   contains
     procedure :: put
     procedure :: move
@@ -58,7 +55,7 @@ contains
 
     call put_state(self, lane, u, v)
     call self%inner%put(lane, u, v)
-    self%p(:, lane) = [1, 0, 1]*(self%error*hypot(PI, v))**2
+    call self%start_error(lane, self%error*hypot(PI, v))
   end subroutine put
 
   subroutine enter(self, n, matrix, first)
@@ -76,9 +73,8 @@ contains
     integer, intent(in) :: from
     integer, intent(in) :: to
 
-    call move_state(self, from, to)
+    call move_error(self, from, to)
     call self%inner%move(from, to)
-    self%p(:, to) = self%p(:, from)
   end subroutine move
 
   !> One period of n lanes and of their errors. The regions are those of the scene's map: a state is seen as far from where it is
@@ -98,7 +94,7 @@ contains
     call show(self, n)
     error(:n) = self%error*hypot(PI, self%v(:n))
     seen(:n) = separation(self%u(:n), self%v(:n), self%flow%u(:n), self%flow%v(:n))
-    call classify_errors(self, self%regions, self%attractors, n, tangent, error, seen, self%p)
+    call self%classify_errors(n, tangent, error, seen)
   end subroutine advance
 
   !> What the inner map shows of its states.

@@ -43,7 +43,7 @@ static void decide_cells(const measurement *g, int64_t first, int64_t n, int32_t
       kz_cell_start(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * open);
       w->place[open++] = i;
     }
-    kz_dynamics_follow_errors(g->dynamics, rung, open, g->reference->plan->max_periods, w->state, NULL, w->found, w->periods);
+    kz_dynamics_follow_errors(g->dynamics, rung, open, g->reference->plan->max_periods, w->state, NULL, w->found, w->periods, NULL);
     for (int64_t i = 0; i < open; i++) label[w->place[i]] = w->found[i];
   }
 }

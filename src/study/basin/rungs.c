@@ -73,7 +73,7 @@ void kz_rung_label(const kz_labelling *l, int64_t n, const double *start, const 
     find_candidates(l, n, start, out);
     return;
   }
-  kz_dynamics_follow_errors(l->dynamics, l->rung, n, l->plan->max_periods, start, low, label, periods);
+  kz_dynamics_follow_errors(l->dynamics, l->rung, n, l->plan->max_periods, start, low, label, periods, NULL);
   for (int64_t i = 0; i < n; i++)
     out[i] = (kz_labelled){.periods = (uint32_t)periods[i], .label = (int16_t)label[i], .evidence = rungs[l->rung].evidence};
 }

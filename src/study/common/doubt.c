@@ -29,7 +29,7 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   int64_t periods[TILE];
   const int64_t first = tile * TILE, left = kz_doubt_cells(s->plan) - first, n = left < TILE ? left : TILE;
   for (int64_t i = 0; i < n; i++) kz_cell_start(s->plan, kz_doubt_cell(s->plan, first + i), start + 2 * i);
-  kz_dynamics_follow_errors(s->dynamics, KZ_RUNG_DOUBLE, n, s->plan->max_periods, start, NULL, label, periods);
+  kz_dynamics_follow_errors(s->dynamics, KZ_RUNG_DOUBLE, n, s->plan->max_periods, start, NULL, label, periods, NULL);
   return KZ_OK;
 }
 

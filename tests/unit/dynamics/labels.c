@@ -162,7 +162,7 @@ static void test_wrong_labels_are_doubtful(void **state) {
   for (int i = 0; i < 2 * N; i++) start[i] = i % 2 ? x[i] : x[i] * M_PI;
   memcpy(y, x, sizeof x);
   kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, direct, periods);
-  kz_dynamics_follow_errors(d, KZ_RUNG_DOUBLE, N, 2000, start, NULL, followed, late);
+  kz_dynamics_follow_errors(d, KZ_RUNG_DOUBLE, N, 2000, start, NULL, followed, late, NULL);
   kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, expected, periods);
   for (int i = 0; i < N; i++) {
     doubtful += followed[i] == KZ_DOUBTFUL;
@@ -179,8 +179,8 @@ static void test_wrong_labels_are_doubtful(void **state) {
     expected[open] = expected[i];
     memmove(start + 2 * open++, start + 2 * i, 2 * sizeof *start);
   }
-  kz_dynamics_follow_errors(d, KZ_RUNG_PAIRS, open, 2000, start, NULL, direct, late);
-  kz_dynamics_follow_errors(d, KZ_RUNG_QUAD, open, 2000, start, NULL, followed, late);
+  kz_dynamics_follow_errors(d, KZ_RUNG_PAIRS, open, 2000, start, NULL, direct, late, NULL);
+  kz_dynamics_follow_errors(d, KZ_RUNG_QUAD, open, 2000, start, NULL, followed, late, NULL);
   doubtful = 0;
   for (int i = 0; i < open; i++) doubtful += followed[i] == KZ_DOUBTFUL;
   for (int i = 0; i < open; i++) assert_true(followed[i] == expected[i] || followed[i] == KZ_DOUBTFUL);
