@@ -298,19 +298,22 @@ void kz_numerics_resolve(kz_scene *scene);
 
 /* Where a start ends. */
 typedef struct {
-  int32_t attractor;                      /* id in the catalogue of the scene's window; -1 = not settled */
-  char name[KZ_NAME_LENGTH];              /* "" = not settled */
-  int32_t period, winding;                /* as in /attractors */
-  int64_t settling_time;                  /* drive periods until the orbit is inside a trapping region */
-  bool decided;                           /* double precision can tell: the same end in quad precision and from beside */
+  int32_t attractor;               /* id in the catalogue of the scene's window; -1 = not settled */
+  char name[KZ_NAME_LENGTH];       /* "" = not settled */
+  int32_t period, winding;         /* as in /attractors */
+  int64_t settling_time;           /* drive periods until the orbit is inside a trapping region */
+  const char *precision;           /* that decides it: single, double, pairs, quad; NULL = none does, or not settled */
+  double error;                    /* rad: how far the orbit may be off when it is trapped; NaN = not decided, or chaotic */
+  int32_t other;                   /* settled, but not decided: the other candidate's id; -1 = none */
+  char other_name[KZ_NAME_LENGTH]; /* "" = none */
   double *strobe_theta, *strobe_velocity; /* [period] rad, rad per drive radian; NULL = not settled */
 } kz_ending;
 
-/* Where n starts (start [n][2], rad and rad per drive radian) end, into endings [n]. The attractors are those that the search of
- * the scene's study basin or attractors finds, and those that the starts find themselves; each start is followed by direct
- * integration with the scene's numerics. `decided`: so it ends in quad precision (Taylor series), and from the four nearest
- * starts that double precision tells from it. KZ_REFUSED without such a study. Not collective. kz_where_free in every case. */
-kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, kz_ending *endings);
+/* Where n starts (start [n][2], rad and rad per drive radian; low [n][2]: what is to be added to them, below their last places) end, into
+ * endings [n]. The attractors are those that the search of the scene's study basin or attractors finds, and those that the starts find
+ * themselves; each start is then labelled as basin.method exact labels a cell. KZ_REFUSED without such a study. Not collective.
+ * kz_where_free in every case. */
+kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, const double *low, kz_ending *endings);
 void kz_where_free(int64_t n, kz_ending *endings);
 
 #endif

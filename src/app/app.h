@@ -61,9 +61,15 @@ kz_status kz_app_view(const kz_options *options); /* becomes the explorer: retur
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 
-/* Starts of the command where: one from the operands, or lines "theta,velocity" of standard input, into *starts [*n][2] in rad
- * and rad per drive radian, which the caller frees. KZ_REFUSED names the operand or the line. */
-kz_status kz_starts_read(const kz_options *options, int64_t *n, double **starts);
+/* Starts of the command where: one from the operands, or lines "theta,velocity" of standard input. start [n][2] in rad and rad per drive
+ * radian, low [n][2] what is to be added to them below their last places. KZ_REFUSED names the operand or the line. To be freed in every
+ * case. */
+typedef struct {
+  int64_t n;
+  double *start, *low;
+} kz_starts;
+kz_status kz_starts_read(const kz_options *options, kz_starts *starts);
+void kz_starts_free(kz_starts *starts);
 
 /* FILE of a run, written to path [bytes]. KZ_REFUSED where the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);

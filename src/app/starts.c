@@ -1,4 +1,6 @@
 /* Starts that the command where asks about: two operands, or a table on standard input. */
+#include <ctype.h>
+#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,11 +12,22 @@ enum { MOST_STARTS = 100000 };
 static const double MOST[2] = {1e6, 1e9};
 static const char *const NAMES[2] = {"THETA", "VELOCITY"};
 
-/* One number of a start; `place` names it. */
-static kz_status read_number(const char *text, int which, const char *place, double *value) {
+/* Whether a number has more digits than it takes to tell doubles apart. */
+static bool is_long(const char *text) {
+  const char *c = text + strspn(text, "+-0.");
+  int digits = 0;
+  for (; isdigit((unsigned char)*c) || *c == '.'; c++) digits += *c != '.';
+  return digits > DBL_DECIMAL_DIG;
+}
+
+/* One number of start i, the nearest double unless it is long: cells of a file keep their labels; `place` names it. */
+static kz_status read_number(const char *text, int which, const char *place, kz_starts *starts, int64_t i) {
   const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
-  const char *wrong = (which == 0 ? kz_scalar_angle : kz_scalar_real)(&node, value);
-  if (!wrong && (*value < -MOST[which] || *value > MOST[which])) wrong = "is out of range";
+  kz_decimal value = {0};
+  const char *wrong = kz_scalar_decimal(&node, which == 0, &value);
+  if (!wrong && (value.high < -MOST[which] || value.high > MOST[which])) wrong = "is out of range";
+  starts->start[2 * i + which] = value.high;
+  starts->low[2 * i + which] = is_long(text) ? value.low : 0;
   if (!wrong) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s; it must be a number from %g to %g in %s", place, NAMES[which], text, wrong,
                  -MOST[which], MOST[which], which == 0 ? "rad, or in degrees such as 90 deg" : "rad per drive radian");
@@ -27,15 +40,15 @@ static char *trimmed(char *text) {
   return text;
 }
 
-static kz_status read_row(char *line, int64_t number, double *start) {
+static kz_status read_row(char *line, int64_t number, kz_starts *starts) {
   char place[64];
   snprintf(place, sizeof place, "standard input:%lld", (long long)number);
   char *comma = strchr(line, ',');
   if (!comma || strchr(comma + 1, ','))
     return kz_fail(KZ_REFUSED, "%s: \"%.60s\" is not a start; write theta,velocity", place, trimmed(line));
   *comma = '\0';
-  KZ_TRY(read_number(trimmed(line), 0, place, start));
-  return read_number(trimmed(comma + 1), 1, place, start + 1);
+  KZ_TRY(read_number(trimmed(line), 0, place, starts, starts->n));
+  return read_number(trimmed(comma + 1), 1, place, starts, starts->n++);
 }
 
 /* A first line of names, and empty lines, are no starts. */
@@ -43,43 +56,45 @@ static bool is_start(const char *line, int64_t number) {
   return line[strspn(line, " \t\r\n")] != '\0' && !(number == 1 && strncmp(line, "theta", 5) == 0);
 }
 
-static kz_status read_table(int64_t *n, double *starts) {
+static kz_status read_table(kz_starts *starts) {
   char *line = NULL;
   size_t bytes = 0;
   kz_status status = KZ_OK;
   for (int64_t number = 1; status == KZ_OK && getline(&line, &bytes, stdin) >= 0; number++) {
     if (!is_start(line, number)) continue;
-    status = *n < MOST_STARTS
-                 ? read_row(line, number, starts + 2 * (*n)++)
+    status = starts->n < MOST_STARTS
+                 ? read_row(line, number, starts)
                  : kz_fail(KZ_REFUSED, "standard input:%lld: one start too many (at most %d)", (long long)number, MOST_STARTS);
   }
   free(line);
   if (status == KZ_OK && ferror(stdin)) return kz_fail(KZ_FAILED, "standard input cannot be read");
-  if (status == KZ_OK && *n == 0) return kz_fail(KZ_REFUSED, "standard input: holds no start; write lines theta,velocity");
+  if (status == KZ_OK && starts->n == 0)
+    return kz_fail(KZ_REFUSED, "standard input: holds no start; write lines theta,velocity");
   return status;
 }
 
-static kz_status read_starts(const kz_options *options, int64_t *n, double *starts) {
+static kz_status read_starts(const kz_options *options, kz_starts *starts) {
   const char *const *operands = options->operands;
   if (options->n_operands == 2) {
     if (strcmp(operands[1], "-") != 0)
       return kz_fail(KZ_REFUSED, "VELOCITY: is missing; kapitza where SCENE THETA VELOCITY, or - for starts on standard input");
     if (strcmp(options->scene, "-") == 0)
       return kz_fail(KZ_REFUSED, "-: the scene and the starts cannot both come from standard input; give a scene file");
-    return read_table(n, starts);
+    return read_table(starts);
   }
-  *n = 1;
-  for (int i = 0; i < 2; i++) KZ_TRY(read_number(operands[1 + i], i, "where", starts + i));
+  starts->n = 1;
+  for (int i = 0; i < 2; i++) KZ_TRY(read_number(operands[1 + i], i, "where", starts, 0));
   return KZ_OK;
 }
 
-kz_status kz_starts_read(const kz_options *options, int64_t *n, double **starts) {
-  *n = 0;
-  *starts = malloc(2 * sizeof **starts * MOST_STARTS);
-  if (!*starts) return kz_fail(KZ_FAILED, "out of memory for the starts");
-  const kz_status status = read_starts(options, n, *starts);
-  if (status == KZ_OK) return KZ_OK;
-  free(*starts);
-  *starts = NULL;
-  return status;
+kz_status kz_starts_read(const kz_options *options, kz_starts *starts) {
+  const size_t bytes = 2 * sizeof(double) * MOST_STARTS;
+  *starts = (kz_starts){.start = malloc(bytes), .low = malloc(bytes)};
+  if (starts->start && starts->low) return read_starts(options, starts);
+  return kz_fail(KZ_FAILED, "out of memory for the starts");
+}
+
+void kz_starts_free(kz_starts *starts) {
+  free(starts->start);
+  free(starts->low);
 }

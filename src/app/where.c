@@ -1,6 +1,7 @@
 /* The command where: where starts end, for people, as CSV or as JSON. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "app.h"
 
@@ -8,6 +9,15 @@ static void print_number(double value) {
   char text[32];
   kz_scalar_print(value, text);
   fputs(text, stdout);
+}
+
+static void print_decision(const kz_ending *e) {
+  if (e->precision)
+    printf("decided         yes, in %s", strcmp(e->precision, "pairs") == 0 ? "pairs of doubles" : e->precision);
+  else
+    printf("decided         no: quad precision does not tell %s from %s", e->name, e->other_name[0] ? e->other_name : "others");
+  if (!isnan(e->error)) printf(": off by at most %.2g rad where it is trapped", e->error);
+  putchar('\n');
 }
 
 static void print_person(const double *start, const kz_ending *e) {
@@ -18,8 +28,7 @@ static void print_person(const double *start, const kz_ending *e) {
   }
   printf("ends on         %s (attractor %d)\n", e->name, (int)e->attractor);
   printf("settling time   %lld drive periods\n", (long long)e->settling_time);
-  printf("decided         %s\n", e->decided ? "yes: it ends so in quad precision too, and from a rounding beside"
-                                            : "no: quad precision, or a start one rounding beside, ends elsewhere");
+  print_decision(e);
   if (e->period == 0) {
     puts("period          none: chaotic");
     return;
@@ -37,6 +46,11 @@ static void print_list(const char *name, int n, const double *values) {
   putchar(']');
 }
 
+static void print_word(const char *name, const char *value) {
+  const char *quote = value[0] ? "\"" : "";
+  printf(", \"%s\": %s%s%s", name, quote, value[0] ? value : "null", quote);
+}
+
 static void print_json(const double *start, const kz_ending *e) {
   fputs("{\"theta\": ", stdout);
   print_number(start[0]);
@@ -48,9 +62,17 @@ static void print_json(const double *start, const kz_ending *e) {
   else
     printf(", \"name\": \"%s\", \"period\": %d, \"winding\": %d, \"settling_time\": %lld", e->name, (int)e->period,
            (int)e->winding, (long long)e->settling_time);
-  printf(", \"decided\": %s", e->decided ? "true" : "false");
+  printf(", \"decided\": %s", e->precision ? "true" : "false");
   print_list("strobe_theta", e->period, e->strobe_theta);
   print_list("strobe_velocity", e->period, e->strobe_velocity);
+  print_word("precision", e->precision ? e->precision : "");
+  fputs(", \"error\": ", stdout);
+  if (isnan(e->error))
+    fputs("null", stdout);
+  else
+    print_number(e->error);
+  printf(", \"other_attractor\": %d", (int)e->other);
+  print_word("other_name", e->other_name);
   puts("}");
 }
 
@@ -64,28 +86,32 @@ static void print_csv(const double *start, const kz_ending *e) {
     fputs(",,,", stdout);
   else
     printf("%s,%d,%d,%lld", e->name, (int)e->period, (int)e->winding, (long long)e->settling_time);
-  printf(",%s,", e->decided ? "true" : "false");
+  printf(",%s,", e->precision ? "true" : "false");
   if (e->period > 0) print_number(e->strobe_theta[0]);
   putchar(',');
   if (e->period > 0) print_number(e->strobe_velocity[0]);
-  putchar('\n');
+  printf(",%s,", e->precision ? e->precision : "");
+  if (!isnan(e->error)) print_number(e->error);
+  printf(",%d,%s\n", (int)e->other, e->other_name);
 }
 
-static void print_endings(const kz_options *options, int64_t n, const double *starts, const kz_ending *endings) {
+static void print_endings(const kz_options *options, const kz_starts *starts, const kz_ending *endings) {
   const bool table = options->n_operands == 2;
   void (*print)(const double *, const kz_ending *) = options->json ? print_json : table ? print_csv : print_person;
   if (table && !options->json)
-    puts("theta,velocity,attractor,name,period,winding,settling_time,decided,strobe_theta,strobe_velocity");
-  for (int64_t i = 0; i < n; i++) print(starts + 2 * i, endings + i);
+    puts(
+        "theta,velocity,attractor,name,period,winding,settling_time,decided,strobe_theta,strobe_velocity,"
+        "precision,error,other_attractor,other_name");
+  for (int64_t i = 0; i < starts->n; i++) print(starts->start + 2 * i, endings + i);
 }
 
-static kz_status answer(const kz_options *options, const kz_scene *scene, int64_t n, const double *starts) {
+static kz_status answer(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
   KZ_TRY(kz_studies_check(scene));
-  kz_ending *endings = calloc((size_t)n, sizeof *endings);
-  if (!endings) return kz_fail(KZ_FAILED, "out of memory for %lld starts", (long long)n);
-  const kz_status status = kz_where(scene, n, starts, endings);
-  if (status == KZ_OK) print_endings(options, n, starts, endings);
-  kz_where_free(n, endings);
+  kz_ending *endings = calloc((size_t)starts->n, sizeof *endings);
+  if (!endings) return kz_fail(KZ_FAILED, "out of memory for %lld starts", (long long)starts->n);
+  const kz_status status = kz_where(scene, starts->n, starts->start, starts->low, endings);
+  if (status == KZ_OK) print_endings(options, starts, endings);
+  kz_where_free(starts->n, endings);
   free(endings);
   return status;
 }
@@ -94,18 +120,17 @@ kz_status kz_app_where(const kz_options *options) {
   char *text;
   size_t length;
   kz_scene scene;
-  double *starts = NULL;
-  int64_t n;
+  kz_starts starts = {0};
   if (!options->speaks) return KZ_OK;
   KZ_TRY(kz_scene_load(options->scene, &text, &length));
   kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
   if (status == KZ_OK) {
-    status = kz_starts_read(options, &n, &starts);
-    if (status == KZ_OK) status = answer(options, &scene, n, starts);
+    status = kz_starts_read(options, &starts);
+    if (status == KZ_OK) status = answer(options, &scene, &starts);
     status = kz_scene_locate(status, text, length, options->scene, options->n_sets, options->sets);
     kz_scene_free(&scene);
   }
-  free(starts);
+  kz_starts_free(&starts);
   free(text);
   return status;
 }

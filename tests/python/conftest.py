@@ -137,9 +137,10 @@ def kapitza():
     """Runs the program: kapitza("run", scene, ranks=2, folder=..., check=0) -> CompletedProcess."""
     assert PROGRAM.is_file(), "build/kapitza is missing: scripts/setup builds it"
 
-    def call(*arguments, ranks=None, folder=ROOT, status=0):
+    def call(*arguments, ranks=None, folder=ROOT, status=0, text=None):
         launcher = ["mpirun", "-n", str(ranks)] if ranks else []
-        done = subprocess.run([*launcher, PROGRAM, *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=280)
+        command = [*launcher, PROGRAM, *map(str, arguments)]
+        done = subprocess.run(command, cwd=folder, input=text, capture_output=True, text=True, timeout=280)
         assert status is None or done.returncode == status, done.stderr + done.stdout
         return done
 

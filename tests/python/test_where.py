@@ -1,4 +1,4 @@
-"""The command where: held against the labels and the catalogue of a run; what double precision does not decide; what is refused."""
+"""The command where: held against the labels and the catalogue of a run; what is refused."""
 
 import csv
 import io
@@ -11,6 +11,8 @@ from conftest import PROGRAM, ROOT
 from kapitza.result import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
+# Some 13 % of these labels are wrong by any method in double precision.
+LONG = ["--set", "pendulum={quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", "--set", "basin.attractors.starts=512"]
 QUICK = ["--set", "basin.icm={theta: 100, velocity: 100}", "--set", "basin.attractors.starts=1024"]
 
 
@@ -27,21 +29,26 @@ def table(*arguments, starts):
     return list(csv.DictReader(io.StringIO(done.stdout)))
 
 
-@pytest.mark.parametrize("window", [[], ["--set", "basin.theta={min: 2, max: 4, count: 100}"]])
-def test_the_labels_of_a_run(kapitza, tmp_path, window):
-    path = tmp_path / "direct.h5"
-    window = [*window, "--set", "basin.method=direct"]
-    kapitza("run", SMALL, *window, "-o", path)
-    basin, attractors = Result(path).group("basin"), Result(path).group("attractors")
-    rows, columns = np.divmod(np.arange(7, 10000, 43), 100)
-    starts = np.column_stack([basin["theta"].values[columns], basin["velocity"].values[rows]])
-    found = table(SMALL, *window, starts=starts)
+@pytest.mark.parametrize("words", [[], LONG], ids=["window", "long"])
+def test_the_labels_of_a_run(kapitza, tmp_path, words):
+    """Labels, times, precisions and candidates are those of method exact, and the orbits those of the file, to the last bit."""
+    words = [*words, "--set", "basin.theta={min: 2, max: 4, count: 24}", "--set", "basin.velocity.count=24", "--set", "basin.method=exact"]
+    kapitza("run", SMALL, *words, "-o", tmp_path / "exact.h5", ranks=2)
+    basin, attractors = (Result(tmp_path / "exact.h5").group(name) for name in ("basin", "attractors"))
+    theta, velocity = np.meshgrid(basin["theta"].values, basin["velocity"].values)
+    found = table(SMALL, *words, starts=np.column_stack([theta.ravel(), velocity.ravel()]))
     ids = np.array([int(row["attractor"]) for row in found])
-    assert np.array_equal(ids, basin["attractor"].values[rows, columns])
-    apart = np.array([int(row["settling_time"]) for row in found]) - basin["settling_time"].values[rows, columns].astype(int)
-    assert np.abs(apart).max() <= 1 and np.mean(apart != 0) < 0.02  # at the edge of a trapping region, which moves by 1e-13
+    for column, variable in (("attractor", "attractor"), ("settling_time", "settling_time"), ("other_attractor", "other_attractor")):
+        assert [int(row[column]) for row in found] == basin[variable].values.ravel().tolist(), column
     assert [row["name"] for row in found] == [str(attractors["name"].values[index]) for index in ids]
-    assert [float(row["strobe_theta"]) for row in found] == pytest.approx(attractors["strobe_theta"].values[ids, 0], abs=1e-11)
+    assert [float(row["strobe_theta"]) for row in found] == attractors["strobe_theta"].values[ids, 0].tolist()
+    evidence = basin["evidence"].values.ravel().tolist()
+    assert [row["precision"] for row in found] == [{3: "", 4: "quad", 5: "pairs"}.get(value, "double") for value in evidence]
+    assert [row["decided"] == "true" for row in found] == [value != 3 for value in evidence]
+    assert all(0 <= float(row["error"]) < 0.1 for row in found if row["decided"] == "true")
+    assert all((row["error"], row["other_name"]) == ("", str(attractors["name"].values[int(row["other_attractor"])]))
+               for row in found if row["decided"] == "false")
+    assert ({3, 4, 5} <= set(evidence)) == (words[:2] == LONG[:2])
 
 
 def test_json_holds_the_whole_orbit():
@@ -51,23 +58,8 @@ def test_json_holds_the_whole_orbit():
     assert len(answer["strobe_theta"]) == len(answer["strobe_velocity"]) == answer["period"]
     words = where(SMALL, "2.5", "-.7", *QUICK).stdout
     assert f"{answer['name']} (attractor {answer['attractor']})" in words and f"{answer['settling_time']} drive periods" in words
-    assert ("yes" in words) == answer["decided"]
-
-
-def test_an_edge_between_two_basins_is_not_decided():
-    """Sections of a line that always keep an edge inside, down to the last place."""
-    low, high = 0.0, 2.0
-    for _ in range(12):
-        line = np.unique(np.linspace(low, high, 101))
-        found = table(SMALL, *QUICK, starts=np.column_stack([line, np.full(len(line), 0.3)]))
-        names = [row["name"] for row in found]
-        edge = next(i for i in range(1, len(names)) if names[i] != names[0])
-        low, high = line[edge - 1], line[edge]
-        if high <= np.nextafter(low, 9):
-            break
-    assert high <= np.nextafter(low, 9)
-    assert "false" in (found[edge - 1]["decided"], found[edge]["decided"])
-    assert all(row["decided"] == "true" for row in table(SMALL, *QUICK, starts=[[0.0, 0.0], [3.1, 0.0], [3.0, 1.1]]))
+    assert answer["decided"] and (answer["precision"], answer["other_attractor"], answer["other_name"]) == ("double", -1, None)
+    assert f"yes, in double: off by at most {answer['error']:.2g} rad" in words
 
 
 def test_what_the_window_does_not_reach_is_found_from_the_start_itself():

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+from decimal import Decimal, getcontext
 
 import h5py
 import numpy as np
@@ -140,13 +141,25 @@ def wrong_labels(path):
     return np.count_nonzero(wrong), np.mean(evidence == UNDECIDED), np.mean(evidence >= UNDECIDED)
 
 
+def labels_of_typed_starts(kapitza, folder, width, count):
+    """Those that the command where gives for the cells' centres, written out in decimals."""
+    getcontext().prec = 50
+    offsets = [(2 * i + 1 - count) * Decimal(width) / (2 * count) for i in range(count)]
+    starts = "".join(f"{Decimal(BOUNDARY) + theta},{17 + velocity}\n" for velocity in offsets for theta in offsets)
+    done = kapitza("where", "deep.yaml", "-", "--json", folder=folder, text=starts)
+    return np.array([json.loads(line)["attractor"] for line in done.stdout.splitlines()]).reshape(count, count)
+
+
 @pytest.mark.parametrize("width, precise", [("2e-7", 0.05), ("1e-10", 0.5), ("1e-15", 0.9), ("1e-20", 0.8)])
 def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width, precise):
     kapitza("run", deep(tmp_path, BOUNDARY, "17", width, 30 if EXTENSIVE else 8), folder=tmp_path)
     wrong, undecided, more = wrong_labels(tmp_path / "deep.h5")
     assert wrong == 0 and undecided < 0.1 and more > precise
     with h5py.File(tmp_path / "deep.h5") as file:
-        assert len(np.unique(file["basin/attractor"][:])) > 1
+        labels = file["basin/attractor"][:]
+        assert len(np.unique(labels)) > 1
+    if width == "1e-20":
+        assert np.array_equal(labels_of_typed_starts(kapitza, tmp_path, width, len(labels)), labels)
 
 
 @pytest.mark.skipif(not EXTENSIVE, reason="takes minutes: KAPITZA_EXTENSIVE=1")

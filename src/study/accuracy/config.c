@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "common/cells.h"
+#include "common/decide.h"
 #include "common/map_table.h"
 #include "common/search.h"
 
@@ -14,8 +15,8 @@ enum { CHUNK = 16384 }; /* cells labelled at a time */
 /* Arrays of one chunk: too large for the stack. */
 typedef struct {
   double state[2 * CHUNK];
-  int64_t periods[CHUNK], place[CHUNK];
-  int32_t found[CHUNK];
+  int64_t periods[CHUNK];
+  kz_decision decision[CHUNK];
 } workspace;
 
 typedef struct {
@@ -33,29 +34,30 @@ static double seconds(void) {
 }
 
 /* Labels [n] of the cells first, first + 1, ... of the sample by method exact; KZ_DOUBTFUL where no rung decides. */
-static void decide_cells(const measurement *g, int64_t first, int64_t n, int32_t *label) {
+static kz_status decide_cells(const measurement *g, int64_t first, int64_t n, int32_t *label) {
+  const kz_basin_plan *plan = g->reference->plan;
   workspace *w = g->work;
-  for (int64_t i = 0; i < n; i++) label[i] = KZ_DOUBTFUL;
-  for (int32_t rung = 0; rung < KZ_RUNGS; rung++) {
-    int64_t open = 0;
-    for (int64_t i = 0; i < n; i++) {
-      if (label[i] != KZ_DOUBTFUL) continue;
-      kz_cell_start(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * open);
-      w->place[open++] = i;
-    }
-    kz_dynamics_follow_errors(g->dynamics, rung, open, g->reference->plan->max_periods, w->state, NULL, w->found, w->periods, NULL);
-    for (int64_t i = 0; i < open; i++) label[w->place[i]] = w->found[i];
-  }
+  for (int64_t i = 0; i < n; i++) kz_cell_start(plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
+  KZ_TRY(kz_decide(g->dynamics, plan->max_periods, n, w->state, NULL, w->decision));
+  for (int64_t i = 0; i < n; i++) label[i] = w->decision[i].label;
+  return KZ_OK;
+}
+
+/* The finer map and the tables of pairs of doubles are made where they are first needed: now. */
+static void make_rungs(const measurement *g) {
+  int32_t label;
+  for (int32_t rung = 0; rung < KZ_RUNGS; rung++)
+    kz_dynamics_follow_errors(g->dynamics, rung, 0, 0, g->work->state, NULL, &label, g->work->periods, NULL);
 }
 
 /* Labels [n] of the first n cells in the order of the sample. */
-static void label_cells(const measurement *g, int64_t n, int32_t *label) {
+static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
   const kz_config *s = g->config;
   workspace *w = g->work;
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
     if (s->method == KZ_METHOD_EXACT) {
-      decide_cells(g, first, some, label + first);
+      KZ_TRY(decide_cells(g, first, some, label + first));
       continue;
     }
     for (int64_t i = 0; i < some; i++)
@@ -63,6 +65,7 @@ static void label_cells(const measurement *g, int64_t n, int32_t *label) {
     kz_dynamics_follow(g->dynamics, kz_way(s->method, s->interpolation), some, g->reference->plan->max_periods, w->state,
                        label + first, w->periods);
   }
+  return KZ_OK;
 }
 
 /* The largest difference between the counts of one attractor among labels and among true ones. */
@@ -101,7 +104,7 @@ static kz_status set_up(measurement *g) {
   const int64_t cells = kz_regions_cells(g->reference->total);
   if (cells > 0) kz_dynamics_fine_regions(g->dynamics, cells, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
-  if (s->method == KZ_METHOD_EXACT) decide_cells(g, 0, 0, NULL); /* makes the tables of the rungs */
+  if (s->method == KZ_METHOD_EXACT) make_rungs(g);
   if (s->method == KZ_METHOD_ICM) KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   return KZ_OK;
 }
@@ -110,7 +113,7 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
   const double start = seconds();
   KZ_TRY(set_up(g));
   const double ready = seconds();
-  label_cells(g, n, label);
+  KZ_TRY(label_cells(g, n, label));
   *m = (kz_measured){.set_up = ready - start, .cell = (seconds() - ready) / (double)n};
   compare(g->reference, label, m);
   m->count_error = largest_count_error(g->reference, label, surplus, kz_dynamics_count(g->dynamics));

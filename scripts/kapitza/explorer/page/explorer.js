@@ -130,7 +130,8 @@ function writeEnding(ending) {
   const start = `From θ = ${ending.theta.toPrecision(8)}, velocity ${ending.velocity.toPrecision(8)}\n`;
   element("ending").textContent = start + (ending.attractor < 0 ? "not settled" :
     `ends on ${ending.name}, settled after ${ending.settling_time} drive period${ending.settling_time === 1 ? "" : "s"}\n` +
-    (ending.decided ? "decided: quad precision agrees" : "not decided in double precision"));
+    (ending.decided ? `decided in ${ending.precision === "pairs" ? "pairs of doubles" : `${ending.precision} precision`}`
+      : `not decided: ${ending.name} or ${ending.other_name ?? "another"}`));
   element("ending").dataset.ending = JSON.stringify(ending);
 }
 
