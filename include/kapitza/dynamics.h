@@ -44,9 +44,9 @@ void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t m
                         int64_t *periods);
 
 /* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) of n_steps steps a period, from start [n][2] in rad and
- * rad per drive radian, both taken as exact. */
+ * rad per drive radian; low [n][2]: what is to be added to them, below their last places; NULL = nothing. The sums are taken as exact. */
 void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
-                                  int32_t *label, int64_t *periods);
+                                  const double *low, int32_t *label, int64_t *periods);
 
 /* Precisions in which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; pairs of
  * doubles; quad precision, by Taylor series. */
@@ -55,10 +55,9 @@ enum { KZ_RUNG_DOUBLE = 0, KZ_RUNG_PAIRS = 1, KZ_RUNG_QUAD = 2, KZ_RUNGS = 3 };
 enum { KZ_DOUBTFUL = -1 };
 
 /* kz_dynamics_follow on a rung, with the error of each orbit beside it (Fortran: covariance.f90): from the last place of its start,
- * and from the steps and the rounding of every period. An orbit is trapped once a trapping region holds it with its error. start [n][2]
- * in rad and rad per drive radian; low [n][2]: what is to be added to them, below their last places; NULL = nothing. The sums are taken as
- * exact. reach [n], NULL = not asked: how far an orbit may be off when it is trapped, rad (three standard deviations); it means nothing on
- * a chaotic attractor and with KZ_DOUBTFUL. */
+ * and from the steps and the rounding of every period. An orbit is trapped once a trapping region holds it with its error. start and low
+ * as for the reference. reach [n], NULL = not asked: how far an orbit may be off when it is trapped, rad (three standard deviations); it
+ * means nothing on a chaotic attractor and with KZ_DOUBTFUL. */
 void kz_dynamics_follow_errors(kz_dynamics *dynamics, int32_t rung, int64_t n, int64_t max_periods, const double *start,
                                const double *low, int32_t *label, int64_t *periods, double *reach);
 

@@ -50,6 +50,7 @@ typedef struct {
   int64_t values[KZ_LIST_MAX];
 } kz_integers;
 
+enum { KZ_BOUNDARY_DECADES = 10, KZ_BOUNDARY_MOST_DECADES = 23 };
 enum { KZ_MOST_SHOCK_SIZES = 16 };
 /* Smallest shocks that leave a basin. The size of one is hypot(dtheta, dv / scale). */
 typedef struct {
@@ -72,7 +73,8 @@ typedef struct {
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;
   struct {
-    int64_t pairs; /* starts, each with a partner at every distance */
+    int64_t pairs;   /* starts, each with a partner at every distance */
+    int64_t decades; /* of distances, from 1e-2 rad down; more than KZ_BOUNDARY_DECADES with method exact alone */
   } boundary;
   bool has_shocks;
   kz_shocks_plan shocks;

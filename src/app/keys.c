@@ -136,12 +136,14 @@ const kz_key kz_keys[] = {
          "sample "
          "followed in quad precision shows to be as right (95 % bound); 1, or what no setting reaches: method exact."),
 
-    MAPPING(
-        "basin.boundary", "", AT(basin.has_boundary),
-        "How fractal the boundaries are: uncertainty exponents over eleven decades, box-counting dimension, basins that share "
-        "their boundary."),
+    MAPPING("basin.boundary", "", AT(basin.has_boundary),
+            "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that share "
+            "their boundary."),
     INTEGER("basin.boundary.pairs", 100, 1e8, "50000", basin.boundary.pairs,
-            "Starts of the window, each with a partner at 1e-2, 1e-3, ... 1e-12 rad."),
+            "Starts of the window, each with a partner at 1e-2, 1e-3, ... rad."),
+    INTEGER("basin.boundary.decades", 2, KZ_BOUNDARY_MOST_DECADES, "10", basin.boundary.decades,
+            "Decades of these distances: 10 go down to 1e-12 rad; more take basin.method exact, since doubles do not tell such "
+            "starts apart."),
     MAPPING("basin.shocks", "", AT(basin.has_shocks),
             "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
     REAL("basin.shocks.scale", "rad per drive radian", 1e-6, 1e6, "1", basin.shocks.scale,

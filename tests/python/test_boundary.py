@@ -7,6 +7,8 @@ import pytest
 from conftest import datasets
 from kapitza import Result
 
+# A point at rest on the edge of the basin of Fig. 11's inverted state, found by bisection with the command where.
+EDGE = "2.332871765266180303048402854174"
 FIGURE = {"quality_factor": 5, "drive_frequency": 11}
 
 
@@ -50,6 +52,25 @@ def test_a_smooth_boundary(kapitza, tmp_path):
     group = run(kapitza, tmp_path, window)[0].group("boundary")
     assert group.attrs["uncertainty_exponent_low"] < 1 < group.attrs["uncertainty_exponent_high"]
     assert group["dimension"].values[:4] == pytest.approx(1, abs=0.05)
+
+
+def test_distances_below_the_last_place_of_a_double(kapitza, tmp_path):
+    """Across a window of 1e-18 the edge of the inverted state's basin is one straight line through its middle, nearly along a side:
+    half of the pairs that are farther apart lie on two sides, of nearer ones 2/pi times their distance over the width."""
+    width = 1e-18
+    deep = scene(0.15)
+    axes = {name: {"centre": centre, "width": str(width), "count": 2} for name, centre in (("theta", EDGE), ("velocity", 0))}
+    deep["basin"] = {**axes, "method": "exact", "attractors": {"starts": 512}, "boundary": {"pairs": 100, "decades": 18}}
+    group = run(kapitza, tmp_path, deep, ranks=None)[0].group("boundary")
+    distance, low, high = (group[name].values for name in ("distance", "uncertain_low", "uncertain_high"))
+    known = np.where(distance > width, 0.5, 2 / np.pi * distance / width)
+    apart = (distance > 10.5 * width) | (distance < 0.9 * width)
+    assert len(distance) == 19 and distance[-1] == pytest.approx(1e-20)
+    assert np.all((low < known)[apart] & (known < high)[apart])
+    assert group["slope_low"].values[-2] < 1 < group["slope_high"].values[-2]
+    (tmp_path / "s.yaml").write_text(json.dumps(scene(0.15)))
+    done = kapitza("check", "s.yaml", "--set", "basin.boundary.decades=11", folder=tmp_path, status=2)
+    assert "basin.boundary.decades: 11 go down to 1e-13 rad" in done.stderr
 
 
 def test_any_number_of_ranks(fractal, kapitza, tmp_path):

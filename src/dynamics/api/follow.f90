@@ -68,12 +68,14 @@ contains
     state(2, :) = unpack(v, label == 0, state(2, :))
   end subroutine leave_open
 
-  subroutine follow_reference(handle, n_steps, n, max_periods, start, label, periods) bind(C, name='kz_dynamics_follow_reference')
+  subroutine follow_reference(handle, n_steps, n, max_periods, start, low, label, periods) &
+    bind(C, name='kz_dynamics_follow_reference')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: n_steps
     integer(c_int64_t), value :: n
     integer(c_int64_t), value :: max_periods
     real(dp), intent(in) :: start(2, n)
+    real(dp), intent(in), optional :: low(2, n)
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
     type(dynamics_t), pointer :: d
@@ -82,7 +84,7 @@ contains
 
     d => of_handle(handle)
     allocate (map, state(2, n))
-    call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :))
+    call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low=low)
     state(2, :) = start(2, :)
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)
@@ -108,10 +110,8 @@ contains
     if (rung == RUNG_DOUBLE) then
       state(1, :) = half_turns(start(1, :))
       call make_covariant(d, map)
-    else if (present(low)) then
-      call make_precise(d, rung, start, state(1, :), map, low)
     else
-      call make_precise(d, rung, start, state(1, :), map)
+      call make_precise(d, rung, start, state(1, :), map, low)
     end if
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods, reach)

@@ -135,7 +135,7 @@ static void find_distances(const reference_job *h, int64_t n, const int64_t *cel
 }
 
 static void follow(const reference_job *h, int32_t steps, int64_t n, const double *start, int32_t *label, int64_t *periods) {
-  kz_dynamics_follow_reference(h->dynamics, steps, n, h->reference->plan->max_periods, start, label, periods);
+  kz_dynamics_follow_reference(h->dynamics, steps, n, h->reference->plan->max_periods, start, NULL, label, periods);
 }
 
 /* Does every ASKED-th cell come out the same with another number of steps? */

@@ -3,13 +3,16 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/cells.h"
 #include "common/column.h"
+#include "common/decide.h"
 #include "common/share.h"
 #include "common/starts.h"
 
 enum {
-  DISTANCES = 11, /* 1e-2 .. 1e-12 rad */
-  STARTS = 64,    /* of a tile, each with a partner at every distance */
+  MOST = KZ_BOUNDARY_MOST_DECADES + 1, /* distances, from 1e-2 rad down */
+  STARTS = 64,                         /* of a tile, each with a partner at every distance */
+  POINTS = STARTS * (1 + MOST),
   STRIP = 1 << (KZ_BOX_LEVELS - 1),
   SHOWN = 4 /* the level of boxes that the summary shows: 16 cells */
 };
@@ -22,39 +25,74 @@ typedef struct {
 } pairing;
 
 typedef struct {
-  int64_t pairs[DISTANCES], uncertain[DISTANCES];
+  int64_t pairs[MOST], uncertain[MOST];
 } pair_record;
+
+/* The starts of a tile and their partners: in pairs of doubles, and where they end. */
+typedef struct {
+  double start[2 * POINTS], low[2 * POINTS];
+  int32_t end[POINTS];
+  int64_t periods[POINTS];
+  kz_decision decision[POINTS];
+} pair_room;
 
 static double distance_of(int d) {
   return pow(10, -2 - d);
 }
 
-/* Start i of an evenly spread sequence (M. Roberts' R2) and its partners, in directions that spread evenly too: point [1 + DISTANCES][2]. */
-static void spread(const kz_basin_plan *plan, int64_t i, double *point) {
-  const double u = fmod(0.5 + (double)i * 0.75487766624669276, 1), v = fmod(0.5 + (double)i * 0.56984029099805327, 1),
-               angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
-  point[0] = plan->theta.min + u * (plan->theta.max - plan->theta.min);
-  point[1] = plan->velocity.min + v * (plan->velocity.max - plan->velocity.min);
-  for (int d = 0; d < DISTANCES; d++) {
-    point[2 * (d + 1)] = point[0] + distance_of(d) * cos(angle);
-    point[2 * (d + 1) + 1] = point[1] + distance_of(d) * sin(angle);
+static int distances_of(const kz_basin_plan *plan) {
+  return (int)plan->boundary.decades + 1;
+}
+
+/* The point so large shares of the window from its lower left corner, and a distance more. */
+static void put(const kz_basin_plan *plan, const double share[2], const double offset[2], pair_room *r, int64_t i) {
+  const kz_axis *const axes[] = {&plan->theta, &plan->velocity};
+  for (int axis = 0; axis < 2; axis++) {
+    double pair[2];
+    kz_axis_at(axes[axis], share[axis], offset[axis], pair);
+    r->start[2 * i + axis] = pair[0];
+    r->low[2 * i + axis] = pair[1];
   }
 }
 
+/* Start i of an evenly spread sequence (M. Roberts' R2) and its partners, in directions that spread evenly too, from place `first` on. */
+static void spread(const kz_basin_plan *plan, int64_t i, pair_room *r, int64_t first) {
+  const double share[] = {fmod(0.5 + (double)i * 0.75487766624669276, 1), fmod(0.5 + (double)i * 0.56984029099805327, 1)},
+               angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
+  put(plan, share, (const double[2]){0, 0}, r, first);
+  for (int d = 0; d < distances_of(plan); d++)
+    put(plan, share, (const double[2]){distance_of(d) * cos(angle), distance_of(d) * sin(angle)}, r, first + 1 + d);
+}
+
+/* By the method's own labels: with their errors, or by integration. What no rung decides is followed in quad precision without regard to
+ * its error: that is an error of the start, far below the smallest distance. Left out, such pairs would be missed among the uncertain. */
+static kz_status follow(const pairing *p, int64_t n, pair_room *r) {
+  if (p->plan->method != KZ_METHOD_EXACT) {
+    kz_follow_starts(p->dynamics, p->plan->max_periods, n, r->start, r->end, r->periods);
+    return KZ_OK;
+  }
+  KZ_TRY(kz_decide(p->dynamics, p->plan->max_periods, n, r->start, r->low, r->decision));
+  for (int64_t i = 0; i < n; i++) {
+    r->end[i] = r->decision[i].label;
+    if (r->end[i] == KZ_DOUBTFUL)
+      kz_dynamics_follow_reference(p->dynamics, KZ_REFERENCE_STEPS, 1, p->plan->max_periods, r->start + 2 * i, r->low + 2 * i,
+                                   r->end + i, r->periods + i);
+  }
+  return KZ_OK;
+}
+
 static kz_status pair_tile(void *context, int64_t tile, void *record) {
-  enum { ALL_STARTS = STARTS * (1 + DISTANCES) };
   const pairing *p = context;
   pair_record *out = record;
-  double point[2 * ALL_STARTS];
-  int32_t end[ALL_STARTS];
-  int64_t periods[ALL_STARTS];
-  for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, point + 2 * (1 + DISTANCES) * i);
-  kz_follow_starts(p->dynamics, p->plan->max_periods, ALL_STARTS, point, end, periods);
+  pair_room r;
+  const int distances = distances_of(p->plan), stride = 1 + distances;
+  for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, &r, stride * i);
+  KZ_TRY(follow(p, (int64_t)STARTS * stride, &r));
   for (int64_t i = 0; i < STARTS; i++)
-    for (int d = 0; d < DISTANCES; d++) {
-      const int32_t *own = end + (1 + DISTANCES) * i, *other = own + 1 + d;
-      out->pairs[d] += *own > 0 && *other > 0;
-      out->uncertain[d] += *own > 0 && *other > 0 && *own != *other;
+    for (int d = 0; d < distances; d++) {
+      const int32_t own = r.end[stride * i], other = r.end[stride * i + 1 + d];
+      out->pairs[d] += own > 0 && other > 0;
+      out->uncertain[d] += own > 0 && other > 0 && own != other;
     }
   return KZ_OK;
 }
@@ -72,7 +110,7 @@ static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labe
   kz_status status =
       kz_ranks_agree(labelling->run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for pairs of starts"));
   if (status == KZ_OK) status = kz_stage_run(labelling->run, &stage, records);
-  for (int d = 0; d < DISTANCES; d++) {
+  for (int d = 0; d < distances_of(plan); d++) {
     uncertain[d] = (kz_uncertain){.distance = distance_of(d)};
     for (int64_t tile = 0; status == KZ_OK && tile < stage.n_tiles; tile++) {
       uncertain[d].pairs += records[tile].pairs[d];
@@ -83,14 +121,14 @@ static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labe
   return status;
 }
 
-static kz_status write_pairs(const kz_uncertain *u, kz_store *store, FILE *summary) {
-  kz_slope slope[DISTANCES];
-  double distance[DISTANCES];
-  const kz_slope whole = kz_uncertainty_slopes(DISTANCES, u, slope);
-  slope[DISTANCES - 1] = (kz_slope){NAN, NAN, NAN, NAN, NAN};
-  for (int d = 0; d < DISTANCES; d++) distance[d] = distance_of(d);
-  KZ_TRY(kz_store_dimension(store, "boundary", "distance", DISTANCES, distance));
-#define COLUMN(name, expression) KZ_COLUMN(store, "boundary", name, DISTANCES, double, expression)
+static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE *summary) {
+  kz_slope slope[MOST];
+  double distance[MOST];
+  const kz_slope whole = kz_uncertainty_slopes(n, u, slope);
+  slope[n - 1] = (kz_slope){NAN, NAN, NAN, NAN, NAN};
+  for (int d = 0; d < n; d++) distance[d] = distance_of(d);
+  KZ_TRY(kz_store_dimension(store, "boundary", "distance", n, distance));
+#define COLUMN(name, expression) KZ_COLUMN(store, "boundary", name, n, double, expression)
   COLUMN("uncertain_share", kz_share_of(u[i].uncertain, u[i].pairs).share);
   COLUMN("uncertain_low", kz_share_of(u[i].uncertain, u[i].pairs).low);
   COLUMN("uncertain_high", kz_share_of(u[i].uncertain, u[i].pairs).high);
@@ -153,13 +191,13 @@ static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *st
 kz_status kz_boundary_find(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue, kz_store *store,
                            FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
-  kz_uncertain uncertain[DISTANCES];
+  kz_uncertain uncertain[MOST];
   kz_box_counts counts = {0};
   if (!plan->has_boundary) return KZ_OK;
   KZ_TRY(count_pairs(plan, labelling, uncertain));
   kz_status status = KZ_OK;
   if (store) {
-    status = write_pairs(uncertain, store, summary);
+    status = write_pairs(distances_of(plan), uncertain, store, summary);
     if (status == KZ_OK) status = count_boxes(plan, store, &counts);
     if (status == KZ_OK) status = write_boxes(&counts, catalogue->count, store, summary);
   }

@@ -3,18 +3,33 @@
 #include <float.h>
 #include <math.h>
 
+static __float128 middle_of(const kz_axis *axis) {
+  return (__float128)axis->centre.high + axis->centre.low;
+}
+
+static __float128 width_of(const kz_axis *axis) {
+  return (__float128)axis->width.high + axis->width.low;
+}
+
 /* Enough cells on each side of the centre in an exact number of halves; a quad has more digits than a pair. */
 static __float128 centre_of(const kz_axis *axis, int64_t i) {
-  const __float128 width = (__float128)axis->width.high + axis->width.low,
-                   middle = (__float128)axis->centre.high + axis->centre.low;
-  return (__float128)(2 * i + 1 - axis->count) * (width / (__float128)(2 * axis->count)) + middle;
+  return (__float128)(2 * i + 1 - axis->count) * (width_of(axis) / (__float128)(2 * axis->count)) + middle_of(axis);
+}
+
+static void split(__float128 value, double pair[2]) {
+  pair[0] = (double)value;
+  pair[1] = (double)(value - pair[0]);
 }
 
 void kz_axis_pair(const kz_axis *axis, int64_t i, double pair[2]) {
-  const __float128 centre = centre_of(axis, i);
-  const bool is_centred = axis->centre.text[0];
-  pair[0] = is_centred ? (double)centre : kz_axis_centre(axis, i);
-  pair[1] = is_centred ? (double)(centre - pair[0]) : 0;
+  split(axis->centre.text[0] ? centre_of(axis, i) : kz_axis_centre(axis, i), pair);
+}
+
+void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]) {
+  if (axis->centre.text[0])
+    split((share - 0.5) * width_of(axis) + middle_of(axis) + offset, pair);
+  else
+    split((__float128)(axis->min + share * (axis->max - axis->min)) + offset, pair);
 }
 
 double kz_axis_offset(const kz_axis *axis, int64_t i) {

@@ -10,6 +10,8 @@
 double kz_axis_centre(const kz_axis *axis, int64_t i);
 void kz_axis_pair(const kz_axis *axis, int64_t i, double pair[2]);
 double kz_axis_offset(const kz_axis *axis, int64_t i);
+/* The point so large a share of the axis from its lower edge, and `offset` more, as a pair of doubles. */
+void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]);
 /* Width of a cell. */
 double kz_axis_step(const kz_axis *axis);
 /* The largest speed on an axis of velocities. */

@@ -163,7 +163,7 @@ static void test_wrong_labels_are_doubtful(void **state) {
   memcpy(y, x, sizeof x);
   kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, direct, periods);
   kz_dynamics_follow_errors(d, KZ_RUNG_DOUBLE, N, 2000, start, NULL, followed, late, NULL);
-  kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, expected, periods);
+  kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, NULL, expected, periods);
   for (int i = 0; i < N; i++) {
     doubtful += followed[i] == KZ_DOUBTFUL;
     wrong += expected[i] != direct[i];

@@ -32,6 +32,17 @@ static void cells_below_the_last_place_of_a_double(void **state) {
   }
 }
 
+/* A quarter of the way along, and 1e-25 more; the same between edges that are doubles. */
+static void points_below_the_last_place_of_a_double(void **state) {
+  (void)state;
+  const kz_axis deep = window("17.000000000000000001", 17, 1e-18, 1e-20, 8), edges = {.min = 1, .max = 3, .count = 8};
+  double pair[2];
+  kz_axis_at(&deep, 0.25, 1e-25, pair);
+  assert_true(pair[0] == 17 && fabs(pair[1] - (1e-18 - 0.25e-20 + 1e-25)) < 1e-32);
+  kz_axis_at(&edges, 0.25, 1e-25, pair);
+  assert_true(pair[0] == 1.5 && fabs(pair[1] - 1e-25) < 1e-33);
+}
+
 /* Attractors are looked for in a neighbourhood of such a window, and in just the window where doubles tell its cells apart. */
 static void a_neighbourhood_is_searched(void **state) {
   (void)state;
@@ -58,6 +69,7 @@ static void a_window_about_the_origin_is_its_own_mirror_image(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cells_below_the_last_place_of_a_double),
+      cmocka_unit_test(points_below_the_last_place_of_a_double),
       cmocka_unit_test(a_neighbourhood_is_searched),
       cmocka_unit_test(a_window_about_the_origin_is_its_own_mirror_image),
   };
