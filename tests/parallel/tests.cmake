@@ -6,10 +6,10 @@ foreach(ranks 1 2 3 5)
 endforeach()
 kapitza_test(schedule LABEL parallel LAYER parallel)
 target_include_directories(test_parallel_schedule PRIVATE ${PROJECT_SOURCE_DIR}/src/parallel)
-kapitza_test(file_lock LABEL parallel LAYER parallel RANKS 2 TIMEOUT 60)
-set_tests_properties(parallel.file_lock.ranks-2 PROPERTIES PROCESSORS 1 COST 100) # mostly waits: first, beside another test
+kapitza_test(file_lock LABEL parallel LAYER parallel RANKS 2 TIMEOUT 60 COST 20)
+set_tests_properties(parallel.file_lock.ranks-2 PROPERTIES PROCESSORS 1) # it mostly waits
 kapitza_test(stage LABEL parallel LAYER parallel TIMEOUT 60) # and without mpirun
-kapitza_test(progress LABEL parallel LAYER parallel TIMEOUT 60)
+kapitza_test(progress LABEL parallel LAYER parallel TIMEOUT 60 COST 9)
 
 # A small program that is killed at random moments and resumed.
 add_executable(worker parallel/worker.c)
@@ -19,5 +19,5 @@ set_target_properties(worker PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTO
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME parallel.kills COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tools/kill_loop.sh ${Python3_EXECUTABLE} $<TARGET_FILE:worker>)
 cmake_path(GET MPIRUN PARENT_PATH launchers)
-set_tests_properties(parallel.kills PROPERTIES LABELS parallel TIMEOUT 240 RESOURCE_LOCK mpirun PROCESSORS 2
+set_tests_properties(parallel.kills PROPERTIES LABELS parallel TIMEOUT 240 COST 10 RESOURCE_LOCK mpirun PROCESSORS 2
                      ENVIRONMENT_MODIFICATION PATH=path_list_prepend:${launchers})

@@ -69,6 +69,7 @@ static inline kz_dynamics *explored(double m, int64_t seed, double max_velocity)
 
 /* Regions of a fine grid, and a map table. */
 static inline void with_table(kz_dynamics *d, int64_t nodes, double max_velocity) {
+  if (PART > 1) nodes /= 2;
   kz_dynamics_table_create(d, nodes, nodes, max_velocity);
   int64_t size = kz_dynamics_table_row_size(d);
   double *rows = malloc((size_t)(nodes * size) * sizeof *rows);

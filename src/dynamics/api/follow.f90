@@ -114,7 +114,11 @@ contains
       call make_precise(d, rung, start, state(1, :), map, low)
     end if
     periods = max_periods
-    call follow(map, d%regions, d%attractors, state, label, periods, reach)
+    if (present(reach)) then
+      call follow(map, d%regions, d%attractors, state, label, periods, reach)
+    else ! gfortran would read the address of an array that is not there
+      call follow(map, d%regions, d%attractors, state, label, periods)
+    end if
   end subroutine follow_errors
 
   subroutine make_covariant(d, map)

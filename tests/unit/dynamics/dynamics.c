@@ -64,7 +64,7 @@ static void test_interpolation(void **state) {
       kz_dynamics_starts(&WINDOW, 3, N, x);
       memcpy(y, x, sizeof y);
       kz_dynamics_coarse_regions(d, 3);
-      with_table(d, (fine ? 400 : 200) / (PART > 1 ? 2 : 1) + 1, 3);
+      with_table(d, (fine ? 400 : 200) + 1, 3);
       kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods);
       kz_dynamics_follow(d, points, N, 1, y, label, periods);
       for (int i = 0; i < N; i++) {
