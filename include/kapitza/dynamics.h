@@ -85,19 +85,17 @@ void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double max_distance,
                                 double *theta, double *velocity, double *re, double *im);
 
-/* All cycles of up to max_period <= 64 periods, attracting or not, of the map of published values that show in the cells between
- * the nodes theta [n_theta] and velocity [n_velocity] (rad, rad per drive radian, ascending): the zeros of F^n(x) - x by linear
- * interpolation, made exact by Newton's method. cycle [most][3]: period, half-turns, velocity. Returns how many there are, which
- * may be more than fit. */
-int64_t kz_dynamics_scan_cycles(const kz_pendulum *pendulum, int64_t max_period, int64_t n_theta, const double *theta,
-                                int64_t n_velocity, const double *velocity, int64_t most, double *cycle);
-/* Cycles of `period` periods, or of a divisor, to which Newton's method leads, stabilised in eight ways (Davidchack and Lai), from seeds
- * [n_seeds][2]: half-turns, velocity. cycle [most][3] and the result as before. */
-int64_t kz_dynamics_stabilised_cycles(const kz_pendulum *pendulum, int64_t period, int64_t n_seeds, const double *seed,
-                                      int64_t most, double *cycle);
-/* Adds a cycle [3] so found, and its mirror image, to the catalogue unless it is there; returns how many are known then. Such a
- * catalogue, of cycles that need not attract, is for reading and ordering alone: it has no trapping regions. */
-int64_t kz_dynamics_add_cycle(kz_dynamics *dynamics, const double *cycle);
+/* The cycles of up to max_period <= 64 periods, attracting or not, with a point in the window (least and largest angle, rad, least and
+ * largest velocity, rad per drive radian) that show on a line through n_nodes <= 64 states node [n_nodes][2] (the same units): where
+ * an image of the line passes near the line, multiple shooting begins. found [most][2 + 2 max_period]: period, largest speed, each point
+ * as half-turns and velocity; right to 1e-8 or so, some more than once. work [2]: starts that were followed, orbits that were closed or
+ * not. Returns how many there are. The search ends early with more than most_starts starts, or more cycles than `most`. */
+int64_t kz_dynamics_search_line(const kz_pendulum *pendulum, int64_t max_period, int64_t n_nodes, const double *node,
+                                const double window[4], int64_t most_starts, int64_t most, double *found, int64_t work[2]);
+/* Adds n cycles so found, in the order of periods and speeds, and their mirror images to a catalogue that holds no others, as cycles
+ * of the map of published values: their points are right to rounding. It is for reading and ordering alone: it has no trapping
+ * regions. */
+void kz_dynamics_add_cycles(kz_dynamics *dynamics, int64_t max_period, int64_t n, const double *found);
 
 /* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `max_velocity`. */
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);

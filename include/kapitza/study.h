@@ -87,7 +87,7 @@ typedef struct {
 } kz_attractors_plan;
 
 /* Study `saddles`: all cycles up to a period with a point in the window; the counts of the axes are not used. */
-enum { KZ_SADDLES_MAX_PERIOD = 32 };
+enum { KZ_SADDLES_MAX_PERIOD = 32, KZ_SADDLES_MOST = 200000 /* cycles */ };
 typedef struct {
   kz_axis theta, velocity;
   int64_t max_period;

@@ -5,96 +5,141 @@ module kz_api_saddles
   use kz_kernel_plan, only: make_flow, fine_numerics
   use kz_kernel_step_table, only: pendulum_t, numerics_t
   use kz_api_handle, only: dynamics_t, of_handle
-  use kz_attractors_cycle_search, only: known, append_with_mirror
-  use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise
+  use kz_attractors_cycle_search, only: append_with_mirror, join
+  use kz_cycles_cycles, only: attractor_t, enter_points, symmetrise
   use kz_cycles_features, only: find_features
-  use kz_saddles_scan, only: scan_strip, search_from
+  use kz_cycles_newton, only: eigenvalues
+  use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
+  use kz_maps_states, only: separation
+  use kz_saddles_lines, only: search_line, work_t
   implicit none
   private
 
-  !> Steps with which cycles are found, as a part of those with which they are published: four times fewer leave 1e-11.
-  integer, parameter :: FEWER = 4
+  !> Steps with which cycles are found, as a part of those with which they are published: eight times fewer leave 1e-9.
+  integer, parameter :: FEWER = 8
+  !> rad: cycles are closed until steps are shorter, or rounding stops them; placed no better than that, they are none; nearer than
+  !> that, they are one.
+  real(dp), parameter :: CLOSE = 1e-13_dp, PLACED = 1e-8_dp, ONE = 1e-7_dp
+  integer, parameter :: BATCH_SIZE = 64
 
 contains
 
-  function scan_cycles(pendulum, max_period, n_theta, theta, n_velocity, velocity, most, cycle) &
-    bind(C, name='kz_dynamics_scan_cycles') result(n)
+  function search_cycles(pendulum, max_period, n_nodes, node, window, most_starts, most, found, work) &
+    bind(C, name='kz_dynamics_search_line') result(n)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int64_t), value :: max_period
-    integer(c_int64_t), value :: n_theta
-    !> of the nodes, rad
-    real(dp), intent(in) :: theta(n_theta)
-    integer(c_int64_t), value :: n_velocity
-    !> of the rows of nodes, rad per drive radian
-    real(dp), intent(in) :: velocity(n_velocity)
+    integer(c_int64_t), value :: n_nodes
+    !> rad, rad per drive radian
+    real(dp), intent(in) :: node(2, n_nodes)
+    !> least and largest angle, least and largest velocity
+    real(dp), intent(in) :: window(4)
+    !> with more the search ends
+    integer(c_int64_t), value :: most_starts
     !> cycles that fit
     integer(c_int64_t), value :: most
-    !> period, half-turns, velocity
-    real(dp), intent(out) :: cycle(3, most)
+    !> period, largest speed, points (half-turns, velocity)
+    real(dp), intent(out) :: found(2 + 2*max_period, most)
+    !> starts followed, orbits closed or not
+    integer(c_int64_t), intent(out) :: work(2)
     integer(c_int64_t) :: n
     class(flow_t), allocatable :: flow
-    real(dp), allocatable :: found(:, :)
-
-    call make_flow(pendulum, scan_numerics(pendulum), .true., flow)
-    call scan_strip(flow, theta/PI, velocity, int(max_period), found)
-    n = size(found, 2)
-    cycle(:, :min(n, most)) = found(:, :min(n, most))
-  end function scan_cycles
-
-  function stabilised_cycles(pendulum, period, n_seeds, seed, most, cycle) bind(C, name='kz_dynamics_stabilised_cycles') result(n)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    integer(c_int64_t), value :: period
-    integer(c_int64_t), value :: n_seeds
-    !> half-turns, rad per drive radian
-    real(dp), intent(in) :: seed(2, n_seeds)
-    !> cycles that fit
-    integer(c_int64_t), value :: most
-    !> period, half-turns, velocity
-    real(dp), intent(out) :: cycle(3, most)
-    integer(c_int64_t) :: n
-    class(flow_t), allocatable :: flow
-    real(dp), allocatable :: found(:, :)
-
-    call make_flow(pendulum, scan_numerics(pendulum), .true., flow)
-    call search_from(flow, int(period), seed, found)
-    n = size(found, 2)
-    cycle(:, :min(n, most)) = found(:, :min(n, most))
-  end function stabilised_cycles
-
-  !> What cycles are found with.
-  pure function scan_numerics(pendulum) result(numerics)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
     type(numerics_t) :: numerics
+    type(work_t) :: done
+    integer :: n_found
 
     numerics = fine_numerics(pendulum)
     numerics%steps_per_period = numerics%steps_per_period/FEWER
-  end function scan_numerics
+    call make_flow(pendulum, numerics, .true., flow)
+    call search_line(flow, int(max_period), node, window, int(most_starts), n_found, found, done)
+    n = n_found
+    work = [done%starts, done%seeds]
+  end function search_cycles
 
-  function add_cycle(handle, given) bind(C, name='kz_dynamics_add_cycle') result(n)
+  subroutine add_cycles(handle, max_period, n, found) bind(C, name='kz_dynamics_add_cycles')
     type(c_ptr), value :: handle
-    !> period, half-turns, velocity, as kz_dynamics_scan_cycles gives them
-    real(dp), intent(in) :: given(3)
-    integer(c_int64_t) :: n
-    real(dp), parameter :: MOVED = 1e-3_dp !< rad: farther than Newton's method moves what a scan has found
+    integer(c_int64_t), value :: max_period
+    integer(c_int64_t), value :: n
+    !> as kz_dynamics_search_line gives them
+    real(dp), intent(in) :: found(2 + 2*max_period, n)
     type(dynamics_t), pointer :: d
-    type(attractor_t) :: cycle
-    logical :: found, blurred
+    type(attractor_t) :: new
+    type(attractor_t), allocatable :: batch(:)
+    logical :: is_placed
+    integer :: i, period
 
     d => of_handle(handle)
-    n = size(d%attractors)
-    if (known(d%attractors, nint(given(1)), given(2:2), given(3:3))) return
-    call close_cycle(d%search%fine, d%search%pendulum%beta, nint(given(1)), given(2), given(3), MOVED, cycle, found, blurred)
-    if (.not. found) return
-    if (known(d%attractors, cycle%period, cycle%u, cycle%v)) return
-    call symmetrise(cycle)
-    call enter_points(d%search%flow, cycle)
+    allocate (batch(0))
+    do i = 1, int(n)
+      period = nint(found(1, i))
+      call place_cycle(d, reshape(found(3:2 + 2*period, i), [2, period]), new, is_placed)
+      if (.not. is_placed) cycle
+      if (is_known(d%attractors, new) .or. is_known(batch, new)) cycle
+      call symmetrise(new)
+      call enter_points(d%search%flow, new)
+      call find_features(d%search%sampling_flow, d%search%pendulum, new, new%u(1), new%v(1), period)
+      call append_with_mirror(new, batch)
+      if (size(batch) >= BATCH_SIZE) call join_batch(d%attractors, batch)
+    end do
+    call join_batch(d%attractors, batch)
+  end subroutine add_cycles
+
+  !> The cycle of the map of published values near an orbit; `is_placed` where rounding leaves its place open by little.
+  subroutine place_cycle(d, orbit, cycle, is_placed)
+    type(dynamics_t), intent(inout) :: d
+    !> half-turns, rad per drive radian
+    real(dp), intent(in) :: orbit(:, :)
+    !> its points, multipliers, winding
+    type(attractor_t), intent(out) :: cycle
+    logical, intent(out) :: is_placed
+    real(dp) :: x(2, size(orbit, 2))
+    type(closed_orbit_t) :: closed
+
+    x = orbit
+    call shoot(d%search%fine, CLOSE, x, closed)
+    is_placed = max(closed%step, closed%blur) < PLACED
+    if (is_placed) is_placed = smallest_period(x, ONE) == size(x, 2)
+    if (.not. is_placed) return
+    cycle%period = size(x, 2)
+    cycle%winding = closed%winding
+    cycle%u = x(1, :)
+    cycle%v = x(2, :)
+    allocate (cycle%form(3, cycle%period))
+    cycle%form = 0
+    cycle%multiplier = eigenvalues(closed%matrix, exp(-2*PI*d%search%pendulum%beta*cycle%period))
     cycle%lyapunov = log(abs(cycle%multiplier(1)))/cycle%period
-    call find_features(d%search%sampling_flow, d%search%pendulum, cycle, cycle%u(1), cycle%v(1), cycle%period)
-    call append_with_mirror(cycle, d%attractors)
-    n = size(d%attractors)
-  end function add_cycle
+  end subroutine place_cycle
+
+  !> A batch joins the catalogue: to lengthen it for every cycle would take a time that grows with the square of their number.
+  subroutine join_batch(attractors, batch)
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    !> its mirror images are numbered from its own beginning; empty afterwards
+    type(attractor_t), allocatable, intent(inout) :: batch(:)
+
+    batch%mirror = batch%mirror + size(attractors)
+    call join(attractors, batch)
+    deallocate (batch)
+    allocate (batch(0))
+  end subroutine join_batch
+
+  !> Is a cycle the same as one of the last of a catalogue? Those with as many periods and as large a speed come together.
+  pure function is_known(attractors, cycle) result(known)
+    type(attractor_t), intent(in) :: attractors(:)
+    type(attractor_t), intent(in) :: cycle
+    logical :: known
+    integer :: i, first
+
+    known = .true.
+    do i = size(attractors), 1, -1
+      associate (a => attractors(i))
+        if (a%period /= cycle%period) exit
+        if (abs(maxval(abs(a%v)) - maxval(abs(cycle%v))) > ONE) exit
+        do first = 1, a%period
+          if (all(separation(a%u, a%v, cshift(cycle%u, first), cshift(cycle%v, first)) < ONE)) return
+        end do
+      end associate
+    end do
+    known = .false.
+  end function is_known
 
 end module kz_api_saddles

@@ -23,13 +23,15 @@ contains
     !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
     integer :: order(size(attractors))
+    real(dp) :: keys(6, size(attractors))
     integer :: i, j, moving
 
     do i = 1, size(attractors)
+      keys(:, i) = key(attractors(i))
       moving = i
       j = i - 1
       do while (j >= 1)
-        if (.not. before(attractors(moving), attractors(order(j)))) exit
+        if (.not. before(keys(:, moving), keys(:, order(j)))) exit
         order(j + 1) = order(j)
         j = j - 1
       end do
@@ -37,19 +39,16 @@ contains
     end do
   end function order_of
 
-  function before(a, b)
-    type(attractor_t), intent(in) :: a
-    type(attractor_t), intent(in) :: b
+  pure function before(a, b)
+    real(dp), intent(in) :: a(6)
+    real(dp), intent(in) :: b(6)
     logical :: before
-    real(dp) :: key_a(6), key_b(6)
     integer :: i
 
-    key_a = key(a)
-    key_b = key(b)
     before = .false.
-    do i = 1, size(key_a)
-      if (key_a(i) < key_b(i)) before = .true.
-      if (abs(key_a(i) - key_b(i)) > 0) return
+    do i = 1, size(a)
+      if (a(i) < b(i)) before = .true.
+      if (abs(a(i) - b(i)) > 0) return
     end do
   end function before
 

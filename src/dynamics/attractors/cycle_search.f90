@@ -11,7 +11,7 @@ module kz_attractors_cycle_search
   use kz_maps_states, only: separation, same_state
   implicit none
   private
-  public :: search_t, find_cycle, add_with_mirror, append_with_mirror, append, known
+  public :: search_t, find_cycle, add_with_mirror, append_with_mirror, append, join, known
 
   !> What a search works with.
   type :: search_t
@@ -201,16 +201,31 @@ contains
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     !> what joins it
     type(attractor_t), intent(in) :: attractor
-    type(attractor_t), allocatable :: longer(:)
-    integer :: i
+    type(attractor_t) :: one(1)
 
-    allocate (longer(size(attractors) + 1))
-    do i = 1, size(attractors)
+    one(1) = attractor
+    if (attractor%period > 0) call listed_from_lowest(one(1))
+    call join(attractors, one)
+  end subroutine append
+
+  !> Attractors join the end of a catalogue.
+  subroutine join(attractors, more)
+    !> the catalogue
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    !> what joins it
+    type(attractor_t), intent(in) :: more(:)
+    type(attractor_t), allocatable :: longer(:)
+    integer :: n, i
+
+    n = size(attractors)
+    allocate (longer(n + size(more)))
+    do i = 1, n
       longer(i) = attractors(i)
     end do
-    longer(size(longer)) = attractor
-    if (attractor%period > 0) call listed_from_lowest(longer(size(longer)))
+    do i = 1, size(more)
+      longer(n + i) = more(i)
+    end do
     call move_alloc(longer, attractors)
-  end subroutine append
+  end subroutine join
 
 end module kz_attractors_cycle_search

@@ -9,10 +9,6 @@ bool kz_saddles_wanted(const kz_scene *scene);
 kz_cost kz_saddles_cost(const kz_scene *scene);
 kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
-/* A round of searches from the points of known cycles (those of rank 0): the catalogue of rank 0 grows. Kept. Collective. */
-kz_status kz_saddles_stabilise(const kz_scene *scene, const kz_run *run, int round, const kz_cycle_list *cycles,
-                               kz_dynamics *dynamics);
-
 /* The unstable ones among the cycles and the index sums: group /saddles. */
 kz_status kz_saddles_write(const kz_cycle_list *cycles, const kz_index_sums *sums, kz_store *store);
 /* What was found, for people. */

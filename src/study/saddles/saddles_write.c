@@ -97,7 +97,7 @@ static void print_sums(const kz_scene *scene, const kz_index_sums *sums, FILE *s
       fprintf(summary, "  period %d, winding %d: sum %+d\n", sums->entries[i].period, sums->entries[i].winding,
               sums->entries[i].index);
   fprintf(summary,
-          "they lie outside the window, between its finest cells, or at a bifurcation; widen saddles.velocity first\n");
+          "they lie outside the window, between the lines of the search, or at a bifurcation; widen saddles.velocity first\n");
 }
 
 void kz_saddles_print(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums, FILE *summary) {

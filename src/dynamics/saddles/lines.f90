@@ -1,0 +1,201 @@
+!> All cycles of the stroboscopic map near a line of starts. The images of the line stretch and fold; pieces of it are halved until
+!> those whose images pass near themselves are short. Where F^n(x) comes near x, the orbit of x closes by multiple shooting.
+module kz_saddles_lines
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
+  use kz_maps_states, only: separation, wrapped
+  implicit none
+  private
+  public :: search_line, work_t
+
+  !> rad: an image that passes so near its piece shows a cycle; a piece is short whose images are no longer than this.
+  real(dp), parameter :: REACH = 0.25_dp, SHORT = 0.25_dp
+  !> So far beyond its ends, in units of the piece, an image is taken as straight.
+  real(dp), parameter :: BEYOND = 0.25_dp
+  !> rad: no shorter piece is halved; how often that is done at most.
+  real(dp), parameter :: SHORTEST = 1e-13_dp
+  integer, parameter :: HALVINGS = 45
+  !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
+  real(dp), parameter :: CLOSE = 1e-7_dp, ONE = 1e-5_dp, EDGE = 1e-9_dp
+
+  !> What a search takes.
+  type :: work_t
+    integer :: starts = 0 !< whose orbits were followed
+    integer :: seeds = 0  !< orbits that were closed, or not
+  end type work_t
+
+contains
+
+  !> The cycles of up to max_period periods with a point in the window that show on a line through the nodes.
+  subroutine search_line(flow, max_period, node, window, most_starts, n_found, found, work)
+    !> the map of one drive period in physical coordinates
+    class(flow_t), intent(inout) :: flow
+    !> longest period of a cycle, at most WIDTH
+    integer, intent(in) :: max_period
+    !> at most WIDTH states in order, no farther apart than 1: rad, rad per drive radian
+    real(dp), intent(in) :: node(:, :)
+    !> least and largest angle (rad), least and largest velocity (rad per drive radian)
+    real(dp), intent(in) :: window(4)
+    !> where more would have to be followed, the search ends
+    integer, intent(in) :: most_starts
+    !> cycles, some more than once; where more than fit, the search ends
+    integer, intent(out) :: n_found
+    !> found(:, i): period, largest speed, then each point: half-turns, rad per drive radian
+    real(dp), intent(out) :: found(:, :)
+    !> what it took
+    type(work_t), intent(out) :: work
+    real(dp), allocatable :: waiting(:, :, :, :)
+    real(dp) :: piece(2, 0:max_period, 2, WIDTH), orbit(2, 0:max_period, WIDTH)
+    integer :: n_waiting, lanes, i
+
+    allocate (waiting(2, 0:max_period, 2, 2*WIDTH*HALVINGS))
+    n_waiting = 0
+    n_found = 0
+    lanes = size(node, 2)
+    orbit(:, 0, :lanes) = node
+    call follow(flow, orbit(:, :, :lanes))
+    do i = 1, lanes - 1
+      call settle(orbit(:, :, i), orbit(:, :, i + 1))
+    end do
+    do while (n_waiting > 0 .and. n_found <= size(found, 2) .and. work%starts <= most_starts)
+      lanes = min(n_waiting, WIDTH)
+      n_waiting = n_waiting - lanes
+      piece(:, :, :, :lanes) = waiting(:, :, :, n_waiting + 1:n_waiting + lanes)
+      orbit(:, 0, :lanes) = 0.5_dp*(piece(:, 0, 1, :lanes) + piece(:, 0, 2, :lanes))
+      call follow(flow, orbit(:, :, :lanes))
+      work%starts = work%starts + lanes
+      do i = 1, lanes
+        call settle(piece(:, :, 1, i), orbit(:, :, i))
+        call settle(orbit(:, :, i), piece(:, :, 2, i))
+      end do
+    end do
+  contains
+    !> The piece between two starts, given by their orbits, waits to be halved, or shows its cycles. (The newest wait on top: at most
+    !> 2 WIDTH of each length.)
+    subroutine settle(a, b)
+      real(dp), intent(in) :: a(2, 0:max_period)
+      real(dp), intent(in) :: b(2, 0:max_period)
+      real(dp) :: share
+      logical :: near
+      integer :: n
+
+      if (is_long(a, b)) then
+        n_waiting = n_waiting + 1
+        waiting(:, :, 1, n_waiting) = a
+        waiting(:, :, 2, n_waiting) = b
+        return
+      end if
+      do n = 1, max_period
+        if (norm2(b(:, n) - a(:, n)) > SHORT) return
+        call find_pass(a(:, 0), b(:, 0), a(:, n), b(:, n), share, near)
+        if (.not. near) cycle
+        work%seeds = work%seeds + 1
+        call close_orbit(flow, window, a(:, :n - 1) + share*(b(:, :n - 1) - a(:, :n - 1)), n_found, found)
+      end do
+    end subroutine settle
+  end subroutine search_line
+
+  !> orbit(:, 1:) becomes the images of the starts orbit(:, 0): rad, turns counted.
+  subroutine follow(flow, orbit)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(inout) :: orbit(:, 0:, :)
+    real(dp) :: start(size(orbit, 3))
+    integer :: lanes, i, n
+
+    lanes = size(orbit, 3)
+    start = wrapped(orbit(1, 0, :)/PI)
+    do i = 1, lanes
+      call flow%put(i, start(i), orbit(2, 0, i))
+    end do
+    do n = 1, ubound(orbit, 2)
+      call flow%advance(lanes)
+      orbit(1, n, :) = orbit(1, 0, :) + PI*(2*real(flow%turns(:lanes), dp) + (flow%u(:lanes) - start))
+      orbit(2, n, :) = flow%v(:lanes)
+    end do
+  end subroutine follow
+
+  !> Is an image of the piece too long to tell whether it passes near the piece?
+  pure function is_long(a, b) result(long)
+    !> orbits of the ends
+    real(dp), intent(in) :: a(:, 0:)
+    real(dp), intent(in) :: b(:, 0:)
+    logical :: long
+    real(dp) :: length
+    integer :: n
+
+    long = .false.
+    if (norm2(b(:, 0) - a(:, 0)) < SHORTEST) return
+    length = 0
+    do n = 1, ubound(a, 2)
+      length = max(length, norm2(b(:, n) - a(:, n)))
+      long = length > SHORT .and. min(distance(a(:, 0), a(:, n)), distance(b(:, 0), b(:, n))) < REACH + length
+      if (long) return
+    end do
+  end function is_long
+
+  !> Does the image of a short piece pass near the piece, and where: its share of the piece from the first end on.
+  pure subroutine find_pass(a, b, image_a, image_b, share, near)
+    real(dp), intent(in) :: a(2)
+    real(dp), intent(in) :: b(2)
+    real(dp), intent(in) :: image_a(2)
+    real(dp), intent(in) :: image_b(2)
+    real(dp), intent(out) :: share
+    logical, intent(out) :: near
+    real(dp) :: shift(2), slope(2)
+
+    shift = [PI*wrapped((image_a(1) - a(1))/PI), image_a(2) - a(2)]
+    slope = (image_b - image_a) - (b - a)
+    share = 0
+    if (norm2(slope) > 0) share = -dot_product(shift, slope)/dot_product(slope, slope)
+    near = share >= -BEYOND .and. share <= 1 + BEYOND .and. norm2(shift + share*slope) < REACH
+  end subroutine find_pass
+
+  !> From one state to another, rad.
+  pure function distance(a, b) result(d)
+    real(dp), intent(in) :: a(2)
+    real(dp), intent(in) :: b(2)
+    real(dp) :: d
+
+    d = separation(a(1)/PI, a(2), b(1)/PI, b(2))
+  end function distance
+
+  !> The cycle near an orbit joins those that were found, if there is one and the window has a point of it.
+  subroutine close_orbit(flow, window, orbit, n_found, found)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(in) :: window(4)
+    !> rad
+    real(dp), intent(in) :: orbit(:, :)
+    integer, intent(inout) :: n_found
+    real(dp), intent(inout) :: found(:, :)
+    real(dp) :: x(2, size(orbit, 2))
+    type(closed_orbit_t) :: closed
+    integer :: period
+
+    x(1, :) = wrapped(orbit(1, :)/PI)
+    x(2, :) = orbit(2, :)
+    call shoot(flow, CLOSE, x, closed)
+    if (.not. closed%step < CLOSE) return
+    period = smallest_period(x, ONE)
+    if (.not. any(inside(window, x(1, :), x(2, :)))) return
+    n_found = n_found + 1
+    if (n_found > size(found, 2)) return
+    found(:, n_found) = 0
+    found(:2, n_found) = [real(period, dp), maxval(abs(x(2, :period)))]
+    found(3:2 + 2*period, n_found) = reshape(x(:, :period), [2*period])
+  end subroutine close_orbit
+
+  !> Which states (half-turns, rad per drive radian) lie in the window?
+  pure function inside(window, u, v)
+    real(dp), intent(in) :: window(4)
+    real(dp), intent(in) :: u(:)
+    real(dp), intent(in) :: v(:)
+    logical :: inside(size(u))
+    real(dp) :: middle
+
+    middle = 0.5_dp*(window(1) + window(2))
+    inside = abs(PI*wrapped(u - middle/PI)) <= 0.5_dp*(window(2) - window(1)) + EDGE .and. &
+             v >= window(3) - EDGE .and. v <= window(4) + EDGE
+  end function inside
+
+end module kz_saddles_lines
