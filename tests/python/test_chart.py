@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import datasets, plot
+from conftest import datasets, plot, run_until_saved
 from kapitza import Result
 
 STARTS = [0.3, 2.9, np.pi]
@@ -69,3 +69,16 @@ def test_any_number_of_ranks_and_every_view(chart, kapitza, tmp_path):
     for view in ("ends", "exponent", "settling"):
         done = plot("chart", path, "-o", tmp_path / f"{view}.png", "--view", view, "--dpi", 40)
         assert done.returncode == 0 and (tmp_path / f"{view}.png").stat().st_size > 4000, done.stderr
+
+
+def test_an_interrupted_chart_resumes_on_other_ranks(kapitza, tmp_path):
+    """With the same bytes. Motions of a weakly damped pendulum take so many periods that a stop always comes between two tiles."""
+    axes = {axis: {"parameter": parameter, "min": least, "max": most, "count": 16}
+            for axis, parameter, least, most in (("x", "m", 0.1, 0.3), ("y", "damping", 0.003, 0.005))}
+    scene = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
+             "chart": {**axes, "start": {"theta": np.linspace(0.2, 3, 8).tolist()}, "max_period": 8}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    run_until_saved("s.yaml", file="s.h5", folder=tmp_path, ranks=1)
+    kapitza("run", "s.yaml", "--resume", ranks=3, folder=tmp_path)
+    kapitza("run", "s.yaml", "-o", "undisturbed.h5", ranks=2, folder=tmp_path)
+    assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "undisturbed.h5")

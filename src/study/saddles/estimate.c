@@ -18,20 +18,25 @@ typedef struct {
   double cycles;
 } effort;
 
+/* Steps of a period, in units of those of weak drives. */
+static double slowness(const kz_pendulum *pendulum) {
+  kz_numerics fine;
+  kz_numerics_fine(pendulum, &fine);
+  return fine.steps_per_period / 96.0;
+}
+
 static effort sample(const kz_scene *scene, int64_t max_period, double *found) {
   kz_saddles_plan plan = scene->saddles;
   plan.max_period = max_period;
   const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, &plan, 1);
   const int64_t all = lines.count * lines.pieces, n = all < SAMPLE_PIECES ? all : SAMPLE_PIECES;
   const double share = (double)n / (double)all;
-  kz_numerics fine;
-  kz_numerics_fine(lines.pendulum, &fine);
   effort sum = {0};
   for (int64_t i = 0; i < n; i++) {
     int64_t work[2];
     const int64_t cycles = kz_lines_search(&lines, (2 * i + 1) * all / (2 * n), SAMPLE_STARTS, found, work);
     sum.cycles += (double)cycles / (REPEATS * share);
-    sum.seconds += fine.steps_per_period / 96.0 / share * (START_SECONDS * (double)work[0] + SEED_SECONDS * (double)work[1]);
+    sum.seconds += slowness(lines.pendulum) / share * (START_SECONDS * (double)work[0] + SEED_SECONDS * (double)work[1]);
   }
   return sum;
 }
@@ -57,10 +62,11 @@ kz_cost kz_saddles_cost(const kz_scene *scene) {
   const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, plan, 1);
   const effort all = estimate(scene);
   const double cycles = fmin(all.cycles, KZ_SADDLES_MOST), bytes = PIECES_OF_A_CYCLE * (double)kz_cycle_bytes(plan);
-  return (kz_cost){.disk_bytes = 1e5 + cycles * bytes,
-                   .memory_bytes = PIECES_AT_ONCE * (double)kz_piece_bytes(plan),
-                   .first_bytes = cycles * (CYCLE_BYTES + bytes),
-                   .core_seconds = ALL_ROUNDS * ((double)plan->max_period * all.seconds +
-                                                 PIECE_SECONDS * (double)(lines.count * lines.pieces)) +
-                                   CYCLE_SECONDS * cycles};
+  return (kz_cost){
+      .disk_bytes = 1e5 + cycles * bytes,
+      .memory_bytes = PIECES_AT_ONCE * (double)kz_piece_bytes(plan),
+      .first_bytes = cycles * (CYCLE_BYTES + bytes),
+      .core_seconds = ALL_ROUNDS * ((double)plan->max_period * all.seconds +
+                                    PIECE_SECONDS * slowness(lines.pendulum) * (double)(lines.count * lines.pieces)) +
+                      CYCLE_SECONDS * cycles};
 }
