@@ -1,4 +1,4 @@
-/* Pendulums of quality factor 5 and drive frequency 11 whose attractors in a window are known. */
+/* Pendulums, most of quality factor 5 and drive frequency 11, whose attractors in a window are known. */
 #ifndef KAPITZA_TESTS_EXPLORED_H
 #define KAPITZA_TESTS_EXPLORED_H
 
@@ -27,10 +27,9 @@ enum { PART = 1 };
 
 /* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow with every
  * attractor. */
-static inline kz_dynamics *explored_with(const kz_numerics *numerics, double m, int64_t seed, int64_t cells,
-                                         double max_velocity) {
-  kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
-  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics, 12);
+static inline kz_dynamics *explored_pendulum(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t seed,
+                                             int64_t cells, double max_velocity) {
+  kz_dynamics *d = kz_dynamics_create(pendulum, numerics, 12);
   double *state = malloc(2 * STARTS * sizeof *state);
   int32_t *label = malloc(STARTS * sizeof *label);
   int64_t *periods = malloc(STARTS * sizeof *periods), n = STARTS;
@@ -61,6 +60,12 @@ static inline kz_dynamics *explored_with(const kz_numerics *numerics, double m, 
   free(label);
   free(periods);
   return d;
+}
+
+static inline kz_dynamics *explored_with(const kz_numerics *numerics, double m, int64_t seed, int64_t cells,
+                                         double max_velocity) {
+  const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
+  return explored_pendulum(&pendulum, numerics, seed, cells, max_velocity);
 }
 
 static inline kz_dynamics *explored(double m, int64_t seed, double max_velocity) {

@@ -1,8 +1,9 @@
 !> Images of the cells of a grid of trapping regions after some drive periods: the convex hull of the images of a cell's corners,
-!> widened by a bound on what bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell.
+!> widened by a bound on what bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell. The
+!> corners show what lies between them only as long as the cell has stayed small: where an earlier image was bent, a later one is not taken.
 module kz_trapping_cell_images
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
-  use kz_kernel_map, only: flow_t, WIDTH
+  use kz_kernel_map, only: flow_t, WIDTH, PI
   use kz_maps_states, only: midperiod_angle
   use kz_trapping_grid, only: regions_t
   implicit none
@@ -12,6 +13,8 @@ module kz_trapping_cell_images
   real(dp), parameter :: CURVATURE = 0.25_dp, SLACK = 0.02_dp
   !> Images over more cells than this are not followed.
   real(dp), parameter :: LARGEST_IMAGE = 2000
+  !> A cell is bent where its slack is larger, rad and rad per drive radian.
+  real(dp), parameter :: BENT = 0.1_dp
   !> After how many periods images are taken, the best first: what is still far away comes in with the longest.
   integer, parameter, public :: PERIODS(4) = [8, 4, 2, 1]
 
@@ -40,20 +43,42 @@ contains
     !> the images after each number of PERIODS
     type(images_t), intent(out) :: images(size(PERIODS))
     real(dp), allocatable :: x(:, :, :), y(:, :, :)
-    integer :: k, j
+    logical, allocatable :: straight(:, :)
+    type(images_t) :: image
+    integer :: period, k, j
 
-    allocate (x(-1:regions%n_theta + 1, -1:regions%n_velocity + 1, size(PERIODS)))
+    allocate (x(-1:regions%n_theta + 1, -1:regions%n_velocity + 1, maxval(PERIODS)))
     allocate (y, mold=x)
+    allocate (straight(0:regions%n_theta, 0:regions%n_velocity), source=.true.)
     do j = -1, regions%n_velocity + 1
       call integrate_row(regions, flow, j, x(:, j, :), y(:, j, :))
     end do
-    do k = 1, size(PERIODS)
-      call set_nodes(regions, x(:, :, k), y(:, :, k), images(k))
-      call set_boxes(regions, images(k))
+    do period = 1, maxval(PERIODS)
+      image = image_of(regions, x(:, :, period), y(:, :, period))
+      k = findloc(PERIODS, period, 1)
+      if (k > 0) then
+        images(k) = image
+        call set_boxes(regions, straight, images(k))
+      end if
+      straight = straight .and. image%slack_x <= BENT*columns_per_rad(regions) .and. image%slack_y <= BENT*rows_per_speed(regions)
     end do
   end subroutine make_images
 
-  !> The nodes of row j after each number of periods.
+  pure function columns_per_rad(regions) result(columns)
+    type(regions_t), intent(in) :: regions
+    real(dp) :: columns
+
+    columns = regions%n_circle/(2*PI)
+  end function columns_per_rad
+
+  pure function rows_per_speed(regions) result(rows)
+    type(regions_t), intent(in) :: regions
+    real(dp) :: rows
+
+    rows = regions%n_velocity/(2*regions%top)
+  end function rows_per_speed
+
+  !> The nodes of row j after each period.
   subroutine integrate_row(regions, flow, j, x, y)
     type(regions_t), intent(in) :: regions
     class(flow_t), intent(inout) :: flow
@@ -61,10 +86,10 @@ contains
     real(dp), intent(out) :: x(-1:, :)
     real(dp), intent(out) :: y(-1:, :)
     real(dp) :: per_u, per_v, u, v, turns(WIDTH)
-    integer :: first, n, lane, period, k
+    integer :: first, n, lane, period
 
     per_u = 0.5_dp*regions%n_circle
-    per_v = regions%n_velocity/(2*regions%top)
+    per_v = rows_per_speed(regions)
     v = j/per_v - regions%top
     do first = -1, regions%n_theta + 1, WIDTH
       n = min(WIDTH, regions%n_theta + 2 - first)
@@ -75,29 +100,26 @@ contains
       end do
       do period = 1, maxval(PERIODS)
         call flow%advance(n)
-        do k = 1, size(PERIODS)
-          if (PERIODS(k) /= period) cycle
-          x(first:first + n - 1, k) = midperiod_angle(flow%u(:n) + 2*(turns(:n) + flow%turns(:n)), flow%v(:n))*per_u
-          y(first:first + n - 1, k) = (flow%v(:n) + regions%top)*per_v
-        end do
+        x(first:first + n - 1, period) = midperiod_angle(flow%u(:n) + 2*(turns(:n) + flow%turns(:n)), flow%v(:n))*per_u
+        y(first:first + n - 1, period) = (flow%v(:n) + regions%top)*per_v
       end do
     end do
   end subroutine integrate_row
 
   !> The nodes' images and slack.
-  subroutine set_nodes(regions, x, y, images)
+  function image_of(regions, x, y) result(image)
     type(regions_t), intent(in) :: regions
     real(dp), intent(in) :: x(-1:, -1:)
     real(dp), intent(in) :: y(-1:, -1:)
-    type(images_t), intent(inout) :: images
+    type(images_t) :: image
 
-    allocate (images%x(0:regions%n_theta, 0:regions%n_velocity))
-    allocate (images%y, images%slack_x, images%slack_y, mold=images%x)
-    images%x = x(0:regions%n_theta, 0:regions%n_velocity)
-    images%y = y(0:regions%n_theta, 0:regions%n_velocity)
-    call set_slack(regions%n_theta, regions%n_velocity, x, images%slack_x)
-    call set_slack(regions%n_theta, regions%n_velocity, y, images%slack_y)
-  end subroutine set_nodes
+    allocate (image%x(0:regions%n_theta, 0:regions%n_velocity))
+    allocate (image%y, image%slack_x, image%slack_y, mold=image%x)
+    image%x = x(0:regions%n_theta, 0:regions%n_velocity)
+    image%y = y(0:regions%n_theta, 0:regions%n_velocity)
+    call set_slack(regions%n_theta, regions%n_velocity, x, image%slack_x)
+    call set_slack(regions%n_theta, regions%n_velocity, y, image%slack_y)
+  end function image_of
 
   pure subroutine set_slack(n_theta, n_velocity, x, slack_of)
     integer, intent(in) :: n_theta
@@ -114,16 +136,22 @@ contains
     end do
   end subroutine set_slack
 
-  subroutine set_boxes(regions, images)
+  !> The boxes of cells whose corners were straight in all images before.
+  subroutine set_boxes(regions, straight, images)
     type(regions_t), intent(in) :: regions
+    logical, intent(in) :: straight(0:, 0:)
     type(images_t), intent(inout) :: images
-    integer :: n(2)
+    integer :: n(2), l
 
     n = [regions%n_theta, regions%n_velocity]
     allocate (images%left(0:n(1) - 1, 0:n(2) - 1))
     allocate (images%n_columns, images%bottom, images%top, mold=images%left)
     call boxes(n(1), n(2), real(regions%n_circle, dp), images%x, images%y, images%slack_x, images%slack_y, images%left, &
                images%n_columns, images%bottom, images%top)
+    do l = 0, n(2) - 1
+      where (.not. (straight(:n(1) - 1, l) .and. straight(1:, l) .and. straight(:n(1) - 1, l + 1) .and. straight(1:, l + 1))) &
+        images%n_columns(:, l) = 0
+    end do
   end subroutine set_boxes
 
   !> In vectors. NaN and numbers beyond integers fall out as too large.
