@@ -1,6 +1,6 @@
 !> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics.h).
 module kz_api_follow
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_associated, c_f_pointer, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: leave_states, half_turns
   use kz_kernel_map, only: map_t
   use kz_kernel_pairs, only: pairs_t, make_pairs
@@ -75,7 +75,7 @@ contains
     integer(c_int64_t), value :: n
     integer(c_int64_t), value :: max_periods
     real(dp), intent(in) :: start(2, n)
-    real(dp), intent(in), optional :: low(2, n)
+    type(c_ptr), value :: low
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
     type(dynamics_t), pointer :: d
@@ -84,7 +84,7 @@ contains
 
     d => of_handle(handle)
     allocate (map, state(2, n))
-    call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low=low)
+    call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low=matrix_of(low, n))
     state(2, :) = start(2, :)
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)
@@ -97,29 +97,38 @@ contains
     integer(c_int64_t), value :: n
     integer(c_int64_t), value :: max_periods
     real(dp), intent(in) :: start(2, n)
-    real(dp), intent(in), optional :: low(2, n)
+    type(c_ptr), value :: low
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
-    real(dp), intent(out), optional :: reach(n)
+    type(c_ptr), value :: reach
     type(dynamics_t), pointer :: d
     class(map_t), allocatable :: map
     real(dp), allocatable :: state(:, :)
+    real(dp), pointer :: reaches(:)
 
+    reaches => null()
+    if (c_associated(reach)) call c_f_pointer(reach, reaches, [n])
     d => of_handle(handle)
     allocate (state, source=start)
     if (rung == RUNG_DOUBLE) then
       state(1, :) = half_turns(start(1, :))
       call make_covariant(d, map)
     else
-      call make_precise(d, rung, start, state(1, :), map, low)
+      call make_precise(d, rung, start, state(1, :), map, matrix_of(low, n))
     end if
     periods = max_periods
-    if (present(reach)) then
-      call follow(map, d%regions, d%attractors, state, label, periods, reach)
-    else ! gfortran would read the address of an array that is not there
-      call follow(map, d%regions, d%attractors, state, label, periods)
-    end if
+    call follow(map, d%regions, d%attractors, state, label, periods, reaches)
   end subroutine follow_errors
+
+  !> An array (2, n) of C. NULL is a disassociated pointer, which is absent as an optional argument.
+  function matrix_of(array, n) result(matrix)
+    type(c_ptr), intent(in) :: array
+    integer(c_int64_t), intent(in) :: n
+    real(dp), pointer :: matrix(:, :)
+
+    matrix => null()
+    if (c_associated(array)) call c_f_pointer(array, matrix, [2_c_int64_t, n])
+  end function matrix_of
 
   subroutine make_covariant(d, map)
     type(dynamics_t), intent(inout) :: d
