@@ -31,6 +31,8 @@ void kz_message_clear(void);
 
 /* Seconds of a clock that never goes back. */
 double kz_clock(void);
+/* Seconds of processor time of this thread, independent of other processes. */
+double kz_processor_clock(void);
 
 /* ---- words ---- */
 

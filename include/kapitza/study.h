@@ -268,13 +268,15 @@ typedef struct {
 
 /* One row per study. `summary` is a stream for people on rank 0, NULL elsewhere; so is `store`. All ranks call run. `check`
  * (NULL = nothing to check) refuses a scene that the study cannot model, as where the steps are too coarse for its motions. The
- * message begins with the keys that a user could change ("numerics.steps_per_period|basin.velocity: ..."). */
+ * message begins with the keys that a user could change ("numerics.steps_per_period|basin.velocity: ..."). `try` (NULL = nothing to try)
+ * does and times a part of what `cost` does not count, since nothing but its attractors tells what that takes: seconds on one core of all of it. */
 typedef struct {
   const char *name;
   bool (*wanted)(const kz_scene *scene);
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
+  kz_status (*try)(const kz_scene *scene, double *seconds);
 } kz_study;
 extern const kz_study kz_studies[];
 extern const int kz_study_count;

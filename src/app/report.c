@@ -37,7 +37,18 @@ static void print_duration(double seconds) {
     printf("%.3g h", seconds / 3600.0);
 }
 
-static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved) {
+/* Seconds on one core of what only a trial tells. */
+static kz_status try_studies(const kz_scene *scene, double *seconds) {
+  *seconds = 0;
+  for (int i = 0; i < kz_study_count; i++) {
+    double some = 0;
+    if (kz_studies[i].try && kz_studies[i].wanted(scene)) KZ_TRY(kz_studies[i].try(scene, &some));
+    *seconds += some;
+  }
+  return KZ_OK;
+}
+
+static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, double tried) {
   char disk[32], memory[32], first[32], shared[32];
   const kz_cost cost = kz_cost_of(scene);
   kz_cost_print_bytes(cost.disk_bytes, disk);
@@ -54,7 +65,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
       "\ncells            %lld\ndisk             %s\nmemory per rank  %s, on the first %s more, %s divided by the number of "
       "ranks\nestimated time   ",
       (long long)cost.cells, disk, memory, first, shared);
-  print_duration(cost.core_seconds);
+  print_duration(cost.core_seconds + tried);
   puts(" on one core, divided by the number of ranks");
 }
 
@@ -62,9 +73,11 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   char *resolved = kz_scene_resolved(scene);
   const kz_cost cost = kz_cost_of(scene);
   kz_status status = resolved ? kz_cost_check(&cost, NULL) : kz_fail(KZ_FAILED, "out of memory");
+  double tried = 0;
   if (status == KZ_OK) status = kz_studies_check(scene);
+  if (status == KZ_OK) status = try_studies(scene, &tried);
   if (status == KZ_OK) {
-    print_check(options, scene, resolved);
+    print_check(options, scene, resolved, tried);
     kz_settling_warn(scene, stdout);
   }
   free(resolved);

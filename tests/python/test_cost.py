@@ -77,3 +77,14 @@ def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
         stages = [json.loads(line).get("stage") for line in (tmp_path / f"{ranks}.jsonl").read_text().splitlines() if '"stage", ' in line]
         assert stages.count("cells 1") == 1 and stages.count("cells 2") == 2, stages
     assert datasets(tmp_path / "1.h5") == datasets(tmp_path / "3.h5")
+
+
+@EXTENSIVE
+@pytest.mark.parametrize("keys", [["boundary.pairs=200000"], ["method=exact", "boundary.pairs=10000"], ["shocks.scale=0.5"]], ids=str)
+def test_the_time_of_boundaries_and_shocks_is_tried(kapitza, tmp_path, keys):
+    """One rank's processor time, most of which is that stage's."""
+    scene = [*words(200, "direct"), *(word for key in keys for word in ("--set", f"basin.{key}"))]
+    estimate = float(re.search(r"estimated time +([\d.]+) s", kapitza("check", *scene).stdout)[1])
+    taken = kapitza("run", *scene, "-o", tmp_path / "x.h5", "--timings").stdout
+    seconds = float(re.search(r"^all +[\d.]+ +([\d.]+)", taken, re.MULTILINE)[1])
+    assert 1 / 1.5 < estimate / seconds < 1.5, (estimate, seconds)

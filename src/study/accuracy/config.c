@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "common/cells.h"
 #include "common/decide.h"
@@ -26,13 +25,6 @@ typedef struct {
   workspace *work;
 } measurement;
 
-/* Processor time of this thread, independent of other processes. */
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Labels [n] of the cells first, first + 1, ... of the sample by method exact; KZ_DOUBTFUL where no rung decides. */
 static kz_status decide_cells(const measurement *g, int64_t first, int64_t n, int32_t *label) {
   const kz_basin_plan *plan = g->reference->plan;
@@ -41,13 +33,6 @@ static kz_status decide_cells(const measurement *g, int64_t first, int64_t n, in
   KZ_TRY(kz_decide(g->dynamics, plan->max_periods, n, w->state, NULL, w->decision));
   for (int64_t i = 0; i < n; i++) label[i] = w->decision[i].label;
   return KZ_OK;
-}
-
-/* The finer map and the tables of pairs of doubles are made where they are first needed: now. */
-static void make_rungs(const measurement *g) {
-  int32_t label;
-  for (int32_t rung = 0; rung < KZ_RUNGS; rung++)
-    kz_dynamics_follow_errors(g->dynamics, rung, 0, 0, g->work->state, NULL, &label, g->work->periods, NULL);
 }
 
 /* Labels [n] of the first n cells in the order of the sample. */
@@ -104,17 +89,17 @@ static kz_status set_up(measurement *g) {
   const int64_t cells = kz_regions_cells(g->reference->total);
   if (cells > 0) kz_dynamics_fine_regions(g->dynamics, cells, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
-  if (s->method == KZ_METHOD_EXACT) make_rungs(g);
+  if (s->method == KZ_METHOD_EXACT) kz_decide_prepare(g->dynamics);
   if (s->method == KZ_METHOD_ICM) KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   return KZ_OK;
 }
 
 static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *surplus, kz_measured *m) {
-  const double start = seconds();
+  const double start = kz_processor_clock();
   KZ_TRY(set_up(g));
-  const double ready = seconds();
+  const double ready = kz_processor_clock();
   KZ_TRY(label_cells(g, n, label));
-  *m = (kz_measured){.set_up = ready - start, .cell = (seconds() - ready) / (double)n};
+  *m = (kz_measured){.set_up = ready - start, .cell = (kz_processor_clock() - ready) / (double)n};
   compare(g->reference, label, m);
   m->count_error = largest_count_error(g->reference, label, surplus, kz_dynamics_count(g->dynamics));
   return KZ_OK;

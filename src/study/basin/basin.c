@@ -57,18 +57,23 @@ static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, con
   return kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary);
 }
 
-/* How far the motions of the catalogue are from the edges of their basins. Collective. */
-static kz_status find_shocks(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue,
-                             kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = &scene->basin;
+kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan) {
   kz_resilience_plan asked = {.scale = plan->shocks.scale,
                               .farthest = 2 * kz_axis_fastest(&plan->velocity),
                               .n_sizes = plan->shocks.sizes.count,
                               .max_periods = plan->max_periods};
+  memcpy(asked.size, plan->shocks.sizes.values, (size_t)asked.n_sizes * sizeof *asked.size);
+  return asked;
+}
+
+/* How far the motions of the catalogue are from the edges of their basins. Collective. */
+static kz_status find_shocks(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue,
+                             kz_store *store, FILE *summary) {
+  const kz_basin_plan *plan = &scene->basin;
   kz_resilience *point = NULL;
   int64_t n = 0;
   if (!plan->has_shocks) return KZ_OK;
-  memcpy(asked.size, plan->shocks.sizes.values, (size_t)asked.n_sizes * sizeof *asked.size);
+  const kz_resilience_plan asked = kz_shocks_asked(plan);
   kz_status status = kz_ranks_agree(labelling->run->ranks, kz_resilience_list(labelling->dynamics, catalogue, &n, &point));
   if (status == KZ_OK) status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
   if (status == KZ_OK && store) status = kz_shocks_write(&asked, catalogue, n, point, store, summary);

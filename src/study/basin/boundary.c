@@ -97,10 +97,20 @@ static kz_status pair_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
+kz_status kz_boundary_try(const kz_basin_plan *plan, kz_dynamics *dynamics, int64_t tile) {
+  pairing p = {plan, dynamics};
+  pair_record record = {0};
+  return pair_tile(&p, tile, &record);
+}
+
+int64_t kz_boundary_tiles(const kz_basin_plan *plan) {
+  return (plan->boundary.pairs + STARTS - 1) / STARTS;
+}
+
 static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labelling, kz_uncertain *uncertain) {
   pairing p = {plan, labelling->dynamics};
   const kz_stage stage = {.name = "pairs",
-                          .n_tiles = (plan->boundary.pairs + STARTS - 1) / STARTS,
+                          .n_tiles = kz_boundary_tiles(plan),
                           .record_bytes = sizeof(pair_record),
                           .work = pair_tile,
                           .context = &p,

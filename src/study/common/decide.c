@@ -67,6 +67,14 @@ kz_status kz_decide(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const
   return has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
 }
 
+void kz_decide_prepare(kz_dynamics *dynamics) {
+  const double start[2] = {0, 0};
+  int32_t label;
+  int64_t periods;
+  for (int32_t rung = 0; rung < KZ_RUNGS; rung++)
+    kz_dynamics_follow_errors(dynamics, rung, 0, 0, start, NULL, &label, &periods, NULL);
+}
+
 /* The starts beside n <= KZ_FEW states: `places` last places farther out or in, in angle or velocity. */
 static void step_aside(int64_t n, const double *state, double places, double *beside) {
   for (int64_t i = 0; i < 4 * n; i++) {

@@ -17,6 +17,9 @@ typedef struct {
 kz_status kz_decide(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, const double *low,
                     kz_decision *decision);
 
+/* Makes the finer map and the tables of pairs of doubles, else made where they are first needed: before something is timed. */
+void kz_decide_prepare(kz_dynamics *dynamics);
+
 /* For n <= KZ_FEW starts: where the scene's numerics end without regard to errors (label, periods), and the attractor of the nearest start
  * that ends elsewhere (other), 0 = none seen; all [n]. */
 enum { KZ_FEW = 64 };

@@ -128,3 +128,15 @@ kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_r
   free(found);
   return status;
 }
+
+kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n, const kz_resilience *point,
+                            int64_t *own) {
+  int64_t place = 0;
+  kz_resilience found;
+  *own = 0;
+  for (int64_t i = 0; i < n; i++) *own += image_of(point, i) == i;
+  for (int64_t i = 0, left = *own / 2; i < n && left >= 0; i++)
+    if (image_of(point, i) == i && left-- == 0) place = i;
+  searching s = {dynamics, plan, point, &place};
+  return *own > 0 ? work(&s, 0, &found) : KZ_OK;
+}

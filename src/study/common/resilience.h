@@ -30,4 +30,8 @@ kz_status kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *ca
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point);
 
+/* The same for one of the points, to be timed; own: how many of them are not mirror images of others. */
+kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n, const kz_resilience *point,
+                            int64_t *own);
+
 #endif
