@@ -108,18 +108,19 @@ static ray ray_at(const kz_shock_problem *problem, double angle, double near, do
   return (ray){{cos(angle), problem->scale * sin(angle)}, near, far, -1};
 }
 
-/* The nearest point of the rings of a disc with another end: its distance, and its angle. Not below: infinite. */
-static double nearest_of_disc(room *r, double radius, double *angle) {
+/* The nearest point of the rings between two radii with another end: its distance, and its angle. None: infinite. */
+static double nearest_of_rings(room *r, double inner, double outer, double *angle) {
+  const double width = (outer - inner) / RINGS;
   for (int i = 0; i < RAYS; i++)
     for (int ring = 0; ring < RINGS; ring++) {
       const ray one = ray_at(r->problem, 2 * M_PI * i / RAYS, 0, 0);
-      put(r, (int64_t)i * RINGS + ring, one.direction, radius * (ring + 1) / RINGS);
+      put(r, (int64_t)i * RINGS + ring, one.direction, outer - width * (RINGS - 1 - ring));
     }
   follow(r, MOST);
   double nearest = INFINITY;
   for (int i = 0; i < RAYS; i++)
     for (int ring = 0; ring < RINGS; ring++) {
-      const double distance = radius * (ring + 1) / RINGS;
+      const double distance = outer - width * (RINGS - 1 - ring);
       if (r->end[(int64_t)i * RINGS + ring] == r->problem->own) continue;
       if (distance < nearest) *angle = 2 * M_PI * i / RAYS;
       nearest = fmin(nearest, distance);
@@ -158,12 +159,15 @@ static kz_shock slide(room *r, double angle, double width, double far) {
   return best;
 }
 
-/* Discs about the motion, each as large as the nearest boundary that the one before has shown. */
+/* Discs about the motion, each as large as the nearest boundary that the one before has shown; where a disc shows none, its outermost
+ * ring is looked at more closely, because the tongues of other basins that lie along a boundary are thin. */
 static kz_shock in_disc(room *r, const kz_shock *first) {
   kz_shock best = *first;
   for (int pass = 0; pass < PASSES; pass++) {
     double angle = 0;
-    const double distance = nearest_of_disc(r, best.size * (1 - 1e-9), &angle);
+    const double radius = best.size * (1 - 1e-9);
+    double distance = nearest_of_rings(r, 0, radius, &angle);
+    if (!isfinite(distance)) distance = nearest_of_rings(r, radius * (1 - 1.0 / RINGS), radius, &angle);
     if (!isfinite(distance)) break;
     const kz_shock found = slide(r, angle, 2 * M_PI / RAYS, distance);
     if (found.size < best.size) best = found;
