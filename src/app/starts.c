@@ -20,17 +20,22 @@ static bool is_long(const char *text) {
   return digits > DBL_DECIMAL_DIG;
 }
 
-/* One number of start i, the nearest double unless it is long: cells of a file keep their labels; `place` names it. */
+/* One number of start i; `place` names it. */
 static kz_status read_number(const char *text, int which, const char *place, kz_starts *starts, int64_t i) {
   const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
   kz_decimal value = {0};
   const char *wrong = kz_scalar_decimal(&node, which == 0, &value);
   if (!wrong && (value.high < -MOST[which] || value.high > MOST[which])) wrong = "is out of range";
   starts->start[2 * i + which] = value.high;
-  starts->low[2 * i + which] = is_long(text) ? value.low : 0;
+  starts->low[2 * i + which] = value.low;
   if (!wrong) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s; it must be a number from %g to %g in %s", place, NAMES[which], text, wrong,
                  -MOST[which], MOST[which], which == 0 ? "rad, or in degrees such as 90 deg" : "rad per drive radian");
+}
+
+/* Of a start without a long number the nearest doubles are taken: cells of a file keep their labels. */
+static void take_digits(const char *theta, const char *velocity, kz_starts *starts, int64_t i) {
+  if (!is_long(theta) && !is_long(velocity)) starts->low[2 * i] = starts->low[2 * i + 1] = 0;
 }
 
 /* Cuts blanks from both ends, in place. */
@@ -48,7 +53,9 @@ static kz_status read_row(char *line, int64_t number, kz_starts *starts) {
     return kz_fail(KZ_REFUSED, "%s: \"%.60s\" is not a start; write theta,velocity", place, trimmed(line));
   *comma = '\0';
   KZ_TRY(read_number(trimmed(line), 0, place, starts, starts->n));
-  return read_number(trimmed(comma + 1), 1, place, starts, starts->n++);
+  KZ_TRY(read_number(trimmed(comma + 1), 1, place, starts, starts->n));
+  take_digits(trimmed(line), trimmed(comma + 1), starts, starts->n++);
+  return KZ_OK;
 }
 
 /* A first line of names, and empty lines, are no starts. */
@@ -84,6 +91,7 @@ static kz_status read_starts(const kz_options *options, kz_starts *starts) {
   }
   starts->n = 1;
   for (int i = 0; i < 2; i++) KZ_TRY(read_number(operands[1 + i], i, "where", starts, 0));
+  take_digits(operands[1], operands[2], starts, 0);
   return KZ_OK;
 }
 

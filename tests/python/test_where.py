@@ -62,6 +62,13 @@ def test_json_holds_the_whole_orbit():
     assert f"yes, in double: off by at most {answer['error']:.2g} rad" in words
 
 
+def test_all_digits_of_a_start_count():
+    """Beside a boundary: the orbit of the start in 36 digits stays near it for twice as long as that of its nearest doubles."""
+    starts = ("-0.264011425069458192092654683104843683", "-0.2640114250694582")
+    times = [json.loads(where(SMALL, theta, "1.42", *QUICK, "--json").stdout)["settling_time"] for theta in starts]
+    assert times[0] > 200 > 150 > times[1]
+
+
 def test_what_the_window_does_not_reach_is_found_from_the_start_itself():
     window = ["--set", "basin.theta={min: -0.1, max: 0.1, count: 10}", "--set", "basin.velocity={min: -0.1, max: 0.1, count: 10}"]
     answers = [json.loads(where(SMALL, *window, *QUICK, *start, "--json").stdout) for start in (["0.05", "0"], ["3.1", "0"])]
