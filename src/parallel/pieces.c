@@ -6,7 +6,7 @@
 #include "ranks.h"
 #include "timings.h"
 
-enum { TAG = 2, BUFFERS = 4 };
+enum { TAG = 4, END = 5, BUFFERS = 4 };
 static const size_t MESSAGE_MAX = (size_t)1 << 30;
 
 kz_status kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes) {
@@ -33,9 +33,11 @@ typedef struct {
   kz_ranks *ranks;
   const kz_delivery *delivery;
   const kz_pieces *pieces;
-  char *buffer[BUFFERS];     /* [message_bytes]; rank 0 uses one */
-  MPI_Request sent[BUFFERS]; /* MPI_REQUEST_NULL: the buffer is free */
-  int ended;                 /* ranks that have sent all; rank 0 */
+  char *buffer[BUFFERS + 1];        /* [message_bytes]; the last one is for rank 0's own */
+  MPI_Request request[BUFFERS + 1]; /* messages on their way, rank 0: and the end of a rank's; MPI_REQUEST_NULL: none */
+  int64_t sent;                     /* by the rank that has ended; rank 0 */
+  int ended;                        /* ranks that have sent all; the rest for rank 0 too */
+  int64_t expected, received;       /* messages of those that have ended, of all */
   int64_t done;
   char taking_name[40];
   kz_work making, taking;
@@ -49,48 +51,78 @@ static kz_status make(mail *m, int64_t i, char *buffer, size_t *bytes) {
   return status;
 }
 
-static kz_status take(mail *m, size_t bytes) {
+static kz_status take(mail *m, const char *buffer, size_t bytes) {
   const kz_stopwatch watch = kz_stopwatch_start();
-  const kz_status status = m->delivery->take(m->delivery->context, m->buffer[0], bytes);
+  const kz_status status = m->delivery->take(m->delivery->context, buffer, bytes);
   kz_work_note(&m->taking, m->done, &watch);
   return status;
 }
 
-/* Messages are made while those before are on their way: rank 0 may be at a piece of its own. */
+/* Messages are made while those before are on their way: without a look at these a transport that needs both ranks would not move
+ * them on. */
 static kz_status send_pieces(mail *m) {
   kz_status status = KZ_OK;
-  for (int64_t i = 0; i < m->pieces->n; i++) {
-    char *buffer = m->buffer[i % BUFFERS];
-    MPI_Request *sent = &m->sent[i % BUFFERS];
+  int64_t i = 0;
+  for (; i < m->pieces->n; i++) {
+    const int slot = (int)(i % BUFFERS);
     size_t bytes = 0;
-    KZ_MPI(MPI_Wait(sent, MPI_STATUS_IGNORE));
+    int all;
+    KZ_MPI(MPI_Wait(&m->request[slot], MPI_STATUS_IGNORE));
     if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
-    if ((status = make(m, i, buffer, &bytes)) != KZ_OK) break;
-    KZ_MPI(MPI_Isend(buffer, (int)bytes, MPI_BYTE, 0, TAG, m->ranks->comm, sent));
+    if ((status = make(m, i, m->buffer[slot], &bytes)) != KZ_OK) break;
+    KZ_MPI(MPI_Isend(m->buffer[slot], (int)bytes, MPI_BYTE, 0, TAG, m->ranks->comm, &m->request[slot]));
+    KZ_MPI(MPI_Testall(BUFFERS, m->request, &all, MPI_STATUSES_IGNORE));
   }
-  KZ_MPI(MPI_Waitall(BUFFERS, m->sent, MPI_STATUSES_IGNORE));
-  KZ_MPI(MPI_Send(NULL, 0, MPI_BYTE, 0, TAG, m->ranks->comm));
+  KZ_MPI(MPI_Waitall(BUFFERS, m->request, MPI_STATUSES_IGNORE));
+  KZ_MPI(MPI_Send(&i, 1, MPI_INT64_T, 0, END, m->ranks->comm));
   return status;
 }
 
-/* Receives the message that was probed; an empty one is its rank's last. Where a message was not taken, others are let pass. */
-static kz_status receive(mail *m, const MPI_Status *probed, kz_status *status) {
-  int bytes;
-  KZ_MPI(MPI_Get_count(probed, MPI_BYTE, &bytes));
-  KZ_MPI(MPI_Recv(m->buffer[0], bytes, MPI_BYTE, probed->MPI_SOURCE, TAG, m->ranks->comm, MPI_STATUS_IGNORE));
-  m->ended += bytes == 0;
-  if (bytes > 0 && *status == KZ_OK) *status = take(m, (size_t)bytes);
-  if (bytes > 0) kz_meter_show(&m->meter, ++m->done);
+/* Rank 0 has room for the next message, or hears how many the next rank has sent. */
+static kz_status expect(mail *m, int slot) {
+  MPI_Request *request = &m->request[slot];
+  if (slot < BUFFERS)
+    KZ_MPI(MPI_Irecv(m->buffer[slot], (int)m->delivery->message_bytes, MPI_BYTE, MPI_ANY_SOURCE, TAG, m->ranks->comm, request));
+  else if (m->ended < m->ranks->size - 1)
+    KZ_MPI(MPI_Irecv(&m->sent, 1, MPI_INT64_T, MPI_ANY_SOURCE, END, m->ranks->comm, request));
   return KZ_OK;
 }
 
+/* What has come. Where a message was not taken, others are let pass. */
+static kz_status receive(mail *m, int slot, const MPI_Status *come, kz_status *status) {
+  int bytes;
+  if (slot == BUFFERS) {
+    m->expected += m->sent;
+    m->ended++;
+    return expect(m, slot);
+  }
+  KZ_MPI(MPI_Get_count(come, MPI_BYTE, &bytes));
+  if (*status == KZ_OK) *status = take(m, m->buffer[slot], (size_t)bytes);
+  m->received++;
+  kz_meter_show(&m->meter, ++m->done);
+  return expect(m, slot);
+}
+
 static kz_status receive_waiting(mail *m, kz_status *status) {
-  MPI_Status probed;
-  int waits = 1;
-  while (m->ended < m->ranks->size - 1) {
-    KZ_MPI(MPI_Iprobe(MPI_ANY_SOURCE, TAG, m->ranks->comm, &waits, &probed));
-    if (!waits) break;
-    KZ_TRY(receive(m, &probed, status));
+  MPI_Status come;
+  int slot, is_there;
+  for (;;) {
+    KZ_MPI(MPI_Testany(BUFFERS + 1, m->request, &slot, &is_there, &come));
+    if (!is_there || slot == MPI_UNDEFINED) return KZ_OK;
+    KZ_TRY(receive(m, slot, &come, status));
+  }
+}
+
+static kz_status receive_rest(mail *m, kz_status *status) {
+  MPI_Status come;
+  int slot;
+  while (m->ended < m->ranks->size - 1 || m->received < m->expected) {
+    KZ_MPI(MPI_Waitany(BUFFERS + 1, m->request, &slot, &come));
+    KZ_TRY(receive(m, slot, &come, status));
+  }
+  for (slot = 0; slot < BUFFERS; slot++) {
+    KZ_MPI(MPI_Cancel(&m->request[slot]));
+    KZ_MPI(MPI_Wait(&m->request[slot], MPI_STATUS_IGNORE));
   }
   return KZ_OK;
 }
@@ -98,24 +130,22 @@ static kz_status receive_waiting(mail *m, kz_status *status) {
 /* Rank 0 takes what has come between two pieces of its own. */
 static kz_status take_pieces(mail *m) {
   kz_status status = KZ_OK;
-  MPI_Status probed;
+  const bool alone = m->ranks->size == 1;
+  for (int slot = 0; !alone && slot <= BUFFERS; slot++) KZ_TRY(expect(m, slot));
   for (int64_t i = 0; i < m->pieces->n && status == KZ_OK; i++) {
     size_t bytes = 0;
     if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
-    status = make(m, i, m->buffer[0], &bytes);
-    if (status == KZ_OK) status = take(m, bytes);
+    status = make(m, i, m->buffer[BUFFERS], &bytes);
+    if (status == KZ_OK) status = take(m, m->buffer[BUFFERS], bytes);
     kz_meter_show(&m->meter, ++m->done);
     KZ_TRY(receive_waiting(m, &status));
   }
-  while (m->ended < m->ranks->size - 1) {
-    KZ_MPI(MPI_Probe(MPI_ANY_SOURCE, TAG, m->ranks->comm, &probed));
-    KZ_TRY(receive(m, &probed, &status));
-  }
+  if (!alone) KZ_TRY(receive_rest(m, &status));
   return status;
 }
 
 static kz_status allocate(mail *m) {
-  for (int i = 0; i < (m->ranks->rank == 0 ? 1 : BUFFERS); i++)
+  for (int i = m->ranks->size == 1 ? BUFFERS : 0; i < (m->ranks->rank == 0 ? BUFFERS + 1 : BUFFERS); i++)
     if (!(m->buffer[i] = malloc(m->delivery->message_bytes + 1))) return kz_fail(KZ_FAILED, "out of memory for messages");
   if (m->delivery->message_bytes <= MESSAGE_MAX) return KZ_OK;
   return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name, m->delivery->message_bytes);
@@ -141,11 +171,11 @@ static kz_status deliver(mail *m, int64_t total) {
 
 kz_status kz_pieces_deliver(kz_ranks *ranks, const kz_pieces *pieces, const kz_delivery *delivery) {
   mail m = {.ranks = ranks, .delivery = delivery, .pieces = pieces};
-  for (int i = 0; i < BUFFERS; i++) m.sent[i] = MPI_REQUEST_NULL;
+  for (int i = 0; i <= BUFFERS; i++) m.request[i] = MPI_REQUEST_NULL;
   int64_t total = pieces->n;
   kz_status status = kz_ranks_agree(ranks, allocate(&m));
   if (status == KZ_OK) status = kz_ranks_sum(ranks, &total, 1);
   if (status == KZ_OK) status = deliver(&m, total);
-  for (int i = 0; i < BUFFERS; i++) free(m.buffer[i]);
+  for (int i = 0; i <= BUFFERS; i++) free(m.buffer[i]);
   return status;
 }
