@@ -47,18 +47,16 @@ def test_two_hosts_over_tcp(tmp_path, alone):
     assert datasets(tmp_path / "small.h5") == alone
 
 
-def test_a_stop_on_one_of_two_hosts_reaches_the_other(tmp_path):
-    """The request reaches rank 1 alone: all stop with status 75 and finished work saved."""
-    stop = 'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then (sleep 4; kill -USR1 $$) & fi; exec "$@"'
-    words = [PROGRAM, "run", SMALL, *DIRECT, "--set", "basin.theta.count=3000", "--set", "basin.velocity.count=3000"]
-    done = run("two_hosts", tmp_path, "mpirun", "--host", "first:1,second:1", "-n", "2", "bash", "-c", stop, "stopped", *words)
-    assert done.returncode == 75 and "stopped by SIGUSR1" in done.stderr, done.stderr
-    assert (tmp_path / "small.h5.checkpoint").exists() and not (tmp_path / "small.h5").exists()
-
-
 def rank_1(signals):
     """What makes rank 1, on the second host, send itself signals once there is work to lose."""
     return ["bash", "-c", f'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then ({LATER} {signals}) & fi; exec "$@"', "rank"]
+
+
+def test_a_stop_on_one_of_two_hosts_reaches_the_other(tmp_path):
+    """The request reaches rank 1 alone, once there is work to lose: all stop with status 75 and finished work saved."""
+    done = run("two_hosts", tmp_path, *HOSTS, *rank_1("kill -USR1 $$"), PROGRAM, "run", SMALL, *LARGE)
+    assert done.returncode == 75 and "stopped by SIGUSR1" in done.stderr, done.stderr
+    assert (tmp_path / "small.h5.checkpoint").exists() and not (tmp_path / "small.h5").exists()
 
 
 def test_a_run_that_is_killed_on_one_host_is_resumed_on_both(tmp_path, alone_large):
