@@ -145,7 +145,8 @@ static kz_status take_pieces(mail *m) {
 }
 
 static kz_status allocate(mail *m) {
-  for (int i = m->ranks->size == 1 ? BUFFERS : 0; i < (m->ranks->rank == 0 ? BUFFERS + 1 : BUFFERS); i++)
+  const int first = m->ranks->size == 1 ? BUFFERS : 0, end = m->ranks->rank == 0 ? BUFFERS + 1 : BUFFERS;
+  for (int i = first; i < end; i++)
     if (!(m->buffer[i] = malloc(m->delivery->message_bytes + 1))) return kz_fail(KZ_FAILED, "out of memory for messages");
   if (m->delivery->message_bytes <= MESSAGE_MAX) return KZ_OK;
   return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name, m->delivery->message_bytes);

@@ -6,7 +6,6 @@
 #include "common/cells.h"
 #include "common/doubt.h"
 #include "common/resilience.h"
-#include "common/resilience.h"
 
 /* What is known of a labelled window. */
 typedef struct {
@@ -31,13 +30,9 @@ double kz_basin_warn_steps(const kz_scene *scene, FILE *summary);
 /* What basin.shocks asks of all points. */
 kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan);
 
-/* What basin.shocks asks of all points. */
-kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan);
-
 bool kz_basin_wanted(const kz_scene *scene);
 kz_cost kz_basin_cost(const kz_scene *scene);
 kz_status kz_basin_check(const kz_scene *scene);
-kz_status kz_basin_try(const kz_scene *scene, double *seconds);
 kz_status kz_basin_try(const kz_scene *scene, double *seconds);
 kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 

@@ -14,11 +14,13 @@ enum {
 /* The settling times of every step-th row of those that are not mirror images: how many, and how many cells are open. */
 static kz_status read_times(const kz_basin_plan *plan, kz_store *store, double *time, int64_t *n, int64_t *n_open) {
   const int64_t columns = plan->theta.count, own = (kz_own_cells(plan) + columns - 1) / columns;
-  const int64_t step = 1 + columns * own / CELLS, near = BLOCK / columns / step * step, rows = near > 0 ? near : 1;
+  const int64_t step = 1 + columns * own / CELLS,
+                several = BLOCK / columns / step * step; /* rows of a block; 0: one row is enough */
+  const int64_t rows = several > 0 ? several : 1, stride = several > 0 ? several : step;
   int16_t *label = malloc((size_t)(rows * columns) * sizeof *label);
   uint32_t *periods = malloc((size_t)(rows * columns) * sizeof *periods);
   kz_status status = label && periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for rows of cells");
-  for (int64_t row = 0; status == KZ_OK && row < own; row += near > 0 ? near : step) {
+  for (int64_t row = 0; status == KZ_OK && row < own; row += stride) {
     const int64_t here = own - row < rows ? own - row : rows;
     status = kz_store_rows(store, "basin", "attractor", row, here, label);
     if (status == KZ_OK) status = kz_store_rows(store, "basin", "settling_time", row, here, periods);
