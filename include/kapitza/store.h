@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "kapitza/common.h"
 
@@ -47,6 +48,19 @@ kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, c
                          size_t bytes);
 /* Its rows first .. first + n - 1, from the file. */
 kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data);
+
+/* Writes GROUP/NAME of n values of a type; `expression` gives value i. Returns from the function that it stands in where it
+ * fails. */
+#define KZ_COLUMN(store, group, name, n, type, expression)                         \
+  do {                                                                             \
+    const int64_t column_n = (n);                                                  \
+    type *column = calloc((size_t)column_n + 1, sizeof *column);                   \
+    if (!column) return kz_fail(KZ_FAILED, "no memory for /" group "/" name);      \
+    for (int64_t i = 0; i < column_n; i++) column[i] = (type)(expression);         \
+    const kz_status column_status = kz_store_variable(store, group, name, column); \
+    free(column);                                                                  \
+    KZ_TRY(column_status);                                                         \
+  } while (0)
 
 /* What a study before has written: the length of a dimension (0 where there is none), and one number of a variable at
  * index [its dimensions]. */

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/cells.h"
-#include "common/share.h"
+#include "numerics/cells.h"
+#include "numerics/share.h"
 #include "tradeoff.h"
 
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/cells.h"
-#include "common/decide.h"
-#include "common/map_table.h"
-#include "common/search.h"
+#include "numerics/cells.h"
+#include "labelling/decide.h"
+#include "labelling/map_table.h"
+#include "attractors/search.h"
 
 enum { CHUNK = 16384 }; /* cells labelled at a time */
 

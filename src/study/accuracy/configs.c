@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/cells.h"
-#include "common/processed.h"
+#include "numerics/cells.h"
+#include "numerics/processed.h"
 #include "config.h"
 
 #define DIRECT(label, scheme, steps, precision) {label, KZ_METHOD_DIRECT, scheme, steps, 0, precision, KZ_QUINTIC, 1000, false}

@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/cells.h"
-#include "common/search.h"
-#include "common/share.h"
-#include "common/step_error.h"
+#include "numerics/cells.h"
+#include "attractors/search.h"
+#include "numerics/share.h"
+#include "numerics/step_error.h"
 #include "kapitza/kernel.h"
 
 enum {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/cells.h"
+#include "numerics/cells.h"
 
 enum { TIMED = 16384 }; /* cells that are enough for a measured time */
 

@@ -2,8 +2,8 @@
 #ifndef KAPITZA_STUDY_TRADEOFF_H
 #define KAPITZA_STUDY_TRADEOFF_H
 
-#include "common/share.h"
-#include "common/processed.h"
+#include "numerics/share.h"
+#include "numerics/processed.h"
 #include "config.h"
 
 /* Configurations measured on one sample of reference labels. */

@@ -2,9 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/cells.h"
-#include "common/column.h"
-#include "common/step_error.h"
+#include "numerics/cells.h"
+#include "numerics/step_error.h"
 #include "kapitza/kernel.h"
 #include "tradeoff.h"
 

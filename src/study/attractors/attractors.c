@@ -3,11 +3,11 @@
 
 #include <stdlib.h>
 
-#include "common/catalogue.h"
-#include "common/cells.h"
-#include "common/search.h"
-#include "common/step_check.h"
-#include "common/settling.h"
+#include "catalogue.h"
+#include "numerics/cells.h"
+#include "search.h"
+#include "numerics/step_check.h"
+#include "numerics/settling.h"
 
 typedef struct {
   const kz_attractors_plan *plan;

@@ -10,9 +10,9 @@
 
 #include "accuracy/accuracy.h"
 #include "boundary.h"
-#include "common/settling.h"
-#include "common/resilience.h"
-#include "common/step_table.h"
+#include "numerics/settling.h"
+#include "resilience/resilience.h"
+#include "numerics/step_table.h"
 #include "proof.h"
 #include "shocks_write.h"
 

@@ -3,9 +3,9 @@
 #define KAPITZA_STUDY_BASIN_H
 
 #include "chunks.h"
-#include "common/cells.h"
-#include "common/doubt.h"
-#include "common/resilience.h"
+#include "numerics/cells.h"
+#include "labelling/doubt.h"
+#include "resilience/resilience.h"
 
 /* What is known of a labelled window. */
 typedef struct {

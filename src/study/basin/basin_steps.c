@@ -3,8 +3,8 @@
 
 #include "accuracy/reference.h"
 #include "basin.h"
-#include "common/processed.h"
-#include "common/step_check.h"
+#include "numerics/processed.h"
+#include "numerics/step_check.h"
 #include "proof.h"
 
 static kz_motions motions_of_basin(const kz_scene *scene) {

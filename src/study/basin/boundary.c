@@ -3,11 +3,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/cells.h"
-#include "common/column.h"
-#include "common/decide.h"
-#include "common/share.h"
-#include "common/starts.h"
+#include "numerics/cells.h"
+#include "labelling/decide.h"
+#include "numerics/share.h"
+#include "labelling/starts.h"
 
 enum {
   MOST = KZ_BOUNDARY_MOST_DECADES + 1, /* distances, from 1e-2 rad down */

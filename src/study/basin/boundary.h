@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_BASIN_BOUNDARY_H
 #define KAPITZA_STUDY_BASIN_BOUNDARY_H
 
-#include "common/catalogue.h"
+#include "attractors/catalogue.h"
 #include "label.h"
 
 /* The study's key `boundary`: pairs of starts and boxes of cells, into group /boundary and the summary; nothing where it is not asked

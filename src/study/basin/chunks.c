@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/cells.h"
+#include "numerics/cells.h"
 #include "kapitza/store.h"
 
 enum { VARIABLES = 4 };

@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_CHUNKS_H
 #define KAPITZA_STUDY_CHUNKS_H
 
-#include "common/catalogue.h"
+#include "attractors/catalogue.h"
 #include "label.h"
 #include "measures.h"
 

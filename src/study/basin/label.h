@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_LABEL_H
 #define KAPITZA_STUDY_LABEL_H
 
-#include "common/search.h"
+#include "attractors/search.h"
 #include "tiles.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: of method exact, not decided by the scene's

@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_LABEL_PARTS_H
 #define KAPITZA_STUDY_LABEL_PARTS_H
 
-#include "common/cells.h"
+#include "numerics/cells.h"
 #include "label.h"
 
 enum { KZ_BATCH = 16384 }; /* cells that are followed together, at most */

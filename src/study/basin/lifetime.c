@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "boundary.h"
-#include "common/cells.h"
+#include "numerics/cells.h"
 
 enum {
   CELLS = 1 << 18, /* that are looked at, about */

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "common/cells.h"
+#include "numerics/cells.h"
 
 enum { COLUMNS = 250, LEVELS = 3, MOST_ROWS = 8000 };
 static const double ROWS = 116;     /* of the coarse grid, a rad per drive radian */

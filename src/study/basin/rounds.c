@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "common/step_table.h"
+#include "numerics/step_table.h"
 #include "label_parts.h"
 
 enum { ROUNDS = 4 };

@@ -2,7 +2,7 @@
  * candidates of those that none decides. */
 #include <stdio.h>
 
-#include "common/decide.h"
+#include "labelling/decide.h"
 #include "label_parts.h"
 
 typedef struct {

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/column.h"
 #include "shocks_write.h"
 
 enum { KINDS = 3 };

@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
-#include "common/catalogue.h"
-#include "common/resilience.h"
+#include "attractors/catalogue.h"
+#include "resilience/resilience.h"
 
 /* Group /shocks, and the smallest of each attractor for people. Rank 0. */
 kz_status kz_shocks_write(const kz_resilience_plan *plan, const kz_catalogue *catalogue, int64_t n, const kz_resilience *point,

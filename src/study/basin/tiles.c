@@ -1,6 +1,6 @@
 #include "tiles.h"
 
-#include "common/cells.h"
+#include "numerics/cells.h"
 
 enum { MOST_CELLS = 1 << 19 }; /* of a tile: few MB */
 

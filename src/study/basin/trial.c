@@ -4,11 +4,12 @@
 
 #include "basin.h"
 #include "boundary.h"
-#include "common/catalogue.h"
-#include "common/decide.h"
-#include "common/resilience.h"
-#include "common/settling.h"
-#include "common/starts.h"
+#include "attractors/catalogue.h"
+#include "attractors/search.h"
+#include "labelling/decide.h"
+#include "resilience/resilience.h"
+#include "numerics/settling.h"
+#include "labelling/starts.h"
 #include "shocks_write.h"
 
 enum {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/cells.h"
+#include "numerics/cells.h"
 
 enum { POINTS = 256, LEAST_STEPS = 8, MOST_STEPS = 4000 };
 /* Error that a drive period may have, rad: ends are cycles that Newton's method finds, and a motion only has to be led to its own. */

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "chart.h"
-#include "common/column.h"
 
 static const char *const GROUP = "chart";
 

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/catalogue.h"
-#include "common/column.h"
-#include "common/settling.h"
-#include "common/starts.h"
+#include "attractors/catalogue.h"
+#include "attractors/search.h"
+#include "numerics/settling.h"
+#include "labelling/starts.h"
 #include "track.h"
 
 typedef struct {

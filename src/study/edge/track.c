@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/starts.h"
+#include "labelling/starts.h"
 
 enum { PIECES = 16, ROUNDS = 16 };
 /* rad: sides are brought so near, and bisected again when they are so far apart. */

@@ -3,7 +3,6 @@
 
 #include <stdlib.h>
 
-#include "common/column.h"
 #include "kapitza/dynamics.h"
 
 enum { MOST_POINTS = 32768 }; /* of a branch */

@@ -1,6 +1,6 @@
 /* Motions of the three models through one interface. */
 #include "motion.h"
-#include "common/processed.h"
+#include "numerics/processed.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/step_check.h"
+#include "numerics/step_check.h"
 #include "exponent.h"
 #include "settles_on.h"
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/search.h"
+#include "attractors/search.h"
 
 /* Periods that a motion is followed: what damping takes to shrink areas by exp(-SHRUNK), within bounds. */
 enum { SHRUNK = 30, LEAST_PERIODS = 2000, MOST_STEPS = 1000000, LONGEST_CYCLE = 48 };

@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/column.h"
 #include "saddles.h"
 
 enum { MOST_LINES = 40 }; /* of the summary's table */

@@ -2,8 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/column.h"
-#include "common/share.h"
+#include "numerics/share.h"
 #include "kapitza/analysis.h"
 #include "sweep.h"
 

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/catalogue.h"
-#include "common/cells.h"
-#include "common/resilience.h"
-#include "common/search.h"
-#include "common/settling.h"
+#include "attractors/catalogue.h"
+#include "numerics/cells.h"
+#include "resilience/resilience.h"
+#include "attractors/search.h"
+#include "numerics/settling.h"
 #include "sweep.h"
 
 enum {

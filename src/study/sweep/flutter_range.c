@@ -2,7 +2,6 @@
  * the cycle to its true end, once by releases from rest as the paper did. */
 #include <math.h>
 
-#include "common/column.h"
 #include "sweep.h"
 
 /* The drive is searched up to TOP, in steps of STEP; releases in steps of RELEASE_STEP. */

@@ -2,8 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/cells.h"
-#include "common/column.h"
+#include "numerics/cells.h"
 #include "sweep.h"
 
 enum { TILE = 256 };

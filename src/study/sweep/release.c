@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/column.h"
 #include "sweep.h"
 
 enum {

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/settling.h"
+#include "numerics/settling.h"
 
 #define BARRED(code, word, run) "|" word
 const char *kz_sweep_measure_words(void) {

@@ -1,8 +1,8 @@
 /* Whether the steps are fine enough for a sweep: some of its values are tried. */
 #include <math.h>
 
-#include "common/cells.h"
-#include "common/step_check.h"
+#include "numerics/cells.h"
+#include "numerics/step_check.h"
 #include "sweep.h"
 
 enum {

@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/catalogue.h"
-#include "common/cells.h"
-#include "common/decide.h"
-#include "common/search.h"
-#include "common/starts.h"
+#include "attractors/catalogue.h"
+#include "numerics/cells.h"
+#include "labelling/decide.h"
+#include "attractors/search.h"
+#include "labelling/starts.h"
 
 typedef struct {
   const kz_scene *scene;

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "common/cells.h"
+#include "numerics/cells.h"
 
 static kz_axis window(const char *centre, double high, double low, double width, int64_t count) {
   kz_axis axis = {.min = high - width / 2, .max = high + width / 2, .count = count, .width = {"w", width, 0}};

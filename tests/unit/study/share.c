@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "accuracy/config.h"
-#include "common/share.h"
+#include "numerics/share.h"
 
 /* Wilson's limits solve (share - p)^2 = z^2 p (1 - p)/n. */
 static void test_wilson_solves_its_equation(void **state) {

@@ -6,6 +6,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/parallel.h"
+#include "kapitza/study.h"
 
 /* Starts spread over a window, the trapping regions and the map table of its dynamics. */
 typedef struct {
@@ -31,5 +32,8 @@ kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_peri
 /* Follows n starts (state [n][2], in and out) up to `periods` periods: label [n] = attractor, 0 where the start has not
  * settled. In kept stages. Collective. */
 kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
+
+/* The search for the attractors of the scene's study basin or attractors. */
+kz_search kz_search_of(const kz_scene *scene);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "starts.h"
+#include "labelling/starts.h"
 
 typedef struct {
   kz_dynamics *dynamics;

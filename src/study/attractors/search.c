@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "map_table.h"
+#include "labelling/map_table.h"
+#include "numerics/cells.h"
+#include "numerics/settling.h"
 
 enum {
   FIRST_LENGTH = 128,  /* periods of the first round; a round that finds nothing doubles it */
@@ -220,4 +222,19 @@ kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_se
   if (search->table_theta > 0)
     KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
   return rest > 0 ? kz_discover(run, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
+}
+
+kz_search kz_search_of(const kz_scene *scene) {
+  const kz_basin_plan *basin = &scene->basin;
+  const kz_attractors_plan *attractors = &scene->attractors;
+  if (!scene->has_basin)
+    return (kz_search){.window = kz_window_of(&attractors->theta, &attractors->velocity),
+                       .starts = attractors->starts,
+                       .seed = attractors->seed,
+                       .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
+  return (kz_search){.window = kz_window_of(&basin->theta, &basin->velocity),
+                     .starts = basin->starts,
+                     .seed = basin->seed,
+                     .max_periods = basin->max_periods,
+                     .cells = basin->theta.count * basin->velocity.count};
 }

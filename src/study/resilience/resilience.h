@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_RESILIENCE_H
 #define KAPITZA_STUDY_RESILIENCE_H
 
-#include "catalogue.h"
+#include "attractors/catalogue.h"
 #include "kapitza/parallel.h"
 #include "kapitza/study.h"
 #include "shocks.h"

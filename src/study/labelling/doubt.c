@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "cells.h"
+#include "numerics/cells.h"
 
 enum { SAMPLE = 7300, TILE = KZ_DOUBT_TILE }; /* cells; the sample tells 5 % to +-0.5 points */
 

@@ -5,7 +5,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
-#include "share.h"
+#include "numerics/share.h"
 
 typedef struct {
   int64_t cells;      /* that were asked about; 0 = none */

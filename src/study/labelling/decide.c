@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cells.h"
+#include "numerics/cells.h"
 
 /* The starts that are open. */
 typedef struct {

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "column.h"
-
 enum { SAMPLES = 96, LINES_PER_PERIOD = 8 };
 
 void kz_catalogue_free(kz_catalogue *catalogue) {
