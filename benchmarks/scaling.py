@@ -17,7 +17,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from scaling_model import Costs, Stage, collective, delivered, resampled
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
 from kapitza import style  # noqa: E402
 

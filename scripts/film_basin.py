@@ -17,9 +17,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
-from kapitza import BadFile, run
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "python"))
+from kapitza import BadFile, run  # noqa: E402
 
 
 def parse_arguments():

@@ -1,4 +1,4 @@
-"""Draws the figures of scripts/kapitza/figures.py, each scene run once, and writes the papers' numbers (see scripts/reproduce)."""
+"""Draws the figures of python/kapitza/figures.py, each scene run once, and writes the papers' numbers (see scripts/reproduce)."""
 
 import argparse
 import fnmatch
@@ -7,10 +7,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-from kapitza.figures import FIGURES
-from papers.page import find_numbers, write_page
-
 ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "python"))
+from kapitza.figures import FIGURES  # noqa: E402
+from kapitza.papers.page import find_numbers, write_page  # noqa: E402
+
 RESULTS = ROOT / "results"
 
 

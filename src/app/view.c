@@ -10,7 +10,7 @@
 
 typedef struct {
   char program[PATH_MAX];         /* this executable */
-  char scripts[PATH_MAX + 16];    /* folder of the Python package */
+  char package[PATH_MAX + 16];    /* folder of the Python package */
   char entry[PATH_MAX + 64];      /* of the explorer, in it */
   char own_python[PATH_MAX + 32]; /* of the virtual environment that scripts/setup makes */
 } places;
@@ -22,9 +22,9 @@ static kz_status find_places(places *p) {
   p->program[length] = '\0';
   strcpy(folder, p->program);
   const char *root = dirname(dirname(folder));
-  snprintf(p->scripts, sizeof p->scripts, "%s/scripts", root);
+  snprintf(p->package, sizeof p->package, "%s/python", root);
   snprintf(p->own_python, sizeof p->own_python, "%s/.venv/bin/python", root);
-  snprintf(p->entry, sizeof p->entry, "%s/kapitza/explorer/__main__.py", p->scripts);
+  snprintf(p->entry, sizeof p->entry, "%s/kapitza/explorer/__main__.py", p->package);
   if (access(p->entry, R_OK) == 0) return KZ_OK;
   return kz_fail(KZ_REFUSED, "view: the explorer is not at %s; run the program in the folder build of its sources", p->entry);
 }
@@ -38,10 +38,10 @@ static const char *python_of(const places *p) {
 /* The package is found first, whatever else the user's path of modules holds. */
 static kz_status set_module_path(const places *p) {
   const char *before = getenv("PYTHONPATH");
-  const size_t bytes = strlen(p->scripts) + (before ? strlen(before) : 0) + 2;
+  const size_t bytes = strlen(p->package) + (before ? strlen(before) : 0) + 2;
   char *path = malloc(bytes);
   if (!path) return kz_fail(KZ_FAILED, "out of memory");
-  snprintf(path, bytes, "%s%s%s", p->scripts, before && before[0] ? ":" : "", before ? before : "");
+  snprintf(path, bytes, "%s%s%s", p->package, before && before[0] ? ":" : "", before ? before : "");
   const bool set = setenv("PYTHONPATH", path, 1) == 0;
   free(path);
   return set ? KZ_OK : kz_fail(KZ_FAILED, "out of memory");

@@ -76,7 +76,7 @@ def test_what_pip_installs(made_file, tmp_path):
 
 @pytest.mark.parametrize("words, status", [([], 2), (["portrait", "FILE"], 2), (["--help"], 0)])
 def test_the_command_names_its_kinds(words, status):
-    done = python("-c", "from kapitza.command import main; main()", *words, env=os.environ | {"PYTHONPATH": str(ROOT / "scripts")})
+    done = python("-c", "from kapitza.command import main; main()", *words, env=os.environ | {"PYTHONPATH": str(ROOT / "python")})
     assert done.returncode == status and "KIND: basin, chart" in done.stdout + done.stderr and "Traceback" not in done.stderr
 
 
@@ -87,7 +87,7 @@ def test_checkers_find_nothing(tool):
 
 
 def test_files_are_short():
-    long = [path.name for path in (ROOT / "scripts").rglob("*.py") if len(path.read_text().splitlines()) > LIMIT]
+    long = [path.name for path in (ROOT / "python").rglob("*.py") if len(path.read_text().splitlines()) > LIMIT]
     assert not long
 
 

@@ -33,7 +33,7 @@ def test_a_module_is_named_after_its_folder_and_file():
 
 
 def test_no_file_is_long():
-    folders = [SOURCES, HEADERS, ROOT / "tests", ROOT / "scripts", ROOT / "benchmarks", ROOT / "cmake"]
+    folders = [SOURCES, HEADERS, ROOT / "tests", ROOT / "scripts", ROOT / "python", ROOT / "benchmarks", ROOT / "cmake"]
     files = [path for folder in folders for path in folder.rglob("*") if path.suffix in {".c", ".h", ".f90", ".inc", ".py", ".cmake"}]
     assert not {str(path): n for path in files if (n := len(path.read_text().splitlines())) > LONGEST}
 
@@ -256,7 +256,7 @@ def test_the_guide_names_files_that_exist():
     assert {word for name, _ in rows for word in name.split()} >= {
         "scheme", "study", "key", "variable", "measure", "interpolation", "plot", "curve", "colour", "test"}
     for name, files in rows:
-        ways = [re.findall(r"`((?:src|include|scripts|docs|tests|scenes)/[^`]*)`", way) for way in files.split("; in Python")]
+        ways = [re.findall(r"`((?:src|include|python|scripts|docs|tests|scenes)/[^`]*)`", way) for way in files.split("; in Python")]
         assert all(1 <= len(way) <= 3 for way in ways), name
         paths = sum(ways, [])
         missing = [path for path in paths if not re.search("[A-Z]", path) and not (ROOT / path).exists()]

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests" / "tools")]
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests" / "tools")]
 
 from kapitza import run  # noqa: E402
 from reference_coverage import Kapitza, lively_scene  # noqa: E402
