@@ -2,10 +2,10 @@
 module kz_kernel_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
                                          c_f_pointer
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow, fine_numerics, sampling_numerics, SINGLE, DOUBLE
-  use kz_kernel_schemes, only: SCHEMES
-  use kz_kernel_step_table, only: pendulum_t, numerics_t
+  use kz_lanes_schemes, only: SCHEMES
+  use kz_lanes_step_table, only: pendulum_t, numerics_t
   use kz_kernel_r32, only: sine_r32 => sine
   use kz_kernel_r64, only: sine_r64 => sine
   use kz_kernel_r128, only: sine_r128 => sine

@@ -3,7 +3,7 @@
 module kz_kernel_models
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use kz_kernel_plan, only: FINE
-  use kz_kernel_step_table, only: pendulum_t, numerics_t, period_t, make_period
+  use kz_lanes_step_table, only: pendulum_t, numerics_t, period_t, make_period
   implicit none
   private
 

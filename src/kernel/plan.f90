@@ -1,11 +1,11 @@
 !> From a pendulum and its numerics to a map of the right kind. The only procedure that distinguishes the kinds.
 module kz_kernel_plan
   use, intrinsic :: iso_c_binding, only: c_double
-  use kz_kernel_map, only: flow_t
-  use kz_kernel_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
+  use kz_lanes_map, only: flow_t
+  use kz_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
                                         QUAD_GRADES, MOST_DRIFTS, MOST_KICKS
-  use kz_kernel_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
-  use kz_kernel_step_table, only: pendulum_t, numerics_t, period_t, make_period
+  use kz_lanes_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
+  use kz_lanes_step_table, only: pendulum_t, numerics_t, period_t, make_period
   use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
   use kz_kernel_r64, only: make_tile_r64 => make_tile, make_processed_r64 => make_processed_tile
   use kz_kernel_r128, only: make_tile_r128 => make_tile, make_processed_r128 => make_processed_tile

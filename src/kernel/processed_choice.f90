@@ -4,12 +4,12 @@ module kz_kernel_processed_choice
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use, intrinsic :: iso_fortran_env, only: real128
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_processed_flow
-  use kz_kernel_processed_tables, only: series_t, make_processed_series, QUAD_GRADES, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
-  use kz_kernel_schemes, only: PROCESSED_ROW
-  use kz_kernel_step_table, only: pendulum_t, numerics_t
-  use kz_kernel_taylor, only: drive_t, make_drive, advance_period
+  use kz_processed_tables, only: series_t, make_processed_series, QUAD_GRADES, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
+  use kz_lanes_schemes, only: PROCESSED_ROW
+  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period
   implicit none
   private
 

@@ -3,40 +3,23 @@ module kz_kernel_r128
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH, ROOM
-  use kz_kernel_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
-  use kz_kernel_step_table, only: period_t, INVERSE_PI_QUAD
+  use kz_lanes_map, only: flow_t, put_state, move_state, WIDTH, ROOM
+  use kz_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
+  use kz_extended_pairs_level, only: SINE_COEFFICIENTS
+  use kz_lanes_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
   private
-  public :: make_tile, make_processed_tile, sine, SINE_COEFFICIENTS
+  public :: make_tile, make_processed_tile, sine
 
   integer, parameter :: ik = selected_int_kind(38)
   !> Quad arithmetic is done lane by lane, so only the lanes in use are advanced.
   integer, parameter :: VECTOR = 1
 
-  !> sin(pi r)/r as a polynomial in r**2 on |r| <= 1/2, minimax, relative error 2.0e-37 (Remez exchange in 60 digits).
-  real(rk), parameter :: SINE_COEFFICIENTS(15) = [ &
-    3.141592653589793238462643383279502883532_rk, &
-    -5.167712780049970029246052511183564701846_rk, &
-    2.550164039877345443856177583694957089303_rk, &
-    -0.5992645293207920768877393835068616642283_rk, &
-    0.08214588661112822879880236315174708582035_rk, &
-    -0.007370430945714350777259003326394741828258_rk, &
-    0.0004663028057676125644185609747807883215079_rk, &
-    -0.00002191535344783021579350146212009327079687_rk, &
-    0.000000795205400147550885914096243557670141671_rk, &
-    -0.0000000229484289972666061083754099127608399681_rk, &
-    0.00000000053926646624120950522012910621786683528_rk, &
-    -0.00000000001051847163286054698546474514157174850106_rk, &
-    1.730216732436752987243058139843180217786e-13_rk, &
-    -2.432063529208364844949906009765956065802e-15_rk, &
-    2.898000241925418772355479264841694691025e-17_rk]
-
-  include 'tile.inc'
-  include 'tile_stages.inc'
-  include 'processed_tile.inc'
-  include 'processed_tangent.inc'
-  include 'processor.inc'
+  include 'split/tile.inc'
+  include 'split/tile_stages.inc'
+  include 'processed/tile.inc'
+  include 'processed/tangent.inc'
+  include 'processed/processor.inc'
 
   !> The stages of a period of the processed splitting for the lanes 1 .. n.
   subroutine stages(n_drift, n_kick, n_stages, row, n, u, v)

@@ -3,9 +3,9 @@ module kz_kernel_r32
   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real32, ik => int32
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_kernel_map, only: flow_t, put_state, move_state, WIDTH, ROOM
-  use kz_kernel_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
-  use kz_kernel_step_table, only: period_t, INVERSE_PI_QUAD
+  use kz_lanes_map, only: flow_t, put_state, move_state, WIDTH, ROOM
+  use kz_processed_tables, only: processed_t, processor_t, ORDER, HARMONICS
+  use kz_lanes_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
   private
   public :: make_tile, make_processed_tile, sine
@@ -14,7 +14,7 @@ module kz_kernel_r32
   integer, parameter :: VECTOR = 16
 
   interface
-    !> The stages of a period for the lanes 1 .. n, or some more (processed_stages.c).
+    !> The stages of a period for the lanes 1 .. n, or some more (processed/stages.c).
     subroutine stages(n_drift, n_kick, n_stages, row, n, u, v) bind(C, name='kz_processed_stages_r32')
       import :: c_float, c_int32_t, c_int64_t, WIDTH
       integer(c_int32_t), value :: n_drift
@@ -36,10 +36,10 @@ module kz_kernel_r32
     0.0820464793682_rk, &
     -0.00702216420632_rk]
 
-  include 'tile.inc'
-  include 'tile_stages.inc'
-  include 'processed_tile.inc'
-  include 'processed_tangent.inc'
-  include 'processor.inc'
+  include 'split/tile.inc'
+  include 'split/tile_stages.inc'
+  include 'processed/tile.inc'
+  include 'processed/tangent.inc'
+  include 'processed/processor.inc'
 
 end module kz_kernel_r32

@@ -1,10 +1,10 @@
 !> A map that counts the periods it integrates with their derivative: what a search for cycles costs, for tests.
 module kz_test_counted
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_kernel_map, only: flow_t, WIDTH
+  use kz_lanes_map, only: flow_t, WIDTH
   use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
-  use kz_kernel_schemes, only: SPLIT6_ROW
-  use kz_kernel_step_table, only: pendulum_t, numerics_t
+  use kz_lanes_schemes, only: SPLIT6_ROW
+  use kz_lanes_step_table, only: pendulum_t, numerics_t
   use kz_cycles_cycles, only: attractor_t
   use kz_attractors_cycle_search, only: search_t, find_cycle
   implicit none

@@ -1,7 +1,7 @@
 !> The C interface of dynamics: the catalogue of attractors (include/kapitza/dynamics.h).
 module kz_api_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_f_pointer
-  use kz_kernel_map, only: PI
+  use kz_lanes_map, only: PI
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpack
   use kz_attractors_cycle_search, only: append

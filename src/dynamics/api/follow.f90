@@ -2,10 +2,10 @@
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_associated, c_f_pointer, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: leave_states, half_turns
-  use kz_kernel_map, only: map_t
-  use kz_kernel_pairs, only: pairs_t, make_pairs
+  use kz_lanes_map, only: map_t
+  use kz_extended_pairs, only: pairs_t, make_pairs
   use kz_kernel_plan, only: make_flow, DOUBLE
-  use kz_kernel_step_table, only: numerics_t
+  use kz_lanes_step_table, only: numerics_t
   use kz_labels_covariant_map, only: covariant_map_t, make_covariant_map
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_labels_label, only: follow

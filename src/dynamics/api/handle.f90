@@ -1,12 +1,12 @@
 !> What a handle of include/kapitza/dynamics.h points at.
 module kz_api_handle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
-  use kz_kernel_map, only: flow_t
-  use kz_kernel_pairs, only: pairs_t
-  use kz_kernel_step_table, only: numerics_t
+  use kz_lanes_map, only: flow_t
+  use kz_extended_pairs, only: pairs_t
+  use kz_lanes_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_trapping_cell_images, only: images_t
-  use kz_trapping_grid, only: regions_t
+  use kz_grown_cell_images, only: images_t
+  use kz_grown_grid, only: regions_t
   use kz_attractors_cycle_search, only: search_t
   use kz_maps_map_table, only: table_t
   implicit none

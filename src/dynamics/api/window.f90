@@ -1,7 +1,7 @@
 !> The C interface of dynamics: starts of a window, and how fast they become (include/kapitza/dynamics.h).
 module kz_api_window
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
-  use kz_kernel_map, only: WIDTH, PI
+  use kz_lanes_map, only: WIDTH, PI
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_maps_states, only: wrapped
   implicit none

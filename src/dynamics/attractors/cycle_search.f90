@@ -1,13 +1,13 @@
 !> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
 module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, PI
-  use kz_kernel_step_table, only: pendulum_t
+  use kz_lanes_map, only: flow_t, PI
+  use kz_lanes_step_table, only: pendulum_t
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
-  use kz_trapping_ellipses, only: find_ellipses
+  use kz_grown_ellipses, only: find_ellipses
   use kz_cycles_newton, only: n_periods, eigenvalues
   use kz_cycles_features, only: find_features
-  use kz_trapping_grid, only: ellipse_at
+  use kz_grown_grid, only: ellipse_at
   use kz_maps_states, only: separation, same_state
   implicit none
   private

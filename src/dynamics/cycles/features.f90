@@ -1,8 +1,8 @@
 !> Features of an attractor over continuous time: mean, amplitude, centre.
 module kz_cycles_features
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_kernel_map, only: flow_t, PI
-  use kz_kernel_step_table, only: pendulum_t
+  use kz_lanes_map, only: flow_t, PI
+  use kz_lanes_step_table, only: pendulum_t
   use kz_cycles_cycles, only: attractor_t
   use kz_maps_states, only: angle_difference
   implicit none

@@ -3,9 +3,9 @@
 !> It is trapped once a trapping region holds the whole ellipse of P.
 module kz_labels_covariance
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: map_t, move_state, WIDTH, ROOM, PI
+  use kz_lanes_map, only: map_t, move_state, WIDTH, ROOM, PI
   use kz_cycles_cycles, only: attractor_t
-  use kz_trapping_grid, only: regions_t, find_regions
+  use kz_grown_grid, only: regions_t, find_regions
   use kz_maps_states, only: angle_difference
   implicit none
   private

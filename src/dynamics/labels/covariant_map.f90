@@ -1,9 +1,9 @@
 !> Orbits of the scene's map with their errors beside them.
 module kz_labels_covariant_map
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, put_state, WIDTH, PI
+  use kz_lanes_map, only: flow_t, put_state, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
-  use kz_trapping_grid, only: regions_t
+  use kz_grown_grid, only: regions_t
   use kz_labels_covariance, only: error_map_t, move_error
   use kz_maps_states, only: separation
   implicit none

@@ -2,9 +2,9 @@
 !> coordinates of the map many at a time, and wait.
 module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
-  use kz_kernel_map, only: map_t, WIDTH, ROOM
+  use kz_lanes_map, only: map_t, WIDTH, ROOM
   use kz_cycles_cycles, only: attractor_t
-  use kz_trapping_grid, only: regions_t, find_regions, chaos_region
+  use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
   public :: follow, DOUBTFUL

@@ -2,9 +2,9 @@
 !> which is enough for an error.
 module kz_labels_precise_map
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: map_t, flow_t, put_state, WIDTH, PI
+  use kz_lanes_map, only: map_t, flow_t, put_state, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
-  use kz_trapping_grid, only: regions_t
+  use kz_grown_grid, only: regions_t
   use kz_labels_covariance, only: error_map_t, move_error
   use kz_maps_states, only: separation
   implicit none

@@ -3,11 +3,11 @@
 module kz_labels_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_maps_states, only: enter_states
-  use kz_kernel_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
-  use kz_kernel_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
-  use kz_kernel_step_table, only: pendulum_t
+  use kz_lanes_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
+  use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
+  use kz_lanes_step_table, only: pendulum_t
   use kz_maps_states, only: wrapped
-  use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
   private
   public :: reference_map_t, make_reference_map

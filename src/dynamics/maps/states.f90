@@ -2,7 +2,7 @@
 module kz_maps_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: iso_fortran_env, only: qp => real128
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   implicit none
   private
   public :: wrapped, half_turns, enter_states, leave_states, angle_difference, separation, same_state, midperiod_angle, rounded, &

@@ -3,9 +3,9 @@
 module kz_maps_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use kz_kernel_map, only: map_t, flow_t, WIDTH, PI
+  use kz_lanes_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow_and_finer, DOUBLE
-  use kz_kernel_step_table, only: pendulum_t, numerics_t
+  use kz_lanes_step_table, only: pendulum_t, numerics_t
   use kz_maps_states, only: separation
   implicit none
   private

@@ -1,8 +1,8 @@
 !> Newton's method on the cycles that many motions come near, each of a pendulum of its own.
 module kz_plane_closing
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: WIDTH, PI
-  use kz_kernel_mixed_tile, only: mixed_tile_t, track_t
+  use kz_lanes_map, only: WIDTH, PI
+  use kz_split_mixed_tile, only: mixed_tile_t, track_t
   use kz_cycles_newton, only: solved, eigenvalues
   use kz_maps_states, only: angle_difference
   implicit none

@@ -2,7 +2,7 @@
 !> those whose images pass near themselves are short. Where F^n(x) comes near x, the orbit of x closes by multiple shooting.
 module kz_saddles_lines
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
   use kz_maps_states, only: separation, wrapped
   implicit none

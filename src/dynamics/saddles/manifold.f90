@@ -2,7 +2,7 @@
 !> its bends need. (D. Hobson, J. Comput. Phys. 104 (1993) 14, has the measures of distance and angle.)
 module kz_saddles_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_cycles_newton, only: n_periods, eigenvalues
   use kz_maps_states, only: angle_difference, separation
   implicit none

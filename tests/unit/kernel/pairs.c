@@ -5,7 +5,7 @@
 #include <cmocka.h>
 
 #include "kapitza/kernel.h"
-#include "pairs_arithmetic.h"
+#include "extended/pairs_arithmetic.h"
 
 #include <float.h>
 #include <stdbool.h>

@@ -1,8 +1,8 @@
 !> The C interface of the quad-precision reference: include/kapitza/reference.h. Quads stay inside, doubles come out.
-module kz_kernel_reference
+module kz_extended_reference
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
-  use kz_kernel_step_table, only: pendulum_t
-  use kz_kernel_taylor, only: drive_t, make_drive, advance_period, qp
+  use kz_lanes_step_table, only: pendulum_t
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
   private
 
@@ -65,4 +65,4 @@ contains
     turns = states%turns
   end subroutine read_states
 
-end module kz_kernel_reference
+end module kz_extended_reference

@@ -3,9 +3,9 @@
 !> The map is a homeomorphism of the plane: where the boundary of a region goes strictly inside, the whole region does. Every
 !> ring of an ellipse is tried from a tiny one on, so that the cycle is the only invariant set in it. The norm is that of the
 !> eigenbasis of the monodromy: for complex multipliers the linear map contracts it by exactly |mu|.
-module kz_trapping_ellipses
+module kz_grown_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_maps_states, only: angle_difference
   implicit none
@@ -258,4 +258,4 @@ contains
     if (abs(w(1)) + abs(w(2)) <= 0) w = 1
   end function eigenvector
 
-end module kz_trapping_ellipses
+end module kz_grown_ellipses

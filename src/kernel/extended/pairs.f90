@@ -2,15 +2,15 @@
 !> error of a period, measured against quad-precision Taylor series, is at most a tolerance. States are physical: the processor is
 !> applied at both ends of every period. Faster states need more steps, so there are several tables, by speeds; the fastest states
 !> are advanced by the Taylor series themselves.
-module kz_kernel_pairs
+module kz_extended_pairs
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
-  use kz_kernel_map, only: WIDTH
-  use kz_kernel_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
-  use kz_kernel_processed_tables, only: series_t, make_processed_series, MOST_KICKS, MOST_DAMPING, ORDER
-  use kz_kernel_step_table, only: pendulum_t
-  use kz_kernel_taylor, only: drive_t, make_drive, advance_period
+  use kz_lanes_map, only: WIDTH
+  use kz_extended_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
+  use kz_processed_tables, only: series_t, make_processed_series, MOST_KICKS, MOST_DAMPING, ORDER
+  use kz_lanes_step_table, only: pendulum_t
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period
   implicit none
   private
   public :: pairs_t, pair_lanes_t, make_pairs, advance_pairs, pair_of, quad_of
@@ -230,4 +230,4 @@ contains
     turns(lane) = turns(lane) + gained
   end subroutine advance_fastest
 
-end module kz_kernel_pairs
+end module kz_extended_pairs

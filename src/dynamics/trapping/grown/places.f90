@@ -1,6 +1,6 @@
 !> Where states lie in the grid of trapping regions, many at once. (A file of its own: called, not copied into a caller, its loop goes
 !> over vectors.)
-module kz_trapping_places
+module kz_grown_places
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_maps_states, only: MIDPERIOD
   implicit none
@@ -80,4 +80,4 @@ contains
     fold = merge(1.0_dp, -1.0_dp, merge(u, v, abs(u) > 0) >= 0)
   end function side
 
-end module kz_trapping_places
+end module kz_grown_places

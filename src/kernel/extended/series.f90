@@ -6,7 +6,7 @@
 !> (32 digits; products by Dekker 1971: this file must be compiled without contraction); the orders beyond, smaller than
 !> 1e-16 of the motion, need 16 digits and are plain doubles. Orders are fixed and lanes never look at each other: a lane's
 !> result does not depend on its neighbours.
-module kz_kernel_series
+module kz_extended_series
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
@@ -290,4 +290,4 @@ contains
     top = large - (large - x)
   end function upper_half
 
-end module kz_kernel_series
+end module kz_extended_series

@@ -1,9 +1,9 @@
 !> The reference: whole periods of theta'' + beta theta' + (k - m cos t) sin theta = 0 in quad precision (real128), by Taylor
 !> series of fixed order (series.f90) in steps that are halved until the series of every step is complete.
-module kz_kernel_taylor
+module kz_extended_taylor
   use, intrinsic :: iso_fortran_env, only: real64, real128, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_kernel_series, only: LANES, LAST, force_t, series_t, round_force, begin_series, expand, sums, converged
+  use kz_extended_series, only: LANES, LAST, force_t, series_t, round_force, begin_series, expand, sums, converged
   implicit none
   private
   public :: drive_t, make_drive, advance_period, qp
@@ -171,4 +171,4 @@ contains
     end do
   end subroutine advance_lanes
 
-end module kz_kernel_taylor
+end module kz_extended_taylor

@@ -8,7 +8,7 @@ enum { VECTOR_BYTES = 64 };
 #else
 enum { VECTOR_BYTES = 32 };
 #endif
-/* Lanes of a tile (map.f90): blocks divide it. */
+/* Lanes of a tile (lanes/map.f90): blocks divide it. */
 enum { WIDTH = 64 };
 #define EACH _Pragma("GCC unroll 8") for (int i = 0; i < CHAINS; i++)
 
@@ -17,7 +17,7 @@ enum { WIDTH = 64 };
 #define real double
 #define VECTOR vector_r64
 #define NAMED(name) name##_r64
-#include "processed_stages.inc"
+#include "stages.inc"
 #undef MAGIC
 #undef real
 #undef VECTOR
@@ -27,4 +27,4 @@ enum { WIDTH = 64 };
 #define real float
 #define VECTOR vector_r32
 #define NAMED(name) name##_r32
-#include "processed_stages.inc"
+#include "stages.inc"

@@ -1,10 +1,10 @@
 !> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi, each labelled with an
 !> attractor, overlapped by trapping ellipses, or open.
-module kz_trapping_grid
+module kz_grown_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_trapping_ellipses, only: in_ellipse
-  use kz_trapping_places, only: look_up, side, wrapped_midperiod_angle, WORD
+  use kz_grown_ellipses, only: in_ellipse
+  use kz_grown_places, only: look_up, side, wrapped_midperiod_angle, WORD
   use kz_maps_states, only: angle_difference, midperiod_angle
   implicit none
   private
@@ -296,4 +296,4 @@ contains
     l = regions%n_velocity - 1 - l
   end subroutine fold_cell
 
-end module kz_trapping_grid
+end module kz_grown_grid

@@ -3,7 +3,7 @@
 !>
 !> Inside, angles are in half-turns, u = theta/pi: the wrap to [-1, 1] is exact, and the mirror image (-u, -v) of a state goes
 !> to the mirror image of its image, to the bit.
-module kz_kernel_map
+module kz_lanes_map
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   implicit none
   private
@@ -133,4 +133,4 @@ contains
     self%straddling(to) = self%straddling(from)
   end subroutine move_state
 
-end module kz_kernel_map
+end module kz_lanes_map

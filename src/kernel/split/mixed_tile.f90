@@ -1,12 +1,12 @@
 !> A tile of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
 !> each lane stand in tables; its kicks are k and m times those of all.
-module kz_kernel_mixed_tile
+module kz_split_mixed_tile
   use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_kernel_map, only: map_t, put_state, move_state, WIDTH, PI
-  use kz_kernel_r64, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI, VECTOR
-  use kz_kernel_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
-  use kz_kernel_step_table, only: pendulum_t
+  use kz_lanes_map, only: map_t, put_state, move_state, WIDTH, PI
+  use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI, VECTOR
+  use kz_lanes_step_table, only: pendulum_t
   implicit none
   private
   public :: mixed_tile_t, track_t, make_mixed_tile
@@ -208,6 +208,6 @@ contains
     end do
   end subroutine wrap
 
-  include 'sine.inc'
+  include 'lanes/sine.inc'
 
-end module kz_kernel_mixed_tile
+end module kz_split_mixed_tile

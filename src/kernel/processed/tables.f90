@@ -1,11 +1,11 @@
 !> One drive period of the processed splitting as a table of drifts and kicks, and its processor, in quad precision; each kind
 !> rounds them to its own. Derivation: docs/theory.md, "The processed splitting".
-module kz_kernel_processed_tables
+module kz_processed_tables
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: real64, real128
-  use kz_kernel_processed_series_r64, only: series_r64_t => series_t, make_series_r64 => make_series
-  use kz_kernel_processed_series_r128, only: series_t, make_series, ORDER, HARMONICS
-  use kz_kernel_step_table, only: pendulum_t
+  use kz_processed_series_r64, only: series_r64_t => series_t, make_series_r64 => make_series
+  use kz_processed_series_r128, only: series_t, make_series, ORDER, HARMONICS
+  use kz_lanes_step_table, only: pendulum_t
   implicit none
   private
   public :: series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS
@@ -245,4 +245,4 @@ contains
     end do
   end subroutine set_processor
 
-end module kz_kernel_processed_tables
+end module kz_processed_tables

@@ -1,9 +1,9 @@
 !> The C interface of the pairs of doubles: include/kapitza/kernel.h.
-module kz_kernel_pairs_api
+module kz_extended_pairs_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
-  use kz_kernel_map, only: WIDTH
-  use kz_kernel_pairs, only: pairs_t, pair_lanes_t, make_pairs, advance_pairs
-  use kz_kernel_step_table, only: pendulum_t
+  use kz_lanes_map, only: WIDTH
+  use kz_extended_pairs, only: pairs_t, pair_lanes_t, make_pairs, advance_pairs
+  use kz_lanes_step_table, only: pendulum_t
   implicit none
   private
 
@@ -63,4 +63,4 @@ contains
     end do
   end subroutine pairs_advance
 
-end module kz_kernel_pairs_api
+end module kz_extended_pairs_api

@@ -1,10 +1,10 @@
 !> The series of the processed splitting in quad precision.
-module kz_kernel_processed_series_r128
+module kz_processed_series_r128
   use, intrinsic :: iso_fortran_env, only: rk => real128
   implicit none
   private
   public :: series_t, make_series, ORDER, HARMONICS
 
-  include 'processed_series.inc'
+  include 'series.inc'
 
-end module kz_kernel_processed_series_r128
+end module kz_processed_series_r128

@@ -1,8 +1,8 @@
 !> One drive period of a pendulum as a list of drifts and kicks, in quad precision; each kind rounds it to its own.
-module kz_kernel_step_table
+module kz_lanes_step_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
-  use kz_kernel_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
+  use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
   implicit none
   private
   public :: pendulum_t, numerics_t, period_t, make_period, INVERSE_PI_QUAD
@@ -167,4 +167,4 @@ contains
     f = real(pendulum%k, qp) - pendulum%m*cos(2*PI*turn)
   end function force
 
-end module kz_kernel_step_table
+end module kz_lanes_step_table

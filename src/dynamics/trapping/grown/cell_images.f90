@@ -1,11 +1,11 @@
 !> Images of the cells of a grid of trapping regions after some drive periods: the convex hull of the images of a cell's corners,
 !> widened by a bound on what bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell. The
 !> corners show what lies between them only as long as the cell has stayed small: where an earlier image was bent, a later one is not taken.
-module kz_trapping_cell_images
+module kz_grown_cell_images
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
-  use kz_kernel_map, only: flow_t, WIDTH, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_maps_states, only: midperiod_angle
-  use kz_trapping_grid, only: regions_t
+  use kz_grown_grid, only: regions_t
   implicit none
   private
   public :: images_t, make_images, corners_of, extent
@@ -250,4 +250,4 @@ contains
     end do
   end subroutine extent
 
-end module kz_trapping_cell_images
+end module kz_grown_cell_images
