@@ -48,18 +48,43 @@ void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t m
 void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                                   const double *low, int32_t *label, int64_t *periods);
 
-/* Precisions in which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; pairs of
- * doubles; quad precision, by Taylor series. */
-enum { KZ_RUNG_DOUBLE = 0, KZ_RUNG_PAIRS = 1, KZ_RUNG_QUAD = 2, KZ_RUNGS = 3 };
+/* ---- labels with errors ---- */
+
+/* Where an orbit begins. */
+typedef struct {
+  double theta[2], velocity[2]; /* rad, rad per drive radian: a double, and what is to be added to it below its last place */
+  int64_t periods;              /* drive periods that were spent before: its settling time counts them */
+  double error
+      [3]; /* covariance of an error of its own: theta theta, theta velocity, velocity velocity; the largest, not the mean */
+} kz_start;
+
+/* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
+ * more steps, an error of some 3e-15 a period; pairs of doubles, 1e-20 and 1e-28; quad precision, by Taylor series. Beyond them: as many
+ * digits as it takes. */
+enum {
+  KZ_LEVEL_DOUBLE = 0,
+  KZ_LEVEL_FINE = 1,
+  KZ_LEVEL_PAIRS_20 = 2,
+  KZ_LEVEL_PAIRS_28 = 3,
+  KZ_LEVEL_QUAD = 4,
+  KZ_LEVEL_ARBITRARY = 5,
+  KZ_LEVELS = 6
+};
 /* The label of an orbit whose error outgrows what a label bears. Any other label, 0 too, is decided: the errors do not change it. */
 enum { KZ_DOUBTFUL = -1 };
 
-/* kz_dynamics_follow on a rung, with the error of each orbit beside it (Fortran: covariance.f90): from the last place of its start,
- * and from the steps and the rounding of every period. An orbit is trapped once a trapping region holds it with its error. start and low
- * as for the reference. reach [n], NULL = not asked: how far an orbit may be off when it is trapped, rad (three standard deviations); it
- * means nothing on a chaotic attractor and with KZ_DOUBTFUL. */
-void kz_dynamics_follow_errors(kz_dynamics *dynamics, int32_t rung, int64_t n, int64_t max_periods, const double *start,
-                               const double *low, int32_t *label, int64_t *periods, double *reach);
+typedef struct {
+  int32_t label;   /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
+  int32_t other;   /* second candidate of a label that no level decides; 0 = none */
+  int32_t level;   /* that decided; KZ_LEVELS: none */
+  int64_t periods; /* first period inside a trapping region, or those that were followed */
+  double error;    /* rad: how far the orbit may be off when it is trapped; of no meaning where it is chaotic or not decided */
+} kz_decision;
+
+/* Labels n starts at one level: decision [n]. The orbits carry their errors; each is followed at that level only until its error reaches what the next
+ * cheaper level would add, then there. What is trapped is decided; the others come back as KZ_DOUBTFUL. */
+void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int64_t n, const kz_start *start, int64_t max_periods,
+                       kz_decision *decision);
 
 /* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
  * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from

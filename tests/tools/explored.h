@@ -23,6 +23,7 @@ enum { STARTS = 1024 };
 enum { PART = 20 };
 #else
 enum { PART = 1 };
+
 #endif
 
 /* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow with every
@@ -82,6 +83,15 @@ static inline void with_table(kz_dynamics *d, int64_t nodes, double max_velocity
   kz_dynamics_table_set(d, rows);
   kz_dynamics_fine_regions(d, nodes, max_velocity);
   free(rows);
+}
+
+/* Labels of n <= 4096 starts (rad) at a level of precision. */
+static inline void label_starts(kz_dynamics *d, int32_t level, int64_t n, const double *start, int32_t *label) {
+  static kz_start starts[4096];
+  static kz_decision decision[4096];
+  for (int64_t i = 0; i < n; i++) starts[i] = (kz_start){.theta = {start[2 * i]}, .velocity = {start[2 * i + 1]}};
+  kz_dynamics_label(d, level, n, starts, 2000, decision);
+  for (int64_t i = 0; i < n; i++) label[i] = decision[i].label;
 }
 
 #endif

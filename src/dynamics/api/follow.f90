@@ -17,14 +17,29 @@ module kz_api_follow
 
   !> Ways of dynamics.h; those that remain are the nodes of the table's stencil.
   integer(c_int32_t), parameter :: DIRECT = 0, SETTLE = 1
-  !> Rungs of dynamics.h.
-  integer(c_int32_t), parameter :: RUNG_DOUBLE = 0, RUNG_PAIRS = 1
+  !> Levels of dynamics.h.
+  integer(c_int32_t), parameter :: LEVEL_PAIRS_20 = 2, LEVEL_QUAD = 4
   !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
   real(dp), parameter :: QUAD_ERROR = 1e-31_dp
   !> rad: of a period in pairs of doubles. Smaller ones cost as much as the cells that they would decide cost in quad precision.
   real(dp), parameter :: PAIRS_ERROR = 1e-28_dp
   !> Steps a period of the series.
   integer, parameter :: QUAD_STEPS = 18
+
+  !> kz_start and kz_decision of dynamics.h.
+  type, bind(C) :: start_t
+    real(dp) :: theta(2)
+    real(dp) :: velocity(2)
+    integer(c_int64_t) :: periods
+    real(dp) :: error(3)
+  end type start_t
+  type, bind(C) :: decision_t
+    integer(c_int32_t) :: label
+    integer(c_int32_t) :: other
+    integer(c_int32_t) :: level
+    integer(c_int64_t) :: periods
+    real(dp) :: error
+  end type decision_t
 
 contains
 
@@ -90,35 +105,41 @@ contains
     call follow(map, d%regions, d%attractors, state, label, periods)
   end subroutine follow_reference
 
-  subroutine follow_errors(handle, rung, n, max_periods, start, low, label, periods, reach) &
-    bind(C, name='kz_dynamics_follow_errors')
+  subroutine label_starts(handle, level, n, start, max_periods, decision) bind(C, name='kz_dynamics_label')
     type(c_ptr), value :: handle
-    integer(c_int32_t), value :: rung
+    integer(c_int32_t), value :: level
     integer(c_int64_t), value :: n
+    type(start_t), intent(in) :: start(n)
     integer(c_int64_t), value :: max_periods
-    real(dp), intent(in) :: start(2, n)
-    type(c_ptr), value :: low
-    integer(c_int32_t), intent(out) :: label(n)
-    integer(c_int64_t), intent(out) :: periods(n)
-    type(c_ptr), value :: reach
+    type(decision_t), intent(out) :: decision(n)
     type(dynamics_t), pointer :: d
     class(map_t), allocatable :: map
-    real(dp), allocatable :: state(:, :)
-    real(dp), pointer :: reaches(:)
+    real(dp), allocatable :: state(:, :), whole(:, :), low(:, :), reach(:)
+    integer(c_int32_t), allocatable :: label(:)
+    integer(c_int64_t), allocatable :: periods(:)
+    integer(c_int64_t) :: i
 
-    reaches => null()
-    if (c_associated(reach)) call c_f_pointer(reach, reaches, [n])
     d => of_handle(handle)
-    allocate (state, source=start)
-    if (rung == RUNG_DOUBLE) then
-      state(1, :) = half_turns(start(1, :))
+    allocate (state(2, n), whole(2, n), low(2, n), reach(n), label(n), periods(n))
+    do i = 1, n
+      whole(:, i) = [start(i)%theta(1), start(i)%velocity(1)]
+      low(:, i) = [start(i)%theta(2), start(i)%velocity(2)]
+      periods(i) = max_periods - start(i)%periods
+    end do
+    state = whole
+    if (level < LEVEL_PAIRS_20) then
+      state(1, :) = half_turns(whole(1, :))
       call make_covariant(d, map)
     else
-      call make_precise(d, rung, start, state(1, :), map, matrix_of(low, n))
+      call make_precise(d, level, whole, state(1, :), map, low)
     end if
-    periods = max_periods
-    call follow(map, d%regions, d%attractors, state, label, periods, reaches)
-  end subroutine follow_errors
+    call follow(map, d%regions, d%attractors, state, label, periods, reach)
+    decision%label = label
+    decision%other = 0
+    decision%level = level
+    decision%periods = periods + start%periods
+    decision%error = reach
+  end subroutine label_starts
 
   !> An array (2, n) of C. NULL is a disassociated pointer, which is absent as an optional argument.
   function matrix_of(array, n) result(matrix)
@@ -145,9 +166,9 @@ contains
     call move_alloc(covariant, map)
   end subroutine make_covariant
 
-  subroutine make_precise(d, rung, start, u, map, low)
+  subroutine make_precise(d, level, start, u, map, low)
     type(dynamics_t), intent(inout), target :: d
-    integer(c_int32_t), intent(in) :: rung
+    integer(c_int32_t), intent(in) :: level
     real(dp), intent(in) :: start(:, :)
     real(dp), intent(out) :: u(:)
     class(map_t), allocatable, intent(out) :: map
@@ -159,7 +180,7 @@ contains
 
     pairs => null()
     error = QUAD_ERROR
-    if (rung == RUNG_PAIRS) then
+    if (level < LEVEL_QUAD) then
       pairs => d%pairs
       if (.not. allocated(pairs%level)) call make_pairs(d%search%pendulum, PAIRS_ERROR, d%regions%top, pairs)
       error = max(error, pairs%error)

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "numerics/cells.h"
-#include "labelling/decide.h"
+#include "labelling/labeller.h"
 #include "labelling/map_table.h"
 #include "attractors/search.h"
 
@@ -15,6 +15,7 @@ enum { CHUNK = 16384 }; /* cells labelled at a time */
 typedef struct {
   double state[2 * CHUNK];
   int64_t periods[CHUNK];
+  kz_start start[CHUNK];
   kz_decision decision[CHUNK];
 } workspace;
 
@@ -25,12 +26,18 @@ typedef struct {
   workspace *work;
 } measurement;
 
-/* Labels [n] of the cells first, first + 1, ... of the sample by method exact; KZ_DOUBTFUL where no rung decides. */
+/* Labels [n] of the cells first, first + 1, ... of the sample by method exact; KZ_DOUBTFUL where no level decides. */
 static kz_status decide_cells(const measurement *g, int64_t first, int64_t n, int32_t *label) {
   const kz_basin_plan *plan = g->reference->plan;
   workspace *w = g->work;
-  for (int64_t i = 0; i < n; i++) kz_cell_start(plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
-  KZ_TRY(kz_decide(g->dynamics, plan->max_periods, n, w->state, NULL, w->decision));
+  const kz_labeller labeller = {
+      .dynamics = g->dynamics, .max_periods = plan->max_periods, .start = kz_start_of_array, .context = w->start};
+  for (int64_t i = 0; i < n; i++) {
+    double centre[2];
+    kz_cell_start(plan, kz_reference_labels_cell(g->reference, first + i), centre);
+    w->start[i] = kz_start_at(centre[0], centre[1]);
+  }
+  KZ_TRY(kz_label(&labeller, n, NULL, w->decision));
   for (int64_t i = 0; i < n; i++) label[i] = w->decision[i].label;
   return KZ_OK;
 }
@@ -89,7 +96,7 @@ static kz_status set_up(measurement *g) {
   const int64_t cells = kz_regions_cells(g->reference->total);
   if (cells > 0) kz_dynamics_fine_regions(g->dynamics, cells, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
-  if (s->method == KZ_METHOD_EXACT) kz_decide_prepare(g->dynamics);
+  if (s->method == KZ_METHOD_EXACT) kz_labeller_prepare(&(kz_labeller){.dynamics = g->dynamics});
   if (s->method == KZ_METHOD_ICM) KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   return KZ_OK;
 }

@@ -2,9 +2,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "numerics/cells.h"
-#include "labelling/decide.h"
+#include "labelling/labeller.h"
 #include "numerics/share.h"
 #include "labelling/starts.h"
 
@@ -27,9 +28,10 @@ typedef struct {
   int64_t pairs[MOST], uncertain[MOST];
 } pair_record;
 
-/* The starts of a tile and their partners: in pairs of doubles, and where they end. */
+/* The starts of a tile and their partners, and where they end. */
 typedef struct {
-  double start[2 * POINTS], low[2 * POINTS];
+  kz_start start[POINTS];
+  double plain[2 * POINTS];
   int32_t end[POINTS];
   int64_t periods[POINTS];
   kz_decision decision[POINTS];
@@ -46,12 +48,9 @@ static int distances_of(const kz_basin_plan *plan) {
 /* The point so large shares of the window from its lower left corner, and a distance more. */
 static void put(const kz_basin_plan *plan, const double share[2], const double offset[2], pair_room *r, int64_t i) {
   const kz_axis *const axes[] = {&plan->theta, &plan->velocity};
-  for (int axis = 0; axis < 2; axis++) {
-    double pair[2];
-    kz_axis_at(axes[axis], share[axis], offset[axis], pair);
-    r->start[2 * i + axis] = pair[0];
-    r->low[2 * i + axis] = pair[1];
-  }
+  r->start[i] = (kz_start){.periods = 0};
+  for (int axis = 0; axis < 2; axis++)
+    kz_axis_at(axes[axis], share[axis], offset[axis], axis == 0 ? r->start[i].theta : r->start[i].velocity);
 }
 
 /* Start i of an evenly spread sequence (M. Roberts' R2) and its partners, in directions that spread evenly too, from place `first` on. */
@@ -63,19 +62,24 @@ static void spread(const kz_basin_plan *plan, int64_t i, pair_room *r, int64_t f
     put(plan, share, (const double[2]){distance_of(d) * cos(angle), distance_of(d) * sin(angle)}, r, first + 1 + d);
 }
 
-/* By the method's own labels: with their errors, or by integration. What no rung decides is followed in quad precision without regard to
+/* By the method's own labels: with their errors, or by integration. What no level decides is followed in quad precision without regard to
  * its error: that is an error of the start, far below the smallest distance. Left out, such pairs would be missed among the uncertain. */
 static kz_status follow(const pairing *p, int64_t n, pair_room *r) {
+  const kz_labeller labeller = {
+      .dynamics = p->dynamics, .max_periods = p->plan->max_periods, .start = kz_start_of_array, .context = r->start};
   if (p->plan->method != KZ_METHOD_EXACT) {
-    kz_follow_starts(p->dynamics, p->plan->max_periods, n, r->start, r->end, r->periods);
+    for (int64_t i = 0; i < n; i++) memcpy(r->plain + 2 * i, (double[]){r->start[i].theta[0], r->start[i].velocity[0]}, 16);
+    kz_follow_starts(p->dynamics, p->plan->max_periods, n, r->plain, r->end, r->periods);
     return KZ_OK;
   }
-  KZ_TRY(kz_decide(p->dynamics, p->plan->max_periods, n, r->start, r->low, r->decision));
+  KZ_TRY(kz_label(&labeller, n, NULL, r->decision));
   for (int64_t i = 0; i < n; i++) {
+    const kz_start *s = r->start + i;
     r->end[i] = r->decision[i].label;
     if (r->end[i] == KZ_DOUBTFUL)
-      kz_dynamics_follow_reference(p->dynamics, KZ_REFERENCE_STEPS, 1, p->plan->max_periods, r->start + 2 * i, r->low + 2 * i,
-                                   r->end + i, r->periods + i);
+      kz_dynamics_follow_reference(p->dynamics, KZ_REFERENCE_STEPS, 1, p->plan->max_periods,
+                                   (double[]){s->theta[0], s->velocity[0]}, (double[]){s->theta[1], s->velocity[1]}, r->end + i,
+                                   r->periods + i);
   }
   return KZ_OK;
 }
@@ -83,17 +87,19 @@ static kz_status follow(const pairing *p, int64_t n, pair_room *r) {
 static kz_status pair_tile(void *context, int64_t tile, void *record) {
   const pairing *p = context;
   pair_record *out = record;
-  pair_room r;
+  pair_room *r = malloc(sizeof *r);
   const int distances = distances_of(p->plan), stride = 1 + distances;
-  for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, &r, stride * i);
-  KZ_TRY(follow(p, (int64_t)STARTS * stride, &r));
-  for (int64_t i = 0; i < STARTS; i++)
+  if (!r) return kz_fail(KZ_FAILED, "no memory for pairs of starts");
+  for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, r, stride * i);
+  const kz_status status = follow(p, (int64_t)STARTS * stride, r);
+  for (int64_t i = 0; status == KZ_OK && i < STARTS; i++)
     for (int d = 0; d < distances; d++) {
-      const int32_t own = r.end[stride * i], other = r.end[stride * i + 1 + d];
+      const int32_t own = r->end[stride * i], other = r->end[stride * i + 1 + d];
       out->pairs[d] += own > 0 && other > 0;
       out->uncertain[d] += own > 0 && other > 0 && own != other;
     }
-  return KZ_OK;
+  free(r);
+  return status;
 }
 
 kz_status kz_boundary_try(const kz_basin_plan *plan, kz_dynamics *dynamics, int64_t tile) {

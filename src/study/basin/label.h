@@ -5,14 +5,25 @@
 #include "attractors/search.h"
 #include "tiles.h"
 
-/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: of method exact, not decided by the scene's
- * own numerics. KZ_PROVED: of basin.proof, whatever the method; no tile has it. */
-enum { KZ_UNSETTLED = 0, KZ_INSIDE = 1, KZ_FOLLOWED = 2, KZ_UNDECIDED = 3, KZ_IN_QUAD = 4, KZ_IN_PAIRS = 5, KZ_PROVED = 6 };
+/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: not decided by the scene's own numerics, but
+ * for KZ_PROVED, which is of basin.proof, whatever the method; no tile has it. KZ_LEFT: of method direct, which leaves it so. */
+enum {
+  KZ_UNSETTLED = 0,
+  KZ_INSIDE = 1,
+  KZ_FOLLOWED = 2,
+  KZ_UNDECIDED = 3,
+  KZ_IN_QUAD = 4,
+  KZ_IN_PAIRS = 5,
+  KZ_PROVED = 6,
+  KZ_IN_FINE = 7,
+  KZ_IN_ARBITRARY = 8,
+  KZ_LEFT = 9
+};
 
 /* A cell. */
 typedef struct {
   uint32_t periods;
-  int16_t label;     /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL until a rung decides it */
+  int16_t label;     /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL until a level decides it */
   int16_t other;     /* of an undecided cell: the second candidate, 0 = none */
   uint8_t evidence;  /* from KZ_FOLLOWED on */
   uint8_t unused[3]; /* 0 */
@@ -30,7 +41,7 @@ typedef struct {
   kz_workspace *work;  /* of this rank */
   kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */
   kz_pieces pieces;    /* tiles of this rank, packed */
-  int rung;            /* of the present stage, KZ_RUNGS: candidates of what none decides */
+  int level;           /* of the present stage, KZ_LEVELS: candidates of what none decides */
   int16_t wanted;      /* label of the open cells: 0 or KZ_DOUBTFUL */
   int64_t *before;     /* [own tiles + 1] open cells in the tiles before */
   int64_t n_open;      /* cells of the present stage that labels open ones again, */

@@ -14,42 +14,66 @@ typedef struct {
 } head;
 
 struct kz_workspace {
-  double state[2 * KZ_BATCH]; /* of method exact: cell centres in rad and rad per drive radian, */
-  double low[2 * KZ_BATCH];   /* and what is to be added to them */
+  double state[2 * KZ_BATCH];
   int32_t label[KZ_BATCH];
-  int64_t periods[KZ_BATCH];
+  int64_t periods[KZ_BATCH], cell[KZ_BATCH];
+  kz_decision decision[KZ_BATCH];
 };
 
 kz_workspace *kz_workspace_make(void) {
   return malloc(sizeof(kz_workspace));
 }
 
-/* Labels the n cells whose states are in work->state. */
-static void label_batch(const kz_labelling *l, int64_t n, kz_labelled *out) {
+/* Without regard to errors. */
+static void follow_batch(const kz_labelling *l, int64_t n, kz_labelled *out) {
   const kz_basin_plan *plan = l->plan;
   kz_workspace *w = l->work;
+  for (int64_t i = 0; i < n; i++) kz_cell_state(plan, w->cell[i], w->state + 2 * i);
   kz_dynamics_follow(l->dynamics, kz_way(plan->method, plan->interpolation), n, plan->max_periods, w->state, w->label,
                      w->periods);
   for (int64_t i = 0; i < n; i++)
     out[i] = (kz_labelled){.periods = (uint32_t)w->periods[i], .label = (int16_t)w->label[i], .evidence = KZ_FOLLOWED};
 }
 
-kz_status kz_label_cells(const kz_labelling *l, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out) {
+/* A kz_start_fn: the centre of a cell. */
+static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
+  const kz_labelling *l = context;
+  (void)level;
+  *start = (kz_start){.periods = 0};
+  kz_axis_pair(&l->plan->theta, cell % l->plan->theta.count, start->theta);
+  kz_axis_pair(&l->plan->velocity, cell / l->plan->theta.count, start->velocity);
+  return KZ_OK;
+}
+
+kz_labeller kz_cells_labeller(kz_labelling *l) {
+  return (kz_labeller){.dynamics = l->dynamics, .max_periods = l->plan->max_periods, .start = start_cell, .context = l};
+}
+
+/* At the present level. */
+static kz_status label_batch(kz_labelling *l, int64_t n, kz_labelled *out) {
+  const kz_labeller labeller = kz_cells_labeller(l);
+  kz_decision *decision = l->work->decision;
+  if (l->level == KZ_LEVELS)
+    KZ_TRY(kz_label_candidates(&labeller, n, l->work->cell, decision));
+  else
+    KZ_TRY(kz_label_at(&labeller, l->level, n, l->work->cell, decision));
+  for (int64_t i = 0; i < n; i++)
+    out[i] = (kz_labelled){.periods = (uint32_t)decision[i].periods,
+                           .label = (int16_t)decision[i].label,
+                           .other = (int16_t)decision[i].other,
+                           .evidence = kz_level_evidence(l->level)};
+  return KZ_OK;
+}
+
+kz_status kz_label_cells(kz_labelling *l, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out) {
   for (int64_t done = 0; done < n; done += l->batch) {
     const int64_t part = n - done < l->batch ? n - done : l->batch;
     KZ_TRY(kz_ranks_interrupted(l->run->ranks));
-    const bool exact = l->plan->method == KZ_METHOD_EXACT;
-    for (int64_t i = 0; i < part; i++) {
-      const int64_t f = cells ? cells[done + i] : first + done + i;
-      if (exact)
-        kz_cell_pairs(l->plan, f, l->work->state + 2 * i, l->work->low + 2 * i);
-      else
-        kz_cell_state(l->plan, f, l->work->state + 2 * i);
-    }
-    if (exact)
-      kz_rung_label(l, part, l->work->state, l->work->low, l->work->label, l->work->periods, out + done);
+    for (int64_t i = 0; i < part; i++) l->work->cell[i] = cells ? cells[done + i] : first + done + i;
+    if (l->plan->method == KZ_METHOD_EXACT)
+      KZ_TRY(label_batch(l, part, out + done));
     else
-      label_batch(l, part, out + done);
+      follow_batch(l, part, out + done);
   }
   return KZ_OK;
 }

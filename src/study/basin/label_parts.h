@@ -4,13 +4,16 @@
 
 #include "numerics/cells.h"
 #include "label.h"
+#include "labelling/labeller.h"
 
 enum { KZ_BATCH = 16384 }; /* cells that are followed together, at most */
 
 kz_workspace *kz_workspace_make(void);
 
-/* Labels n cells: cells [n], or first, first + 1, ... where that is NULL. KZ_STOPPED where a stop is asked. */
-kz_status kz_label_cells(const kz_labelling *labelling, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out);
+/* The labeller of cells: items are their numbers. */
+kz_labeller kz_cells_labeller(kz_labelling *labelling);
+/* Labels n cells at the present level: cells [n], or first, first + 1, ... where that is NULL. KZ_STOPPED where a stop is asked. */
+kz_status kz_label_cells(kz_labelling *labelling, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out);
 
 /* Bytes of a packed tile at most. */
 size_t kz_labels_room(const kz_labelling *labelling);
@@ -21,20 +24,18 @@ int64_t kz_labels_open(const kz_piece *piece, int16_t wanted);
 /* Counts the attractors that it reaches. */
 void kz_labels_note_reached(const kz_labelling *labelling, const kz_piece *piece);
 
-/* Labels n cells on labelling->rung, from their centres start [n][2] in rad and rad per drive radian; on KZ_RUNGS: finds the candidates of
- * cells that no rung decides. label, periods [n]: room. */
-void kz_rung_label(const kz_labelling *labelling, int64_t n, const double *start, const double *low, int32_t *label,
-                   int64_t *periods, kz_labelled *out);
-/* Labels those that the first rung leaves, in stages of round `round`. Collective. */
-kz_status kz_rungs_climb(kz_labelling *labelling, int round);
-/* Cells that a rung takes at a time. */
-int64_t kz_rung_tile(int rung);
+/* What a level writes into the file as evidence, KZ_LEVELS: of what none decides; and how many cells it takes at a time, where it takes
+ * those that another one left. */
+uint8_t kz_level_evidence(int level);
+int64_t kz_level_tile(int level);
+/* Labels those that the first level leaves, in stages of round `round`. Collective. */
+kz_status kz_levels_escalate(kz_labelling *labelling, int round);
 
 /* Counts the cells of all tiles with the label `wanted`, which are open then: labelling->before. Collective. */
 kz_status kz_open_count(kz_labelling *labelling, int16_t wanted);
 /* Numbers of n of the open cells from .. from + of - 1, evenly chosen, in order: cell [n], on every rank. Collective. */
 kz_status kz_open_pick(kz_labelling *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell);
-/* Labels the open cells of all tiles on labelling->rung, in stages `name`. Collective. */
+/* Labels the open cells of all tiles on labelling->level, in stages `name`. Collective. */
 kz_status kz_open_label(kz_labelling *labelling, const char *name);
 
 #endif

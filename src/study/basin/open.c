@@ -7,7 +7,7 @@
 enum { MOST_OPEN = 1 << 20 }; /* cells that a rank lists at a time; more than a tile has */
 
 static int64_t tile_size(const kz_labelling *l) {
-  const int64_t most = kz_rung_tile(l->rung);
+  const int64_t most = kz_level_tile(l->level);
   return l->batch < most ? l->batch : most;
 }
 
@@ -43,7 +43,7 @@ kz_status kz_open_pick(kz_labelling *l, int64_t from, int64_t of, int64_t n, int
 }
 
 static kz_status label_open(void *context, int64_t tile, void *record) {
-  const kz_labelling *l = context;
+  kz_labelling *l = context;
   const int64_t size = tile_size(l), first = tile * size, left = l->n_open - first;
   return kz_label_cells(l, 0, l->open + first, left < size ? left : size, record);
 }

@@ -32,7 +32,7 @@ static kz_status discover(kz_labelling *l, bool again) {
 }
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
-  const kz_labelling *l = context;
+  kz_labelling *l = context;
   KZ_TRY(kz_label_cells(l, kz_tile_first(&l->tiles, tile), NULL, kz_tile_own(&l->tiles, tile), l->cell));
   return kz_labels_pack(l, tile, record);
 }
@@ -59,7 +59,7 @@ static kz_status run_rounds(kz_labelling *l) {
   KZ_TRY(discover(l, false));
   KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
-  KZ_TRY(kz_rungs_climb(l, 1));
+  KZ_TRY(kz_levels_escalate(l, 1));
   for (int round = 1; round < ROUNDS; round++) {
     char name[32];
     KZ_TRY(kz_open_count(l, 0));
@@ -69,7 +69,7 @@ static kz_status run_rounds(kz_labelling *l) {
     if (kz_dynamics_count(l->dynamics) == known) return KZ_OK;
     snprintf(name, sizeof name, "cells %d", round + 1);
     KZ_TRY(kz_open_label(l, name));
-    KZ_TRY(kz_rungs_climb(l, round + 1));
+    KZ_TRY(kz_levels_escalate(l, round + 1));
   }
   return KZ_OK;
 }

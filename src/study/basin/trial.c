@@ -6,7 +6,7 @@
 #include "boundary.h"
 #include "attractors/catalogue.h"
 #include "attractors/search.h"
-#include "labelling/decide.h"
+#include "labelling/labeller.h"
 #include "resilience/resilience.h"
 #include "numerics/settling.h"
 #include "labelling/starts.h"
@@ -42,7 +42,7 @@ static kz_status try_boundary(const trial *t, double *seconds) {
   if (!t->scene->basin.has_boundary) return KZ_OK;
   kz_basin_plan plan = t->scene->basin;
   plan.max_periods = (int64_t)fmin((double)plan.max_periods, 8 * kz_settling_mean(t->scene->parameters.pendulum.beta));
-  if (plan.method == KZ_METHOD_EXACT) kz_decide_prepare(t->dynamics);
+  if (plan.method == KZ_METHOD_EXACT) kz_labeller_prepare(&(kz_labeller){.dynamics = t->dynamics});
   const double start = kz_processor_clock();
   for (int64_t tile = 0; tile < TILES; tile++) KZ_TRY(kz_boundary_try(&plan, t->dynamics, tile));
   *seconds += (kz_processor_clock() - start) / TILES * (double)kz_boundary_tiles(&plan);

@@ -25,11 +25,16 @@ int64_t kz_doubt_cells(const kz_basin_plan *plan) {
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const sample *s = context;
   int32_t *label = record;
-  double start[2 * TILE];
-  int64_t periods[TILE];
+  kz_start start[TILE];
+  kz_decision decision[TILE];
   const int64_t first = tile * TILE, left = kz_doubt_cells(s->plan) - first, n = left < TILE ? left : TILE;
-  for (int64_t i = 0; i < n; i++) kz_cell_start(s->plan, kz_doubt_cell(s->plan, first + i), start + 2 * i);
-  kz_dynamics_follow_errors(s->dynamics, KZ_RUNG_DOUBLE, n, s->plan->max_periods, start, NULL, label, periods, NULL);
+  for (int64_t i = 0; i < n; i++) {
+    double centre[2];
+    kz_cell_start(s->plan, kz_doubt_cell(s->plan, first + i), centre);
+    start[i] = (kz_start){.theta = {centre[0]}, .velocity = {centre[1]}};
+  }
+  kz_dynamics_label(s->dynamics, KZ_LEVEL_DOUBLE, n, start, s->plan->max_periods, decision);
+  for (int64_t i = 0; i < n; i++) label[i] = decision[i].label;
   return KZ_OK;
 }
 

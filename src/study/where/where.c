@@ -5,7 +5,7 @@
 
 #include "attractors/catalogue.h"
 #include "numerics/cells.h"
-#include "labelling/decide.h"
+#include "labelling/labeller.h"
 #include "attractors/search.h"
 #include "labelling/starts.h"
 
@@ -17,8 +17,8 @@ typedef struct {
   const double *start, *low; /* [n][2] rad, rad per drive radian */
   double *state;             /* [the larger of n and the search's starts][2] */
   int32_t *found;            /* [the same] */
+  kz_start *asked;           /* [n] */
   kz_decision *decision;     /* [n] */
-  int32_t *other;            /* [n] number of kz_dynamics, 0 = none */
   int64_t *reached;          /* [numbers from 1] */
 } asking;
 
@@ -30,8 +30,8 @@ static kz_status allocate(asking *a) {
   a->state = malloc(2 * (size_t)most * sizeof *a->state);
   a->found = malloc((size_t)most * sizeof *a->found);
   a->decision = malloc((size_t)a->n * sizeof *a->decision);
-  a->other = calloc((size_t)a->n, sizeof *a->other);
-  if (a->dynamics && a->state && a->found && a->decision && a->other) return KZ_OK;
+  a->asked = malloc((size_t)a->n * sizeof *a->asked);
+  if (a->dynamics && a->state && a->found && a->decision && a->asked) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)most);
 }
 
@@ -54,27 +54,27 @@ static kz_status discover(asking *a) {
   return status;
 }
 
-/* Candidates of the starts that no rung decides: the first one's label takes the place of KZ_DOUBTFUL. */
-static void find_candidates(asking *a) {
-  for (int64_t i = 0; i < a->n; i++)
-    if (a->decision[i].label == KZ_DOUBTFUL)
-      kz_find_candidates(a->dynamics, a->search.max_periods, 1, a->start + 2 * i, &a->decision[i].label,
-                         &a->decision[i].periods, a->other + i);
-}
-
 static kz_status ask(asking *a) {
-  KZ_TRY(kz_decide(a->dynamics, a->search.max_periods, a->n, a->start, a->low, a->decision));
-  find_candidates(a);
+  const kz_labeller labeller = {
+      .dynamics = a->dynamics, .max_periods = a->search.max_periods, .start = kz_start_of_array, .context = a->asked};
   for (int64_t i = 0; i < a->n; i++) {
+    a->asked[i] = kz_start_at(a->start[2 * i], a->start[2 * i + 1]);
+    if (a->low) a->asked[i].theta[1] = a->low[2 * i], a->asked[i].velocity[1] = a->low[2 * i + 1];
+  }
+  KZ_TRY(kz_label(&labeller, a->n, NULL, a->decision));
+  for (int64_t i = 0; i < a->n; i++) {
+    if (a->decision[i].label == KZ_DOUBTFUL) KZ_TRY(kz_label_candidates(&labeller, 1, &i, a->decision + i));
     a->reached[a->decision[i].label]++;
-    a->reached[a->other[i]]++;
+    a->reached[a->decision[i].other]++;
   }
   return KZ_OK;
 }
 
-static const char *precision_of(const asking *a, int32_t rung) {
-  static const char *const names[] = {[KZ_RUNG_PAIRS] = "pairs", [KZ_RUNG_QUAD] = "quad", [KZ_RUNGS] = NULL};
-  return rung == KZ_RUNG_DOUBLE ? kz_precision_names[a->scene->numerics.precision] : names[rung];
+static const char *precision_of(const asking *a, int32_t level) {
+  static const char *const names[] = {[KZ_LEVEL_FINE] = "double",         [KZ_LEVEL_PAIRS_20] = "pairs",
+                                      [KZ_LEVEL_PAIRS_28] = "pairs",      [KZ_LEVEL_QUAD] = "quad",
+                                      [KZ_LEVEL_ARBITRARY] = "arbitrary", [KZ_LEVELS] = NULL};
+  return level == KZ_LEVEL_DOUBLE ? kz_precision_names[a->scene->numerics.precision] : names[level];
 }
 
 static kz_status describe_orbit(const kz_entry *entry, kz_ending *ending) {
@@ -95,11 +95,11 @@ static kz_status describe_start(const asking *a, const kz_catalogue *catalogue, 
   if (d->label <= 0) return KZ_OK;
   ending->attractor = catalogue->id_of[d->label];
   ending->settling_time = d->periods;
-  ending->precision = precision_of(a, d->rung);
+  ending->precision = precision_of(a, d->level);
   KZ_TRY(describe_orbit(catalogue->entries + ending->attractor, ending));
-  if (ending->precision && ending->period > 0) ending->error = d->reach;
-  if (a->other[i] <= 0) return KZ_OK;
-  ending->other = catalogue->id_of[a->other[i]];
+  if (ending->precision && ending->period > 0) ending->error = d->error;
+  if (d->other <= 0) return KZ_OK;
+  ending->other = catalogue->id_of[d->other];
   memcpy(ending->other_name, catalogue->entries[ending->other].name, sizeof ending->other_name);
   return KZ_OK;
 }
@@ -126,7 +126,7 @@ kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, const 
   free(a.state);
   free(a.found);
   free(a.decision);
-  free(a.other);
+  free(a.asked);
   free(a.reached);
   return status;
 }

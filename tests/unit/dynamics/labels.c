@@ -154,7 +154,7 @@ static void test_wrong_labels_are_doubtful(void **state) {
   enum { N = 4000 / PART };
   static double start[2 * N], x[2 * N], y[2 * N];
   static int32_t direct[N], followed[N], expected[N];
-  static int64_t periods[N], late[N];
+  static int64_t periods[N];
   kz_dynamics *d = explored(0.46, 1, 3);
   with_table(d, 400, 3);
   int wrong = 0, doubtful = 0;
@@ -162,7 +162,7 @@ static void test_wrong_labels_are_doubtful(void **state) {
   for (int i = 0; i < 2 * N; i++) start[i] = i % 2 ? x[i] : x[i] * M_PI;
   memcpy(y, x, sizeof x);
   kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, direct, periods);
-  kz_dynamics_follow_errors(d, KZ_RUNG_DOUBLE, N, 2000, start, NULL, followed, late, NULL);
+  label_starts(d, KZ_LEVEL_DOUBLE, N, start, followed);
   kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, NULL, expected, periods);
   for (int i = 0; i < N; i++) {
     doubtful += followed[i] == KZ_DOUBTFUL;
@@ -173,14 +173,14 @@ static void test_wrong_labels_are_doubtful(void **state) {
   }
   print_message("%d of %d labels wrong, %d doubtful\n", wrong, N, doubtful);
   assert_true(wrong > N / 100 && doubtful < 3 * wrong);
-  int open = 0; /* the next rung decides nearly all that this one leaves */
+  int open = 0; /* a finer level decides nearly all that this one leaves */
   for (int i = 0; i < N && open < 64; i++) {
     if (followed[i] != KZ_DOUBTFUL) continue;
     expected[open] = expected[i];
     memmove(start + 2 * open++, start + 2 * i, 2 * sizeof *start);
   }
-  kz_dynamics_follow_errors(d, KZ_RUNG_PAIRS, open, 2000, start, NULL, direct, late, NULL);
-  kz_dynamics_follow_errors(d, KZ_RUNG_QUAD, open, 2000, start, NULL, followed, late, NULL);
+  label_starts(d, KZ_LEVEL_PAIRS_28, open, start, direct);
+  label_starts(d, KZ_LEVEL_QUAD, open, start, followed);
   doubtful = 0;
   for (int i = 0; i < open; i++) doubtful += followed[i] == KZ_DOUBTFUL;
   for (int i = 0; i < open; i++) assert_true(followed[i] == expected[i] || followed[i] == KZ_DOUBTFUL);

@@ -1,0 +1,43 @@
+/* Method exact: the precision levels, each for the cells that the one before leaves doubtful; and the candidates of those that none
+ * decides. */
+#include <stdio.h>
+
+#include "label_parts.h"
+
+typedef struct {
+  const char *name; /* of its stages; the first one's are those of all cells */
+  int64_t tile;     /* cells that it takes at a time */
+  uint8_t evidence; /* of what it labels */
+} level;
+
+static const level levels[KZ_LEVELS + 1] = {
+    [KZ_LEVEL_DOUBLE] = {"cells", 4096, KZ_FOLLOWED},
+    [KZ_LEVEL_FINE] = {"fine", 4096, KZ_IN_FINE},
+    [KZ_LEVEL_PAIRS_20] = {"pairs 20", 2048, KZ_IN_PAIRS},
+    [KZ_LEVEL_PAIRS_28] = {"pairs", 512, KZ_IN_PAIRS},
+    [KZ_LEVEL_QUAD] = {"quad", 64, KZ_IN_QUAD},
+    [KZ_LEVEL_ARBITRARY] = {"arbitrary", 1, KZ_IN_ARBITRARY},
+    [KZ_LEVELS] = {"candidates", 64, KZ_UNDECIDED},
+};
+
+int64_t kz_level_tile(int number) {
+  return levels[number].tile;
+}
+
+uint8_t kz_level_evidence(int number) {
+  return levels[number].evidence;
+}
+
+kz_status kz_levels_escalate(kz_labelling *l, int round) {
+  const kz_labeller labeller = kz_cells_labeller(l);
+  char name[32];
+  while (l->level < KZ_LEVELS) {
+    KZ_TRY(kz_open_count(l, KZ_DOUBTFUL));
+    if (l->before[l->tiles.own] == 0) break;
+    l->level = kz_level_after(&labeller, l->level, l->before[l->tiles.own]);
+    snprintf(name, sizeof name, "%s %d", levels[l->level].name, round);
+    KZ_TRY(kz_open_label(l, name));
+  }
+  l->level = KZ_LEVEL_DOUBLE;
+  return KZ_OK;
+}

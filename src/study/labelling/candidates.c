@@ -1,0 +1,63 @@
+/* The candidates of starts that no level decides. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "numerics/cells.h"
+#include "labeller.h"
+
+enum { BATCH = 64 };
+
+/* The starts beside n <= BATCH states: `places` last places farther out or in, in angle or velocity. */
+static void step_aside(int64_t n, const double *state, double places, double *beside) {
+  for (int64_t i = 0; i < 4 * n; i++) {
+    const double *from = state + 2 * (i / 4);
+    const int axis = i / 2 % 2;
+    const double step = places * DBL_EPSILON * fmax(1, fabs(from[axis]));
+    memcpy(beside + 2 * i, from, 2 * sizeof *from);
+    beside[2 * i + axis] += copysign(step, i % 2 ? -from[axis] : from[axis]);
+    beside[2 * i] -= 2 * rint(beside[2 * i] / 2);
+  }
+}
+
+/* Looks ever farther beside the states until each has another end. */
+static void find_others(const kz_labeller *l, int64_t n, const double *state, const int32_t *label, kz_decision *decision) {
+  double end[8 * BATCH];
+  int32_t found[4 * BATCH];
+  int64_t late[4 * BATCH];
+  bool is_open = n > 0;
+  for (double places = 1; is_open && places * DBL_EPSILON < 1; places *= 2) {
+    step_aside(n, state, places, end);
+    kz_dynamics_follow(l->dynamics, KZ_FOLLOW_DIRECT, 4 * n, l->max_periods, end, found, late);
+    for (int64_t i = 0; i < 4 * n; i++)
+      if (decision[i / 4].other == 0 && found[i] != label[i / 4]) decision[i / 4].other = found[i];
+    is_open = false;
+    for (int64_t i = 0; i < n; i++) is_open = is_open || decision[i].other == 0;
+  }
+}
+
+static kz_status find_some(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
+  double state[2 * BATCH] = {0}, end[2 * BATCH];
+  int32_t label[BATCH];
+  int64_t periods[BATCH];
+  for (int64_t i = 0; i < n; i++) {
+    kz_start start;
+    KZ_TRY(l->start(l->context, item[i], KZ_LEVEL_DOUBLE, &start));
+    kz_start_state(start.theta[0], start.velocity[0], state + 2 * i);
+    decision[i] = (kz_decision){.level = KZ_LEVELS, .error = NAN, .periods = start.periods};
+  }
+  memcpy(end, state, sizeof state);
+  kz_dynamics_follow(l->dynamics, KZ_FOLLOW_DIRECT, n, l->max_periods, end, label, periods);
+  for (int64_t i = 0; i < n; i++) {
+    decision[i].label = label[i];
+    decision[i].periods += periods[i];
+  }
+  find_others(l, n, state, label, decision);
+  return KZ_OK;
+}
+
+kz_status kz_label_candidates(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
+  for (int64_t done = 0; done < n; done += BATCH)
+    KZ_TRY(find_some(l, n - done < BATCH ? n - done : BATCH, item + done, decision + done));
+  return KZ_OK;
+}

@@ -1,0 +1,94 @@
+#include "labeller.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { BATCH = 4096 }; /* starts that are followed together */
+
+kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start) {
+  const kz_start *starts = context;
+  (void)level;
+  *start = starts[item];
+  return KZ_OK;
+}
+
+kz_start kz_start_at(double theta, double velocity) {
+  return (kz_start){.theta = {theta, 0}, .velocity = {velocity, 0}};
+}
+
+static int64_t item_at(const int64_t *item, int64_t i) {
+  return item ? item[i] : i;
+}
+
+static kz_status decide_each(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
+  for (int64_t i = 0; i < n; i++) KZ_TRY(l->decide(l->context, item_at(item, i), decision + i));
+  return KZ_OK;
+}
+
+static kz_status label_batch(const kz_labeller *l, int32_t level, int64_t n, const int64_t *item, int64_t first,
+                             kz_start *start, kz_decision *decision) {
+  for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), level, start + i));
+  kz_dynamics_label(l->dynamics, level, n, start, l->max_periods, decision);
+  return KZ_OK;
+}
+
+kz_status kz_label_at(const kz_labeller *l, int32_t level, int64_t n, const int64_t *item, kz_decision *decision) {
+  if (level == KZ_LEVEL_ARBITRARY) return decide_each(l, n, item, decision);
+  kz_start *start = malloc((size_t)(n < BATCH ? n : BATCH) * sizeof *start + 1);
+  kz_status status = start ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
+  for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
+    status = label_batch(l, level, n - done < BATCH ? n - done : BATCH, item, done, start, decision + done);
+  free(start);
+  return status;
+}
+
+int32_t kz_level_after(const kz_labeller *l, int32_t level, int64_t pending) {
+  static const int32_t next[] = {[KZ_LEVEL_DOUBLE] = KZ_LEVEL_PAIRS_28,
+                                 [KZ_LEVEL_PAIRS_28] = KZ_LEVEL_QUAD,
+                                 [KZ_LEVEL_QUAD] = KZ_LEVEL_ARBITRARY,
+                                 [KZ_LEVEL_ARBITRARY] = KZ_LEVELS};
+  if (pending == 0 || (next[level] == KZ_LEVEL_ARBITRARY && !l->decide)) return KZ_LEVELS;
+  return next[level];
+}
+
+/* Those that are pending move to the front: how many there are. */
+static int64_t take(int32_t level, int64_t n, int64_t *place, const kz_decision *found, kz_decision *decision) {
+  int64_t pending = 0;
+  for (int64_t i = 0; i < n; i++) {
+    const bool is_pending = found[i].label == KZ_DOUBTFUL;
+    decision[place[i]] = found[i];
+    decision[place[i]].level = is_pending ? KZ_LEVELS : level;
+    if (is_pending) place[pending++] = place[i];
+  }
+  return pending;
+}
+
+/* place [n]: of the pending items; others [2 n]: room for their numbers. */
+static kz_status escalate(const kz_labeller *l, int64_t n, const int64_t *item, int64_t *place, int64_t *pending_item,
+                          kz_decision *found, kz_decision *decision) {
+  int64_t pending = n;
+  for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVELS; level = kz_level_after(l, level, pending)) {
+    for (int64_t i = 0; i < pending; i++) pending_item[i] = item_at(item, place[i]);
+    KZ_TRY(kz_label_at(l, level, pending, pending_item, found));
+    pending = take(level, pending, place, found, decision);
+  }
+  return KZ_OK;
+}
+
+kz_status kz_label(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
+  int64_t *place = malloc(2 * (size_t)n * sizeof *place + 1);
+  kz_decision *found = malloc((size_t)n * sizeof *found + 1);
+  kz_status status = place && found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) place[i] = i;
+  if (status == KZ_OK) status = escalate(l, n, item, place, place + n, found, decision);
+  free(place);
+  free(found);
+  return status;
+}
+
+void kz_labeller_prepare(const kz_labeller *l) {
+  const kz_start start = {{0}, {0}, 0, {0}};
+  kz_decision decision;
+  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++)
+    kz_dynamics_label(l->dynamics, level, 0, &start, l->max_periods, &decision);
+}
