@@ -21,6 +21,7 @@ class Kapitza(CMakePackage):
     depends_on("hdf5+hl")
     depends_on("gsl")
     depends_on("fftw@3 precision=double")
+    depends_on("flint@3:")
     depends_on("libyaml")
     depends_on("zlib-api")
 

@@ -154,6 +154,50 @@ void kz_pairs_free(kz_pairs *pairs);
  * neighbours; the mirror image goes to the mirror image, to the bit. */
 void kz_pairs_advance(const kz_pairs *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity, int64_t *turns);
 
+/* ---- any precision ---- */
+
+/* Whole drive periods in as many digits as asked for, by Taylor series, and beside the orbit its neighbourhood: the images of the starts
+ * centre + (x, y) are polynomials of degree 3 in x and y. Numbers are FLINT's (Arb); a build without it has quads. */
+
+/* The most bits behind the point: KZ_MOST_BITS, or 113 without FLINT. */
+enum { KZ_MOST_BITS = 40000, KZ_FEWEST_BITS = 116 };
+int64_t kz_arbitrary_bits(void);
+
+/* One coordinate of a start, rad or rad per drive radian: high + low exactly, or a decimal text of any digits (maybe with " deg" behind it),
+ * and so large a share of a width more. */
+typedef struct {
+  double high, low;
+  const char *centre; /* NULL: high + low */
+  const char *width;  /* decimal text; NULL: 0 */
+  double share;
+} kz_coordinate;
+
+/* The neighbourhood of an orbit: coefficients of x, y; xx, xy, yy; xxx, xxy, xyy, yyy for the angle (0) and the velocity (1). Those of the
+ * first degree are right to 33 digits, the others to 17. */
+enum { KZ_BENT = 7 };
+typedef struct {
+  __float128 linear[2][2];
+  long double bent[2][KZ_BENT];
+} kz_jet;
+
+/* A state in many digits. Opaque; NULL where memory ran out. `bits` behind the point are kept at most; the start is rounded to them. */
+typedef struct kz_arbitrary kz_arbitrary;
+kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits);
+void kz_arbitrary_free(kz_arbitrary *orbit);
+
+/* Advances through one drive period with so many bits behind the point, from KZ_FEWEST_BITS on; *jet, NULL = not asked, becomes the
+ * neighbourhood at its end. The error of the state is some 2^-bits, and those that the motion makes of earlier ones. KZ_FAILED where the
+ * motion is too fast for 2^14 steps a period. */
+kz_status kz_arbitrary_advance(kz_arbitrary *orbit, int64_t bits, kz_jet *jet);
+
+/* The state as pairs of doubles, high + low: rad in [-pi, pi], rad per drive radian; whole turns are left out. */
+void kz_arbitrary_read(const kz_arbitrary *orbit, double theta[2], double velocity[2]);
+
+/* The state as text [kz_arbitrary_size], exactly. A checkpoint keeps it. KZ_FAILED where the text is not one. */
+size_t kz_arbitrary_size(const kz_arbitrary *orbit);
+void kz_arbitrary_write(const kz_arbitrary *orbit, char *text);
+kz_status kz_arbitrary_restore(kz_arbitrary *orbit, const char *text);
+
 /* ---- enclosures ---- */
 
 /* Sets of states that are proved to hold the true motion: no error of a scheme, no rounding is left out. Taylor polynomials, whose

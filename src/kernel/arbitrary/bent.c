@@ -1,0 +1,118 @@
+/* The neighbourhood's second and third degree over one step, in long double, whose exponents hold cubes of the narrowest windows.
+ *
+ * With P1, P2, P3 the parts of a neighbour's angle by degree, f h^2 (k - m cos t), g = f cos theta, w = f sin theta:
+ *   P2'' = -beta P2' - g P2 + w P1^2 / 2,   P3'' = -beta P3' - g P3 + w P1 P2 + g P1^3 / 6. */
+#include <string.h>
+
+#include "step.h"
+
+typedef long double row[KZ_BENT_ORDERS];
+
+static void read_series(const kz_number *from, int64_t last, int64_t n, row to) {
+  for (int64_t j = 0; j < n; j++) to[j] = j <= last ? kz_number_long(from + j) : 0;
+}
+
+/* out += factor a b */
+static void add_product(int64_t n, long double factor, const row a, const row b, row out) {
+  for (int64_t i = 0; i < n; i++) {
+    long double sum = 0;
+    for (int64_t j = 0; j <= i; j++) sum += a[j] * b[i - j];
+    out[i] += factor * sum;
+  }
+}
+
+/* x'' = -damping x' - gain x + source from x[0], *rate on; *rate becomes the rate at the end. */
+static void solve(int64_t n, long double damping, const row gain, const row source, row x, long double *rate) {
+  long double y = *rate, sum = *rate;
+  for (int64_t i = 0; i + 1 < n; i++) {
+    long double pull = source[i] - damping * y;
+    for (int64_t j = 0; j <= i; j++) pull -= gain[j] * x[i - j];
+    x[i + 1] = y / (long double)(i + 1);
+    y = pull / (long double)(i + 1);
+    sum += y;
+  }
+  *rate = sum;
+}
+
+static long double sum_of(int64_t n, const row x) {
+  long double sum = 0;
+  for (int64_t i = n - 1; i >= 0; i--) sum += x[i];
+  return sum;
+}
+
+/* What a step's polynomials are made from. */
+typedef struct {
+  int64_t n; /* orders */
+  long double h, damping;
+  row gain, lift; /* g, w */
+  row x[2];       /* P1: of x and of y */
+  row square[3];  /* P1^2 / 2: xx, xy, yy */
+  row second[3];  /* P2 */
+} parts;
+
+/* Moves coefficient `place` of the jet; `path`, NULL = not asked: its series. */
+static void move(const parts *p, const row source, kz_jet *jet, int place, long double *path) {
+  row x;
+  long double rate = jet->bent[1][place] * p->h;
+  x[0] = jet->bent[0][place];
+  solve(p->n, p->damping, p->gain, source, x, &rate);
+  jet->bent[0][place] = sum_of(p->n, x);
+  jet->bent[1][place] = rate / p->h;
+  if (path) memcpy(path, x, sizeof x);
+}
+
+static void move_second(parts *p, kz_jet *jet) {
+  static const int factor[3][2] = {{0, 0}, {0, 1}, {1, 1}};
+  for (int i = 0; i < 3; i++) {
+    row source = {0};
+    memset(p->square[i], 0, sizeof p->square[i]);
+    add_product(p->n, i == 1 ? 1 : 0.5L, p->x[factor[i][0]], p->x[factor[i][1]], p->square[i]);
+    add_product(p->n, 1, p->lift, p->square[i], source);
+    move(p, source, jet, i, p->second[i]);
+  }
+}
+
+/* Coefficient i of the third degree: i factors of y. */
+static void move_third(const parts *p, kz_jet *jet) {
+  for (int i = 0; i < 4; i++) {
+    row mixed = {0}, cube = {0}, source = {0};
+    if (i < 3) add_product(p->n, 1, p->x[0], p->second[i], mixed);
+    if (i > 0) add_product(p->n, 1, p->x[1], p->second[i - 1], mixed);
+    if (i < 3) add_product(p->n, 1.0L / 3, p->x[0], p->square[i], cube);
+    if (i > 0) add_product(p->n, 1.0L / 3, p->x[1], p->square[i - 1], cube);
+    add_product(p->n, 1, p->lift, mixed, source);
+    add_product(p->n, 1, p->gain, cube, source);
+    move(p, source, jet, 3 + i, NULL);
+  }
+}
+
+static int64_t larger(int64_t a, int64_t b) {
+  return a > b ? a : b;
+}
+
+/* The orders that long doubles see. */
+static int64_t orders_of(const kz_series *s, int64_t tangent_orders) {
+  enum { BITS = 72, MORE = 8 };
+  int64_t whole[2], n = tangent_orders;
+  bool is_small = true;
+  for (int axis = 0; axis < 2; axis++)
+    whole[axis] = larger(kz_number_exponent(s->angle[axis]), kz_number_exponent(s->rate[axis]));
+  for (; n > 1 && is_small; n--) {
+    is_small = kz_number_exponent(s->gain + n - 1) < -BITS;
+    for (int axis = 0; axis < 2; axis++) is_small = is_small && kz_number_exponent(s->angle[axis] + n - 1) < whole[axis] - BITS;
+  }
+  return n + MORE < KZ_BENT_ORDERS ? n + MORE : KZ_BENT_ORDERS;
+}
+
+void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, kz_jet *jet) {
+  parts p = {
+      .n = orders_of(series, tangent_orders), .h = kz_number_long(&steps->h), .damping = kz_number_long(&steps->damping)};
+  row force = {0}, sine = {0};
+  read_series(series->gain, tangent_orders - 1, p.n, p.gain);
+  read_series(series->force, steps->force_orders, p.n, force);
+  read_series(series->sine, tangent_orders, p.n, sine);
+  add_product(p.n, 1, force, sine, p.lift);
+  for (int axis = 0; axis < 2; axis++) read_series(series->angle[axis], tangent_orders, p.n, p.x[axis]);
+  move_second(&p, jet);
+  move_third(&p, jet);
+}

@@ -1,0 +1,236 @@
+/* Numbers of any precision: what is not in the inner loops. */
+#include "number.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of libquadmath, whose header is in a folder of gcc. */
+__float128 strtoflt128(const char *text, char **end);
+int quadmath_snprintf(char *text, size_t size, const char *format, ...);
+void sincosq(__float128 x, __float128 *sine, __float128 *cosine);
+__float128 ldexpq(__float128 x, int exponent);
+__float128 frexpq(__float128 x, int *exponent);
+
+static const char degrees[] = " deg";
+
+#ifdef KAPITZA_FLINT
+
+int64_t kz_arbitrary_bits(void) {
+  return KZ_MOST_BITS;
+}
+
+kz_number *kz_numbers_make(int64_t n) {
+  kz_number *numbers = malloc((size_t)n * sizeof *numbers);
+  for (int64_t i = 0; numbers && i < n; i++) arb_init(numbers + i);
+  return numbers;
+}
+
+void kz_numbers_free(kz_number *numbers, int64_t n) {
+  for (int64_t i = 0; numbers && i < n; i++) arb_clear(numbers + i);
+  free(numbers);
+}
+
+static void forget_radius(kz_number *x) {
+  mag_zero(arb_radref(x));
+}
+
+void kz_number_two_pi(kz_number *x, int64_t bits) {
+  arb_const_pi(x, bits);
+  arb_mul_2exp_si(x, x, 1);
+  forget_radius(x);
+}
+
+void kz_number_sin_cos(const kz_number *x, kz_number *sine, kz_number *cosine, int64_t bits) {
+  arb_sin_cos(sine, cosine, x, bits);
+  forget_radius(sine);
+  forget_radius(cosine);
+}
+
+void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number *cosine, int64_t bits) {
+  fmpq_t half_turns;
+  fmpq_init(half_turns);
+  fmpq_set_si(half_turns, 2 * i, (ulong)n);
+  arb_sin_cos_pi_fmpq(sine, cosine, half_turns, bits);
+  fmpq_clear(half_turns);
+  forget_radius(sine);
+  forget_radius(cosine);
+}
+
+/* The text is a decimal number, maybe with " deg" behind it. */
+static void parse(const char *text, kz_number *x, int64_t bits) {
+  const size_t length = strlen(text), tail = sizeof degrees - 1;
+  const bool turned = length > tail && strcmp(text + length - tail, degrees) == 0;
+  char *number = strndup(text, turned ? length - tail : length);
+  arb_set_str(x, number ? number : "nan", bits);
+  forget_radius(x);
+  free(number);
+  if (!turned) return;
+  kz_number factor;
+  kz_number_init(&factor);
+  kz_number_two_pi(&factor, bits);
+  kz_number_divide_by(&factor, &factor, 360, bits);
+  kz_number_multiply(x, x, &factor, bits);
+  kz_number_clear(&factor);
+}
+
+void kz_number_of_quad(__float128 value, kz_number *x) {
+  int binary;
+  __float128 rest = frexpq(value, &binary);
+  arf_t part;
+  fmpz_t exponent;
+  arf_init(part);
+  fmpz_init_set_si(exponent, binary);
+  arf_zero(arb_midref(x));
+  for (int i = 0; i < 3; i++) {
+    const double head = (double)rest;
+    arf_set_d(part, head);
+    arf_add(arb_midref(x), arb_midref(x), part, ARF_PREC_EXACT, ARF_RND_DOWN);
+    rest -= head;
+  }
+  arf_mul_2exp_fmpz(arb_midref(x), arb_midref(x), exponent);
+  arf_clear(part);
+  fmpz_clear(exponent);
+}
+
+/* x = (head [0] + head [1] + ...) 2^exponent with n heads, |sum| < 1. */
+static int64_t split(const kz_number *x, int n, double *head) {
+  arf_t rest, part;
+  fmpz_t exponent;
+  arf_init(rest);
+  arf_init(part);
+  fmpz_init(exponent);
+  arf_frexp(rest, exponent, arb_midref(x));
+  for (int i = 0; i < n; i++) {
+    head[i] = arf_get_d(rest, ARF_RND_DOWN);
+    arf_set_d(part, head[i]);
+    arf_sub(rest, rest, part, ARF_PREC_EXACT, ARF_RND_DOWN);
+  }
+  const int64_t binary = fmpz_get_si(exponent);
+  arf_clear(rest);
+  arf_clear(part);
+  fmpz_clear(exponent);
+  return binary;
+}
+
+/* Smaller numbers are 0 to quads and to long doubles. */
+enum { SMALLEST = -16500 };
+
+__float128 kz_number_quad(const kz_number *x) {
+  double head[3];
+  const int64_t exponent = split(x, 3, head);
+  return exponent < SMALLEST ? 0 : ldexpq(((__float128)head[2] + head[1]) + head[0], (int)exponent);
+}
+
+long double kz_number_long(const kz_number *x) {
+  double head[2];
+  const int64_t exponent = split(x, 2, head);
+  return exponent < SMALLEST ? 0 : ldexpl((long double)head[1] + head[0], (int)exponent);
+}
+
+bool kz_number_write(const kz_number *x, char *text, size_t size) {
+  char *whole = arb_dump_str(x);
+  const bool fits = whole && strlen(whole) < size;
+  if (fits) strcpy(text, whole);
+  flint_free(whole);
+  return fits;
+}
+
+bool kz_number_read(const char *text, kz_number *x) {
+  return arb_load_str(x, text) == 0;
+}
+
+#else
+
+int64_t kz_arbitrary_bits(void) {
+  return 113; /* of a quad */
+}
+
+kz_number *kz_numbers_make(int64_t n) {
+  return calloc((size_t)n, sizeof(kz_number));
+}
+
+void kz_numbers_free(kz_number *numbers, int64_t n) {
+  (void)n;
+  free(numbers);
+}
+
+static const char two_pi[] = "6.283185307179586476925286766559005768394338798750211641949889184616";
+
+void kz_number_two_pi(kz_number *x, int64_t bits) {
+  (void)bits;
+  *x = strtoflt128(two_pi, NULL);
+}
+
+void kz_number_sin_cos(const kz_number *x, kz_number *sine, kz_number *cosine, int64_t bits) {
+  (void)bits;
+  sincosq(*x, sine, cosine);
+}
+
+void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number *cosine, int64_t bits) {
+  kz_number angle;
+  kz_number_two_pi(&angle, bits);
+  angle *= (__float128)i / n;
+  sincosq(angle, sine, cosine);
+}
+
+static void parse(const char *text, kz_number *x, int64_t bits) {
+  char *end;
+  kz_number turn;
+  *x = strtoflt128(text, &end);
+  if (strcmp(end, degrees) != 0) return;
+  kz_number_two_pi(&turn, bits);
+  *x *= turn / 360;
+}
+
+void kz_number_of_quad(__float128 value, kz_number *x) {
+  *x = value;
+}
+
+__float128 kz_number_quad(const kz_number *x) {
+  return *x;
+}
+
+long double kz_number_long(const kz_number *x) {
+  return (long double)*x;
+}
+
+int64_t kz_number_exponent(const kz_number *x) {
+  int exponent;
+  frexpq(*x, &exponent);
+  return *x == 0 ? INT32_MIN : exponent;
+}
+
+bool kz_number_write(const kz_number *x, char *text, size_t size) {
+  return (size_t)quadmath_snprintf(text, size, "%.36Qg", *x) < size;
+}
+
+bool kz_number_read(const char *text, kz_number *x) {
+  char *end;
+  *x = strtoflt128(text, &end);
+  return *end == '\0';
+}
+
+#endif
+
+void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits) {
+  const int64_t digits = bits + 64; /* as centres and widths have up to 30 bits before the point */
+  kz_number part[2];
+  for (int i = 0; i < 2; i++) kz_number_init(part + i);
+  kz_number_of_double(coordinate->high, part);
+  kz_number_of_double(coordinate->low, part + 1);
+  if (coordinate->centre)
+    parse(coordinate->centre, x, digits);
+  else
+    kz_number_add(x, part, part + 1, digits);
+  if (coordinate->width && coordinate->share != 0) {
+    parse(coordinate->width, part, digits);
+    kz_number_of_double(coordinate->share, part + 1);
+    kz_number_multiply(part, part, part + 1, digits);
+    kz_number_add(x, x, part, digits);
+  }
+  kz_number_round(x, digits);
+  for (int i = 0; i < 2; i++) kz_number_clear(part + i);
+}

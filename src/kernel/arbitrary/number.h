@@ -1,0 +1,135 @@
+/* Numbers of any precision: those of FLINT (Arb), whose radii are not used; built without it, quads, whatever precision is asked for. */
+#ifndef KAPITZA_KERNEL_NUMBER_H
+#define KAPITZA_KERNEL_NUMBER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "kapitza/kernel.h"
+
+#ifdef KAPITZA_FLINT_3
+#include <flint/arb.h>
+#elif defined KAPITZA_FLINT
+#include <arb.h>
+#endif
+
+#ifdef KAPITZA_FLINT
+typedef arb_struct kz_number;
+#else
+typedef __float128 kz_number;
+#endif
+
+/* n numbers, all 0; NULL where memory ran out. */
+kz_number *kz_numbers_make(int64_t n);
+void kz_numbers_free(kz_number *numbers, int64_t n);
+
+/* The number of a coordinate of a start, right to 2^-bits. */
+void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits);
+void kz_number_of_quad(__float128 value, kz_number *x);
+__float128 kz_number_quad(const kz_number *x);
+long double kz_number_long(const kz_number *x);
+
+void kz_number_two_pi(kz_number *x, int64_t bits);
+void kz_number_sin_cos(const kz_number *x, kz_number *sine, kz_number *cosine, int64_t bits);
+/* Of 2 pi i / n. */
+void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number *cosine, int64_t bits);
+
+/* As text that gives the same number again: at most `size` bytes with the last 0; false where that is too little. */
+bool kz_number_write(const kz_number *x, char *text, size_t size);
+bool kz_number_read(const char *text, kz_number *x);
+
+/* Results are rounded to `bits` digits of their own, towards 0, so that mirrored numbers stay mirrored. */
+#ifdef KAPITZA_FLINT
+static inline void kz_number_init(kz_number *x) {
+  arb_init(x);
+}
+static inline void kz_number_clear(kz_number *x) {
+  arb_clear(x);
+}
+static inline void kz_number_set(kz_number *x, const kz_number *a) {
+  arf_set(arb_midref(x), arb_midref(a));
+}
+static inline void kz_number_round(kz_number *x, int64_t bits) {
+  arf_set_round(arb_midref(x), arb_midref(x), bits, ARF_RND_DOWN);
+}
+static inline void kz_number_of_double(double value, kz_number *x) {
+  arf_set_d(arb_midref(x), value);
+}
+static inline double kz_number_double(const kz_number *x) {
+  return arf_get_d(arb_midref(x), ARF_RND_NEAR);
+}
+static inline void kz_number_add(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
+  arf_add(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
+}
+static inline void kz_number_subtract(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
+  arf_sub(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
+}
+static inline void kz_number_multiply(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
+  arf_mul(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
+}
+static inline void kz_number_divide(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
+  arf_div(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
+}
+static inline void kz_number_divide_by(kz_number *x, const kz_number *a, int64_t n, int64_t bits) {
+  arf_div_si(arb_midref(x), arb_midref(a), n, bits, ARF_RND_DOWN);
+}
+static inline void kz_number_negate(kz_number *x) {
+  arf_neg(arb_midref(x), arb_midref(x));
+}
+/* The least e with |x| < 2^e; very small for 0. */
+static inline int64_t kz_number_exponent(const kz_number *x) {
+  return arf_is_zero(arb_midref(x)) ? INT32_MIN : fmpz_get_si(ARF_EXPREF(arb_midref(x)));
+}
+/* first + sum or first - sum of a[i] b[-i], i = 0 .. n - 1; first NULL = 0. */
+static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minus, const kz_number *a, const kz_number *b,
+                                 int64_t n, int64_t bits) {
+  arb_approx_dot(x, first, minus, a, 1, b, -1, n, bits);
+}
+#else
+#define KZ_WITHOUT_ROUNDING(name, operation)                                                    \
+  static inline void name(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) { \
+    (void)bits;                                                                                 \
+    *x = *a operation * b;                                                                      \
+  }
+KZ_WITHOUT_ROUNDING(kz_number_add, +)
+KZ_WITHOUT_ROUNDING(kz_number_subtract, -)
+KZ_WITHOUT_ROUNDING(kz_number_multiply, *)
+KZ_WITHOUT_ROUNDING(kz_number_divide, /)
+static inline void kz_number_init(kz_number *x) {
+  *x = 0;
+}
+static inline void kz_number_clear(kz_number *x) {
+  *x = 0;
+}
+static inline void kz_number_divide_by(kz_number *x, const kz_number *a, int64_t n, int64_t bits) {
+  (void)bits;
+  *x = *a / n;
+}
+static inline void kz_number_set(kz_number *x, const kz_number *a) {
+  *x = *a;
+}
+static inline void kz_number_round(kz_number *x, int64_t bits) {
+  (void)x;
+  (void)bits;
+}
+static inline void kz_number_of_double(double value, kz_number *x) {
+  *x = value;
+}
+static inline double kz_number_double(const kz_number *x) {
+  return (double)*x;
+}
+static inline void kz_number_negate(kz_number *x) {
+  *x = -*x;
+}
+int64_t kz_number_exponent(const kz_number *x);
+static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minus, const kz_number *a, const kz_number *b,
+                                 int64_t n, int64_t bits) {
+  __float128 sum = 0;
+  (void)bits;
+  for (int64_t i = 0; i < n; i++) sum += a[i] * b[-i];
+  *x = (first ? *first : 0) + (minus ? -sum : sum);
+}
+#endif
+
+#endif

@@ -1,0 +1,205 @@
+/* Orbits of any precision: memory of the series, steps that are halved until every series converges, whole periods. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "step.h"
+
+enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 9 };
+
+struct kz_arbitrary {
+  kz_pendulum pendulum;
+  int64_t bits; /* the most */
+  kz_steps steps;
+  kz_series series;
+  kz_number *room; /* of all series */
+  kz_place place;  /* at the beginning of a period */
+};
+
+/* Orders that steps of the first length take where the motion is gentle; steps that take more are halved. */
+static int64_t orders_for(int64_t bits) {
+  return (int64_t)(0.62 * (double)bits) + 20;
+}
+
+static void each_number(kz_arbitrary *o, void (*action)(kz_number *)) {
+  kz_number *const all[] = {&o->place.theta,    &o->place.velocity, &o->place.sine,    &o->place.cosine,
+                            &o->place.angle[0], &o->place.angle[1], &o->place.rate[0], &o->place.rate[1],
+                            &o->steps.h,        &o->steps.damping,  &o->steps.gravity};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) action(all[i]);
+}
+
+static int64_t room_of(const kz_arbitrary *o) {
+  return (SERIES + 1) * (o->series.orders + 2);
+}
+
+static void share_room(kz_arbitrary *o) {
+  kz_series *s = &o->series;
+  kz_number **const all[SERIES + 1] = {&s->speed,    &s->sine,     &s->cosine,  &s->force,   &s->gain,
+                                       &s->angle[0], &s->angle[1], &s->rate[0], &s->rate[1], &o->steps.scale};
+  for (int i = 0; i <= SERIES; i++) *all[i] = o->room + i * (s->orders + 2);
+}
+
+kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits) {
+  kz_arbitrary *o = calloc(1, sizeof *o);
+  if (!o) return NULL;
+  o->pendulum = *pendulum;
+  o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
+  o->series.orders = orders_for(o->bits);
+  o->room = kz_numbers_make(room_of(o));
+  if (!o->room) {
+    free(o);
+    return NULL;
+  }
+  share_room(o);
+  each_number(o, kz_number_init);
+  kz_number_of(&start[0], &o->place.theta, o->bits);
+  kz_number_of(&start[1], &o->place.velocity, o->bits);
+  return o;
+}
+
+void kz_arbitrary_free(kz_arbitrary *o) {
+  if (!o) return;
+  each_number(o, kz_number_clear);
+  kz_numbers_free(o->room, room_of(o));
+  free(o);
+}
+
+/* Steps of a period's n-th part, made for all bits that the orbit keeps. */
+static void make_steps(kz_arbitrary *o, int64_t n) {
+  kz_steps *steps = &o->steps;
+  const int64_t bits = o->bits + 32;
+  kz_number value;
+  if (steps->n == n) return;
+  kz_number_init(&value);
+  steps->n = n;
+  kz_number_two_pi(&steps->h, bits);
+  kz_number_divide_by(&steps->h, &steps->h, n, bits);
+  kz_number_of_double(o->pendulum.beta, &value);
+  kz_number_multiply(&steps->damping, &steps->h, &value, bits);
+  kz_number_of_double(o->pendulum.m, &value);
+  kz_number_multiply(&value, &value, &steps->h, bits);
+  kz_number_multiply(steps->scale, &value, &steps->h, bits);
+  kz_number_of_double(o->pendulum.k, &value);
+  kz_number_multiply(&value, &value, &steps->h, bits);
+  kz_number_multiply(&steps->gravity, &value, &steps->h, bits);
+  steps->force_orders = 0;
+  for (int64_t j = 0; j < o->series.orders && kz_number_exponent(steps->scale + j) > -bits; j++) {
+    kz_number_multiply(steps->scale + j + 1, steps->scale + j, &steps->h, bits);
+    kz_number_divide_by(steps->scale + j + 1, steps->scale + j + 1, j + 1, bits);
+    steps->force_orders = j + 1;
+  }
+  kz_number_clear(&value);
+}
+
+static void copy_place(const kz_place *from, kz_place *to) {
+  kz_number_set(&to->theta, &from->theta);
+  kz_number_set(&to->velocity, &from->velocity);
+  for (int axis = 0; axis < 2; axis++) {
+    kz_number_set(to->angle + axis, from->angle + axis);
+    kz_number_set(to->rate + axis, from->rate + axis);
+  }
+}
+
+/* One period in the present steps; false where a series does not converge. */
+static bool advance_in_steps(kz_arbitrary *o, int64_t bits, kz_jet *jet) {
+  kz_number_sin_cos(&o->place.theta, &o->place.sine, &o->place.cosine, bits + 8);
+  for (int64_t i = 0; i < o->steps.n; i++) {
+    int64_t tangent = 0;
+    const int64_t orders = kz_series_expand(&o->series, &o->steps, i, &o->place, bits);
+    if (orders == 0) return false;
+    if (jet) {
+      tangent = kz_series_expand_tangent(&o->series, &o->steps, &o->place, orders);
+      if (tangent == 0) return false;
+      kz_bent_advance(&o->series, &o->steps, tangent, jet);
+    }
+    kz_series_sum(&o->series, &o->steps, orders, tangent, bits, &o->place);
+  }
+  return true;
+}
+
+static void wrap(kz_arbitrary *o, int64_t bits) {
+  const double turns = rint(kz_number_double(&o->place.theta) / (2 * M_PI));
+  kz_number angle, factor;
+  if (turns == 0) return;
+  kz_number_init(&angle);
+  kz_number_init(&factor);
+  kz_number_two_pi(&angle, o->bits + 40);
+  kz_number_of_double(turns, &factor);
+  kz_number_multiply(&angle, &angle, &factor, o->bits + 40);
+  kz_number_subtract(&o->place.theta, &o->place.theta, &angle, bits + 40);
+  kz_number_clear(&angle);
+  kz_number_clear(&factor);
+}
+
+static void set_tangent(kz_place *place, const kz_jet *jet) {
+  for (int axis = 0; axis < 2; axis++) {
+    kz_number_of_quad(jet ? jet->linear[0][axis] : 0, place->angle + axis);
+    kz_number_of_quad(jet ? jet->linear[1][axis] : 0, place->rate + axis);
+  }
+}
+
+static void get_tangent(const kz_place *place, kz_jet *jet) {
+  for (int axis = 0; axis < 2; axis++) {
+    jet->linear[0][axis] = kz_number_quad(place->angle + axis);
+    jet->linear[1][axis] = kz_number_quad(place->rate + axis);
+  }
+}
+
+kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, kz_jet *jet) {
+  const int64_t fine = bits > o->bits ? o->bits : bits;
+  kz_place before = {0};
+  kz_jet bent;
+  bool done = false;
+  wrap(o, o->bits);
+  set_tangent(&o->place, jet);
+  copy_place(&o->place, &before);
+  for (int64_t halvings = 0; !done && halvings <= HALVINGS; halvings++) {
+    make_steps(o, (int64_t)FEWEST_STEPS << halvings);
+    copy_place(&before, &o->place);
+    if (jet) bent = *jet;
+    done = advance_in_steps(o, fine, jet ? &bent : NULL);
+  }
+  kz_number *const copies[] = {&before.theta,    &before.velocity, &before.sine,    &before.cosine,
+                               &before.angle[0], &before.angle[1], &before.rate[0], &before.rate[1]};
+  for (size_t i = 0; i < sizeof copies / sizeof *copies; i++) kz_number_clear(copies[i]);
+  if (!done) return kz_fail(KZ_FAILED, "a motion is too fast for an orbit of %lld bits", (long long)fine);
+  wrap(o, fine);
+  if (jet) {
+    *jet = bent;
+    get_tangent(&o->place, jet);
+  }
+  return KZ_OK;
+}
+
+static void read_pair(const kz_number *x, double pair[2]) {
+  kz_number rest;
+  kz_number_init(&rest);
+  pair[0] = kz_number_double(x);
+  kz_number_of_double(pair[0], &rest);
+  kz_number_subtract(&rest, x, &rest, 64);
+  pair[1] = kz_number_double(&rest);
+  kz_number_clear(&rest);
+}
+
+void kz_arbitrary_read(const kz_arbitrary *o, double theta[2], double velocity[2]) {
+  read_pair(&o->place.theta, theta);
+  read_pair(&o->place.velocity, velocity);
+}
+
+size_t kz_arbitrary_size(const kz_arbitrary *o) {
+  enum { REST = 128 }; /* exponents, signs, blanks */
+  return 2 * ((size_t)(o->bits + 64) / 4 + REST);
+}
+
+void kz_arbitrary_write(const kz_arbitrary *o, char *text) {
+  const size_t half = kz_arbitrary_size(o) / 2;
+  memset(text, 0, 2 * half);
+  kz_number_write(&o->place.theta, text, half);
+  kz_number_write(&o->place.velocity, text + half, half);
+}
+
+kz_status kz_arbitrary_restore(kz_arbitrary *o, const char *text) {
+  const size_t half = kz_arbitrary_size(o) / 2;
+  if (kz_number_read(text, &o->place.theta) && kz_number_read(text + half, &o->place.velocity)) return KZ_OK;
+  return kz_fail(KZ_FAILED, "the state of an orbit that was kept cannot be read");
+}

@@ -1,0 +1,43 @@
+/* One step of an orbit and of its neighbourhood by Taylor series (scaled: coefficients of (t / h)^n). */
+#ifndef KAPITZA_KERNEL_STEP_H
+#define KAPITZA_KERNEL_STEP_H
+
+#include "number.h"
+
+/* Bits of the neighbourhood's first degree, and room for the series of its higher ones, which are long doubles. */
+enum { KZ_TANGENT_BITS = 118, KZ_BENT_ORDERS = 120 };
+
+/* Steps of one length. */
+typedef struct {
+  int64_t n;            /* steps a period; 0 = none yet */
+  kz_number h, damping; /* 2 pi / n, beta h */
+  kz_number *scale;     /* [room] m h^2 h^j / j! */
+  kz_number gravity;    /* k h^2 */
+  int64_t force_orders; /* the drive's series ends there */
+} kz_steps;
+
+/* Series of one step: [orders + 1] each. */
+typedef struct {
+  int64_t orders;                           /* the most that fit */
+  kz_number *speed, *sine, *cosine, *force; /* of the orbit: h v, sin theta, cos theta, h^2 (k - m cos t) */
+  kz_number *gain, *angle[2], *rate[2];     /* of its neighbours: force cosine; change of theta, and of h v, with x and y */
+} kz_series;
+
+/* The orbit at the beginning of a step, and at its end. */
+typedef struct {
+  kz_number theta, velocity, sine, cosine;
+  kz_number angle[2], rate[2]; /* derivatives of theta and v by x and y */
+} kz_place;
+
+/* The series of the step that begins at t = 2 pi i / n, from `place`. Returns its last order, 0 where it does not converge. */
+int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, const kz_place *place, int64_t bits);
+/* The tangent's series, after those of the orbit; returns as well. */
+int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place, int64_t orders);
+/* Moves `place` to the end of the step; with its derivatives where tangent_orders > 0. */
+void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t tangent_orders, int64_t bits,
+                   kz_place *place);
+
+/* Moves the higher degrees of a neighbourhood through the step. */
+void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, kz_jet *jet);
+
+#endif

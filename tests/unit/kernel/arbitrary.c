@@ -1,0 +1,165 @@
+/* Orbits of any precision against the quad reference, against themselves in more digits, and their neighbourhoods against neighbours. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "kapitza/kernel.h"
+
+static const kz_pendulum strong = {.k = 0.1, .beta = 0.1, .m = 0.4};
+
+static kz_coordinate at(double value) {
+  return (kz_coordinate){.high = value};
+}
+
+static kz_arbitrary *orbit_at(double theta, double velocity, int64_t bits) {
+  const kz_coordinate start[2] = {at(theta), at(velocity)};
+  kz_arbitrary *orbit = kz_arbitrary_create(&strong, start, bits);
+  assert_non_null(orbit);
+  return orbit;
+}
+
+static void advance(kz_arbitrary *orbit, int periods, int64_t bits, kz_jet *jet) {
+  for (int i = 0; i < periods; i++) assert_int_equal(kz_arbitrary_advance(orbit, bits, jet), KZ_OK);
+}
+
+/* The distance of two states as their pairs tell it. */
+static double distance(const kz_arbitrary *a, const kz_arbitrary *b) {
+  double theta[2][2], velocity[2][2];
+  kz_arbitrary_read(a, theta[0], velocity[0]);
+  kz_arbitrary_read(b, theta[1], velocity[1]);
+  return hypot(theta[0][0] - theta[1][0] + (theta[0][1] - theta[1][1]),
+               velocity[0][0] - velocity[1][0] + (velocity[0][1] - velocity[1][1]));
+}
+
+/* Both Taylor series, written apart, agree in all digits of a quad: at rest, and at 17 rad per drive radian. */
+static void agrees_with_the_quad_reference(void **state) {
+  (void)state;
+  const double start[][2] = {{0.7, 1.42}, {-2.3, 17}, {3.1, -0.2}};
+  for (int i = 0; i < 3; i++) {
+    kz_arbitrary *orbit = orbit_at(start[i][0], start[i][1], 113);
+    kz_reference_state quad;
+    int64_t turns;
+    double theta, velocity, pair[2][2];
+    kz_reference_start(1, &start[i][0], &start[i][1], NULL, &quad);
+    kz_reference_advance(&strong, KZ_REFERENCE_STEPS, 1, 3, &quad);
+    kz_reference_read(1, &quad, &theta, &velocity, &turns);
+    advance(orbit, 3, KZ_FEWEST_BITS, NULL);
+    kz_arbitrary_read(orbit, pair[0], pair[1]);
+    assert_true(fabs(pair[0][0] - theta) <= 4e-16);
+    assert_true(fabs(pair[1][0] - velocity) <= 4e-15);
+    kz_arbitrary_free(orbit);
+  }
+}
+
+/* What fewer bits leave out is of the size of the last bit. */
+static void more_digits_agree(void **state) {
+  (void)state;
+  if (kz_arbitrary_bits() < 400) skip();
+  kz_arbitrary *orbit = orbit_at(-2.3, 17, 400), *coarse = orbit_at(-2.3, 17, 400);
+  advance(orbit, 4, 400, NULL);
+  advance(coarse, 4, 200, NULL);
+  /* their difference is below what pairs show; their texts begin alike */
+  assert_true(distance(orbit, coarse) < 1e-31);
+  char *text = malloc(kz_arbitrary_size(orbit));
+  kz_arbitrary_write(orbit, text);
+  kz_arbitrary *again = orbit_at(0, 0, 400);
+  assert_int_equal(kz_arbitrary_restore(again, text), KZ_OK);
+  advance(orbit, 1, 400, NULL);
+  advance(again, 1, 400, NULL);
+  char *other = malloc(kz_arbitrary_size(orbit));
+  kz_arbitrary_write(orbit, text);
+  kz_arbitrary_write(again, other);
+  assert_memory_equal(text, other, kz_arbitrary_size(orbit));
+  assert_int_equal(kz_arbitrary_restore(again, "no number"), KZ_FAILED);
+  kz_message_clear();
+  free(text);
+  free(other);
+  kz_arbitrary_free(orbit);
+  kz_arbitrary_free(coarse);
+  kz_arbitrary_free(again);
+}
+
+static long double value_of(const __float128 *linear, const long double *b, long double x, long double y) {
+  return (long double)linear[0] * x + (long double)linear[1] * y + b[0] * x * x + b[1] * x * y + b[2] * y * y +
+         b[3] * x * x * x + b[4] * x * x * y + b[5] * x * y * y + b[6] * y * y * y;
+}
+
+/* A neighbour at 1e-4 is where the cubic says, to the fourth power of the distance; and at 1e-9 to all digits that remain. */
+static void neighbours_follow_the_jet(void **state) {
+  (void)state;
+  for (int i = 0; i < 2; i++) {
+    const double scale = i == 0 ? 1e-4 : 1e-9, bound = i == 0 ? 3e-11 : 1e-30;
+    kz_arbitrary *centre = orbit_at(0.7, 1.42, 160), *beside = orbit_at(0.7 + scale, 1.42 - scale, 160);
+    kz_jet jet = {.linear = {{1, 0}, {0, 1}}};
+    advance(centre, 3, 160, &jet);
+    advance(beside, 3, 160, NULL);
+    double a[2][2], b[2][2];
+    kz_arbitrary_read(centre, a[0], a[1]);
+    kz_arbitrary_read(beside, b[0], b[1]);
+    for (int axis = 0; axis < 2; axis++) {
+      const long double dx = (0.7 + scale) - 0.7, dy = (1.42 - scale) - 1.42;
+      const long double moved = (long double)b[axis][0] - a[axis][0] + ((long double)b[axis][1] - a[axis][1]);
+      assert_true(fabsl(moved - value_of(jet.linear[axis], jet.bent[axis], dx, dy)) < bound);
+    }
+    kz_arbitrary_free(centre);
+    kz_arbitrary_free(beside);
+  }
+}
+
+/* The widest and the narrowest window: exponents of cubes stay, areas shrink by exp(-2 pi beta). */
+static void areas_shrink_at_any_scale(void **state) {
+  (void)state;
+  const long double scale[] = {1, 1e-300L};
+  for (int i = 0; i < 2; i++) {
+    kz_arbitrary *orbit = orbit_at(2.1, -0.4, 200);
+    kz_jet jet = {.linear = {{scale[i], 0}, {0, scale[i]}}};
+    advance(orbit, 5, 200, &jet);
+    const __float128 det = jet.linear[0][0] * jet.linear[1][1] - jet.linear[0][1] * jet.linear[1][0];
+    assert_true(fabs((double)(det / scale[i] / scale[i]) / exp(-10 * M_PI * strong.beta) - 1) <= 1e-13);
+    for (int part = 3; part < KZ_BENT; part++) assert_true(jet.bent[0][part] != 0);
+    kz_arbitrary_free(orbit);
+  }
+}
+
+/* Centres in decimal text, in degrees, and a share of a width. */
+static void starts_are_read(void **state) {
+  (void)state;
+  const kz_coordinate text[2] = {{.centre = "-90 deg"}, {.centre = "1.5", .width = "1e-10", .share = -0.25}};
+  kz_arbitrary *orbit = kz_arbitrary_create(&strong, text, 200);
+  double theta[2], velocity[2];
+  kz_arbitrary_read(orbit, theta, velocity);
+  assert_true(theta[0] == -M_PI / 2 && fabs(theta[1] + 6.123233995736766e-17) < 1e-31);
+  assert_true(fabs((velocity[0] - 1.5) + velocity[1] + 2.5e-11) <= 1e-26);
+  kz_arbitrary_free(orbit);
+}
+
+/* Mirrored starts stay mirrored, to the last bit. */
+static void mirror_images_stay_mirrored(void **state) {
+  (void)state;
+  kz_arbitrary *orbit = orbit_at(2.5, 3.2, 180), *mirror = orbit_at(-2.5, -3.2, 180);
+  double a[2][2], b[2][2];
+  advance(orbit, 3, 180, NULL);
+  advance(mirror, 3, 180, NULL);
+  kz_arbitrary_read(orbit, a[0], a[1]);
+  kz_arbitrary_read(mirror, b[0], b[1]);
+  for (int i = 0; i < 4; i++) assert_true(a[i / 2][i % 2] == -b[i / 2][i % 2]);
+  kz_arbitrary_free(orbit);
+  kz_arbitrary_free(mirror);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(agrees_with_the_quad_reference),
+      cmocka_unit_test(more_digits_agree),
+      cmocka_unit_test(neighbours_follow_the_jet),
+      cmocka_unit_test(areas_shrink_at_any_scale),
+      cmocka_unit_test(starts_are_read),
+      cmocka_unit_test(mirror_images_stay_mirrored),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
