@@ -18,11 +18,6 @@ function(kapitza_layer name)
     target_link_libraries(kapitza_${name} PUBLIC kapitza_${layer})
   endforeach()
   target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} m)
-  list(FILTER sources INCLUDE REGEX "\\.f90$")
-  if(sources) # gfortran does not look whether malloc gave memory: include/kapitza/common.h
-    add_custom_command(TARGET kapitza_${name} POST_BUILD COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=kz_malloc
-                       --redefine-sym calloc=kz_calloc --redefine-sym realloc=kz_realloc $<TARGET_FILE:kapitza_${name}>)
-  endif()
 endfunction()
 
 # The program: only its entry (the instruction-set check) is compiled for plain x86-64.
@@ -31,4 +26,9 @@ function(kapitza_program)
   target_compile_options(kapitza PRIVATE -march=x86-64 ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
   target_link_libraries(kapitza PRIVATE kapitza_app)
   set_target_properties(kapitza PROPERTIES LINKER_LANGUAGE C)
+endfunction()
+
+# Code that gfortran makes does not look whether malloc gave memory: include/kapitza/common.h.
+function(kapitza_check_memory)
+  target_link_options(kapitza_common INTERFACE LINKER:--wrap=malloc,--wrap=calloc,--wrap=realloc)
 endfunction()

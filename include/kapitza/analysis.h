@@ -36,7 +36,7 @@ double kz_spectrum_rotation(const kz_record *record, const double *theta);
  * abs(a0), phase 0 or pi, a0 in [-pi, pi] but of a velocity. A closed record gives the Fourier coefficients to rounding. An
  * open one is seen through the four-term Blackman-Harris window (Harris, Proc. IEEE 66 (1978) 51): side lobes below -92 dB, a
  * line is eight bins wide, its top up to 0.83 dB low between bins, its phase right at bin centres alone. 2 n_lines must not
- * exceed the samples (KZ_REFUSED); KZ_FAILED where memory ran out. */
+ * exceed the samples (KZ_REFUSED); KZ_FAILED where FFTW has no memory. */
 kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase);
 
 /* The largest line j >= 1; 0 where all are under KZ_LINE_FLOOR. */

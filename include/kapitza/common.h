@@ -5,6 +5,7 @@
 #ifndef KAPITZA_COMMON_H
 #define KAPITZA_COMMON_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* The value is the exit status of the program. */
@@ -47,16 +48,20 @@ double kz_processor_clock(void);
 
 /* ---- memory ---- */
 
-/* Memory of the Fortran layers. Code that gfortran makes for automatic arrays, temporaries, assignments and copies of components
- * does not look whether there was memory: so it is at 561 of the 724 places where these layers ask for some. The build renames
- * malloc, calloc and realloc in those layers to the functions here, which do look. Neither of the language's own means serves:
- * allocate(stat=) reaches no temporary, automatic array or copied component, and -fcheck=mem leaves 101 of the places unchecked,
- * each a crash, and answers at the others with several lines of the library. */
+/* Memory that runs out ends the run: the rank that finds none says so in one line, what is finished stays in the checkpoint, and all ranks
+ * end (src/app/abandon.c). So nothing here returns NULL where bytes are asked for, and no caller checks. The linker leads the calls that
+ * gfortran makes for automatic arrays, temporaries and copies of components to the same functions (cmake/Layers.cmake): allocate(stat=)
+ * would reach none of these. */
 
-/* As in C, but they return only where there was memory. */
+/* As in C. */
 void *kz_malloc(size_t bytes);
 void *kz_calloc(size_t n, size_t bytes);
 void *kz_realloc(void *old, size_t bytes);
+char *kz_strdup(const char *text);
+char *kz_strndup(const char *text, size_t length);
+
+/* Whether so many bytes could be had now; none are taken. */
+bool kz_memory_is_there(size_t bytes);
 
 /* What is done where there is none: `leave` must end the process. Without it: abort. */
 void kz_memory_on_failure(void (*leave)(void));

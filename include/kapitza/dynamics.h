@@ -17,7 +17,7 @@ typedef struct {
   double theta_min, theta_max, velocity_min, velocity_max;
 } kz_window;
 
-/* NULL where memory ran out; free with kz_dynamics_free. Cycles up to max_period are looked for. */
+/* Free with kz_dynamics_free. Cycles up to max_period are looked for. */
 kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
 void kz_dynamics_free(kz_dynamics *dynamics);
 

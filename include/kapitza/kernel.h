@@ -53,7 +53,7 @@ enum { KZ_MOST_PROCESSED_STEPS = 160 };
 kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics,
                              double *error);
 
-/* A plan: pendulum and numerics turned into tables. Opaque; free with kz_plan_free. NULL where memory ran out. */
+/* A plan: pendulum and numerics turned into tables. Opaque; free with kz_plan_free. */
 typedef struct kz_plan kz_plan;
 kz_plan *kz_plan_create(const kz_pendulum *pendulum, const kz_numerics *numerics);
 void kz_plan_free(kz_plan *plan);
@@ -144,7 +144,7 @@ void kz_reference_read(int64_t n, const kz_reference_state *states, double *thet
  * reference costs. A plan holds tables of the processed splitting with so many steps that the error of a period (rad, angle and
  * velocity together), measured against the reference, is at most `tolerance` for speeds up to `fastest` (rad per drive radian);
  * *error = that measured error. States that are faster, or that no table serves, are moved by the reference's series. Opaque;
- * NULL where memory ran out. Free with kz_pairs_free. */
+ * Free with kz_pairs_free. */
 typedef struct kz_pairs kz_pairs;
 kz_pairs *kz_pairs_create(const kz_pendulum *pendulum, double tolerance, double fastest, double *error);
 void kz_pairs_free(kz_pairs *pairs);

@@ -124,7 +124,7 @@ typedef struct {
   int64_t n, room;
   kz_piece *list; /* [n], in no order */
 } kz_pieces;
-kz_status kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes);
+void kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes);
 void kz_pieces_free(kz_pieces *pieces);
 
 /* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, of kz_ranks only

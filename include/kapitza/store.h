@@ -54,8 +54,7 @@ kz_status kz_store_rows(kz_store *store, const char *group, const char *name, in
 #define KZ_COLUMN(store, group, name, n, type, expression)                         \
   do {                                                                             \
     const int64_t column_n = (n);                                                  \
-    type *column = calloc((size_t)column_n + 1, sizeof *column);                   \
-    if (!column) return kz_fail(KZ_FAILED, "no memory for /" group "/" name);      \
+    type *column = kz_calloc((size_t)column_n + 1, sizeof *column);                \
     for (int64_t i = 0; i < column_n; i++) column[i] = (type)(expression);         \
     const kz_status column_status = kz_store_variable(store, group, name, column); \
     free(column);                                                                  \
@@ -72,9 +71,9 @@ kz_status kz_store_number(kz_store *store, const char *group, const char *name, 
 /* Bytes that n packed numbers of `item` bytes take at most. */
 size_t kz_pack_room(size_t n, size_t item);
 /* Packs n numbers of `item` bytes, of which neighbours are often equal, into `packed` [kz_pack_room]: how many bytes that took, a function of the numbers alone; 0 where
- * memory ran out. */
+ * zlib has no memory. */
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed);
-/* The reverse; false where memory ran out, or `packed` [bytes] does not hold n such numbers. */
+/* The reverse; false where `packed` [bytes] does not hold n such numbers. */
 bool kz_unpack(const void *packed, size_t bytes, size_t n, size_t item, void *numbers);
 
 /* The root attribute `fingerprint` of PATH, to be freed; NULL where PATH is no complete file of this program. */

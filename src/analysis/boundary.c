@@ -52,8 +52,7 @@ static void count_level(int64_t n, const uint64_t *held, int level, kz_box_count
 kz_status kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, kz_box_counts *counts) {
   int64_t across = columns - 1, up = rows - 1;
   if (across < 1 || up < 1) return KZ_OK;
-  uint64_t *held = malloc((size_t)(across * up) * sizeof *held);
-  if (!held) return kz_fail(KZ_FAILED, "no memory for boxes of %lld labels", (long long)(columns * rows));
+  uint64_t *held = kz_malloc((size_t)(across * up) * sizeof *held);
   for (int64_t r = 0; r < up; r++)
     for (int64_t c = 0; c < across; c++) {
       const int16_t *corner = label + r * columns + c;

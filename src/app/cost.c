@@ -36,13 +36,6 @@ void kz_cost_print_bytes(double bytes, char *text) {
   snprintf(text, 32, i == 0 ? "%.0f %s" : "%.1f %s", bytes, units[i]);
 }
 
-/* Allocates the memory and frees it at once, so that limits of this process (ulimit, batch systems) show before modelling. */
-static bool may_have(double bytes) {
-  void *volatile memory = malloc((size_t)bytes);
-  free(memory);
-  return memory != NULL;
-}
-
 kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   const bool first = !ranks || kz_ranks_own(ranks) == 0;
   const double share = cost->shared_bytes / (ranks ? kz_ranks_count(ranks) : 1);
@@ -53,7 +46,7 @@ kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   if (ranks) KZ_TRY(kz_ranks_node(ranks, mine, &sum, &node_ranks));
   kz_cost_print_bytes(sum > memory ? sum : mine, needed);
   if (sum <= memory) {
-    if (may_have(mine)) return KZ_OK;
+    if (kz_memory_is_there((size_t)mine)) return KZ_OK; /* no limit of this process (ulimit, batch systems) is in the way */
     return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; use smaller counts",
                    needed);
   }

@@ -269,8 +269,7 @@ static kz_status dispatch(int argc, char **argv, kz_options *options) {
 static char *join(int argc, char **argv) {
   size_t bytes = 1;
   for (int i = 0; i < argc; i++) bytes += strlen(argv[i]) + 1;
-  char *line = malloc(bytes), *end = line;
-  if (!line) return NULL;
+  char *line = kz_malloc(bytes), *end = line;
   for (int i = 0; i < argc; i++) {
     if (i > 0) *end++ = ' ';
     end = stpcpy(end, argv[i]);
@@ -283,8 +282,8 @@ kz_status kz_app(int argc, char **argv) {
   const bool speaks = kz_launch_rank() <= 0;
   kz_options options = {.speaks = speaks, .progress = KZ_PROGRESS_AUTO};
   options.line = join(argc, argv);
-  options.sets = calloc((size_t)argc + 1, sizeof *options.sets);
-  kz_status status = options.line && options.sets ? dispatch(argc, argv, &options) : kz_fail(KZ_FAILED, "out of memory");
+  options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
+  const kz_status status = dispatch(argc, argv, &options);
   free(options.line);
   free(options.sets);
   if (!speaks && status != KZ_FAILED) kz_message_clear();

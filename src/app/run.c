@@ -33,9 +33,7 @@ static kz_status share_text(job *j) {
   KZ_TRY(kz_ranks_agree(j->run.ranks, j->first ? kz_scene_load(j->options->scene, &j->text, &length) : KZ_OK));
   j->length = length;
   KZ_TRY(kz_ranks_broadcast(j->run.ranks, &j->length, sizeof j->length));
-  if (!j->first) j->text = calloc(1, j->length + 1);
-  KZ_TRY(
-      kz_ranks_agree(j->run.ranks, j->text ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", j->options->scene)));
+  if (!j->first) j->text = kz_calloc(1, j->length + 1);
   return kz_ranks_broadcast(j->run.ranks, j->text, j->length);
 }
 

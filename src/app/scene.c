@@ -33,23 +33,21 @@ static kz_status open_scene(const char *path, FILE **file) {
 kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   FILE *file;
   KZ_TRY(open_scene(path, &file));
-  *text = malloc(MAX_BYTES + 1);
-  *length = *text ? fread(*text, 1, MAX_BYTES, file) : 0;
-  const bool broken = ferror(file) != 0, too_long = *text && !broken && fgetc(file) != EOF;
+  *text = kz_malloc(MAX_BYTES + 1);
+  *length = fread(*text, 1, MAX_BYTES, file);
+  const bool broken = ferror(file) != 0, too_long = !broken && fgetc(file) != EOF;
   if (file != stdin) fclose(file);
   if (too_long) {
     free(*text);
     *text = NULL;
     return kz_fail(KZ_REFUSED, "%s: has too many bytes for a scene, which has at most %d", path, MAX_BYTES);
   }
-  if (*text && !broken) {
+  if (!broken) {
     (*text)[*length] = '\0';
     return KZ_OK;
   }
-  const bool memory = *text == NULL;
   free(*text);
   *text = NULL;
-  if (memory) return kz_fail(KZ_FAILED, "out of memory while reading %s", path);
   return kz_fail(KZ_REFUSED, "%s: cannot be read: %s; give a readable scene file", path, strerror(errno));
 }
 
@@ -98,8 +96,7 @@ typedef struct {
 
 static kz_status build_tree(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
                             scene_tree *tree) {
-  *tree = (scene_tree){.labels = calloc((size_t)n_sets + 1, sizeof(option_label))};
-  if (!tree->labels) return kz_fail(KZ_FAILED, "out of memory while reading the command line");
+  *tree = (scene_tree){.labels = kz_calloc((size_t)n_sets + 1, sizeof(option_label))};
   KZ_TRY(kz_tree_read(text, length, file, false, &tree->root));
   for (int i = 0; tree->root->kind == KZ_MAPPING && i < n_sets; i++) {
     print_label(sets[i], tree->labels[i]);
@@ -126,8 +123,7 @@ kz_status kz_scene_read(const char *text, size_t length, const char *file, int n
   kz_status status = build_tree(text, length, file, n_sets, sets, &tree);
   if (status == KZ_OK) status = read_tree(tree.root, scene);
   free_tree(&tree);
-  if (status == KZ_OK && !scene->title) scene->title = strdup("");
-  if (status == KZ_OK && !scene->title) status = kz_fail(KZ_FAILED, "out of memory while reading %s", file);
+  if (status == KZ_OK && !scene->title) scene->title = kz_strdup("");
   if (status != KZ_OK) kz_scene_free(scene);
   return status;
 }

@@ -97,9 +97,8 @@ static kz_status read_starts(const kz_options *options, kz_starts *starts) {
 
 kz_status kz_starts_read(const kz_options *options, kz_starts *starts) {
   const size_t bytes = 2 * sizeof(double) * MOST_STARTS;
-  *starts = (kz_starts){.start = malloc(bytes), .low = malloc(bytes)};
-  if (starts->start && starts->low) return read_starts(options, starts);
-  return kz_fail(KZ_FAILED, "out of memory for the starts");
+  *starts = (kz_starts){.start = kz_malloc(bytes), .low = kz_malloc(bytes)};
+  return read_starts(options, starts);
 }
 
 void kz_starts_free(kz_starts *starts) {

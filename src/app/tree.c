@@ -49,35 +49,29 @@ static void replace(kz_node *node, kz_node *value) {
 
 /* An empty mapping called `name` [length], created by the option that brought `value`. */
 static kz_node *new_mapping(const char *name, size_t length, const kz_node *value) {
-  kz_node *node = calloc(1, sizeof *node);
-  if (!node) return NULL;
+  kz_node *node = kz_calloc(1, sizeof *node);
   node->kind = KZ_MAPPING;
   node->source = value->source;
-  node->name = strndup(name, length);
-  if (node->name) return node;
-  free(node);
-  return NULL;
+  node->name = kz_strndup(name, length);
+  return node;
 }
 
-static kz_status set_here(kz_node *mapping, const char *name, kz_node *value) {
+static void set_here(kz_node *mapping, const char *name, kz_node *value) {
   free(value->name);
-  value->name = strdup(name);
-  if (!value->name) {
-    const char *source = value->source;
-    kz_tree_free(value);
-    return kz_fail(KZ_FAILED, "out of memory while reading %s", source);
-  }
+  value->name = kz_strdup(name);
   kz_node *old = kz_tree_child(mapping, name);
   if (old)
     replace(old, value);
   else
     append(mapping, value);
-  return KZ_OK;
 }
 
 kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   const size_t length = strcspn(path, ".");
-  if (path[length] == '\0') return set_here(root, path, value);
+  if (path[length] == '\0') {
+    set_here(root, path, value);
+    return KZ_OK;
+  }
   kz_node *child = child_named(root, path, length);
   if (!child) {
     child = new_mapping(path, length, value);
@@ -86,7 +80,6 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   if (child && child->kind == KZ_MAPPING) return kz_tree_set(child, path + length + 1, value);
   const char *source = value->source;
   kz_tree_free(value);
-  if (!child) return kz_fail(KZ_FAILED, "out of memory while reading %s", source);
   return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; make it one, or --set all of it", source, (int)length,
                  path);
 }

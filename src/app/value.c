@@ -11,7 +11,7 @@ static const char *read_text(const kz_key *key, const kz_node *node, void *field
   (void)key;
   const char *wrong = kz_scalar_text(node);
   if (wrong) return wrong;
-  char *copy = strdup(node->text);
+  char *copy = kz_strdup(node->text);
   if (!copy) return "does not fit in memory";
   free(*(char **)field);
   *(char **)field = copy;

@@ -39,8 +39,7 @@ static const char *python_of(const places *p) {
 static kz_status set_module_path(const places *p) {
   const char *before = getenv("PYTHONPATH");
   const size_t bytes = strlen(p->package) + (before ? strlen(before) : 0) + 2;
-  char *path = malloc(bytes);
-  if (!path) return kz_fail(KZ_FAILED, "out of memory");
+  char *path = kz_malloc(bytes);
   snprintf(path, bytes, "%s%s%s", p->package, before && before[0] ? ":" : "", before ? before : "");
   const bool set = setenv("PYTHONPATH", path, 1) == 0;
   free(path);

@@ -107,8 +107,7 @@ static void print_endings(const kz_options *options, const kz_starts *starts, co
 
 static kz_status answer(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
   KZ_TRY(kz_studies_check(scene));
-  kz_ending *endings = calloc((size_t)starts->n, sizeof *endings);
-  if (!endings) return kz_fail(KZ_FAILED, "out of memory for %lld starts", (long long)starts->n);
+  kz_ending *endings = kz_calloc((size_t)starts->n, sizeof *endings);
   const kz_status status = kz_where(scene, starts->n, starts->start, starts->low, endings);
   if (status == KZ_OK) print_endings(options, starts, endings);
   kz_where_free(starts->n, endings);

@@ -119,7 +119,7 @@ static bool copy_child(yaml_document_t *document, const source_text *source, con
   *end = &child->next;
   if (!key) return true;
   free(child->name);
-  child->name = strdup(key->type == YAML_SCALAR_NODE ? (const char *)key->data.scalar.value : "?");
+  child->name = kz_strdup(key->type == YAML_SCALAR_NODE ? (const char *)key->data.scalar.value : "?");
   child->name_line = source->option ? 0 : (int)key->start_mark.line + 1;
   child->name_column = source->option ? 0 : (int)key->start_mark.column + 1;
   return child->name != NULL;
@@ -142,8 +142,7 @@ static bool copy_children(yaml_document_t *document, const source_text *source, 
 /* A scalar's text. A NUL written as "\0" would end it early: it becomes the control character 1, which no text may hold. */
 static char *copy_text(const yaml_node_t *from) {
   const size_t length = from->data.scalar.length;
-  char *text = malloc(length + 1);
-  if (!text) return NULL;
+  char *text = kz_malloc(length + 1);
   memcpy(text, from->data.scalar.value, length);
   for (size_t i = 0; i < length; i++)
     if (text[i] == '\0') text[i] = '\1';
@@ -154,13 +153,12 @@ static char *copy_text(const yaml_node_t *from) {
 static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from) {
   static const kz_node_kind kinds[] = {
       [YAML_SCALAR_NODE] = KZ_SCALAR, [YAML_SEQUENCE_NODE] = KZ_SEQUENCE, [YAML_MAPPING_NODE] = KZ_MAPPING};
-  kz_node *node = calloc(1, sizeof *node);
-  if (!node) return NULL;
+  kz_node *node = kz_calloc(1, sizeof *node);
   node->kind = kinds[from->type];
   node->source = source->source;
   node->line = source->option ? 0 : (int)from->start_mark.line + 1;
   node->column = source->option ? 0 : (int)from->start_mark.column + 1;
-  node->name = strdup("");
+  node->name = kz_strdup("");
   if (node->kind == KZ_SCALAR) {
     node->plain = from->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
     node->text = copy_text(from);

@@ -1,6 +1,7 @@
 #include "kapitza/common.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static void (*on_failure)(void) = abort;
 
@@ -8,19 +9,57 @@ void kz_memory_on_failure(void (*leave)(void)) {
   on_failure = leave;
 }
 
+/* The linker leads every call of malloc to __wrap_malloc, and of __real_malloc to malloc (cmake/Layers.cmake). */
+void *__real_malloc(size_t bytes);
+void *__real_calloc(size_t n, size_t bytes);
+void *__real_realloc(void *old, size_t bytes);
+void *__wrap_malloc(size_t bytes);
+void *__wrap_calloc(size_t n, size_t bytes);
+void *__wrap_realloc(void *old, size_t bytes);
+
 static void *checked(void *memory, size_t bytes) {
   if (!memory && bytes > 0) on_failure();
   return memory;
 }
 
+void *__wrap_malloc(size_t bytes) {
+  return checked(__real_malloc(bytes), bytes);
+}
+
+void *__wrap_calloc(size_t n, size_t bytes) {
+  return checked(__real_calloc(n, bytes), n > 0 ? bytes : 0);
+}
+
+void *__wrap_realloc(void *old, size_t bytes) {
+  return checked(__real_realloc(old, bytes), bytes);
+}
+
 void *kz_malloc(size_t bytes) {
-  return checked(malloc(bytes), bytes);
+  return __wrap_malloc(bytes);
 }
 
 void *kz_calloc(size_t n, size_t bytes) {
-  return checked(calloc(n, bytes), n > 0 ? bytes : 0);
+  return __wrap_calloc(n, bytes);
 }
 
 void *kz_realloc(void *old, size_t bytes) {
-  return checked(realloc(old, bytes), bytes);
+  return __wrap_realloc(old, bytes);
+}
+
+char *kz_strndup(const char *text, size_t length) {
+  const size_t n = strnlen(text, length);
+  char *copy = kz_malloc(n + 1);
+  memcpy(copy, text, n);
+  copy[n] = '\0';
+  return copy;
+}
+
+char *kz_strdup(const char *text) {
+  return kz_strndup(text, strlen(text));
+}
+
+bool kz_memory_is_there(size_t bytes) {
+  void *volatile memory = __real_malloc(bytes);
+  free(memory);
+  return memory != NULL;
 }

@@ -35,18 +35,11 @@ static kz_status open_together(kz_ranks *ranks, const kz_checkpoint_plan *plan, 
 }
 
 kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz_checkpoint **checkpoint) {
-  kz_checkpoint *opened = *checkpoint = NULL;
-  kz_status status = KZ_FAILED;
-  if ((opened = malloc(sizeof *opened))) {
-    *opened = (kz_checkpoint){.file = -1, .path = strdup(plan->path)};
-    if (opened->path) status = KZ_OK;
-  }
-  status = kz_ranks_agree(ranks, status == KZ_OK ? KZ_OK : kz_fail(KZ_FAILED, "%s: out of memory", plan->path));
-  if (status == KZ_OK) status = open_together(ranks, plan, opened);
-  if (status == KZ_OK)
-    *checkpoint = opened;
-  else if (opened)
-    release(opened, ranks->rank);
+  kz_checkpoint *opened = kz_malloc(sizeof *opened);
+  *opened = (kz_checkpoint){.file = -1, .path = kz_strdup(plan->path)};
+  const kz_status status = open_together(ranks, plan, opened);
+  *checkpoint = status == KZ_OK ? opened : NULL;
+  if (status != KZ_OK) release(opened, ranks->rank);
   return status;
 }
 

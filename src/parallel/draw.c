@@ -82,12 +82,12 @@ static bool start_thread(kz_draw *draw) {
   return started;
 }
 
-kz_status kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles) {
+void kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles) {
   *draw = (kz_draw){.ranks = ranks, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
   draw->batch = (kz_batch){.first = ranks->rank, .n = ranks->rank < n_tiles, .more = ranks->size < n_tiles};
-  if (ranks->rank != 0) return KZ_OK;
+  if (ranks->rank != 0) return;
   draw->asking = draw->batch.more ? ranks->size - 1 : 0;
-  return kz_schedule_begin(&draw->schedule, n_tiles, ranks->size) ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for a schedule");
+  kz_schedule_begin(&draw->schedule, n_tiles, ranks->size);
 }
 
 void kz_draw_begin(kz_draw *draw) {

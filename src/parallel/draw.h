@@ -36,7 +36,7 @@ typedef struct {
 } kz_draw;
 
 /* Prepares for `n_tiles` tiles; no messages. To be ended on every rank, whatever it returns. */
-kz_status kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles);
+void kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles);
 /* Rank 0 answers from here on; no rank but through kz_draw may use MPI before kz_draw_end. */
 void kz_draw_begin(kz_draw *draw);
 /* The next tile of this rank; -1 where none is left, or a rank has halted. */

@@ -92,8 +92,7 @@ kz_status kz_header_read(kz_checkpoint *checkpoint, const char *fingerprint, boo
   if (n < (int64_t)sizeof header || memcmp(header.magic, MAGIC, sizeof MAGIC) != 0 || header.format != FORMAT ||
       header.text_bytes < 0 || header.text_bytes > TEXT_MAX)
     return damaged(checkpoint);
-  char *text = malloc((size_t)header.text_bytes + 1);
-  if (!text) return kz_fail(KZ_FAILED, "%s: out of memory while reading", checkpoint->path);
+  char *text = kz_malloc((size_t)header.text_bytes + 1);
   const kz_status status = read_text(checkpoint, &header, fingerprint, text);
   free(text);
   return status;

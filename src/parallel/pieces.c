@@ -9,18 +9,14 @@
 enum { TAG = 4, END = 5, BUFFERS = 4 };
 static const size_t MESSAGE_MAX = (size_t)1 << 30;
 
-kz_status kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes) {
+void kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes) {
   if (pieces->n == pieces->room) {
     const int64_t room = 2 * pieces->room + 16;
-    kz_piece *list = realloc(pieces->list, (size_t)room * sizeof *list);
-    if (!list) return kz_fail(KZ_FAILED, "out of memory for the records of %lld tiles", (long long)room);
-    pieces->list = list;
+    pieces->list = kz_realloc(pieces->list, (size_t)room * sizeof *pieces->list);
     pieces->room = room;
   }
-  void *copy = malloc(bytes + 1);
-  if (!copy) return kz_fail(KZ_FAILED, "out of memory for a record of %zu bytes", bytes);
+  void *copy = kz_malloc(bytes + 1);
   pieces->list[pieces->n++] = (kz_piece){tile, bytes, memcpy(copy, data, bytes)};
-  return KZ_OK;
 }
 
 void kz_pieces_free(kz_pieces *pieces) {
@@ -146,8 +142,7 @@ static kz_status take_pieces(mail *m) {
 
 static kz_status allocate(mail *m) {
   const int first = m->ranks->size == 1 ? BUFFERS : 0, end = m->ranks->rank == 0 ? BUFFERS + 1 : BUFFERS;
-  for (int i = first; i < end; i++)
-    if (!(m->buffer[i] = malloc(m->delivery->message_bytes + 1))) return kz_fail(KZ_FAILED, "out of memory for messages");
+  for (int i = first; i < end; i++) m->buffer[i] = kz_malloc(m->delivery->message_bytes + 1);
   if (m->delivery->message_bytes <= MESSAGE_MAX) return KZ_OK;
   return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name, m->delivery->message_bytes);
 }

@@ -30,9 +30,8 @@ static kz_status connect_ranks(kz_ranks *ranks) {
 
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   kz_signals_catch();
-  kz_launch_rank();                               /* remembers what the launcher said, before MPI_Init writes the same names */
-  kz_ranks *started = calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
-  if (!started) return kz_fail(KZ_FAILED, "out of memory while starting");
+  kz_launch_rank(); /* remembers what the launcher said, before MPI_Init writes the same names */
+  kz_ranks *started = kz_calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
   started->comm = MPI_COMM_NULL;
   started->mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
   *ranks = started;

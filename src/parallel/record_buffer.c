@@ -25,8 +25,7 @@ size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered) {
 
 static kz_block *block_with_room(kz_record_buffer *buffered) {
   if (buffered->last && buffered->last->n_slots < buffered->block_slots) return buffered->last;
-  kz_block *block = malloc(sizeof *block + kz_record_buffer_message_bytes(buffered));
-  if (!block) return NULL;
+  kz_block *block = kz_malloc(sizeof *block + kz_record_buffer_message_bytes(buffered));
   block->next = NULL;
   block->n_slots = 0;
   if (buffered->last)
@@ -40,7 +39,6 @@ static kz_block *block_with_room(kz_record_buffer *buffered) {
 
 void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile) {
   kz_block *block = block_with_room(buffered);
-  if (!block) return NULL;
   char *slot = block->slots + (size_t)block->n_slots++ * buffered->stride;
   memset(slot, 0, buffered->stride);
   memcpy(slot, &tile, sizeof tile);

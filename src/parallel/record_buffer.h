@@ -18,7 +18,7 @@ typedef struct {
 #define KZ_RECORD_MAX ((size_t)1 << 30)
 
 void kz_record_buffer_begin(kz_record_buffer *buffered, size_t record_bytes);
-/* Room for the record of `tile`, zeroed and aligned for any type; NULL where memory ran out. */
+/* Room for the record of `tile`, zeroed and aligned for any type. */
 void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile);
 /* Bytes of the largest message. */
 size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered);

@@ -3,14 +3,15 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "kapitza/common.h"
+
 /* A batch lasts long beside a message, and short beside what a person waits for. Rank 0 answers some 10^5 requests a second: with
  * very many ranks batches last longer, so that they ask no more than a tenth of that. */
 static const double BATCH_SECONDS = 0.1, SECONDS_A_RANK = 1e-4;
 
-bool kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks) {
+void kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks) {
   *schedule = (kz_schedule){.next = ranks < n_tiles ? ranks : n_tiles, .end = n_tiles, .ranks = ranks, .taking = ranks};
-  schedule->seconds = calloc((size_t)ranks, sizeof *schedule->seconds);
-  return schedule->seconds != NULL;
+  schedule->seconds = kz_calloc((size_t)ranks, sizeof *schedule->seconds);
 }
 
 void kz_schedule_end(kz_schedule *schedule) {

@@ -13,7 +13,7 @@ typedef struct {
 } kz_schedule;
 
 /* A schedule of `n_tiles` tiles for `ranks` ranks, each of which begins with the tile of its own number; false without memory. */
-bool kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks);
+void kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks);
 void kz_schedule_end(kz_schedule *schedule);
 /* A rank takes `seconds` for a tile, by what it has done so far; 0 = it does not know. */
 void kz_schedule_note(kz_schedule *schedule, int rank, double seconds);

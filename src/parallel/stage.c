@@ -45,7 +45,7 @@ static kz_status prepare(stage_run *run) {
   kz_record_buffer_begin(&run->buffered, run->stage->record_bytes);
   const size_t message = ranks->rank == 0 && ranks->size > 1 ? kz_record_buffer_message_bytes(&run->buffered) : 0;
   const size_t bytes = run->stage->pieces ? run->stage->record_bytes : message;
-  if (bytes > 0 && !(run->buffer = malloc(bytes))) return kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
+  if (bytes > 0) run->buffer = kz_malloc(bytes);
   return KZ_OK;
 }
 
@@ -57,14 +57,13 @@ static void recall_records(stage_run *run, int64_t *done) {
 }
 
 /* Pieces found in the checkpoint are dealt out to the ranks. */
-static kz_status recall_pieces(stage_run *run, int64_t *done) {
+static void recall_pieces(stage_run *run, int64_t *done) {
   const kz_ranks *ranks = run->ranks;
   for (int64_t tile = ranks->rank; tile < run->stage->n_tiles; tile += ranks->size) {
     if (!kz_section_recall(run->checkpoint, &run->section, tile, run->buffer)) continue;
     done[tile] = 1;
-    KZ_TRY(kz_pieces_add(run->stage->pieces, tile, run->buffer, kz_section_used(&run->section, run->buffer)));
+    kz_pieces_add(run->stage->pieces, tile, run->buffer, kz_section_used(&run->section, run->buffer));
   }
-  return KZ_OK;
 }
 
 /* Tiles whose records are in the checkpoint are not done again. Collective. */
@@ -76,13 +75,11 @@ static kz_status recall(stage_run *run) {
   KZ_TRY(kz_ranks_agree(ranks, status));
   KZ_TRY(kz_ranks_broadcast(ranks, &run->section, sizeof run->section));
   KZ_TRY(kz_ranks_broadcast(ranks, &known, sizeof known));
-  if (!(run->left = calloc((size_t)n_tiles + 1, sizeof *run->left)))
-    status = kz_fail(KZ_FAILED, "stage %s: out of memory", run->stage->name);
-  else if (known && run->stage->pieces)
-    status = recall_pieces(run, run->left);
+  run->left = kz_calloc((size_t)n_tiles + 1, sizeof *run->left);
+  if (known && run->stage->pieces)
+    recall_pieces(run, run->left);
   else if (known)
     recall_records(run, run->left);
-  KZ_TRY(kz_ranks_agree(ranks, status));
   KZ_TRY(kz_ranks_sum(ranks, run->left, n_tiles));
   run->n_left = 0;
   for (int64_t tile = 0; tile < n_tiles; ++tile)
@@ -98,10 +95,10 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
     record = memset(run->buffer, 0, stage->record_bytes);
   else if (run->ranks->rank == 0)
     record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
-  else if (!(record = kz_record_buffer_add(&run->buffered, tile)))
-    return kz_fail(KZ_FAILED, "stage %s: out of memory for the records", stage->name);
+  else
+    record = kz_record_buffer_add(&run->buffered, tile);
   KZ_TRY(stage->work(stage->context, tile, record));
-  if (stage->pieces) KZ_TRY(kz_pieces_add(stage->pieces, tile, record, *(uint64_t *)record));
+  if (stage->pieces) kz_pieces_add(stage->pieces, tile, record, *(uint64_t *)record);
   return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
 }
 
@@ -148,11 +145,9 @@ static kz_status work_together(stage_run *run) {
 }
 
 static kz_status work(stage_run *run) {
-  kz_status status = kz_ranks_agree(run->ranks, kz_draw_prepare(&run->draw, run->ranks, run->n_left));
-  if (status == KZ_OK) {
-    kz_draw_begin(&run->draw);
-    status = do_tiles(run);
-  }
+  kz_draw_prepare(&run->draw, run->ranks, run->n_left);
+  kz_draw_begin(&run->draw);
+  const kz_status status = do_tiles(run);
   const kz_status ended = kz_draw_end(&run->draw);
   return kz_ranks_agree(run->ranks, status == KZ_OK ? ended : status);
 }

@@ -41,14 +41,12 @@ void kz_work_note(kz_work *work, int64_t tile, const kz_stopwatch *watch) {
   if (++work->n == KZ_WORK_LINE) kz_work_end(work);
 }
 
-/* The row of a stage's name, a new one where it comes for the first time; NULL where memory ran out. */
+/* The row of a stage's name, a new one where it comes for the first time. */
 static kz_timing *row_of(kz_ranks *ranks, const char *name) {
   for (int64_t i = 0; i < ranks->n_timings; ++i)
     if (strncmp(ranks->timings[i].stage, name, sizeof ranks->timings[i].stage - 1) == 0) return &ranks->timings[i];
-  kz_timing *list = realloc(ranks->timings, (size_t)(ranks->n_timings + 1) * sizeof *list);
-  if (!list) return NULL;
-  ranks->timings = list;
-  kz_timing *row = &list[ranks->n_timings++];
+  ranks->timings = kz_realloc(ranks->timings, (size_t)(ranks->n_timings + 1) * sizeof *ranks->timings);
+  kz_timing *row = &ranks->timings[ranks->n_timings++];
   *row = (kz_timing){0};
   memcpy(row->stage, name, strnlen(name, sizeof row->stage - 1));
   return row;
@@ -87,7 +85,6 @@ kz_status kz_timing_note(kz_ranks *ranks, int64_t tiles, const kz_stopwatch *wat
   *idle = share < 1 ? 1 - share : 0;
   const kz_timing t = {.tiles = tiles, .wall = wall, .processor = sum[1], .most = most, .busy = sum[0]};
   kz_timing *row = row_of(ranks, work->stage);
-  if (!row) return kz_fail(KZ_FAILED, "out of memory for timings");
   add(row, &t);
   log_stage(ranks, work->stage, &t);
   return KZ_OK;

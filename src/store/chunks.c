@@ -64,8 +64,8 @@ static kz_status write_chunk(hid_t dataset, const layout *l, hsize_t sheet, hsiz
 }
 
 static kz_status write_chunks(hid_t dataset, const layout *l, const char *data) {
-  char *chunk = malloc(l->chunk_rows * l->chunk_columns * l->item);
-  kz_status status = chunk ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for a chunk of the result file");
+  char *chunk = kz_malloc(l->chunk_rows * l->chunk_columns * l->item);
+  kz_status status = KZ_OK;
   for (hsize_t sheet = 0; sheet < l->sheets; sheet++, data += l->rows * l->columns * l->item)
     for (hsize_t row = 0; row < l->rows; row += l->chunk_rows)
       for (hsize_t column = 0; status == KZ_OK && column < l->columns; column += l->chunk_columns) {

@@ -14,26 +14,25 @@ static void shuffle(const unsigned char *items, size_t item, size_t n, unsigned 
 static kz_status deflate_all(unsigned char *in, size_t n, int strategy, void **packed, size_t *bytes) {
   z_stream stream = {.zalloc = Z_NULL, .zfree = Z_NULL, .opaque = Z_NULL};
   if (n > UINT_MAX / 2 || deflateInit2(&stream, KZ_PACK_LEVEL, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, strategy) != Z_OK)
-    return kz_fail(KZ_FAILED, "out of memory for packing %zu bytes", n);
+    return kz_fail(KZ_FAILED, "zlib cannot pack %zu bytes, probably because memory ran out", n);
   *bytes = deflateBound(&stream, n);
-  *packed = malloc(*bytes);
+  *packed = kz_malloc(*bytes);
   stream.next_in = in;
   stream.avail_in = (uInt)n;
   stream.next_out = *packed;
   stream.avail_out = (uInt)*bytes;
-  const int done = *packed ? deflate(&stream, Z_FINISH) : Z_MEM_ERROR;
+  const int done = deflate(&stream, Z_FINISH);
   *bytes = stream.total_out;
   deflateEnd(&stream);
   if (done == Z_STREAM_END) return KZ_OK;
   free(*packed);
   *packed = NULL;
-  return kz_fail(KZ_FAILED, "out of memory for packing %zu bytes", n);
+  return kz_fail(KZ_FAILED, "zlib cannot pack %zu bytes", n);
 }
 
 kz_status kz_pack(const void *items, size_t item, size_t n, bool in_runs, void **packed, size_t *bytes) {
-  unsigned char *shuffled = malloc(item * n + 1);
+  unsigned char *shuffled = kz_malloc(item * n + 1);
   *packed = NULL;
-  if (!shuffled) return kz_fail(KZ_FAILED, "out of memory for packing %zu bytes", item * n);
   shuffle(items, item, n, shuffled);
   const kz_status status = deflate_all(shuffled, item * n, in_runs ? Z_RLE : Z_DEFAULT_STRATEGY, packed, bytes);
   free(shuffled);

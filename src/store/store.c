@@ -25,7 +25,8 @@ static kz_status create_file(kz_store *store) {
 /* Both here and in HDF5 the file is created, never opened: a link of that name must not lead elsewhere. */
 static kz_status try_path(kz_store *store, const char *path) {
   const size_t room = strlen(path) + sizeof ".part";
-  if (!(store->path = strdup(path)) || !(store->part = malloc(room))) return kz_fail(KZ_FAILED, "%s: out of memory", path);
+  store->path = kz_strdup(path);
+  store->part = kz_malloc(room);
   snprintf(store->part, room, "%s.part", path);
   unlink(store->part); /* of a killed run */
   const int file = open(store->part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -38,8 +39,7 @@ static kz_status try_path(kz_store *store, const char *path) {
 kz_status kz_store_create(const char *path, kz_store **store) {
   *store = NULL;
   KZ_TRY(kz_hdf5_start());
-  *store = calloc(1, sizeof **store);
-  if (!*store) return kz_fail(KZ_FAILED, "%s: out of memory", path);
+  *store = kz_calloc(1, sizeof **store);
   (*store)->file = H5I_INVALID_HID;
   kz_status status = try_path(*store, path);
   if (status == KZ_OK) status = create_file(*store);
@@ -88,7 +88,7 @@ static kz_status save(const kz_store *store) {
 
 /* The new name shall survive a crash of the machine too; a file system that cannot do that is not an error. */
 static void save_folder(const char *path) {
-  char *folder = strdup(path);
+  char *folder = kz_strdup(path);
   if (!folder) return;
   char *slash = strrchr(folder, '/');
   if (slash) slash[1] = '\0';
@@ -117,7 +117,7 @@ char *kz_store_fingerprint(const char *path) {
   if (kz_hdf5_start() != KZ_OK) return NULL;
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (file < 0) return NULL;
-  char *found = kz_attribute_read_text(file, "fingerprint"), *copy = found ? strdup(found) : NULL;
+  char *found = kz_attribute_read_text(file, "fingerprint"), *copy = found ? kz_strdup(found) : NULL;
   H5free_memory(found);
   H5Fclose(file);
   return copy;

@@ -21,9 +21,9 @@ size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed) {
 }
 
 bool kz_unpack(const void *packed, size_t bytes, size_t n, size_t item, void *numbers) {
-  unsigned char *out = numbers, *shuffled = malloc(n * item + 1);
+  unsigned char *out = numbers, *shuffled = kz_malloc(n * item + 1);
   uLongf unpacked = n * item;
-  const bool whole = shuffled && uncompress(shuffled, &unpacked, packed, bytes) == Z_OK && unpacked == n * item;
+  const bool whole = uncompress(shuffled, &unpacked, packed, bytes) == Z_OK && unpacked == n * item;
   for (size_t b = 0; whole && b < item; b++)
     for (size_t i = 0; i < n; i++) out[i * item + b] = shuffled[b * n + i];
   free(shuffled);

@@ -77,9 +77,8 @@ static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type,
 
 /* HDF5 1.10 spoils the heap where memory runs out: it is asked for beforehand. */
 static kz_status check_memory(const char *name, size_t bytes) {
-  void *volatile memory = malloc(2 * bytes + SPARE_BYTES);
-  free(memory);
-  return memory ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the variable %s", name);
+  const bool there = kz_memory_is_there(2 * bytes + SPARE_BYTES);
+  return there ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the variable %s", name);
 }
 
 /* The variable with description and, unless it comes in chunks, data; open, to be closed by the caller. */
@@ -107,8 +106,7 @@ static kz_status find(const char *group, const char *name, kz_variable *row) {
 
 /* 0, 1, 2, ... for a dimension without coordinates. */
 static kz_status write_index(hid_t group, const kz_variable *row, hsize_t length, hid_t *dataset) {
-  int32_t *index = malloc(length * sizeof *index + 1);
-  if (!index) return kz_fail(KZ_FAILED, "out of memory for the dimension %s", row->name);
+  int32_t *index = kz_malloc(length * sizeof *index + 1);
   for (hsize_t i = 0; i < length; ++i) index[i] = (int32_t)i;
   const kz_status status = write_dataset(group, row, 1, &length, NULL, index, dataset);
   free(index);

@@ -1,6 +1,5 @@
 /* Stages: every record arrives, whoever did it; a failure ends all ranks. */
 #include <fcntl.h>
-#include <sys/resource.h>
 
 #include "ranks.h"
 
@@ -129,32 +128,6 @@ static void records_beyond_a_message_arrive(void **state) {
   free(records);
 }
 
-/* No more address space than now, and a little. */
-static void limit_memory(struct rlimit *before) {
-  long pages = 0;
-  FILE *file = fopen("/proc/self/statm", "r");
-  if (!file || fscanf(file, "%ld", &pages) != 1) perror("statm");
-  if (file) fclose(file);
-  getrlimit(RLIMIT_AS, before);
-  struct rlimit tight = *before;
-  tight.rlim_cur = (rlim_t)pages * (rlim_t)sysconf(_SC_PAGESIZE) + (4 << 20);
-  setrlimit(RLIMIT_AS, &tight);
-}
-
-static void memory_that_runs_out_on_one_rank_ends_all(void **state) {
-  (void)state;
-  size_t n = (size_t)16 << 20;
-  const kz_stage stage = {.name = "large", .n_tiles = 20, .record_bytes = n, .work = fill_large, .context = &n};
-  const int rank = kz_ranks_own(ranks), last = kz_ranks_count(ranks) - 1;
-  char *records = rank == 0 ? malloc(20 * n) : NULL;
-  struct rlimit before;
-  if (rank == last && rank > 0) limit_memory(&before);
-  const kz_status status = run_stage(&stage, records);
-  if (rank == last && rank > 0) setrlimit(RLIMIT_AS, &before);
-  assert_all(last == 0 ? status == KZ_OK : status == KZ_FAILED && strstr(kz_message(), "out of memory") != NULL);
-  free(records);
-}
-
 /* Tiles done by all ranks, as the length of a file that they share; -1: it cannot be had. */
 typedef struct {
   char path[64];
@@ -223,7 +196,6 @@ int main(void) {
       cmocka_unit_test(rank_0_answers_amid_its_own_tile),
       cmocka_unit_test(the_worst_status_wins),
       cmocka_unit_test(broadcast_reaches_all),
-      cmocka_unit_test(memory_that_runs_out_on_one_rank_ends_all),
   };
   return run_ranks(tests, sizeof tests / sizeof *tests);
 }

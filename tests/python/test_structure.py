@@ -184,6 +184,15 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+# ---- memory ----
+
+
+def test_memory_is_asked_for_where_it_is_checked():
+    asks = re.compile(r"(?<![\w])(?:malloc|calloc|realloc|strn?dup|aligned_alloc)\(")
+    unchecked = [str(path.relative_to(ROOT)) for path in sorted(SOURCES.rglob("*.[ch]")) if asks.search(without_comments(path.read_text()))]
+    assert not unchecked, "kz_malloc and its like end the run where there is no memory (include/kapitza/common.h)"
+
+
 # ---- signal handlers ----
 
 # POSIX.1-2017, 2.4.3: what a signal handler may call.

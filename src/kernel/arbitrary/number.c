@@ -23,7 +23,7 @@ int64_t kz_arbitrary_bits(void) {
 }
 
 kz_number *kz_numbers_make(int64_t n) {
-  kz_number *numbers = malloc((size_t)n * sizeof *numbers);
+  kz_number *numbers = kz_malloc((size_t)n * sizeof *numbers);
   for (int64_t i = 0; numbers && i < n; i++) arb_init(numbers + i);
   return numbers;
 }
@@ -63,7 +63,7 @@ void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number
 static void parse(const char *text, kz_number *x, int64_t bits) {
   const size_t length = strlen(text), tail = sizeof degrees - 1;
   const bool turned = length > tail && strcmp(text + length - tail, degrees) == 0;
-  char *number = strndup(text, turned ? length - tail : length);
+  char *number = kz_strndup(text, turned ? length - tail : length);
   arb_set_str(x, number ? number : "nan", bits);
   forget_radius(x);
   free(number);
@@ -149,7 +149,7 @@ int64_t kz_arbitrary_bits(void) {
 }
 
 kz_number *kz_numbers_make(int64_t n) {
-  return calloc((size_t)n, sizeof(kz_number));
+  return kz_calloc((size_t)n, sizeof(kz_number));
 }
 
 void kz_numbers_free(kz_number *numbers, int64_t n) {

@@ -40,7 +40,7 @@ static void share_room(kz_arbitrary *o) {
 }
 
 kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits) {
-  kz_arbitrary *o = calloc(1, sizeof *o);
+  kz_arbitrary *o = kz_calloc(1, sizeof *o);
   if (!o) return NULL;
   o->pendulum = *pendulum;
   o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;

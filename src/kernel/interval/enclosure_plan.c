@@ -104,8 +104,7 @@ kz_status kz_enclosure_plan_create(const kz_pendulum *pendulum, double fastest, 
   *plan = NULL;
   if (!(longest * MOST_STEPS > 2 * M_PI)) return KZ_REFUSED;
   const int32_t n = (int32_t)(2 * M_PI / longest) + 1;
-  kz_enclosure_plan *made = calloc(1, sizeof *made + (size_t)n * sizeof *made->steps);
-  if (!made) return kz_fail(KZ_FAILED, "no memory for %d steps of enclosures", n);
+  kz_enclosure_plan *made = kz_calloc(1, sizeof *made + (size_t)n * sizeof *made->steps);
   const double h = 2 * M_PI / n;
   made->n_steps = n;
   made->step = about(h, 0);

@@ -32,7 +32,7 @@ static char *read_all(const char *path) {
   char *text = NULL;
   long length = -1;
   if (in && fseek(in, 0, SEEK_END) == 0) length = ftell(in);
-  if (length >= 0 && fseek(in, 0, SEEK_SET) == 0) text = calloc(1, (size_t)length + 1);
+  if (length >= 0 && fseek(in, 0, SEEK_SET) == 0) text = kz_calloc(1, (size_t)length + 1);
   if (text && fread(text, 1, (size_t)length, in) != (size_t)length) {
     free(text);
     text = NULL;

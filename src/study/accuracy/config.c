@@ -119,9 +119,9 @@ kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *
   int64_t n = timed > reference->samples ? timed : reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
-  g.work = malloc(sizeof *g.work);
-  int32_t *label = malloc((size_t)n * sizeof *label + 1);
-  int64_t *surplus = calloc(INT16_MAX + 1, sizeof *surplus);
+  g.work = kz_malloc(sizeof *g.work);
+  int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
+  int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
   kz_status status = g.dynamics && g.work && label && surplus
                          ? measure(&g, n, label, surplus, measured)
                          : kz_fail(KZ_FAILED, "no memory for the setting %s", config->label);

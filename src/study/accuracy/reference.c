@@ -44,7 +44,7 @@ static kz_status make_dynamics(const kz_reference_labels *reference, kz_dynamics
   kz_numerics numerics;
   KZ_TRY(kz_reference_labels_numerics(reference->plan, &reference->pendulum, &numerics));
   *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
-  return *dynamics ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the dynamics");
+  return KZ_OK;
 }
 
 /* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. */
@@ -91,21 +91,18 @@ static kz_status prepare(kz_reference_labels *reference, const kz_run *run, kz_d
   const kz_basin_plan *plan = reference->plan;
   probes p = {.most = plan->starts > PROBES ? plan->starts : PROBES};
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
-  p.state = malloc(2 * (size_t)p.most * sizeof *p.state);
-  p.label = malloc((size_t)p.most * sizeof *p.label);
-  kz_status status = p.state && p.label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)p.most);
-  status = kz_ranks_agree(run->ranks, status);
+  p.state = kz_malloc(2 * (size_t)p.most * sizeof *p.state);
+  p.label = kz_malloc((size_t)p.most * sizeof *p.label);
   reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
-  if (status == KZ_OK) status = find_attractors(reference, run, dynamics, &p);
+  const kz_status status = find_attractors(reference, run, dynamics, &p);
   free(p.state);
   free(p.label);
   KZ_TRY(kz_ranks_agree(run->ranks, status));
   reference->packed_size = kz_dynamics_packed_size(dynamics);
-  reference->packed = malloc((size_t)reference->packed_size * sizeof(double) + 1);
-  reference->labels = calloc((size_t)reference->samples + 1, sizeof *reference->labels);
-  if (reference->packed) kz_dynamics_pack(dynamics, reference->packed_size, reference->packed);
-  return kz_ranks_agree(run->ranks,
-                        reference->packed && reference->labels ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
+  reference->packed = kz_malloc((size_t)reference->packed_size * sizeof(double));
+  reference->labels = kz_calloc((size_t)reference->samples + 1, sizeof *reference->labels);
+  kz_dynamics_pack(dynamics, reference->packed_size, reference->packed);
+  return KZ_OK;
 }
 
 typedef struct {
@@ -197,9 +194,8 @@ static kz_status follow_samples(kz_reference_labels *reference, const kz_run *ru
                     .context = &h,
                     .keep = true,
                     .everywhere = true};
-  kz_reference_label *records = malloc((size_t)stage.n_tiles * stage.record_bytes);
-  kz_status status = kz_ranks_agree(run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the true labels"));
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
+  kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  kz_status status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK) memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);
   free(records);
   return status;

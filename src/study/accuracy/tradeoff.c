@@ -52,9 +52,8 @@ char *kz_reference_path(const kz_store *store) {
   static const char ending[] = ".truth";
   if (!store) return NULL;
   const char *path = kz_store_path(store);
-  char *name = malloc(strlen(path) + sizeof ending);
-  if (name) strcat(strcpy(name, path), ending);
-  return name;
+  char *name = kz_malloc(strlen(path) + sizeof ending);
+  return strcat(strcpy(name, path), ending);
 }
 
 static kz_status measure_tile(void *context, int64_t tile, void *record) {
@@ -62,19 +61,16 @@ static kz_status measure_tile(void *context, int64_t tile, void *record) {
   return kz_config_measure(m->trade->configs[tile], m->reference, TIMED, record);
 }
 
-static kz_status allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
+static void allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
   const size_t n = (size_t)count_configs(plan);
   *trade = (kz_trade){.count = (int64_t)n,
-                      .configs = calloc(n, sizeof *trade->configs),
-                      .numerics = calloc(n, sizeof *trade->numerics),
-                      .measured = calloc(n, sizeof *trade->measured),
-                      .seconds = calloc(n, sizeof(double)),
-                      .wrong = calloc(n, sizeof(double)),
-                      .pareto = calloc(n, sizeof(int8_t))};
-  if (!trade->configs || !trade->numerics || !trade->measured || !trade->seconds || !trade->wrong || !trade->pareto)
-    return kz_fail(KZ_FAILED, "no memory for %lld settings", (long long)n);
+                      .configs = kz_calloc(n, sizeof *trade->configs),
+                      .numerics = kz_calloc(n, sizeof *trade->numerics),
+                      .measured = kz_calloc(n, sizeof *trade->measured),
+                      .seconds = kz_calloc(n, sizeof(double)),
+                      .wrong = kz_calloc(n, sizeof(double)),
+                      .pareto = kz_calloc(n, sizeof(int8_t))};
   for (int64_t i = 0; i < trade->count; i++) trade->configs[i] = config_at(plan, i);
-  return KZ_OK;
 }
 
 static void free_trade(kz_trade *trade) {
@@ -120,8 +116,8 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_reference_labels reference = {0};
   kz_trade trade = {0};
   char *path = kz_reference_path(store);
-  kz_status status = kz_ranks_agree(run->ranks, allocate(&scene->tradeoff, &trade));
-  if (status == KZ_OK) status = kz_reference_labels_make(scene, run, scene->tradeoff.samples, path, &reference);
+  allocate(&scene->tradeoff, &trade);
+  kz_status status = kz_reference_labels_make(scene, run, scene->tradeoff.samples, path, &reference);
   if (status == KZ_OK) status = kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
   if (status == KZ_OK) status = run_settings(&reference, &trade, run);
   if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);

@@ -41,13 +41,11 @@ kz_status kz_attractors_check(const kz_scene *scene) {
   return motions.pendulum.beta > 0 ? kz_motions_check(&motions) : KZ_OK;
 }
 
-static kz_status allocate(const kz_scene *scene, finding *s) {
+static void allocate(const kz_scene *scene, finding *s) {
   size_t n = (size_t)scene->attractors.starts;
   s->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
-  s->state = malloc(2 * n * sizeof *s->state);
-  s->label = malloc(n * sizeof *s->label);
-  if (s->dynamics && s->state && s->label) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
+  s->state = kz_malloc(2 * n * sizeof *s->state);
+  s->label = kz_malloc(n * sizeof *s->label);
 }
 
 static kz_status discover(const kz_run *run, finding *s) {
@@ -57,8 +55,7 @@ static kz_status discover(const kz_run *run, finding *s) {
                       .max_periods = s->max_periods};
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
   KZ_TRY(kz_search_window(run, s->dynamics, &search, s->state, s->label));
-  s->reached = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
-  if (!s->reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  s->reached = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
   for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->label[i]]++;
   return KZ_OK;
 }
@@ -68,8 +65,8 @@ static kz_status publish(const kz_scene *scene, const finding *s, kz_store *stor
   const kz_motions motions = motions_of_starts(scene);
   const kz_speed_errors classes = kz_motions_errors(&motions);
   kz_motions_warn(&motions, &classes, summary);
-  kz_status status = kz_catalogue_make(s->dynamics, s->reached, &catalogue);
-  if (status == KZ_OK) status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
+  kz_catalogue_make(s->dynamics, s->reached, &catalogue);
+  const kz_status status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
   if (status == KZ_OK) {
     kz_catalogue_print(&catalogue, false, summary);
     fprintf(summary, "%lld of %lld starts did not settle within %lld periods\n", (long long)s->reached[0],
@@ -89,10 +86,10 @@ static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store
 kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
   finding s = {.plan = &scene->attractors, .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
-  kz_status status = kz_ranks_agree(run->ranks, allocate(scene, &s));
-  if (status == KZ_OK) status = kz_ranks_agree(run->ranks, discover(run, &s));
+  allocate(scene, &s);
+  kz_status status = kz_ranks_agree(run->ranks, discover(run, &s));
   if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = publish(scene, &s, store, summary);
-  if (s.dynamics) kz_dynamics_free(s.dynamics);
+  kz_dynamics_free(s.dynamics);
   free(s.state);
   free(s.label);
   free(s.reached);

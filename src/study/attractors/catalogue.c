@@ -16,32 +16,25 @@ void kz_catalogue_free(kz_catalogue *catalogue) {
   *catalogue = (kz_catalogue){0};
 }
 
-static kz_status fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
+static void fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
   size_t most = (size_t)kz_dynamics_packed_size(dynamics);
-  entry->theta = calloc(most, sizeof(double));
-  entry->velocity = calloc(most, sizeof(double));
-  if (!entry->theta || !entry->velocity) return kz_fail(KZ_FAILED, "no memory for an attractor");
+  entry->theta = kz_calloc(most, sizeof(double));
+  entry->velocity = kz_calloc(most, sizeof(double));
   kz_dynamics_attractor(dynamics, number, &entry->row, entry->theta, entry->velocity);
   kz_orbit_name(entry->row.period, entry->row.winding, entry->row.centre, entry->name);
   if (entry->row.centre > 1) entry->row.amplitude = NAN;
-  return KZ_OK;
 }
 
-kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue) {
+void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue) {
   int64_t known = kz_dynamics_count(dynamics);
-  int64_t *order = calloc((size_t)known + 1, sizeof *order);
-  *catalogue = (kz_catalogue){.entries = calloc((size_t)known + 1, sizeof(kz_entry)),
-                              .id_of = calloc((size_t)known + 1, sizeof(int32_t))};
-  if (!order || !catalogue->entries || !catalogue->id_of) {
-    free(order);
-    return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
-  }
+  int64_t *order = kz_calloc((size_t)known + 1, sizeof *order);
+  *catalogue = (kz_catalogue){.entries = kz_calloc((size_t)known + 1, sizeof(kz_entry)),
+                              .id_of = kz_calloc((size_t)known + 1, sizeof(int32_t))};
   kz_dynamics_order(dynamics, order);
-  kz_status status = KZ_OK;
   for (int64_t i = 0; i <= known; i++) catalogue->id_of[i] = -1;
-  for (int64_t i = 0; i < known && status == KZ_OK; i++) {
+  for (int64_t i = 0; i < known; i++) {
     kz_entry entry = {.fraction = NAN};
-    status = fill(&entry, dynamics, order[i]);
+    fill(&entry, dynamics, order[i]);
     if (reached[order[i]] == 0 && reached[entry.row.mirror] == 0) {
       free(entry.theta);
       free(entry.velocity);
@@ -53,7 +46,6 @@ kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached,
   for (int64_t i = 0; i < catalogue->count; i++)
     catalogue->entries[i].mirror = catalogue->id_of[catalogue->entries[i].row.mirror];
   free(order);
-  return status;
 }
 
 static int64_t longest(const kz_catalogue *catalogue) {
@@ -87,8 +79,8 @@ typedef struct {
 } matrices;
 
 static double *nan_filled(int64_t n) {
-  double *values = malloc((size_t)(n + 1) * sizeof *values);
-  for (int64_t i = 0; values && i < n; i++) values[i] = NAN;
+  double *values = kz_malloc((size_t)(n + 1) * sizeof *values);
+  for (int64_t i = 0; i < n; i++) values[i] = NAN;
   return values;
 }
 
@@ -96,18 +88,16 @@ static double *nan_filled(int64_t n) {
 static kz_status lines_of(const kz_entry *entry, const kz_plan *plan, int64_t lines, double *amplitude, double *phase,
                           int32_t *dominant) {
   int64_t n = entry->row.period, samples = n * SAMPLES, most = samples / 2 < lines ? samples / 2 : lines;
-  double *theta = malloc((size_t)(samples + 1) * sizeof *theta), *velocity = malloc((size_t)(samples + 1) * sizeof *velocity);
-  kz_status status = theta && velocity ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a spectrum");
-  if (status == KZ_OK) {
-    kz_record record = {.periods = n,
-                        .samples_per_period = SAMPLES,
-                        .rotation = (double)entry->row.winding / (double)n,
-                        .centre = entry->row.centre == KZ_ABOUT_INVERTED ? M_PI : 0.0,
-                        .closed = true};
-    kz_sample(plan, n, SAMPLES, entry->theta[0], entry->velocity[0], theta, velocity);
-    status = kz_spectrum_lines(&record, theta, most, amplitude, phase);
-    *dominant = (int32_t)kz_spectrum_dominant(most, amplitude);
-  }
+  double *theta = kz_malloc((size_t)(samples + 1) * sizeof *theta),
+         *velocity = kz_malloc((size_t)(samples + 1) * sizeof *velocity);
+  const kz_record record = {.periods = n,
+                            .samples_per_period = SAMPLES,
+                            .rotation = (double)entry->row.winding / (double)n,
+                            .centre = entry->row.centre == KZ_ABOUT_INVERTED ? M_PI : 0.0,
+                            .closed = true};
+  kz_sample(plan, n, SAMPLES, entry->theta[0], entry->velocity[0], theta, velocity);
+  const kz_status status = kz_spectrum_lines(&record, theta, most, amplitude, phase);
+  *dominant = (int32_t)kz_spectrum_dominant(most, amplitude);
   free(theta);
   free(velocity);
   return status;
@@ -147,13 +137,10 @@ static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *
   x->im = nan_filled(2 * n);
   x->amplitude = nan_filled(n * x->lines);
   x->phase = nan_filled(n * x->lines);
-  x->dominant = calloc((size_t)n + 1, sizeof *x->dominant);
-  kz_status status = KZ_OK;
-  if (!plan || !x->theta || !x->velocity || !x->re || !x->im || !x->amplitude || !x->phase || !x->dominant)
-    status = kz_fail(KZ_FAILED, "no memory for the orbits of %lld attractors", (long long)n);
-  if (status == KZ_OK) status = fill_matrices(catalogue, plan, x);
+  x->dominant = kz_calloc((size_t)n + 1, sizeof *x->dominant);
+  kz_status status = fill_matrices(catalogue, plan, x);
   if (status == KZ_OK) status = write_matrices(x, store);
-  if (plan) kz_plan_free(plan);
+  kz_plan_free(plan);
   return status;
 }
 

@@ -25,7 +25,7 @@ typedef struct {
 } kz_catalogue;
 
 /* The attractors whose reached [number] is not 0, and their mirror images. */
-kz_status kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);
+void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);
 void kz_catalogue_free(kz_catalogue *catalogue);
 
 /* Writes group /attractors, with the lines of every closed orbit; `fraction` only `with_fraction`. */

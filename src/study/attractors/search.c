@@ -41,10 +41,6 @@ typedef struct {
   int32_t label[TILE];
 } followed;
 
-static kz_status agree(const kz_run *run, kz_status status) {
-  return run != NULL ? kz_ranks_agree(run->ranks, status) : status;
-}
-
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const following *f = context;
   followed *out = record;
@@ -71,9 +67,8 @@ static kz_status follow_stretch(const kz_run *run, following *f) {
                     .context = f,
                     .keep = true,
                     .everywhere = true};
-  followed *records = malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
-  kz_status status = agree(run, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->n));
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
+  followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
+  kz_status status = kz_stage_run(run, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
     const followed *record = records + i / TILE;
     memcpy(f->state + 2 * f->open[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
@@ -129,20 +124,15 @@ static kz_status seek(const kz_run *run, seeking *s, double *record) {
   return KZ_OK;
 }
 
-/* Room for what is found and for a record of it, freed by the caller. */
-static kz_status make_room(const kz_run *run, seeking *s) {
-  s->found = calloc(2 * (size_t)s->size, sizeof(double));
-  return agree(run, s->found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors"));
-}
-
 /* Looks for cycles among the first open starts. */
 static kz_status find_cycles(const kz_run *run, const following *f, double closeness) {
   seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
-  kz_status status = make_room(run, &s);
-  for (int64_t first = 0; first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
+  kz_status status = KZ_OK;
+  s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* and behind it a record of the stage */
+  for (int64_t first = 0; status == KZ_OK && first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
     s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
     for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
-    if (status == KZ_OK) memset(s.found, 0, (size_t)s.size * sizeof(double));
+    memset(s.found, 0, (size_t)s.size * sizeof(double));
     while (status == KZ_OK && (int64_t)s.found[0] < s.n) status = seek(run, &s, s.found + s.size);
   }
   free(s.found);
@@ -152,7 +142,8 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
 /* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
 static kz_status find_chaos(const kz_run *run, following *f) {
   seeking s = {.dynamics = f->dynamics, .size = kz_dynamics_chaos_size()};
-  kz_status status = make_room(run, &s);
+  kz_status status = KZ_OK;
+  s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
   for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
     memcpy(s.state, f->state + 2 * f->open[(attempt * 7) % f->n], 2 * sizeof(double));
@@ -182,26 +173,24 @@ static kz_status discover(const kz_run *run, following *f, int64_t max_periods) 
 }
 
 /* All starts are open. */
-static kz_status open_all(const kz_run *run, following *f) {
-  f->open = malloc((size_t)(f->all + 1) * sizeof *f->open);
-  KZ_TRY(agree(run, f->open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)f->all)));
+static void open_all(following *f) {
+  f->open = kz_malloc((size_t)(f->all + 1) * sizeof *f->open);
   memset(f->label, 0, (size_t)f->all * sizeof *f->label);
   list_open(f);
-  return KZ_OK;
 }
 
 kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label) {
   following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
-  kz_status status = open_all(run, &f);
-  if (status == KZ_OK) status = follow_open(run, &f, periods);
+  open_all(&f);
+  const kz_status status = follow_open(run, &f, periods);
   free(f.open);
   return status;
 }
 
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
   following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
-  kz_status status = open_all(run, &f);
-  if (status == KZ_OK) status = discover(run, &f, max_periods);
+  open_all(&f);
+  const kz_status status = discover(run, &f, max_periods);
   free(f.open);
   return status;
 }

@@ -35,9 +35,9 @@ typedef struct {
 
 static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, sample *s) {
   s->n = kz_doubt_cells(plan);
-  s->cell = malloc((size_t)s->n * sizeof *s->cell + 1);
-  s->label = calloc((size_t)s->n + 1, sizeof *s->label);
-  s->followed = kz_ranks_own(run->ranks) == 0 ? malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
+  s->cell = kz_malloc((size_t)s->n * sizeof *s->cell + 1);
+  s->label = kz_calloc((size_t)s->n + 1, sizeof *s->label);
+  s->followed = kz_ranks_own(run->ranks) == 0 ? kz_malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
   const bool has_room = s->cell && s->label && (s->followed || kz_ranks_own(run->ranks) != 0);
   KZ_TRY(kz_ranks_agree(run->ranks, has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s->n)));
   for (int64_t i = 0; i < s->n; i++) s->cell[i] = kz_doubt_cell(plan, i);
@@ -70,12 +70,11 @@ kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan) {
 static kz_status find_shocks(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue,
                              kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
-  kz_resilience *point = NULL;
-  int64_t n = 0;
+  int64_t n;
   if (!plan->has_shocks) return KZ_OK;
   const kz_resilience_plan asked = kz_shocks_asked(plan);
-  kz_status status = kz_ranks_agree(labelling->run->ranks, kz_resilience_list(labelling->dynamics, catalogue, &n, &point));
-  if (status == KZ_OK) status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
+  kz_resilience *point = kz_resilience_list(labelling->dynamics, catalogue, &n);
+  kz_status status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
   if (status == KZ_OK && store) status = kz_shocks_write(&asked, catalogue, n, point, store, summary);
   free(point);
   return kz_ranks_agree(labelling->run->ranks, status);
@@ -87,7 +86,7 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
   KZ_TRY(kz_label_window(labelling));
   if (proof) KZ_TRY(kz_prove_regions(run, labelling->dynamics, proof));
   if (scene->basin.method != KZ_METHOD_EXACT) KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
-  KZ_TRY(kz_ranks_agree(run->ranks, kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue)));
+  kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue);
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   kz_chunks chunks = {.labelling = labelling,
                       .catalogue = catalogue,

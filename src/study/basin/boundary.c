@@ -87,7 +87,7 @@ static kz_status follow(const pairing *p, int64_t n, pair_room *r) {
 static kz_status pair_tile(void *context, int64_t tile, void *record) {
   const pairing *p = context;
   pair_record *out = record;
-  pair_room *r = malloc(sizeof *r);
+  pair_room *r = kz_malloc(sizeof *r);
   const int distances = distances_of(p->plan), stride = 1 + distances;
   if (!r) return kz_fail(KZ_FAILED, "no memory for pairs of starts");
   for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, r, stride * i);
@@ -121,7 +121,7 @@ static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labe
                           .context = &p,
                           .keep = true,
                           .everywhere = true};
-  pair_record *records = malloc((size_t)stage.n_tiles * sizeof *records);
+  pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status =
       kz_ranks_agree(labelling->run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for pairs of starts"));
   if (status == KZ_OK) status = kz_stage_run(labelling->run, &stage, records);
@@ -166,7 +166,7 @@ static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE
 /* Boxes of all cells, strip by strip from the file. */
 static kz_status count_boxes(const kz_basin_plan *plan, kz_store *store, kz_box_counts *counts) {
   const int64_t columns = plan->theta.count, rows = plan->velocity.count;
-  int16_t *label = malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
+  int16_t *label = kz_malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
   kz_status status = label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)((STRIP + 1) * columns));
   for (int64_t row = 0; status == KZ_OK && row + 1 < rows; row += STRIP) {
     const int64_t n = rows - row < STRIP + 1 ? rows - row : STRIP + 1;

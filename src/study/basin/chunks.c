@@ -192,11 +192,11 @@ kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz
 
 static kz_status allocate(kz_chunks *c) {
   const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
-  c->ids = calloc(n + 1, sizeof *c->ids);
-  c->periods = calloc(n + 1, sizeof *c->periods);
-  c->evidence = calloc(n + 1, sizeof *c->evidence);
-  c->others = calloc(n + 1, sizeof *c->others);
-  c->cells_of = calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
+  c->ids = kz_calloc(n + 1, sizeof *c->ids);
+  c->periods = kz_calloc(n + 1, sizeof *c->periods);
+  c->evidence = kz_calloc(n + 1, sizeof *c->evidence);
+  c->others = kz_calloc(n + 1, sizeof *c->others);
+  c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
   if (c->ids && c->periods && c->evidence && c->others && c->cells_of) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
 }
@@ -205,7 +205,7 @@ static kz_status allocate(kz_chunks *c) {
 static kz_status count_rows(kz_chunks *c) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t most = (tiles->chunk[0] + KZ_BOX - 1) / KZ_BOX * KZ_BOX;
-  int16_t *ids = malloc((size_t)(most * tiles->columns) * sizeof *ids);
+  int16_t *ids = kz_malloc((size_t)(most * tiles->columns) * sizeof *ids);
   kz_status status = ids ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld rows of cells", (long long)most);
   for (int64_t row = 0; row < tiles->rows && status == KZ_OK; row += most) {
     const int64_t n = tiles->rows - row < most ? tiles->rows - row : most;
@@ -246,11 +246,11 @@ kz_status kz_chunks_write_unsettled(const kz_basin_plan *plan, const kz_tiles *t
   kz_labelling labelling = {.plan = plan, .tiles = *tiles};
   kz_chunks c = {.labelling = &labelling,
                  .store = store,
-                 .ids = malloc(n * sizeof *c.ids),
-                 .periods = malloc(n * sizeof *c.periods),
-                 .evidence = calloc(n, sizeof *c.evidence),
-                 .others = malloc(n * sizeof *c.others)};
-  char *message = malloc(message_room((int64_t)n));
+                 .ids = kz_malloc(n * sizeof *c.ids),
+                 .periods = kz_malloc(n * sizeof *c.periods),
+                 .evidence = kz_calloc(n, sizeof *c.evidence),
+                 .others = kz_malloc(n * sizeof *c.others)};
+  char *message = kz_malloc(message_room((int64_t)n));
   const bool has_room = c.ids && c.periods && c.evidence && c.others && message;
   kz_status status = has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
   for (size_t i = 0; status == KZ_OK && i < n; i++) {

@@ -21,7 +21,7 @@ struct kz_workspace {
 };
 
 kz_workspace *kz_workspace_make(void) {
-  return malloc(sizeof(kz_workspace));
+  return kz_malloc(sizeof(kz_workspace));
 }
 
 /* Without regard to errors. */

@@ -58,7 +58,7 @@ static kz_status merge(kz_labelling *l, kz_piece *piece, int64_t from, const kz_
   for (int64_t k = 0; number < end; k++)
     if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
   KZ_TRY(kz_labels_pack(l, piece->tile, record));
-  KZ_TRY(kz_pieces_add(&packed, piece->tile, record, *(uint64_t *)record));
+  kz_pieces_add(&packed, piece->tile, record, *(uint64_t *)record);
   free(piece->data);
   *piece = packed.list[0];
   free(packed.list);
@@ -78,8 +78,8 @@ static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, in
                     .keep = true,
                     .everywhere = true};
   KZ_TRY(kz_open_pick(l, l->before[from], l->n_open, l->n_open, open));
-  kz_labelled *found = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  void *record = malloc(kz_labels_room(l));
+  kz_labelled *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  void *record = kz_malloc(kz_labels_room(l));
   kz_status status = found && record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)l->n_open);
   status = kz_ranks_agree(l->run->ranks, status);
   if (status == KZ_OK) status = kz_stage_run(l->run, &stage, found);
@@ -93,7 +93,7 @@ static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, in
 kz_status kz_open_label(kz_labelling *l, const char *name) {
   const int64_t *before = l->before, all = before[l->tiles.own];
   const int64_t most = all < MOST_OPEN ? all : MOST_OPEN;
-  int64_t *open = malloc((size_t)most * sizeof *open + 1);
+  int64_t *open = kz_malloc((size_t)most * sizeof *open + 1);
   kz_status status =
       kz_ranks_agree(l->run->ranks, open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)most));
   for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {

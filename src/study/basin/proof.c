@@ -68,7 +68,7 @@ static kz_status find_seed(void *context, int64_t tile, void *record) {
   seed *s = record;
   kz_attractor attractor;
   const size_t most = (size_t)kz_dynamics_packed_size(j->dynamics);
-  double *point = calloc(2 * most, sizeof *point);
+  double *point = kz_calloc(2 * most, sizeof *point);
   if (!point) return kz_fail(KZ_FAILED, "no memory for the points of a cycle");
   kz_dynamics_attractor(j->dynamics, tile + 1, &attractor, point, point + most);
   s->mirror = attractor.mirror;
@@ -131,7 +131,7 @@ kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_pr
   job j = {.dynamics = dynamics, .proof = proof};
   uint8_t mirror[KZ_PROOF_MOST + 1] = {0};
   const int64_t n_tiles = kz_proof_own(proof) / COLUMNS, finest = kz_proof_own(proof) << (2 * (LEVELS - 1));
-  uint8_t *label = malloc((size_t)finest);
+  uint8_t *label = kz_malloc((size_t)finest);
   kz_status status = kz_ranks_agree(run->ranks, label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a proof"));
   bool found = false;
   if (status == KZ_OK) status = find_ellipses(run, &j, mirror, &found);

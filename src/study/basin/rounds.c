@@ -12,9 +12,9 @@ enum { ROUNDS = 4 };
 static kz_status discover(kz_labelling *l, bool again) {
   const kz_basin_plan *plan = l->plan;
   const int64_t all = again ? l->before[l->tiles.own] : 0, n = again && all < plan->starts ? all : plan->starts;
-  double *state = malloc((size_t)n * 2 * sizeof *state);
-  int32_t *label = malloc((size_t)n * sizeof *label);
-  int64_t *cell = malloc((size_t)n * sizeof *cell);
+  double *state = kz_malloc((size_t)n * 2 * sizeof *state);
+  int32_t *label = kz_malloc((size_t)n * sizeof *label);
+  int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
   kz_status status = kz_ranks_agree(
       l->run->ranks, state && label && cell ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   if (status == KZ_OK && again) status = kz_open_pick(l, 0, all, n, cell);
@@ -77,9 +77,9 @@ static kz_status run_rounds(kz_labelling *l) {
 static kz_status allocate(kz_labelling *l) {
   const size_t room = (size_t)kz_tile_room(&l->tiles);
   l->work = kz_workspace_make();
-  l->cell = calloc(room + 1, sizeof *l->cell);
-  l->before = calloc((size_t)l->tiles.own + 1, sizeof *l->before);
-  l->reached = calloc(INT16_MAX + 1, sizeof *l->reached);
+  l->cell = kz_calloc(room + 1, sizeof *l->cell);
+  l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
+  l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
   if (l->work && l->cell && l->before && l->reached) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", room);
 }

@@ -30,8 +30,8 @@ static kz_status discover(trial *t) {
   t->search = kz_search_of(scene);
   if (t->search.starts > FEW) t->search.starts = FEW;
   t->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->basin.max_period);
-  t->state = malloc(2 * FEW * sizeof *t->state);
-  t->label = malloc(FEW * sizeof *t->label);
+  t->state = kz_malloc(2 * FEW * sizeof *t->state);
+  t->label = kz_malloc(FEW * sizeof *t->label);
   if (!t->dynamics || !t->state || !t->label) return kz_fail(KZ_FAILED, "no memory to estimate the time");
   t->search.max_velocity = kz_dynamics_max_velocity(t->dynamics, &t->search.window);
   return kz_search_window(NULL, t->dynamics, &t->search, t->state, t->label);
@@ -52,12 +52,11 @@ static kz_status try_boundary(const trial *t, double *seconds) {
 /* The shocks of one strobe point, as many times as there are points that are not mirror images of others. */
 static kz_status try_shocks(const trial *t, const kz_catalogue *catalogue, double *seconds) {
   const kz_resilience_plan plan = kz_shocks_asked(&t->scene->basin);
-  kz_resilience *point = NULL;
-  int64_t n = 0, own = 0;
+  int64_t n, own;
   if (!t->scene->basin.has_shocks) return KZ_OK;
-  kz_status status = kz_resilience_list(t->dynamics, catalogue, &n, &point);
+  kz_resilience *point = kz_resilience_list(t->dynamics, catalogue, &n);
   const double start = kz_processor_clock();
-  if (status == KZ_OK) status = kz_resilience_try(t->dynamics, &plan, n, point, &own);
+  const kz_status status = kz_resilience_try(t->dynamics, &plan, n, point, &own);
   *seconds += (kz_processor_clock() - start) * (double)own;
   free(point);
   return status;
@@ -67,12 +66,12 @@ static kz_status time_parts(trial *t, double *seconds) {
   kz_catalogue catalogue = {0};
   KZ_TRY(discover(t));
   const int64_t known = kz_dynamics_count(t->dynamics);
-  int64_t *reached = calloc((size_t)known + 1, sizeof *reached);
+  int64_t *reached = kz_calloc((size_t)known + 1, sizeof *reached);
   if (!reached) return kz_fail(KZ_FAILED, "no memory to estimate the time");
   for (int64_t i = 0; i < t->search.starts; i++) reached[t->label[i]]++;
   kz_dynamics_update(t->dynamics);
   kz_status status = try_boundary(t, seconds);
-  if (status == KZ_OK) status = kz_catalogue_make(t->dynamics, reached, &catalogue);
+  kz_catalogue_make(t->dynamics, reached, &catalogue);
   if (status == KZ_OK) status = try_shocks(t, &catalogue, seconds);
   kz_catalogue_free(&catalogue);
   free(reached);

@@ -121,10 +121,8 @@ kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store
                           .work = work,
                           .context = (void *)scene,
                           .keep = true};
-  tile_record *records = here ? malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
-  kz_status status =
-      kz_ranks_agree(run->ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of a chart"));
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
+  tile_record *records = here ? kz_malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
+  kz_status status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK && here) {
     pack(plan, records);
     status = kz_chart_publish(plan, (const kz_chart_ending *)records, store, summary);

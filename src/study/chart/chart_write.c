@@ -12,8 +12,7 @@ static kz_status write_axis(const char *name, const kz_chart_axis *axis, kz_stor
   const kz_sweep_parameter *parameter = kz_sweep_parameters + axis->parameter;
   const int64_t n = axis->values.count;
   char attribute[32];
-  double *values = malloc((size_t)n * sizeof *values);
-  if (!values) return kz_fail(KZ_FAILED, "no memory for the values of a chart");
+  double *values = kz_malloc((size_t)n * sizeof *values);
   for (int64_t i = 0; i < n; i++) values[i] = kz_axis_value(&axis->values, i);
   snprintf(attribute, sizeof attribute, "%s_parameter", name);
   kz_status status = kz_store_text(store, GROUP, attribute, parameter->name);

@@ -43,10 +43,10 @@ static kz_status work(void *context, int64_t tile, void *record) {
 
 static void name_of(const edging *e, int32_t number, char name[KZ_NAME_LENGTH]) {
   const size_t room = (size_t)kz_dynamics_packed_size(e->dynamics);
-  double *points = malloc(2 * room * sizeof *points);
+  double *points = kz_malloc(2 * room * sizeof *points);
   kz_attractor row;
   snprintf(name, KZ_NAME_LENGTH, "not settled");
-  if (number > 0 && points) {
+  if (number > 0) {
     kz_dynamics_attractor(e->dynamics, number, &row, points, points + room);
     kz_orbit_name(row.period, row.winding, row.centre, name);
   }
@@ -116,25 +116,22 @@ static kz_status publish(const edging *e, const kz_edge *edge, const double *orb
   return KZ_OK;
 }
 
-static kz_status allocate(edging *e) {
+static void allocate(edging *e) {
   const kz_scene *scene = e->scene;
   e->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
                                    scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
-  e->state = malloc(2 * (size_t)e->search.starts * sizeof *e->state);
-  e->label = malloc((size_t)e->search.starts * sizeof *e->label);
-  if (e->dynamics && e->state && e->label) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)e->search.starts);
+  e->state = kz_malloc(2 * (size_t)e->search.starts * sizeof *e->state);
+  e->label = kz_malloc((size_t)e->search.starts * sizeof *e->label);
 }
 
 static kz_status follow(edging *e, const kz_run *run, kz_store *store, FILE *summary) {
   const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)e->scene->edge.periods + 1) * sizeof(double);
   const kz_stage stage = {.name = "edge", .n_tiles = 1, .record_bytes = bytes, .work = work, .context = e, .keep = true};
-  KZ_TRY(kz_ranks_agree(run->ranks, allocate(e)));
+  allocate(e);
   e->search.max_velocity = kz_dynamics_max_velocity(e->dynamics, &e->search.window);
   KZ_TRY(kz_search_window(run, e->dynamics, &e->search, e->state, e->label));
-  kz_edge *record = malloc(bytes);
-  kz_status status = kz_ranks_agree(run->ranks, record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for an edge"));
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, record);
+  kz_edge *record = kz_malloc(bytes);
+  kz_status status = kz_stage_run(run, &stage, record);
   if (status == KZ_OK && store) status = publish(e, record, (const double *)(record + 1), store, summary);
   free(record);
   return status;
@@ -143,7 +140,7 @@ static kz_status follow(edging *e, const kz_run *run, kz_store *store, FILE *sum
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   edging e = {.scene = scene, .search = kz_search_of(scene)};
   const kz_status status = follow(&e, run, store, summary);
-  if (e.dynamics) kz_dynamics_free(e.dynamics);
+  kz_dynamics_free(e.dynamics);
   free(e.state);
   free(e.label);
   return status;

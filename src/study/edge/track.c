@@ -156,7 +156,6 @@ kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t ma
   p.own = end[0];
   p.other = end[1];
   p.map = kz_plan_create(pendulum, &fine);
-  if (!p.map) return kz_fail(KZ_FAILED, "no memory to follow an edge");
   const kz_status status = follow_edge(scene, &p, edge, orbit);
   edge->first_end = p.own;
   edge->second_end = p.other;

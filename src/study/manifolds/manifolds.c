@@ -45,9 +45,7 @@ static kz_status add_saddle(const kz_manifolds_plan *plan, int64_t saddle, kz_st
   double period;
   KZ_TRY(number_of(store, "period", saddle, 0, &period));
   const size_t most = (size_t)(list->count + 4 * (int64_t)period);
-  task *longer = realloc(list->tasks, most * sizeof *longer);
-  if (!longer) return kz_fail(KZ_FAILED, "no memory for the branches of a manifold");
-  list->tasks = longer;
+  list->tasks = kz_realloc(list->tasks, most * sizeof *list->tasks);
   for (int64_t phase = 0; phase < (int64_t)period; phase++) {
     kz_branch branch = {
         .period = (int32_t)period, .spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
@@ -82,9 +80,7 @@ static kz_status make_tasks(const kz_manifolds_plan *plan, kz_store *store, work
 static kz_status share_tasks(const kz_run *run, work_list *list) {
   KZ_TRY(kz_ranks_broadcast(run->ranks, &list->count, sizeof list->count));
   const size_t bytes = (size_t)list->count * sizeof *list->tasks;
-  if (kz_ranks_own(run->ranks) != 0) list->tasks = malloc(bytes + 1);
-  KZ_TRY(kz_ranks_agree(run->ranks,
-                        list->tasks || bytes == 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory for branches of manifolds")));
+  if (kz_ranks_own(run->ranks) != 0) list->tasks = kz_malloc(bytes + 1);
   return bytes > 0 ? kz_ranks_broadcast(run->ranks, list->tasks, bytes) : KZ_OK;
 }
 
@@ -105,10 +101,10 @@ typedef struct {
 static row *rows_of(const work_list *list, const grown *records, int64_t *n) {
   *n = 0;
   for (int64_t i = 0; i < list->count; i++) *n += records[i].count;
-  row *rows = malloc((size_t)(*n + 1) * sizeof *rows);
+  row *rows = kz_malloc((size_t)(*n + 1) * sizeof *rows);
   int64_t at = 0;
   int32_t polyline = -1;
-  for (int64_t i = 0; rows && i < list->count; i++) {
+  for (int64_t i = 0; i < list->count; i++) {
     for (int64_t j = 0; j < records[i].count; j++) {
       const double *point = records[i].point + 4 * j;
       if (j == 0 || point[3] != point[-1]) polyline++;
@@ -152,8 +148,7 @@ static kz_status publish(const kz_manifolds_plan *plan, const work_list *list, c
                          FILE *summary) {
   int64_t n;
   row *rows = rows_of(list, records, &n);
-  kz_status status =
-      rows ? write_rows(n, rows, store) : kz_fail(KZ_FAILED, "no memory for %lld points of manifolds", (long long)n);
+  const kz_status status = write_rows(n, rows, store);
   if (status == KZ_OK) print(plan, list, records, n, summary);
   free(rows);
   return status;
@@ -165,10 +160,7 @@ kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *s
   grown *records = NULL;
   kz_status status = kz_ranks_agree(run->ranks, here ? make_tasks(&scene->manifolds, store, &list) : KZ_OK);
   if (status == KZ_OK) status = share_tasks(run, &list);
-  if (status == KZ_OK) {
-    if (here) records = malloc((size_t)list.count * sizeof *records + 1);
-    status = kz_ranks_agree(run->ranks, records || !here ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the points of manifolds"));
-  }
+  if (status == KZ_OK && here) records = kz_malloc((size_t)list.count * sizeof *records + 1);
   const kz_stage stage = {
       .name = "manifolds", .n_tiles = list.count, .record_bytes = sizeof(grown), .work = grow, .context = &list, .keep = true};
   if (status == KZ_OK && list.count > 0) status = kz_stage_run(run, &stage, records);

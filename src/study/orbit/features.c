@@ -33,9 +33,8 @@ static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz
   size_t n = (size_t)(TOP_FREQUENCY * record->periods) + 1;
   features->n_lines = (int64_t)n;
   features->record_periods = record->periods;
-  features->amplitude = malloc(n * sizeof(double));
-  features->phase = malloc(n * sizeof(double));
-  if (!features->amplitude || !features->phase) return kz_fail(KZ_FAILED, "out of memory for the lines of an orbit");
+  features->amplitude = kz_malloc(n * sizeof(double));
+  features->phase = kz_malloc(n * sizeof(double));
   KZ_TRY(kz_spectrum_lines(record, motion->theta, features->n_lines, features->amplitude, features->phase));
   features->dominant = kz_spectrum_dominant(features->n_lines, features->amplitude);
   features->period = kz_spectrum_period(record, features->n_lines, features->amplitude);
@@ -51,14 +50,12 @@ static kz_status take_velocity(const kz_motion *motion, kz_orbit_features *featu
   return KZ_OK;
 }
 
-static kz_status make_turning(const kz_motion *motion, kz_orbit_features *features) {
+static void make_turning(const kz_motion *motion, kz_orbit_features *features) {
   int64_t n = motion->periods * motion->samples + 1;
-  features->turning = malloc((size_t)n * sizeof *features->turning);
-  if (!features->turning) return kz_fail(KZ_FAILED, "out of memory for the turning points of an orbit");
+  features->turning = kz_malloc((size_t)n * sizeof *features->turning);
   double step = 2 * M_PI / (double)motion->samples;
   features->n_turning = kz_turning_points(n, step, motion->theta, motion->velocity, features->turning);
   for (int64_t i = 0; i < features->n_turning; i++) features->turning[i].angle -= features->origin;
-  return KZ_OK;
 }
 
 kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool parting, kz_orbit_features *features) {
@@ -80,7 +77,8 @@ kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool p
   features->winding = llrint(record.rotation * (double)span);
   if (features->period > 0 || features->chaotic)
     kz_orbit_name(features->period, features->winding, features->centre, features->name);
-  return make_turning(motion, features);
+  make_turning(motion, features);
+  return KZ_OK;
 }
 
 void kz_orbit_features_free(kz_orbit_features *features) {

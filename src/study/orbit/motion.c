@@ -43,18 +43,17 @@ kz_numerics kz_orbit_numerics(const kz_scene *scene) {
                        .precision = scene->numerics.precision};
 }
 
-kz_status kz_model_make(const kz_scene *scene, kz_model *model) {
+void kz_model_make(const kz_scene *scene, kz_model *model) {
   const kz_orbit_plan *orbit = &scene->orbit;
   const kz_pendulum *p = &scene->parameters.pendulum;
   bool inverted = orbit->model == KZ_MATHIEU && orbit->about == KZ_ABOUT_INVERTED;
   *model = (kz_model){.kind = orbit->model, .pendulum = *p, .samples = (int64_t)samples_of(scene)};
   if (inverted) model->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
   if (inverted) model->origin = M_PI;
-  if (model->kind != KZ_PENDULUM) return KZ_OK;
+  if (model->kind != KZ_PENDULUM) return;
   model->numerics = kz_orbit_numerics(scene);
   if (orbit->closed && model->numerics.precision == KZ_SINGLE) model->numerics.precision = KZ_DOUBLE;
   model->plan = kz_plan_create(p, &model->numerics);
-  return model->plan ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the tables of an orbit");
 }
 
 void kz_model_free(kz_model *model) {
@@ -88,9 +87,7 @@ static kz_status check_range(const kz_motion *motion) {
 
 kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_motion *motion) {
   size_t n = (size_t)(periods * model->samples) + 1;
-  *motion = (kz_motion){periods, model->samples, malloc(n * sizeof(double)), malloc(n * sizeof(double))};
-  if (!motion->theta || !motion->velocity)
-    return kz_fail(KZ_FAILED, "out of memory for an orbit of %lld periods", (long long)periods);
+  *motion = (kz_motion){periods, model->samples, kz_malloc(n * sizeof(double)), kz_malloc(n * sizeof(double))};
   if (model->plan) {
     kz_sample(model->plan, periods, model->samples, start.theta, start.velocity, motion->theta, motion->velocity);
   } else {

@@ -27,7 +27,7 @@ typedef struct {
 } kz_motion;
 
 /* KZ_FAILED where memory ran out. Freed by kz_model_free. */
-kz_status kz_model_make(const kz_scene *scene, kz_model *model);
+void kz_model_make(const kz_scene *scene, kz_model *model);
 void kz_model_free(kz_model *model);
 
 /* Moves a state ahead by whole periods; theta comes back within a turn for the pendulum. */

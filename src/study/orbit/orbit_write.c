@@ -8,29 +8,28 @@
 
 static const char *const GROUP = "orbit";
 
-/* Every `stride`-th value, count of them, in a new array. NULL where memory ran out. */
+/* Every `stride`-th value, count of them, in a new array. */
 static double *every(const double *from, int64_t stride, int64_t count) {
-  double *to = malloc((size_t)count * sizeof *to + 1); /* + 1: an empty array is no lack of memory */
-  for (int64_t i = 0; to && i < count; i++) to[i] = from[i * stride];
+  double *to = kz_malloc((size_t)count * sizeof *to);
+  for (int64_t i = 0; i < count; i++) to[i] = from[i * stride];
   return to;
 }
 
 /* unit * (0, 1, 2, ...) / parts */
 static double *ramp(double unit, int64_t parts, int64_t count) {
-  double *to = malloc((size_t)count * sizeof *to);
-  for (int64_t i = 0; to && i < count; i++) to[i] = unit * (double)i / (double)parts;
+  double *to = kz_malloc((size_t)count * sizeof *to);
+  for (int64_t i = 0; i < count; i++) to[i] = unit * (double)i / (double)parts;
   return to;
 }
 
 static double *pivot(double m, int64_t samples, int64_t count) {
-  double *to = malloc((size_t)count * sizeof *to);
-  for (int64_t i = 0; to && i < count; i++) to[i] = m * cos(2 * M_PI * (double)(i % samples) / (double)samples);
+  double *to = kz_malloc((size_t)count * sizeof *to);
+  for (int64_t i = 0; i < count; i++) to[i] = m * cos(2 * M_PI * (double)(i % samples) / (double)samples);
   return to;
 }
 
 /* Writes one array and frees it. */
 static kz_status put(kz_store *store, const char *name, bool dimension, int64_t count, double *values) {
-  if (!values) return kz_fail(KZ_FAILED, "out of memory for %s of an orbit", name);
   kz_status status =
       dimension ? kz_store_dimension(store, GROUP, name, count, values) : kz_store_variable(store, GROUP, name, values);
   free(values);

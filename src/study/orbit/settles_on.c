@@ -8,18 +8,14 @@
 /* Periods that a motion is followed: what damping takes to shrink areas by exp(-SHRUNK), within bounds. */
 enum { SHRUNK = 30, LEAST_PERIODS = 2000, MOST_STEPS = 1000000, LONGEST_CYCLE = 48 };
 
-static kz_status name_attractor(const kz_dynamics *dynamics, int64_t number, char *name) {
+static void name_attractor(const kz_dynamics *dynamics, int64_t number, char *name) {
   const size_t most = (size_t)kz_dynamics_packed_size(dynamics);
-  double *theta = calloc(most, sizeof *theta), *velocity = calloc(most, sizeof *velocity);
-  kz_status status = theta && velocity ? KZ_OK : kz_fail(KZ_FAILED, "no memory for an attractor");
-  if (status == KZ_OK) {
-    kz_attractor row;
-    kz_dynamics_attractor(dynamics, number, &row, theta, velocity);
-    kz_orbit_name(row.period, row.winding, row.centre, name);
-  }
+  double *theta = kz_calloc(most, sizeof *theta), *velocity = kz_calloc(most, sizeof *velocity);
+  kz_attractor row;
+  kz_dynamics_attractor(dynamics, number, &row, theta, velocity);
+  kz_orbit_name(row.period, row.winding, row.centre, name);
   free(theta);
   free(velocity);
-  return status;
 }
 
 kz_status kz_settles_on(const kz_model *model, kz_state state, double fastest, char *name) {
@@ -31,10 +27,9 @@ kz_status kz_settles_on(const kz_model *model, kz_state state, double fastest, c
   double start[2] = {remainder(state.theta, 2 * M_PI) / M_PI, state.velocity};
   int32_t label;
   kz_dynamics *dynamics = kz_dynamics_create(&model->pendulum, &model->numerics, LONGEST_CYCLE);
-  if (!dynamics) return kz_fail(KZ_FAILED, "out of memory for the attractor of an orbit");
   kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
-  kz_status status = kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &label);
-  if (status == KZ_OK && label > 0) status = name_attractor(dynamics, label, name);
+  const kz_status status = kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &label);
+  if (status == KZ_OK && label > 0) name_attractor(dynamics, label, name);
   kz_dynamics_free(dynamics);
   return status;
 }

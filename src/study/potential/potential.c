@@ -25,14 +25,12 @@ kz_cost kz_potential_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 24 * points, .first_bytes = 24 * points, .core_seconds = 2e-6 * points};
 }
 
-static kz_status allocate(curves *c) {
+static void allocate(curves *c) {
   size_t columns = (size_t)c->plan->theta_count, points = columns * (size_t)c->plan->drive_amplitudes.count;
-  c->theta = malloc(columns * sizeof(double));
-  c->exact = malloc(points * sizeof(double));
-  c->blackburn = malloc(points * sizeof(double));
-  c->simple = malloc(points * sizeof(double));
-  if (c->theta && c->exact && c->blackburn && c->simple) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for %zu points of the potential", points);
+  c->theta = kz_malloc(columns * sizeof(double));
+  c->exact = kz_malloc(points * sizeof(double));
+  c->blackburn = kz_malloc(points * sizeof(double));
+  c->simple = kz_malloc(points * sizeof(double));
 }
 
 static void release(curves *c) {
@@ -90,12 +88,10 @@ static void summarise(const curves *c, FILE *summary) {
 kz_status kz_potential_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (kz_ranks_own(run->ranks) != 0) return KZ_OK;
   curves c = {.plan = &scene->potential};
-  kz_status status = allocate(&c);
-  if (status == KZ_OK) {
-    model(&scene->parameters.pendulum, &c);
-    status = write(&c, store);
-    if (status == KZ_OK) summarise(&c, summary);
-  }
+  allocate(&c);
+  model(&scene->parameters.pendulum, &c);
+  const kz_status status = write(&c, store);
+  if (status == KZ_OK) summarise(&c, summary);
   release(&c);
   return status;
 }

@@ -14,22 +14,21 @@ typedef struct {
   const int64_t *own; /* places of the points that are searched */
 } searching;
 
-kz_status kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n, kz_resilience **point) {
+kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n) {
   const int64_t known = kz_dynamics_count(dynamics);
   int64_t room = 0, count = 0;
   for (int64_t id = 0; id < catalogue->count; id++) room += catalogue->entries[id].row.period;
-  *point = calloc((size_t)room + 1, sizeof **point);
-  if (!*point) return kz_fail(KZ_FAILED, "no memory for the strobe points of %lld attractors", (long long)catalogue->count);
+  kz_resilience *point = kz_calloc((size_t)room + 1, sizeof *point);
   for (int64_t id = 0; id < catalogue->count; id++) {
     const kz_entry *entry = catalogue->entries + id;
     int64_t number = 1;
     while (number < known && catalogue->id_of[number] != id) number++;
     for (int64_t phase = 0; phase < entry->row.period; phase++)
-      (*point)[count++] =
+      point[count++] =
           (kz_resilience){.number = number, .phase = phase, .theta = entry->theta[phase], .velocity = entry->velocity[phase]};
   }
   *n = count;
-  return KZ_OK;
+  return point;
 }
 
 /* A kz_ends_fn: by direct integration. */
@@ -49,8 +48,8 @@ static kz_status work(void *context, int64_t tile, void *record) {
                                     .scale = s->plan->scale,
                                     .farthest = s->plan->farthest};
   *out = *point;
-  KZ_TRY(kz_shocks_find(&problem, out->shock));
-  for (int64_t i = 0; i < s->plan->n_sizes; i++) KZ_TRY(kz_shocks_harmless(&problem, s->plan->size[i], out->harmless + i));
+  kz_shocks_find(&problem, out->shock);
+  for (int64_t i = 0; i < s->plan->n_sizes; i++) kz_shocks_harmless(&problem, s->plan->size[i], out->harmless + i);
   return KZ_OK;
 }
 
@@ -73,20 +72,16 @@ static void mirror(const int32_t *mirrored, const kz_resilience *found, kz_resil
   }
 }
 
-/* mirrored [count + 1]: the number of each attractor's mirror image, to be freed; NULL where there was no memory. */
+/* mirrored [count + 1]: the number of each attractor's mirror image, to be freed. */
 static int32_t *mirrors_of(const kz_dynamics *dynamics) {
   const int64_t n = kz_dynamics_count(dynamics);
   const size_t room = (size_t)kz_dynamics_packed_size(dynamics);
-  int32_t *mirrored = calloc((size_t)n + 1, sizeof *mirrored);
-  double *points = malloc(2 * room * sizeof *points);
-  for (int64_t number = 1; points && mirrored && number <= n; number++) {
+  int32_t *mirrored = kz_calloc((size_t)n + 1, sizeof *mirrored);
+  double *points = kz_malloc(2 * room * sizeof *points);
+  for (int64_t number = 1; number <= n; number++) {
     kz_attractor row;
     kz_dynamics_attractor(dynamics, number, &row, points, points + room);
     mirrored[number] = row.mirror;
-  }
-  if (!points) {
-    free(mirrored);
-    mirrored = NULL;
   }
   free(points);
   return mirrored;
@@ -105,9 +100,7 @@ static kz_status search(const kz_run *run, searching *s, int64_t n, int64_t *own
                           .context = s,
                           .keep = true,
                           .everywhere = true};
-  kz_status status =
-      kz_ranks_agree(run->ranks, mirrored ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the mirror images of attractors"));
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, found);
+  kz_status status = kz_stage_run(run, &stage, found);
   for (int64_t i = 0; status == KZ_OK && i < n_own; i++) point[own[i]] = found[i];
   for (int64_t i = 0; status == KZ_OK && i < n; i++)
     if (image_of(point, i) != i) mirror(mirrored, point + image_of(point, i), point + i);
@@ -118,12 +111,10 @@ static kz_status search(const kz_run *run, searching *s, int64_t n, int64_t *own
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point) {
   if (n == 0) return KZ_OK;
-  int64_t *own = malloc((size_t)n * sizeof *own);
-  kz_resilience *found = malloc((size_t)n * sizeof *found);
+  int64_t *own = kz_malloc((size_t)n * sizeof *own);
+  kz_resilience *found = kz_malloc((size_t)n * sizeof *found);
   searching s = {dynamics, plan, point, own};
-  kz_status status = kz_ranks_agree(
-      run->ranks, own && found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the shocks of %lld points", (long long)n));
-  if (status == KZ_OK) status = search(run, &s, n, own, found, point);
+  const kz_status status = search(run, &s, n, own, found, point);
   free(own);
   free(found);
   return status;

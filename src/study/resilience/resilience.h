@@ -23,8 +23,8 @@ typedef struct {
   kz_harmless harmless[KZ_MOST_SHOCK_SIZES];
 } kz_resilience;
 
-/* The strobe points of the attractors of a catalogue that have a period, one after the other: *point [*n], to be freed. */
-kz_status kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n, kz_resilience **point);
+/* The strobe points of the attractors of a catalogue that have a period, one after the other: [*n], to be freed. */
+kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n);
 
 /* Fills point [n], on every rank. A kept stage. Collective. */
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,

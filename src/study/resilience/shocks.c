@@ -33,9 +33,9 @@ typedef struct {
   int32_t end;
 } ray;
 
-static kz_status open_room(const kz_shock_problem *problem, room *r) {
-  *r = (room){problem, malloc(2 * MOST * sizeof(double)), malloc(MOST * sizeof(int32_t)), malloc(MOST * sizeof(int64_t))};
-  return r->start && r->end && r->periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a search of shocks");
+static void open_room(const kz_shock_problem *problem, room *r) {
+  *r = (room){problem, kz_malloc(2 * MOST * sizeof(double)), kz_malloc(MOST * sizeof(int32_t)),
+              kz_malloc(MOST * sizeof(int64_t))};
 }
 
 static void close_room(room *r) {
@@ -182,30 +182,27 @@ static kz_shock in_norm(const kz_shock *shock, double scale) {
   return same;
 }
 
-kz_status kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
+void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
   room r;
-  kz_status status = open_room(problem, &r);
-  if (status == KZ_OK) {
-    shock[0] = along_line(&r, 1, 0, M_PI);
-    shock[1] = along_line(&r, 0, 1, problem->farthest);
-    const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
-    shock[2] = isless(velocity.size, angle.size) || isnan(angle.size) ? velocity : angle;
-    if (!isnan(shock[2].size)) {
-      const double at = atan2(shock[2].velocity / problem->scale, shock[2].theta);
-      const kz_shock near = slide(&r, at, 2 * M_PI / RAYS, shock[2].size);
-      if (near.size < shock[2].size) shock[2] = near;
-      shock[2] = in_disc(&r, shock + 2);
-    }
+  open_room(problem, &r);
+  shock[0] = along_line(&r, 1, 0, M_PI);
+  shock[1] = along_line(&r, 0, 1, problem->farthest);
+  const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
+  shock[2] = isless(velocity.size, angle.size) || isnan(angle.size) ? velocity : angle;
+  if (!isnan(shock[2].size)) {
+    const double at = atan2(shock[2].velocity / problem->scale, shock[2].theta);
+    const kz_shock near = slide(&r, at, 2 * M_PI / RAYS, shock[2].size);
+    if (near.size < shock[2].size) shock[2] = near;
+    shock[2] = in_disc(&r, shock + 2);
   }
   close_room(&r);
-  return status;
 }
 
-kz_status kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
+void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
   static const double GOLDEN = 0.61803398874989484820;
   room r;
   double time = 0;
-  KZ_TRY(open_room(problem, &r));
+  open_room(problem, &r);
   *harmless = (kz_harmless){.shocks = SPREAD};
   for (int i = 0; i < SPREAD; i++)
     put(&r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
@@ -217,5 +214,4 @@ kz_status kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_ha
   }
   harmless->return_time = harmless->harmless > 0 ? time / (double)harmless->harmless : NAN;
   close_room(&r);
-  return KZ_OK;
 }

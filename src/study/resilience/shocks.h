@@ -34,8 +34,8 @@ typedef struct {
 /* The smallest shocks: [0] of the angle alone, [1] of the velocity alone (size: the change itself, rad or rad per drive radian), [2]
  * of both. Lines and discs are searched on ever finer grids, until a finer one finds nothing nearer; then the boundary between the
  * nearest points is bisected to rounding, and its distance minimised along it. */
-kz_status kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]);
+void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]);
 
-kz_status kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless);
+void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless);
 
 #endif

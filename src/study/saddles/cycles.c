@@ -13,24 +13,20 @@ static void fill(const kz_dynamics *dynamics, int64_t number, kz_listed_cycle *e
   snprintf(entry->name, sizeof entry->name, "%s%.*s", entry->unstable ? "unstable " : "", KZ_NAME_LENGTH - 10, name);
 }
 
-kz_status kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list) {
+void kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list) {
   const int64_t n = kz_dynamics_count(dynamics);
-  int64_t *number = malloc((size_t)(n + 1) * sizeof *number), *place = malloc((size_t)(n + 1) * sizeof *place);
-  *list = (kz_cycle_list){.count = n, .entries = calloc((size_t)n + 1, sizeof *list->entries)};
-  kz_status status = number && place && list->entries ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cycles", (long long)n);
-  if (status == KZ_OK) {
-    kz_dynamics_order(dynamics, number);
-    for (int64_t i = 0; i < n; i++) {
-      kz_listed_cycle *entry = list->entries + i;
-      fill(dynamics, number[i], entry);
-      entry->saddle = entry->unstable ? (int32_t)list->n_unstable++ : -1;
-      place[number[i]] = i;
-    }
-    for (int64_t i = 0; i < n; i++) list->entries[i].mirror = list->entries[place[list->entries[i].row.mirror]].saddle;
+  int64_t *number = kz_malloc((size_t)(n + 1) * sizeof *number), *place = kz_malloc((size_t)(n + 1) * sizeof *place);
+  *list = (kz_cycle_list){.count = n, .entries = kz_calloc((size_t)n + 1, sizeof *list->entries)};
+  kz_dynamics_order(dynamics, number);
+  for (int64_t i = 0; i < n; i++) {
+    kz_listed_cycle *entry = list->entries + i;
+    fill(dynamics, number[i], entry);
+    entry->saddle = entry->unstable ? (int32_t)list->n_unstable++ : -1;
+    place[number[i]] = i;
   }
+  for (int64_t i = 0; i < n; i++) list->entries[i].mirror = list->entries[place[list->entries[i].row.mirror]].saddle;
   free(number);
   free(place);
-  return status;
 }
 
 void kz_cycle_list_free(kz_cycle_list *list) {
@@ -58,9 +54,8 @@ static int compare(const void *a, const void *b) {
   return x->period != y->period ? x->period - y->period : x->winding - y->winding;
 }
 
-kz_status kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums) {
-  *sums = (kz_index_sums){.entries = calloc((size_t)(list->count * max_period) + 1, sizeof *sums->entries)};
-  if (!sums->entries) return kz_fail(KZ_FAILED, "no memory for the index sums of %lld cycles", (long long)list->count);
+void kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums) {
+  *sums = (kz_index_sums){.entries = kz_calloc((size_t)(list->count * max_period) + 1, sizeof *sums->entries)};
   for (int64_t i = 0; i < list->count; i++) {
     const kz_attractor *row = &list->entries[i].row;
     for (int64_t n = 1; n * row->period <= max_period; n++) {
@@ -71,5 +66,4 @@ kz_status kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_i
   }
   qsort(sums->entries, (size_t)sums->count, sizeof *sums->entries, compare);
   for (int64_t i = 0; i < sums->count; i++) sums->open += sums->entries[i].index != 0;
-  return KZ_OK;
 }

@@ -25,7 +25,7 @@ typedef struct {
 } kz_cycle_list;
 
 /* The cycles of a catalogue; to be freed, where it fails too. */
-kz_status kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list);
+void kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list);
 void kz_cycle_list_free(kz_cycle_list *list);
 
 /* The index of each fixed point of F^(n * period) on a cycle: the sign of (1 - mu1^n)(1 - mu2^n). */
@@ -41,6 +41,6 @@ typedef struct {
 } kz_index_sums;
 
 /* Sums for every period up to max_period and every winding that a known cycle has; to be freed. docs/theory.md has the theorem. */
-kz_status kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums);
+void kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums);
 
 #endif

@@ -44,10 +44,10 @@ static effort sample(const kz_scene *scene, int64_t max_period, double *found) {
 /* Of all lines of constant angle. Periods are added until the effort shows how it grows. */
 static effort estimate(const kz_scene *scene) {
   const int64_t longest = scene->saddles.max_period;
-  double *found = malloc(kz_piece_bytes(&scene->saddles));
+  double *found = kz_malloc(kz_piece_bytes(&scene->saddles));
   effort now = {0}, before = {0};
   int64_t period = 0;
-  while (found && period < longest && now.seconds < SAMPLE_SECONDS) {
+  while (period < longest && now.seconds < SAMPLE_SECONDS) {
     before = now;
     now = sample(scene, ++period, found);
   }

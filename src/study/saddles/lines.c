@@ -131,8 +131,7 @@ static kz_status make(void *context, const kz_piece *piece, void *message, size_
 static kz_status take(void *context, const void *message, size_t bytes) {
   const collection *c = context;
   const size_t one = kz_cycle_bytes(c->plan), before = (size_t)c->found->count * one, more = bytes - sizeof(uint64_t);
-  char *longer = realloc(c->found->cycle, before + more + 1);
-  if (!longer) return kz_fail(KZ_FAILED, "no memory for %lld cycles", (long long)((before + more) / one));
+  char *longer = kz_realloc(c->found->cycle, before + more);
   memcpy(longer + before, (const char *)message + sizeof(uint64_t), more);
   c->found->cycle = (double *)longer;
   c->found->count += (int64_t)(more / one);

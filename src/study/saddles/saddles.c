@@ -16,18 +16,16 @@ bool kz_saddles_wanted(const kz_scene *scene) {
 }
 
 /* Everything about the cycles that were found. Rank 0. */
-static kz_status list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_list *cycles, kz_index_sums *sums) {
+static void list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_list *cycles, kz_index_sums *sums) {
   const int64_t max_period = scene->saddles.max_period;
   kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period);
-  if (!dynamics) return kz_fail(KZ_FAILED, "no memory for a catalogue of cycles");
   kz_cycle_list_free(cycles);
   free(sums->entries);
   *sums = (kz_index_sums){0};
   kz_dynamics_add_cycles(dynamics, max_period, found->count, found->cycle);
-  kz_status status = kz_cycle_list_make(dynamics, cycles);
-  if (status == KZ_OK) status = kz_index_sums_make(cycles, max_period, sums);
+  kz_cycle_list_make(dynamics, cycles);
+  kz_index_sums_make(cycles, max_period, sums);
   kz_dynamics_free(dynamics);
-  return status;
 }
 
 /* Rounds until enough is known; without damping the sums say nothing. Collective. */
@@ -43,9 +41,7 @@ static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_found *
     KZ_TRY(kz_lines_run(run, &lines, name, found));
     quiet = round > 0 && found->count == before ? quiet + 1 : 0;
     const bool last = round == ROUNDS - 1;
-    kz_status status = KZ_OK;
-    if (here && (quiet == 1 || (last && quiet == 0))) status = list_cycles(scene, found, cycles, sums);
-    KZ_TRY(kz_ranks_agree(run->ranks, status));
+    if (here && (quiet == 1 || (last && quiet == 0))) list_cycles(scene, found, cycles, sums);
     enough = quiet == QUIET || (quiet > 0 && (undamped || sums->open == 0));
     KZ_TRY(kz_ranks_broadcast(run->ranks, &enough, sizeof enough));
   }

@@ -8,8 +8,8 @@ enum { MOST_LINES = 40 }; /* of the summary's table */
 
 /* The unstable cycles, in their order. */
 static const kz_listed_cycle **unstable_of(const kz_cycle_list *cycles) {
-  const kz_listed_cycle **list = malloc((size_t)(cycles->n_unstable + 1) * sizeof *list);
-  for (int64_t i = 0; list && i < cycles->count; i++)
+  const kz_listed_cycle **list = kz_malloc((size_t)(cycles->n_unstable + 1) * sizeof *list);
+  for (int64_t i = 0; i < cycles->count; i++)
     if (cycles->entries[i].unstable) list[cycles->entries[i].saddle] = cycles->entries + i;
   return list;
 }
@@ -53,7 +53,6 @@ static kz_status write_sums(const kz_index_sums *sums, kz_store *store) {
 kz_status kz_saddles_write(const kz_cycle_list *cycles, const kz_index_sums *sums, kz_store *store) {
   const int64_t n = cycles->n_unstable;
   const kz_listed_cycle **list = unstable_of(cycles);
-  if (!list) return kz_fail(KZ_FAILED, "no memory for %lld cycles", (long long)n);
   int64_t phases = 1;
   for (int64_t i = 0; i < n; i++) phases = list[i]->row.period > phases ? list[i]->row.period : phases;
   kz_status status = kz_store_dimension(store, "saddles", "saddle", n, NULL);

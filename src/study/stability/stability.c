@@ -41,8 +41,8 @@ kz_cost kz_stability_cost(const kz_scene *scene) {
 
 /* Values from min to max, both exactly. */
 static double *axis_values(const kz_axis *axis) {
-  double *values = malloc((size_t)axis->count * sizeof *values), last = (double)(axis->count - 1);
-  for (int64_t i = 0; values && i < axis->count; i++)
+  double *values = kz_malloc((size_t)axis->count * sizeof *values), last = (double)(axis->count - 1);
+  for (int64_t i = 0; i < axis->count; i++)
     values[i] = last > 0 ? (axis->min * (last - (double)i) + axis->max * (double)i) / last : axis->min;
   return values;
 }
@@ -66,20 +66,17 @@ static void make_tasks(kz_chart *chart) {
       chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
 }
 
-static kz_status allocate(kz_chart *chart, bool here) {
+static void allocate(kz_chart *chart, bool here) {
   const kz_stability_plan *plan = chart->plan;
   size_t points = here ? (size_t)(plan->k.count * plan->m.count) : 1;
   chart->k = axis_values(&plan->k);
   chart->m = axis_values(&plan->m);
-  chart->tasks = malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart->tasks);
-  if (chart->tasks) make_tasks(chart);
-  chart->log_multiplier = malloc(points * sizeof *chart->log_multiplier);
-  chart->angle = malloc(points * sizeof *chart->angle);
-  chart->stable = malloc(points);
-  chart->curves = malloc(((here ? (size_t)(2 * chart->n_tasks * plan->k.count) : 0) + 1) * sizeof *chart->curves);
-  if (chart->k && chart->m && chart->tasks && chart->log_multiplier && chart->angle && chart->stable && chart->curves)
-    return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for a chart of %lld x %lld points", (long long)plan->k.count, (long long)plan->m.count);
+  chart->tasks = kz_malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart->tasks);
+  make_tasks(chart);
+  chart->log_multiplier = kz_malloc(points * sizeof *chart->log_multiplier);
+  chart->angle = kz_malloc(points * sizeof *chart->angle);
+  chart->stable = kz_malloc(points);
+  chart->curves = kz_malloc(((here ? (size_t)(2 * chart->n_tasks * plan->k.count) : 0) + 1) * sizeof *chart->curves);
 }
 
 static void release(kz_chart *chart) {
@@ -123,9 +120,7 @@ static kz_status curve_tile(void *context, int64_t tile, void *record) {
 /* Runs a stage; *records is NULL where this rank receives none. */
 static kz_status run_stage(const kz_run *run, const kz_stage *stage, void **records) {
   bool here = kz_ranks_own(run->ranks) == 0;
-  *records = here ? malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
-  kz_status status = !here || *records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the records of stage %s", stage->name);
-  KZ_TRY(kz_ranks_agree(run->ranks, status));
+  *records = here ? kz_malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
   return kz_stage_run(run, stage, *records);
 }
 
@@ -182,8 +177,8 @@ static kz_status model_curves(const kz_run *run, kz_chart *chart) {
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_stability_plan *plan = &scene->stability;
   kz_chart chart = {.plan = plan, .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor}};
-  kz_status status = kz_ranks_agree(run->ranks, allocate(&chart, kz_ranks_own(run->ranks) == 0));
-  if (status == KZ_OK) status = model_chart(run, &chart);
+  allocate(&chart, kz_ranks_own(run->ranks) == 0);
+  kz_status status = model_chart(run, &chart);
   if (status == KZ_OK) status = model_curves(run, &chart);
   if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) {
     status = kz_chart_write(&chart, store);

@@ -30,12 +30,10 @@ void kz_sweep_branches_free(kz_sweep_branches *branches) {
   *branches = (kz_sweep_branches){0};
 }
 
-static kz_status add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value) {
+static void add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value) {
   if (branches->n_nodes == branches->room) {
     const int64_t room = 2 * branches->room + 64;
-    kz_sweep_node *longer = realloc(branches->nodes, (size_t)room * sizeof *longer);
-    if (!longer) return kz_fail(KZ_FAILED, "no memory for the branches of a sweep");
-    branches->nodes = longer;
+    branches->nodes = kz_realloc(branches->nodes, (size_t)room * sizeof *branches->nodes);
     branches->room = room;
   }
   branches->nodes[branches->n_nodes++] = (kz_sweep_node){.entry = *entry,
@@ -46,7 +44,6 @@ static kz_status add_node(kz_sweep_branches *branches, const kz_sweep_entry *ent
                                                          .last = NAN,
                                                          .first_kind = KZ_END_NOT_LOCATED,
                                                          .last_kind = KZ_END_NOT_LOCATED};
-  return KZ_OK;
 }
 
 static kz_status walk_tile(void *context, int64_t tile, void *record) {
@@ -86,29 +83,27 @@ static void set_end(kz_sweep_node *node, bool forward, double last, int32_t kind
 }
 
 /* Joins the node of a walk to where it arrived; *added = the node made there, -1 = none. */
-static kz_status join(const walking *w, const task *t, const outcome *out, int64_t *added) {
+static void join(const walking *w, const task *t, const outcome *out, int64_t *added) {
   kz_sweep_branches *b = w->branches;
   *added = -1;
   if (!out->arrived) {
     set_end(b->nodes + t->node, t->forward, out->last, out->kind);
-    return KZ_OK;
+    return;
   }
   int64_t there = find_node(w, b->nodes[t->node].value + (t->forward ? 1 : -1), &out->point);
   if (there < 0) {
-    KZ_TRY(add_node(b, &(kz_sweep_entry){.point = out->point}, b->nodes[t->node].value + (t->forward ? 1 : -1)));
+    add_node(b, &(kz_sweep_entry){.point = out->point}, b->nodes[t->node].value + (t->forward ? 1 : -1));
     there = *added = b->n_nodes - 1;
   }
   int64_t *back = t->forward ? &b->nodes[there].previous : &b->nodes[there].next;
-  if (*back >= 0) return KZ_OK; /* another cycle came first: this one ends without a place */
+  if (*back >= 0) return; /* another cycle came first: this one ends without a place */
   *back = t->node;
   *(t->forward ? &b->nodes[t->node].next : &b->nodes[t->node].previous) = there;
-  return KZ_OK;
 }
 
 /* One round of walks; the nodes it added take the places of the tasks. */
 static kz_status walk_round(walking *w, const kz_run *run, task *tasks, int64_t *n) {
-  outcome *outcomes = malloc((size_t)*n * sizeof *outcomes);
-  kz_status status = kz_ranks_agree(run->ranks, outcomes ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
+  outcome *outcomes = kz_malloc((size_t)*n * sizeof *outcomes);
   w->tasks = tasks;
   const kz_stage stage = {.name = "sweep branches",
                           .n_tiles = *n,
@@ -117,15 +112,15 @@ static kz_status walk_round(walking *w, const kz_run *run, task *tasks, int64_t 
                           .context = w,
                           .keep = true,
                           .everywhere = true};
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, outcomes);
+  const kz_status status = kz_stage_run(run, &stage, outcomes);
   int64_t left = 0, added;
   for (int64_t i = 0; status == KZ_OK && i < *n; i++) {
-    status = join(w, tasks + i, outcomes + i, &added);
+    join(w, tasks + i, outcomes + i, &added);
     if (added >= 0) tasks[left++] = (task){added, tasks[i].forward};
   }
   free(outcomes);
   *n = left;
-  return kz_ranks_agree(run->ranks, status);
+  return status;
 }
 
 /* Cycles without a neighbour in that direction, the ends of the range left out. */
@@ -152,9 +147,9 @@ static int64_t drop_edge(const walking *w, task *tasks, int64_t n) {
 }
 
 static kz_status walk_all(walking *w, const kz_run *run, bool forward) {
-  task *tasks = malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
-  kz_status status = kz_ranks_agree(run->ranks, tasks ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the branches of a sweep"));
-  int64_t n = status == KZ_OK ? list_tasks(w, forward, tasks) : 0;
+  task *tasks = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
+  kz_status status = KZ_OK;
+  int64_t n = list_tasks(w, forward, tasks);
   while (status == KZ_OK && n > 0) {
     status = walk_round(w, run, tasks, &n);
     n = drop_edge(w, tasks, n);
@@ -200,16 +195,14 @@ static bool before(const kz_sweep_node *a, const kz_sweep_node *b) {
   return false;
 }
 
-static kz_status list_branches(kz_sweep_branches *b) {
-  b->first_node = malloc((size_t)(b->n_nodes + 1) * sizeof *b->first_node);
-  if (!b->first_node) return kz_fail(KZ_FAILED, "no memory for the branches of a sweep");
+static void list_branches(kz_sweep_branches *b) {
+  b->first_node = kz_malloc((size_t)(b->n_nodes + 1) * sizeof *b->first_node);
   for (int64_t i = 0; i < b->n_nodes; i++) {
     if (b->nodes[i].previous >= 0) continue;
     int64_t j = b->n_branches++;
     for (; j > 0 && before(b->nodes + i, b->nodes + b->first_node[j - 1]); j--) b->first_node[j] = b->first_node[j - 1];
     b->first_node[j] = i;
   }
-  return KZ_OK;
 }
 
 /* Until walks say otherwise a branch begins and ends at the values where it is seen; at the edges it leaves the range. */
@@ -231,14 +224,12 @@ static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
 kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const kz_sweep_catalogue *catalogue,
                                  kz_sweep_branches *branches) {
   walking w = {.scene = scene, .branches = branches};
-  kz_status status = KZ_OK;
   for (int64_t i = 0; i < scene->sweep.values.count; i++)
-    for (int64_t j = 0; status == KZ_OK && j < catalogue[i].count; j++)
-      status = add_node(branches, catalogue[i].entries + j, i);
-  KZ_TRY(kz_ranks_agree(run->ranks, status));
+    for (int64_t j = 0; j < catalogue[i].count; j++) add_node(branches, catalogue[i].entries + j, i);
   KZ_TRY(walk_all(&w, run, true));
   KZ_TRY(walk_all(&w, run, false));
   join_chaotic(branches);
   set_known_ends(scene, branches);
-  return kz_ranks_agree(run->ranks, list_branches(branches));
+  list_branches(branches);
+  return KZ_OK;
 }

@@ -74,14 +74,13 @@ static kz_status write_columns(const writing *w) {
 
 static kz_status write_names(const writing *w) {
   const int64_t n = w->branches->n_branches;
-  char (*names)[KZ_NAME_LENGTH] = calloc((size_t)n + 1, sizeof *names);
-  const char **pointers = calloc((size_t)n + 1, sizeof *pointers);
-  kz_status status = names && pointers ? KZ_OK : kz_fail(KZ_FAILED, "no memory for /sweep/branch_name");
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) {
+  char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
+  const char **pointers = kz_calloc((size_t)n + 1, sizeof *pointers);
+  for (int64_t i = 0; i < n; i++) {
     name_of(w->branches, i, names[i]);
     pointers[i] = names[i];
   }
-  if (status == KZ_OK) status = kz_store_variable(w->store, "sweep", "branch_name", pointers);
+  const kz_status status = kz_store_variable(w->store, "sweep", "branch_name", pointers);
   free(names);
   free(pointers);
   return status;
@@ -141,8 +140,7 @@ static double shock_size_of(const kz_sweep_node *node, int64_t samples) {
 static kz_status write_matrix(const writing *w, const char *name, cell_fn cell) {
   const kz_sweep_branches *b = w->branches;
   const int64_t n = w->scene->sweep.values.count * b->n_branches;
-  double *matrix = malloc((size_t)(n + 1) * sizeof *matrix);
-  if (!matrix) return kz_fail(KZ_FAILED, "no memory for /sweep/%s", name);
+  double *matrix = kz_malloc((size_t)(n + 1) * sizeof *matrix);
   for (int64_t i = 0; i < n; i++) matrix[i] = NAN;
   for (int64_t branch = 0; branch < b->n_branches; branch++)
     for (int64_t i = b->first_node[branch]; i >= 0; i = b->nodes[i].next) {

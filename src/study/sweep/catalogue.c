@@ -32,22 +32,20 @@ static bool on_grid(const kz_scene *scene) {
   return scene->has_basin && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
 }
 
-static kz_status begin(const kz_pendulum *pendulum, searching *s) {
+static void begin(const kz_pendulum *pendulum, searching *s) {
   const kz_scene *scene = s->scene;
   s->n_starts = scene->sweep.starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
   if (on_grid(scene)) s->n_cells = kz_own_cells(&scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
-  s->state = malloc(2 * most * sizeof *s->state);
-  s->label = malloc(most * sizeof *s->label);
-  s->cell = calloc((size_t)s->n_cells + 1, sizeof *s->cell);
-  if (s->dynamics && s->state && s->label && s->cell) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for the starts of a sweep");
+  s->state = kz_malloc(2 * most * sizeof *s->state);
+  s->label = kz_malloc(most * sizeof *s->label);
+  s->cell = kz_calloc((size_t)s->n_cells + 1, sizeof *s->cell);
 }
 
 static void end(searching *s) {
-  if (s->dynamics) kz_dynamics_free(s->dynamics);
+  kz_dynamics_free(s->dynamics);
   free(s->state);
   free(s->label);
   free(s->cell);
@@ -88,9 +86,8 @@ static kz_status label_open(labelling *l) {
                           .context = l,
                           .keep = true,
                           .everywhere = true};
-  int32_t *label = malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  kz_status status = kz_ranks_agree(l->s->run->ranks, label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
-  if (status == KZ_OK) status = kz_stage_run(l->s->run, &stage, label);
+  int32_t *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  kz_status status = kz_stage_run(l->s->run, &stage, label);
   for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->open[i]] = label[i];
   free(label);
   if (status == KZ_OK) list_open(l);
@@ -113,9 +110,8 @@ static kz_status label_rounds(labelling *l) {
 }
 
 static kz_status label_grid(searching *s) {
-  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .open = malloc((size_t)s->n_cells * sizeof *l.open)};
-  kz_status status = kz_ranks_agree(s->run->ranks, l.open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the cells of a sweep"));
-  if (status == KZ_OK) status = label_rounds(&l);
+  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .open = kz_malloc((size_t)s->n_cells * sizeof *l.open)};
+  kz_status status = label_rounds(&l);
   free(l.open);
   return status;
 }
@@ -158,8 +154,7 @@ static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirr
 /* The attractors that something ended on, and their mirror images, in the order of the file. */
 static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(s->dynamics);
-  int64_t *order = malloc((size_t)(known + 1) * sizeof *order);
-  if (!order) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
+  int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
   kz_dynamics_order(s->dynamics, order);
   kz_status status = KZ_OK;
   for (int64_t i = 0; i < known && status == KZ_OK; i++) {
@@ -200,12 +195,10 @@ static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
       .farthest = 2 * kz_axis_fastest(s->n_cells > 0 ? &s->scene->basin.velocity : &sweep->velocity),
       .max_periods = s->max_periods};
   kz_catalogue listed = {0};
-  kz_resilience *point = NULL;
-  int64_t n = 0;
-  kz_status status = kz_catalogue_make(s->dynamics, s->hits, &listed);
-  if (status == KZ_OK) status = kz_resilience_list(s->dynamics, &listed, &n, &point);
-  status = kz_ranks_agree(s->run->ranks, status);
-  if (status == KZ_OK) status = kz_resilience_run(s->run, s->dynamics, &plan, n, point);
+  int64_t n;
+  kz_catalogue_make(s->dynamics, s->hits, &listed);
+  kz_resilience *point = kz_resilience_list(s->dynamics, &listed, &n);
+  kz_status status = kz_resilience_run(s->run, s->dynamics, &plan, n, point);
   for (int64_t i = 0; status == KZ_OK && i < n; i++)
     for (int kind = 0; kind < 3; kind++) {
       double *least = &catalogue->entries[listed.id_of[point[i].number]].shock[kind];
@@ -219,8 +212,7 @@ static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
 static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
   KZ_TRY(discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
-  s->hits = calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
-  KZ_TRY(kz_ranks_agree(s->run->ranks, s->hits ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the catalogue of attractors")));
+  s->hits = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
   catalogue->samples = count_hits(s);
   KZ_TRY(kz_ranks_agree(s->run->ranks, collect(s, catalogue)));
   if (kz_sweep_measures(&s->scene->sweep, KZ_SWEEP_LIFETIME))
@@ -238,8 +230,8 @@ static kz_status work(void *context, int64_t tile, void *record) {
   searching s = {.scene = sweep->scene, .run = sweep->run};
   kz_pendulum pendulum;
   if (!kz_sweep_pendulum(s.scene, kz_sweep_value(&s.scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  kz_status status = kz_ranks_agree(s.run->ranks, begin(&pendulum, &s));
-  if (status == KZ_OK) status = search(&s, record);
+  begin(&pendulum, &s);
+  const kz_status status = search(&s, record);
   end(&s);
   return status;
 }

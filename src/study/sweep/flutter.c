@@ -137,10 +137,8 @@ static kz_status follow_on(fluttering *f) {
 
 static kz_status return_to_birth(fluttering *f) {
   const int64_t count = f->scene->sweep.values.count, n = (count + LEG - 1) / LEG;
-  double *amplitude = malloc((size_t)(n * LEG) * sizeof *amplitude);
-  kz_status status =
-      kz_ranks_agree(f->run->ranks, amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
-  if (status == KZ_OK) status = run_stage(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
+  double *amplitude = kz_malloc((size_t)(n * LEG) * sizeof *amplitude);
+  kz_status status = run_stage(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
   for (int64_t i = 0; status == KZ_OK && i < count; i++)
     if (!isnan(amplitude[i])) f->amplitude[i] = amplitude[i];
   free(amplitude);
@@ -216,8 +214,7 @@ static power_law fit(int64_t n, const double *x, const double *y, double *room) 
 
 static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) {
   const size_t n = (size_t)f->scene->sweep.values.count;
-  double *x = malloc(4 * n * sizeof *x);
-  if (!x) return kz_fail(KZ_FAILED, "no memory for the fit of a sweep");
+  double *x = kz_malloc(4 * n * sizeof *x);
   const power_law law = fit(gather(f, x, x + n), x, x + n, x + 2 * n);
   free(x);
   if (isnan(f->critical))
@@ -242,11 +239,9 @@ kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *s
                   .run = run,
                   .path = kz_sweep_path(scene),
                   .critical = NAN,
-                  .amplitude = malloc((size_t)n * sizeof(double))};
-  kz_status status =
-      kz_ranks_agree(run->ranks, f.amplitude ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the flutter of a sweep"));
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) f.amplitude[i] = NAN;
-  if (status == KZ_OK) status = find_flutter(&f);
+                  .amplitude = kz_malloc((size_t)n * sizeof(double))};
+  for (int64_t i = 0; i < n; i++) f.amplitude[i] = NAN;
+  kz_status status = find_flutter(&f);
   if (status == KZ_OK && store) status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
   if (status == KZ_OK && store) status = write_fit(&f, store, summary);
   free(f.amplitude);

@@ -29,22 +29,18 @@ static kz_status work(void *context, int64_t tile, void *record) {
 kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
                             kz_lifetime *life) {
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
+  double *start = kz_malloc(2 * (size_t)plan->starts * sizeof *start);
+  following f = {dynamics, start, plan->starts, max_periods};
   const kz_stage stage = {.name = "sweep lifetimes",
                           .n_tiles = (plan->starts + TILE - 1) / TILE,
                           .record_bytes = TILE * sizeof(double),
                           .work = work,
+                          .context = &f,
                           .keep = true,
                           .everywhere = true};
-  double *start = malloc(2 * (size_t)plan->starts * sizeof *start);
-  double *time = malloc((size_t)stage.n_tiles * stage.record_bytes);
-  kz_status status = kz_ranks_agree(run->ranks, start && time ? KZ_OK : kz_fail(KZ_FAILED, "no memory for lifetimes"));
-  if (status == KZ_OK) {
-    following f = {dynamics, start, plan->starts, max_periods};
-    kz_stage own = stage;
-    own.context = &f;
-    kz_dynamics_starts(&window, plan->seed, plan->starts, start);
-    status = kz_stage_run(run, &own, time);
-  }
+  double *time = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  kz_dynamics_starts(&window, plan->seed, plan->starts, start);
+  const kz_status status = kz_stage_run(run, &stage, time);
   int64_t n = 0, n_open = 0;
   for (int64_t i = 0; status == KZ_OK && i < plan->starts; i++) {
     n_open += time[i] < 0;

@@ -23,8 +23,8 @@ kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, i
   const double enough = pendulum->beta > 0 ? SHRUNK / (M_PI * pendulum->beta) : LONGEST;
   const int64_t periods = (int64_t)fmin(fmax(ceil(enough), SHORTEST), LONGEST);
   kz_plan *plan = kz_plan_create(pendulum, numerics);
-  double *theta = malloc((size_t)n * sizeof *theta), *velocity = calloc((size_t)n, sizeof *velocity);
-  int64_t *turns = calloc((size_t)n, sizeof *turns), *number = malloc((size_t)n * sizeof *number), left = n;
+  double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_calloc((size_t)n, sizeof *velocity);
+  int64_t *turns = kz_calloc((size_t)n, sizeof *turns), *number = kz_malloc((size_t)n * sizeof *number), left = n;
   const bool ready = plan && theta && velocity && turns && number;
   for (int64_t i = 0; ready && i < n; i++) {
     theta[i] = M_PI - angle[i];
@@ -51,7 +51,7 @@ kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, i
   free(velocity);
   free(turns);
   free(number);
-  return ready ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld releases", (long long)n);
+  return KZ_OK;
 }
 
 typedef struct {
@@ -102,9 +102,9 @@ static kz_status scan(const kz_pendulum *pendulum, const kz_numerics *numerics, 
 static kz_status first_failure(const kz_pendulum *pendulum, const kz_numerics *numerics, double step, double *outside) {
   const int64_t n = (int64_t)ceil(*outside / step - 0.5) - 1;
   if (n < 1) return KZ_OK;
-  double *angle = malloc((size_t)n * sizeof *angle);
-  uint8_t *stays = malloc((size_t)n);
-  kz_status status = angle && stays ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld releases", (long long)n);
+  double *angle = kz_malloc((size_t)n * sizeof *angle);
+  uint8_t *stays = kz_malloc((size_t)n);
+  kz_status status = KZ_OK;
   for (int64_t i = 0; status == KZ_OK && i < n; i++) angle[i] = (double)(i + 1) * step;
   if (status == KZ_OK) status = kz_release(pendulum, numerics, n, angle, stays);
   for (int64_t i = n - 1; status == KZ_OK && i >= 0; i--)
@@ -148,8 +148,7 @@ static kz_status work(void *context, int64_t tile, void *record) {
 static kz_status write_set(const kz_scene *scene, const released *records, kz_store *store) {
   const int64_t n = scene->sweep.values.count;
   double angle[HALF_DEGREES];
-  uint8_t *stays = malloc((size_t)n * HALF_DEGREES);
-  if (!stays) return kz_fail(KZ_FAILED, "no memory for the releases of a sweep");
+  uint8_t *stays = kz_malloc((size_t)n * HALF_DEGREES);
   for (int64_t i = 0; i < HALF_DEGREES; i++) angle[i] = half_degrees(i);
   for (int64_t i = 0; i < n; i++) memcpy(stays + i * HALF_DEGREES, records[i].stays, HALF_DEGREES);
   kz_status status = kz_store_dimension(store, "sweep", "release", HALF_DEGREES, angle);

@@ -55,7 +55,6 @@ static kz_status work(void *context, int64_t tile, void *record) {
     kz_pendulum pendulum;
     if (!kz_sweep_pendulum(w->scene, kz_sweep_value(plan, value_at(plan, tile, w->first + i)), &pendulum)) continue;
     kz_plan *map = kz_plan_create(&pendulum, &w->scene->numerics);
-    if (!map) return kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep");
     record_value(w, map, i > 0 || w->pushed, &state, out);
     kz_plan_free(map);
   }
@@ -74,10 +73,8 @@ static kz_status run_leg(walking *w, const kz_run *run, double *points) {
                           .context = w,
                           .keep = true,
                           .everywhere = true};
-  char *records = malloc(WALKS * stage.record_bytes);
-  kz_status status =
-      kz_ranks_agree(run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, records);
+  char *records = kz_malloc(WALKS * stage.record_bytes);
+  kz_status status = kz_stage_run(run, &stage, records);
   for (int64_t walk = 0; status == KZ_OK && walk < WALKS; walk++) {
     const char *record = records + (size_t)walk * stage.record_bytes;
     memcpy(w->state + walk, record, sizeof *w->state);
@@ -109,16 +106,16 @@ static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) 
 /* The walks side by side: [values][up, then down]. */
 static kz_status write_strobe(const kz_scene *scene, const double *points, kz_store *store, FILE *summary) {
   const int64_t values = scene->sweep.values.count, samples = scene->sweep.samples, all = WALKS * samples;
-  double *theta = malloc((size_t)(values * all) * sizeof *theta), *velocity = malloc((size_t)(values * all) * sizeof *velocity);
-  int8_t *walk = malloc((size_t)all);
-  kz_status status = theta && velocity && walk ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep");
-  for (int64_t i = 0; status == KZ_OK && i < WALKS * values; i++) {
+  double *theta = kz_malloc((size_t)(values * all) * sizeof *theta),
+         *velocity = kz_malloc((size_t)(values * all) * sizeof *velocity);
+  int8_t *walk = kz_malloc((size_t)all);
+  for (int64_t i = 0; i < WALKS * values; i++) {
     const int64_t at = (i % values) * all + (i / values) * samples;
     memcpy(theta + at, points + i * 2 * samples, (size_t)samples * sizeof *theta);
     memcpy(velocity + at, points + (i * 2 + 1) * samples, (size_t)samples * sizeof *velocity);
   }
-  for (int64_t s = 0; status == KZ_OK && s < all; s++) walk[s] = (int8_t)(s / samples);
-  if (status == KZ_OK) status = kz_store_dimension(store, "sweep", "sample", all, NULL);
+  for (int64_t s = 0; s < all; s++) walk[s] = (int8_t)(s / samples);
+  kz_status status = kz_store_dimension(store, "sweep", "sample", all, NULL);
   if (status == KZ_OK) status = kz_store_variable(store, "sweep", "sample_walk", walk);
   if (status == KZ_OK) status = kz_store_variable(store, "sweep", "strobe_theta", theta);
   if (status == KZ_OK) status = kz_store_variable(store, "sweep", "strobe_velocity", velocity);
@@ -130,10 +127,8 @@ static kz_status write_strobe(const kz_scene *scene, const double *points, kz_st
 }
 
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  double *points = calloc((size_t)(WALKS * scene->sweep.values.count * 2 * scene->sweep.samples), sizeof *points);
-  kz_status status =
-      kz_ranks_agree(run->ranks, points ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the strobe points of a sweep"));
-  if (status == KZ_OK) status = walk(scene, run, points);
+  double *points = kz_calloc((size_t)(WALKS * scene->sweep.values.count * 2 * scene->sweep.samples), sizeof *points);
+  kz_status status = walk(scene, run, points);
   if (status == KZ_OK && store) status = write_strobe(scene, points, store, summary);
   free(points);
   return kz_ranks_agree(run->ranks, status);

@@ -68,10 +68,8 @@ kz_status kz_sweep_stage(const kz_scene *scene, const kz_run *run, const kz_stag
   kz_stage kept = *stage;
   kept.context = (void *)scene;
   kept.keep = true;
-  void *records = malloc((size_t)stage->n_tiles * stage->record_bytes);
-  kz_status status =
-      kz_ranks_agree(run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the stage %s", stage->name));
-  if (status == KZ_OK) status = kz_stage_run(run, &kept, records);
+  void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
+  kz_status status = kz_stage_run(run, &kept, records);
   if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = write(scene, records, store, summary);
   free(records);
   return kz_ranks_agree(run->ranks, status);
@@ -84,10 +82,8 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
   for (int64_t measure = 0; measure <= KZ_SWEEP_RESILIENCE; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
   if (!wanted) return KZ_OK;
   kz_sweep_branches branches = {0};
-  kz_sweep_catalogue *catalogue = malloc((size_t)plan->values.count * sizeof *catalogue);
-  kz_status status = catalogue ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld catalogues", (long long)plan->values.count);
-  status = kz_ranks_agree(run->ranks, status);
-  if (status == KZ_OK) status = kz_sweep_catalogues(scene, run, catalogue);
+  kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
+  kz_status status = kz_sweep_catalogues(scene, run, catalogue);
   if (status == KZ_OK) status = kz_sweep_branches_make(scene, run, catalogue, &branches);
   if (status == KZ_OK && kz_ranks_own(run->ranks) == 0)
     status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
@@ -101,8 +97,7 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
   const kz_sweep_parameter *parameter = kz_sweep_parameters + plan->parameter;
-  double *values = malloc((size_t)plan->values.count * sizeof *values);
-  if (!values) return kz_fail(KZ_FAILED, "no memory for the values of the sweep");
+  double *values = kz_malloc((size_t)plan->values.count * sizeof *values);
   for (int64_t i = 0; i < plan->values.count; i++) values[i] = kz_sweep_value(plan, i);
   kz_status status = kz_store_text(store, "sweep", "parameter", parameter->name);
   if (status == KZ_OK) status = kz_store_text(store, "sweep", "parameter_units", parameter->unit);

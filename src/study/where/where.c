@@ -27,10 +27,10 @@ static kz_status allocate(asking *a) {
   const kz_scene *scene = a->scene;
   a->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
                                    scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
-  a->state = malloc(2 * (size_t)most * sizeof *a->state);
-  a->found = malloc((size_t)most * sizeof *a->found);
-  a->decision = malloc((size_t)a->n * sizeof *a->decision);
-  a->asked = malloc((size_t)a->n * sizeof *a->asked);
+  a->state = kz_malloc(2 * (size_t)most * sizeof *a->state);
+  a->found = kz_malloc((size_t)most * sizeof *a->found);
+  a->decision = kz_malloc((size_t)a->n * sizeof *a->decision);
+  a->asked = kz_malloc((size_t)a->n * sizeof *a->asked);
   if (a->dynamics && a->state && a->found && a->decision && a->asked) return KZ_OK;
   return kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)most);
 }
@@ -40,13 +40,13 @@ static kz_status discover(asking *a) {
   a->search.max_velocity = kz_dynamics_max_velocity(a->dynamics, &a->search.window);
   KZ_TRY(kz_search_window(NULL, a->dynamics, &a->search, a->state, a->found));
   const int64_t searched = kz_dynamics_count(a->dynamics);
-  int64_t *reached = calloc((size_t)searched + 1, sizeof *reached);
+  int64_t *reached = kz_calloc((size_t)searched + 1, sizeof *reached);
   if (!reached) return kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
   for (int64_t i = 0; i < a->search.starts; i++) reached[a->found[i]]++;
   for (int64_t i = 0; i < a->n; i++) kz_start_state(a->start[2 * i], a->start[2 * i + 1], a->state + 2 * i);
   kz_status status = kz_discover(NULL, a->dynamics, a->search.max_periods, a->n, a->state, a->found);
   const int64_t known = kz_dynamics_count(a->dynamics);
-  a->reached = calloc((size_t)known + 1, sizeof *a->reached);
+  a->reached = kz_calloc((size_t)known + 1, sizeof *a->reached);
   if (status == KZ_OK && !a->reached) status = kz_fail(KZ_FAILED, "no memory for the catalogue of attractors");
   if (status == KZ_OK) memcpy(a->reached, reached, (size_t)(searched + 1) * sizeof *reached);
   free(reached);
@@ -82,8 +82,8 @@ static kz_status describe_orbit(const kz_entry *entry, kz_ending *ending) {
   memcpy(ending->name, entry->name, sizeof ending->name);
   ending->period = entry->row.period;
   ending->winding = entry->row.winding;
-  ending->strobe_theta = malloc(bytes + 1);
-  ending->strobe_velocity = malloc(bytes + 1);
+  ending->strobe_theta = kz_malloc(bytes + 1);
+  ending->strobe_velocity = kz_malloc(bytes + 1);
   if (!ending->strobe_theta || !ending->strobe_velocity) return kz_fail(KZ_FAILED, "no memory for strobe points");
   memcpy(ending->strobe_theta, entry->theta, bytes);
   memcpy(ending->strobe_velocity, entry->velocity, bytes);
@@ -106,7 +106,8 @@ static kz_status describe_start(const asking *a, const kz_catalogue *catalogue, 
 
 static kz_status describe(const asking *a, kz_ending *endings) {
   kz_catalogue catalogue;
-  kz_status status = kz_catalogue_make(a->dynamics, a->reached, &catalogue);
+  kz_catalogue_make(a->dynamics, a->reached, &catalogue);
+  kz_status status = KZ_OK;
   for (int64_t i = 0; status == KZ_OK && i < a->n; i++) status = describe_start(a, &catalogue, i, endings + i);
   kz_catalogue_free(&catalogue);
   return status;

@@ -42,16 +42,17 @@ static void test_lines_and_discs(void **state) {
   bool small = false;
   kz_shock_problem problem = {.ends = ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
   kz_shock shock[3];
-  assert_true(kz_shocks_find(&problem, shock) == KZ_OK);
+  kz_shocks_find(&problem, shock);
   assert_true(fabs(shock[0].theta + 2.5) < 1e-11 && shock[0].velocity == 0 && shock[0].end == 5);
   assert_true(fabs(shock[1].velocity + 1.7) < 1e-11 && shock[1].theta == 0 && shock[1].end == 3);
   assert_true(fabs(shock[2].size - ellipse_distance(1)) < 1e-10 && shock[2].end == 2);
   assert_true(fabs(hypot(shock[2].theta, shock[2].velocity) - shock[2].size) < 1e-14);
   problem.scale = 0.5;
-  assert_true(kz_shocks_find(&problem, shock) == KZ_OK && fabs(shock[2].size - ellipse_distance(0.5)) < 1e-10);
+  kz_shocks_find(&problem, shock);
+  assert_true(fabs(shock[2].size - ellipse_distance(0.5)) < 1e-10);
   small = true;
   problem.scale = 1;
-  assert_true(kz_shocks_find(&problem, shock) == KZ_OK);
+  kz_shocks_find(&problem, shock);
   assert_true(fabs(shock[2].size - (hypot(0.6, 0.5) - 0.03)) < 1e-10 && shock[2].end == 4);
 }
 
@@ -60,7 +61,7 @@ static void test_nothing_to_find(void **state) {
   bool small = false;
   const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {0, 40}, .own = 1, .scale = 1, .farthest = 1};
   kz_shock shock[3];
-  assert_true(kz_shocks_find(&problem, shock) == KZ_OK);
+  kz_shocks_find(&problem, shock);
   assert_true(fabs(shock[0].size - 2.5) < 1e-11 && isnan(shock[1].size) && isnan(shock[1].velocity) && shock[1].end == -1);
   assert_true(fabs(shock[2].size - 2.5) < 1e-10);
 }
@@ -71,7 +72,7 @@ static void test_share_of_harmless_shocks(void **state) {
   bool small = false;
   const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};
   kz_harmless harmless;
-  assert_true(kz_shocks_harmless(&problem, 1.4, &harmless) == KZ_OK);
+  kz_shocks_harmless(&problem, 1.4, &harmless);
   const double half = acos(1.2 / 1.4), segment = (half - sin(half) * cos(half)) / M_PI;
   assert_true(fabs(1 - segment - (double)harmless.harmless / (double)harmless.shocks) < 2e-3 && harmless.return_time == 3);
 }

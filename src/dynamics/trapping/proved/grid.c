@@ -6,14 +6,11 @@
 #include "proof.h"
 
 kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, kz_proof **proof) {
-  kz_proof *made = *proof = calloc(1, sizeof *made);
-  if (!made) return kz_fail(KZ_FAILED, "no memory for a proof");
+  kz_proof *made = *proof = kz_calloc(1, sizeof *made);
   made->columns = columns;
   made->rows = rows;
   made->top = top;
-  made->label = calloc((size_t)(columns * rows), sizeof *made->label);
-  if (!made->label)
-    return kz_fail(KZ_FAILED, "no memory for a proof on %lld x %lld cells", (long long)columns, (long long)rows);
+  made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
   return kz_enclosure_plan_create(pendulum, top + fabs(pendulum->k) + fabs(pendulum->m), &made->plan);
 }
 
@@ -26,8 +23,7 @@ void kz_proof_free(kz_proof *proof) {
 
 kz_status kz_proof_refine(kz_proof *proof) {
   const int64_t columns = 2 * proof->columns, rows = 2 * proof->rows;
-  uint8_t *label = malloc((size_t)(columns * rows));
-  if (!label) return kz_fail(KZ_FAILED, "no memory for a proof on %lld x %lld cells", (long long)columns, (long long)rows);
+  uint8_t *label = kz_malloc((size_t)(columns * rows));
   for (int64_t row = 0; row < rows; row++)
     for (int64_t i = 0; i < columns; i++) label[row * columns + i] = proof->label[row / 2 * proof->columns + i / 2];
   free(proof->label);
