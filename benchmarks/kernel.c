@@ -114,7 +114,7 @@ static bool time_plan(const char *name, double tolerance, const kz_pendulum *pen
 }
 
 static bool time_processed(double tolerance, const kz_pendulum *pendulum, const probes *p, int n, int periods) {
-  kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .precision = KZ_DOUBLE};
+  kz_numerics numerics = {.scheme = kz_scheme_find("processed")};
   double error;
   double reached = fastest; /* by the starts after a period, as a scene measures it, with a margin */
   for (int i = 0; i < PROBES; i++) reached = fmax(reached, 1.05 * fabs(p->velocity1[i]));
@@ -173,7 +173,7 @@ int main(int argc, char **argv) {
   }
   const kz_pendulum pendulum = {atof(argv[1]), atof(argv[2]), atof(argv[3])};
   const int n = atoi(argv[4]), periods = atoi(argv[5]);
-  const kz_numerics split6 = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24, .precision = KZ_DOUBLE};
+  const kz_numerics split6 = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
   static probes p;
   gsl_set_error_handler_off();
   make_probes(&pendulum, &p);

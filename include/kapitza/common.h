@@ -37,12 +37,11 @@ double kz_processor_clock(void);
 
 /* ---- words ---- */
 
-/* Words of scenes and files, in the order of their codes (KZ_SINGLE ..., KZ_METHOD_ICM ..., KZ_LINEAR ...). */
-#define KZ_PRECISION_WORDS "single", "double", "quad"
+/* Words of scenes and files, in the order of their codes (KZ_METHOD_ICM ..., KZ_LINEAR ...). */
 #define KZ_METHOD_WORDS "icm", "direct", "exact"
-#define KZ_INTERPOLATION_WORDS "linear", "cubic", "quintic"
+#define KZ_INTERPOLATION_WORDS "linear", "quintic"
 
-/* Such a list of two or three as one text, "single|double|quad". */
+/* Such a list of two or three as one text, "icm|direct|exact". */
 #define KZ_JOINED(words) KZ_JOINED_OF(words)
 #define KZ_JOINED_OF(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)
 

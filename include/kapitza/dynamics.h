@@ -35,9 +35,8 @@ void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_v
 /* Draws the ellipses and covers of new attractors into the regions, and lets a fine grid's grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
-/* Ways to follow a start: the scene's map; the same in double precision at most, enough for a search; or interpolated cell mapping
- * over 2, 4 or 6 nodes an axis of the map table. */
-enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SEARCH = 1, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_CUBIC = 4, KZ_FOLLOW_QUINTIC = 6 };
+/* Ways to follow a start: the scene's map, or interpolated cell mapping over 2 or 6 nodes an axis of the map table. */
+enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
 /* Follows n starts state [n][2] until each is trapped: label [n] = attractor, 0 where it has not settled; periods [n] = first
  * period inside a trapping region, max_periods where none. The states of those that have not settled become where they are then. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t max_periods, double *state, int32_t *label,

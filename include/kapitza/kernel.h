@@ -16,16 +16,12 @@ typedef struct {
   double m;    /* drive, any sign */
 } kz_pendulum;
 
-/* Kinds of real numbers: the same source serves all three. */
-enum { KZ_SINGLE = 0, KZ_DOUBLE = 1, KZ_QUAD = 2 };
-
 typedef struct {
   int32_t scheme;           /* row of the table of schemes */
   int32_t steps_per_period; /* whole compositions a period, >= 1 */
-  int32_t precision;        /* KZ_SINGLE, KZ_DOUBLE, KZ_QUAD */
   /* Of the processed splitting, as kz_numerics_choose finds them: */
-  int32_t drift_terms; /* powers of the velocity in a drift, 1 to 4 (6 in quad); 0 = all */
-  int32_t kick_terms;  /* coefficients of a kick, 4 to 11 (22 in quad); 0 = as many as the kind can use */
+  int32_t drift_terms; /* powers of the velocity in a drift, 1 to 4; 0 = all */
+  int32_t kick_terms;  /* coefficients of a kick, 4 to 11; 0 = as many as doubles can use */
   double fastest;      /* rad per drive radian: faster states are advanced by split6; 0 = 3 */
 } kz_numerics;
 
@@ -47,8 +43,8 @@ void kz_numerics_fine(const kz_pendulum *pendulum, kz_numerics *numerics);
 
 /* The cheapest processed splitting whose error of one period, measured against quad-precision Taylor series at speeds up to
  * `fastest` (rad per drive radian), is at most `tolerance` (rad, angle and velocity together). steps_per_period: 0 = to be
- * chosen, else kept. Fills *numerics (precision as it comes) and *error, the measured one. KZ_REFUSED, without a message, where
- * no number of steps up to KZ_MOST_PROCESSED_STEPS reaches it: fast starts, strong drives. */
+ * chosen, else kept. Fills *numerics and *error, the measured one. KZ_REFUSED, without a message, where no number of steps
+ * up to KZ_MOST_PROCESSED_STEPS reaches it: fast starts, strong drives. */
 enum { KZ_MOST_PROCESSED_STEPS = 160 };
 kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics,
                              double *error);
@@ -59,7 +55,7 @@ kz_plan *kz_plan_create(const kz_pendulum *pendulum, const kz_numerics *numerics
 void kz_plan_free(kz_plan *plan);
 
 /* Advances n states through `periods` whole periods. theta [n] comes back wrapped to [-pi, pi], turns [n] gains the net
- * number of turns (counterclockwise +). Any n; the interface is in doubles for every kind. */
+ * number of turns (counterclockwise +). Any n. */
 void kz_advance(const kz_plan *plan, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns);
 
 /* The same with the tangent map: matrix [n][4] = row-major d(theta, velocity)/d(theta0, velocity0) over the periods. */
@@ -80,8 +76,8 @@ enum { KZ_PENDULUM = 0, KZ_MATHIEU = 1, KZ_EFFECTIVE = 2 };
 void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods, int64_t samples_per_period, double theta,
                      double velocity, double *theta_out, double *velocity_out);
 
-/* The kernel's own sine: sin(pi u) of half-turns u [n], in the given kind (for tests). */
-void kz_sine(int32_t precision, int64_t n, const double *half_turns, double *sine);
+/* The kernel's own sine: sin(pi u) of half-turns u [n] (for tests). */
+void kz_sine(int64_t n, const double *half_turns, double *sine);
 
 /* ---- linear ---- */
 

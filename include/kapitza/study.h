@@ -37,7 +37,7 @@ typedef struct {
 } kz_edges;
 
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
-enum { KZ_LINEAR = 0, KZ_CUBIC = 1, KZ_QUINTIC = 2 };
+enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
 
 /* A list of a scene. */
 enum { KZ_LIST_MAX = 256 };
@@ -306,7 +306,7 @@ typedef struct {
   char name[KZ_NAME_LENGTH];       /* "" = not settled */
   int32_t period, winding;         /* as in /attractors */
   int64_t settling_time;           /* drive periods until the orbit is inside a trapping region */
-  const char *precision;           /* that decides it: single, double, pairs, quad; NULL = none does, or not settled */
+  const char *precision;           /* that decides it: double, pairs, quad; NULL = none does, or not settled */
   double error;                    /* rad: how far the orbit may be off when it is trapped; NaN = not decided, or chaotic */
   int32_t other;                   /* settled, but not decided: the other candidate's id; -1 = none */
   char other_name[KZ_NAME_LENGTH]; /* "" = none */

@@ -28,7 +28,7 @@ NEEDED = {
     "stability": Part({"k": "k", "m": "m"} | _over("m k", "log_multiplier", "angle", "stable")),
     "potential": Part({"theta": "theta"} | _over("drive_amplitude", "drive_amplitude", "rim_exact")
                       | _over("drive_amplitude theta", "energy", "energy_blackburn", "energy_simple")),
-    "tradeoff": Part(_over("setting", "label", "method", "precision", "scheme", "interpolation", "wrong", "wrong_low", "wrong_high",
+    "tradeoff": Part(_over("setting", "label", "method", "scheme", "interpolation", "wrong", "wrong_low", "wrong_high",
                            "seconds", "seconds_per_million_cells", "pareto"), ("floor", "samples")),
     "basin": Part({"theta": "theta", "velocity": "velocity"} | _over("velocity theta", "attractor", "settling_time", "evidence")),
     "chart": Part({"x": "x", "y": "y"} | _over("start", "start_theta", "start_velocity")
@@ -55,7 +55,7 @@ OPTIONAL = {
 }
 # What is not a number, and what counts or is a code (with the largest code, where there is one).
 TEXT = {"name", "label", "scheme", "branch_name"}
-CODES = {"period": None, "centre": 3, "evidence": 6, "settling_time": None, "method": 2, "precision": 2, "interpolation": 2,
+CODES = {"period": None, "centre": 3, "evidence": 6, "settling_time": None, "method": 2, "interpolation": 1,
          "branch_period": None, "branch_centre": 3, "kind": 1, "end": 3}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y"}  # axes that go up
 WORDS = {"parameter", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; all others that a part names are numbers

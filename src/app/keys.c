@@ -80,7 +80,8 @@ const kz_key kz_keys[] = {
     PENDULUM('c', pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "", "omega of the pivot; this or frequency."),
     PENDULUM('c', frequency, "Hz", KZ_ABOVE_ZERO, "", "omega/(2 pi) of the pivot, instead of pivot_frequency."),
 
-    MAPPING("numerics", "", KZ_NO_FIELD, "How one drive period is integrated."),
+    ROW("numerics", KZ_KEY_MAPPING, "", KZ_NO_FIELD, "How one drive period is integrated.", .unit = "",
+        .former = "precision=basin.method exact"),
     ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
         "Integrator; processed: one kick a step, the fastest by far, and split6 where it does not reach the tolerance; the "
         "split ones are exact in the damping; rk4 is the classical one.",
@@ -93,7 +94,6 @@ const kz_key kz_keys[] = {
         "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "
         "less.",
         .unit = "rad", .low = 1e-15, .high = 0.01, CHOSEN),
-    WORD("numerics.precision", KZ_JOINED(KZ_PRECISION_WORDS), "double", numerics.precision, "Kind of the arithmetic.", CHOSEN),
 
     ROW("basin", KZ_KEY_MAPPING, "", AT(has_basin), "Study: the attractors, then a label for every cell of a window.",
         .unit = "", .former = "flag_undecided=basin.method exact"),
@@ -119,8 +119,8 @@ const kz_key kz_keys[] = {
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),
     INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity.", CHOSEN),
-    WORD("basin.icm.interpolation", KZ_JOINED(KZ_INTERPOLATION_WORDS), "quintic", basin.interpolation,
-         "Interpolation between the nodes.", CHOSEN),
+    ROW("basin.icm.interpolation", KZ_KEY_WORD, "quintic", AT(basin.interpolation), "Interpolation between the nodes.",
+        .unit = "", .words = KZ_JOINED(KZ_INTERPOLATION_WORDS), .former = "cubic=quintic", CHOSEN),
     INTEGER("basin.max_periods", 1, 4e9, "", basin.max_periods,
             "Drive periods after which a cell counts as not settled; left out: what the damping needs, 2000 at least."),
     MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),

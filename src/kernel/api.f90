@@ -3,13 +3,10 @@ module kz_kernel_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
                                          c_f_pointer
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_flow, fine_numerics, sampling_numerics, SINGLE, DOUBLE
+  use kz_kernel_plan, only: make_flow, fine_numerics, sampling_numerics
   use kz_lanes_schemes, only: SCHEMES
   use kz_lanes_step_table, only: pendulum_t, numerics_t
-  use kz_kernel_r32, only: sine_r32 => sine
-  use kz_kernel_r64, only: sine_r64 => sine
-  use kz_kernel_r128, only: sine_r128 => sine
-  use, intrinsic :: iso_fortran_env, only: real32, real64, real128
+  use kz_processed_processor, only: sine
   implicit none
   private
 
@@ -198,21 +195,13 @@ contains
     end do
   end subroutine sample
 
-  !> sin(pi u) of half-turns in the given kind.
-  subroutine sine_of_half_turns(precision, n, half_turns, sine) bind(C, name='kz_sine')
-    integer(c_int32_t), value :: precision
+  !> sin(pi u) of half-turns.
+  subroutine sine_of_half_turns(n, half_turns, sines) bind(C, name='kz_sine')
     integer(c_int64_t), value :: n
     real(c_double), intent(in) :: half_turns(n)
-    real(c_double), intent(out) :: sine(n)
+    real(c_double), intent(out) :: sines(n)
 
-    select case (precision)
-    case (SINGLE)
-      sine = real(sine_r32(real(half_turns, real32)), c_double)
-    case (DOUBLE)
-      sine = sine_r64(real(half_turns, real64))
-    case default
-      sine = real(sine_r128(real(half_turns, real128)), c_double)
-    end select
+    sines = sine(half_turns)
   end subroutine sine_of_half_turns
 
 end module kz_kernel_api

@@ -1,23 +1,19 @@
-!> From a pendulum and its numerics to a map of the right kind. The only procedure that distinguishes the kinds.
+!> From a pendulum and its numerics to a map of one drive period.
 module kz_kernel_plan
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_lanes_map, only: flow_t
   use kz_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
-                                        QUAD_GRADES, MOST_DRIFTS, MOST_KICKS
+                                 MOST_DRIFTS, MOST_KICKS
   use kz_lanes_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_lanes_step_table, only: pendulum_t, numerics_t, period_t, make_period
-  use kz_kernel_r32, only: make_tile_r32 => make_tile, make_processed_r32 => make_processed_tile
-  use kz_kernel_r64, only: make_tile_r64 => make_tile, make_processed_r64 => make_processed_tile
-  use kz_kernel_r128, only: make_tile_r128 => make_tile, make_processed_r128 => make_processed_tile
+  use kz_processed_tile, only: make_processed_tile
+  use kz_split_tile, only: make_tile
   implicit none
   private
   public :: make_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
 
-  !> The codes of numerics_t%precision.
-  integer, parameter, public :: SINGLE = 0, DOUBLE = 1, QUAD = 2
-
   !> What published values are computed with, whatever the scene says: split6, 96 steps.
-  type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96, DOUBLE)
+  type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96)
 
 contains
 
@@ -36,7 +32,7 @@ contains
   pure function sampling_numerics(pendulum, numerics) result(sampling)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period, precision
+    !> scheme, steps a period
     type(numerics_t), intent(in) :: numerics
     type(numerics_t) :: sampling, fine
 
@@ -53,7 +49,7 @@ contains
   recursive subroutine make_flow(pendulum, numerics, fused, flow)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period, precision
+    !> scheme, steps a period
     type(numerics_t), intent(in) :: numerics
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
@@ -64,26 +60,19 @@ contains
 
     if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
       allocate (series)
-      call make_processed_series(pendulum, QUAD_GRADES(numerics%precision), series)
+      call make_processed_series(pendulum, 0, series)
       call make_processed_flow(pendulum, series, numerics, flow)
       return
     end if
     call make_period(pendulum, numerics, fused, period)
-    select case (numerics%precision)
-    case (SINGLE)
-      call make_tile_r32(period, flow)
-    case (DOUBLE)
-      call make_tile_r64(period, flow)
-    case default
-      call make_tile_r128(period, flow)
-    end select
+    call make_tile(period, flow)
   end subroutine make_flow
 
   !> The map of one drive period, and the same with twice the steps, and all terms: their difference is the error of a period.
   subroutine make_flow_and_finer(pendulum, numerics, flow, finer)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period, precision
+    !> scheme, steps a period
     type(numerics_t), intent(in) :: numerics
     !> the map of one drive period
     class(flow_t), allocatable, intent(out) :: flow
@@ -92,10 +81,10 @@ contains
     type(numerics_t) :: halved
     type(series_t), allocatable :: series
 
-    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, numerics%precision, fastest=numerics%fastest)
+    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest)
     if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
       allocate (series) ! made once: it does not depend on the steps
-      call make_processed_series(pendulum, QUAD_GRADES(numerics%precision), series)
+      call make_processed_series(pendulum, 0, series)
       call make_processed_flow(pendulum, series, numerics, flow)
       call make_processed_flow(pendulum, series, halved, finer, refined=2)
     else
@@ -110,7 +99,7 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     !> the series of the pendulum
     type(series_t), intent(in) :: series
-    !> scheme, steps a period, precision
+    !> scheme, steps a period
     type(numerics_t), intent(in) :: numerics
     !> the map of one drive period
     class(flow_t), allocatable, intent(out) :: flow
@@ -124,8 +113,8 @@ contains
     real(c_double) :: fastest, fit
     integer :: drifts, kicks
 
-    drifts = MOST_DRIFTS(numerics%precision)
-    kicks = MOST_KICKS(numerics%precision)
+    drifts = MOST_DRIFTS
+    kicks = MOST_KICKS
     if (numerics%drift_terms > 0) drifts = min(drifts, int(numerics%drift_terms))
     if (numerics%kick_terms > 0) kicks = min(kicks, int(numerics%kick_terms))
     fastest = merge(numerics%fastest, 3.0_c_double, numerics%fastest > 0)
@@ -133,19 +122,11 @@ contains
     if (present(fitted)) fit = fitted
     if (fastest < huge(fastest)) then
       fine = fine_numerics(pendulum)
-      fine%precision = numerics%precision
       if (present(refined)) fine%steps_per_period = refined*fine%steps_per_period
       call make_flow(pendulum, fine, .false., fallback)
     end if
     call make_processed(pendulum, series, int(numerics%steps_per_period), drifts, kicks, fit, table)
-    select case (numerics%precision)
-    case (SINGLE)
-      call make_processed_r32(table, fastest, fallback, flow)
-    case (DOUBLE)
-      call make_processed_r64(table, fastest, fallback, flow)
-    case default
-      call make_processed_r128(table, fastest, fallback, flow)
-    end select
+    call make_processed_tile(table, fastest, fallback, flow)
   end subroutine make_processed_flow
 
 end module kz_kernel_plan

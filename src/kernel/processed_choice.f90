@@ -6,7 +6,7 @@ module kz_kernel_processed_choice
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_processed_flow
-  use kz_processed_tables, only: series_t, make_processed_series, QUAD_GRADES, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
+  use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_lanes_schemes, only: PROCESSED_ROW
   use kz_lanes_step_table, only: pendulum_t, numerics_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period
@@ -51,7 +51,7 @@ contains
     call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
     call ieee_set_halting_mode(ieee_usual, .false.)
     allocate (series)
-    call make_processed_series(pendulum, QUAD_GRADES(numerics%precision), series)
+    call make_processed_series(pendulum, 0, series)
     call make_probes(pendulum, fastest, probes)
     numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest
@@ -137,14 +137,14 @@ contains
     real(c_double) :: candidate_error
     integer :: fewest, drifts, kicks
 
-    numerics%drift_terms = MOST_DRIFTS(numerics%precision)
-    numerics%kick_terms = MOST_KICKS(numerics%precision)
+    numerics%drift_terms = MOST_DRIFTS
+    numerics%kick_terms = MOST_KICKS
     call climb_steps(pendulum, series, probes, tolerance, FEWEST_STEPS, MOST_STEPS, numerics, error)
     if (error > tolerance) return
     fewest = numerics%steps_per_period
     candidate = numerics
-    do drifts = MOST_DRIFTS(numerics%precision), 1, -1
-      do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
+    do drifts = MOST_DRIFTS, 1, -1
+      do kicks = MOST_KICKS, FEWEST_KICKS, -1
         candidate%drift_terms = drifts
         candidate%kick_terms = kicks
         if (cheaper_steps(numerics, candidate) < fewest) cycle
@@ -211,13 +211,13 @@ contains
     real(c_double) :: candidate_error, enough
     integer :: drifts, kicks
 
-    numerics%drift_terms = MOST_DRIFTS(numerics%precision)
-    numerics%kick_terms = MOST_KICKS(numerics%precision)
+    numerics%drift_terms = MOST_DRIFTS
+    numerics%kick_terms = MOST_KICKS
     error = measure(pendulum, series, probes, numerics)
     enough = max(tolerance, 1.2_c_double*error)
     candidate = numerics
-    do drifts = MOST_DRIFTS(numerics%precision), 1, -1
-      do kicks = MOST_KICKS(numerics%precision), FEWEST_KICKS, -1
+    do drifts = MOST_DRIFTS, 1, -1
+      do kicks = MOST_KICKS, FEWEST_KICKS, -1
         candidate%drift_terms = drifts
         candidate%kick_terms = kicks
         if (operations(candidate) >= operations(numerics)) cycle

@@ -201,7 +201,6 @@ static const kz_variable variables[] = {
     {"tradeoff", "setting", KZ_INT32, {"setting"}, NONE, "place in the list of settings", {0}},
     {"tradeoff", "label", KZ_TEXT, {"setting"}, NONE, "name of the setting", {0}},
     {"tradeoff", "method", KZ_INT8, {"setting"}, NONE, "how cells are labelled", {KZ_METHOD_WORDS}},
-    {"tradeoff", "precision", KZ_INT8, {"setting"}, NONE, "kind of the arithmetic", {KZ_PRECISION_WORDS}},
     {"tradeoff", "scheme", KZ_TEXT, {"setting"}, NONE, "integrator", {0}},
     {"tradeoff", "steps_per_period", KZ_INT32, {"setting"}, NONE, "steps of the scheme in a drive period", {0}},
     {"tradeoff",

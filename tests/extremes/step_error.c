@@ -35,7 +35,7 @@ static void advance(const kz_pendulum *pendulum, kz_numerics numerics, double *t
 /* The largest error of one period on the grid of one class, rad: split6 with many more steps is the reference. */
 static double dense_error(const kz_pendulum *pendulum, const kz_numerics *numerics, const double *speed, int class) {
   static double theta[N], velocity[N], theta_true[N], velocity_true[N];
-  const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = FINE, .precision = KZ_DOUBLE};
+  const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = FINE};
   double largest = 0;
   put_grid(speed, class, theta, velocity);
   put_grid(speed, class, theta_true, velocity_true);
@@ -61,7 +61,7 @@ static void the_stated_error_is_an_upper_estimate(void **unused) {
   const int n = getenv("KAPITZA_EXTENSIVE") ? MORE : PENDULUMS;
   for (int p = 0; p < n; p++) {
     const kz_pendulum pendulum = {0.2 * drawn() - 0.02, pow(10, -3 + 2.5 * drawn()), 0.05 + 1.5 * drawn() * drawn()};
-    const kz_numerics numerics = {.scheme = ways[p % 5].scheme, .steps_per_period = ways[p % 5].steps, .precision = KZ_DOUBLE};
+    const kz_numerics numerics = {.scheme = ways[p % 5].scheme, .steps_per_period = ways[p % 5].steps};
     const double top = pow(10, 1.3 * drawn());
     double speed[CLASSES + 1] = {0}, stated[CLASSES];
     for (int c = 1; c <= CLASSES; c++) speed[c] = ldexp(top, c - CLASSES);

@@ -179,10 +179,10 @@ def test_a_boundary_as_finely_as_a_method_goes(basin, boundary, amplitude, metho
 def test_the_boundary_is_where_quad_precision_puts_it(basin, boundary):
     low, high, settings = boundary(0.150, "direct")
     window = around((low + high) / 2, 4 * (high - low), 8)
-    double, quad = (basin(window, VELOCITY, *settings, f"numerics.precision={kind}") for kind in ("double", "quad"))
-    for found in (double, quad):
+    direct, exact = basin(window, VELOCITY, *settings), basin(window, VELOCITY, *settings, "basin.method=exact")
+    for found in (direct, exact):
         assert (found.labels[0, :4] == found.labels[0, 0]).all() and (found.labels[0, 4:] == found.labels[0, -1]).all()
-    assert double.names == quad.names and (double.labels == quad.labels).all() and len(double.ends()) == 2
+    assert direct.names == exact.names and (direct.labels == exact.labels).all() and len(direct.ends()) == 2
 
 
 def test_starts_on_an_unstable_cycle(kapitza, basin, boundary, tmp_path):

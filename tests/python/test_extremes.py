@@ -276,22 +276,6 @@ def test_two_attractors_close_together(model):
     assert names.count("flutter") == 1 and "inverted" not in names
 
 
-@pytest.mark.parametrize("precision", ["single", "double", "quad"])
-def test_every_precision_agrees_where_basins_are_smooth(model, precision):
-    settings = ["pendulum.drive_amplitude=0.150", "basin.theta.count=6", "basin.velocity.count=6", "basin.attractors.starts=128"]
-    labels, names, _, _ = model(*settings, f"numerics.precision={precision}")
-    expected, known, _, _ = model(*settings)
-    assert names == known and (labels == expected).all()
-
-
-def test_single_precision_leaves_no_cell_out(model):
-    """Also the rotations of two periods, which own 4 cells of 10000."""
-    settings = ["basin.theta.count=100", "basin.velocity.count=100", "basin.attractors.starts=8192"]
-    expected, known, _, _ = model(*settings)
-    labels, names, _, _ = model(*settings, "numerics.precision=single")
-    assert names == known and "rotation +1/2" in names and (labels >= 0).all() and (labels == expected).mean() > 0.9
-
-
 @pytest.mark.parametrize("beta", [0.0, 1e-12])
 def test_attractors_alone_without_damping(kapitza, tmp_path, beta):
     (tmp_path / "a.yaml").write_text(f"pendulum: {{k: 0.01, damping: {beta}, m: 0.3}}\n"

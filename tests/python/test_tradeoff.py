@@ -147,7 +147,7 @@ def test_accuracy_excludes_what_it_chooses(kapitza, tmp_path, key):
 
 
 def test_every_method_has_its_line():
-    ways = [way(code, 1, "processed", 2) for code in range(CODES["method"] + 1)]
+    ways = [way(code, "processed", 1) for code in range(CODES["method"] + 1)]
     assert ways == ["table, quintic", "direct, processed", "exact"] and set(ways) <= set(WAYS)
 
 

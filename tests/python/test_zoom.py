@@ -80,17 +80,7 @@ def test_steps_between_are_warned_of(kapitza, tmp_path):
 def test_cells_that_rounding_blurs_are_refused(kapitza, tmp_path, half, pendulum, centre):
     done = kapitza("check", scene(tmp_path, half, 30 if half < 1e-11 else 100, "direct", pendulum, centre), folder=tmp_path, status=2)
     assert "basin.velocity" in done.stderr and re.search("not even [0-9]+ steps are enough", done.stderr)
-    assert "wider cells, or numerics.precision quad and basin.method direct" in done.stderr
-
-
-def test_quad_precision_carries_them(kapitza, tmp_path):
-    """Cells of 5e-13, off by less than a hundredth of that."""
-    path = scene(tmp_path, 1e-12, 4, "direct", SMALL, (0.7, 1.42), {"precision": "quad"})
-    kapitza("run", path, "--set", "basin.icm={theta: 100, velocity: 100}", "--set", "basin.attractors.starts=256", folder=tmp_path)
-    with h5py.File(tmp_path / "zoom.h5") as file:
-        assert file["basin"].attrs["step_error"] < 5e-15
-    comparison, _ = reference_check.check_file(tmp_path / "zoom.h5", 16, 1, 2, 4000)
-    assert comparison["wrong"] == 0
+    assert "wider cells, or basin.method exact" in done.stderr
 
 
 def test_unsettled_cells_are_no_basin(kapitza, tmp_path):

@@ -10,7 +10,7 @@
 #include "kapitza/kernel.h"
 
 static inline const kz_numerics *numerics(void) {
-  static kz_numerics numerics = {.steps_per_period = 16, .precision = KZ_DOUBLE};
+  static kz_numerics numerics = {.steps_per_period = 16};
   numerics.scheme = kz_scheme_find("split6");
   return &numerics;
 }

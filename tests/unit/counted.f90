@@ -2,7 +2,7 @@
 module kz_test_counted
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_lanes_map, only: flow_t, WIDTH
-  use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
+  use kz_kernel_plan, only: make_flow, fine_numerics
   use kz_lanes_schemes, only: SPLIT6_ROW
   use kz_lanes_step_table, only: pendulum_t, numerics_t
   use kz_cycles_cycles, only: attractor_t
@@ -31,7 +31,7 @@ contains
     real(dp), value :: closeness
     integer(c_int64_t), intent(out) :: known
     integer(c_int64_t) :: periods
-    type(numerics_t), parameter :: NUMERICS = numerics_t(SPLIT6_ROW, 24, DOUBLE)
+    type(numerics_t), parameter :: NUMERICS = numerics_t(SPLIT6_ROW, 24)
     type(search_t) :: search
     type(counted_t), allocatable :: fine
     type(attractor_t), allocatable :: attractors(:)

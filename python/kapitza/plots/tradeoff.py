@@ -21,19 +21,16 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.result import Result
 
-METHODS, PRECISIONS = ("icm", "direct", "exact"), ("single", "double", "quad")
-INTERPOLATIONS = ("linear", "cubic", "quintic")
+METHODS = ("icm", "direct", "exact")
+INTERPOLATIONS = ("linear", "quintic")
 # Way to label -> colour and marker.
 WAYS = {
     "direct, split6": ("#2f6db3", "o"),
     "direct, rk4": ("#7a4fa3", "s"),
     "direct, processed": ("#12806a", "v"),
-    "direct, single": ("#8fb4dc", "o"),
     "exact": (style.INK, "*"),
     "table, linear": ("#c2452f", "D"),
-    "table, cubic": ("#e08a3c", "^"),
     "table, quintic": ("#f2b233", "P"),
-    "table, single": ("#a8935a", "P"),
 }
 
 
@@ -43,21 +40,19 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     return parsed(parser, words)
 
 
-def way(method_code: int, precision_code: int, scheme: str, interpolation_code: int) -> str:
+def way(method_code: int, scheme: str, interpolation_code: int) -> str:
     """A key of WAYS."""
-    method, precision = METHODS[method_code], PRECISIONS[precision_code]
+    method = METHODS[method_code]
     if method == "exact":
         return method
     name = "direct" if method == "direct" else "table"
-    if precision == "single":
-        return f"{name}, single"
     return f"{name}, {scheme if name == 'direct' else INTERPOLATIONS[interpolation_code]}"
 
 
 def grouped(trade: xarray.Dataset) -> dict[str, list[int]]:
     """Way to label -> indices of its settings, from the quickest."""
     groups: dict[str, list[int]] = {}
-    rows = zip(trade["method"].values, trade["precision"].values, trade["scheme"].values, trade["interpolation"].values, strict=True)
+    rows = zip(trade["method"].values, trade["scheme"].values, trade["interpolation"].values, strict=True)
     for index, row in enumerate(rows):
         groups.setdefault(way(*row), []).append(index)
     return groups

@@ -1,7 +1,7 @@
 !> The C interface of dynamics: the handle (include/kapitza/dynamics.h).
 module kz_api_dynamics
-  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc
-  use kz_kernel_plan, only: make_flow, fine_numerics, DOUBLE
+  use, intrinsic :: iso_c_binding, only: c_int64_t, c_ptr, c_null_ptr, c_loc
+  use kz_kernel_plan, only: make_flow, fine_numerics
   use kz_lanes_step_table, only: pendulum_t, numerics_t
   use kz_api_handle, only: dynamics_t, of_handle
   implicit none
@@ -15,23 +15,16 @@ contains
     integer(c_int64_t), value :: max_period
     type(c_ptr) :: handle
     type(dynamics_t), pointer :: d
-    type(numerics_t) :: coarse
     integer :: status
 
     handle = c_null_ptr
     allocate (d, stat=status)
     if (status /= 0) return
-    coarse = numerics
-    coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
     d%numerics = numerics
     call make_flow(pendulum, numerics, .true., d%flow)
     d%search%pendulum = pendulum
     d%search%max_period = int(max_period)
-    if (coarse%precision == numerics%precision) then
-      allocate (d%search%flow, source=d%flow)
-    else
-      call make_flow(pendulum, coarse, .true., d%search%flow)
-    end if
+    allocate (d%search%flow, source=d%flow)
     call make_flow(pendulum, fine_numerics(pendulum), .true., d%search%fine)
     call make_flow(pendulum, fine_numerics(pendulum), .false., d%search%sampling_flow)
     allocate (d%attractors(0))

@@ -4,7 +4,7 @@ module kz_api_follow
   use kz_maps_states, only: leave_states, half_turns
   use kz_lanes_map, only: map_t
   use kz_extended_pairs, only: pairs_t, make_pairs
-  use kz_kernel_plan, only: make_flow, DOUBLE
+  use kz_kernel_plan, only: make_flow
   use kz_lanes_step_table, only: numerics_t
   use kz_labels_covariant_map, only: covariant_map_t, make_covariant_map
   use kz_api_handle, only: dynamics_t, of_handle
@@ -16,7 +16,7 @@ module kz_api_follow
   private
 
   !> Ways of dynamics.h; those that remain are the nodes of the table's stencil.
-  integer(c_int32_t), parameter :: DIRECT = 0, SETTLE = 1
+  integer(c_int32_t), parameter :: DIRECT = 0
   !> Levels of dynamics.h.
   integer(c_int32_t), parameter :: LEVEL_PAIRS_20 = 2, LEVEL_QUAD = 4
   !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
@@ -59,8 +59,6 @@ contains
     select case (way)
     case (DIRECT)
       call follow(d%flow, d%regions, d%attractors, state, label, periods)
-    case (SETTLE)
-      call follow(d%search%flow, d%regions, d%attractors, state, label, periods)
     case default
       allocate (map, source=make_table_map(d%table, int(way), d%search%flow))
       call follow(map, d%regions, d%attractors, state, label, periods)
@@ -158,7 +156,7 @@ contains
     type(covariant_map_t), allocatable :: covariant
 
     if (.not. allocated(d%finer)) then
-      halved = numerics_t(d%numerics%scheme, 2*d%numerics%steps_per_period, DOUBLE, fastest=d%numerics%fastest)
+      halved = numerics_t(d%numerics%scheme, 2*d%numerics%steps_per_period, fastest=d%numerics%fastest)
       call make_flow(d%search%pendulum, halved, .true., d%finer)
     end if
     allocate (covariant)

@@ -16,8 +16,8 @@ module kz_api_handle
   type :: dynamics_t
     type(search_t) :: search
     type(numerics_t) :: numerics       !< of the scene
-    class(flow_t), allocatable :: flow !< the scene's map in the scene's precision
-    class(flow_t), allocatable :: finer !< in double precision with steps half as long, once it is needed
+    class(flow_t), allocatable :: flow !< the scene's map
+    class(flow_t), allocatable :: finer !< with steps half as long, once it is needed
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table

@@ -53,7 +53,7 @@ contains
 
     call put_state(self, lane, u, v)
     call self%flow%put(lane, u, v)
-    call self%start_error(lane, rounding(self)*hypot(PI*u, v))
+    call self%start_error(lane, epsilon(1.0_dp)*hypot(PI*u, v))
   end subroutine put
 
   !> What the change of coordinates misses, as the way back shows it, is an error of the start.
@@ -109,7 +109,7 @@ contains
     self%v(:n) = self%flow%v(:n)
     self%turns(:n) = self%flow%turns(:n)
     error(:n) = hypot(separation(self%shown%u(:n), self%shown%v(:n), self%finer%u(:n), self%finer%v(:n)), &
-                      rounding(self)*hypot(PI, self%v(:n)))
+                      epsilon(1.0_dp)*hypot(PI, self%v(:n)))
     call self%classify_errors(n, tangent, error, SEEN)
   end subroutine advance
 
@@ -125,13 +125,5 @@ contains
     end do
     call self%shown%leave(n, first=first)
   end subroutine show
-
-  !> Distance from 1 to the next number, as coarse as that of states that are put or compared.
-  pure function rounding(self)
-    class(covariant_map_t), intent(in) :: self
-    real(dp) :: rounding
-
-    rounding = max(self%flow%rounding, epsilon(1.0_dp))
-  end function rounding
 
 end module kz_labels_covariant_map

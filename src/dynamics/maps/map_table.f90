@@ -38,7 +38,7 @@ module kz_maps_map_table
 
   type, extends(map_t) :: table_map_t
     type(table_t), pointer :: table => null()
-    integer :: points = 6     !< of the stencil along an axis: 2, 4, 6
+    integer :: points = 6     !< of the stencil along an axis: 2, 6
     class(flow_t), allocatable :: flow !< integrates the periods that begin outside the table
   contains
     procedure :: advance => interpolate
@@ -145,7 +145,7 @@ contains
   function make_table_map(table, points, flow) result(map)
     !> the map table
     type(table_t), target, intent(in) :: table
-    !> nodes of the stencil along an axis: 2, 4, 6
+    !> nodes of the stencil along an axis: 2, 6
     integer, intent(in) :: points
     !> integrates the periods that begin outside the table
     class(flow_t), intent(in) :: flow
@@ -238,8 +238,6 @@ contains
       select case (self%points)
       case (2)
         call linear_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
-      case (4)
-        call cubic_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
       case default
         call quintic_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
       end select
@@ -257,16 +255,11 @@ contains
     end do
   end subroutine displace
 
-  ! The same source for three stencils: a constant size lets the compiler unroll the loops.
+  ! The same source for both stencils: a constant size lets the compiler unroll the loops.
   subroutine linear_stencils(n, n_theta, field, i, j, x, y, shift)
     integer, parameter :: POINTS = 2
     include 'stencil.inc'
   end subroutine linear_stencils
-
-  subroutine cubic_stencils(n, n_theta, field, i, j, x, y, shift)
-    integer, parameter :: POINTS = 4
-    include 'stencil.inc'
-  end subroutine cubic_stencils
 
   subroutine quintic_stencils(n, n_theta, field, i, j, x, y, shift)
     integer, parameter :: POINTS = 6
@@ -301,11 +294,6 @@ contains
     case (2)
       w(:, 1) = 1 - s
       w(:, 2) = s
-    case (4)
-      w(:, 1) = -s*(s - 1)*(s - 2)*(1/6.0_dp)
-      w(:, 2) = (s + 1)*(s - 1)*(s - 2)*0.5_dp
-      w(:, 3) = -(s + 1)*s*(s - 2)*0.5_dp
-      w(:, 4) = (s + 1)*s*(s - 1)*(1/6.0_dp)
     case default
       w(:, 1) = -(s + 1)*s*(s - 1)*(s - 2)*(s - 3)*(1/120.0_dp)
       w(:, 2) = (s + 2)*s*(s - 1)*(s - 2)*(s - 3)*(1/24.0_dp)

@@ -4,7 +4,7 @@ module kz_maps_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_lanes_map, only: map_t, flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_flow_and_finer, DOUBLE
+  use kz_kernel_plan, only: make_flow_and_finer
   use kz_lanes_step_table, only: pendulum_t, numerics_t
   use kz_maps_states, only: separation
   implicit none
@@ -28,15 +28,12 @@ contains
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: speed(n + 1)
     real(dp), intent(out) :: error(n)
-    type(numerics_t) :: coarse
     class(flow_t), allocatable :: flow, finer
     real(dp) :: limit, largest
     integer(c_int64_t) :: c
     integer :: first
 
-    coarse = numerics
-    coarse%precision = min(numerics%precision, int(DOUBLE, c_int32_t))
-    call make_flow_and_finer(pendulum, coarse, flow, finer)
+    call make_flow_and_finer(pendulum, numerics, flow, finer)
     do c = 1, n
       largest = 0
       limit = speed(c + 1) + 2*PI*(abs(pendulum%k) + abs(pendulum%m))

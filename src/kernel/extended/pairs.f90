@@ -8,7 +8,7 @@ module kz_extended_pairs
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_lanes_map, only: WIDTH
   use kz_extended_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
-  use kz_processed_tables, only: series_t, make_processed_series, MOST_KICKS, MOST_DAMPING, ORDER
+  use kz_processed_tables, only: series_t, make_processed_series, MOST_PAIR_KICKS, MOST_DAMPING, ORDER
   use kz_lanes_step_table, only: pendulum_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period
   implicit none
@@ -98,7 +98,7 @@ contains
     call make_probes(drive, slower%fastest, fastest, start, image)
     n = max(FEWEST_STEPS, STRIDE*int(1.25_c_double*slower%n_steps/STRIDE)) ! twice the speed needs some 1.5 times the steps
     do
-      call make_level(pendulum, series, n, MOST_KICKS(2), fastest, tolerance, level)
+      call make_level(pendulum, series, n, MOST_PAIR_KICKS, fastest, tolerance, level)
       level%error = measure(level, start, image)
       if (level%error <= tolerance) exit
       factor = min(4.0_c_double, (min(level%error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER))

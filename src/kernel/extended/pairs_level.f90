@@ -3,7 +3,7 @@ module kz_extended_pairs_level
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: WIDTH
-  use kz_processed_tables, only: series_t, processed_t, processor_t, make_processed, MOST_DRIFTS, ORDER
+  use kz_processed_tables, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
   use kz_lanes_step_table, only: pendulum_t
   implicit none
   private
@@ -125,7 +125,7 @@ contains
     type(processed_t) :: table
     integer :: s, j, n
 
-    call make_processed(pendulum, series, n_steps, MOST_DRIFTS(2), n_kick, fastest, table)
+    call make_processed(pendulum, series, n_steps, MOST_PAIR_DRIFTS, n_kick, fastest, table)
     level%fastest = fastest
     level%n_steps = n_steps
     level%n_drift = table%n_drift

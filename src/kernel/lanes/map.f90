@@ -1,4 +1,4 @@
-!> A stroboscopic map: one drive period of a tile of trajectories. The kernel extends it for each kind of real; the map
+!> A stroboscopic map: one drive period of a tile of trajectories. The kernel extends it for each family of schemes; the map
 !> table of the dynamics extends it by interpolation.
 !>
 !> Inside, angles are in half-turns, u = theta/pi: the wrap to [-1, 1] is exact, and the mirror image (-u, -v) of a state goes
@@ -44,8 +44,6 @@ module kz_lanes_map
 
   !> A map that is integrated: it also knows its derivative and what happens within the period.
   type, abstract, extends(map_t) :: flow_t
-    !> distance from 1 to the next number of its kind
-    real(c_double) :: rounding = epsilon(1.0_c_double)
   contains
     !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.
     procedure(advance_tangent_i), deferred :: advance_tangent

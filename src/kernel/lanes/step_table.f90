@@ -20,7 +20,6 @@ module kz_lanes_step_table
   type, bind(C) :: numerics_t
     integer(c_int32_t) :: scheme
     integer(c_int32_t) :: steps_per_period
-    integer(c_int32_t) :: precision
     !> of the processed splitting: powers of the velocity in a drift and coefficients of a kick; 0 = enough for every step
     integer(c_int32_t) :: drift_terms = 0
     integer(c_int32_t) :: kick_terms = 0
@@ -49,7 +48,7 @@ contains
   subroutine make_period(pendulum, numerics, fused, period)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period, precision
+    !> scheme, steps a period
     type(numerics_t), intent(in) :: numerics
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused

@@ -1,30 +1,55 @@
-/* The inner loop of the processed splitting in single and double precision: one text, two kinds of real. Written with the
- * compilers' vector types because gfortran does not keep the states in registers (1.5 times slower). Operations per lane and
- * kick: a drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2). */
-#include <stdint.h>
+/* The inner loop of the processed splitting. Written with the compilers' vector types because gfortran does not keep the states
+ * in registers (1.5 times slower). Several vectors at once hide the latency of the arithmetic. Operations per lane and kick: a
+ * drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2). */
+#include "stages.h"
 
 #if defined __AVX512F__
 enum { VECTOR_BYTES = 64 };
 #else
 enum { VECTOR_BYTES = 32 };
 #endif
-/* Lanes of a tile (lanes/map.f90): blocks divide it. */
-enum { WIDTH = 64 };
+/* Lanes of a batch (lanes/map.f90), of a vector, and vectors at once. */
+enum { WIDTH = 64, LANES = VECTOR_BYTES / 8, CHAINS = 8 };
 #define EACH _Pragma("GCC unroll 8") for (int i = 0; i < CHAINS; i++)
+static const double round_to_even = 0x3p52; /* adding it rounds to an even integer */
 
-/* Adding it rounds to an even integer. */
-#define MAGIC 0x3p52
-#define real double
-#define VECTOR vector_r64
-#define NAMED(name) name##_r64
-#include "stages.inc"
-#undef MAGIC
-#undef real
-#undef VECTOR
-#undef NAMED
+typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
 
-#define MAGIC 0x3p23f
-#define real float
-#define VECTOR vector_r32
-#define NAMED(name) name##_r32
-#include "stages.inc"
+static inline __attribute__((always_inline)) void block(int n_drift, int n_kick, int64_t n_stages, const double *row, vector *u,
+                                                        vector *v) {
+  vector a[CHAINS], b[CHAINS], r[CHAINS], q[CHAINS], p[CHAINS];
+  EACH a[i] = u[i];
+  EACH b[i] = v[i];
+  for (int64_t s = 0; s < n_stages; s++, row += n_drift + n_kick) {
+    EACH q[i] = b[i] * b[i];
+    EACH p[i] = row[n_drift - 1] + (vector){0};
+    for (int j = n_drift - 2; j >= 0; j--) EACH p[i] = p[i] * q[i] + row[j];
+    EACH a[i] += p[i] * b[i];
+    EACH r[i] = a[i] - ((a[i] + round_to_even) - round_to_even);
+    EACH q[i] = r[i] * r[i];
+    EACH p[i] = row[n_drift + n_kick - 1] * q[i] + row[n_drift + n_kick - 2];
+    for (int j = n_kick - 3; j >= 0; j--) EACH p[i] = p[i] * q[i] + row[n_drift + j];
+    EACH r[i] -= r[i] * q[i];
+    EACH b[i] -= r[i] * p[i];
+  }
+  EACH u[i] = a[i];
+  EACH v[i] = b[i];
+}
+
+void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v) {
+#define ALL(D, K) \
+  for (int64_t i = 0; i < n; i += CHAINS * LANES) block(D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i))
+#ifdef __SANITIZE_ADDRESS__ /* one body for all lengths: the checks of 32 take a minute to compile */
+  ALL(n_drift, n_kick);
+#else
+#define CASE(D, K)     \
+  case 16 * (D) + (K): \
+    ALL(D, K);         \
+    break;
+#define CASES(K) CASE(1, K) CASE(2, K) CASE(3, K) CASE(4, K)
+  switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
+#undef CASES
+#undef CASE
+#endif
+#undef ALL
+}

@@ -1,5 +1,5 @@
-!> One drive period of the processed splitting as a table of drifts and kicks, and its processor, in quad precision; each kind
-!> rounds them to its own. Derivation: docs/theory.md, "The processed splitting".
+!> One drive period of the processed splitting as a table of drifts and kicks, and its processor, in quad precision; lanes of
+!> doubles round them. Derivation: docs/theory.md, "The processed splitting".
 module kz_processed_tables
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: real64, real128
@@ -12,12 +12,10 @@ module kz_processed_tables
 
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
-  !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in single, double and quad
-  !> precision.
-  integer, parameter, public :: MOST_DRIFTS(0:2) = [2, 4, ORDER/2 - 1]
-  integer, parameter, public :: MOST_KICKS(0:2) = [7, 11, 22]
-  !> Grades of the series in quad precision, for the three kinds.
-  integer, parameter, public :: QUAD_GRADES(0:2) = [0, 0, ORDER]
+  !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in double precision.
+  integer, parameter, public :: MOST_DRIFTS = 4, MOST_KICKS = 11
+  !> The same in pairs of doubles.
+  integer, parameter, public :: MOST_PAIR_DRIFTS = ORDER/2 - 1, MOST_PAIR_KICKS = 22
   !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
   real(qp), parameter, public :: MOST_DAMPING = 16/(2*PI)
 

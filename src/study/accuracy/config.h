@@ -11,7 +11,6 @@ typedef struct {
   const char *scheme;    /* of the kernel's table */
   int32_t steps;         /* per period; KZ_AUTO: of the processed splitting, by */
   double tolerance;      /* rad, error of one drive period */
-  int32_t precision;     /* KZ_SINGLE, KZ_DOUBLE */
   int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
   int64_t nodes;         /* of the map table, an axis; not used by KZ_METHOD_DIRECT */
   bool candidate;        /* of basin.accuracy: no other is both as fast and as accurate as one of these */

@@ -6,11 +6,10 @@
 #include "numerics/processed.h"
 #include "config.h"
 
-#define DIRECT(label, scheme, steps, precision) {label, KZ_METHOD_DIRECT, scheme, steps, 0, precision, KZ_QUINTIC, 1000, false}
+#define DIRECT(label, scheme, steps) {label, KZ_METHOD_DIRECT, scheme, steps, 0, KZ_QUINTIC, 1000, false}
 #define PROCESSED(tolerance) \
-  {"processed-" #tolerance, KZ_METHOD_DIRECT, "processed", KZ_AUTO, tolerance, KZ_DOUBLE, KZ_QUINTIC, 1000, true}
-#define ICM(label, interpolation, nodes) \
-  {label, KZ_METHOD_ICM, "processed", KZ_AUTO, 1e-12, KZ_DOUBLE, interpolation, nodes, false}
+  {"processed-" #tolerance, KZ_METHOD_DIRECT, "processed", KZ_AUTO, tolerance, KZ_QUINTIC, 1000, true}
+#define ICM(label, interpolation, nodes) {label, KZ_METHOD_ICM, "processed", KZ_AUTO, 1e-12, interpolation, nodes, false}
 
 const kz_config kz_configs[] = {
     PROCESSED(1e-4),
@@ -18,24 +17,19 @@ const kz_config kz_configs[] = {
     PROCESSED(1e-8),
     PROCESSED(1e-10),
     PROCESSED(1e-12),
-    DIRECT("direct-rk4-100-1992", "rk4", 100, KZ_DOUBLE),
-    DIRECT("direct-rk4-400", "rk4", 400, KZ_DOUBLE),
-    DIRECT("direct-8", "split6", 8, KZ_DOUBLE),
-    DIRECT("direct-24", "split6", 24, KZ_DOUBLE),
-    {"direct-96", KZ_METHOD_DIRECT, "split6", 96, 0, KZ_DOUBLE, KZ_QUINTIC, 1000, true},
-    DIRECT("direct-single-8", "split6", 8, KZ_SINGLE),
-    {"icm-linear-500-1992", KZ_METHOD_ICM, "rk4", 100, 0, KZ_DOUBLE, KZ_LINEAR, 500, false},
+    DIRECT("direct-rk4-100-1992", "rk4", 100),
+    DIRECT("direct-rk4-400", "rk4", 400),
+    DIRECT("direct-8", "split6", 8),
+    DIRECT("direct-24", "split6", 24),
+    {"direct-96", KZ_METHOD_DIRECT, "split6", 96, 0, KZ_QUINTIC, 1000, true},
+    {"icm-linear-500-1992", KZ_METHOD_ICM, "rk4", 100, 0, KZ_LINEAR, 500, false},
     ICM("icm-linear-1000", KZ_LINEAR, 1000),
     ICM("icm-linear-2000", KZ_LINEAR, 2000),
-    ICM("icm-cubic-500", KZ_CUBIC, 500),
-    ICM("icm-cubic-1000", KZ_CUBIC, 1000),
-    ICM("icm-cubic-2000", KZ_CUBIC, 2000),
     ICM("icm-250", KZ_QUINTIC, 250),
     ICM("icm-500", KZ_QUINTIC, 500),
     ICM("icm-1000", KZ_QUINTIC, 1000),
     ICM("icm-2000", KZ_QUINTIC, 2000),
-    {"icm-single-500", KZ_METHOD_ICM, "split6", 8, 0, KZ_SINGLE, KZ_QUINTIC, 500, false},
-    {"exact", KZ_METHOD_EXACT, "processed", KZ_AUTO, 1e-12, KZ_DOUBLE, KZ_QUINTIC, 1000, false},
+    {"exact", KZ_METHOD_EXACT, "processed", KZ_AUTO, 1e-12, KZ_QUINTIC, 1000, false},
 };
 const int kz_config_count = sizeof kz_configs / sizeof kz_configs[0];
 const kz_config *const kz_config_exact = kz_configs + sizeof kz_configs / sizeof kz_configs[0] - 1;
@@ -55,8 +49,7 @@ kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendu
   if (config->steps == KZ_AUTO)
     return kz_processed_or_split(pendulum, config->tolerance,
                                  kz_fastest_motion(pendulum, &window, config->method == KZ_METHOD_ICM ? config->nodes : 0));
-  return (kz_numerics){
-      .scheme = kz_scheme_find(config->scheme), .steps_per_period = config->steps, .precision = config->precision};
+  return (kz_numerics){.scheme = kz_scheme_find(config->scheme), .steps_per_period = config->steps};
 }
 
 void kz_config_apply(const kz_config *config, kz_scene *scene) {
@@ -69,13 +62,12 @@ void kz_config_apply(const kz_config *config, kz_scene *scene) {
 
 /* Kicks of split6 that a period costs. */
 static double period_kicks(const kz_config *config) {
-  static const double kind[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1};
   /* Of the processed splitting: what a step costs, steps at 1e-4 for a gentle drive, and the order by which they grow. */
   static const double step = 0.4, steps = 14, order = 14;
   kz_scheme scheme;
   if (config->steps == KZ_AUTO) return step * steps * pow(1e-4 / config->tolerance, 1 / order);
   kz_scheme_row(kz_scheme_find(config->scheme), &scheme);
-  return kind[config->precision] * scheme.kicks * config->steps;
+  return (double)scheme.kicks * config->steps;
 }
 
 double kz_config_cost(const kz_config *config, double cells, double mean_periods) {

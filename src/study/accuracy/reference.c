@@ -31,8 +31,7 @@ kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendu
   const double stiffness = fmax(1, fabs(pendulum->k) + fabs(pendulum->m));
   const double fastest = kz_axis_fastest(&plan->velocity);
   const double steps = STEPS * ceil(sqrt(stiffness)), most = fmin(ldexp(steps, DOUBLINGS), MOST_STEPS);
-  *numerics =
-      (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)fmin(steps, most), .precision = KZ_DOUBLE};
+  *numerics = (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)fmin(steps, most)};
   if (steps <= most && kz_steps_enough(pendulum, fastest, FINE, (int32_t)most, numerics)) return KZ_OK;
   return kz_fail(KZ_REFUSED,
                  "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough for reference labels; choose "

@@ -90,8 +90,7 @@ static void rate(const kz_reference_labels *reference, kz_trade *trade) {
     const kz_measured *m = trade->measured + i;
     trade->wrong[i] = kz_share_of(m->wrong, reference->samples).share;
     trade->seconds[i] = m->set_up + m->cell * cells;
-    if (trade->configs[i]->precision == KZ_DOUBLE && trade->configs[i]->method != KZ_METHOD_EXACT)
-      trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
+    if (trade->configs[i]->method != KZ_METHOD_EXACT) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
   }
   kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
 }

@@ -20,7 +20,6 @@ static kz_status write_configs(const kz_trade *trade, kz_store *store) {
   const kz_config *const *s = trade->configs;
   COLUMN(const char *, "label", s[i]->label);
   COLUMN(int8_t, "method", s[i]->method);
-  COLUMN(int8_t, "precision", s[i]->precision);
   COLUMN(const char *, "scheme", scheme_name(trade->numerics + i));
   COLUMN(int32_t, "steps_per_period", trade->numerics[i].steps_per_period);
   COLUMN(int8_t, "interpolation", s[i]->interpolation);
@@ -62,12 +61,11 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
   const kz_config *s = trade->configs[i];
   const kz_measured *m = trade->measured + i;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
-  fprintf(summary, "%c %-20s %-7s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
-          trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], kz_precision_names[s->precision],
-          scheme_name(trade->numerics + i), (int)trade->numerics[i].steps_per_period,
-          s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes, 100 * wrong.share,
-          100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples, trade->seconds[i],
-          1e6 * m->cell);
+  fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
+          trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], scheme_name(trade->numerics + i),
+          (int)trade->numerics[i].steps_per_period, s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation],
+          (long long)s->nodes, 100 * wrong.share, 100 * wrong.low, 100 * wrong.high,
+          100 * (double)m->count_error / (double)reference->samples, trade->seconds[i], 1e6 * m->cell);
 }
 
 /* What the settings of method exact leave undecided. */

@@ -47,7 +47,7 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   int64_t periods[TILE];
   int64_t first = tile * TILE, n = f->n - first < TILE ? f->n - first : TILE;
   for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
-  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_SEARCH, n, f->periods, out->state, out->label, periods);
+  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->periods, out->state, out->label, periods);
   return KZ_OK;
 }
 

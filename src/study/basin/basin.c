@@ -182,11 +182,10 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   double regions = pow((double)kz_regions_cells(plan->theta.count * plan->velocity.count), 2);
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
-  static const double kick_seconds[] = {[KZ_SINGLE] = 4e-10, [KZ_DOUBLE] = 8e-10, [KZ_QUAD] = 2e-6};
+  static const double kick_seconds = 8e-10;
   const bool chosen = plan->accuracy >= 1; /* exact, with the processed splitting: some 40 kicks */
   double kicks = chosen ? 40 : (double)scheme.kicks * scene->numerics.steps_per_period;
-  double period = kicks * kick_seconds[scene->numerics.precision];
-  double table_period = kicks * kick_seconds[scene->numerics.precision == KZ_SINGLE ? KZ_SINGLE : KZ_DOUBLE];
+  double period = kicks * kick_seconds;
   const int32_t method = chosen ? KZ_METHOD_EXACT : plan->method;
   /* exact: with tangent map, finer steps and changes of coordinates; then a few cells, and those for long, in
    * more precision */
@@ -200,10 +199,9 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
                   .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_room(&tiles),
                   .first_bytes = 4e6,
                   .shared_bytes = 0.2 * cells,
-                  .core_seconds = kz_settling_search(pendulum, (double)plan->starts, table_period, plan->max_periods) +
-                                  nodes / 2 * table_period + regions / 2 * (8 * table_period + 1e-6) +
-                                  cells * periods * cell_period + (double)kz_doubt_cells(plan) * periods * 4 * period +
-                                  kz_proof_seconds(scene)};
+                  .core_seconds = kz_settling_search(pendulum, (double)plan->starts, period, plan->max_periods) +
+                                  nodes / 2 * period + regions / 2 * (8 * period + 1e-6) + cells * periods * cell_period +
+                                  (double)kz_doubt_cells(plan) * periods * 4 * period + kz_proof_seconds(scene)};
   if (method == KZ_METHOD_EXACT) cost.core_seconds += 0.5; /* tables of the pairs of doubles */
   if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
   return cost;

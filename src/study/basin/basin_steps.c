@@ -33,8 +33,7 @@ void kz_numerics_resolve(kz_scene *scene) {
   const bool processed = kz_is_processed(asked->scheme);
   if (processed && kz_processed_choose(scene)) return;
   scene->numerics = (kz_numerics){.scheme = processed ? kz_scheme_find("split6") : asked->scheme,
-                                  .steps_per_period = asked->steps_per_period,
-                                  .precision = scene->numerics.precision};
+                                  .steps_per_period = asked->steps_per_period};
   if (processed || asked->steps_per_period == KZ_AUTO) choose_steps(scene, processed);
 }
 

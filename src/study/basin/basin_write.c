@@ -80,7 +80,6 @@ static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   KZ_TRY(kz_store_text(store, "basin", "scheme", scheme.name));
   KZ_TRY(kz_store_integer(store, "basin", "steps_per_period", scene->numerics.steps_per_period));
   KZ_TRY(kz_store_real(store, "basin", "tolerance", scene->asked.tolerance));
-  KZ_TRY(kz_store_text(store, "basin", "precision", kz_precision_names[scene->numerics.precision]));
   KZ_TRY(kz_store_text(store, "basin", "interpolation", kz_interpolation_names[plan->interpolation]));
   KZ_TRY(kz_store_integer(store, "basin", "table_theta", plan->table_theta));
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);

@@ -76,8 +76,7 @@ static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_sp
   }
   const double speed[] = {0, fmax(start_speed, 1 + 2 * sqrt(strongest))};
   const double measured = fmin(MEASURED_STEPS * ceil(sqrt(fmax(1, strongest))), MOST_STEPS);
-  const kz_numerics numerics = {
-      .scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)measured, .precision = KZ_DOUBLE};
+  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)measured};
   kz_step_errors(pendulum + which, &numerics, 1, speed, &error);
   const double steps = ceil(measured * pow(fmax(error, ROUNDING) / TOLERANCE, 1.0 / 6));
   return (int32_t)fmin(fmax(steps, LEAST_STEPS), MOST_STEPS);

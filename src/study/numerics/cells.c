@@ -111,24 +111,22 @@ void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
 }
 
 int32_t kz_stencil(int32_t interpolation) {
-  return 2 * interpolation + 2;
+  return interpolation == KZ_LINEAR ? KZ_FOLLOW_LINEAR : KZ_FOLLOW_QUINTIC;
 }
 
 const char *const kz_method_names[] = {KZ_METHOD_WORDS};
 const char *const kz_interpolation_names[] = {KZ_INTERPOLATION_WORDS};
-const char *const kz_precision_names[] = {KZ_PRECISION_WORDS};
 
 int32_t kz_way(int32_t method, int32_t interpolation) {
   return method == KZ_METHOD_ICM ? kz_stencil(interpolation) : KZ_FOLLOW_DIRECT;
 }
 
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {
-  static const double tile_kicks = 4e9; /* of double precision: some seconds, where all cells take max_periods */
-  static const double cost[] = {[KZ_SINGLE] = 0.5, [KZ_DOUBLE] = 1, [KZ_QUAD] = 2500};
+  static const double tile_kicks = 4e9; /* some seconds, where all cells take max_periods */
   enum { FEWEST = 16 };
   kz_scheme scheme;
   kz_scheme_row(scene->numerics.scheme, &scheme);
-  const double kicks = cost[scene->numerics.precision] * scheme.kicks * scene->numerics.steps_per_period;
+  const double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
   const double enough = tile_kicks / (kicks * (double)scene->basin.max_periods);
   return (int64_t)fmax(FEWEST, fmin((double)most, FEWEST * floor(enough / FEWEST)));
 }

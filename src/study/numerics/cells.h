@@ -41,8 +41,8 @@ void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
 /* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */
 int32_t kz_stencil(int32_t interpolation);
 
-/* The words of the file for KZ_METHOD_ICM, ..., KZ_LINEAR, ... and KZ_SINGLE, ... */
-extern const char *const kz_method_names[], *const kz_interpolation_names[], *const kz_precision_names[];
+/* The words of the file for KZ_METHOD_ICM, ..., KZ_LINEAR, ... */
+extern const char *const kz_method_names[], *const kz_interpolation_names[];
 
 /* The way of kz_dynamics_follow that a method (KZ_METHOD_ICM, ...) takes. */
 int32_t kz_way(int32_t method, int32_t interpolation);

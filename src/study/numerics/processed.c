@@ -10,8 +10,6 @@ enum { SWEEP_VALUES = 9 }; /* of a sweep that are tried, both ends included */
 /* How much faster than the sampled starts, after one drive period, others may become. */
 static const double MARGIN = 1.05;
 
-/* rad: what single precision can reach of an error of one drive period. */
-static const double SINGLE_FLOOR = 1e-5;
 /* What one numerics has to serve. */
 typedef struct {
   kz_pendulum pendulum[SWEEP_VALUES];
@@ -24,7 +22,7 @@ bool kz_is_processed(int32_t scheme) {
 }
 
 double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows) {
-  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24, .precision = KZ_DOUBLE};
+  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
   kz_dynamics *dynamics = kz_dynamics_create(pendulum, &numerics, 1);
   if (!dynamics) return INFINITY;
   double fastest = MARGIN * kz_dynamics_max_velocity(dynamics, window);
@@ -89,22 +87,20 @@ static bool serve(const demand *d, kz_numerics *numerics) {
 
 bool kz_processed_choose(kz_scene *scene) {
   demand d = {.tolerance = scene->asked.tolerance};
-  kz_numerics numerics = {
-      .scheme = scene->asked.scheme, .steps_per_period = scene->asked.steps_per_period, .precision = scene->numerics.precision};
+  kz_numerics numerics = {.scheme = scene->asked.scheme, .steps_per_period = scene->asked.steps_per_period};
   if (scene->has_basin && !isnan(scene->basin.accuracy)) return false;
   add_pendulum(&d, scene);
   if (scene->has_sweep) add_sweep(&d, scene);
-  if (numerics.precision == KZ_SINGLE) d.tolerance = fmax(d.tolerance, SINGLE_FLOOR);
   if (!serve(&d, &numerics)) return false;
   scene->numerics = numerics;
   return true;
 }
 
 kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, double tolerance, double fastest) {
-  kz_numerics numerics = {.precision = KZ_DOUBLE};
+  kz_numerics numerics = {0};
   kz_scheme scheme;
   double error;
   if (kz_numerics_choose(pendulum, tolerance, fastest, &numerics, &error) == KZ_OK) return numerics;
   kz_scheme_row(kz_scheme_find("split6"), &scheme);
-  return (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = scheme.default_steps, .precision = KZ_DOUBLE};
+  return (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = scheme.default_steps};
 }

@@ -46,9 +46,7 @@ static void advice(const kz_motions *m, size_t bytes, char *text) {
     snprintf(text, bytes, "%d steps or more", (int)numerics.steps_per_period);
   else
     snprintf(text, bytes, "not even %d steps are enough: %s", (int)numerics.steps_per_period,
-             m->lost >= KZ_STEPS_LOST           ? "slower starts, or weaker damping and drive"
-             : m->numerics.precision == KZ_QUAD ? "wider cells"
-                                                : "wider cells, or numerics.precision quad and basin.method direct");
+             m->lost >= KZ_STEPS_LOST ? "slower starts, or weaker damping and drive" : "wider cells, or basin.method exact");
 }
 
 static void describe_error(const kz_motions *m, double error, size_t bytes, char *text) {

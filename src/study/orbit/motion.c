@@ -38,9 +38,7 @@ double kz_orbit_steps(const kz_scene *scene) {
 }
 
 kz_numerics kz_orbit_numerics(const kz_scene *scene) {
-  return (kz_numerics){.scheme = orbit_scheme(scene),
-                       .steps_per_period = (int32_t)kz_orbit_steps(scene),
-                       .precision = scene->numerics.precision};
+  return (kz_numerics){.scheme = orbit_scheme(scene), .steps_per_period = (int32_t)kz_orbit_steps(scene)};
 }
 
 void kz_model_make(const kz_scene *scene, kz_model *model) {
@@ -52,7 +50,6 @@ void kz_model_make(const kz_scene *scene, kz_model *model) {
   if (inverted) model->origin = M_PI;
   if (model->kind != KZ_PENDULUM) return;
   model->numerics = kz_orbit_numerics(scene);
-  if (orbit->closed && model->numerics.precision == KZ_SINGLE) model->numerics.precision = KZ_DOUBLE;
   model->plan = kz_plan_create(p, &model->numerics);
 }
 

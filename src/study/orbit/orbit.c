@@ -107,8 +107,10 @@ static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
   return KZ_OK;
 }
 
-/* How an open record of the pendulum goes on: in chaos, or to which attractor. */
+/* How an open record of the pendulum goes on: in chaos, or to which attractor. Motions so fast that this takes long are left
+ * without an answer. */
 static kz_status look_ahead(kz_orbit *orbit, const kz_model *model) {
+  if (model->numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
   const kz_motion *motion = &orbit->motion;
   const int64_t last = motion->periods * motion->samples;
   const kz_state end = {remainder(motion->theta[last], 2 * M_PI), motion->velocity[last]};
@@ -118,18 +120,6 @@ static kz_status look_ahead(kz_orbit *orbit, const kz_model *model) {
   if (orbit->parting) return KZ_OK;
   for (int64_t i = last - motion->samples; i <= last; i++) fastest = fmax(fastest, fabs(motion->velocity[i]));
   return kz_settles_on(model, end, fastest, orbit->settles_on);
-}
-
-/* The same in double precision whatever the record has: what comes is asked for its kind alone. Motions so fast that this takes
- * long are left without an answer. */
-static kz_status look_ahead_in_double(kz_orbit *orbit) {
-  kz_model model = orbit->model;
-  if (model.numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
-  model.numerics.precision = KZ_DOUBLE;
-  model.plan = kz_plan_create(&model.pendulum, &model.numerics);
-  kz_status status = look_ahead(orbit, &model);
-  kz_model_free(&model);
-  return status;
 }
 
 /* The motion after the transient: its record and its features. */
@@ -147,7 +137,7 @@ static kz_status follow(kz_orbit *orbit) {
     orbit->lyapunov = log(hypot(orbit->cycle.re[0], orbit->cycle.im[0])) / (double)orbit->cycle.period;
     orbit->lyapunov_error = 0;
   }
-  if (orbit->model.plan && !closed) KZ_TRY(look_ahead_in_double(orbit));
+  if (orbit->model.plan && !closed) KZ_TRY(look_ahead(orbit, &orbit->model));
   return kz_orbit_features_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->features);
 }
 

@@ -70,12 +70,16 @@ static kz_status ask(asking *a) {
   return KZ_OK;
 }
 
-static const char *precision_of(const asking *a, int32_t level) {
-  static const char *const names[] = {[KZ_LEVEL_FINE] = "double",         [KZ_LEVEL_PAIRS_20] = "pairs",
-                                      [KZ_LEVEL_PAIRS_28] = "pairs",      [KZ_LEVEL_QUAD] = "quad",
-                                      [KZ_LEVEL_ARBITRARY] = "arbitrary", [KZ_LEVELS] = NULL};
-  return level == KZ_LEVEL_DOUBLE ? kz_precision_names[a->scene->numerics.precision] : names[level];
-}
+/* Names of the levels of precision. */
+static const char *const precision_names[] = {
+    [KZ_LEVEL_DOUBLE] = "double",
+    [KZ_LEVEL_FINE] = "double",
+    [KZ_LEVEL_PAIRS_20] = "pairs",
+    [KZ_LEVEL_PAIRS_28] = "pairs",
+    [KZ_LEVEL_QUAD] = "quad",
+    [KZ_LEVEL_ARBITRARY] = "arbitrary",
+    [KZ_LEVELS] = NULL,
+};
 
 static kz_status describe_orbit(const kz_entry *entry, kz_ending *ending) {
   const size_t bytes = (size_t)entry->row.period * sizeof(double);
@@ -95,7 +99,7 @@ static kz_status describe_start(const asking *a, const kz_catalogue *catalogue, 
   if (d->label <= 0) return KZ_OK;
   ending->attractor = catalogue->id_of[d->label];
   ending->settling_time = d->periods;
-  ending->precision = precision_of(a, d->level);
+  ending->precision = precision_names[d->level];
   KZ_TRY(describe_orbit(catalogue->entries + ending->attractor, ending));
   if (ending->precision && ending->period > 0) ending->error = d->error;
   if (d->other <= 0) return KZ_OK;

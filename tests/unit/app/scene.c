@@ -39,7 +39,6 @@ static void defaults_are_those_of_the_table(void **state) {
   assert_true(scene.basin.theta.min == -M_PI && scene.basin.theta.max == M_PI);
   assert_int_equal(scene.basin.method, KZ_METHOD_DIRECT);
   assert_int_equal(scene.basin.interpolation, KZ_QUINTIC);
-  assert_int_equal(scene.numerics.precision, KZ_DOUBLE);
   kz_scheme scheme;
   kz_scheme_row(scene.numerics.scheme, &scheme);
   assert_string_equal(scheme.name, "processed");
@@ -120,7 +119,7 @@ static void undefined_parameters_are_nan(void **state) {
 static void resolved_text_is_a_fixed_point(void **state) {
   (void)state;
   kz_scene scene;
-  assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, precision: quad}", &scene), KZ_OK);
+  assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, tolerance: 1e-9}", &scene), KZ_OK);
   char *once = resolved(&scene);
   kz_scene_free(&scene);
   assert_int_equal(read_scene(once, NULL, &scene), KZ_OK);

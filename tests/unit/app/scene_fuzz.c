@@ -15,7 +15,7 @@ enum { LONGEST = 4096 };
 
 static const char seed[] =
     "title: \"a 'b'\"  # words\npendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.300}\n"
-    "numerics:\n  scheme: split6\n  steps_per_period: 24\n  precision: double\nbasin:\n  theta: {min: -1, max: 1, count: 10}\n"
+    "numerics:\n  scheme: split6\n  steps_per_period: 24\nbasin:\n  theta: {min: -1, max: 1, count: 10}\n"
     "  velocity: {min: -2, max: 2, count: 1000}\n  method: icm\n  icm: {theta: 100, velocity: 100, interpolation: quintic}\n"
     "  max_periods: 2000\n  attractors: {starts: 8192, max_period: 48, seed: 1}\n";
 

@@ -74,7 +74,7 @@ static void grown_cells_end_where_they_are_said_to(void **state) {
     added[round] = kz_proof_adopt(proof, label, mirror);
   }
   assert_true(added[0] > 0 && added[2] > 0);
-  kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .precision = KZ_DOUBLE};
+  kz_numerics numerics = {.scheme = kz_scheme_find("processed")};
   double error;
   assert_int_equal(kz_numerics_choose(&pendulum, 1e-9, 2.5, &numerics, &error), KZ_OK);
   kz_plan *plan = kz_plan_create(&pendulum, &numerics);

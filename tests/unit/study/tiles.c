@@ -11,7 +11,7 @@
 #include "basin/measures.h"
 
 static kz_scene scene_of(int64_t theta, int64_t velocity, double min, int64_t max_periods) {
-  kz_scene scene = {.numerics = {.steps_per_period = 24, .precision = KZ_DOUBLE}};
+  kz_scene scene = {.numerics = {.steps_per_period = 24}};
   scene.basin = (kz_basin_plan){
       .theta = {-M_PI, M_PI, theta}, .velocity = {min, 2, velocity}, .max_periods = max_periods, .method = KZ_METHOD_ICM};
   return scene;

@@ -73,7 +73,7 @@ contains
 
     form = 0
     call eigenbasis(monodromy(fine, attractor, j), attractor%multiplier, change(flow, attractor, j), basis, inverse)
-    radius = ROUNDING*max(flow%rounding, epsilon(1.0_dp))*maxval(hypot(PI*attractor%u, attractor%v)) &
+    radius = ROUNDING*epsilon(1.0_dp)*maxval(hypot(PI*attractor%u, attractor%v)) &
              *norm2(inverse)/(1 - abs(attractor%multiplier(1)))
     radius = max(radius, SMALLEST)
     first = 0

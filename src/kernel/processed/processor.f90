@@ -1,35 +1,39 @@
-  ! The processor of the processed splitting in one kind of real: to kernel coordinates and back (tile.inc).
+!> The processor of the processed splitting: from physical coordinates to those of the kernel and back.
+module kz_processed_processor
+  use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
+  use kz_lanes_map, only: WIDTH
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI
+  use kz_processed_tables, only: processor_t, ORDER, HARMONICS
+  implicit none
+  private
+  public :: displacement_t, make_displacement, change_coordinates, change_derivative, sine
 
-  !> The lanes from .. n (at most WIDTH) that are not in physical coordinates for good.
-  subroutine change_lanes(self, displacement, from, n, matrix)
-    class(processed_tile_t), intent(inout) :: self
-    type(displacement_t), intent(in) :: displacement
-    integer, intent(in) :: from
-    integer, intent(in) :: n
-    real(c_double), intent(inout), optional :: matrix(2, 2, WIDTH)
-    real(rk) :: u(WIDTH), v(WIDTH)
-    integer(c_int64_t) :: control
-    integer :: lanes, i
+  !> processor_t in double precision.
+  type :: displacement_t
+    real(rk) :: theta(0:HARMONICS, 0:ORDER)
+    real(rk) :: velocity(0:HARMONICS, 0:ORDER)
+  end type displacement_t
 
-    control = flush_subnormals()
-    if (present(matrix)) call change_tangents(self, displacement, from, n, matrix)
-    lanes = n - from + 1
-    u(:lanes) = self%angle(from:n)
-    v(:lanes) = self%velocity(from:n)
-    call change_coordinates(displacement, lanes, u, v)
-    do i = 1, lanes
-      self%angle(from - 1 + i) = merge(self%angle(from - 1 + i), u(i), self%physical(from - 1 + i))
-      self%velocity(from - 1 + i) = merge(self%velocity(from - 1 + i), v(i), self%physical(from - 1 + i))
-    end do
-    call wrap(self, from, n)
-    call restore_control(control)
-  end subroutine change_lanes
+contains
+
+  !> A processor, rounded.
+  pure function make_displacement(processor) result(displacement)
+    !> in quad precision
+    type(processor_t), intent(in) :: processor
+    type(displacement_t) :: displacement
+
+    displacement = displacement_t(real(processor%theta, rk), real(processor%velocity, rk))
+  end function make_displacement
 
   !> (u, v) + displacement(u, v) of n states, at most WIDTH.
   subroutine change_coordinates(displacement, n, u, v)
+    !> the change
     type(displacement_t), intent(in) :: displacement
+    !> states
     integer, intent(in) :: n
+    !> half-turns
     real(rk), intent(inout) :: u(n)
+    !> rad per drive radian
     real(rk), intent(inout) :: v(n)
     real(rk), dimension(WIDTH) :: sine_1, cosine_1, sine_j, cosine_j, square, shift_u, shift_v
     real(rk) :: former
@@ -100,33 +104,31 @@
     end do
   end subroutine sine_and_cosine
 
-  !> matrix(:, :, lane) = derivative of (u, v) + displacement(u, v), in rad, times what it was.
-  subroutine change_tangents(self, displacement, from, n, matrix)
-    class(processed_tile_t), intent(in) :: self
+  !> The derivative of (u, v) + displacement(u, v) by (theta, v), angles in rad.
+  function change_derivative(displacement, u, v) result(derivative)
+    !> the change
     type(displacement_t), intent(in) :: displacement
-    integer, intent(in) :: from
-    integer, intent(in) :: n
-    real(c_double), intent(inout) :: matrix(2, 2, WIDTH)
-    real(rk), parameter :: PI = real(1/INVERSE_PI_QUAD, rk)
-    real(rk) :: s(1), c(1), theta(2), velocity(2), by_u(2), by_v(2), derivative(2, 2)
-    integer :: lane, j
+    !> half-turns
+    real(rk), intent(in) :: u
+    !> rad per drive radian
+    real(rk), intent(in) :: v
+    real(rk) :: derivative(2, 2)
+    real(rk), parameter :: PI = 3.14159265358979323846_rk
+    real(rk) :: s(1), c(1), theta(2), velocity(2), by_u(2), by_v(2)
+    integer :: j
 
-    do lane = from, n
-      if (self%physical(lane)) cycle
-      by_u = 0
-      by_v = 0
-      do j = 0, HARMONICS
-        call sine_and_cosine(1, j*self%angle(lane:lane), s, c)
-        theta = slopes(displacement%theta(j, :), j, s(1), c(1), self%velocity(lane))
-        velocity = slopes(displacement%velocity(j, :), j, s(1), c(1), self%velocity(lane))
-        by_u = by_u + [theta(1), velocity(1)]
-        by_v = by_v + [theta(2), velocity(2)]
-      end do
-      derivative(1, :) = [1 + by_u(1), PI*by_v(1)]
-      derivative(2, :) = [by_u(2)/PI, 1 + by_v(2)]
-      matrix(:, :, lane) = real(matmul(derivative, real(matrix(:, :, lane), rk)), c_double)
+    by_u = 0
+    by_v = 0
+    do j = 0, HARMONICS
+      call sine_and_cosine(1, [j*u], s, c)
+      theta = slopes(displacement%theta(j, :), j, s(1), c(1), v)
+      velocity = slopes(displacement%velocity(j, :), j, s(1), c(1), v)
+      by_u = by_u + [theta(1), velocity(1)]
+      by_v = by_v + [theta(2), velocity(2)]
     end do
-  end subroutine change_tangents
+    derivative(1, :) = [1 + by_u(1), PI*by_v(1)]
+    derivative(2, :) = [by_u(2)/PI, 1 + by_v(2)]
+  end function change_derivative
 
   !> Derivatives by u and by v of a harmonic: sin(pi j u) (even powers of v) + cos(pi j u) (odd powers).
   pure function slopes(coefficient, j, s, c, v) result(slope)
@@ -141,9 +143,13 @@
     slope = 0
     do n = 0, ubound(coefficient, 1)
       if (mod(n, 2) == 0) then
-        slope = slope + coefficient(n)*[j*c*v**n/real(INVERSE_PI_QUAD, rk), n*s*v**max(n - 1, 0)]
+        slope = slope + coefficient(n)*[j*c*v**n/INVERSE_PI, n*s*v**max(n - 1, 0)]
       else
-        slope = slope + coefficient(n)*[-j*s*v**n/real(INVERSE_PI_QUAD, rk), n*c*v**(n - 1)]
+        slope = slope + coefficient(n)*[-j*s*v**n/INVERSE_PI, n*c*v**(n - 1)]
       end if
     end do
   end function slopes
+
+  include 'lanes/sine.inc'
+
+end module kz_processed_processor

@@ -1,11 +1,60 @@
-  ! The stages of one period of split schemes and Runge-Kutta, and their tangents, in one kind of real (tile.inc).
+!> The stages of one period of split schemes and Runge-Kutta, and their tangents.
+module kz_split_stages
+  use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
+  use kz_lanes_map, only: WIDTH
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI
+  use kz_lanes_step_table, only: period_t, INVERSE_PI_QUAD
+  implicit none
+  private
+  public :: steps_t, make_steps, split_stages, last_drift, rk4_steps, split_tangent, rk4_tangent
 
+  !> period_t in double precision.
+  type :: steps_t
+    logical :: split
+    integer :: n_steps
+    integer, allocatable :: step_end(:)
+    real(rk), allocatable :: drift(:)    !< rad per unit of velocity
+    real(rk), allocatable :: drift_u(:)  !< half-turns per unit of velocity
+    real(rk), allocatable :: decay(:)
+    real(rk), allocatable :: kick(:)
+    real(rk) :: beta
+    real(rk) :: step
+  end type steps_t
+
+contains
+
+  !> The tables of one period, rounded.
+  subroutine make_steps(period, steps)
+    !> in quad precision
+    type(period_t), intent(in) :: period
+    !> in double precision
+    type(steps_t), intent(out) :: steps
+
+    steps%split = period%split
+    steps%n_steps = period%n_steps
+    allocate (steps%kick, source=real(period%kick, rk))
+    steps%beta = real(period%beta, rk)
+    steps%step = real(period%step, rk)
+    if (.not. period%split) return
+    allocate (steps%step_end, source=period%step_end)
+    allocate (steps%drift, source=real(period%drift, rk))
+    allocate (steps%drift_u, source=real(period%drift*INVERSE_PI_QUAD, rk))
+    allocate (steps%decay, source=real(period%decay, rk))
+  end subroutine make_steps
+
+  !> Stages of a split scheme.
   subroutine split_stages(self, first, last, n, u, v)
-    class(tile_t), intent(in) :: self
+    !> tables of a period
+    type(steps_t), intent(in) :: self
+    !> stage or step, from 1
     integer, intent(in) :: first
+    !> stage or step
     integer, intent(in) :: last
+    !> lanes
     integer, intent(in) :: n
+    !> half-turns
     real(rk), intent(inout) :: u(WIDTH)
+    !> rad per drive radian
     real(rk), intent(inout) :: v(WIDTH)
     real(rk) :: drift, decay, kick
     integer :: s, i
@@ -21,10 +70,15 @@
     end do
   end subroutine split_stages
 
+  !> The drift after the last stage.
   subroutine last_drift(self, n, u, v)
-    class(tile_t), intent(in) :: self
+    !> tables of a period
+    type(steps_t), intent(in) :: self
+    !> lanes
     integer, intent(in) :: n
+    !> half-turns
     real(rk), intent(inout) :: u(WIDTH)
+    !> rad per drive radian
     real(rk), intent(inout) :: v(WIDTH)
     integer :: s
 
@@ -33,12 +87,19 @@
     v(:n) = self%decay(s)*v(:n)
   end subroutine last_drift
 
+  !> Steps of Runge-Kutta.
   subroutine rk4_steps(self, first, last, n, u, v)
-    class(tile_t), intent(in) :: self
+    !> tables of a period
+    type(steps_t), intent(in) :: self
+    !> stage or step, from 1
     integer, intent(in) :: first
+    !> stage or step
     integer, intent(in) :: last
+    !> lanes
     integer, intent(in) :: n
+    !> half-turns
     real(rk), intent(inout) :: u(WIDTH)
+    !> rad per drive radian
     real(rk), intent(inout) :: v(WIDTH)
     real(rk) :: h, half, f0, f1, f2, a1, a2, a3, a4, v2, v3, v4
     integer :: s, i
@@ -65,10 +126,15 @@
 
   !> Stages and last drift, and their derivatives c(i, :, j): column j of the tangent map of lane i.
   subroutine split_tangent(self, n, u, v, c)
-    class(tile_t), intent(in) :: self
+    !> tables of a period
+    type(steps_t), intent(in) :: self
+    !> lanes
     integer, intent(in) :: n
+    !> half-turns
     real(rk), intent(inout) :: u(WIDTH)
+    !> rad per drive radian
     real(rk), intent(inout) :: v(WIDTH)
+    !> c(i, :, j): column j of the tangent map of lane i
     real(rk), intent(inout) :: c(WIDTH, 2, 2)
     real(rk) :: drift, drift_u, decay, kick, slope
     integer :: s, i
@@ -96,10 +162,15 @@
 
   !> The derivative of the scheme itself, seen from the states before each step.
   subroutine rk4_tangent(self, n, u, v, c)
-    class(tile_t), intent(in) :: self
+    !> tables of a period
+    type(steps_t), intent(in) :: self
+    !> lanes
     integer, intent(in) :: n
+    !> half-turns
     real(rk), intent(inout) :: u(WIDTH)
+    !> rad per drive radian
     real(rk), intent(inout) :: v(WIDTH)
+    !> c(i, :, j): column j of the tangent map of lane i
     real(rk), intent(inout) :: c(WIDTH, 2, 2)
     real(rk) :: half, half_u, f0, f1, f2, v2, v3, slope(WIDTH, 4)
     integer :: s, i, j
@@ -149,3 +220,7 @@
       y(i) = y(i) + h/6*(a1 + 2*a2 + 2*a3 + a4)
     end do
   end subroutine rk4_column
+
+  include 'lanes/sine.inc'
+
+end module kz_split_stages

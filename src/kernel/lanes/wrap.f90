@@ -1,0 +1,60 @@
+!> Lanes after a period: angles brought back to [-1, 1]; and numbers below the normal ones, which are taken for 0 on the way.
+module kz_lanes_wrap
+  use, intrinsic :: iso_c_binding, only: c_int64_t
+  use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
+  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
+  use kz_lanes_map, only: flow_t
+  use kz_lanes_sine, only: MAGIC, VECTOR
+  implicit none
+  private
+  public :: wrap, vectors_of, flush_subnormals, restore_control
+
+  !> An angle of so many turns has no fraction left: the state is lost.
+  real(rk), parameter :: MOST_TURNS = 1e15_rk
+
+  !> src/kernel/lanes/flush.c
+  interface
+    function flush_subnormals() bind(C, name='kz_flush_subnormals') result(control)
+      import :: c_int64_t
+      integer(c_int64_t) :: control
+    end function flush_subnormals
+
+    subroutine restore_control(control) bind(C, name='kz_restore_control')
+      import :: c_int64_t
+      integer(c_int64_t), value :: control
+    end subroutine restore_control
+  end interface
+
+contains
+
+  !> Brings the angles of some lanes back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
+  subroutine wrap(flow, first, last)
+    !> the flow
+    class(flow_t), intent(inout) :: flow
+    !> lane, from 1
+    integer, intent(in) :: first
+    !> lane
+    integer, intent(in) :: last
+    integer(ik), parameter :: NO_TURNS = transfer(MAGIC, 0_ik)
+    real(rk) :: nan, shifted, turn
+    integer :: i
+
+    nan = ieee_value(nan, ieee_quiet_nan)
+    do i = first, last ! over vectors: the turns are read off the bits
+      shifted = 0.5_rk*flow%u(i) + MAGIC
+      turn = shifted - MAGIC
+      flow%u(i) = merge(flow%u(i) - 2*turn, nan, abs(turn) < MOST_TURNS)
+      flow%turns(i) = flow%turns(i) + merge(transfer(shifted, 0_ik) - NO_TURNS, 0_ik, abs(turn) < MOST_TURNS)
+    end do
+  end subroutine wrap
+
+  !> n lanes, rounded up to whole vectors.
+  pure function vectors_of(n) result(lanes)
+    !> lanes in use
+    integer, intent(in) :: n
+    integer :: lanes
+
+    lanes = VECTOR*((n + VECTOR - 1)/VECTOR)
+  end function vectors_of
+
+end module kz_lanes_wrap

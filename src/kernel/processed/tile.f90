@@ -1,0 +1,255 @@
+!> Lanes moved by the processed splitting: states are kernel coordinates, P of the physical ones. Lanes too fast for the tables keep
+!> physical coordinates, and another flow advances them; a state that is put faster than `fastest` is taken for physical.
+module kz_processed_tile
+  use, intrinsic :: iso_c_binding, only: c_int64_t
+  use, intrinsic :: iso_fortran_env, only: rk => real64
+  use kz_lanes_map, only: flow_t, put_state, move_state, WIDTH, ROOM
+  use kz_lanes_sine, only: INVERSE_PI
+  use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
+  use kz_processed_processor, only: displacement_t, make_displacement, change_coordinates, change_derivative
+  use kz_processed_stages, only: stages_t, make_stages, advance_stages, tangent_stages
+  use kz_processed_tables, only: processed_t
+  implicit none
+  private
+  public :: make_processed_tile
+
+  type, extends(flow_t) :: processed_tile_t
+    type(stages_t) :: stages
+    type(displacement_t) :: to_kernel
+    type(displacement_t) :: to_physical
+    real(rk) :: fastest                  !< rad per drive radian, that the tables serve
+    logical :: physical(ROOM) = .false.  !< lanes that are faster
+    class(flow_t), allocatable :: fallback
+  contains
+    procedure :: put => processed_put
+    procedure :: move => processed_move
+    procedure :: advance => processed_advance
+    procedure :: advance_tangent => processed_tangent
+    procedure :: sample => processed_sample
+    procedure :: enter => processed_enter
+    procedure :: leave => processed_leave
+  end type processed_tile_t
+
+contains
+
+  !> A tile with the tables of one period. Lanes faster than `fastest` are left to `fallback`.
+  subroutine make_processed_tile(table, fastest, fallback, flow)
+    !> in quad precision
+    type(processed_t), intent(in) :: table
+    !> rad per drive radian
+    real(rk), intent(in) :: fastest
+    !> the flow of faster lanes; it is taken over
+    class(flow_t), allocatable, intent(inout) :: fallback
+    !> the map of one drive period
+    class(flow_t), allocatable, intent(out) :: flow
+    type(processed_tile_t), allocatable :: tile
+
+    allocate (tile)
+    call make_stages(table, tile%stages)
+    tile%to_kernel = make_displacement(table%enter)
+    tile%to_physical = make_displacement(table%leave)
+    tile%fastest = fastest
+    call move_alloc(fallback, tile%fallback)
+    call move_alloc(tile, flow)
+  end subroutine make_processed_tile
+
+  subroutine processed_advance(self, n)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk) :: u(WIDTH), v(WIDTH)
+
+    u = self%u(:WIDTH)
+    v = self%v(:WIDTH)
+    call advance_stages(self%stages, n, u, v)
+    if (count(abs(v(:n)) > self%fastest .or. self%physical(:n)) > 0) then
+      call fall_back(self, n, u, v)
+      call change_fast_lanes(self, n, u, v)
+      call change_fast_lanes(self, n, u, v) ! those that would come back at once stay as they were
+    end if
+    self%u(:n) = u(:n)
+    self%v(:n) = v(:n)
+    call wrap(self, 1, n)
+  end subroutine processed_advance
+
+  !> Lanes in physical coordinates take another flow's image.
+  subroutine fall_back(self, n, u, v)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: u(WIDTH)
+    real(rk), intent(inout) :: v(WIDTH)
+    integer :: lane(WIDTH), i, fast
+
+    fast = 0
+    do i = 1, n
+      if (.not. self%physical(i)) cycle
+      fast = fast + 1
+      lane(fast) = i
+      call self%fallback%put(fast, self%u(i), self%v(i))
+    end do
+    call self%fallback%advance(fast)
+    do i = 1, fast
+      u(lane(i)) = self%fallback%u(i) + 2*real(self%fallback%turns(i), rk)
+      v(lane(i)) = self%fallback%v(i)
+    end do
+  end subroutine fall_back
+
+  !> Lanes that have become too fast for the tables go to physical coordinates, those that are no longer so come back.
+  subroutine change_fast_lanes(self, n, u, v)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: u(WIDTH)
+    real(rk), intent(inout) :: v(WIDTH)
+    logical :: fast
+    integer :: i
+
+    do i = 1, n
+      fast = abs(v(i)) > self%fastest
+      if (fast .eqv. self%physical(i)) cycle
+      if (fast) call change_coordinates(self%to_physical, 1, u(i:i), v(i:i))
+      if (.not. fast) call change_coordinates(self%to_kernel, 1, u(i:i), v(i:i))
+      self%physical(i) = fast
+    end do
+  end subroutine change_fast_lanes
+
+  !> One period with the tangent map in kernel coordinates: the derivative of the very arithmetic, of determinant exp(-2 pi beta).
+  subroutine processed_tangent(self, n, matrix)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: matrix(2, 2, WIDTH)
+    real(rk) :: c(WIDTH, 2, 2)
+    integer :: lanes, i
+
+    do i = 1, n
+      c(i, :, :) = matrix(:, :, i)
+    end do
+    c(n + 1:, :, :) = 0
+    c(:, 1, :) = c(:, 1, :)*INVERSE_PI
+    lanes = merge(1, vectors_of(n), n == 1)
+    call tangent_stages(self%stages, lanes, self%u(:lanes), self%v(:lanes), c)
+    c(:, 1, :) = c(:, 1, :)/INVERSE_PI
+    call tangent_fall_back(self, n, matrix, c)
+    call processed_advance(self, n)
+    do i = 1, n
+      matrix(:, :, i) = c(i, :, :)
+    end do
+  end subroutine processed_tangent
+
+  !> The tangent map of lanes that another flow advances.
+  subroutine tangent_fall_back(self, n, matrix, c)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(in) :: matrix(2, 2, WIDTH)
+    real(rk), intent(inout) :: c(WIDTH, 2, 2)
+    real(rk) :: one(2, 2, WIDTH)
+    integer :: i
+
+    do i = 1, n
+      if (.not. self%physical(i)) cycle
+      one(:, :, 1) = matrix(:, :, i)
+      call self%fallback%put(1, self%u(i), self%v(i))
+      call self%fallback%advance_tangent(1, one)
+      c(i, :, :) = one(:, :, 1)
+    end do
+  end subroutine tangent_fall_back
+
+  subroutine processed_put(self, lane, u, v)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(rk), intent(in) :: u
+    real(rk), intent(in) :: v
+
+    call put_state(self, lane, u, v)
+    self%physical(lane) = .not. abs(self%v(lane)) <= self%fastest
+  end subroutine processed_put
+
+  subroutine processed_move(self, from, to)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    call move_state(self, from, to)
+    self%physical(to) = self%physical(from)
+  end subroutine processed_move
+
+  subroutine processed_enter(self, n, matrix, first)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
+    integer, intent(in), optional :: first
+    integer :: from
+
+    from = 1
+    if (present(first)) from = first
+    self%physical(from:n) = .not. abs(self%v(from:n)) <= self%fastest
+    call change_lanes(self, self%to_kernel, from, n, matrix)
+  end subroutine processed_enter
+
+  subroutine processed_leave(self, n, matrix, first)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
+    integer, intent(in), optional :: first
+    integer :: from
+
+    from = 1
+    if (present(first)) from = first
+    call change_lanes(self, self%to_physical, from, n, matrix)
+    self%physical(from:n) = .true.
+  end subroutine processed_leave
+
+  !> The lanes from .. n (at most WIDTH) that are not in physical coordinates for good.
+  subroutine change_lanes(self, displacement, from, n, matrix)
+    class(processed_tile_t), intent(inout) :: self
+    type(displacement_t), intent(in) :: displacement
+    integer, intent(in) :: from
+    integer, intent(in) :: n
+    real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
+    real(rk) :: u(WIDTH), v(WIDTH)
+    integer(c_int64_t) :: control
+    integer :: lanes, i
+
+    control = flush_subnormals()
+    if (present(matrix)) call change_tangents(self, displacement, from, n, matrix)
+    lanes = n - from + 1
+    u(:lanes) = self%u(from:n)
+    v(:lanes) = self%v(from:n)
+    call change_coordinates(displacement, lanes, u, v)
+    do i = 1, lanes
+      self%u(from - 1 + i) = merge(self%u(from - 1 + i), u(i), self%physical(from - 1 + i))
+      self%v(from - 1 + i) = merge(self%v(from - 1 + i), v(i), self%physical(from - 1 + i))
+    end do
+    call wrap(self, from, n)
+    call restore_control(control)
+  end subroutine change_lanes
+
+  !> matrix(:, :, lane) = derivative of the change, in rad, times what it was.
+  subroutine change_tangents(self, displacement, from, n, matrix)
+    class(processed_tile_t), intent(in) :: self
+    type(displacement_t), intent(in) :: displacement
+    integer, intent(in) :: from
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: matrix(2, 2, WIDTH)
+    integer :: lane
+
+    do lane = from, n
+      if (self%physical(lane)) cycle
+      matrix(:, :, lane) = matmul(change_derivative(displacement, self%u(lane), self%v(lane)), matrix(:, :, lane))
+    end do
+  end subroutine change_tangents
+
+  !> Within a period the fallback shows the motion.
+  subroutine processed_sample(self, n, u, v)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(out) :: u(n)
+    real(rk), intent(out) :: v(n)
+
+    call self%leave(1)
+    call self%fallback%put(1, self%u(1), self%v(1))
+    call self%fallback%sample(n, u, v)
+    self%u(1) = u(n)
+    self%v(1) = v(n)
+    call self%enter(1)
+  end subroutine processed_sample
+
+end module kz_processed_tile

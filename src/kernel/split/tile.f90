@@ -1,0 +1,108 @@
+!> Lanes moved by a split scheme or Runge-Kutta.
+module kz_split_tile
+  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use kz_lanes_map, only: flow_t, WIDTH
+  use kz_lanes_step_table, only: period_t
+  use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
+  use kz_split_stages, only: steps_t, make_steps, split_stages, last_drift, rk4_steps, split_tangent, rk4_tangent
+  implicit none
+  private
+  public :: make_tile
+
+  type, extends(flow_t) :: tile_t
+    type(steps_t) :: steps
+  contains
+    procedure :: advance
+    procedure :: advance_tangent
+    procedure :: sample
+  end type tile_t
+
+contains
+
+  !> A tile with the tables of one period.
+  subroutine make_tile(period, flow)
+    !> drifts and kicks of one period
+    type(period_t), intent(in) :: period
+    !> the map of that period
+    class(flow_t), allocatable, intent(out) :: flow
+    type(tile_t), allocatable :: tile
+
+    allocate (tile)
+    call make_steps(period, tile%steps)
+    call move_alloc(tile, flow)
+  end subroutine make_tile
+
+  subroutine advance(self, n)
+    class(tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer(c_int64_t) :: control
+    integer :: lanes
+
+    control = flush_subnormals()
+    lanes = min(vectors_of(n), WIDTH)
+    if (self%steps%split) then
+      call split_stages(self%steps, 1, size(self%steps%kick), lanes, self%u, self%v)
+      call last_drift(self%steps, lanes, self%u, self%v)
+    else
+      call rk4_steps(self%steps, 1, self%steps%n_steps, lanes, self%u, self%v)
+    end if
+    call wrap(self, 1, lanes)
+    call restore_control(control)
+  end subroutine advance
+
+  !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was. The states
+  !> move as in `advance`. A single lane goes alone.
+  subroutine advance_tangent(self, n, matrix)
+    class(tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(c_double), intent(inout) :: matrix(2, 2, WIDTH)
+    real(c_double) :: c(WIDTH, 2, 2)
+    integer(c_int64_t) :: control
+    integer :: lanes, i
+
+    control = flush_subnormals()
+    lanes = min(vectors_of(n), WIDTH)
+    if (n == 1) lanes = 1
+    do i = 1, n
+      c(i, :, :) = matrix(:, :, i)
+    end do
+    c(n + 1:lanes, :, :) = 0
+    if (self%steps%split) then
+      call split_tangent(self%steps, lanes, self%u, self%v, c)
+    else
+      call rk4_tangent(self%steps, lanes, self%u, self%v, c)
+    end if
+    call wrap(self, 1, lanes)
+    do i = 1, n
+      matrix(:, :, i) = c(i, :, :)
+    end do
+    call restore_control(control)
+  end subroutine advance_tangent
+
+  !> Lane 1 through one period, shown at every (n_steps/n)-th step end; u(n) is not yet wrapped. Needs steps that are not fused.
+  subroutine sample(self, n, u, v)
+    class(tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(c_double), intent(out) :: u(n)
+    real(c_double), intent(out) :: v(n)
+    integer(c_int64_t) :: control
+    integer :: i, stride, first
+
+    control = flush_subnormals()
+    stride = self%steps%n_steps/n
+    first = 1
+    do i = 1, n
+      if (self%steps%split) then
+        call split_stages(self%steps, first, self%steps%step_end(i*stride), 1, self%u, self%v)
+        first = self%steps%step_end(i*stride) + 1
+      else
+        call rk4_steps(self%steps, (i - 1)*stride + 1, i*stride, 1, self%u, self%v)
+      end if
+      u(i) = self%u(1)
+      v(i) = self%v(1)
+    end do
+    call wrap(self, 1, 1)
+    call restore_control(control)
+  end subroutine sample
+
+end module kz_split_tile
