@@ -21,6 +21,9 @@ module kz_kernel_processed_choice
   integer, parameter :: FEWEST_KICKS = 4
   !> Operations of a step besides the terms of drift and kick.
   integer, parameter :: OTHER_OPERATIONS = 6
+  !> No number of steps up to MOST_STEPS carries more than these: rad that a step turns the pendulum at most, and rad of its fastest
+  !> oscillation in a step. Measured: errors of 1e-6 rad a period end at 0.7 and 0.22; of 1e-3 at 2 and 0.4.
+  real(c_double), parameter :: LONGEST_TURN = 3.2_c_double, LONGEST_SWING = 0.8_c_double
   !> Probes: states with speeds up to the fastest, both ends included, and how much more than their largest error is assumed.
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
@@ -47,7 +50,7 @@ contains
 
     status = REFUSED
     error = huge(error)
-    if (pendulum%beta > MOST_DAMPING) return
+    if (pendulum%beta > MOST_DAMPING .or. out_of_reach(pendulum, fastest)) return
     call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
     call ieee_set_halting_mode(ieee_usual, .false.)
     allocate (series)
@@ -65,6 +68,16 @@ contains
     call ieee_set_flag(ieee_usual, .false.)
     call ieee_set_halting_mode(ieee_usual, halting)
   end function choose
+
+  !> Whether a pendulum is too stiff, or a motion too fast, for any number of steps; numbers that are none are.
+  pure function out_of_reach(pendulum, fastest) result(out)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), intent(in) :: fastest
+    logical :: out
+    real(c_double), parameter :: STEP = 2*PI/MOST_STEPS
+
+    out = .not. (STEP*fastest <= LONGEST_TURN .and. STEP*sqrt(abs(pendulum%k) + abs(pendulum%m)) <= LONGEST_SWING)
+  end function out_of_reach
 
   subroutine make_probes(pendulum, fastest, probes)
     type(pendulum_t), intent(in) :: pendulum

@@ -79,6 +79,7 @@ contains
     real(rk), intent(inout) :: v(WIDTH)
     integer :: lane(WIDTH), i, fast
 
+    if (.not. allocated(self%fallback)) return ! where errors are measured: a motion that is lost stays lost
     fast = 0
     do i = 1, n
       if (.not. self%physical(i)) cycle
