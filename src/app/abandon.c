@@ -93,7 +93,8 @@ static void at_abort(int number) {
 
 /* All ranks have had the request, or the launcher ends those that have not. */
 static void overdue(const char *reason) {
-  say(reason, "; nothing was saved");
+  if (!here.part[0] && here.rank > 0) sleep(1); /* before there is a file all ranks hear it, and rank 0 speaks */
+  if (here.part[0] || here.rank <= 0) say(reason, "; nothing was saved");
   _exit(KZ_STOPPED);
 }
 
@@ -109,7 +110,7 @@ void kz_abandon_run(const kz_run *run, const char *path) {
   here.run = *run;
   here.part[0] = '\0';
   if (path) snprintf(here.part, sizeof here.part, "%s.part", path);
-  if (run->ranks) kz_ranks_set_overdue(run->ranks, path ? overdue : NULL);
+  if (run->ranks) kz_ranks_set_overdue(run->ranks, overdue);
 }
 
 void kz_abandon_disarm(void) {

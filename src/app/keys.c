@@ -37,7 +37,7 @@
 #define EDGE_START(place, help)                                                                 \
   MAPPING("edge." #place, NULL, KZ_NO_FIELD, help),                                             \
       REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, edge.place[0], "Angle from down."), \
-      REAL("edge." #place ".velocity", "rad per drive radian", -1e9, 1e9, NULL, edge.place[1], "Velocity.")
+      REAL("edge." #place ".velocity", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, edge.place[1], "Velocity.")
 #define CHART_AXIS(axis, help)                                                                                                \
   MAPPING("chart." #axis, NULL, KZ_NO_FIELD, help),                                                                           \
       ROW("chart." #axis ".parameter", KZ_KEY_WORD, NULL, AT(chart.axis.parameter),                                           \
@@ -105,9 +105,9 @@ const kz_key kz_keys[] = {
     DECIMAL("basin.theta.width", "rad", KZ_ABOVE_ZERO, 7, "", basin.theta.width, "Width of the window."),
     INTEGER("basin.theta.count", 1, 1e6, "1000", basin.theta.count, "Cells along theta."),
     MAPPING("basin.velocity", NULL, KZ_NO_FIELD, "Velocities of the cells."),
-    EDGE("basin.velocity.min", "rad per drive radian", 1e9, NULL, basin.velocity_edges.min, "Lower edge of the window."),
-    EDGE("basin.velocity.max", "rad per drive radian", 1e9, NULL, basin.velocity_edges.max, "Upper edge of the window."),
-    DECIMAL("basin.velocity.centre", "rad per drive radian", -1e9, 1e9, NULL, basin.velocity.centre, CENTRE_HELP),
+    EDGE("basin.velocity.min", "rad per drive radian", KZ_MOST_SPEED, NULL, basin.velocity_edges.min, "Lower edge of the window."),
+    EDGE("basin.velocity.max", "rad per drive radian", KZ_MOST_SPEED, NULL, basin.velocity_edges.max, "Upper edge of the window."),
+    DECIMAL("basin.velocity.centre", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, basin.velocity.centre, CENTRE_HELP),
     DECIMAL("basin.velocity.width", "rad per drive radian", KZ_ABOVE_ZERO, 2e9, NULL, basin.velocity.width,
             "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
@@ -161,9 +161,9 @@ const kz_key kz_keys[] = {
     REAL("attractors.theta.min", "rad", -1e6, 1e6, "", attractors.theta.min, "Lower edge of the window."),
     REAL("attractors.theta.max", "rad", -1e6, 1e6, "", attractors.theta.max, "Upper edge of the window."),
     MAPPING("attractors.velocity", NULL, KZ_NO_FIELD, "Velocities of the starts."),
-    REAL("attractors.velocity.min", "rad per drive radian", -1e9, 1e9, NULL, attractors.velocity.min,
+    REAL("attractors.velocity.min", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, attractors.velocity.min,
          "Lower edge of the window."),
-    REAL("attractors.velocity.max", "rad per drive radian", -1e9, 1e9, NULL, attractors.velocity.max,
+    REAL("attractors.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, attractors.velocity.max,
          "Upper edge of the window."),
     INTEGER("attractors.starts", 1, 1e8, "8192", attractors.starts, "Starts of the search."),
     INTEGER("attractors.max_period", 1, 512, "48", attractors.max_period, "Longest period that is looked for."),
@@ -262,14 +262,14 @@ const kz_key kz_keys[] = {
     REAL("sweep.theta.min", "rad", -1e6, 1e6, "", sweep.theta.min, "Lower edge of the window."),
     REAL("sweep.theta.max", "rad", -1e6, 1e6, "", sweep.theta.max, "Upper edge of the window."),
     MAPPING("sweep.velocity", "", KZ_NO_FIELD, "Velocities of the starts; a grid of basin has its own window."),
-    REAL("sweep.velocity.min", "rad per drive radian", -1e9, 1e9, "-2", sweep.velocity.min, "Lower edge of the window."),
-    REAL("sweep.velocity.max", "rad per drive radian", -1e9, 1e9, "2", sweep.velocity.max, "Upper edge of the window."),
+    REAL("sweep.velocity.min", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "-2", sweep.velocity.min, "Lower edge of the window."),
+    REAL("sweep.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "2", sweep.velocity.max, "Upper edge of the window."),
     INTEGER("sweep.starts", 1, 1e7, "2048", sweep.starts, "Starts of the search at each value."),
     INTEGER("sweep.max_period", 1, 512, "48", sweep.max_period, "Longest period that is looked for."),
     INTEGER("sweep.seed", 0, 9007199254740992.0, "1", sweep.seed, "Chooses the starts."),
     MAPPING("sweep.start", "", KZ_NO_FIELD, "Where both walks of strobe start."),
     REAL("sweep.start.theta", "rad", -1e6, 1e6, "3.1", sweep.start_theta, "Angle from down."),
-    REAL("sweep.start.velocity", "rad per drive radian", -1e9, 1e9, "0", sweep.start_velocity, "Velocity."),
+    REAL("sweep.start.velocity", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "0", sweep.start_velocity, "Velocity."),
     INTEGER("sweep.transient", 0, 1e7, "400", sweep.transient, "Drive periods of strobe at each value before the record."),
     REAL("sweep.shock_scale", "rad per drive radian", 1e-6, 1e6, "1", sweep.shock_scale,
          "Change of the velocity that counts as much as 1 rad in resilience."),

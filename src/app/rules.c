@@ -210,6 +210,20 @@ static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
               "has no window to label; add a basin study to the scene");
 }
 
+/* Whether the motions of a pendulum can be followed; `path` names what gives it. */
+static void check_stiffness(kz_reading *reading, const kz_pendulum *pendulum, const char *path) {
+  if (kz_stiffness(pendulum) <= KZ_MOST_STIFFNESS) return;
+  kz_complain(reading, kz_tree_find(reading->root, path), path,
+              "gives abs(k) + abs(m) = %.3g; motions are followed up to %g: a weaker or faster drive", kz_stiffness(pendulum),
+              KZ_MOST_STIFFNESS);
+}
+
+/* The scene's own pendulum, where a study follows motions of it. */
+static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
+  const bool follows = scene->has_basin || scene->has_attractors || scene->has_saddles || scene->has_orbit;
+  if (follows && !reading->message[0]) check_stiffness(reading, &scene->parameters.pendulum, "pendulum");
+}
+
 /* One value of a key of the pendulum mapping: in the range of the key itself, and a pendulum. */
 static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t parameter, const char *path, double value) {
   char key[64];
@@ -221,10 +235,14 @@ static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t 
   if (value < low)
     kz_complain(reading, node, path, "%s is below what %s takes; %s%g", shortest(value).text, key,
                 low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
-  else if (!reading->message[0] && !kz_pendulum_at(scene, 1, &parameter, &value, &pendulum))
+  else if (reading->message[0])
+    return;
+  else if (!kz_pendulum_at(scene, 1, &parameter, &value, &pendulum))
     kz_complain(reading, node, path,
                 "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; a less extreme value",
                 shortest(value).text);
+  else
+    check_stiffness(reading, &pendulum, path);
 }
 
 /* The values of a key of the pendulum mapping that `path` walks along. */
@@ -337,7 +355,8 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
 static const rule rules[] = {basin_rules, shocks_rules,    attractors_rules,  saddles_rules,  manifolds_rules,
-                             orbit_rules, stability_rules, tradeoff_rules,    pendulum_rules, sweep_rules,
+                             orbit_rules, stability_rules, tradeoff_rules,    pendulum_rules, stiffness_rules,
+                             sweep_rules,
                              chart_rules, edge_rules,      orbit_range_rules, settling_rules, numerics_rules};
 
 void kz_reading_rules(kz_reading *reading) {

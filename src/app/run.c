@@ -111,6 +111,7 @@ static kz_status close_checkpoint(job *j, kz_status status, bool complete) {
   kz_checkpoint *checkpoint = j->run.checkpoint;
   j->run.checkpoint = NULL;
   kz_abandon_run(&j->run, NULL);
+  kz_ranks_set_overdue(j->run.ranks, NULL); /* what is left is short */
   const kz_status closed = kz_checkpoint_close(j->run.ranks, checkpoint, complete);
   return status == KZ_OK ? closed : status;
 }
@@ -240,6 +241,7 @@ static kz_status carry_out(job *j) {
   bool complete = false;
   kz_ranks_set_progress(j->run.ranks, j->options->progress);
   kz_ranks_set_time_limit(j->run.ranks, j->options->time_limit);
+  kz_abandon_run(&j->run, NULL); /* the limit holds for what comes before modelling, too */
   KZ_TRY(prepare(j, &complete));
   KZ_TRY(kz_ranks_agree(j->run.ranks, j->first && j->options->log ? open_log(j) : KZ_OK));
   if (!complete) KZ_TRY(open_checkpoint(j, &complete));
@@ -268,6 +270,7 @@ kz_status kz_app_run(const kz_options *options) {
     if (!j.first) kz_message_clear(); /* all have agreed on it: rank 0 speaks, */
     status = kz_say(status);          /* before any rank ends: mpirun ends the others once one has failed */
   }
+  kz_ranks_set_overdue(j.run.ranks, NULL);
   kz_abandon_run(&(kz_run){0}, NULL);
   kz_ranks_end(j.run.ranks);
   free_job(&j);

@@ -8,8 +8,8 @@
 
 enum { MOST_STARTS = 100000 };
 
-/* As far as the scene's keys orbit.start.theta and orbit.start.velocity go. */
-static const double MOST[2] = {1e6, 1e9};
+/* As far as the scene's windows go. */
+static const double MOST[2] = {1e6, KZ_MOST_SPEED};
 static const char *const NAMES[2] = {"THETA", "VELOCITY"};
 
 /* Whether a number has more digits than it takes to tell doubles apart. */
