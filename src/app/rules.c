@@ -2,104 +2,21 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "kapitza/study.h"
-#include "scene.h"
-
-typedef struct {
-  char text[32];
-} decimal;
-
-/* The number as a user would write it. */
-static decimal shortest(double value) {
-  decimal number;
-  kz_scalar_print(value, number.text);
-  return number;
-}
-
-/* min < max, and cells that double precision can tell apart. `path` names the mapping of the axis. */
-static void check_axis(kz_reading *reading, const kz_axis *axis, const char *path) {
-  char name[128];
-  if (isnan(axis->min) || isnan(axis->max)) return;
-  snprintf(name, sizeof name, "%s.max", path);
-  const kz_node *node = kz_tree_find(reading->root, name);
-  const double cell = (axis->max - axis->min) / (double)(axis->count > 0 ? axis->count : 1);
-  if (axis->max <= axis->min)
-    kz_complain(reading, node, name, "%s is too small; it must be greater than min = %s", shortest(axis->max).text,
-                shortest(axis->min).text);
-  else if (cell < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max)))
-    kz_complain(reading, node, name,
-                "%s leaves cells of width %g, too narrow for double precision; use a wider window or a smaller count",
-                shortest(axis->max).text, cell);
-}
-
-static bool is_exact(const kz_basin_plan *plan) {
-  return isnan(plan->accuracy) ? plan->method == KZ_METHOD_EXACT : plan->accuracy >= 1;
-}
-
-/* A window by its middle: cells that pairs of doubles can tell apart, and the method where doubles cannot. */
-static void check_centred(kz_reading *reading, const kz_basin_plan *plan, const kz_axis *axis, const char *path) {
-  static const double pairs = 0x1p-102; /* some last places of a pair of doubles */
-  char name[128];
-  snprintf(name, sizeof name, "%s.width", path);
-  const kz_node *node = kz_tree_find(reading->root, name);
-  const double cell = axis->width.high / (double)(axis->count > 0 ? axis->count : 1);
-  if (cell < pairs * fmax(fabs(axis->centre.high), axis->width.high))
-    kz_complain(reading, node, name,
-                "%s leaves cells of width %g, too narrow for 32 digits; use a wider window or a smaller count",
-                axis->width.text, cell);
-  else if (kz_axis_is_deep(axis) && !is_exact(plan))
-    kz_complain(reading, node, name, "%s leaves cells of width %g, too narrow for double precision; choose basin.method exact",
-                axis->width.text, cell);
-}
-
-/* The axis of a basin from its edges, or from its centre and width. */
-static void set_axis(kz_reading *reading, const kz_basin_plan *plan, kz_edges edges, kz_axis *axis, const char *path) {
-  char name[128];
-  axis->min = edges.min;
-  axis->max = edges.max;
-  if (!axis->centre.text[0] && !axis->width.text[0]) return;
-  const bool has_centre = axis->centre.text[0];
-  snprintf(name, sizeof name, "%s.%s", path, has_centre ? "width" : "centre");
-  if (!has_centre || !axis->width.text[0]) {
-    kz_complain(reading, NULL, name, "is missing beside %s; give both", has_centre ? "centre" : "width");
-    return;
-  }
-  axis->min = axis->centre.high - axis->width.high / 2;
-  axis->max = axis->centre.high + axis->width.high / 2;
-  check_centred(reading, plan, axis, path);
-}
-
-/* Both edges or neither; neither is the whole circle. */
-static void theta_window(kz_reading *reading, kz_axis *theta, const char *path) {
-  char min[128], max[128];
-  snprintf(min, sizeof min, "%s.min", path);
-  snprintf(max, sizeof max, "%s.max", path);
-  const kz_node *min_node = kz_tree_find(reading->root, min), *max_node = kz_tree_find(reading->root, max);
-  if (min_node && !max_node) kz_complain(reading, NULL, max, "is missing beside min; give both or neither");
-  if (max_node && !min_node) kz_complain(reading, NULL, min, "is missing beside max; give both or neither");
-  if (!min_node && !max_node) {
-    theta->min = -M_PI;
-    theta->max = M_PI;
-  }
-  check_axis(reading, theta, path);
-  if (theta->max - theta->min > 2.0 * M_PI)
-    kz_complain(reading, max_node, max, "%s makes the window %s rad wide; it must be at most 2 pi", shortest(theta->max).text,
-                shortest(theta->max - theta->min).text);
-}
+#include "axis_rules.h"
 
 static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin) return;
   kz_basin_plan *plan = &scene->basin;
-  set_axis(reading, plan, plan->theta_edges, &plan->theta, "basin.theta");
-  set_axis(reading, plan, plan->velocity_edges, &plan->velocity, "basin.velocity");
+  kz_axis_set(reading, plan, plan->theta_edges, &plan->theta, "basin.theta");
+  kz_axis_set(reading, plan, plan->velocity_edges, &plan->velocity, "basin.velocity");
   if (!plan->theta.centre.text[0]) {
-    theta_window(reading, &plan->theta, "basin.theta");
+    kz_theta_rules(reading, &plan->theta, "basin.theta");
     plan->theta_edges = (kz_edges){plan->theta.min, plan->theta.max};
   } else if (plan->theta.width.high > 2 * M_PI) {
     kz_complain(reading, kz_tree_find(reading->root, "basin.theta.width"), "basin.theta.width",
                 "%s is too wide; it must be at most 2 pi", plan->theta.width.text);
   }
-  if (!plan->velocity.centre.text[0]) check_axis(reading, &plan->velocity, "basin.velocity");
+  if (!plan->velocity.centre.text[0]) kz_axis_rules(reading, &plan->velocity, "basin.velocity");
 }
 
 /* Sizes of shocks go up, as an axis does. */
@@ -113,13 +30,13 @@ static void shocks_rules(kz_reading *reading, kz_scene *scene) {
   for (int64_t i = 1; i < sizes->count; i++)
     if (!(sizes->values[i] > sizes->values[i - 1]))
       kz_complain(reading, node, "basin.shocks.sizes", "%s does not exceed the size before it; sizes must go up",
-                  shortest(sizes->values[i]).text);
+                  kz_shortest(sizes->values[i]).text);
 }
 
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_attractors) return;
-  theta_window(reading, &scene->attractors.theta, "attractors.theta");
-  check_axis(reading, &scene->attractors.velocity, "attractors.velocity");
+  kz_theta_rules(reading, &scene->attractors.theta, "attractors.theta");
+  kz_axis_rules(reading, &scene->attractors.velocity, "attractors.velocity");
   if (scene->has_basin)
     kz_complain(reading, kz_tree_child(reading->root, "attractors"), "attractors",
                 "stands beside basin, which finds the attractors of its window itself; give one of them");
@@ -127,8 +44,8 @@ static void attractors_rules(kz_reading *reading, kz_scene *scene) {
 
 static void saddles_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_saddles) return;
-  theta_window(reading, &scene->saddles.theta, "saddles.theta");
-  check_axis(reading, &scene->saddles.velocity, "saddles.velocity");
+  kz_theta_rules(reading, &scene->saddles.theta, "saddles.theta");
+  kz_axis_rules(reading, &scene->saddles.velocity, "saddles.velocity");
 }
 
 static void edge_rules(kz_reading *reading, kz_scene *scene) {
@@ -185,23 +102,10 @@ static void orbit_rules(kz_reading *reading, kz_scene *scene) {
   if (linear && orbit->about == KZ_UNSET_WORD) orbit->about = 0;
 }
 
-/* Values from min to max, both included: one value where they are equal. */
-static void check_ends(kz_reading *reading, const kz_axis *axis, const char *path) {
-  char name[128];
-  snprintf(name, sizeof name, "%s.max", path);
-  const kz_node *node = kz_tree_find(reading->root, name);
-  if (axis->count == 1 && axis->max != axis->min)
-    kz_complain(reading, node, name, "%s differs from min = %s; they must be equal because count is 1",
-                shortest(axis->max).text, shortest(axis->min).text);
-  else if (axis->count > 1 && axis->max <= axis->min)
-    kz_complain(reading, node, name, "%s is too small; it must be greater than min = %s", shortest(axis->max).text,
-                shortest(axis->min).text);
-}
-
 static void stability_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_stability) return;
-  check_ends(reading, &scene->stability.k, "stability.k");
-  check_ends(reading, &scene->stability.m, "stability.m");
+  kz_ends_rules(reading, &scene->stability.k, "stability.k");
+  kz_ends_rules(reading, &scene->stability.m, "stability.m");
 }
 
 static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
@@ -233,14 +137,14 @@ static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t 
   const double low = kz_key_find(reading->keys, key)->low;
   if (isnan(value)) return;
   if (value < low)
-    kz_complain(reading, node, path, "%s is below what %s takes; %s%g", shortest(value).text, key,
+    kz_complain(reading, node, path, "%s is below what %s takes; %s%g", kz_shortest(value).text, key,
                 low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
   else if (reading->message[0])
     return;
   else if (!kz_pendulum_at(scene, 1, &parameter, &value, &pendulum))
     kz_complain(reading, node, path,
                 "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; a less extreme value",
-                shortest(value).text);
+                kz_shortest(value).text);
   else
     check_stiffness(reading, &pendulum, path);
 }
@@ -265,9 +169,9 @@ static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t
 static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   kz_sweep_plan *sweep = &scene->sweep;
   if (!scene->has_sweep) return;
-  theta_window(reading, &sweep->theta, "sweep.theta");
-  check_axis(reading, &sweep->velocity, "sweep.velocity");
-  check_axis(reading, &sweep->values, "sweep");
+  kz_theta_rules(reading, &sweep->theta, "sweep.theta");
+  kz_axis_rules(reading, &sweep->velocity, "sweep.velocity");
+  kz_axis_rules(reading, &sweep->values, "sweep");
   if (scene->has_basin && !isnan(scene->basin.accuracy))
     kz_complain(reading, kz_tree_find(reading->root, "basin.accuracy"), "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
@@ -278,7 +182,7 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 static void chart_axis_rules(kz_reading *reading, kz_scene *scene, const kz_chart_axis *axis, const char *path) {
-  check_axis(reading, &axis->values, path);
+  kz_axis_rules(reading, &axis->values, path);
   parameter_values(reading, scene, axis->parameter, &axis->values, path);
 }
 
@@ -307,7 +211,7 @@ static void inertia_rules(kz_reading *reading, kz_scene *scene) {
   if (reading->message[0] || isnan(written->inertia) || kz_inertia_is_possible(written)) return;
   kz_complain(reading, kz_tree_find(reading->root, "pendulum.inertia"), "pendulum.inertia",
               "%s is below pendulum.mass * pendulum.radius^2 = %s, the least of any body; at least that",
-              shortest(written->inertia).text, shortest(kz_point_inertia(written)).text);
+              kz_shortest(written->inertia).text, kz_shortest(kz_point_inertia(written)).text);
 }
 
 /* k, beta, m from the form that the scene chose; only a reading without complaints has it whole. */
@@ -354,10 +258,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules, shocks_rules,    attractors_rules,  saddles_rules,  manifolds_rules,
-                             orbit_rules, stability_rules, tradeoff_rules,    pendulum_rules, stiffness_rules,
-                             sweep_rules,
-                             chart_rules, edge_rules,      orbit_range_rules, settling_rules, numerics_rules};
+static const rule rules[] = {basin_rules,     shocks_rules,      attractors_rules, saddles_rules,
+                             manifolds_rules, orbit_rules,       stability_rules,  tradeoff_rules,
+                             pendulum_rules,  stiffness_rules,   sweep_rules,      chart_rules,
+                             edge_rules,      orbit_range_rules, settling_rules,   numerics_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);
