@@ -20,7 +20,8 @@ BEYOND = {
 @pytest.mark.parametrize("name", BEYOND)
 def test_refused_as_the_scene_is_read(kapitza, name, command, tmp_path):
     settings, key = BEYOND[name]
-    done = kapitza(command[0], SMALL, *command[1:], *[word for setting in settings for word in ("--set", setting)], folder=tmp_path, status=2)
+    words = [word for setting in settings for word in ("--set", setting)]
+    done = kapitza(command[0], SMALL, *command[1:], *words, folder=tmp_path, status=2)
     assert f": {key}: " in done.stderr and done.stderr.count("\n") == 1, done.stderr
     assert not list(tmp_path.iterdir())
 
