@@ -34,10 +34,11 @@
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
 
-#define EDGE_START(place, help)                                                                 \
-  MAPPING("edge." #place, NULL, KZ_NO_FIELD, help),                                             \
-      REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, edge.place[0], "Angle from down."), \
-      REAL("edge." #place ".velocity", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, edge.place[1], "Velocity.")
+#define EDGE_START(place, help)                                                                                    \
+  MAPPING("edge." #place, NULL, KZ_NO_FIELD, help),                                                                \
+      REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, edge.place[0], "Angle from down."),                    \
+      REAL("edge." #place ".velocity", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, edge.place[1], \
+           "Velocity.")
 #define CHART_AXIS(axis, help)                                                                                                \
   MAPPING("chart." #axis, NULL, KZ_NO_FIELD, help),                                                                           \
       ROW("chart." #axis ".parameter", KZ_KEY_WORD, NULL, AT(chart.axis.parameter),                                           \
@@ -105,9 +106,12 @@ const kz_key kz_keys[] = {
     DECIMAL("basin.theta.width", "rad", KZ_ABOVE_ZERO, 7, "", basin.theta.width, "Width of the window."),
     INTEGER("basin.theta.count", 1, 1e6, "1000", basin.theta.count, "Cells along theta."),
     MAPPING("basin.velocity", NULL, KZ_NO_FIELD, "Velocities of the cells."),
-    EDGE("basin.velocity.min", "rad per drive radian", KZ_MOST_SPEED, NULL, basin.velocity_edges.min, "Lower edge of the window."),
-    EDGE("basin.velocity.max", "rad per drive radian", KZ_MOST_SPEED, NULL, basin.velocity_edges.max, "Upper edge of the window."),
-    DECIMAL("basin.velocity.centre", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, basin.velocity.centre, CENTRE_HELP),
+    EDGE("basin.velocity.min", "rad per drive radian", KZ_MOST_SPEED, NULL, basin.velocity_edges.min,
+         "Lower edge of the window."),
+    EDGE("basin.velocity.max", "rad per drive radian", KZ_MOST_SPEED, NULL, basin.velocity_edges.max,
+         "Upper edge of the window."),
+    DECIMAL("basin.velocity.centre", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, basin.velocity.centre,
+            CENTRE_HELP),
     DECIMAL("basin.velocity.width", "rad per drive radian", KZ_ABOVE_ZERO, 2e9, NULL, basin.velocity.width,
             "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
@@ -262,8 +266,10 @@ const kz_key kz_keys[] = {
     REAL("sweep.theta.min", "rad", -1e6, 1e6, "", sweep.theta.min, "Lower edge of the window."),
     REAL("sweep.theta.max", "rad", -1e6, 1e6, "", sweep.theta.max, "Upper edge of the window."),
     MAPPING("sweep.velocity", "", KZ_NO_FIELD, "Velocities of the starts; a grid of basin has its own window."),
-    REAL("sweep.velocity.min", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "-2", sweep.velocity.min, "Lower edge of the window."),
-    REAL("sweep.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "2", sweep.velocity.max, "Upper edge of the window."),
+    REAL("sweep.velocity.min", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "-2", sweep.velocity.min,
+         "Lower edge of the window."),
+    REAL("sweep.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "2", sweep.velocity.max,
+         "Upper edge of the window."),
     INTEGER("sweep.starts", 1, 1e7, "2048", sweep.starts, "Starts of the search at each value."),
     INTEGER("sweep.max_period", 1, 512, "48", sweep.max_period, "Longest period that is looked for."),
     INTEGER("sweep.seed", 0, 9007199254740992.0, "1", sweep.seed, "Chooses the starts."),
