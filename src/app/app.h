@@ -57,6 +57,7 @@ kz_status kz_say(kz_status status);
 kz_status kz_app_run(const kz_options *options);
 kz_status kz_app_check(const kz_options *options);
 kz_status kz_app_where(const kz_options *options);
+kz_status kz_app_serve(const kz_options *options);
 kz_status kz_app_view(const kz_options *options); /* becomes the explorer: returns only where that fails */
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
@@ -70,6 +71,9 @@ typedef struct {
 } kz_starts;
 kz_status kz_starts_read(const kz_options *options, kz_starts *starts);
 void kz_starts_free(kz_starts *starts);
+
+/* "theta": .., "velocity": .., and where that start ends, as members of a JSON object, to standard output. */
+void kz_ending_print(const double *start, const kz_ending *ending);
 
 /* FILE of a run, written to path [bytes]. KZ_REFUSED where the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);

@@ -25,7 +25,7 @@ kz_status kz_log_open(const char *path, FILE **log) {
   return kz_fail(KZ_REFUSED, "--log: %s: is there and no log of this program; use another name", path);
 }
 
-static void print_text(FILE *log, const char *text) {
+void kz_json_text(FILE *log, const char *text) {
   for (; *text; text++) {
     if (*text == '"' || *text == '\\')
       fprintf(log, "\\%c", *text);
@@ -42,7 +42,7 @@ void kz_log_event(FILE *log, double seconds, const char *event, const char *cons
   for (; *fields; fields += 2) {
     const bool number = fields[0][0] == '#';
     fprintf(log, ", \"%s\": %s", fields[0] + number, number ? "" : "\"");
-    print_text(log, fields[1]);
+    kz_json_text(log, fields[1]);
     if (!number) fputc('"', log);
   }
   fputs("}\n", log);

@@ -19,4 +19,7 @@ kz_status kz_log_close(FILE *log, const char *path);
 /* Prints where the time went. */
 void kz_timings_print(const kz_ranks *ranks, FILE *out);
 
+/* What stands between the quotes of a text in JSON. */
+void kz_json_text(FILE *out, const char *text);
+
 #endif

@@ -5,7 +5,7 @@
 
 #include "commands.h"
 
-enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32 };
+enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64 };
 
 const kz_command kz_commands[] = {
     {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
@@ -15,6 +15,8 @@ const kz_command kz_commands[] = {
      "standard input"},
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view,
      "open the basins of a scene or result in the browser, to be zoomed and dragged"},
+    {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
+     "answer requests for frames, orbits and ends of starts, JSON lines on standard input, until its end"},
     {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/scene.md)"},
 };
 const int kz_command_count = sizeof kz_commands / sizeof kz_commands[0];
@@ -124,7 +126,7 @@ static kz_status set_timings(kz_options *options, const char *argument) {
 
 const kz_option kz_option_rows[] = {
     {"output", 'o', "FILE", RUN, set_output, "the result; default: base name of SCENE + .h5 in the current folder", NULL},
-    {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE, add_set,
+    {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE | SERVE, add_set,
      "override or create a key; VALUE is YAML flow text; the last one wins", NULL},
     {"resume", 257, NULL, RUN, set_resume, "go on from FILE.checkpoint where there is one", NULL},
     {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint", NULL},
@@ -139,7 +141,7 @@ const kz_option kz_option_rows[] = {
     {"completion", 265, "SHELL", TOP, set_completion, "print what bash, zsh or fish need to complete command lines",
      "bash|zsh|fish"},
     {"manual", 266, NULL, TOP, set_manual, "print the manual page, for man -l -", NULL},
-    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | KEYS | TOP, NULL, "print this and leave", NULL},
+    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | SERVE | KEYS | TOP, NULL, "print this and leave", NULL},
     {"version", 'V', NULL, TOP, NULL, "print versions of the program and of what it was built with, and leave", NULL},
 };
 enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0] };
@@ -262,7 +264,7 @@ static kz_status dispatch(int argc, char **argv, kz_options *options) {
   }
   if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);
-  return kz_fail(KZ_REFUSED, "%.80s: unknown command; it must be run, check, where, view or keys", argv[1]);
+  return kz_fail(KZ_REFUSED, "%.80s: unknown command; it must be run, check, where, view, serve or keys", argv[1]);
 }
 
 /* The words of the command line, with a space between. */

@@ -200,11 +200,6 @@ static void chart_rules(kz_reading *reading, kz_scene *scene) {
                 (long long)chart->theta.count);
 }
 
-/* Scheme and steps that the scene comes to, for one that is right. */
-static void numerics_rules(kz_reading *reading, kz_scene *scene) {
-  if (!reading->message[0]) kz_numerics_resolve(scene);
-}
-
 /* No body has less inertia about the pivot than its mass in one point. */
 static void inertia_rules(kz_reading *reading, kz_scene *scene) {
   const kz_pendulum_keys *written = &scene->parameters.written;
@@ -258,10 +253,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,     shocks_rules,      attractors_rules, saddles_rules,
-                             manifolds_rules, orbit_rules,       stability_rules,  tradeoff_rules,
-                             pendulum_rules,  stiffness_rules,   sweep_rules,      chart_rules,
-                             edge_rules,      orbit_range_rules, settling_rules,   numerics_rules};
+static const rule rules[] = {basin_rules, shocks_rules,    attractors_rules, saddles_rules,     manifolds_rules,
+                             orbit_rules, stability_rules, tradeoff_rules,   pendulum_rules,    stiffness_rules,
+                             sweep_rules, chart_rules,     edge_rules,       orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -81,22 +81,14 @@ static kz_status apply_set(const kz_key *keys, kz_node *root, const char *option
 }
 
 /* "--set KEY=VALUE", cut where it would bury the message. */
-typedef char option_label[128];
-
 static void print_label(const char *option, char *label) {
   const bool whole = strlen(option) < 100;
-  snprintf(label, sizeof(option_label), "--set %.*s%s", whole ? 100 : 96, option, whole ? "" : "...");
+  snprintf(label, sizeof(kz_option_label), "--set %.*s%s", whole ? 100 : 96, option, whole ? "" : "...");
 }
 
-/* The tree of a text and of its options, whose labels it refers to. */
-typedef struct {
-  kz_node *root;
-  option_label *labels;
-} scene_tree;
-
-static kz_status build_tree(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
-                            scene_tree *tree) {
-  *tree = (scene_tree){.labels = kz_calloc((size_t)n_sets + 1, sizeof(option_label))};
+kz_status kz_scene_tree_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
+                             kz_scene_tree *tree) {
+  *tree = (kz_scene_tree){.labels = kz_calloc((size_t)n_sets + 1, sizeof(kz_option_label))};
   KZ_TRY(kz_tree_read(text, length, file, false, &tree->root));
   for (int i = 0; tree->root->kind == KZ_MAPPING && i < n_sets; i++) {
     print_label(sets[i], tree->labels[i]);
@@ -105,7 +97,7 @@ static kz_status build_tree(const char *text, size_t length, const char *file, i
   return KZ_OK;
 }
 
-static void free_tree(scene_tree *tree) {
+void kz_scene_tree_free(kz_scene_tree *tree) {
   kz_tree_free(tree->root);
   free(tree->labels);
 }
@@ -114,17 +106,25 @@ static kz_status read_tree(kz_node *root, kz_scene *scene) {
   kz_reading reading = {.keys = kz_keys, .root = root, .scene = scene};
   KZ_TRY(kz_reading_keys(&reading));
   if (root->kind == KZ_MAPPING) kz_reading_rules(&reading);
-  return reading.message[0] ? kz_fail(KZ_REFUSED, "%s", reading.message) : KZ_OK;
+  if (reading.message[0]) return kz_fail(KZ_REFUSED, "%s", reading.message);
+  if (!scene->title) scene->title = kz_strdup("");
+  return KZ_OK;
+}
+
+kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene) {
+  memset(scene, 0, sizeof *scene);
+  const kz_status status = read_tree(root, scene);
+  if (status != KZ_OK) kz_scene_free(scene);
+  return status;
 }
 
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene) {
-  scene_tree tree;
+  kz_scene_tree tree;
   memset(scene, 0, sizeof *scene);
-  kz_status status = build_tree(text, length, file, n_sets, sets, &tree);
-  if (status == KZ_OK) status = read_tree(tree.root, scene);
-  free_tree(&tree);
-  if (status == KZ_OK && !scene->title) scene->title = kz_strdup("");
-  if (status != KZ_OK) kz_scene_free(scene);
+  kz_status status = kz_scene_tree_read(text, length, file, n_sets, sets, &tree);
+  if (status == KZ_OK) status = kz_scene_of_tree(tree.root, scene);
+  if (status == KZ_OK) kz_numerics_resolve(scene);
+  kz_scene_tree_free(&tree);
   return status;
 }
 
@@ -157,15 +157,15 @@ kz_status kz_scene_locate(kz_status status, const char *text, size_t length, con
   if ((status != KZ_REFUSED && status != KZ_FAILED) || !end) return status;
   *end = '\0';
   if (!are_keys(message)) return status;
-  scene_tree tree;
+  kz_scene_tree tree;
   kz_reading reading = {.keys = kz_keys, .first = INT_MAX};
-  if (build_tree(text, length, file, n_sets, sets, &tree) == KZ_OK) {
+  if (kz_scene_tree_read(text, length, file, n_sets, sets, &tree) == KZ_OK) {
     reading.root = tree.root;
     complain_first(&reading, message, end + 2);
     kz_message_clear();
     kz_fail(status, "%s", reading.message);
   }
-  free_tree(&tree);
+  kz_scene_tree_free(&tree);
   return status;
 }
 

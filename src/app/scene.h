@@ -92,6 +92,10 @@ kz_node *kz_tree_child(const kz_node *mapping, const char *name);
 kz_node *kz_tree_find(const kz_node *root, const char *path);
 /* Puts `value` (taken over in every case) at `path`, replacing what stood there; mappings on the way are created. */
 kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
+/* Takes what stands at `path` out of the tree; NULL where nothing does. The caller frees it. */
+kz_node *kz_tree_take(kz_node *root, const char *path);
+/* A copy of a tree, without what stands beside its root. */
+kz_node *kz_tree_copy(const kz_node *root);
 
 /* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), NULL where it is right. */
 const char *kz_scalar_integer(const kz_node *node, int64_t *value);
@@ -132,6 +136,17 @@ kz_status kz_reading_keys(kz_reading *reading);
 /* Rules between keys (an axis, the pendulum's parameters), and the values that follow from others. */
 void kz_reading_rules(kz_reading *reading);
 
+/* The tree of a text and of --set options ("KEY=VALUE"), whose labels it refers to. To be freed in every case. */
+typedef char kz_option_label[128];
+typedef struct {
+  kz_node *root;
+  kz_option_label *labels;
+} kz_scene_tree;
+kz_status kz_scene_tree_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
+                             kz_scene_tree *tree);
+void kz_scene_tree_free(kz_scene_tree *tree);
+/* A tree into a scene that the caller frees; its numerics stay to be resolved. KZ_REFUSED names the first error. */
+kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene);
 /* Text of a scene, and of --set options ("KEY=VALUE"), into a scene that the caller frees. KZ_REFUSED names the first error. */
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene);
 void kz_scene_free(kz_scene *scene);

@@ -1,3 +1,4 @@
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,4 +83,32 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   kz_tree_free(value);
   return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; make it one, or --set all of it", source, (int)length,
                  path);
+}
+
+kz_node *kz_tree_take(kz_node *root, const char *path) {
+  const char *dot = strrchr(path, '.');
+  kz_node *mapping = root;
+  if (dot) {
+    char parent[256];
+    snprintf(parent, sizeof parent, "%.*s", (int)(dot - path), path);
+    mapping = kz_tree_find(root, parent);
+  }
+  kz_node *taken = mapping ? kz_tree_child(mapping, dot ? dot + 1 : path) : NULL;
+  if (!taken) return NULL;
+  kz_node **place = &mapping->first;
+  while (*place != taken) place = &(*place)->next;
+  *place = taken->next;
+  taken->next = NULL;
+  return taken;
+}
+
+kz_node *kz_tree_copy(const kz_node *root) {
+  kz_node *copy = kz_calloc(1, sizeof *copy);
+  *copy = *root;
+  copy->next = copy->first = NULL;
+  copy->name = kz_strdup(root->name ? root->name : "");
+  copy->text = root->text ? kz_strdup(root->text) : NULL;
+  kz_node **end = &copy->first;
+  for (const kz_node *child = root->first; child; child = child->next, end = &(*end)->next) *end = kz_tree_copy(child);
+  return copy;
 }

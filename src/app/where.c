@@ -51,8 +51,8 @@ static void print_word(const char *name, const char *value) {
   printf(", \"%s\": %s%s%s", name, quote, value[0] ? value : "null", quote);
 }
 
-static void print_json(const double *start, const kz_ending *e) {
-  fputs("{\"theta\": ", stdout);
+void kz_ending_print(const double *start, const kz_ending *e) {
+  fputs("\"theta\": ", stdout);
   print_number(start[0]);
   fputs(", \"velocity\": ", stdout);
   print_number(start[1]);
@@ -73,6 +73,11 @@ static void print_json(const double *start, const kz_ending *e) {
     print_number(e->error);
   printf(", \"other_attractor\": %d", (int)e->other);
   print_word("other_name", e->other_name);
+}
+
+static void print_json(const double *start, const kz_ending *e) {
+  putchar('{');
+  kz_ending_print(start, e);
   puts("}");
 }
 

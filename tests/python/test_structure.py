@@ -61,7 +61,8 @@ def edges():
 
 
 def layer_of(path):
-    return path.stem if path.is_relative_to(HEADERS) else path.relative_to(SOURCES).parts[0]
+    """A header is named after its layer, or after its layer and a part of it."""
+    return path.stem.split("_")[0] if path.is_relative_to(HEADERS) else path.relative_to(SOURCES).parts[0]
 
 
 def folder_of(path):

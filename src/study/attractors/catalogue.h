@@ -8,21 +8,7 @@
 #include "kapitza/analysis.h"
 #include "kapitza/dynamics.h"
 #include "kapitza/store.h"
-
-typedef struct {
-  kz_attractor row;
-  char name[KZ_NAME_LENGTH];
-  int32_t mirror;           /* id of the mirror image */
-  double fraction;          /* of the grid's cells; NaN without a grid */
-  double *theta, *velocity; /* [period] strobe points */
-} kz_entry;
-
-/* In the order of the file: id = index. */
-typedef struct {
-  int64_t count;
-  kz_entry *entries;
-  int32_t *id_of; /* [numbers from 1]: id of a number of kz_dynamics, -1 = not in the catalogue */
-} kz_catalogue;
+#include "kapitza/study_live.h"
 
 /* The attractors whose reached [number] is not 0, and their mirror images. */
 void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);

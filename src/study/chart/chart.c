@@ -7,7 +7,7 @@
 
 #include "numerics/cells.h"
 
-enum { POINTS = 256, LEAST_STEPS = 8, MOST_STEPS = 4000 };
+enum { LEAST_STEPS = 8, MOST_STEPS = 4000 };
 /* Error that a drive period may have, rad: ends are cycles that Newton's method finds, and a motion only has to be led to its own. */
 static const double TOLERANCE = 1e-8;
 /* Of split6: the steps with which errors are measured, and those below which rounding prevails. */
@@ -16,7 +16,7 @@ static const double MEASURED_STEPS = 24, ROUNDING = 1e-13;
 static const double STEP_SECONDS = 2.5e-8;
 
 typedef struct {
-  kz_chart_ending ending[POINTS];
+  kz_chart_ending ending[KZ_CHART_POINTS];
 } tile_record;
 
 bool kz_chart_wanted(const kz_scene *scene) {
@@ -32,7 +32,7 @@ static int64_t points_of(const kz_chart_plan *plan) {
 }
 
 static int64_t tiles_of(const kz_chart_plan *plan) {
-  return (points_of(plan) + POINTS - 1) / POINTS;
+  return (points_of(plan) + KZ_CHART_POINTS - 1) / KZ_CHART_POINTS;
 }
 
 /* The pendulum of a point; false where it has none, or no damping. */
@@ -82,24 +82,31 @@ static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_sp
   return (int32_t)fmin(fmax(steps, LEAST_STEPS), MOST_STEPS);
 }
 
-static kz_status work(void *context, int64_t tile, void *record) {
-  const kz_scene *scene = context;
+void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending) {
   const kz_chart_plan *plan = &scene->chart;
-  const int64_t place = tile / tiles_of(plan), first = tile % tiles_of(plan) * POINTS, left = points_of(plan) - first;
-  const int64_t n = left < POINTS ? left : POINTS;
-  kz_pendulum pendulum[POINTS];
-  int64_t periods[POINTS];
+  kz_pendulum pendulum[KZ_CHART_POINTS];
+  int64_t periods[KZ_CHART_POINTS];
   double start[2];
-  tile_record *out = record;
   for (int64_t i = 0; i < n; i++) {
-    const bool damped = pendulum_of(scene, first + i, pendulum + i);
+    const bool damped = pendulum_of(scene, point[i], pendulum + i);
     if (!damped) pendulum[i] = (kz_pendulum){0, 0, 0};
     periods[i] = damped ? periods_of(plan, pendulum[i].beta) : 0;
   }
   kz_start_state(plan->theta.values[place], kz_chart_velocity(plan, place), start);
-  kz_chart_ends(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->max_period, periods, out->ending);
+  kz_chart_ends(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->max_period, periods, ending);
   for (int64_t i = 0; i < n; i++)
-    if (periods[i] == 0) out->ending[i] = (kz_chart_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
+    if (periods[i] == 0) ending[i] = (kz_chart_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
+}
+
+static kz_status work(void *context, int64_t tile, void *record) {
+  const kz_scene *scene = context;
+  const kz_chart_plan *plan = &scene->chart;
+  const int64_t first = tile % tiles_of(plan) * KZ_CHART_POINTS, left = points_of(plan) - first;
+  const int64_t n = left < KZ_CHART_POINTS ? left : KZ_CHART_POINTS;
+  int64_t point[KZ_CHART_POINTS];
+  tile_record *out = record;
+  for (int64_t i = 0; i < n; i++) point[i] = first + i;
+  kz_chart_points(scene, tile / tiles_of(plan), n, point, out->ending);
   return KZ_OK;
 }
 

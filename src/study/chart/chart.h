@@ -11,6 +11,10 @@ bool kz_chart_wanted(const kz_scene *scene);
 kz_cost kz_chart_cost(const kz_scene *scene);
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
+/* Ends of start `place` of the list at n <= KZ_CHART_POINTS points (x fastest). */
+enum { KZ_CHART_POINTS = 256 };
+void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending);
+
 /* The group /chart and the summary, from endings [starts][y][x]. Rank 0. */
 kz_status kz_chart_publish(const kz_chart_plan *plan, const kz_chart_ending *endings, kz_store *store, FILE *summary);
 

@@ -1,0 +1,214 @@
+#include "request.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CELLS = 1 << 24 };
+static const char SOURCE[] = "request";
+
+#define AT(field) offsetof(kz_request, field)
+#define WORDS_OF_KIND "frame|where|orbit|catalogue|chart|cancel|quit"
+/* Keys of the request itself, with their defaults; the others change the scene. The sequence comes first: errors are answered with it. */
+static const kz_key rows[] = {
+    {.path = "sequence",
+     .type = KZ_KEY_INTEGER,
+     .unit = "",
+     .fallback = "0",
+     .high = 9007199254740992.0,
+     .offset = AT(sequence)},
+    {.path = "request", .type = KZ_KEY_WORD, .unit = "", .words = WORDS_OF_KIND, .offset = AT(kind)},
+    {.path = "view", .type = KZ_KEY_TEXT, .unit = "", .fallback = "\"\"", .offset = AT(view)},
+    {.path = "quality", .type = KZ_KEY_WORD, .unit = "", .words = "exact|moving", .fallback = "exact", .offset = AT(quality)},
+    {.path = "rows", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "", .low = 1, .high = 8192, .offset = AT(rows)},
+    {.path = "columns", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "", .low = 1, .high = 8192, .offset = AT(columns)},
+    {.path = "levels", .type = KZ_KEY_INTEGERS, .unit = "", .fallback = "[1]", .low = 1, .high = 8, .offset = AT(levels)},
+    {.path = "planes", .type = KZ_KEY_WORDS, .unit = "", .words = KZ_PLANE_WORDS, .fallback = "[labels]", .offset = AT(planes)},
+    {.path = NULL},
+};
+
+/* Where the keys of a kind of request go in the scene. */
+static const struct {
+  int32_t kind;
+  const char *key, *path;
+} moved[] = {
+    {KZ_REQUEST_FRAME, "window.theta", "basin.theta"},
+    {KZ_REQUEST_FRAME, "window.velocity", "basin.velocity"},
+    {KZ_REQUEST_ORBIT, "theta", "orbit.start.theta"},
+    {KZ_REQUEST_ORBIT, "velocity", "orbit.start.velocity"},
+    {KZ_REQUEST_ORBIT, "periods", "orbit.periods"},
+    {KZ_REQUEST_ORBIT, "transient", "orbit.transient"},
+    {KZ_REQUEST_ORBIT, "samples_per_period", "orbit.samples_per_period"},
+    {KZ_REQUEST_CHART, "x", "chart.x"},
+    {KZ_REQUEST_CHART, "y", "chart.y"},
+};
+enum { N_MOVED = sizeof moved / sizeof moved[0] };
+
+/* What another value replaces as a whole. */
+static const struct {
+  int32_t kind;
+  const char *path;
+} dropped[] = {{KZ_REQUEST_ORBIT, "orbit"}, {KZ_REQUEST_FRAME, "basin.accuracy"}, {KZ_REQUEST_WHERE, "basin.accuracy"}};
+enum { N_DROPPED = sizeof dropped / sizeof dropped[0] };
+
+/* What a request adds where neither it nor the scene says anything: key, YAML. */
+static const struct {
+  int32_t kind;
+  const char *path, *value;
+} added[] = {
+    {KZ_REQUEST_ORBIT, "orbit.periods", "100"},
+    {KZ_REQUEST_ORBIT, "orbit.samples_per_period", "64"},
+    {KZ_REQUEST_CHART, "chart.start.theta", "[3.0]"},
+};
+enum { N_ADDED = sizeof added / sizeof added[0] };
+
+static kz_status refuse(const kz_key *key, const kz_node *node, const char *wrong) {
+  char accepted[700];
+  kz_key_accepts(rows, key, accepted, sizeof accepted);
+  return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s; it must be %s", SOURCE, key->path, node->text ? node->text : "...", wrong,
+                 accepted);
+}
+
+static kz_status set_default(const kz_key *key, kz_request *request) {
+  kz_node *node;
+  const kz_node *culprit;
+  kz_value_clear(key, request);
+  if (!key->fallback || !key->fallback[0]) return KZ_OK;
+  KZ_TRY(kz_tree_read(key->fallback, strlen(key->fallback), SOURCE, true, &node));
+  const char *wrong = kz_value_read(key, node, request, &culprit);
+  kz_tree_free(node);
+  return wrong ? kz_fail(KZ_FAILED, "%s: %s: its default %s", SOURCE, key->path, wrong) : KZ_OK;
+}
+
+static kz_status read_row(const kz_key *key, kz_node *root, kz_request *request) {
+  KZ_TRY(set_default(key, request));
+  kz_node *node = kz_tree_take(root, key->path);
+  if (!node && key->fallback) return KZ_OK;
+  if (!node) return kz_fail(KZ_REFUSED, "%s: %s: is missing; it must be one of %s", SOURCE, key->path, key->words);
+  const kz_node *culprit;
+  const char *wrong = kz_value_read(key, node, request, &culprit);
+  const kz_status status = wrong ? refuse(key, culprit, wrong) : KZ_OK;
+  kz_tree_free(node);
+  return status;
+}
+
+static kz_status check_levels(const kz_integers *levels) {
+  for (int64_t i = 0; i < levels->count; i++) {
+    const int64_t level = levels->values[i];
+    if ((level & (level - 1)) != 0 || (i > 0 && level >= levels->values[i - 1]))
+      return kz_fail(KZ_REFUSED, "%s: levels: %lld stands where it may not; a list from 8, 4, 2, 1 in falling order", SOURCE,
+                     (long long)level);
+  }
+  return KZ_OK;
+}
+
+static kz_status check_frame(const kz_request *request) {
+  for (int i = 0; i < 2; i++)
+    if ((i == 0 ? request->rows : request->columns) == KZ_UNSET_INTEGER)
+      return kz_fail(KZ_REFUSED, "%s: %s: is missing; it must be an integer from 1 to 8192", SOURCE,
+                     i == 0 ? "rows" : "columns");
+  if (request->rows * request->columns > MOST_CELLS)
+    return kz_fail(KZ_REFUSED, "%s: rows: %lld times %lld columns are more than %d cells", SOURCE, (long long)request->rows,
+                   (long long)request->columns, MOST_CELLS);
+  return check_levels(&request->levels);
+}
+
+/* A start of where: numbers of any digits. */
+static kz_status read_start(kz_node *root, kz_request *request) {
+  static const kz_key keys[] = {
+      {.path = "theta", .type = KZ_KEY_DECIMAL, .unit = "rad", .low = -1e6, .high = 1e6, .offset = AT(theta)},
+      {.path = "velocity",
+       .type = KZ_KEY_DECIMAL,
+       .unit = "rad per drive radian",
+       .low = -1e9,
+       .high = 1e9,
+       .offset = AT(velocity)},
+      {.path = NULL},
+  };
+  for (const kz_key *key = keys; key->path; key++) {
+    kz_node *node = kz_tree_take(root, key->path);
+    if (!node) return kz_fail(KZ_REFUSED, "%s: %s: is missing; it must be a number", SOURCE, key->path);
+    const kz_node *culprit;
+    const char *wrong = kz_value_read(key, node, request, &culprit);
+    kz_tree_free(node);
+    if (wrong) return kz_fail(KZ_REFUSED, "%s: %s: %s; it must be a number", SOURCE, key->path, wrong);
+  }
+  return KZ_OK;
+}
+
+static kz_status set_text(kz_node *tree, const char *path, const char *text) {
+  kz_node *node;
+  KZ_TRY(kz_tree_read(text, strlen(text), SOURCE, true, &node));
+  return kz_tree_set(tree, path, node);
+}
+
+static kz_status set_count(kz_node *tree, const char *path, int64_t count) {
+  char text[32];
+  snprintf(text, sizeof text, "%lld", (long long)count);
+  return set_text(tree, path, text);
+}
+
+/* Takes what the request changes over into the scene's tree. */
+static kz_status change_scene(const kz_request *request, kz_node *root, kz_node *tree) {
+  for (int i = 0; i < N_DROPPED; i++)
+    if (dropped[i].kind == request->kind) kz_tree_free(kz_tree_take(tree, dropped[i].path));
+  kz_node *pendulum = kz_tree_take(root, "pendulum");
+  if (pendulum) KZ_TRY(kz_tree_set(tree, "pendulum", pendulum));
+  for (int i = 0; i < N_MOVED; i++) {
+    kz_node *node = moved[i].kind == request->kind ? kz_tree_take(root, moved[i].key) : NULL;
+    if (!node) continue;
+    if (node->kind == KZ_SCALAR) node->plain = true; /* numbers may stand in quotes */
+    KZ_TRY(kz_tree_set(tree, moved[i].path, node));
+  }
+  for (int i = 0; i < N_ADDED; i++)
+    if (added[i].kind == request->kind && !kz_tree_find(tree, added[i].path))
+      KZ_TRY(set_text(tree, added[i].path, added[i].value));
+  if (request->kind != KZ_REQUEST_FRAME) return KZ_OK;
+  KZ_TRY(set_count(tree, "basin.theta.count", request->columns));
+  KZ_TRY(set_count(tree, "basin.velocity.count", request->rows));
+  return set_text(tree, "basin.method", "exact");
+}
+
+/* What is left of the request is not known. */
+static kz_status check_rest(kz_node *root) {
+  kz_tree_free(kz_tree_find(root, "window") && !kz_tree_find(root, "window")->first ? kz_tree_take(root, "window") : NULL);
+  if (!root->first) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "%s: %.60s: unknown key of such a request; docs/developer.md lists them", SOURCE,
+                 root->first->name);
+}
+
+static kz_status read_scene(const kz_node *tree, kz_node *root, kz_request *request) {
+  kz_node *copy = kz_tree_copy(tree);
+  kz_status status = change_scene(request, root, copy);
+  if (status == KZ_OK) status = check_rest(root);
+  if (status == KZ_OK) status = kz_scene_of_tree(copy, &request->scene);
+  request->has_scene = status == KZ_OK;
+  kz_tree_free(copy);
+  return status;
+}
+
+static kz_status read_root(const kz_node *tree, kz_node *root, kz_request *request) {
+  if (root->kind != KZ_MAPPING) return kz_fail(KZ_REFUSED, "%s: is not a JSON object", SOURCE);
+  for (const kz_key *key = rows; key->path; key++) KZ_TRY(read_row(key, root, request));
+  if (request->kind == KZ_REQUEST_CANCEL || request->kind == KZ_REQUEST_QUIT) return check_rest(root);
+  if (request->kind == KZ_REQUEST_FRAME) KZ_TRY(check_frame(request));
+  if (request->kind == KZ_REQUEST_CHART) KZ_TRY(check_levels(&request->levels));
+  if (request->kind == KZ_REQUEST_WHERE) KZ_TRY(read_start(root, request));
+  return read_scene(tree, root, request);
+}
+
+kz_status kz_request_read(const kz_node *tree, const char *line, size_t length, kz_request **request) {
+  kz_node *root;
+  *request = kz_calloc(1, sizeof **request);
+  (*request)->sequence = KZ_UNSET_INTEGER;
+  KZ_TRY(kz_tree_read(line, length, SOURCE, true, &root));
+  const kz_status status = read_root(tree, root, *request);
+  kz_tree_free(root);
+  return status;
+}
+
+void kz_request_free(kz_request *request) {
+  if (!request) return;
+  if (request->has_scene) kz_scene_free(&request->scene);
+  free(request->view);
+  free(request);
+}

@@ -1,0 +1,38 @@
+/* Requests of the command serve: a line of JSON becomes what it asks for (docs/developer.md). */
+#ifndef KAPITZA_APP_REQUEST_H
+#define KAPITZA_APP_REQUEST_H
+
+#include "../scene.h"
+#include "kapitza/study_live.h"
+
+enum {
+  KZ_REQUEST_FRAME,
+  KZ_REQUEST_WHERE,
+  KZ_REQUEST_ORBIT,
+  KZ_REQUEST_CATALOGUE,
+  KZ_REQUEST_CHART,
+  KZ_REQUEST_CANCEL,
+  KZ_REQUEST_QUIT
+};
+/* Planes in the order of KZ_PLANE_LABELS ... */
+#define KZ_PLANE_WORDS "labels|settling_time|doubt|other"
+enum { KZ_QUALITY_EXACT, KZ_QUALITY_MOVING };
+
+typedef struct kz_request {
+  int32_t kind;
+  int64_t sequence; /* KZ_UNSET_INTEGER: the line was not understood so far */
+  char *view;
+  int32_t quality;
+  int64_t rows, columns;
+  kz_integers levels, planes;
+  kz_decimal theta, velocity; /* of where */
+  bool has_scene;
+  kz_scene scene; /* the scene with what the request changes: pendulum, window, orbit, chart; numerics not resolved */
+  struct kz_request *next;
+} kz_request;
+
+/* Reads a line [length]; `tree` is the scene's. *request is to be freed in every case. KZ_REFUSED says what is wrong. */
+kz_status kz_request_read(const kz_node *tree, const char *line, size_t length, kz_request **request);
+void kz_request_free(kz_request *request);
+
+#endif

@@ -1,0 +1,26 @@
+/* Cells of one frame, followed where they are open. */
+#ifndef KAPITZA_STUDY_LIVE_CELLS_H
+#define KAPITZA_STUDY_LIVE_CELLS_H
+
+#include "resident.h"
+
+/* What is known of a cell. */
+enum { KZ_CELL_OPEN = 0, KZ_CELL_FOLLOWED = 1, KZ_CELL_DECIDED = 2, KZ_CELL_UNDECIDED = 3 };
+typedef struct {
+  int16_t label; /* number of kz_dynamics, 0 = not settled */
+  int16_t other; /* of an undecided cell: the second candidate, 0 = none */
+  float periods;
+  uint8_t state;
+} kz_frame_cell;
+
+/* Cells that are followed at a time. */
+enum { KZ_FRAME_TILE = 1024 };
+
+/* Follows n <= KZ_FRAME_TILE cells (their numbers, theta fastest) of the scene's basin. */
+kz_status kz_cells_follow(const kz_resident *resident, const kz_basin_plan *plan, int64_t n, const int64_t *number,
+                          kz_frame_cell *cells);
+
+/* Looks for attractors that up to n of these cells end on, which have not settled. *born: some have joined. */
+kz_status kz_cells_discover(kz_resident *resident, const kz_basin_plan *plan, int64_t n, const int64_t *number, bool *born);
+
+#endif

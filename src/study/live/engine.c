@@ -1,0 +1,77 @@
+#include "engine.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "numerics/cells.h"
+
+kz_engine *kz_engine_create(void) {
+  return kz_calloc(1, sizeof(kz_engine));
+}
+
+void kz_engine_free(kz_engine *engine) {
+  for (int i = 0; engine && i < KZ_RESIDENTS; i++) kz_resident_free(engine->resident + i);
+  free(engine);
+}
+
+/* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on where one looks. */
+static kz_scene searched(const kz_scene *scene) {
+  kz_scene wide = *scene;
+  const double fastest = fmax(1, exp2(ceil(log2(kz_axis_fastest(&scene->basin.velocity) * (1 - 1e-9)))));
+  wide.basin.theta = (kz_axis){.min = -M_PI, .max = M_PI, .count = scene->basin.theta.count};
+  wide.basin.velocity = (kz_axis){.min = -fastest, .max = fastest, .count = scene->basin.velocity.count};
+  return wide;
+}
+
+static kz_resident *find(kz_engine *engine, const kz_scene *scene, bool moving) {
+  for (int i = 0; i < KZ_RESIDENTS; i++)
+    if (kz_resident_serves(engine->resident + i, scene, moving)) return engine->resident + i;
+  return NULL;
+}
+
+/* The place of the one that was used least lately, and of none that is busy. */
+static kz_resident *oldest(kz_engine *engine) {
+  kz_resident *place = NULL;
+  for (int i = 0; i < KZ_RESIDENTS; i++) {
+    kz_resident *r = engine->resident + i;
+    if (!r->busy && (!place || r->used < place->used)) place = r;
+  }
+  return place;
+}
+
+void kz_engine_list(kz_engine *engine, kz_resident *resident) {
+  kz_resident_list(resident, ++engine->versions, engine->shown, &engine->tracks);
+  engine->shown = &resident->catalogue;
+}
+
+static kz_status make(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident *place) {
+  const kz_scene wide = searched(scene);
+  kz_resident fresh;
+  const kz_status status = kz_resident_make(&wide, moving, &fresh);
+  if (status == KZ_OK) kz_resident_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
+  if (engine->shown == &place->catalogue) engine->shown = NULL;
+  kz_resident_free(place);
+  if (status == KZ_OK)
+    *place = fresh;
+  else
+    kz_resident_free(&fresh);
+  return status;
+}
+
+kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident) {
+  *resident = find(engine, scene, moving);
+  if (!*resident) {
+    *resident = oldest(engine);
+    KZ_TRY(make(engine, scene, moving, *resident));
+  }
+  (*resident)->used = ++engine->calls;
+  engine->shown = &(*resident)->catalogue;
+  return KZ_OK;
+}
+
+kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue) {
+  kz_resident *resident;
+  KZ_TRY(kz_engine_resident(engine, scene, false, &resident));
+  *catalogue = &resident->catalogue;
+  return KZ_OK;
+}

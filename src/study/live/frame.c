@@ -1,0 +1,169 @@
+/* A frame level by level: cells of a level that are open are followed in tiles, then the level is shown. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "cells.h"
+#include "numerics/cells.h"
+#include "engine.h"
+#include "levels.h"
+
+typedef struct {
+  kz_engine *engine;
+  kz_resident *resident;
+  const kz_scene *scene;
+  const kz_frame *frame;
+  int64_t total, own;  /* cells; the first ones, of which the others are mirror images */
+  kz_frame_cell *cell; /* [total] */
+  int64_t *open;       /* [total] numbers of the cells that a level follows */
+  void *room;          /* of a level's planes */
+  bool searched;       /* attractors have been looked for among its cells */
+  double begin;
+} making;
+
+static double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+size_t kz_plane_bytes(int plane) {
+  return plane == KZ_PLANE_SETTLING_TIME ? sizeof(float) : 1;
+}
+
+static void allocate(making *m) {
+  size_t bytes = 0;
+  for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
+  m->cell = kz_calloc((size_t)m->total, sizeof *m->cell);
+  m->open = kz_malloc((size_t)m->total * sizeof *m->open);
+  m->room = kz_malloc((size_t)m->total * bytes + sizeof(float));
+}
+
+/* Numbers of the open cells of a level, those of the second half as their mirror images. */
+static int64_t list_open(making *m, int64_t level) {
+  const int64_t columns = m->scene->basin.theta.count, rows = m->scene->basin.velocity.count;
+  int64_t n = 0;
+  for (int64_t i = 0; i < kz_level_size(level, rows); i++)
+    for (int64_t j = 0; j < kz_level_size(level, columns); j++) {
+      const int64_t f = kz_level_place(level, i, rows) * columns + kz_level_place(level, j, columns);
+      const int64_t g = f < m->own ? f : m->total - 1 - f;
+      if (m->cell[g].state == KZ_CELL_OPEN) m->open[n++] = g;
+    }
+  return n;
+}
+
+static kz_status follow(making *m, int64_t n) {
+  for (int64_t done = 0; done < n; done += KZ_FRAME_TILE) {
+    KZ_TRY(m->frame->pause(m->frame->context));
+    const int64_t part = n - done < KZ_FRAME_TILE ? n - done : KZ_FRAME_TILE;
+    KZ_TRY(kz_cells_follow(m->resident, &m->scene->basin, part, m->open + done, m->cell));
+  }
+  return KZ_OK;
+}
+
+/* The cells among n that have not settled come to the front; their number. */
+static int64_t list_unsettled(making *m, int64_t n) {
+  int64_t left = 0;
+  for (int64_t i = 0; i < n; i++)
+    if (m->cell[m->open[i]].label == 0) m->open[left++] = m->open[i];
+  return left;
+}
+
+/* Follows n cells; where some do not settle, the attractors that they end on are looked for, once a frame. */
+static kz_status label(making *m, int64_t n) {
+  if (!m->resident->dynamics) return KZ_OK;
+  KZ_TRY(follow(m, n));
+  const int64_t left = list_unsettled(m, n);
+  bool born = false;
+  if (left == 0 || m->searched) return KZ_OK;
+  m->searched = true;
+  KZ_TRY(kz_cells_discover(m->resident, &m->scene->basin, left, m->open, &born));
+  if (!born) return KZ_OK;
+  kz_engine_list(m->engine, m->resident);
+  return follow(m, left);
+}
+
+static uint8_t id_of(const making *m, int32_t number) {
+  return number > 0 ? (uint8_t)m->resident->catalogue.list.id_of[number] : KZ_NO_LABEL;
+}
+
+/* Of the mirror image, where the cell is one. */
+static uint8_t shown_id(const making *m, int32_t number, bool mirrored) {
+  const uint8_t id = id_of(m, number);
+  return mirrored && id != KZ_NO_LABEL ? (uint8_t)m->resident->catalogue.list.entries[id].mirror : id;
+}
+
+static uint8_t doubt_of(const kz_frame_cell *cell) {
+  static const uint8_t doubt[] = {[KZ_CELL_OPEN] = KZ_DOUBT_NONE,
+                                  [KZ_CELL_FOLLOWED] = KZ_DOUBT_UNSEEN,
+                                  [KZ_CELL_DECIDED] = KZ_DOUBT_NONE,
+                                  [KZ_CELL_UNDECIDED] = KZ_DOUBT_OPEN};
+  return doubt[cell->state];
+}
+
+/* Cell f of the frame into place `at` of the planes. */
+static void put(const making *m, int64_t f, int64_t at, void *const plane[KZ_PLANES]) {
+  const bool mirrored = f >= m->own;
+  const kz_frame_cell *cell = m->cell + (mirrored ? m->total - 1 - f : f);
+  if (plane[KZ_PLANE_LABELS]) ((uint8_t *)plane[KZ_PLANE_LABELS])[at] = shown_id(m, cell->label, mirrored);
+  if (plane[KZ_PLANE_OTHER]) ((uint8_t *)plane[KZ_PLANE_OTHER])[at] = shown_id(m, cell->other, mirrored);
+  if (plane[KZ_PLANE_DOUBT]) ((uint8_t *)plane[KZ_PLANE_DOUBT])[at] = doubt_of(cell);
+  if (plane[KZ_PLANE_SETTLING_TIME])
+    ((float *)plane[KZ_PLANE_SETTLING_TIME])[at] = cell->label > 0 ? cell->periods : (float)NAN;
+}
+
+static kz_status show(making *m, int64_t level) {
+  const int64_t columns = m->scene->basin.theta.count, rows = m->scene->basin.velocity.count;
+  kz_live_level shown = {.level = level,
+                         .rows = kz_level_size(level, rows),
+                         .columns = kz_level_size(level, columns),
+                         .catalogue = &m->resident->catalogue};
+  void *plane[KZ_PLANES] = {NULL};
+  size_t end = 0;
+  static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME, KZ_PLANE_LABELS, KZ_PLANE_DOUBT,
+                                       KZ_PLANE_OTHER};
+  for (int p = 0; p < KZ_PLANES; p++) {
+    if (!m->frame->plane[order[p]]) continue;
+    plane[order[p]] = (char *)m->room + end;
+    shown.plane[order[p]] = plane[order[p]];
+    end += (size_t)(shown.rows * shown.columns) * kz_plane_bytes(order[p]);
+  }
+  for (int64_t i = 0; i < shown.rows; i++)
+    for (int64_t j = 0; j < shown.columns; j++)
+      put(m, kz_level_place(level, i, rows) * columns + kz_level_place(level, j, columns), i * shown.columns + j, plane);
+  shown.seconds = seconds() - m->begin;
+  return m->frame->show(m->frame->context, &shown);
+}
+
+static kz_status make(making *m) {
+  allocate(m);
+  for (int64_t i = 0; i < m->frame->levels->count; i++) {
+    const int64_t level = m->frame->levels->values[i];
+    KZ_TRY(label(m, list_open(m, level)));
+    if (m->resident->catalogue.list.count >= KZ_NO_LABEL)
+      return kz_fail(KZ_REFUSED,
+                     "basin.attractors.max_period: the pendulum has %lld attractors, too many for the bytes of a frame (%d)",
+                     (long long)m->resident->catalogue.list.count, KZ_NO_LABEL - 1);
+    KZ_TRY(show(m, level));
+  }
+  return KZ_OK;
+}
+
+kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_frame *frame) {
+  making m = {.engine = engine,
+              .scene = scene,
+              .frame = frame,
+              .begin = seconds(),
+              .total = scene->basin.theta.count * scene->basin.velocity.count,
+              .own = kz_own_cells(&scene->basin)};
+  KZ_TRY(kz_engine_resident(engine, scene, frame->moving, &m.resident));
+  const bool was_busy = m.resident->busy;
+  m.resident->busy = true;
+  const kz_status status = make(&m);
+  m.resident->busy = was_busy;
+  free(m.cell);
+  free(m.open);
+  free(m.room);
+  return status;
+}

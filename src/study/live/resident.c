@@ -1,0 +1,129 @@
+#include "resident.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/cells.h"
+#include "numerics/processed.h"
+
+/* Of moving frames: the error of a period, rad, and the starts of the search. */
+static const double TOLERANCE = 1e-6;
+enum { MOVING_STARTS = 1024 };
+/* Trapping regions that pay for frames, whatever their size: those of so many cells. */
+enum { CELLS = 130000 };
+/* rad: strobe points that moved by more between two catalogues belong to different attractors. */
+static const double NEAR = 0.5;
+
+static kz_window window_of(const kz_scene *scene) {
+  return kz_window_of(&scene->basin.theta, &scene->basin.velocity);
+}
+
+/* Steps and terms: those of a scene of method exact, or the cheapest to the tolerance of moving frames. */
+static void choose_numerics(kz_resident *r) {
+  kz_scene *scene = &r->scene;
+  scene->basin.method = KZ_METHOD_EXACT;
+  if (!r->moving) {
+    kz_numerics_resolve(scene);
+    return;
+  }
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  scene->numerics = kz_processed_or_split(pendulum, TOLERANCE, kz_fastest_motion(pendulum, &r->search.window, 0));
+}
+
+static kz_status search(kz_resident *r) {
+  const size_t n = (size_t)r->search.starts;
+  double *state = kz_malloc(2 * n * sizeof *state);
+  int32_t *label = kz_malloc(n * sizeof *label);
+  r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin.max_period);
+  r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
+  const kz_status status = kz_search_window(NULL, r->dynamics, &r->search, state, label);
+  free(state);
+  free(label);
+  return status;
+}
+
+kz_status kz_resident_make(const kz_scene *scene, bool moving, kz_resident *resident) {
+  *resident = (kz_resident){.scene = *scene, .moving = moving};
+  resident->scene.title = NULL;
+  resident->search = kz_search_of(scene);
+  resident->search.cells = CELLS;
+  if (moving && resident->search.starts > MOVING_STARTS) resident->search.starts = MOVING_STARTS;
+  if (scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
+  choose_numerics(resident);
+  return search(resident);
+}
+
+static void free_catalogue(kz_live_catalogue *catalogue) {
+  kz_catalogue_free(&catalogue->list);
+  free(catalogue->track);
+  *catalogue = (kz_live_catalogue){0};
+}
+
+void kz_resident_free(kz_resident *resident) {
+  if (resident->dynamics) kz_dynamics_free(resident->dynamics);
+  free_catalogue(&resident->catalogue);
+  *resident = (kz_resident){0};
+}
+
+static bool same_pendulum(const kz_pendulum *a, const kz_pendulum *b) {
+  return a->k == b->k && a->beta == b->beta && a->m == b->m;
+}
+
+bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, bool moving) {
+  const kz_basin_plan *mine = &resident->scene.basin, *plan = &scene->basin;
+  const kz_window own = window_of(&resident->scene), asked = window_of(scene);
+  return resident->used > 0 && resident->moving == moving &&
+         same_pendulum(&resident->scene.parameters.pendulum, &scene->parameters.pendulum) &&
+         asked.velocity_min >= own.velocity_min && asked.velocity_max <= own.velocity_max &&
+         mine->max_periods == plan->max_periods && mine->max_period == plan->max_period && mine->starts == plan->starts &&
+         mine->seed == plan->seed;
+}
+
+/* rad: how far the nearest strobe point of `b` lies from the first one of `a`. Chaotic attractors have none. */
+static double distance(const kz_entry *a, const kz_entry *b) {
+  double nearest = a->row.period == 0 ? 0 : INFINITY;
+  for (int i = 0; i < b->row.period; i++)
+    nearest = fmin(nearest, hypot(remainder(a->theta[0] - b->theta[i], 2 * M_PI), a->velocity[0] - b->velocity[i]));
+  return nearest;
+}
+
+static bool is_taken(const int64_t *track, int64_t count, int64_t number) {
+  for (int64_t i = 0; i < count; i++)
+    if (track[i] == number) return true;
+  return false;
+}
+
+/* The track of attractor i: that of the nearest one of its kind. */
+static int64_t track_of(const kz_live_catalogue *catalogue, int64_t i, const kz_live_catalogue *before, int64_t *tracks) {
+  const kz_entry *a = catalogue->list.entries + i;
+  double nearest = NEAR;
+  int64_t number = -1;
+  for (int64_t j = 0; before && j < before->list.count; j++) {
+    const kz_entry *b = before->list.entries + j;
+    if (a->row.period != b->row.period || a->row.winding != b->row.winding || a->row.centre != b->row.centre) continue;
+    const double d = distance(a, b);
+    if (d >= nearest || is_taken(catalogue->track, i, before->track[j])) continue;
+    nearest = d;
+    number = before->track[j];
+  }
+  return number >= 0 ? number : (*tracks)++;
+}
+
+static void list(const kz_dynamics *dynamics, kz_catalogue *catalogue) {
+  const int64_t known = kz_dynamics_count(dynamics);
+  int64_t *reached = kz_malloc(((size_t)known + 1) * sizeof *reached);
+  for (int64_t i = 0; i <= known; i++) reached[i] = 1;
+  kz_catalogue_make(dynamics, reached, catalogue);
+  free(reached);
+}
+
+void kz_resident_list(kz_resident *r, int64_t version, const kz_live_catalogue *before, int64_t *tracks) {
+  kz_live_catalogue own = r->catalogue;
+  r->catalogue = (kz_live_catalogue){.version = version, .parameters = r->scene.parameters};
+  if (r->dynamics) list(r->dynamics, &r->catalogue.list);
+  r->catalogue.track = kz_calloc((size_t)r->catalogue.list.count + 1, sizeof *r->catalogue.track);
+  for (int64_t i = 0; i < r->catalogue.list.count; i++)
+    r->catalogue.track[i] = track_of(&r->catalogue, i, own.list.count > 0 ? &own : before, tracks);
+  free_catalogue(&own);
+}

@@ -1,0 +1,25 @@
+/* Starts that are asked about, once the attractors are known. */
+#ifndef KAPITZA_STUDY_QUESTION_H
+#define KAPITZA_STUDY_QUESTION_H
+
+#include "attractors/catalogue.h"
+#include "kapitza/study.h"
+
+typedef struct {
+  const kz_scene *scene;
+  kz_dynamics *dynamics;
+  int64_t max_periods, n;
+  const double *start, *low; /* [n][2] as of kz_where */
+  kz_decision *decision;     /* [n] */
+} kz_question;
+
+/* Labels the starts as method exact does: fills `decision`, where candidates take the place of KZ_DOUBTFUL. */
+kz_status kz_question_decide(kz_question *question);
+void kz_question_free(kz_question *question);
+
+/* Endings that say nothing. */
+void kz_endings_clear(int64_t n, kz_ending *endings);
+/* What was decided, in words of the catalogue. */
+void kz_question_answer(const kz_question *question, const kz_catalogue *catalogue, kz_ending *endings);
+
+#endif

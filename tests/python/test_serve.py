@@ -1,0 +1,190 @@
+"""The command serve: its frames are those of a run, levels are parts of frames, newer requests end older ones, errors are answers."""
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from conftest import PROGRAM, ROOT
+from serving import Server, places
+
+FIG12 = ROOT / "scenes" / "blackburn-fig12.yaml"
+WINDOW = {"theta": {"min": 0.2, "max": 2.7}, "velocity": {"min": -1, "max": 0.5}}
+AXES = "{min: 0.2, max: 2.7, count: 44}", "{min: -1, max: 0.5, count: 30}"
+OTHER = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.31}
+
+
+@pytest.fixture(scope="module")
+def server():
+    with Server(FIG12) as running:
+        yield running
+
+
+def strobe(attractors, labels):
+    """The first strobe point of each cell's attractor: what labels mean, whatever their numbers."""
+    table = np.array([*(attractor["strobe"][0] for attractor in attractors), [np.nan, np.nan]])
+    return table[np.where(labels == 255, len(attractors), labels)]
+
+
+def test_the_program_says_what_it_serves(server):
+    assert server.ready["answer"] == "ready" and server.ready["protocol"] == 1
+    assert server.ready["pendulum"] == {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+    assert server.ready["window"]["velocity"] == {"min": -2, "max": 2, "count": 1000}
+
+
+def test_a_frame_at_rest_is_what_a_run_of_method_exact_writes(server, tmp_path):
+    sets = [f"basin.theta={AXES[0]}", f"basin.velocity={AXES[1]}", "basin.method=exact"]
+    options = [word for text in sets for word in ("--set", text)]
+    subprocess.run([PROGRAM, "run", FIG12, "-o", tmp_path / "out.h5", *options], check=True, capture_output=True)
+    _, frames = server.frame(30, 44, ("labels", "settling_time", "doubt", "other"), window=WINDOW, levels=[8, 1])
+    planes = frames[-1][1]
+    attractors = server.ask("catalogue")[0][0]["attractors"]
+    with h5py.File(tmp_path / "out.h5") as file:
+        ids = file["basin/attractor"][:]
+        points = np.stack([file["attractors/strobe_theta"][:, 0], file["attractors/strobe_velocity"][:, 0]], axis=1)
+    assert np.allclose(strobe(attractors, planes["labels"]), points[ids], rtol=0, atol=1e-11)
+    assert np.all(planes["doubt"] == 0) and np.all(planes["other"] == 255) and np.all(np.isfinite(planes["settling_time"]))
+
+
+def test_a_level_shows_cells_of_the_frame(server):
+    server.frame(30, 44, window=WINDOW, quality="moving")  # finds what there is: ids do not change between levels
+    _, frames = server.frame(30, 44, window=WINDOW, levels=[8, 4, 2, 1], quality="moving")
+    whole = frames[-1][1]["labels"]
+    for header, planes in frames:
+        level = header["level"]
+        assert np.array_equal(planes["labels"], whole[np.ix_(places(level, 30), places(level, 44))])
+    assert [header["final"] for header, _ in frames] == [False, False, False, True]
+
+
+def test_a_moving_frame_is_rougher_by_one_cell_in_a_hundred_at_most(server):
+    exact, moving = (server.frame(100, 160, quality=quality)[1][-1][1]["labels"] for quality in ("exact", "moving"))
+    assert 0 < np.mean(exact != moving) < 0.015
+
+
+def test_a_symmetric_window_has_mirrored_labels(server):
+    catalogue = server.ask("catalogue")[0][0]["attractors"]
+    labels = server.frame(40, 60)[1][-1][1]["labels"]
+    mirror = np.array([attractor["mirror"] for attractor in catalogue], dtype=np.uint8)
+    assert np.array_equal(mirror[labels], labels[::-1, ::-1])
+
+
+def test_attractors_keep_their_tracks_when_a_slider_moves(server):
+    before = server.ask("catalogue")[0][0]["attractors"]
+    catalogue, _ = server.frame(20, 30, pendulum=OTHER, quality="moving")
+    assert catalogue["pendulum"]["m"] == 0.31
+    tracks = {attractor["track"]: attractor["name"] for attractor in before}
+    shared = [attractor for attractor in catalogue["attractors"] if attractor["track"] in tracks]
+    assert len(shared) >= 4 and all(tracks[attractor["track"]] == attractor["name"] for attractor in shared)
+
+
+def test_weaker_damping_gets_more_periods_than_the_scene_has(server):
+    _, frames = server.frame(20, 30, pendulum={**OTHER, "quality_factor": 60}, quality="moving")
+    assert np.mean(frames[-1][1]["labels"] == 255) < 0.2
+
+
+def test_where_answers_as_the_command_does(server):
+    answer = server.ask("where", theta="1.2", velocity=0.3)[0][0]
+    told = json.loads(subprocess.run([PROGRAM, "where", FIG12, "1.2", "0.3", "--json"], check=True, capture_output=True).stdout)
+    same = [key for key in told if key not in ("attractor", "error", "settling_time")]
+    assert {key: answer[key] for key in same} == {key: told[key] for key in same}
+
+
+def test_an_orbit_is_that_of_the_pendulum(server):
+    header, payload = server.ask("orbit", theta="1.2", velocity=0.3, periods=3, samples_per_period=32)[0]
+    theta, velocity = np.frombuffer(payload, "<f8").reshape(2, header["samples"])
+    assert header["samples"] == 97 and (theta[0], velocity[0]) == (1.2, 0.3)
+    t = 2 * np.pi / 32 * np.arange(97)
+    acceleration = -header["damping"] * velocity - (header["k"] - header["m"] * np.cos(t)) * np.sin(theta)
+    assert np.allclose(np.gradient(velocity, t, edge_order=2), acceleration, atol=2e-2)
+    assert np.allclose(np.gradient(theta, t, edge_order=2), velocity, atol=2e-2)
+
+
+def test_a_chart_tells_periods(server):
+    x, y = ({"parameter": name, "min": low, "max": high, "count": 12} for name, low, high in
+            (("drive_amplitude", 0.1, 0.5), ("drive_frequency", 8, 12)))
+    answers = server.ask("chart", x=x, y=y, levels=[4, 1])
+    header, payload = answers[-1]
+    period, centre = np.frombuffer(payload, np.uint8).reshape(2, 12, 12)
+    assert len(answers) == 2 and set(np.unique(period)) <= {0, *range(1, 17), 255} and np.all(centre[period == 1] <= 3)
+    assert np.any((period == 1) & (centre == 1)) and np.any((period == 1) & (centre == 0))
+
+
+def test_a_newer_frame_ends_an_older_one_of_its_view(server):
+    first = server.post("frame", rows=2000, columns=2000, view="a")
+    second = server.post("frame", rows=10, columns=10, view="b", quality="moving")
+    third = server.post("frame", rows=10, columns=10, view="a", quality="moving")
+    last = {}
+    while len(last) < 3:
+        header, _ = server.receive()
+        if header["final"]:
+            last[header["sequence"]] = header["answer"]
+    assert last == {first: "ended", second: "frame", third: "frame"}
+
+
+def test_a_frame_is_cancelled(server):
+    first = server.post("frame", rows=2000, columns=2000)
+    server.post("cancel")
+    answers = {header["sequence"]: header["answer"] for header in (server.receive()[0] for _ in range(2))}
+    assert answers == {first: "ended", first + 1: "ended"}
+
+
+@pytest.mark.parametrize(("line", "words"), [
+    ("nonsense {", "request"),
+    ("[1, 2]", "is not a JSON object"),
+    ('{"request": "fame"}', '"fame" is unknown; it must be one of frame, where'),
+    ('{"request": "frame", "columns": 10}', "rows: is missing"),
+    ('{"request": "frame", "rows": 8192, "columns": 8192}', "more than 16777216 cells"),
+    ('{"request": "frame", "rows": 10, "columns": 10, "levels": [1, 8]}', "falling order"),
+    ('{"request": "frame", "rows": 10, "columns": 10, "level": 8}', "level: unknown key"),
+    ('{"request": "frame", "rows": 10, "columns": 10, "pendulum": {"k": 0.1, "m": 0.3}}', "pendulum.damping: is missing"),
+    ('{"request": "frame", "rows": 10, "columns": 10, "window": {"velocity": {"min": 2, "max": 1}}}', "basin.velocity.max"),
+    ('{"request": "where", "theta": "x", "velocity": 1}', "theta: is not"),
+    ('{"request": "orbit", "theta": 1}', "orbit.start.velocity: is missing"),
+    ('{"request": "quit", "why": 1}', "why: unknown key"),
+    ("x" * 70000, "more than 65536 bytes"),
+])
+def test_what_is_wrong_is_answered(server, line, words):
+    server.send(line)
+    header, _ = server.receive()
+    assert header["answer"] == "error" and header["status"] == 2 and words in header["message"]
+    assert "\n" not in header["message"] and not header["message"].startswith("-:")
+    assert server.ask("cancel")[0][0]["answer"] == "ended"
+
+
+def test_a_scene_that_is_wrong_ends_it(tmp_path):
+    (tmp_path / "bad.yaml").write_text("pendulum: {k: 0.1, damping: 0.1}\nbasin: {velocity: {min: -1, max: 1}}\n")
+    done = subprocess.run([PROGRAM, "serve", tmp_path / "bad.yaml"], check=False, capture_output=True, text=True, input="")
+    assert done.returncode == 2 and done.stdout == "" and "pendulum.m: is missing" in done.stderr
+
+
+def test_it_ends_with_its_parent():
+    """Amid a frame of many seconds."""
+    script = f"""
+import subprocess, time
+server = subprocess.Popen([{str(PROGRAM)!r}, "serve", {str(FIG12)!r}], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL)
+server.stdin.write(b'{{"request": "frame", "rows": 4000, "columns": 4000}}\\n')
+server.stdin.flush()
+print(server.pid, flush=True)
+time.sleep(100)
+"""
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as parent:
+        stat = Path(f"/proc/{int(parent.stdout.readline())}/stat")
+        time.sleep(0.5)
+        assert state_of(stat) in "RSD"
+        parent.kill()
+    deadline = time.monotonic() + 30
+    while state_of(stat) not in "ZX":
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def state_of(stat):
+    """The state of a process; X once it has gone."""
+    try:
+        return stat.read_text().rsplit(")", 1)[1].split()[0]
+    except FileNotFoundError:
+        return "X"
