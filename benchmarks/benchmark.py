@@ -22,7 +22,8 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 
 import reference_check  # noqa: E402
-from kapitza import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result  # noqa: E402
+from kapitza.script import run_script  # noqa: E402
 
 PROGRAM = ROOT / "build" / "kapitza"
 LABEL_CACHE = ROOT / "results" / "benchmark-truth"
@@ -215,4 +216,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run(main)
+    run_script(main)

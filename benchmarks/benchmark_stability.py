@@ -20,7 +20,8 @@ from scipy.integrate import solve_ivp
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 
-from kapitza import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result  # noqa: E402
+from kapitza.script import run_script  # noqa: E402
 
 PROGRAM = ROOT / "build" / "kapitza"
 SCENE = """\
@@ -127,4 +128,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run(main)
+    run_script(main)

@@ -20,7 +20,8 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 
-from kapitza import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result  # noqa: E402
+from kapitza.script import run_script  # noqa: E402
 
 REFERENCE_LABEL = ROOT / "build" / "benchmarks" / "reference_label"
 NONE = -1
@@ -141,4 +142,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run(main)
+    run_script(main)

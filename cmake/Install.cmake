@@ -1,6 +1,12 @@
 # What `cmake --install` puts where (GNUInstallDirs). The manual page and the completions are printed by the program, when it is
 # installed: a build for another machine's instruction set must not need a CPU that has it.
 include(GNUInstallDirs)
+if(SKBUILD) # a wheel: what pip puts into bin and share of the environment (pyproject.toml)
+  set(CMAKE_INSTALL_BINDIR ${SKBUILD_SCRIPTS_DIR})
+  set(CMAKE_INSTALL_DATADIR ${SKBUILD_DATA_DIR}/share)
+  set(CMAKE_INSTALL_MANDIR ${SKBUILD_DATA_DIR}/share/man)
+  set(CMAKE_INSTALL_DOCDIR ${SKBUILD_DATA_DIR}/share/doc/kapitza)
+endif()
 
 # kapitza_printed(file FOLDER folder WORDS words...): what `kapitza words...` prints becomes the file in that folder.
 function(kapitza_printed file)
@@ -16,6 +22,8 @@ function(kapitza_printed file)
   install(FILES ${path} DESTINATION ${arg_FOLDER} OPTIONAL)
 endfunction()
 
+# Libraries that stand beside the compiler's own (conda, MPI of PyPI) are found where they were when it was built.
+set_target_properties(kapitza PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
 install(TARGETS kapitza RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 kapitza_printed(kapitza.1 FOLDER ${CMAKE_INSTALL_MANDIR}/man1 WORDS --manual)
 kapitza_printed(kapitza FOLDER ${CMAKE_INSTALL_DATADIR}/bash-completion/completions WORDS --completion bash)

@@ -20,7 +20,8 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
-from kapitza import BadFile, run  # noqa: E402
+from kapitza import BadFile  # noqa: E402
+from kapitza.script import run_script  # noqa: E402
 
 
 def parse_arguments():
@@ -114,4 +115,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run(main)
+    run_script(main)

@@ -1,14 +1,20 @@
-"""Results of kapitza in Python.
+"""Basins of attraction of Kapitza's pendulum: run a scene, read its result, draw it.
 
 >>> import kapitza
->>> result = kapitza.Result("blackburn-fig12.h5")
->>> result.pendulum["k"], result.attributes["title"]
->>> result.tree["basin/attractor"]          # an xarray.DataTree: numbers are read when they are asked for
->>> basin = result.group("basin")           # an xarray.Dataset in memory, checked
+>>> result = kapitza.run("scenes/small.yaml", set={"pendulum.drive_amplitude": 0.4})   # a file, YAML text or a dict
+>>> result.attractors[["name", "fraction"]]                # pandas
+>>> result.labels().sel(theta=3.1, velocity=0, method="nearest").item()   # xarray
+>>> result.plot(centre="inverted")                         # matplotlib
+>>> result.compare(kapitza.run("scenes/small.yaml"))
+>>> kapitza.where("scenes/small.yaml", [3.1, 3.0], "0.2")  # where single starts end
 
-kapitza.plots has the pictures; each of its draw_* functions takes and returns a matplotlib Axes.
+A result that is there already: kapitza.Result("blackburn-fig12.h5"). kapitza.plots has the panels of the pictures; each of its draw_*
+functions takes and returns a matplotlib Axes.
 """
 
-from kapitza.result import BadFile, Result, run
+from kapitza.engine import Engine
+from kapitza.program import RunError, SceneError
+from kapitza.result import BadFile, Result
+from kapitza.session import check, orbit, run, sweep, where
 
-__all__ = ["BadFile", "Result", "run"]
+__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "orbit", "run", "sweep", "where"]

@@ -4,14 +4,15 @@ import sys
 from collections.abc import Callable
 
 from kapitza import vtkhdf
-from kapitza.plots import basin, chart, orbit, potential, stability, sweep, tradeoff
+from kapitza.plots import basin, chart, compare, orbit, potential, stability, sweep, tradeoff
 from kapitza.report import command as report
-from kapitza.result import run
+from kapitza.script import run_apart
 
 # KIND -> a function that takes the other words of the command line.
 KINDS: dict[str, Callable[[list[str]], None]] = {
     "basin": basin.main,
     "chart": chart.main,
+    "compare": compare.main,
     "orbit": orbit.main,
     "potential": potential.main,
     "report": report.main,
@@ -38,4 +39,4 @@ def main(kind: str | None = None) -> None:
         print(USAGE, file=sys.stderr)
         sys.exit(2)
     draw = KINDS[kind]
-    run(lambda: draw(words))
+    run_apart(lambda: draw(words))

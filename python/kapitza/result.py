@@ -1,16 +1,20 @@
 """The one reader of kapitza's result files (HDF5, netCDF-4 readable)."""
 
 import os
-import sys
-from collections.abc import Callable
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5py
+import numpy as np
+import pandas
 import xarray
 
 from kapitza import layout
+from kapitza.table import attractors_table, labels_array
+
+if TYPE_CHECKING:
+    from kapitza.compare import Comparison
 
 
 class BadFile(Exception):
@@ -18,11 +22,23 @@ class BadFile(Exception):
 
 
 class Result:
-    """A complete result file of kapitza: `attributes` of the file, names of its `groups`, attributes of its `pendulum`."""
+    """A complete result file of kapitza: `attributes` of the file, names of its `groups`, attributes of its `pendulum`.
+
+    `summary`: what the run that made it printed; "" where the file was opened.
+    """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
+        self.summary = ""
         self.attributes, self.groups, self.pendulum = self._open()
+
+    def __repr__(self) -> str:
+        from kapitza.show import as_text
+        return as_text(self)
+
+    def _repr_html_(self) -> str:
+        from kapitza.show import as_html
+        return as_html(self)
 
     def _open(self) -> tuple[dict[str, Any], list[str], dict[str, Any]]:
         if not self.path.is_file():
@@ -53,6 +69,84 @@ class Result:
             return xarray.open_datatree(self.path, engine="h5netcdf", phony_dims="sort")
         except Exception as error:
             raise BadFile(f"{self.path}: damaged") from error
+
+    @property
+    def title(self) -> str:
+        """The scene's title, or the file's name."""
+        return str(self.attributes.get("title") or self.path.stem)
+
+    @property
+    def scene(self) -> str:
+        """The scene as it was run, with every default: YAML that kapitza.run takes and that gives the same numbers."""
+        return str(self.attributes.get("scene_resolved", ""))
+
+    @cached_property
+    def attractors(self) -> pandas.DataFrame:
+        """A row for each attractor, by id: name, period, winding, centre, mirror, fraction, multipliers, strobe points (lists), ..."""
+        return attractors_table(self.group("attractors"))
+
+    @property
+    def names(self) -> list[str]:
+        """The attractors' names by id; of two with one name each has its id behind it."""
+        from kapitza.style import names_with_ids
+        return names_with_ids(self.attractors["name"])
+
+    def labels(self) -> xarray.DataArray:
+        """The label of every start over velocity and theta: the id of its attractor, -1 = not settled.
+
+        Attractors.jl calls it basins_of_attraction.
+        """
+        return labels_array(self.group("basin"), self.group("attractors"))
+
+    def basin(self, name: int | str) -> xarray.DataArray:
+        """Whether a start ends on the attractor of this id, or on one of this name."""
+        labels = self.labels()
+        return labels.isin(self.ids(name)).rename(f"basin of {name}")
+
+    def ids(self, name: int | str) -> list[int]:
+        """The ids of the attractors of a name; of "inverted 3-nodding (2)" or an id that one. KeyError where there is none."""
+        table = self.attractors
+        found = [index for index, (plain, full) in enumerate(zip(table["name"], self.names, strict=True)) if name in (plain, full, index)]
+        if not found:
+            raise KeyError(f"no attractor {name!r}; there are {', '.join(self.names)}")
+        return found
+
+    def basins_fractions(self) -> dict[int, float]:
+        """Id -> share of the starts; -1 = not settled."""
+        values, counts = np.unique(self.labels().values, return_counts=True)
+        return {int(value): float(count / counts.sum()) for value, count in zip(values, counts, strict=True)}
+
+    def basin_entropy(self) -> tuple[float, float]:
+        """(Sb, Sbb): the basin entropy, and that of the boxes at boundaries."""
+        attributes = self.group("basin").attrs
+        return float(attributes["basin_entropy"]), float(attributes["boundary_basin_entropy"])
+
+    def uncertainty_exponent(self) -> tuple[float, float]:
+        """The uncertainty exponent of the boundaries, and the standard error of its fit."""
+        attributes = self.group("basin").attrs
+        return float(attributes["uncertainty_exponent"]), float(attributes["uncertainty_exponent_stderr"])
+
+    def convergence_times(self) -> xarray.DataArray:
+        """Drive periods that every start takes until it is trapped."""
+        return self.group("basin")["settling_time"]
+
+    def plot(self, kind: str | None = None, **options: Any) -> Any:
+        """The picture of a group as a matplotlib Figure. kind: a group of the file, by default its main one; options: those
+        of `kapitza-plot KIND`, such as centre="inverted", view="branches", si=True, width="86mm"."""
+        from kapitza.show import figure_of
+        return figure_of(self, kind, options)
+
+    def report(self, output: str | os.PathLike[str] | None = None) -> Path:
+        """Writes one self-contained HTML page on the result (by default beside it) and returns its path."""
+        from kapitza.report.page import report
+        path = Path(output) if output is not None else self.path.with_suffix(".html")
+        path.write_text(report(self), encoding="utf-8")
+        return path
+
+    def compare(self, other: "Result | str | os.PathLike[str]") -> "Comparison":
+        """The basins of this result beside those of another: attractors matched by their strobe points, shares, cells that differ."""
+        from kapitza.compare import Comparison
+        return Comparison(self, other if isinstance(other, Result) else Result(other))
 
     def group(self, name: str) -> xarray.Dataset:
         """The group, read whole; BadFile where the pictures could not be drawn from it."""
@@ -101,19 +195,3 @@ def _plain(value: Any) -> Any:
     if isinstance(value, bytes):
         return value.decode()
     return value.item() if getattr(value, "size", 0) == 1 else value
-
-
-def run(main: Callable[[], None]) -> None:
-    """Calls main() and ends the script: one line and status 1 for a file that cannot be used, or a picture that cannot be written."""
-    try:
-        main()
-    except (BadFile, OSError, MemoryError) as error:
-        print(f"error: {_words(error)}", file=sys.stderr)
-        sys.exit(1)
-
-
-def _words(error: Exception) -> str:
-    if isinstance(error, MemoryError):
-        return "out of memory"
-    named = isinstance(error, OSError) and error.filename
-    return f"{error.filename}: {error.strerror}" if isinstance(error, OSError) and named else str(error)

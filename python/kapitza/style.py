@@ -6,7 +6,9 @@ The kinds stay apart for colour-blind readers (tests/python/test_style.py).
 """
 
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -20,6 +22,8 @@ from matplotlib.figure import Figure
 UNSETTLED = "#ffffff"
 INK = "#1c2127"
 FAINT = "#6b747e"
+FIGURE_SPACE = "\u2007"  # as wide as a digit
+WITH_SHARES = "shares"  # mark of a legend whose second column holds shares
 
 # Kind -> colour.
 KINDS = {
@@ -33,6 +37,8 @@ KINDS = {
     "other": "#a8935a",
     "chaotic": "#3b3f45",
 }
+
+_chosen: ContextVar[Mapping[str, str]] = ContextVar("chosen", default={})  # noqa: B039  # never changed
 
 # Colours nearer than this in OKLab are not told apart in a fine mixture.
 APART = 0.06
@@ -66,7 +72,15 @@ def colours(attractors: xarray.Dataset, apart: Iterable[int] | None = None) -> l
                     attractors["mirror"].values, strict=True))
     order = sorted(range(len(rows)) if apart is None else apart,
                    key=lambda index: (rows[index][0], abs(rows[index][1]), rows[index][3] < index, index))
-    return _told_apart([_colour(index, *row) for index, row in enumerate(rows)], order)
+    found = _told_apart([_colour(index, *row) for index, row in enumerate(rows)], order)
+    names = [str(name) for name in attractors["name"].values] if "name" in attractors else [""] * len(rows)
+    both = zip(found, names, names_with_ids(names), strict=True)
+    return [_chosen.get().get(full) or _chosen.get().get(name) or colour for colour, name, full in both]
+
+
+def kind_colour(name: str) -> str:
+    """The colour of a kind of motion: that of the page, else of KINDS; white of what has not settled."""
+    return _chosen.get().get(name) or KINDS.get(name, UNSETTLED)
 
 
 def _told_apart(wanted: Sequence[str], order: Iterable[int]) -> list[str]:
@@ -114,8 +128,8 @@ def _colour(index: int, period: int, winding: int, centre: int, mirror: int) -> 
     elif name in ("down nodding", "inverted nodding"):
         lighter = 0.55 * (1 - 2 / period) if period > 1 else 0.6
     if not name.startswith("rotation") and mirror < index:  # the second of two mirror partners
-        return shade(KINDS[name], lighter - 0.3)
-    return shade(KINDS[name], lighter)
+        return shade(kind_colour(name), lighter - 0.3)
+    return shade(kind_colour(name), lighter)
 
 
 def _rotation_shade(period: int, winding: int) -> float:
@@ -172,16 +186,32 @@ def pi_text(multiple: float) -> str:
     return sign + ("" if top == 1 else str(top)) + "π" + ("" if bottom == 1 else f"/{bottom}")
 
 
-def use() -> None:
-    """The page settings of every figure. Text stays text in SVG and PDF."""
-    mpl.rcParams.update({
-        "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 9, "mathtext.fontset": "dejavusans",
+def settings(font_size: float = 9) -> dict[str, Any]:
+    """The page settings of every figure, for matplotlib's rcParams. Text stays text in SVG and PDF."""
+    return {
+        "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": font_size, "mathtext.fontset": "dejavusans",
         "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK, "ytick.color": INK,
         "axes.linewidth": 0.7, "xtick.major.width": 0.7, "ytick.major.width": 0.7,
-        "axes.titlelocation": "left", "axes.titlesize": 11, "axes.titleweight": "bold",
+        "axes.titlelocation": "left", "axes.titlesize": "large", "axes.titleweight": "bold",
         "legend.frameon": False, "figure.dpi": 100, "savefig.facecolor": "white",
         "svg.fonttype": "none", "pdf.fonttype": 42, "svg.hashsalt": "kapitza",
-    })
+    }
+
+
+def use() -> None:
+    """Gives all figures from now on these settings."""
+    mpl.rcParams.update(settings())  # type: ignore[arg-type]
+
+
+@contextmanager
+def using(font_size: float = 9, colours: Mapping[str, str] | None = None) -> Iterator[None]:
+    """Figures drawn inside have these letters, and `colours` (name of an attractor, or kind of motion, -> colour) before those of KINDS."""
+    token = _chosen.set({name: to_hex(colour) for name, colour in (colours or {}).items()})
+    try:
+        with mpl.rc_context(settings(font_size)):  # type: ignore[arg-type]
+            yield
+    finally:
+        _chosen.reset(token)
 
 
 def save(figure: Figure, output: Path, dpi: float) -> None:
@@ -190,5 +220,5 @@ def save(figure: Figure, output: Path, dpi: float) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")  # a failed layout is a fault, not a footnote
         warnings.filterwarnings("ignore", message="Glyph")  # a letter of the title that the font lacks is seen as a box
-        figure.savefig(output, dpi=dpi, bbox_inches="tight", metadata=clock)
+        figure.savefig(output, dpi=dpi, metadata=clock)
     print(output)

@@ -26,7 +26,11 @@ static kz_status find_places(places *p) {
   snprintf(p->own_python, sizeof p->own_python, "%s/.venv/bin/python", root);
   snprintf(p->entry, sizeof p->entry, "%s/kapitza/explorer/__main__.py", p->package);
   if (access(p->entry, R_OK) == 0) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "view: the explorer is not at %s; run the program in the folder build of its sources", p->entry);
+  p->entry[0] = p->package[0] = '\0'; /* installed by pip: the Python beside the program has the package */
+  snprintf(p->own_python, sizeof p->own_python, "%s/bin/python3", root);
+  if (access(p->own_python, X_OK) == 0 || getenv("KAPITZA_PYTHON")) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "view: there is no Python at %s; install the program by pip, or run it in the folder build of its sources",
+                 p->own_python);
 }
 
 static const char *python_of(const places *p) {
@@ -38,6 +42,7 @@ static const char *python_of(const places *p) {
 /* The package is found first, whatever else the user's path of modules holds. */
 static kz_status set_module_path(const places *p) {
   const char *before = getenv("PYTHONPATH");
+  if (!p->package[0]) return KZ_OK;
   const size_t bytes = strlen(p->package) + (before ? strlen(before) : 0) + 2;
   char *path = kz_malloc(bytes);
   snprintf(path, bytes, "%s%s%s", p->package, before && before[0] ? ":" : "", before ? before : "");
@@ -52,9 +57,10 @@ kz_status kz_app_view(const kz_options *options) {
   KZ_TRY(find_places(&p));
   KZ_TRY(set_module_path(&p));
   const char *python = python_of(&p), *port = options->port ? options->port : "0";
-  const char *words[] = {
-      python,         p.entry, options->no_browser ? "--no-browser" : "--browser", "--program", p.program, "--port", port, "--",
-      options->scene, NULL};
+  const char *module[] = {"-m", "kapitza.explorer"}, *script[] = {"-P", p.entry};
+  const char *const *entry = p.entry[0] ? script : module;
+  const char *words[] = {python,    entry[0], entry[1], options->no_browser ? "--no-browser" : "--browser", "--program",
+                         p.program, "--port", port,     "--", options->scene, NULL};
   fflush(stdout);
   execvp(python, (char *const *)words);
   return kz_fail(KZ_FAILED,

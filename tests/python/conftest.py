@@ -13,8 +13,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from kapitza import Result, run
+from kapitza import Result
 from kapitza.command import KINDS
+from kapitza.script import run_script as end_script
 from mpi_settings import MPI_SETTINGS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -214,7 +215,7 @@ def run_script(main, *arguments):
     with pytest.MonkeyPatch.context() as patch, redirect_stdout(output), redirect_stderr(errors):
         patch.setattr(sys, "argv", ["script", *map(str, arguments)])
         try:
-            run(main)
+            end_script(main)
         except SystemExit as end:
             status = end.code
     return subprocess.CompletedProcess(arguments, status, output.getvalue(), errors.getvalue())

@@ -18,15 +18,16 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kapitza import style
-from kapitza.plots.common import argument_parser, parsed, title_text, write_picture
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.dots import mark_strobe_points
+from kapitza.plots.page import lay_out
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.skeleton import mark_manifolds, mark_saddles
 from kapitza.plots.units import add_si, pivot_frequency, show_in
 from kapitza.result import BadFile, Result
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#8c1d18", "#e58a2b", "#e8c34a", "#3f8f5b"]
-PLANE_WIDTH = 5.6  # inches, the same in every figure
+PAGE_WIDTH, PLANE_WIDTH, TITLES = 7.6, 5.3, 0.9  # inches, nearly the same in every figure
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
@@ -135,23 +136,12 @@ def write_legend(axes: Axes, entries: Sequence[tuple[str, str, float]]) -> Axes:
     """Colour and name in one column, the share in the next, digits under digits."""
     shares = [style.share_text(share) for _, _, share in entries]
     digits = max((share.find(".") if "." in share else share.find(" ") for share in shares), default=0)
-    figure_space = "\u2007"
     patches = [Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5, label=style.name_text(name))
                for colour, name, _ in entries]
-    columns = [Line2D([], [], linestyle="", label=figure_space * (digits - max(share.find("."), 1)) + share) for share in shares]
-    axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0,
-                handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize=8)
-    return axes
-
-
-def write_titles(axes: Axes, result: Result, basin: xarray.Dataset) -> Axes:
-    """The scene's title, the parameters, and how the labels were found."""
-    axes.set_title(title_text(result), pad=22, parse_math=False)
-    axes.text(0, 1.02, style.parameters_text(result.pendulum), transform=axes.transAxes, va="bottom", ha="left",
-              fontsize=9, color=style.FAINT)
-    rows, columns = basin["attractor"].shape
-    axes.text(1, 1.02, f"{columns} × {rows} starts, {_method(basin)}", transform=axes.transAxes, va="bottom", ha="right",
-              fontsize=8, color=style.FAINT)
+    columns = [Line2D([], [], linestyle="", label=style.FIGURE_SPACE * (digits - max(share.find("."), 1)) + share) for share in shares]
+    legend = axes.legend(handles=[*patches, *columns], ncols=2, loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0,
+                         handlelength=1.1, handleheight=1.1, columnspacing=-0.2, fontsize="small")
+    legend.set_gid(style.WITH_SHARES)
     return axes
 
 
@@ -167,15 +157,16 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     labels = basin["attractor"].values
     if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes["attractor"]:
         raise BadFile(f"{result.path}: has cells of attractors that it does not list")
-    figure = Figure(figsize=(PLANE_WIDTH, PLANE_WIDTH * Plane(basin, arguments.centre).shape))
-    axes = figure.add_axes((0, 0, 1, 1))  # the page grows around the plane when it is saved
-    legend, centre, dots = not arguments.no_legend, arguments.centre, not arguments.no_dots
+    plane = Plane(basin, arguments.centre)
+    figure = new_figure(PAGE_WIDTH, PLANE_WIDTH * plane.shape + TITLES)
+    axes, centre = figure.subplots(), arguments.centre
+    ids = chosen_ids(result, attractors, arguments.attractor) if arguments.attractor else []
     if arguments.attractor:
-        draw_one(axes, basin, attractors, chosen_ids(result, attractors, arguments.attractor), legend=legend, centre=centre, dots=dots)
+        draw_one(axes, basin, attractors, ids, centre=centre, dots=False)
     elif arguments.quantity == "attractor":
-        draw_basins(axes, basin, attractors, legend=legend, centre=centre, dots=dots, shade=arguments.shade)
+        draw_basins(axes, basin, attractors, centre=centre, dots=False, shade=arguments.shade)
     elif arguments.quantity == "evidence":
-        draw_evidence(axes, basin, legend=legend, centre=centre)
+        draw_evidence(axes, basin, centre=centre)
     else:
         draw_settling_time(axes, basin, centre=centre)
     if arguments.manifolds:
@@ -183,11 +174,24 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     if arguments.saddles:
         mark_saddles(axes, basin, result.group("saddles"), centre=centre)
     if arguments.degrees:
-        label_axes(axes, Plane(basin, centre), degrees=True)
+        label_axes(axes, plane, degrees=True)
     if arguments.si:
         show_in_si(figure, pivot_frequency(result))
-    write_titles(axes, result, basin)
+    rows, columns = basin["attractor"].shape
+    entitle(figure, result, style.parameters_text(result.pendulum), f"{columns} × {rows} starts", _method(basin))
+    if not arguments.no_dots and arguments.quantity == "attractor":
+        lay_out(figure)  # dots are as large as the cells beneath them allow
+        mark_attractors(axes, plane, basin, attractors, ids)
     return figure
+
+
+def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, ids: Sequence[int]) -> None:
+    """The strobe points: white rings of the attractors `ids`, or dots of all in darker shades of their basins."""
+    if ids:
+        mark_strobe_points(axes, plane, basin, attractors, colours=dict.fromkeys(ids, "white"), edge="black")
+    else:
+        mark_strobe_points(axes, plane, basin, attractors,
+                           colours={index: style.shade(colour, -0.45) for index, colour in enumerate(style.colours(attractors))})
 
 
 def show_in_si(figure: Figure, omega: float) -> None:

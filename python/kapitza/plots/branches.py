@@ -68,7 +68,7 @@ def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | N
         if bands[:, -1].any():
             entries.append(Patch(color=style.FAINT, label=f"{len(small)} others, {style.share_text(bands[:, -1].max())} at most"))
         entries += [*_entries(sweep, colours, named[::-1]), *bars]
-        axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize=8, labelspacing=0.35)
+        axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize="small", labelspacing=0.35)
     return axes
 
 
@@ -118,6 +118,6 @@ def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | No
     axes.set(xlabel=parameter_text(sweep), ylabel="branches", yticks=[], ylim=(-1, len(order)))
     if names:
         ids = style.names_with_ids(sweep["branch_name"].values)
-        axes.set_yticks(range(len(order)), [style.name_text(ids[branch]) for branch in order], fontsize=6.5)
+        axes.set_yticks(range(len(order)), [style.name_text(ids[branch]) for branch in order], fontsize="x-small")
         axes.set_ylabel("")
     return axes

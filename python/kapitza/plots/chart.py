@@ -53,7 +53,7 @@ def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] |
     if legend:
         known = style.KINDS | dict(colours or {})
         patches = [Patch(facecolor=known.get(name, style.UNSETTLED), edgecolor=style.FAINT, label=name) for name in names]
-        axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8)
+        axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes
 
 
@@ -102,7 +102,7 @@ def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legen
     for which, label in (("x", axes.set_xlabel), ("y", axes.set_ylabel)):
         key = chart.attrs[f"{which}_parameter"]
         label(NAMES.get(key, key.replace("_", " ")))
-    axes.set_title(f"start: θ = {float(chart['start_theta']):g}, velocity {float(chart['start_velocity']):g}", fontsize=9)
+    axes.set_title(f"start: θ = {float(chart['start_theta']):g}, velocity {float(chart['start_velocity']):g}", fontsize="medium")
     return axes
 
 

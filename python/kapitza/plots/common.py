@@ -8,7 +8,10 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from kapitza import style
+from kapitza.plots.page import SEPARATOR, Picture, add_page_options, drawing, lay_out, new_figure, page_of
 from kapitza.result import BadFile, Result
+
+__all__ = ["argument_parser", "entitle", "figure_of", "new_figure", "parsed", "write_picture"]
 
 FORMATS = (".png", ".svg", ".pdf")
 
@@ -20,6 +23,7 @@ def argument_parser(kind: str, description: str | None, study: str) -> argparse.
     parser.add_argument("file", help=f"result file that holds {study}")
     parser.add_argument("-o", "--output", type=Path, help="picture; .png, .svg or .pdf (default: FILE's name with .png, here)")
     parser.add_argument("--dpi", type=resolution, default=200)
+    add_page_options(parser)
     return parser
 
 
@@ -40,31 +44,34 @@ def parsed(parser: argparse.ArgumentParser, words: list[str]) -> argparse.Namesp
 
 
 def write_picture(arguments: argparse.Namespace, draw: Callable[[Result, argparse.Namespace], Figure]) -> None:
-    """Writes the figure that `draw` makes of the file. Values that no run writes and that no figure can show are the file's fault."""
-    style.use()
-    result = Result(arguments.file)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # values that are not there (NaN), axes of one value
-            figure = draw(result, arguments)
+    """Writes the figure that `draw` makes of the file."""
+    figure = figure_of(Result(arguments.file), arguments, draw)
+    with drawing(page_of(arguments)):
         style.save(figure, arguments.output, arguments.dpi)
+
+
+def figure_of(result: Result, arguments: argparse.Namespace, draw: Callable[[Result, argparse.Namespace], Figure]) -> Figure:
+    """The figure that `draw` makes of a result, laid out on its page.
+
+    Values that no run writes and that no figure can show are the file's fault.
+    """
+    try:
+        with warnings.catch_warnings(), drawing(page_of(arguments)):
+            warnings.simplefilter("ignore")  # values that are not there (NaN), axes of one value
+            return lay_out(draw(result, arguments))
     except (ArithmeticError, LookupError, TypeError, ValueError, Warning) as error:
         reason = " ".join(str(error).split())
         raise BadFile(f"{result.path}: holds values that cannot be drawn ({type(error).__name__}: {reason})") from error
 
 
-def new_figure(width: float, height: float) -> Figure:
-    """An empty page (inches) that no window shows; its panels are laid out when it is written."""
-    return Figure(figsize=(width, height), layout="constrained")
-
-
 def title_text(result: Result) -> str:
     """The scene's title, or the file's name: plain text, to be drawn with parse_math=False."""
-    title = str(result.attributes.get("title") or result.path.stem)
-    return "".join(letter if letter.isprintable() else "?" for letter in title)
+    return "".join(letter if letter.isprintable() else "?" for letter in result.title)
 
 
 def entitle(figure: Figure, result: Result, *parts: str) -> None:
     """The scene's title above the figure, the parts that are not empty below it."""
-    figure.suptitle(title_text(result), x=0.01, ha="left", fontsize=11, fontweight="bold", parse_math=False)
-    figure.text(0.01, -0.01, "   |   ".join(filter(None, parts)), ha="left", va="top", fontsize=8, color=style.FAINT)
+    heading = figure.suptitle(title_text(result), x=0.01, ha="left", fontsize="large", fontweight="bold", parse_math=False)
+    footer = figure.supxlabel(SEPARATOR.join(filter(None, parts)), x=0.01, ha="left", fontsize="small", color=style.FAINT)
+    if isinstance(figure, Picture):
+        figure.heading, figure.footer = heading, footer

@@ -90,5 +90,5 @@ def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str]
                   linestyle=(0, (1, 1.2)) if "refined" in name else (0, (4, 2)) if formula else "-",
                   linewidth=0.7 if faint else 1.3 if formula else 1.6, label=label(name) + (", undamped" if faint else ""))
     if names and legend:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes

@@ -20,7 +20,7 @@ def draw_amplitude(axes: Axes, sweep: xarray.Dataset, *, colours: str = FLUTTER,
     axes.axvline(critical, color=style.FAINT, lw=0.8, ls="--")
     if legend:
         axes.annotate(f"multiplier −1 at {critical:.9g}", (critical, axes.get_ylim()[1]), (4, -12), textcoords="offset points",
-                      fontsize=8, color=style.FAINT)
+                      fontsize="small", color=style.FAINT)
     return axes
 
 

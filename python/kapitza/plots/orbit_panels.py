@@ -56,7 +56,7 @@ def draw_spectrum(axes: Axes, orbit: Orbit, *, colours: str = STROBE, legend: bo
         axes.vlines(frequency[lines], floor, amplitude[lines], color=colours, linewidth=1.6)
         for j in orbit.strongest(4) if legend else []:
             axes.annotate(orbit.line_text(j), (frequency[j], amplitude[j]), (0, 2), textcoords="offset points", ha="center",
-                          fontsize=7)
+                          fontsize="x-small")
     else:
         axes.plot(frequency[1:], np.maximum(amplitude[1:], floor), color=colours, linewidth=0.9)
     axes.set_yscale("log")

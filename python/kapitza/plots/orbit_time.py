@@ -60,7 +60,7 @@ def hide_rounding(axes: Axes, **spans: float) -> None:
 def write_legend(axes: Axes) -> Axes:
     """Above the panel, where it hides nothing."""
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize=7.5, handlelength=1.4,
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize="small", handlelength=1.4,
                     columnspacing=1.2)
     return axes
 

@@ -42,7 +42,7 @@ def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str]
         for _, dash, text in FORMULAS:
             axes.plot([], [], color=style.INK, linestyle=dash, linewidth=1, label=text)
         axes.plot([], [], "o", markersize=4, color=style.INK, label="rim of the well")
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     axes.set_ylabel("effective potential (I ω²)")
     return _over_the_circle(axes)
 
@@ -55,7 +55,7 @@ def draw_differences(axes: Axes, potential: xarray.Dataset, *, colours: Sequence
             axes.plot(*full_circle(theta, potential[f"energy_{name}"].values[row] - exact), color=colours[row % len(colours)],
                       linewidth=1.1, linestyle=dash, label=None if row else text)
     if legend:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8)
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     axes.set_ylabel("formula − exact (I ω²)")
     return _over_the_circle(axes)
 

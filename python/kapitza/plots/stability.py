@@ -56,7 +56,7 @@ def mark_thresholds(axes: Axes, chart: xarray.Dataset) -> Axes:
         k, m = (chart.attrs.get(f"tongue_{tongue}_lowest_{axis}", np.nan) for axis in "km")
         if f"damped_{tongue}" in chart and np.isfinite(k):
             axes.plot(k, m, "o", markersize=4, color=style.INK, zorder=5)
-            axes.annotate(f"{k:.5f}, {m:.5f}", (k, m), (4, -11), textcoords="offset points", fontsize=7.5)
+            axes.annotate(f"{k:.5f}, {m:.5f}", (k, m), (4, -11), textcoords="offset points", fontsize="small")
     return axes
 
 
@@ -103,8 +103,8 @@ def _frequency_legend(axes: Axes, colours: Sequence[str]) -> None:
                ((inverted, "inverted"), (hanging, "hanging"), (both, "both"), (neither, "neither"))]
     lines = [Line2D([], [], color=style.INK, linewidth=0.9, label="exact"),
              Line2D([], [], color=style.INK, linewidth=0.9, linestyle=(0, (4, 2)), label="Eqs. (5), (6)")]
-    axes.legend(handles=[*patches, *lines], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize=8, title="stable at rest",
-                title_fontsize=8)
+    axes.legend(handles=[*patches, *lines], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small", title="stable at rest",
+                title_fontsize="small")
 
 
 def _page(panel: Callable[..., Axes]) -> Callable[[xarray.Dataset], Figure]:

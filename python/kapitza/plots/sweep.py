@@ -65,7 +65,7 @@ def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: 
     axes.plot(np.repeat(value, points.shape[1]), points.ravel(), ".", markersize=1.6, markeredgewidth=0,
               color=colours or (UP if up else DOWN), rasterized=True)
     if legend:
-        axes.set_title("going up" if up else "going down", fontsize=9, fontweight="normal")
+        axes.set_title("going up" if up else "going down", fontsize="medium", fontweight="normal")
     axes.set(xlabel=parameter_text(sweep), ylabel=STROBE_LABEL, xlim=(value[0], value[-1]))
     axes.set_yticks([0, 0.5, 1, 1.5, 2], [style.pi_text(tick) for tick in (0, 0.5, 1, 1.5, 2)])
     return axes

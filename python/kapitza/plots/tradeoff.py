@@ -77,7 +77,7 @@ def _mark_1992(axes: Axes, trade: xarray.Dataset, x: np.ndarray) -> None:
     for i, label in enumerate(trade["label"].values):
         if label.endswith("-1992"):
             height = 100 * max(trade["wrong"].values[i], 0) or 100 * trade["wrong_high"].values[i]
-            axes.annotate("1992", (x[i], height), xytext=(7, 7), textcoords="offset points", fontsize=8, fontweight="bold")
+            axes.annotate("1992", (x[i], height), xytext=(7, 7), textcoords="offset points", fontsize="small", fontweight="bold")
 
 
 def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, colours: Mapping[str, str] | None = None,
@@ -92,7 +92,7 @@ def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, 
     if floor > 0:
         axes.axhline(floor, color=style.INK, lw=1, ls="--", zorder=1)
         axes.annotate("last place of the start", (1, floor), xycoords=("axes fraction", "data"), xytext=(-4, 3),
-                      textcoords="offset points", ha="right", fontsize=8)
+                      textcoords="offset points", ha="right", fontsize="small")
     axes.set(xscale="log", yscale="log", ylabel="wrong labels / %",
              xlabel="processor seconds per million cells" if per_cell else "processor seconds for the map of this scene")
     for axis in (axes.xaxis, axes.yaxis):
@@ -102,7 +102,7 @@ def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, 
     axes.grid(which="both", color="#e3e7eb", lw=0.6)
     axes.set_axisbelow(True)
     if legend:
-        axes.legend(fontsize=8, frameon=False)
+        axes.legend(fontsize="small", frameon=False)
     return axes
 
 
@@ -111,7 +111,7 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     trade = result.group("tradeoff")
     figure = new_figure(7.2, 4.8)
     axes = draw_tradeoff(figure.subplots(), trade, per_cell=arguments.per_cell, legend=False)
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper", fontsize=8, frameon=False)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper", fontsize="small", frameon=False)
     parameters = [f"{symbol} = {result.pendulum[name]:.6g}" for symbol, name in (("k", "k"), ("β", "beta"), ("m", "m"))]
     entitle(figure, result, ",  ".join(parameters), f"{int(trade.attrs['samples'])} cells compared with quad precision")
     return figure

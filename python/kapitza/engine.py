@@ -1,0 +1,171 @@
+"""A resident engine: `kapitza serve`, which answers again and again without starting anew."""
+
+import json
+import subprocess
+import threading
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas
+
+from kapitza.program import check_end, command, environment, scene_error
+from kapitza.scene import Scene, SceneLike, texts
+
+UNSETTLED = 255  # label in an answer
+
+
+class Engine:
+    """Labels of windows of starts, of one scene's pendulum or of any other, as quickly as they can be had.
+
+    >>> with kapitza.Engine("scenes/blackburn-fig12.yaml") as engine:
+    ...     labels = engine.frame((-3.2, 3.2, -2, 2), (250, 400))
+    ...     engine.attractors.loc[labels[0, 0], "name"]
+    """
+
+    def __init__(self, scene: SceneLike, set: Mapping[str, Any] | None = None) -> None:
+        self._scene = Scene(scene, set)
+        self._process = subprocess.Popen(command(["serve", self._scene.path, *self._scene.sets]), stdin=subprocess.PIPE,
+                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment(), start_new_session=True)
+        self._errors: list[bytes] = []
+        threading.Thread(target=self._read_errors, daemon=True).start()
+        self._sequence = 0
+        self._attractors: pandas.DataFrame | None = None
+        self.ready, _ = self._answer()
+
+    def __enter__(self) -> "Engine":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if hasattr(self, "_process"):
+            self.close()
+
+    def __repr__(self) -> str:
+        state = "closed" if self._process.poll() is not None else f"{self.ready['threads']} threads"
+        return f"<kapitza.Engine of {self.ready['title'] or 'a scene'}: {state}>"
+
+    def close(self) -> None:
+        """Ends the program."""
+        if self._process.stdin and not self._process.stdin.closed:
+            self._process.stdin.close()
+        try:
+            self._process.wait(5)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        if self._process.stdout:
+            self._process.stdout.close()
+
+    def frame(self, window: tuple[Any, Any, Any, Any] | Mapping[str, Any] | None = None, shape: tuple[int, int] = (250, 400),
+              pendulum: Mapping[str, Any] | None = None, quality: str = "exact") -> np.ndarray:
+        """The label of every cell of a window: an integer array (rows, columns), the lowest velocity first; -1 = not settled.
+
+        window: (theta_min, theta_max, velocity_min, velocity_max), or {"theta": {"centre": "2.0512...", "width": 1e-20},
+        "velocity": ...} of any depth; None = that of the scene's basin. shape: (rows, columns). pendulum: another mapping
+        `pendulum`, whole. quality: "exact", or "moving" = quickly, with a few cells in a thousand that a longer
+        follow-up would label otherwise.
+        """
+        request: dict[str, Any] = {"request": "frame", "rows": shape[0], "columns": shape[1], "quality": quality}
+        if window is not None:
+            request["window"] = window if isinstance(window, Mapping) else {
+                "theta": {"min": window[0], "max": window[1]}, "velocity": {"min": window[2], "max": window[3]}}
+        header, payload = self._ask(request, pendulum)
+        labels = np.frombuffer(payload, np.uint8, header["rows"] * header["columns"]).reshape(header["rows"], header["columns"])
+        return np.where(labels == UNSETTLED, -1, labels.astype(np.int16))
+
+    @property
+    def attractors(self) -> pandas.DataFrame:
+        """The attractors that the labels of the last frame refer to, a row each; before any frame those of the scene."""
+        if self._attractors is None:
+            self._ask({"request": "catalogue"}, None)
+        assert self._attractors is not None
+        return self._attractors
+
+    def where(self, theta: Any, velocity: Any, pendulum: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """Where one start ends: the columns of kapitza.where, as a dict."""
+        header, _ = self._ask({"request": "where", "theta": theta, "velocity": velocity}, pendulum)
+        return {key: value for key, value in header.items() if key not in ("answer", "sequence", "final", "bytes")}
+
+    def orbit(self, theta: Any, velocity: Any, periods: int = 100, pendulum: Mapping[str, Any] | None = None,
+              samples_per_period: int = 64) -> pandas.DataFrame:
+        """One motion: columns time (drive radians), theta (rad, not wrapped), velocity (rad per drive radian)."""
+        header, payload = self._ask({"request": "orbit", "theta": theta, "velocity": velocity, "periods": periods,
+                                     "samples_per_period": samples_per_period}, pendulum)
+        values = np.frombuffer(payload, "<f8").reshape(2, header["samples"])
+        time = np.arange(header["samples"]) * (2 * np.pi / samples_per_period)
+        return pandas.DataFrame({"time": time, "theta": values[0], "velocity": values[1]})
+
+    def _ask(self, request: dict[str, Any], pendulum: Mapping[str, Any] | None) -> tuple[dict[str, Any], bytes]:
+        """The last answer to a request. Ctrl-C cancels it."""
+        self._sequence += 1
+        request["sequence"] = self._sequence
+        if pendulum is not None:
+            request["pendulum"] = _plain(pendulum)
+        self._send(_plain(request))
+        try:
+            return self._last(self._sequence)
+        except KeyboardInterrupt:
+            self._send({"request": "cancel", "sequence": self._sequence + 1})
+            raise
+
+    def _last(self, sequence: int) -> tuple[dict[str, Any], bytes]:
+        """Reads until the final answer to this request; those to earlier ones are passed over, catalogues kept."""
+        frame: tuple[dict[str, Any], bytes] | None = None
+        while True:
+            header, payload = self._answer()
+            if header["answer"] == "catalogue":
+                self._attractors = attractors_table(header["attractors"])
+            if header["sequence"] != sequence:
+                continue
+            if header["answer"] == "error":
+                raise scene_error(header["message"].removeprefix("kapitza: error: "), self._scene)
+            if header["answer"] == "frame":
+                frame = header, payload
+            if header["final"]:
+                return frame or (header, payload)
+
+    def _send(self, request: dict[str, Any]) -> None:
+        assert self._process.stdin
+        try:
+            self._process.stdin.write(json.dumps(request).encode() + b"\n")
+            self._process.stdin.flush()
+        except (BrokenPipeError, ValueError) as error:
+            raise RuntimeError("the engine is closed") from error
+
+    def _answer(self) -> tuple[dict[str, Any], bytes]:
+        """The next answer, whole."""
+        assert self._process.stdout
+        line = self._process.stdout.readline()
+        if not line:
+            self._process.wait()
+            check_end(self._process.returncode, b"".join(self._errors).decode(), self._scene)
+            raise RuntimeError("the engine is closed")
+        header = json.loads(line)
+        return header, self._process.stdout.read(header["bytes"])
+
+    def _read_errors(self) -> None:
+        assert self._process.stderr
+        with self._process.stderr as stream:
+            self._errors.extend(stream)
+
+
+def attractors_table(rows: list[dict[str, Any]]) -> pandas.DataFrame:
+    """The attractors of a catalogue, a row each, by id; strobe points as lists."""
+    table = pandas.DataFrame(rows).set_index("id")
+    table["strobe_theta"] = [[point[0] for point in points] for points in table["strobe"]]
+    table["strobe_velocity"] = [[point[1] for point in points] for points in table["strobe"]]
+    return table.drop(columns="strobe")
+
+
+def _plain(value: Any) -> Any:
+    """The value as JSON holds it."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    return value if isinstance(value, bool | int | float | str) else texts(value)

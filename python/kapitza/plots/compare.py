@@ -1,0 +1,101 @@
+"""Draws the basins of two results side by side, and where they differ.
+
+    kapitza-plot compare ONE.h5 OTHER.h5                           attractors matched by their strobe points, in the colours of the first
+    kapitza-plot compare ONE.h5 OTHER.h5 --centre inverted --width 178mm
+"""
+
+import argparse
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from kapitza import style
+from kapitza.compare import Comparison
+from kapitza.plots.basin import basin_entries, draw_basins, write_legend
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, title_text, write_picture
+from kapitza.plots.page import Page, current, drawing, lay_out
+from kapitza.plots.plane import Plane, label_axes
+from kapitza.result import BadFile, Result
+
+DIFFERENT = style.INK
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("compare", __doc__, "a basin")
+    parser.add_argument("other", help="result file with the other basin")
+    parser.add_argument("--centre", choices=["down", "inverted"], default="down",
+                        help="state in the middle of a whole circle (default: down)")
+    return parsed(parser, words)
+
+
+def matched_colours(comparison: Comparison) -> tuple[list[str], list[str]]:
+    """A colour for each attractor of the first, and of the second: the same for the same motion."""
+    first = style.colours(comparison.first.group("attractors"))
+    second = style.colours(comparison.second.group("attractors"))
+    for one, other in comparison.matched.items():
+        second[other] = first[one]
+    return first, second
+
+
+def draw_differing(axes: Axes, comparison: Comparison, *, colours: str = DIFFERENT, legend: bool = True, centre: str = "down") -> Axes:
+    """The cells that end elsewhere, in one colour on white; `legend`: with their share."""
+    plane, differing = Plane(comparison.first.group("basin"), centre), comparison.differing.values
+    plane.show(axes, np.where(differing[:, plane.order, None], to_rgb(colours), to_rgb("white")))
+    if legend:
+        write_legend(axes, [(colours, "ends elsewhere", float(differing.mean()))])
+    return label_axes(axes, plane)
+
+
+def comparison_panels(comparison: Comparison, centre: str) -> Figure:
+    """Three panels: first, second, difference; one above the other on a narrow page."""
+    plane = Plane(comparison.first.group("basin"), centre)
+    narrow = current().narrow
+    figure = new_figure(6.4, 3 * 4.0 * plane.shape + 1.2) if narrow else new_figure(14.0, 4.0 * plane.shape + 1.2)
+    panels = figure.subplots(3, 1, sharex=True) if narrow else figure.subplots(1, 3, sharey=True)
+    for axes, result, colours in zip(panels, (comparison.first, comparison.second), matched_colours(comparison), strict=False):
+        basin, attractors = result.group("basin"), result.group("attractors")
+        draw_basins(axes, basin, attractors, colours=colours, centre=centre, legend=False, dots=False)
+        axes.set_title(_difference(result, comparison), fontsize="medium", fontweight="normal", parse_math=False)
+    draw_differing(panels[2], comparison, centre=centre, legend=False)
+    panels[2].set_title(f"{style.share_text(comparison.differing_share)} end elsewhere", fontsize="medium", fontweight="normal")
+    for axes in panels[1:] if not narrow else ():
+        axes.set_ylabel("")
+    for axes in panels[:-1] if narrow else ():
+        axes.set_xlabel("")
+    first = comparison.first
+    write_legend(panels[-1], [entry for entry in basin_entries(first.group("attractors"), matched_colours(comparison)[0],
+                                                               first.group("basin")["attractor"].values) if entry[2] >= 0.001])
+    entitle(figure, first, "shares are those of the first")
+    return figure
+
+
+def _difference(result: Result, comparison: Comparison) -> str:
+    """What of the pendulum tells this result from the other one; else its title."""
+    pair = comparison.first.pendulum, comparison.second.pendulum
+    known = [key for key in ("drive_amplitude", "drive_frequency", "quality_factor", "m", "k", "beta") if key in result.pendulum]
+    papers = [key for key in known if key in ("drive_amplitude", "drive_frequency", "quality_factor")] or known
+    words = [f"{key.replace('_', ' ')} {result.pendulum[key]:.6g}" for key in papers if pair[0].get(key) != pair[1].get(key)]
+    return ", ".join(words) or (title_text(result) if comparison.first.title != comparison.second.title else str(result.path.name))
+
+
+def comparison_figure(comparison: Comparison, width: float | None = None, centre: str = "down") -> Figure:
+    """The figure of a comparison; width: inches."""
+    page = Page(width, legend="below")
+    with drawing(page):
+        return lay_out(comparison_panels(comparison, centre))
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    """The page of the two files."""
+    try:
+        return comparison_panels(result.compare(arguments.other), arguments.centre)
+    except ValueError as error:
+        raise BadFile(f"{result.path}, {arguments.other}: {error}") from error
+
+
+def main(words: list[str]) -> None:
+    arguments = parse_arguments(words)
+    arguments.legend = arguments.legend or "below"
+    write_picture(arguments, draw)

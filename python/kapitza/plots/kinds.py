@@ -1,0 +1,8 @@
+"""The kinds of pictures, by the group of a result that each draws; the first that a result holds is its main one."""
+
+from types import ModuleType
+
+from kapitza.plots import basin, chart, orbit, potential, stability, sweep, tradeoff
+
+KINDS: dict[str, ModuleType] = {"basin": basin, "sweep": sweep, "chart": chart, "orbit": orbit, "stability": stability,
+                                "potential": potential, "tradeoff": tradeoff}

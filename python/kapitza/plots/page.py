@@ -1,0 +1,231 @@
+"""The page of a picture: how wide it is, how large its letters are, where its legend stands. Panels keep their shape on any page."""
+
+import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from io import BytesIO
+from pathlib import Path
+
+import yaml
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import is_color_like
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.legend import Legend
+from matplotlib.text import Text
+
+from kapitza import style
+
+UNITS = {"mm": 1 / 25.4, "cm": 1 / 2.54, "in": 1.0, "pt": 1 / 72}
+NARROW = 5.0  # inches: on a narrower page the legend stands below, and panels side by side stand one above the other
+LEGENDS = ("right", "below", "none")
+BELOW = "below"  # mark of a legend under all panels
+SEPARATOR = "   |   "  # between the parts of the line under a picture
+
+
+@dataclass(frozen=True)
+class Page:
+    """`width` in inches, None = that of each kind of picture; `font_size` in points; `legend`: one of LEGENDS; `colours`: name of an
+    attractor or kind of motion -> colour."""
+
+    width: float | None = None
+    font_size: float = 9
+    legend: str = "right"
+    title: bool = True
+    colours: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def narrow(self) -> bool:
+        return self.width is not None and self.width < NARROW
+
+
+_current: ContextVar[Page] = ContextVar("page", default=Page())  # noqa: B039  # it is frozen
+
+
+def current() -> Page:
+    """The page that is being drawn."""
+    return _current.get()
+
+
+@contextmanager
+def drawing(page: Page) -> Iterator[None]:
+    """Figures that are drawn inside have this page's letters and colours."""
+    token = _current.set(page)
+    try:
+        with style.using(page.font_size, page.colours):
+            yield
+    finally:
+        _current.reset(token)
+
+
+class Picture(Figure):
+    """A figure that shows itself in a notebook, and knows its `heading` and the `footer` under its panels."""
+
+    heading: Text | None = None
+    footer: Text | None = None
+
+    def _repr_png_(self) -> bytes:
+        data = BytesIO()
+        self.savefig(data, format="png", dpi=110)
+        return data.getvalue()
+
+
+def new_figure(width: float, height: float) -> Picture:
+    """An empty page (inches) that no window shows; its panels are laid out when it is written."""
+    figure = Picture(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)  # which measures words
+    return figure
+
+
+def add_page_options(parser: argparse.ArgumentParser) -> None:
+    """The options that every picture takes."""
+    parser.add_argument("--width", type=length, metavar="LENGTH",
+                        help="width of the page, such as 86mm or 3.4in (default: that of the kind)")
+    parser.add_argument("--font-size", type=points, metavar="POINTS", default=9.0, help="size of the letters (default: 9)")
+    parser.add_argument("--legend", choices=LEGENDS, help=f"where it stands (default: right; below on pages under {NARROW:g} in)")
+    parser.add_argument("--colours", type=colour_file, metavar="FILE", default={},
+                        help='YAML file of "name of an attractor or kind of motion: colour"')
+    parser.add_argument("--no-title", action="store_true", help="neither title nor parameters")
+
+
+def page_of(arguments: argparse.Namespace) -> Page:
+    """The page that the options ask for."""
+    narrow = arguments.width is not None and arguments.width < NARROW
+    legend = "none" if getattr(arguments, "no_legend", False) else arguments.legend or ("below" if narrow else "right")
+    return Page(arguments.width, arguments.font_size, legend, not arguments.no_title, arguments.colours)
+
+
+def length(text: str) -> float:
+    """Inches of a text such as 86mm."""
+    number, unit = text[:-2].strip(), text[-2:]
+    if unit not in UNITS or not 0.5 <= float(number) * UNITS[unit] <= 60:
+        raise argparse.ArgumentTypeError(f"{text} is no width; a number and one of {', '.join(UNITS)}, such as 86mm, from 0.5 to 60 inches")
+    return float(number) * UNITS[unit]
+
+
+def points(text: str) -> float:
+    """A size of letters."""
+    if not 3 <= float(text) <= 72:
+        raise argparse.ArgumentTypeError(f"{text} is out of range; from 3 to 72 points")
+    return float(text)
+
+
+def colour_file(text: str) -> dict[str, str]:
+    """The mapping in a YAML (or JSON) file."""
+    try:
+        colours = yaml.safe_load(Path(text).read_text(encoding="utf-8"))
+    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        raise argparse.ArgumentTypeError(f"{text} cannot be read: {' '.join(str(error).split())}") from error
+    if not isinstance(colours, dict):
+        raise argparse.ArgumentTypeError(f'{text} holds no colours; write lines such as inverted: "#f2b233"')
+    for name, colour in colours.items():
+        if not is_color_like(colour):
+            raise argparse.ArgumentTypeError(f'{text}: {name}: {colour!r} is no colour; write one such as "#f2b233" or gold')
+    return {str(name): colour for name, colour in colours.items()}
+
+
+def lay_out(figure: Figure, page: Page | None = None) -> Figure:
+    """Gives the figure the page's width, its legend its place, its words their lines; its first panel keeps its shape."""
+    page = page or current()
+    figure.draw_without_rendering()
+    shape = _shape(figure) if figure.axes else 1.0
+    if not page.title:
+        figure.suptitle("")
+        figure.supxlabel("")
+    if page.width is not None:
+        figure.set_size_inches(page.width, figure.get_figheight() * page.width / figure.get_figwidth())
+    if page.legend != "right":
+        _move_legends(figure, page.legend == "below")
+    heading = getattr(figure, "heading", None)
+    if page.narrow and heading:
+        heading.set_size("medium")
+    _break_lines(figure)
+    for _ in range(3 if page.width is not None or page.legend != "right" else 0):
+        figure.draw_without_rendering()
+        box = figure.axes[0].get_position()
+        wide = box.width * figure.get_figwidth()
+        figure.set_figheight(min(max(figure.get_figheight() + (shape - _shape(figure)) * wide, 0.8), 4 * figure.get_figwidth()))
+    _break_labels(figure)
+    return figure
+
+
+def _shape(figure: Figure) -> float:
+    """Height over width of the first panel."""
+    box = figure.axes[0].get_position()
+    return float(box.height * figure.get_figheight() / (box.width * figure.get_figwidth()))
+
+
+def _move_legends(figure: Figure, below: bool) -> None:
+    """Takes the legends beside panels away; `below`: their entries stand under all panels, each once."""
+    entries: dict[str, Artist] = {}
+    for axes in figure.axes:
+        legend = axes.get_legend()
+        if legend is not None and (not below or _is_beside(axes, legend)):
+            entries |= {text: handle for handle, text in _entries(legend) if text not in entries}
+            legend.remove()
+    if not below or not entries:
+        return
+    for columns in range(len(entries), 0, -1):
+        placed = figure.legend(list(entries.values()), list(entries), loc="outside lower left", ncols=columns, fontsize="small",
+                               handlelength=1.1, handleheight=1.1, columnspacing=1.2, borderaxespad=0.2, alignment="left")
+        placed.set_gid(BELOW)
+        if placed.get_window_extent().width < figure.bbox.width or columns == 1:
+            return
+        placed.remove()
+
+
+def _is_beside(axes: Axes, legend: Legend) -> bool:
+    """Whether a legend stands to the right of its panel."""
+    anchor = legend.get_bbox_to_anchor().transformed(axes.transAxes.inverted())
+    return bool(anchor.x0 >= 0.999)
+
+
+def _entries(legend: Legend) -> Iterator[tuple[Artist, str]]:
+    """(handle, text); a share that stands in a column of its own comes behind its name."""
+    texts = [text.get_text() for text in legend.get_texts()]
+    if legend.get_gid() == style.WITH_SHARES:
+        half = len(texts) // 2
+        texts = [f"{name} {share.strip(style.FIGURE_SPACE)}" for name, share in zip(texts[:half], texts[half:], strict=True)]
+    yield from zip(filter(None, legend.legend_handles), texts, strict=False)
+
+
+def _break_lines(figure: Figure) -> None:
+    """The line under the picture, and the title, on as many lines as the page's width takes; above a legend the first is its heading."""
+    footer, title = getattr(figure, "footer", None), getattr(figure, "heading", None)
+    if footer and footer.get_text():
+        footer.set_text(_broken(figure, footer, footer.get_text().split(SEPARATOR), SEPARATOR))
+        for legend in figure.legends:
+            if legend.get_gid() == BELOW:
+                legend.set_title(footer.get_text(), FontProperties(size="small"))
+                legend.get_title().set_color(style.FAINT)
+                footer.set_text("")
+    if title and title.get_text():
+        title.set_text(_broken(figure, title, title.get_text().split(" "), " "))
+
+
+def _broken(figure: Figure, text: Text, parts: list[str], joint: str) -> str:
+    """The parts joined on lines that are not wider than the page."""
+    lines: list[str] = []
+    for part in parts:
+        longer = joint.join([*lines[-1:], part])
+        text.set_text(longer)
+        if lines and text.get_window_extent().width < 0.98 * figure.bbox.width:
+            lines[-1] = longer
+        else:
+            lines.append(part)
+    return "\n".join(lines)
+
+
+def _break_labels(figure: Figure) -> None:
+    """Labels of axes that are longer than their panel get their unit on a line of its own."""
+    figure.draw_without_rendering()
+    for axes in figure.axes:
+        for axis, room in ((axes.xaxis, axes.bbox.width), (axes.yaxis, axes.bbox.height)):
+            box = axis.label.get_window_extent()
+            if max(box.width, box.height) > 1.05 * room and "\n" not in axis.get_label_text() and " (" in axis.get_label_text():
+                head, tail = axis.get_label_text().rsplit(" (", 1)
+                axis.set_label_text(f"{head}\n({tail}")

@@ -1,0 +1,111 @@
+"""The program behind the package: where it is, how it is started, and what its refusals become in Python."""
+
+import importlib.metadata
+import os
+import re
+import shutil
+import subprocess
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from kapitza.scene import Scene
+
+# What mpirun must be told in containers and on small machines: root may run it, and ranks may outnumber cores. Variables,
+# because every MPI has other options for it (OMPI: Open MPI 4; PRTE: Open MPI 5; MPICH needs none).
+MPI_SETTINGS = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_orte_execute_quiet": "1", "OMPI_MCA_mpi_yield_when_idle": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
+}
+REFUSED, STOPPED = 2, 75  # exit statuses
+_ERROR = "kapitza: error: "
+_PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?)): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
+
+
+class SceneError(ValueError):
+    """A scene, or a command, that the program refuses; the text is the program's line.
+
+    `key`: the key of the scene that is at fault, None where no single one is. `value`: what the scene gives it, None where it is
+    missing. `place`: where it stands: "FILE:LINE:COLUMN", "line LINE, column COLUMN" of a text, or the option that set it.
+    """
+
+    def __init__(self, text: str, key: str | None = None, value: Any = None, place: str | None = None) -> None:
+        super().__init__(text)
+        self.key, self.value, self.place = key, value, place
+
+
+class RunError(RuntimeError):
+    """A run that failed; the text is the program's line."""
+
+
+def program() -> Path:
+    """The program: the variable KAPITZA, else that of the sources around this package, of its installation, or on the PATH."""
+    if chosen := os.environ.get("KAPITZA"):
+        return Path(chosen)
+    built = Path(__file__).resolve().parents[2] / "build" / "kapitza"
+    if built.is_file() and (built.parents[1] / "CMakeLists.txt").is_file():
+        return built
+    try:
+        files = importlib.metadata.files("kapitza") or []
+    except importlib.metadata.PackageNotFoundError:
+        files = []
+    for file in files:
+        if file.name == "kapitza" and file.parent.name == "bin" and (place := Path(str(file.locate()))).is_file():
+            return place.resolve()
+    if found := shutil.which("kapitza"):
+        return Path(found)
+    raise FileNotFoundError("the program kapitza is not installed: `pip install .` in its sources builds it; "
+                            "or name it by the variable KAPITZA")
+
+
+def command(words: Sequence[str | os.PathLike[str]], ranks: int = 1) -> list[str]:
+    """The command line of the program with these words, under mpirun where there are several ranks."""
+    if ranks < 1:
+        raise ValueError(f"ranks is {ranks}; it must be at least 1")
+    own = [str(program()), *(os.fspath(word) for word in words)]
+    if ranks == 1:
+        return own
+    launcher = os.environ.get("KAPITZA_MPIRUN") or shutil.which("mpirun") or shutil.which("mpiexec")
+    if not launcher:
+        raise FileNotFoundError("mpirun is not on the PATH: install an MPI, name mpirun by the variable KAPITZA_MPIRUN, or take ranks=1")
+    return [launcher, "-n", str(ranks), *own]
+
+
+def environment() -> dict[str, str]:
+    """The variables that the program is started with."""
+    return MPI_SETTINGS | os.environ
+
+
+def ask(words: Sequence[str | os.PathLike[str]], scene: Scene, text: str | None = None) -> str:
+    """What the program prints; SceneError or RunError where it ends otherwise. `text`: its standard input."""
+    done = subprocess.run(command(words), input=text, capture_output=True, text=True, env=environment(), check=False)
+    check_end(done.returncode, done.stderr, scene)
+    return done.stdout
+
+
+def check_end(status: int, errors: str, scene: Scene) -> None:
+    """Raises what an exit status and the lines of standard error mean; warnings of the program become warnings of Python."""
+    lines = errors.splitlines()
+    for line in lines:
+        if "warning: " in line:
+            warnings.warn(line.split("warning: ", 1)[1], stacklevel=4)
+    if status == 0:
+        return
+    said = [line.removeprefix(_ERROR) for line in lines if line.startswith(_ERROR)]
+    text = said[-1] if said else "\n".join(lines[-5:]) or f"the program ended with status {status}"
+    if status == REFUSED:
+        raise scene_error(text, scene)
+    raise RunError(text)
+
+
+def scene_error(text: str, scene: Scene) -> SceneError:
+    """The exception that a refusal becomes."""
+    if not scene.is_file:
+        text = re.sub(rf"(?:{re.escape(str(scene.path))}|(?<!\S)-):(\d+):(\d+): ", r"line \1, column \2: ", text)
+        pattern = re.compile(_PLACE.pattern.replace(r".+?:\d+:\d+", r"line \d+, column \d+"))
+    else:
+        pattern = _PLACE
+    if not (found := pattern.match(text)):
+        return SceneError(text)
+    return SceneError(text, found["key"], scene.value(found["key"]), found["place"])

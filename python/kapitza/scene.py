@@ -1,0 +1,129 @@
+"""A scene as Python has it: the path of a file, YAML text, or a mapping; with the keys that a call changes."""
+
+import atexit
+import copy
+import os
+import shutil
+import tempfile
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+
+class _Dumper(yaml.emitter.Emitter, yaml.serializer.Serializer, yaml.representer.SafeRepresenter, yaml.resolver.BaseResolver):
+    """Writes texts as they are: quoted only where YAML needs it, so that a number given as text stays a number."""
+
+    def __init__(self, stream: Any, **options: Any) -> None:
+        yaml.emitter.Emitter.__init__(self, stream, width=10**6, allow_unicode=True)
+        yaml.serializer.Serializer.__init__(self)
+        yaml.representer.SafeRepresenter.__init__(self, sort_keys=False)
+        yaml.resolver.BaseResolver.__init__(self)
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+class Scene:
+    """`text`: YAML. `is_file`: whether it was read from `path`. `sets`: words `--set KEY=VALUE` of a command line."""
+
+    def __init__(self, scene: "SceneLike", changes: Mapping[str, Any] | None = None, method: str | None = None) -> None:
+        changes = dict(changes or {}) | ({"basin.method": method} if method else {})
+        self.sets = [word for key, value in changes.items() for word in ("--set", f"{key}={flow(value)}")]
+        self._changes = changes
+        self.is_file = False
+        self.path, self.text = Path(), ""
+        if isinstance(scene, Scene):
+            self.is_file, self.path, self.text = scene.is_file, scene.path, scene.text
+            self.sets, self._changes = scene.sets + self.sets, scene._changes | changes
+        elif isinstance(scene, Mapping):
+            self.text = yaml.dump(texts(scene), Dumper=_Dumper)
+        elif _is_text(scene):
+            self.text = str(scene)
+        else:
+            self.is_file, self.path = True, Path(scene)
+            self.text = self.path.read_text(encoding="utf-8", errors="replace") if self.path.is_file() else ""
+        if not self.is_file and not isinstance(scene, Scene):
+            self.path = write_scene(self.text)
+
+    @property
+    def stem(self) -> str:
+        """The name of its result, without the folder and the suffix."""
+        return self.path.stem if self.is_file else "scene"
+
+    def tree(self) -> dict[str, Any]:
+        """The scene as nested dicts and lists of texts, changes included; {} where it is no mapping."""
+        try:
+            tree = yaml.load(self.text, yaml.BaseLoader)
+        except yaml.YAMLError:
+            tree = None
+        tree = copy.deepcopy(tree) if isinstance(tree, dict) else {}
+        for key, value in self._changes.items():
+            *above, last = key.split(".")
+            place = tree
+            for name in above:
+                place = place.setdefault(name, {}) if isinstance(place.get(name, {}), dict) else {}
+            place[last] = texts(value)
+        return tree
+
+    def value(self, key: str) -> Any:
+        """What the scene gives a key: a text, list or dict; None where it is not given."""
+        place: Any = self.tree()
+        for name in key.split("."):
+            place = place.get(name) if isinstance(place, dict) else None
+        return place
+
+
+SceneLike = str | os.PathLike[str] | Mapping[str, Any] | Scene
+
+
+def _is_text(scene: Any) -> bool:
+    """Whether it is YAML rather than the name of a file."""
+    return isinstance(scene, str) and ("\n" in scene or (": " in scene and not Path(scene).exists()))
+
+
+def texts(value: Any) -> Any:
+    """The value as nested dicts and lists of texts that the program reads."""
+    if isinstance(value, Mapping):
+        return {str(key): texts(item) for key, item in value.items()}
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [texts(item) for item in value]
+    if value is None:
+        raise TypeError("a scene holds no None; leave the key out")
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(value) if isinstance(value, float) else str(value)
+
+
+def flow(value: Any) -> str:
+    """The value on one line of YAML, as --set takes it."""
+    plain = texts(value)
+    if isinstance(plain, dict):
+        return "{" + ", ".join(f"{key}: {flow(item)}" for key, item in plain.items()) + "}"
+    if isinstance(plain, list):
+        return "[" + ", ".join(map(flow, plain)) + "]"
+    return plain if not set(plain) & set(",[]{}#:\"'") else "'" + plain.replace("'", "''") + "'"
+
+
+@cache
+def session_folder() -> Path:
+    """A folder of this Python session, removed at its end: results and scenes that were given no name of their own."""
+    folder = Path(tempfile.mkdtemp(prefix="kapitza-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+def new_path(name: str) -> Path:
+    """A path in the session's folder that nothing has yet."""
+    return Path(tempfile.mkdtemp(dir=session_folder())) / name
+
+
+def write_scene(text: str) -> Path:
+    """A file with this text, for commands whose standard input holds something else."""
+    path = new_path("scene.yaml")
+    path.write_text(text, encoding="utf-8")
+    return path

@@ -1,0 +1,99 @@
+"""What a result says of itself in a session: a few lines, the same as HTML with a small picture, and its figures."""
+
+import base64
+import html
+import io
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from kapitza.result import Result
+
+MOST = 12  # attractors that are listed
+COLUMNS: dict[str, Callable[[Any], str]] = {"name": str, "period": str, "winding": str, "fraction": "{:.2%}".format}
+
+
+def _head(result: "Result") -> str:
+    pendulum = result.pendulum
+    papers = [f"{symbol} = {pendulum[key]:.6g}" for symbol, key in
+              (("Q", "quality_factor"), ("Omega", "drive_frequency"), ("epsilon", "drive_amplitude")) if key in pendulum]
+    own = [f"{name} = {pendulum[name]:.6g}" for name in ("k", "beta", "m") if name in pendulum]
+    return ", ".join(own + papers)
+
+
+def _studies(result: "Result") -> list[str]:
+    """A line for each group: its name and size."""
+    lines = []
+    for name in result.groups:
+        if name not in ("pendulum", "attractors"):
+            sizes = result.tree[name].sizes
+            lines.append(f"{name}: " + " x ".join(f"{size} {axis}" for axis, size in sizes.items()))
+    return lines
+
+
+def _rows(result: "Result") -> list[list[str]]:
+    """The first attractors, the largest basins before the others: id and COLUMNS as texts."""
+    if "attractors" not in result.groups:
+        return []
+    table = result.attractors
+    if "fraction" in table:
+        table = table.sort_values("fraction", ascending=False, kind="stable")
+    known = [name for name in COLUMNS if name in table]
+    return [["id", *known], *([str(index), *(COLUMNS[name](row[name]) for name in known)] for index, row in table.head(MOST).iterrows())]
+
+
+def _more(result: "Result") -> str:
+    count = len(result.attractors) - MOST if "attractors" in result.groups else 0
+    return f"and {count} more attractors: see .attractors" if count > 0 else ""
+
+
+def as_text(result: "Result") -> str:
+    """The title, the pendulum, the groups and the attractors, a line each."""
+    rows = _rows(result)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    table = ["  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines = [f"<kapitza.Result {result.path}>", result.title, _head(result), *_studies(result), *table, _more(result)]
+    return "\n".join(filter(None, lines))
+
+
+def as_html(result: "Result") -> str:
+    """The same beside a small picture of the main group."""
+    rows = _rows(result)
+    head = "".join(f"<th>{html.escape(name)}</th>" for name in (rows[0] if rows else []))
+    body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows[1:])
+    words = "".join(f"<div>{html.escape(line)}</div>" for line in (_head(result), *_studies(result), _more(result), str(result.path))
+                    if line)
+    return (f"<div style='display:flex;gap:1.5em;flex-wrap:wrap'><div><b>{html.escape(result.title)}</b>{words}"
+            f"<table><tr>{head}</tr>{body}</table></div>{_picture(result)}</div>")
+
+
+def _picture(result: "Result") -> str:
+    from kapitza.result import BadFile
+    try:
+        figure = figure_of(result, None, {"no_title": True, "legend": "none", "width": "90mm"})
+    except BadFile:
+        return ""
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=100)
+    return f"<img alt='' style='height:17em' src='data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}'>"
+
+
+def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "Figure":
+    """The figure that `kapitza-plot KIND` would write."""
+    from kapitza.plots.common import figure_of as figure_on_page
+    from kapitza.plots.kinds import KINDS
+    from kapitza.result import BadFile
+    held = [name for name in KINDS if name in result.groups]
+    if kind is None:
+        if not held:
+            raise BadFile(f"{result.path}: holds nothing that has a picture of its own")
+        kind = held[0]
+    if kind not in KINDS:
+        raise ValueError(f"{kind!r} is no kind of picture; there are {', '.join(KINDS)}")
+    words = [str(result.path)]
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        words += [option] * bool(value) if isinstance(value, bool) else [option, str(value)]
+    return figure_on_page(result, KINDS[kind].parse_arguments(words), KINDS[kind].draw)

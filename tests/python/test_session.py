@@ -1,0 +1,164 @@
+"""The package in a Python session: runs of scenes in every form, what is refused, single starts, and what a result tells of itself."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import kapitza
+import numpy as np
+import pytest
+import xarray
+from conftest import ROOT
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from kapitza.compare import match_attractors
+from kapitza.scene import Scene, flow
+
+SMALL = ROOT / "scenes" / "small.yaml"
+FEW = {"basin.theta.count": 24, "basin.velocity.count": 20, "basin.attractors.starts": 256}
+FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.300}
+
+
+@pytest.fixture(scope="module")
+def result():
+    return kapitza.run(SMALL, set=FEW, progress=False)
+
+
+def test_a_scene_is_a_path_a_text_or_a_mapping(result, tmp_path):
+    basin = {"theta": {"count": np.int64(24)}, "velocity": {"min": -2, "max": 2.0, "count": 20}, "method": "icm",
+             "attractors": {"starts": 256}}
+    mapped = kapitza.run({"title": "A: small look", "pendulum": FIG12, "basin": basin}, progress=False)
+    text = kapitza.run(SMALL.read_text(), output=tmp_path / "text.h5", set=FEW, ranks=2, progress=False)
+    again = kapitza.run(result.scene, progress=False)
+    assert mapped.title == "A: small look" and text.path == tmp_path / "text.h5"
+    for other in (mapped, text, again):
+        assert np.array_equal(other.labels(), result.labels())
+    assert "written to" in result.summary
+
+
+@pytest.mark.parametrize(("scene", "changes", "key", "value", "place"), [
+    (SMALL, {"basin.theta.cont": 3}, "basin.theta.cont", "3", "--set basin.theta.cont=3"),
+    (SMALL, {"basin.method": "guess"}, "basin.method", "guess", "--set basin.method=guess"),
+    ("title: x\npendulum: {k: 0.1, damping: none, m: 0.3}\nbasin: {velocity: {min: -2, max: 2}}\n", None, "pendulum.damping", "none",
+     "line 2, column 29"),
+    ({"pendulum": FIG12, "basin": {"velocity": {"min": 2, "max": -2}}}, None, "basin.velocity.max", "-2", None),
+    ({"pendulum": FIG12, "basin": {"theta": {"count": 5}}}, None, "basin.velocity", None, None),
+])
+def test_what_is_refused_is_named(scene, changes, key, value, place):
+    for call in (kapitza.run, kapitza.check):
+        with pytest.raises(kapitza.SceneError) as caught:
+            call(scene, set=changes)
+        assert (caught.value.key, caught.value.value) == (key, value), caught.value
+        assert caught.value.place and place in (None, caught.value.place) and "error:" not in str(caught.value)
+
+
+def test_files_have_their_place_and_outputs_stay(result, tmp_path):
+    (tmp_path / "a.yaml").write_text("pendulum: {k: x, damping: 1, m: 1}\n")
+    with pytest.raises(kapitza.SceneError) as caught:
+        kapitza.run(tmp_path / "a.yaml")
+    assert caught.value.place == f"{tmp_path / 'a.yaml'}:1:15"
+    with pytest.raises(kapitza.SceneError, match="exists") as caught:
+        kapitza.run(SMALL, output=result.path)
+    assert caught.value.key is None
+    kept = kapitza.run(result.scene, output=result.path, resume=True, progress=False)
+    assert np.array_equal(kept.labels(), result.labels())
+    with pytest.raises(kapitza.SceneError, match="no such|cannot be opened"):
+        kapitza.run("absent.yaml")
+
+
+INTERRUPTED = """
+import kapitza, sys
+try:
+    kapitza.run(sys.argv[1], output="out.h5", set={"basin.theta.count": 6000, "basin.velocity.count": 6000}, progress=False)
+except KeyboardInterrupt as stop:
+    print(stop)
+"""
+
+
+def test_ctrl_c_keeps_what_is_finished(tmp_path):
+    variables = os.environ | {"PYTHONPATH": str(ROOT / "python")}
+    process = subprocess.Popen([sys.executable, "-c", INTERRUPTED, SMALL], cwd=tmp_path, env=variables, stdout=subprocess.PIPE, text=True)
+    checkpoint = tmp_path / "out.h5.checkpoint"
+    while process.poll() is None and not (checkpoint.exists() and checkpoint.stat().st_blocks > 64):
+        time.sleep(0.05)
+    process.send_signal(signal.SIGINT)
+    said, _ = process.communicate(timeout=60)
+    assert said == "stopped; finished work is kept in out.h5.checkpoint, and resume=True goes on from it\n"
+    assert checkpoint.exists() and not (tmp_path / "out.h5").exists()
+
+
+def test_labels_are_flags_of_cf(result):
+    labels, names = result.labels(), result.attractors["name"]
+    values, words = labels.attrs["flag_values"], labels.attrs["flag_meanings"].split()
+    assert values.dtype == labels.dtype and list(values) == list(range(-1, len(names))) and len(words) == len(values)
+    assert words[0] == "not_settled" and words[1 + list(names).index("rotation +1/1")] == "rotation_+1_in_1"
+    with xarray.open_dataset(result.path, group="basin", engine="h5netcdf") as stored:
+        assert stored["attractor"].attrs["flag_meanings"] == labels.attrs["flag_meanings"]
+        assert np.array_equal(stored["attractor"].attrs["flag_values"], values)
+
+
+def test_a_result_tells_what_it_holds(result):
+    table = result.attractors
+    assert {"name", "period", "winding", "centre", "fraction", "multipliers", "strobe_theta"} <= set(table.columns)
+    inverted = result.ids("inverted")
+    assert table.loc[inverted[0], "centre"] == "inverted" and len(table.loc[inverted[0], "strobe_theta"]) == 1
+    assert float(result.basin("inverted").mean()) == pytest.approx(sum(table["fraction"][inverted]), abs=1e-12)
+    assert sum(result.basins_fractions().values()) == pytest.approx(1)
+    assert "inverted" in repr(result) and "20 velocity x 24 theta" in repr(result) and "k = 0.00826446" in repr(result)
+    page = result._repr_html_()
+    assert page.count("<tr>") == 1 + min(len(table), 12) and "data:image/png" in page
+    with pytest.raises(KeyError, match="there are"):
+        result.basin("nobody")
+
+
+def test_two_results_beside_each_other(result):
+    other = kapitza.run(SMALL, set=FEW | {"pendulum.drive_amplitude": 0.31}, progress=False)
+    found = result.compare(other)
+    assert result.compare(result).differing_share == 0 and match_attractors(result.attractors, result.attractors) == {
+        index: index for index in result.attractors.index}
+    for one, two in found.matched.items():
+        assert result.attractors["name"][one] == other.attractors["name"][two]
+    assert 0 < found.differing_share < 0.5 and found.table["fraction_second"].sum() == pytest.approx(1)
+    assert np.allclose(found.tipping_probabilities().sum(axis=1), 1)
+    assert "end elsewhere" in repr(found) and len(found.plot().axes) == 3
+    with pytest.raises(ValueError, match="other windows"):
+        _ = result.compare(kapitza.run(SMALL, set=FEW | {"basin.theta.count": 10}, progress=False)).differing
+
+
+def test_single_starts(result):
+    table = kapitza.where(SMALL, [[3.1, "175 deg"], [0.1, "3.0"]], 0.0)
+    assert table["theta"].tolist() == pytest.approx([3.1, np.radians(175), 0.1, 3.0])
+    assert table["name"].tolist()[0] == "inverted" and table["name"][2] == "down" and table["decided"].all()
+    assert list(table.columns[:8]) == ["theta", "velocity", "attractor", "name", "period", "winding", "settling_time", "decided"]
+    with pytest.raises(kapitza.SceneError, match="THETA"):
+        kapitza.where(SMALL, "up", 0)
+
+
+def test_an_orbit_and_a_sweep():
+    orbit = kapitza.orbit({"pendulum": FIG12}, "170 deg", 0, periods=5, progress=False)
+    assert orbit.group("orbit")["theta"].values[0] == pytest.approx(np.radians(170)) and orbit.groups == ["pendulum", "orbit"]
+    cycle = kapitza.orbit(Scene(SMALL, FEW), attractor="rotation +1/1", progress=False)
+    assert cycle.group("orbit").attrs["winding"] == 1
+    swept = kapitza.sweep({"pendulum": FIG12}, "drive_amplitude", (0.28, 0.3), 2, "basin_fractions", starts=64, progress=False)
+    assert list(swept.group("sweep")["value"].values) == [0.28, 0.3]
+    with pytest.raises(ValueError, match="give theta and velocity"):
+        kapitza.orbit({"pendulum": FIG12})
+
+
+def test_a_check_costs_nothing():
+    found = kapitza.check(SMALL, set=FEW)
+    assert found.cells == 480 and found.studies == ["basin"] and 0 < found.seconds < 100 and "count: 24" in found.scene
+
+
+@settings(max_examples=40)
+@given(st.dictionaries(st.from_regex(r"[a-z]{1,8}", fullmatch=True), st.one_of(
+    st.booleans(), st.integers(-10**18, 10**18), st.floats(allow_nan=False, allow_infinity=False), st.text("ab:#,'\"{}[]- é", min_size=1)),
+    min_size=1, max_size=4))
+def test_what_goes_into_a_scene_comes_out_of_it(values):
+    """Texts are kept, numbers are written so that they read back as the same numbers; on the command line too."""
+    words = {key: value if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else repr(value)
+             for key, value in values.items()}
+    assert Scene({"title": "x", "basin": values}).tree()["basin"] == words
+    assert Scene(f"basin: {flow(values)}\n").tree()["basin"] == words
