@@ -46,6 +46,9 @@ kz_status kz_store_chunked(kz_store *store, const char *group, const char *name,
  * meaning. */
 kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, const int64_t *place, const void *packed,
                          size_t bytes);
+/* What the integers of a variable that is there mean, as attributes flag_values (first .. first + n - 1) and flag_meanings (CF: words
+ * between blanks). */
+kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings);
 /* Its rows first .. first + n - 1, from the file. */
 kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data);
 

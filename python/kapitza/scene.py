@@ -3,6 +3,7 @@
 import atexit
 import copy
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Mapping, Sequence
@@ -11,6 +12,9 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+
+
+_PLAIN = re.compile(r"(?!-( |$))[\w.+/-]([\w.+/ -]*[\w.+/-])?")  # a text that YAML takes as it is, on one line
 
 
 class _Dumper(yaml.emitter.Emitter, yaml.serializer.Serializer, yaml.representer.SafeRepresenter, yaml.resolver.BaseResolver):
@@ -106,7 +110,7 @@ def flow(value: Any) -> str:
         return "{" + ", ".join(f"{key}: {flow(item)}" for key, item in plain.items()) + "}"
     if isinstance(plain, list):
         return "[" + ", ".join(map(flow, plain)) + "]"
-    return plain if not set(plain) & set(",[]{}#:\"'") else "'" + plain.replace("'", "''") + "'"
+    return plain if _PLAIN.fullmatch(plain) else "'" + plain.replace("'", "''") + "'"
 
 
 @cache

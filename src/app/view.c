@@ -29,7 +29,8 @@ static kz_status find_places(places *p) {
   p->entry[0] = p->package[0] = '\0'; /* installed by pip: the Python beside the program has the package */
   snprintf(p->own_python, sizeof p->own_python, "%s/bin/python3", root);
   if (access(p->own_python, X_OK) == 0 || getenv("KAPITZA_PYTHON")) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "view: there is no Python at %s; install the program by pip, or run it in the folder build of its sources",
+  return kz_fail(KZ_REFUSED,
+                 "view: there is no Python at %s; install the program by pip, or run it in the folder build of its sources",
                  p->own_python);
 }
 
@@ -59,8 +60,9 @@ kz_status kz_app_view(const kz_options *options) {
   const char *python = python_of(&p), *port = options->port ? options->port : "0";
   const char *module[] = {"-m", "kapitza.explorer"}, *script[] = {"-P", p.entry};
   const char *const *entry = p.entry[0] ? script : module;
-  const char *words[] = {python,    entry[0], entry[1], options->no_browser ? "--no-browser" : "--browser", "--program",
-                         p.program, "--port", port,     "--", options->scene, NULL};
+  const char *words[] = {python,      entry[0],       entry[1], options->no_browser ? "--no-browser" : "--browser",
+                         "--program", p.program,      "--port", port,
+                         "--",        options->scene, NULL};
   fflush(stdout);
   execvp(python, (char *const *)words);
   return kz_fail(KZ_FAILED,

@@ -10,6 +10,7 @@ import kapitza
 import numpy as np
 import pytest
 import xarray
+import yaml
 from conftest import ROOT
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -27,9 +28,9 @@ def result():
 
 
 def test_a_scene_is_a_path_a_text_or_a_mapping(result, tmp_path):
-    basin = {"theta": {"count": np.int64(24)}, "velocity": {"min": -2, "max": 2.0, "count": 20}, "method": "icm",
-             "attractors": {"starts": 256}}
-    mapped = kapitza.run({"title": "A: small look", "pendulum": FIG12, "basin": basin}, progress=False)
+    mapping = yaml.safe_load(SMALL.read_text()) | {"title": "A: small look", "pendulum": FIG12}
+    mapping["basin"] |= {"theta": {"count": np.int64(24)}, "velocity": {"min": -2, "max": 2.0, "count": 20}, "attractors": {"starts": 256}}
+    mapped = kapitza.run(mapping, progress=False)
     text = kapitza.run(SMALL.read_text(), output=tmp_path / "text.h5", set=FEW, ranks=2, progress=False)
     again = kapitza.run(result.scene, progress=False)
     assert mapped.title == "A: small look" and text.path == tmp_path / "text.h5"
@@ -119,7 +120,7 @@ def test_two_results_beside_each_other(result):
     assert result.compare(result).differing_share == 0 and match_attractors(result.attractors, result.attractors) == {
         index: index for index in result.attractors.index}
     for one, two in found.matched.items():
-        assert result.attractors["name"][one] == other.attractors["name"][two]
+        assert result.attractors["centre"][one] == other.attractors["centre"][two]
     assert 0 < found.differing_share < 0.5 and found.table["fraction_second"].sum() == pytest.approx(1)
     assert np.allclose(found.tipping_probabilities().sum(axis=1), 1)
     assert "end elsewhere" in repr(found) and len(found.plot().axes) == 3

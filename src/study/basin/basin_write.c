@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "basin.h"
+#include "flags.h"
 
 /* The uncertainty exponent, and the distances (rad) over which it was found. */
 typedef struct {
@@ -143,6 +144,7 @@ kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, c
   }
   if (plan->proof) KZ_TRY(write_proof(labels, store, summary));
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
+  KZ_TRY(kz_basin_flags_write(catalogue, store));
   KZ_TRY(write_numerics(scene, store));
   KZ_TRY(kz_doubt_write(&labels->doubt, plan->method, store, summary));
   return write_measures(plan, labels, store, summary);
