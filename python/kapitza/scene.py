@@ -13,7 +13,6 @@ from typing import Any
 
 import yaml
 
-
 _PLAIN = re.compile(r"(?!-( |$))[\w.+/-]([\w.+/ -]*[\w.+/-])?")  # a text that YAML takes as it is, on one line
 
 
