@@ -61,6 +61,7 @@ typedef struct {
  * more steps, an error of some 3e-15 a period; pairs of doubles, 1e-20 and 1e-28; quad precision, by Taylor series. Beyond them: as many
  * digits as it takes. */
 enum {
+  KZ_LEVEL_GUESS = -1, /* KZ_LEVEL_DOUBLE, but doubtful orbits are followed on: their labels are those of the states alone */
   KZ_LEVEL_DOUBLE = 0,
   KZ_LEVEL_FINE = 1,
   KZ_LEVEL_PAIRS_20 = 2,
@@ -80,10 +81,11 @@ typedef struct {
   double error;    /* rad: how far the orbit may be off when it is trapped; of no meaning where it is chaotic or not decided */
 } kz_decision;
 
-/* Labels n starts at one level: decision [n]. The orbits carry their errors; each is followed at that level only until its error reaches what the next
- * cheaper level would add, then there. What is trapped is decided; the others come back as KZ_DOUBTFUL. */
-void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int64_t n, const kz_start *start, int64_t max_periods,
-                       kz_decision *decision);
+/* Labels n starts at one level, which takes what level `before` left: decision [n]. The orbits carry their errors; each is followed at that
+ * level only until its error reaches what level `before` would add, then there, and so on downwards. What is trapped is decided; the
+ * others come back as KZ_DOUBTFUL, or at KZ_LEVEL_GUESS with the label of the state alone, and level KZ_LEVELS. */
+void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int64_t n, const kz_start *start,
+                       int64_t max_periods, kz_decision *decision);
 
 /* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
  * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from

@@ -2,12 +2,12 @@
 module kz_api_handle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_f_pointer
   use kz_lanes_map, only: flow_t
-  use kz_extended_pairs, only: pairs_t
   use kz_lanes_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_cell_images, only: images_t
   use kz_grown_grid, only: regions_t
   use kz_attractors_cycle_search, only: search_t
+  use kz_labels_levels, only: levels_t
   use kz_maps_map_table, only: table_t
   implicit none
   private
@@ -17,11 +17,10 @@ module kz_api_handle
     type(search_t) :: search
     type(numerics_t) :: numerics       !< of the scene
     class(flow_t), allocatable :: flow !< the scene's map
-    class(flow_t), allocatable :: finer !< with steps half as long, once it is needed
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table
-    type(pairs_t) :: pairs             !< tables for pairs of doubles, once they are needed
+    type(levels_t) :: levels           !< what labels with errors need, once it is needed
     type(images_t), allocatable :: images(:) !< of the cells of regions that grow
   end type dynamics_t
 

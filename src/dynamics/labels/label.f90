@@ -7,10 +7,8 @@ module kz_labels_label
   use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
-  public :: follow, DOUBTFUL
+  public :: follow
 
-  !> Label of a start whose error on the map has become too large.
-  integer, parameter :: DOUBTFUL = -1
   !> An orbit belongs to a chaotic attractor once it has stayed in its cover for so many periods.
   integer, parameter :: STAY = 64
 
@@ -28,10 +26,10 @@ module kz_labels_label
 
 contains
 
-  !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled, DOUBTFUL;
+  !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled;
   !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts (half-turns,
   !> rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
-  subroutine follow(map, regions, attractors, state, label, periods, reach)
+  subroutine follow(map, regions, attractors, state, label, periods)
     !> what moves the states by one period
     class(map_t), intent(inout) :: map
     !> the trapping regions
@@ -44,8 +42,6 @@ contains
     integer(c_int32_t), intent(out) :: label(:)
     !> most periods, in; first period inside a trapping region, out
     integer(c_int64_t), intent(inout) :: periods(:)
-    !> how far the orbits may be off when they are left, rad
-    real(dp), intent(out), optional :: reach(:)
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
     integer :: region(WIDTH), lane
@@ -58,7 +54,7 @@ contains
       call map%advance(lanes%active)
       lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
       call find_regions(regions, attractors, lanes%active, map%u(:lanes%active), map%v(:lanes%active), region)
-      call correct_regions(map, regions, lanes, region)
+      call visit_covers(map, regions, lanes, region)
       do lane = lanes%active, 1, -1
         if (region(lane) == 0 .and. lanes%age(lane) < lanes%most(lane)) cycle
         call settle(lane, region(lane))
@@ -116,7 +112,6 @@ contains
       periods(lanes%start(lane)) = lanes%age(lane)
       state(1, lanes%start(lane)) = map%u(lane)
       state(2, lanes%start(lane)) = map%v(lane)
-      if (present(reach)) reach(lanes%start(lane)) = map%reach(lane)
     end subroutine settle
   end subroutine follow
 
@@ -134,27 +129,23 @@ contains
     lanes%stay(to) = lanes%stay(from)
   end subroutine move
 
-  !> What errors and chaotic attractors make of the regions in which the lanes are.
-  subroutine correct_regions(map, regions, lanes, region)
+  !> What chaotic attractors make of the regions in which the lanes are.
+  subroutine visit_covers(map, regions, lanes, region)
     class(map_t), intent(in) :: map
     type(regions_t), intent(in) :: regions
     type(lanes_t), intent(inout) :: lanes
     integer, intent(inout) :: region(WIDTH)
-    logical :: with_covers
     integer :: lane
 
-    with_covers = size(regions%covered) > 0
-    if (.not. with_covers .and. count(map%straddling(:lanes%active) .or. map%doubtful(:lanes%active)) == 0) return
+    if (size(regions%covered) == 0) return
     do lane = 1, lanes%active
-      if (map%straddling(lane)) region(lane) = merge(DOUBTFUL, 0, lanes%age(lane) >= lanes%most(lane))
-      if (region(lane) /= 0) then
+      if (region(lane) > 0) then
         lanes%guest_of(lane) = 0
-      else if (with_covers) then
+      else
         call visit(lanes, lane, chaos_region(regions, map%u(lane), map%v(lane)), region(lane))
       end if
-      if (map%doubtful(lane) .and. lanes%guest_of(lane) == 0) region(lane) = DOUBTFUL
     end do
-  end subroutine correct_regions
+  end subroutine visit_covers
 
   !> An orbit that has stayed in a cover for STAY periods counts as captured from the period in which it entered.
   subroutine visit(lanes, lane, host, region)

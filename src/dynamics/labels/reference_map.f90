@@ -1,10 +1,9 @@
-!> The reference as a stroboscopic map: states in quad precision, moved by Taylor series or in pairs of doubles, and seen by the trapping
-!> regions as doubles.
+!> The reference as a stroboscopic map: states in quad precision, moved by Taylor series and seen by the trapping regions as
+!> doubles.
 module kz_labels_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_maps_states, only: enter_states
   use kz_lanes_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
-  use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
   use kz_lanes_step_table, only: pendulum_t
   use kz_maps_states, only: wrapped
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
@@ -17,7 +16,6 @@ module kz_labels_reference_map
   type, extends(map_t) :: reference_map_t
     private
     type(drive_t) :: drive
-    type(pairs_t), pointer :: pairs => null() !< instead of the series
     real(qp) :: theta(ROOM) = 0    !< rad
     real(qp) :: velocity(ROOM) = 0 !< rad per drive radian
     real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
@@ -34,7 +32,7 @@ module kz_labels_reference_map
 contains
 
   !> A map of starts given in rad: they are put in their order, each by its half-turns u, and moved as exact numbers.
-  subroutine make_reference_map(map, pendulum, n_steps, flow, start, u, pairs, low)
+  subroutine make_reference_map(map, pendulum, n_steps, flow, start, u, low)
     !> the map
     type(reference_map_t), intent(out) :: map
     !> k, beta, m
@@ -47,12 +45,9 @@ contains
     real(dp), intent(in) :: start(:, :)
     !> [n] half-turns in [-1, 1].
     real(dp), intent(out) :: u(:)
-    !> what moves the states; Taylor series, if left out or null
-    type(pairs_t), pointer, intent(in), optional :: pairs
     !> (2, n): what is to be added to the starts; nothing if left out
     real(dp), intent(in), optional :: low(:, :)
 
-    if (present(pairs)) map%pairs => pairs
     call make_drive(map%drive, pendulum%k, pendulum%beta, pendulum%m, n_steps)
     allocate (map%start, source=start)
     allocate (map%low, mold=start)
@@ -104,34 +99,11 @@ contains
     integer(c_int64_t) :: turns(WIDTH)
 
     turns = 0
-    if (associated(self%pairs)) then
-      call advance_in_pairs(self, n, turns)
-    else
-      call advance_period(self%drive, self%theta(:n), self%velocity(:n), turns(:n))
-    end if
+    call advance_period(self%drive, self%theta(:n), self%velocity(:n), turns(:n))
     self%turns(:n) = self%turns(:n) + turns(:n)
     self%u(:n) = real(self%theta(:n)/PI_QUAD, dp)
     self%v(:n) = real(self%velocity(:n), dp)
     call enter_states(self%flow, self%u(:n), self%v(:n))
   end subroutine advance
-
-  subroutine advance_in_pairs(self, n, turns)
-    class(reference_map_t), intent(inout) :: self
-    integer, intent(in) :: n
-    integer(c_int64_t), intent(inout) :: turns(WIDTH)
-    type(pair_lanes_t) :: lanes
-    integer :: lane
-
-    lanes = pair_lanes_t(0, 0)
-    do lane = 1, n
-      lanes%u(lane, :) = pair_of(self%theta(lane)/PI_QUAD)
-      lanes%v(lane, :) = pair_of(self%velocity(lane))
-    end do
-    call advance_pairs(self%pairs, n, lanes, turns)
-    do lane = 1, n
-      self%theta(lane) = PI_QUAD*quad_of(lanes%u(lane, :))
-      self%velocity(lane) = quad_of(lanes%v(lane, :))
-    end do
-  end subroutine advance_in_pairs
 
 end module kz_labels_reference_map

@@ -41,6 +41,7 @@ typedef struct {
   kz_workspace *work;  /* of this rank */
   kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */
   kz_pieces pieces;    /* tiles of this rank, packed */
+  int before_level;    /* that left the cells of the present stage */
   int level;           /* of the present stage, KZ_LEVELS: candidates of what none decides */
   int16_t wanted;      /* label of the open cells: 0 or KZ_DOUBTFUL */
   int64_t *before;     /* [own tiles + 1] open cells in the tiles before */

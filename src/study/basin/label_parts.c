@@ -56,7 +56,7 @@ static kz_status label_batch(kz_labelling *l, int64_t n, kz_labelled *out) {
   if (l->level == KZ_LEVELS)
     KZ_TRY(kz_label_candidates(&labeller, n, l->work->cell, decision));
   else
-    KZ_TRY(kz_label_at(&labeller, l->level, n, l->work->cell, decision));
+    KZ_TRY(kz_label_at(&labeller, l->level, l->before_level, n, l->work->cell, decision));
   for (int64_t i = 0; i < n; i++)
     out[i] = (kz_labelled){.periods = (uint32_t)decision[i].periods,
                            .label = (int16_t)decision[i].label,

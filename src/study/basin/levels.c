@@ -34,10 +34,11 @@ kz_status kz_levels_escalate(kz_labelling *l, int round) {
   while (l->level < KZ_LEVELS) {
     KZ_TRY(kz_open_count(l, KZ_DOUBTFUL));
     if (l->before[l->tiles.own] == 0) break;
+    l->before_level = l->level;
     l->level = kz_level_after(&labeller, l->level, l->before[l->tiles.own]);
     snprintf(name, sizeof name, "%s %d", levels[l->level].name, round);
     KZ_TRY(kz_open_label(l, name));
   }
-  l->level = KZ_LEVEL_DOUBLE;
+  l->level = l->before_level = KZ_LEVEL_DOUBLE;
   return KZ_OK;
 }

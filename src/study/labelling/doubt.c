@@ -33,7 +33,7 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
     kz_cell_start(s->plan, kz_doubt_cell(s->plan, first + i), centre);
     start[i] = (kz_start){.theta = {centre[0]}, .velocity = {centre[1]}};
   }
-  kz_dynamics_label(s->dynamics, KZ_LEVEL_DOUBLE, n, start, s->plan->max_periods, decision);
+  kz_dynamics_label(s->dynamics, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, n, start, s->plan->max_periods, decision);
   for (int64_t i = 0; i < n; i++) label[i] = decision[i].label;
   return KZ_OK;
 }

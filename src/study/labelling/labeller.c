@@ -3,7 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BATCH = 4096 }; /* starts that are followed together */
+enum {
+  BATCH = 4096, /* starts that are followed together */
+  FEW = 300     /* are followed in quad precision for less than the tables of the pairs of doubles take */
+};
 
 kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start) {
   const kz_start *starts = context;
@@ -25,30 +28,28 @@ static kz_status decide_each(const kz_labeller *l, int64_t n, const int64_t *ite
   return KZ_OK;
 }
 
-static kz_status label_batch(const kz_labeller *l, int32_t level, int64_t n, const int64_t *item, int64_t first,
+static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item, int64_t first,
                              kz_start *start, kz_decision *decision) {
   for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), level, start + i));
-  kz_dynamics_label(l->dynamics, level, n, start, l->max_periods, decision);
+  kz_dynamics_label(l->dynamics, level, before, n, start, l->max_periods, decision);
   return KZ_OK;
 }
 
-kz_status kz_label_at(const kz_labeller *l, int32_t level, int64_t n, const int64_t *item, kz_decision *decision) {
+kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item,
+                      kz_decision *decision) {
   if (level == KZ_LEVEL_ARBITRARY) return decide_each(l, n, item, decision);
   kz_start *start = kz_malloc((size_t)(n < BATCH ? n : BATCH) * sizeof *start + 1);
   kz_status status = start ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
   for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
-    status = label_batch(l, level, n - done < BATCH ? n - done : BATCH, item, done, start, decision + done);
+    status = label_batch(l, level, before, n - done < BATCH ? n - done : BATCH, item, done, start, decision + done);
   free(start);
   return status;
 }
 
 int32_t kz_level_after(const kz_labeller *l, int32_t level, int64_t pending) {
-  static const int32_t next[] = {[KZ_LEVEL_DOUBLE] = KZ_LEVEL_PAIRS_28,
-                                 [KZ_LEVEL_PAIRS_28] = KZ_LEVEL_QUAD,
-                                 [KZ_LEVEL_QUAD] = KZ_LEVEL_ARBITRARY,
-                                 [KZ_LEVEL_ARBITRARY] = KZ_LEVELS};
-  if (pending == 0 || (next[level] == KZ_LEVEL_ARBITRARY && !l->decide)) return KZ_LEVELS;
-  return next[level];
+  if (pending == 0 || level >= KZ_LEVEL_ARBITRARY) return KZ_LEVELS;
+  if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : KZ_LEVELS;
+  return level == KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
 }
 
 /* Those that are pending move to the front: how many there are. */
@@ -67,10 +68,12 @@ static int64_t take(int32_t level, int64_t n, int64_t *place, const kz_decision 
 static kz_status escalate(const kz_labeller *l, int64_t n, const int64_t *item, int64_t *place, int64_t *pending_item,
                           kz_decision *found, kz_decision *decision) {
   int64_t pending = n;
-  for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVELS; level = kz_level_after(l, level, pending)) {
+  int32_t before = KZ_LEVEL_DOUBLE, next;
+  for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVELS; before = level, level = next) {
     for (int64_t i = 0; i < pending; i++) pending_item[i] = item_at(item, place[i]);
-    KZ_TRY(kz_label_at(l, level, pending, pending_item, found));
+    KZ_TRY(kz_label_at(l, level, before, pending, pending_item, found));
     pending = take(level, pending, place, found, decision);
+    next = kz_level_after(l, level, pending);
   }
   return KZ_OK;
 }
@@ -90,5 +93,5 @@ void kz_labeller_prepare(const kz_labeller *l) {
   const kz_start start = {{0}, {0}, 0, {0}};
   kz_decision decision;
   for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++)
-    kz_dynamics_label(l->dynamics, level, 0, &start, l->max_periods, &decision);
+    kz_dynamics_label(l->dynamics, level, level > 0 ? level - 1 : 0, 0, &start, l->max_periods, &decision);
 }

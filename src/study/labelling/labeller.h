@@ -28,8 +28,9 @@ kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start
 /* A start at rad and rad per drive radian, exact. */
 kz_start kz_start_at(double theta, double velocity);
 
-/* Labels n items at one level; decision [n]: KZ_DOUBTFUL where it does not decide. */
-kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int64_t n, const int64_t *item, kz_decision *decision);
+/* Labels n items at one level, which takes what `before` left; decision [n] as of kz_dynamics_label. */
+kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,
+                      kz_decision *decision);
 
 /* The level that takes the `pending` items that `level` leaves; KZ_LEVELS: none. Few of them go to quad precision at once: they take less time
  * there than the tables of the pairs of doubles. */

@@ -144,7 +144,7 @@ static void test_regions_are_right(void **state) {
 }
 
 /* With its error beside it an orbit ends where it ends alone, or its label is doubtful: every wrong one is (quad precision), and
- * hardly three times as many as are wrong. */
+ * hardly six times as many as are wrong. */
 static void test_wrong_labels_are_doubtful(void **state) {
   (void)state;
   enum { N = 4000 / PART };
@@ -168,7 +168,7 @@ static void test_wrong_labels_are_doubtful(void **state) {
     assert_int_equal(followed[i], expected[i]);
   }
   print_message("%d of %d labels wrong, %d doubtful\n", wrong, N, doubtful);
-  assert_true(wrong > N / 100 && doubtful < 3 * wrong);
+  assert_true(wrong > N / 100 && doubtful < 6 * wrong);
   int open = 0; /* a finer level decides nearly all that this one leaves */
   for (int i = 0; i < N && open < 64; i++) {
     if (followed[i] != KZ_DOUBTFUL) continue;

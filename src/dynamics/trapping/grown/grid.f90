@@ -5,10 +5,10 @@ module kz_grown_grid
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: in_ellipse
   use kz_grown_places, only: look_up, side, wrapped_midperiod_angle, WORD
-  use kz_maps_states, only: angle_difference, midperiod_angle
+  use kz_maps_states, only: angle_difference, midperiod_angle, MIDPERIOD
   implicit none
   private
-  public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, fold_cell, cover_cell, chaos_region
+  public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, fold_cell, cover_cell, chaos_region, cell_holds
 
   !> An ellipse that overlaps a cell, and the next one of that cell.
   type :: ellipse_overlap_t
@@ -241,6 +241,32 @@ contains
     end if
     if (a > 0 .and. fold < 0) a = regions%mirror(a)
   end function find_region
+
+  !> Does one trapped cell hold all states within (du, dv) of (u, v)?
+  pure function cell_holds(regions, u, v, du, dv) result(inside)
+    !> the trapping regions
+    type(regions_t), intent(in) :: regions
+    !> angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
+    real(dp), intent(in) :: v
+    !> half-turns
+    real(dp), intent(in) :: du
+    !> rad per drive radian
+    real(dp), intent(in) :: dv
+    logical :: inside
+    real(dp) :: w, x, y, margin_x, margin_y
+
+    w = wrapped_midperiod_angle(u, v)
+    x = 0.5_dp*regions%n_circle*abs(w)
+    y = (side(w, v)*v + regions%top)*(regions%n_velocity/(2*regions%top))
+    margin_x = 0.5_dp*regions%n_circle*(du + MIDPERIOD*dv)
+    margin_y = regions%n_velocity/(2*regions%top)*dv
+    inside = .false.
+    if (.not. (x < regions%n_theta .and. y >= 0 .and. y < regions%n_velocity)) return
+    if (x - aint(x) <= margin_x .or. aint(x) + 1 - x <= margin_x .or. y - aint(y) <= margin_y .or. aint(y) + 1 - y <= margin_y) return
+    inside = regions%label(int(x), int(y)) > 0
+  end function cell_holds
 
   !> The attractor of the first ellipse that holds (u, v), in the list that begins with overlap `first`; 0 = none.
   function overlap_at(regions, attractors, first, u, v) result(a)

@@ -1,0 +1,128 @@
+!> The C interface of dynamics: labels with errors (include/kapitza/dynamics.h).
+module kz_api_label
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
+  use kz_api_handle, only: dynamics_t, of_handle
+  use kz_extended_pairs, only: pair_of
+  use kz_extended_taylor, only: qp
+  use kz_labels_carrier, only: carrier_t, orbit_t
+  use kz_labels_levels, only: prepare_level, make_carrier, noise_of, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_PAIRS_20, LEVEL_PAIRS_28, &
+                              LEVEL_QUAD
+  use kz_labels_orbits, only: ending_t, follow_orbits, DOUBTFUL, PENDING
+  use kz_lanes_map, only: PI
+  use kz_maps_states, only: wrapped
+  implicit none
+  private
+
+  !> Of dynamics.h: the scene's numerics, where doubtful orbits are followed on; no level.
+  integer, parameter :: LEVEL_GUESS = -1, NONE = 6
+  !> An orbit is followed at the next cheaper level once its error is so many times what that adds in a period.
+  real(dp), parameter :: RATIO = 5
+  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
+
+  !> kz_start and kz_decision of dynamics.h.
+  type, bind(C) :: start_t
+    real(dp) :: theta(2)
+    real(dp) :: velocity(2)
+    integer(c_int64_t) :: periods
+    real(dp) :: error(3)
+  end type start_t
+  type, bind(C) :: decision_t
+    integer(c_int32_t) :: label
+    integer(c_int32_t) :: other
+    integer(c_int32_t) :: level
+    integer(c_int64_t) :: periods
+    real(dp) :: error
+  end type decision_t
+
+contains
+
+  subroutine label_starts(handle, level, before, n, start, max_periods, decision) bind(C, name='kz_dynamics_label')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: level
+    integer(c_int32_t), value :: before
+    integer(c_int64_t), value :: n
+    type(start_t), intent(in) :: start(n)
+    integer(c_int64_t), value :: max_periods
+    type(decision_t), intent(out) :: decision(n)
+    type(dynamics_t), pointer :: d
+    type(orbit_t), allocatable :: orbit(:)
+    type(ending_t), allocatable :: ending(:)
+    integer(c_int64_t) :: i
+
+    d => of_handle(handle)
+    allocate (orbit(n), ending(n))
+    do i = 1, n
+      orbit(i) = orbit_of(start(i), level > LEVEL_DOUBLE)
+    end do
+    call label_orbits(d, int(level), int(before), max_periods, orbit, ending)
+    do i = 1, n
+      decision(i) = decision_t(ending(i)%label, 0, merge(max(level, 0_c_int32_t), int(NONE, c_int32_t), ending(i)%decided), &
+                               ending(i)%periods, ending(i)%error)
+    end do
+  end subroutine label_starts
+
+  !> A start is known to the last place of its double; where it is to be followed `precisely`, to that of the pair.
+  pure function orbit_of(start, precisely) result(orbit)
+    type(start_t), intent(in) :: start
+    logical, intent(in) :: precisely
+    type(orbit_t) :: orbit
+    real(qp) :: u
+    real(dp) :: lost, x
+
+    if (precisely) then
+      u = (real(start%theta(1), qp) + start%theta(2))/PI_QUAD
+      orbit%u = pair_of(u - 2*anint(u/2))
+      orbit%v = start%velocity
+      lost = 1e-31_dp
+    else
+      orbit%u = [wrapped(start%theta(1)/PI), start%theta(2)/PI]
+      orbit%v = start%velocity
+      lost = 2*epsilon(1.0_dp)
+    end if
+    lost = lost*hypot(max(abs(start%theta(1)), PI), start%velocity(1))
+    orbit%age = start%periods
+    orbit%p = start%error
+    x = sqrt((orbit%p(1) + orbit%p(3))/(2*lost**2) + 1e-6_dp)
+    orbit%p = (1 + 1/x)*orbit%p + (1 + x)*lost**2*[1, 0, 1]
+  end function orbit_of
+
+  !> Orbits begin at a level and go down from level to level as their errors grow.
+  subroutine label_orbits(d, level, before, most, orbit, ending)
+    type(dynamics_t), intent(inout) :: d
+    integer, intent(in) :: level
+    integer, intent(in) :: before
+    integer(c_int64_t), intent(in) :: most
+    type(orbit_t), intent(inout) :: orbit(:)
+    type(ending_t), intent(out) :: ending(:)
+    class(carrier_t), allocatable :: carrier
+    type(orbit_t), allocatable :: some(:)
+    type(ending_t), allocatable :: found(:)
+    integer, allocatable :: place(:)
+    real(dp) :: handover
+    integer :: now, next, i
+
+    call prepare_level(d%levels, LEVEL_DOUBLE, d%search%pendulum, d%numerics, d%flow, d%regions%top)
+    now = max(level, LEVEL_DOUBLE)
+    place = [(i, i=1, size(orbit))]
+    do
+      next = merge(before, now - 1, now == level)
+      handover = huge(handover)
+      call prepare_level(d%levels, now, d%search%pendulum, d%numerics, d%flow, d%regions%top)
+      if (now > LEVEL_DOUBLE) then
+        call prepare_level(d%levels, next, d%search%pendulum, d%numerics, d%flow, d%regions%top)
+        handover = RATIO*noise_of(d%levels, next)
+      end if
+      if (size(place) == 0) return
+      call make_carrier(d%levels, now, d%flow, carrier)
+      some = orbit(place)
+      allocate (found(size(place)))
+      call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, some, found)
+      orbit(place) = some
+      ending(place) = found
+      deallocate (found)
+      place = pack(place, ending(place)%label == PENDING)
+      now = next
+    end do
+  end subroutine label_orbits
+
+end module kz_api_label

@@ -1,0 +1,335 @@
+!> Orbits in more than the scene's own precision: double precision with more steps, pairs of doubles, quad precision.
+module kz_labels_inner
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
+  use kz_extended_taylor, only: drive_t, advance_period, qp
+  use kz_labels_period_error, only: period_error_t, class_of
+  use kz_lanes_map, only: flow_t, WIDTH, ROOM, PI
+  implicit none
+  private
+  public :: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
+
+  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
+
+  !> States of lanes in a precision of their own.
+  type, abstract :: inner_t
+  contains
+    !> A state as sums of two doubles: u half-turns, v rad per drive radian.
+    procedure(put_i), deferred :: put
+    procedure(take_i), deferred :: take
+    !> Lanes first .. n have been put.
+    procedure(enter_i), deferred :: enter
+    procedure(move_i), deferred :: move
+    procedure(advance_i), deferred :: advance
+    !> Lanes first .. n in double precision.
+    procedure(show_i), deferred :: show
+    !> What a period adds to the error of a state of speed v, rad.
+    procedure(noise_i), deferred :: noise
+  end type inner_t
+
+  abstract interface
+    subroutine put_i(self, lane, u, v)
+      import :: inner_t, dp
+      class(inner_t), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(dp), intent(in) :: u(2)
+      real(dp), intent(in) :: v(2)
+    end subroutine put_i
+
+    subroutine take_i(self, lane, u, v)
+      import :: inner_t, dp
+      class(inner_t), intent(inout) :: self
+      integer, intent(in) :: lane
+      real(dp), intent(out) :: u(2)
+      real(dp), intent(out) :: v(2)
+    end subroutine take_i
+
+    subroutine enter_i(self, first, n)
+      import :: inner_t
+      class(inner_t), intent(inout) :: self
+      integer, intent(in) :: first
+      integer, intent(in) :: n
+    end subroutine enter_i
+
+    subroutine move_i(self, from, to)
+      import :: inner_t
+      class(inner_t), intent(inout) :: self
+      integer, intent(in) :: from
+      integer, intent(in) :: to
+    end subroutine move_i
+
+    subroutine advance_i(self, n)
+      import :: inner_t
+      class(inner_t), intent(inout) :: self
+      integer, intent(in) :: n
+    end subroutine advance_i
+
+    subroutine show_i(self, first, n, u, v)
+      import :: inner_t, dp, ROOM
+      class(inner_t), intent(inout) :: self
+      integer, intent(in) :: first
+      integer, intent(in) :: n
+      real(dp), intent(inout) :: u(ROOM)
+      real(dp), intent(inout) :: v(ROOM)
+    end subroutine show_i
+
+    pure function noise_i(self, v) result(noise)
+      import :: inner_t, dp
+      class(inner_t), intent(in) :: self
+      real(dp), intent(in) :: v
+      real(dp) :: noise
+    end function noise_i
+  end interface
+
+  !> Double precision with more steps.
+  type, extends(inner_t) :: inner_fine_t
+    class(flow_t), allocatable :: flow  !< the map
+    class(flow_t), allocatable :: shown !< takes its states to physical coordinates
+    type(period_error_t) :: error
+  contains
+    procedure :: put => fine_put
+    procedure :: take => fine_take
+    procedure :: enter => fine_enter
+    procedure :: move => fine_move
+    procedure :: advance => fine_advance
+    procedure :: show => fine_show
+    procedure :: noise => fine_noise
+  end type inner_fine_t
+
+  !> Pairs of doubles, physical coordinates.
+  type, extends(inner_t) :: inner_pairs_t
+    type(pairs_t), pointer :: tables => null()
+    real(dp) :: u(ROOM, 2) = 0
+    real(dp) :: v(ROOM, 2) = 0
+  contains
+    procedure :: put => pairs_put
+    procedure :: take => pairs_take
+    procedure :: enter => pairs_enter
+    procedure :: move => pairs_move
+    procedure :: advance => pairs_advance
+    procedure :: show => pairs_show
+    procedure :: noise => pairs_noise
+  end type inner_pairs_t
+
+  !> Quad precision, by Taylor series.
+  type, extends(inner_t) :: inner_quad_t
+    type(drive_t), pointer :: drive => null()
+    real(qp) :: theta(ROOM) = 0    !< rad
+    real(qp) :: velocity(ROOM) = 0 !< rad per drive radian
+    real(dp) :: error = 0          !< of a period, relative to hypot(pi, v)
+  contains
+    procedure :: put => quad_put
+    procedure :: take => quad_take
+    procedure :: enter => quad_enter
+    procedure :: move => quad_move
+    procedure :: advance => quad_advance
+    procedure :: show => quad_show
+    procedure :: noise => quad_noise
+  end type inner_quad_t
+
+contains
+
+  subroutine fine_put(self, lane, u, v)
+    class(inner_fine_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: u(2)
+    real(dp), intent(in) :: v(2)
+
+    call self%flow%put(lane, u(1), v(1))
+  end subroutine fine_put
+
+  subroutine fine_take(self, lane, u, v)
+    class(inner_fine_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(out) :: u(2)
+    real(dp), intent(out) :: v(2)
+
+    call self%shown%put(lane, self%flow%u(lane), self%flow%v(lane))
+    call self%shown%leave(lane, first=lane)
+    u = [self%shown%u(lane), 0.0_dp]
+    v = [self%shown%v(lane), 0.0_dp]
+  end subroutine fine_take
+
+  subroutine fine_enter(self, first, n)
+    class(inner_fine_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+
+    call self%flow%enter(n, first=first)
+  end subroutine fine_enter
+
+  subroutine fine_move(self, from, to)
+    class(inner_fine_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    call self%flow%move(from, to)
+  end subroutine fine_move
+
+  subroutine fine_advance(self, n)
+    class(inner_fine_t), intent(inout) :: self
+    integer, intent(in) :: n
+
+    call self%flow%advance(n)
+  end subroutine fine_advance
+
+  subroutine fine_show(self, first, n, u, v)
+    class(inner_fine_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+    real(dp), intent(inout) :: u(ROOM)
+    real(dp), intent(inout) :: v(ROOM)
+    integer :: lane
+
+    do lane = first, n
+      call self%shown%put(lane, self%flow%u(lane), self%flow%v(lane))
+    end do
+    call self%shown%leave(n, first=first)
+    u(first:n) = self%shown%u(first:n)
+    v(first:n) = self%shown%v(first:n)
+  end subroutine fine_show
+
+  pure function fine_noise(self, v) result(noise)
+    class(inner_fine_t), intent(in) :: self
+    real(dp), intent(in) :: v
+    real(dp) :: noise
+
+    noise = self%error%noise(class_of(self%error, v))
+  end function fine_noise
+
+  subroutine pairs_put(self, lane, u, v)
+    class(inner_pairs_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: u(2)
+    real(dp), intent(in) :: v(2)
+
+    self%u(lane, :) = u
+    self%v(lane, :) = v
+  end subroutine pairs_put
+
+  subroutine pairs_take(self, lane, u, v)
+    class(inner_pairs_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(out) :: u(2)
+    real(dp), intent(out) :: v(2)
+
+    u = self%u(lane, :)
+    v = self%v(lane, :)
+  end subroutine pairs_take
+
+  subroutine pairs_enter(self, first, n)
+    class(inner_pairs_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+
+    if (n >= first) self%u(first:n, 2) = self%u(first:n, 2)
+  end subroutine pairs_enter
+
+  subroutine pairs_move(self, from, to)
+    class(inner_pairs_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    self%u(to, :) = self%u(from, :)
+    self%v(to, :) = self%v(from, :)
+  end subroutine pairs_move
+
+  subroutine pairs_advance(self, n)
+    class(inner_pairs_t), intent(inout) :: self
+    integer, intent(in) :: n
+    type(pair_lanes_t) :: lanes
+    integer(c_int64_t) :: turns(WIDTH)
+
+    turns = 0
+    lanes%u = self%u(:WIDTH, :)
+    lanes%v = self%v(:WIDTH, :)
+    call advance_pairs(self%tables, n, lanes, turns)
+    self%u(:n, :) = lanes%u(:n, :)
+    self%v(:n, :) = lanes%v(:n, :)
+  end subroutine pairs_advance
+
+  subroutine pairs_show(self, first, n, u, v)
+    class(inner_pairs_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+    real(dp), intent(inout) :: u(ROOM)
+    real(dp), intent(inout) :: v(ROOM)
+
+    u(first:n) = self%u(first:n, 1)
+    v(first:n) = self%v(first:n, 1)
+  end subroutine pairs_show
+
+  pure function pairs_noise(self, v) result(noise)
+    class(inner_pairs_t), intent(in) :: self
+    real(dp), intent(in) :: v
+    real(dp) :: noise
+
+    noise = max(self%tables%error, 1e-31_dp*hypot(PI, v))
+  end function pairs_noise
+
+  subroutine quad_put(self, lane, u, v)
+    class(inner_quad_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: u(2)
+    real(dp), intent(in) :: v(2)
+
+    self%theta(lane) = PI_QUAD*quad_of(u)
+    self%velocity(lane) = quad_of(v)
+  end subroutine quad_put
+
+  subroutine quad_take(self, lane, u, v)
+    class(inner_quad_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(out) :: u(2)
+    real(dp), intent(out) :: v(2)
+
+    u = pair_of(self%theta(lane)/PI_QUAD)
+    v = pair_of(self%velocity(lane))
+  end subroutine quad_take
+
+  subroutine quad_enter(self, first, n)
+    class(inner_quad_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+
+    if (n >= first) self%theta(first:n) = self%theta(first:n)
+  end subroutine quad_enter
+
+  subroutine quad_move(self, from, to)
+    class(inner_quad_t), intent(inout) :: self
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    self%theta(to) = self%theta(from)
+    self%velocity(to) = self%velocity(from)
+  end subroutine quad_move
+
+  subroutine quad_advance(self, n)
+    class(inner_quad_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer(c_int64_t) :: turns(WIDTH)
+
+    turns = 0
+    call advance_period(self%drive, self%theta(:n), self%velocity(:n), turns(:n))
+  end subroutine quad_advance
+
+  subroutine quad_show(self, first, n, u, v)
+    class(inner_quad_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+    real(dp), intent(inout) :: u(ROOM)
+    real(dp), intent(inout) :: v(ROOM)
+
+    u(first:n) = real(self%theta(first:n)/PI_QUAD, dp)
+    v(first:n) = real(self%velocity(first:n), dp)
+  end subroutine quad_show
+
+  pure function quad_noise(self, v) result(noise)
+    class(inner_quad_t), intent(in) :: self
+    real(dp), intent(in) :: v
+    real(dp) :: noise
+
+    noise = self%error*hypot(PI, v)
+  end function quad_noise
+
+end module kz_labels_inner

@@ -1,0 +1,172 @@
+!> The precision levels at which a pendulum's orbits are followed with their errors, each made when it is first needed.
+module kz_labels_levels
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
+  use kz_extended_pairs, only: pairs_t, make_pairs
+  use kz_extended_taylor, only: drive_t, make_drive
+  use kz_kernel_plan, only: make_flow
+  use kz_labels_carrier, only: carrier_t, plain_carrier_t, make_plain_carrier
+  use kz_labels_inner, only: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
+  use kz_labels_period_error, only: period_error_t, probes_t, make_probes, measure_period
+  use kz_labels_precise_carrier, only: precise_carrier_t, make_precise_carrier
+  use kz_lanes_map, only: flow_t
+  use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
+  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_processed_tables, only: MOST_DAMPING
+  implicit none
+  private
+  public :: levels_t, make_carrier, prepare_level, noise_of
+
+  !> Levels of dynamics.h.
+  integer, parameter, public :: LEVEL_DOUBLE = 0, LEVEL_FINE = 1, LEVEL_PAIRS_20 = 2, LEVEL_PAIRS_28 = 3, LEVEL_QUAD = 4
+  !> rad: of a period in double precision with more steps; with most steps of all.
+  real(dp), parameter :: FINE_ERROR = 1e-14_dp
+  integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320
+  !> rad: of a period in pairs of doubles.
+  real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_20:LEVEL_PAIRS_28) = [1e-20_dp, 1e-28_dp]
+  !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
+  real(dp), parameter :: QUAD_ERROR = 1e-31_dp
+  !> Steps a period of the series.
+  integer, parameter :: QUAD_STEPS = 18
+
+  type :: levels_t
+    type(probes_t), allocatable :: probes
+    type(period_error_t) :: error               !< of the scene's map
+    class(flow_t), allocatable :: fine          !< double precision with more steps
+    type(period_error_t) :: fine_error
+    type(pairs_t) :: pairs(LEVEL_PAIRS_20:LEVEL_PAIRS_28)
+    type(drive_t), allocatable :: drive
+  end type levels_t
+
+contains
+
+  !> Makes what a level needs and has not yet.
+  subroutine prepare_level(levels, level, pendulum, numerics, flow, fastest)
+    !> of a pendulum
+    type(levels_t), intent(inout) :: levels
+    !> LEVEL_DOUBLE ..
+    integer, intent(in) :: level
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> of the scene
+    type(numerics_t), intent(in) :: numerics
+    !> the scene's map
+    class(flow_t), intent(in) :: flow
+    !> speeds that occur, rad per drive radian
+    real(dp), intent(in) :: fastest
+    logical :: halting(size(ieee_usual))
+
+    call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
+    call ieee_set_halting_mode(ieee_usual, .false.)
+    if (.not. allocated(levels%probes)) then
+      allocate (levels%probes)
+      call make_probes(pendulum, fastest, levels%probes)
+      call measure_period(flow, levels%probes, levels%error)
+    end if
+    select case (level)
+    case (LEVEL_FINE)
+      if (.not. allocated(levels%fine)) call make_fine(levels, pendulum, numerics, fastest)
+    case (LEVEL_PAIRS_20, LEVEL_PAIRS_28)
+      if (.not. allocated(levels%pairs(level)%level)) call make_pairs(pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level))
+    case (LEVEL_QUAD)
+      if (.not. allocated(levels%drive)) then
+        allocate (levels%drive)
+        call make_drive(levels%drive, pendulum%k, pendulum%beta, pendulum%m, QUAD_STEPS)
+      end if
+    end select
+    call ieee_set_flag(ieee_usual, .false.)
+    call ieee_set_halting_mode(ieee_usual, halting)
+  end subroutine prepare_level
+
+  !> The processed splitting with so many steps that hardly more than rounding is left.
+  subroutine make_fine(levels, pendulum, numerics, fastest)
+    type(levels_t), intent(inout) :: levels
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    real(dp), intent(in) :: fastest
+    type(numerics_t) :: fine
+    integer :: n
+
+    n = FEWEST_FINE_STEPS
+    if (numerics%scheme == PROCESSED_ROW) n = max(n, 2*int(0.82_dp*numerics%steps_per_period))
+    do
+      fine = numerics_t(merge(PROCESSED_ROW, SPLIT6_ROW, pendulum%beta <= MOST_DAMPING), n, fastest=fastest)
+      call make_flow(pendulum, fine, .true., levels%fine)
+      call measure_period(levels%fine, levels%probes, levels%fine_error)
+      if (levels%fine_error%worst <= FINE_ERROR .or. n >= MOST_FINE_STEPS) return
+      n = min(MOST_FINE_STEPS, 2*int(0.7_dp*n))
+    end do
+  end subroutine make_fine
+
+  !> What a period adds at most, rad.
+  pure function noise_of(levels, level) result(noise)
+    !> of a pendulum; that level has been prepared
+    type(levels_t), intent(in) :: levels
+    !> LEVEL_DOUBLE .. LEVEL_PAIRS_28
+    integer, intent(in) :: level
+    real(dp) :: noise
+
+    select case (level)
+    case (LEVEL_DOUBLE)
+      noise = levels%error%worst
+    case (LEVEL_FINE)
+      noise = levels%fine_error%worst
+    case default
+      noise = levels%pairs(level)%error
+    end select
+  end function noise_of
+
+  !> What carries orbits at a level that has been prepared.
+  subroutine make_carrier(levels, level, flow, carrier)
+    !> of a pendulum
+    type(levels_t), target, intent(in) :: levels
+    !> LEVEL_DOUBLE ..
+    integer, intent(in) :: level
+    !> the scene's map
+    class(flow_t), intent(in) :: flow
+    !> the carrier
+    class(carrier_t), allocatable, intent(out) :: carrier
+    type(plain_carrier_t), allocatable :: plain
+    type(precise_carrier_t), allocatable :: precise
+    class(inner_t), allocatable :: inner
+
+    if (level == LEVEL_DOUBLE) then
+      allocate (plain)
+      call make_plain_carrier(flow, levels%error, plain)
+      call move_alloc(plain, carrier)
+      return
+    end if
+    call make_inner(levels, level, inner)
+    allocate (precise)
+    call make_precise_carrier(inner, flow, levels%error, precise)
+    call move_alloc(precise, carrier)
+  end subroutine make_carrier
+
+  subroutine make_inner(levels, level, inner)
+    type(levels_t), target, intent(in) :: levels
+    integer, intent(in) :: level
+    class(inner_t), allocatable, intent(out) :: inner
+    type(inner_fine_t), allocatable :: fine
+    type(inner_pairs_t), allocatable :: pairs
+    type(inner_quad_t), allocatable :: quad
+
+    select case (level)
+    case (LEVEL_FINE)
+      allocate (fine)
+      allocate (fine%flow, source=levels%fine)
+      allocate (fine%shown, source=levels%fine)
+      fine%error = levels%fine_error
+      call move_alloc(fine, inner)
+    case (LEVEL_QUAD)
+      allocate (quad)
+      quad%drive => levels%drive
+      quad%error = QUAD_ERROR
+      call move_alloc(quad, inner)
+    case default
+      allocate (pairs)
+      pairs%tables => levels%pairs(level)
+      call move_alloc(pairs, inner)
+    end select
+  end subroutine make_inner
+
+end module kz_labels_levels

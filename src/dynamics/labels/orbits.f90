@@ -1,0 +1,329 @@
+!> Follows many orbits with their errors beside them, until a trapping region holds all that an error leaves open: another orbit takes the
+!> lane of one that is done. An orbit whose error grows large is doubtful: its label is not decided.
+module kz_labels_orbits
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
+  use kz_cycles_cycles, only: attractor_t
+  use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
+  use kz_labels_bending, only: measure_bending, SAFETY
+  use kz_labels_carrier, only: carrier_t, orbit_t
+  use kz_labels_spread, only: spread_errors
+  use kz_lanes_map, only: flow_t, WIDTH, ROOM, PI
+  use kz_maps_states, only: angle_difference
+  implicit none
+  private
+  public :: ending_t, follow_orbits, DOUBTFUL, PENDING
+
+  !> Labels besides the numbers of attractors: of an orbit whose error has become too large; of one that is to be followed on elsewhere.
+  integer, parameter :: DOUBTFUL = -1, PENDING = -2
+  !> rad: the size of an error that a label bears.
+  real(dp), parameter :: TOLERABLE = 0.03_dp
+  !> rad: of larger errors what is not linear is carried too. The largest second derivatives of a period are some 100, so
+  !> what is left out is less than a hundredth of an error, and less than a thousandth where it is half as large.
+  real(dp), parameter :: LINEAR = 3e-5_dp
+  !> Points of an ellipse's rim that a trapping region must hold.
+  integer, parameter :: RIM = 8
+  !> An orbit belongs to a chaotic attractor once it has stayed in its cover for so many periods.
+  integer, parameter :: STAY = 64
+
+  !> Where an orbit ends.
+  type :: ending_t
+    integer(c_int32_t) :: label = PENDING !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
+    logical :: decided = .false.          !< no error changes the label
+    integer(c_int64_t) :: periods = 0     !< first period inside a trapping region, or those followed
+    real(dp) :: error = 0                 !< how far the orbit may be off then, rad
+  end type ending_t
+
+  !> What lanes carry besides their states.
+  type :: lanes_t
+    integer :: active = 0             !< lanes 1 .. active are advanced
+    integer :: waiting = 0            !< orbits that wait for a lane:
+    integer :: queue(WIDTH)           !< in these, the last first
+    real(dp) :: p(WIDTH, 3) = 0       !< errors
+    real(dp) :: coming(3, ROOM) = 0   !< of orbits that wait
+    integer(c_int64_t) :: number(ROOM) = 0
+    integer(c_int64_t) :: age(ROOM) = 0
+    integer :: first(ROOM) = 0        !< trapping region that holds the state alone, 0 = none yet
+    integer(c_int64_t) :: since(ROOM) = 0
+    integer :: guest_of(ROOM) = 0     !< chaotic attractor whose cover it is in
+    integer :: stay(ROOM) = 0         !< for so many periods
+    logical :: doubted(ROOM) = .false.
+  end type lanes_t
+
+contains
+
+  !> Follows orbits up to age `most`. ending(i)%label = PENDING and the orbit as it is then where its error has reached `handover`.
+  subroutine follow_orbits(carrier, flow, regions, attractors, most, handover, guess, orbit, ending)
+    !> what moves the orbits by one period
+    class(carrier_t), intent(inout) :: carrier
+    !> the scene's map
+    class(flow_t), intent(in) :: flow
+    !> the trapping regions
+    type(regions_t), intent(in) :: regions
+    !> the catalogue, numbered from 1
+    type(attractor_t), intent(in) :: attractors(:)
+    !> periods
+    integer(c_int64_t), intent(in) :: most
+    !> rad
+    real(dp), intent(in) :: handover
+    !> follow doubtful orbits on, to where the states alone end
+    logical, intent(in) :: guess
+    !> [n] in and out
+    type(orbit_t), intent(inout) :: orbit(:)
+    !> [n]
+    type(ending_t), intent(out) :: ending(:)
+    type(lanes_t) :: lanes
+    integer(c_int64_t) :: next
+    class(flow_t), allocatable :: bender
+    real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), bent(WIDTH)
+    integer :: region(WIDTH), lane
+    logical :: with_covers
+
+    allocate (bender, source=flow)
+    next = 1
+    trace = 0
+    with_covers = size(regions%covered) > 0
+    largest = min(TOLERABLE, handover)**2
+    do lane = 1, WIDTH
+      call occupy(lane)
+    end do
+    do while (lanes%active > 0)
+      u = carrier%u(:WIDTH)
+      v = carrier%v(:WIDTH)
+      call carrier%advance(lanes%active)
+      call bend(lanes%active)
+      call spread_errors(lanes%active, carrier%tangent, carrier%noise, bent, lanes%p, trace)
+      call find_regions(regions, attractors, lanes%active, carrier%u(:lanes%active), carrier%v(:lanes%active), region)
+      do lane = lanes%active, 1, -1
+        lanes%age(lane) = lanes%age(lane) + 1
+        if (region(lane) == 0 .and. trace(lane) < largest .and. lanes%age(lane) < most .and. .not. with_covers) cycle
+        if (is_open(lane, region(lane), trace(lane))) cycle
+        call occupy(lane)
+      end do
+    end do
+  contains
+    !> What is not linear in the period, where errors are large.
+    subroutine bend(n)
+      integer, intent(in) :: n
+      integer :: large(WIDTH), count, i
+
+      bent = 0
+      count = 0
+      do i = 1, n
+        if (lanes%p(i, 1) + lanes%p(i, 3) < LINEAR**2) cycle
+        count = count + 1
+        large(count) = i
+      end do
+      if (count > 0) call measure_bending(bender, count, large, u, v, carrier%tangent, lanes%p, bent)
+    end subroutine bend
+
+    !> An orbit that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.
+    subroutine occupy(lane)
+      integer, intent(in) :: lane
+
+      if (lanes%waiting == 0) call let_in
+      if (lanes%waiting > 0) then
+        lanes%active = max(lanes%active, lane)
+        lanes%p(lane, :) = lanes%coming(:, lanes%queue(lanes%waiting))
+        call move(carrier, lanes, lanes%queue(lanes%waiting), lane)
+        lanes%waiting = lanes%waiting - 1
+      else if (lane <= lanes%active) then
+        lanes%p(lane, :) = lanes%p(lanes%active, :)
+        if (lane < lanes%active) call move(carrier, lanes, lanes%active, lane)
+        lanes%active = lanes%active - 1
+      end if
+    end subroutine occupy
+
+    !> Puts the next orbits into the lanes behind the first WIDTH. Those that are done leave at once.
+    subroutine let_in
+      integer :: found(WIDTH), n, i
+
+      do while (lanes%waiting == 0 .and. next <= size(orbit))
+        n = int(min(int(WIDTH, c_int64_t), size(orbit) - next + 1))
+        do i = WIDTH + 1, WIDTH + n
+          call carrier%put(i, orbit(next))
+          call open_lane(lanes, i, next, orbit(next))
+          next = next + 1
+        end do
+        call carrier%enter(WIDTH + 1, WIDTH + n)
+        call find_regions(regions, attractors, n, carrier%u(WIDTH + 1:WIDTH + n), carrier%v(WIDTH + 1:WIDTH + n), found)
+        do i = n, 1, -1 ! the first orbit is to leave the queue first
+          if (.not. enters(WIDTH + i, found(i))) cycle
+          lanes%waiting = lanes%waiting + 1
+          lanes%queue(lanes%waiting) = WIDTH + i
+        end do
+      end do
+    end subroutine let_in
+
+    !> Is an orbit to be followed that has just been put? Not where it is trapped at once.
+    logical function enters(lane, region)
+      integer, intent(in) :: lane
+      integer, intent(in) :: region
+
+      enters = .true.
+      if (region > 0) call note_region(lanes, lane, region, guess)
+      if (region > 0 .and. sum(lanes%coming([1, 3], lane)) < TOLERABLE**2) &
+        enters = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%coming(:, lane), carrier%seen(lane), region)
+      if (.not. enters) call settle(lane, region, .true., lanes%coming(:, lane))
+      if (enters .and. lanes%age(lane) >= most) then
+        enters = .false.
+        call settle(lane, merge(lanes%first(lane), merge(DOUBTFUL, 0, region > 0), guess), .false., lanes%coming(:, lane))
+      end if
+    end function enters
+
+    !> Is the orbit to be followed on? Else its ending is noted.
+    logical function is_open(lane, region, trace)
+      integer, intent(in) :: lane
+      integer, intent(in) :: region
+      real(dp), intent(in) :: trace
+      logical :: late
+
+      is_open = .true.
+      late = lanes%age(lane) >= most
+      if (trace >= handover**2) then
+        call pass_on(lane)
+        is_open = .false.
+        return
+      end if
+      if (.not. trace < TOLERABLE**2) lanes%doubted(lane) = .true.
+      if (lanes%doubted(lane)) lanes%p(lane, :) = 0
+      if (region > 0) then
+        lanes%guest_of(lane) = 0
+        call note_region(lanes, lane, region, guess)
+        if (.not. lanes%doubted(lane)) &
+          is_open = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%p(lane, :), carrier%seen(lane), region)
+        if (.not. is_open) call settle(lane, region, .true., lanes%p(lane, :))
+      else if (with_covers) then
+        call visit(lane, is_open)
+      end if
+      if (.not. is_open) return
+      if (lanes%doubted(lane) .and. lanes%guest_of(lane) == 0 .and. (.not. guess .or. lanes%first(lane) > 0)) then
+        call settle(lane, merge(lanes%first(lane), DOUBTFUL, guess), .false., lanes%p(lane, :))
+      else if (late) then
+        call settle(lane, merge(lanes%first(lane), merge(DOUBTFUL, 0, region > 0), guess), &
+                    .not. lanes%doubted(lane) .and. region == 0, lanes%p(lane, :))
+      else
+        return
+      end if
+      is_open = .false.
+    end function is_open
+
+    !> An orbit that has stayed in a cover for STAY periods counts as captured from the period in which it entered.
+    subroutine visit(lane, is_open)
+      integer, intent(in) :: lane
+      logical, intent(inout) :: is_open
+      integer :: host
+
+      host = chaos_region(regions, carrier%u(lane), carrier%v(lane))
+      lanes%stay(lane) = merge(lanes%stay(lane) + 1, 1, host == lanes%guest_of(lane))
+      lanes%guest_of(lane) = host
+      if (host == 0 .or. lanes%stay(lane) < STAY) return
+      is_open = .false.
+      lanes%age(lane) = lanes%age(lane) - STAY + 1
+      call settle(lane, host, .true., lanes%p(lane, :))
+    end subroutine visit
+
+    !> The orbit leaves as it is.
+    subroutine pass_on(lane)
+      integer, intent(in) :: lane
+
+      associate (o => orbit(lanes%number(lane)))
+        call carrier%take(lane, o)
+        o%p = lanes%p(lane, :)
+        o%age = lanes%age(lane)
+      end associate
+      ending(lanes%number(lane))%label = PENDING
+    end subroutine pass_on
+
+    subroutine settle(lane, label, decided, p)
+      integer, intent(in) :: lane
+      integer, intent(in) :: label
+      logical, intent(in) :: decided
+      real(dp), intent(in) :: p(3)
+      integer(c_int64_t) :: periods
+
+      periods = lanes%age(lane)
+      if (label > 0 .and. label == lanes%first(lane)) periods = lanes%since(lane)
+      ending(lanes%number(lane)) = ending_t(label, decided, periods, SAFETY*largest_error(p))
+    end subroutine settle
+  end subroutine follow_orbits
+
+  subroutine open_lane(lanes, lane, number, orbit)
+    type(lanes_t), intent(inout) :: lanes
+    integer, intent(in) :: lane
+    integer(c_int64_t), intent(in) :: number
+    type(orbit_t), intent(in) :: orbit
+
+    lanes%number(lane) = number
+    lanes%coming(:, lane) = orbit%p
+    lanes%age(lane) = orbit%age
+    lanes%first(lane) = 0
+    lanes%since(lane) = 0
+    lanes%guest_of(lane) = 0
+    lanes%stay(lane) = 0
+    lanes%doubted(lane) = .false.
+  end subroutine open_lane
+
+  !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.
+  subroutine note_region(lanes, lane, region, guess)
+    type(lanes_t), intent(inout) :: lanes
+    integer, intent(in) :: lane
+    integer, intent(in) :: region
+    logical, intent(in) :: guess
+
+    if (lanes%first(lane) == region .or. (guess .and. lanes%first(lane) > 0)) return
+    lanes%first(lane) = region
+    lanes%since(lane) = lanes%age(lane)
+  end subroutine note_region
+
+  subroutine move(carrier, lanes, from, to)
+    class(carrier_t), intent(inout) :: carrier
+    type(lanes_t), intent(inout) :: lanes
+    integer, intent(in) :: from
+    integer, intent(in) :: to
+
+    call carrier%move(from, to)
+    lanes%number(to) = lanes%number(from)
+    lanes%age(to) = lanes%age(from)
+    lanes%first(to) = lanes%first(from)
+    lanes%since(to) = lanes%since(from)
+    lanes%guest_of(to) = lanes%guest_of(from)
+    lanes%stay(to) = lanes%stay(from)
+    lanes%doubted(to) = lanes%doubted(from)
+  end subroutine move
+
+  !> Half the longer axis of the ellipse of P, rad; not a number for one that is lost.
+  pure function largest_error(p) result(error)
+    real(dp), intent(in) :: p(3)
+    real(dp) :: error
+
+    error = sqrt(0.5_dp*(p(1) + p(3) + hypot(p(1) - p(3), 2*p(2))))
+  end function largest_error
+
+  !> Does the trapping region that holds (u0, v0) hold the whole ellipse, and `seen` rad beyond?
+  function holds(regions, attractors, u0, v0, p, seen, region) result(inside)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    real(dp), intent(in) :: u0
+    real(dp), intent(in) :: v0
+    real(dp), intent(in) :: p(3)
+    real(dp), intent(in) :: seen
+    integer, intent(in) :: region
+    logical :: inside
+    real(dp) :: u(RIM), v(RIM), angle, along, across, slant
+    integer :: label(RIM), i
+
+    along = sqrt(p(1))
+    inside = cell_holds(regions, u0, v0, (SAFETY*along + seen)/PI, SAFETY*sqrt(p(3)) + seen)
+    if (inside) return
+    slant = merge(p(2)/along, 0.0_dp, along > 0)
+    across = sqrt(max(0.0_dp, p(3) - slant**2))
+    do i = 1, RIM
+      angle = 2*PI*i/RIM
+      u(i) = angle_difference(u0 + ((SAFETY*along + seen)*cos(angle))/PI, 0.0_dp)
+      v(i) = v0 + SAFETY*(slant*cos(angle) + across*sin(angle)) + seen*sin(angle)
+    end do
+    call find_regions(regions, attractors, RIM, u, v, label)
+    inside = all(label == region)
+  end function holds
+
+end module kz_labels_orbits

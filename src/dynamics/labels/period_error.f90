@@ -1,0 +1,133 @@
+!> The noise of a map: what steps and rounding add to the error of an orbit in one period, by classes of speed, measured on probes whose
+!> true images are known.
+module kz_labels_period_error
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
+  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_lanes_step_table, only: pendulum_t
+  implicit none
+  private
+  public :: period_error_t, probes_t, make_probes, measure_period, class_of
+
+  !> Classes of speed, and probes of each.
+  integer, parameter, public :: CLASSES = 16
+  integer, parameter :: EACH = 32, N_PROBES = CLASSES*EACH
+  !> How much more than the largest value of its probes is assumed for a class.
+  real(dp), parameter :: MARGIN = 1.5_dp
+  !> Steps a period of the Taylor series (kernel.h).
+  integer, parameter :: TAYLOR_STEPS = 18
+  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
+
+  !> States up to a speed and their images.
+  type :: probes_t
+    real(dp) :: fastest = 0
+    real(dp) :: start(2, N_PROBES) = 0  !< half-turns, rad per drive radian
+    real(qp) :: image(2, N_PROBES) = 0  !< the same
+  end type probes_t
+
+  type :: period_error_t
+    real(dp) :: per_speed = 0
+    real(dp) :: noise(0:CLASSES) = huge(1.0_dp) !< rad; the last class: faster than all probes
+    real(dp) :: worst = huge(1.0_dp)            !< largest noise of all probes
+  end type period_error_t
+
+contains
+
+  !> Probes of a pendulum up to a speed, spread evenly over the circle and over the speeds.
+  subroutine make_probes(pendulum, fastest, probes)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> rad per drive radian
+    real(dp), intent(in) :: fastest
+    !> their starts and images
+    type(probes_t), intent(out) :: probes
+    real(dp), parameter :: GOLDEN = 0.61803398874989484820_dp
+    real(qp) :: theta(N_PROBES), velocity(N_PROBES)
+    integer(c_int64_t) :: turns(N_PROBES)
+    type(drive_t) :: drive
+    integer :: i
+
+    probes%fastest = fastest
+    do i = 1, N_PROBES
+      probes%start(:, i) = [2*modulo(i*GOLDEN, 1.0_dp) - 1, fastest*(i - 0.5_dp)/N_PROBES]
+    end do
+    theta = PI_QUAD*probes%start(1, :)
+    velocity = probes%start(2, :)
+    turns = 0
+    call make_drive(drive, pendulum%k, pendulum%beta, pendulum%m, TAYLOR_STEPS)
+    call advance_period(drive, theta, velocity, turns)
+    probes%image(1, :) = theta/PI_QUAD
+    probes%image(2, :) = velocity
+  end subroutine make_probes
+
+  !> The class of a speed.
+  elemental function class_of(error, v) result(class)
+    !> of a map
+    type(period_error_t), intent(in) :: error
+    !> rad per drive radian
+    real(dp), intent(in) :: v
+    integer :: class
+
+    class = CLASSES
+    if (abs(v)*error%per_speed < CLASSES) class = int(abs(v)*error%per_speed)
+  end function class_of
+
+  !> The noise of a map.
+  subroutine measure_period(flow, probes, error)
+    !> the map of one drive period
+    class(flow_t), intent(in) :: flow
+    !> of its pendulum
+    type(probes_t), intent(in) :: probes
+    !> by classes of speed
+    type(period_error_t), intent(out) :: error
+    class(flow_t), allocatable :: moved
+    integer :: first, class
+
+    allocate (moved, source=flow)
+    error%per_speed = CLASSES/probes%fastest
+    error%noise(:CLASSES - 1) = 0
+    do first = 1, N_PROBES, WIDTH
+      call measure_noise(moved, probes, first, error)
+    end do
+    do class = 0, CLASSES - 1
+      error%noise(class) = MARGIN*error%noise(class) &
+                           + 2*epsilon(1.0_dp)*hypot(PI, probes%fastest*(class + 1)/CLASSES)
+    end do
+    error%worst = maxval(error%noise(:CLASSES - 1))
+  end subroutine measure_period
+
+  subroutine put_probes(flow, probes, first)
+    class(flow_t), intent(inout) :: flow
+    type(probes_t), intent(in) :: probes
+    integer, intent(in) :: first
+    integer :: lane
+
+    do lane = 1, WIDTH
+      call flow%put(lane, probes%start(1, first + lane - 1), probes%start(2, first + lane - 1))
+    end do
+    call flow%enter(WIDTH)
+  end subroutine put_probes
+
+  subroutine measure_noise(flow, probes, first, error)
+    class(flow_t), intent(inout) :: flow
+    type(probes_t), intent(in) :: probes
+    integer, intent(in) :: first
+    type(period_error_t), intent(inout) :: error
+    real(qp) :: du, dv
+    real(dp) :: distance
+    integer :: lane, class
+
+    call put_probes(flow, probes, first)
+    call flow%advance(WIDTH)
+    call flow%leave(WIDTH)
+    do lane = 1, WIDTH
+      class = (first + lane - 2)/EACH
+      du = flow%u(lane) - probes%image(1, first + lane - 1)
+      dv = flow%v(lane) - probes%image(2, first + lane - 1)
+      distance = hypot(PI*real(du - 2*anint(du/2), dp), real(dv, dp))
+      if (.not. distance <= huge(distance)) distance = huge(distance)/16 ! lost
+      error%noise(class) = max(error%noise(class), distance)
+    end do
+  end subroutine measure_noise
+
+end module kz_labels_period_error

@@ -1,0 +1,62 @@
+!> The errors of orbits over a period, many at once. (A file of its own: called, not copied into a caller, its loop goes over vectors.)
+module kz_labels_spread
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_lanes_map, only: WIDTH
+  implicit none
+  private
+  public :: spread_errors, add_ellipse
+
+contains
+
+  !> P over a period: the smallest ellipse, by trace, that holds the sum of the image of the old one and of all errors of the period,
+  !> whatever their directions and however they hang together: S + D has its like in (1 + 1/x) S + (1 + x) D with x**2 = tr S/tr D.
+  pure subroutine spread_errors(n, tangent, noise, bent, p, trace)
+    !> lanes
+    integer, intent(in) :: n
+    !> (WIDTH, 4): derivatives of the angle by angle and velocity, of the velocity by both
+    real(dp), intent(in) :: tangent(WIDTH, 4)
+    !> of the period, rad
+    real(dp), intent(in) :: noise(WIDTH)
+    !> what is not linear in the period, rad
+    real(dp), intent(in) :: bent(WIDTH)
+    !> (WIDTH, 3): theta theta, theta v, v v: rad, rad per drive radian
+    real(dp), intent(inout) :: p(WIDTH, 3)
+    !> of P; not a number for one that is lost
+    real(dp), intent(out) :: trace(WIDTH)
+    real(dp) :: s1, s2, s3, t1, t2, t3, t4, size, square, x
+    integer :: i
+
+    do i = 1, n
+      t1 = tangent(i, 1)*p(i, 1) + tangent(i, 2)*p(i, 2)
+      t2 = tangent(i, 1)*p(i, 2) + tangent(i, 2)*p(i, 3)
+      t3 = tangent(i, 3)*p(i, 1) + tangent(i, 4)*p(i, 2)
+      t4 = tangent(i, 3)*p(i, 2) + tangent(i, 4)*p(i, 3)
+      s1 = t1*tangent(i, 1) + t2*tangent(i, 2)
+      s2 = t3*tangent(i, 1) + t4*tangent(i, 2)
+      s3 = t3*tangent(i, 3) + t4*tangent(i, 4)
+      size = s1 + s3
+      square = (noise(i) + bent(i))**2
+      x = sqrt(size/(2*square) + 1e-6_dp)
+      square = (1 + x)*square
+      x = 1 + 1/x
+      p(i, 1) = x*s1 + square
+      p(i, 2) = x*s2
+      p(i, 3) = x*s3 + square
+      trace(i) = p(i, 1) + p(i, 3)
+    end do
+  end subroutine spread_errors
+
+  !> The smallest ellipse that holds the sum of P and of a disc.
+  pure subroutine add_ellipse(radius, p)
+    !> rad
+    real(dp), intent(in) :: radius
+    !> theta theta, theta v, v v
+    real(dp), intent(inout) :: p(3)
+    real(dp) :: x
+
+    if (.not. radius > 0) return
+    x = sqrt((p(1) + p(3))/(2*radius**2) + 1e-6_dp)
+    p = (1 + 1/x)*p + (1 + x)*radius**2*[1, 0, 1]
+  end subroutine add_ellipse
+
+end module kz_labels_spread
