@@ -27,7 +27,7 @@ static kz_status set_filters(hid_t creation, int rank, const hsize_t *chunk) {
 
 /* Coded variables are of one byte, so their flag values are too. */
 static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) {
-  char meanings[256] = "", values[KZ_MAX_FLAGS];
+  char meanings[512] = "", values[KZ_MAX_FLAGS];
   hsize_t n = 0;
   for (; row->flags[n]; ++n) {
     values[n] = (char)n;

@@ -2,7 +2,6 @@
 
 The right ends are those of quad precision, by Taylor series of another order and by circles around the strobe points."""
 import re
-import subprocess
 
 import pytest
 
@@ -24,7 +23,7 @@ def where(kapitza, tmp_path, k, damping, m, start):
     scene = tmp_path / "start.yaml"
     scene.write_text(f"pendulum: {{k: {k!r}, damping: {damping!r}, m: {m!r}}}\n"
                      "attractors: {theta: {min: -180 deg, max: 180 deg}, velocity: {min: -2, max: 2}}\n")
-    return subprocess.run([kapitza, "where", scene, *map(repr, start)], capture_output=True, text=True, check=True).stdout
+    return kapitza("where", scene, *map(repr, start)).stdout
 
 
 @pytest.mark.parametrize("k, damping, m, start, end", BESIDE_FOLDS + COHERENT)

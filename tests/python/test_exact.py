@@ -17,7 +17,7 @@ basin:
 """
 # What of its numerics alone gets wrong.
 COARSE = ("--set", "numerics={scheme: rk4, steps_per_period: 60}")
-UNSETTLED, UNDECIDED, IN_QUAD, IN_PAIRS = 0, 3, 4, 5
+UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE = 0, 3, 4, 7
 
 
 def cells(path):
@@ -44,8 +44,8 @@ def test_labels_hang_on_no_numerics(kapitza, exact):
     assert np.array_equal(fine["name"][decided], coarse["name"][decided])
     assert np.mean(direct["name"] != fine["name"]) > 0.1
     assert coarse["doubtful_share"] > fine["doubtful_share"] > 0.1
-    assert {"cells 1", "pairs 1", "quad 1"} <= {line[:8].strip() for line in done.stdout.splitlines()}
-    assert np.count_nonzero(fine["evidence"] == IN_PAIRS) > np.count_nonzero(fine["evidence"] == IN_QUAD) > 0
+    assert {"cells 1", "fine 1", "quad 1"} <= {line[:8].strip() for line in done.stdout.splitlines()}
+    assert np.count_nonzero(fine["evidence"] == IN_QUAD) > 0 and np.count_nonzero(fine["evidence"] == IN_FINE) > 0
 
 
 def test_what_is_left_is_flagged_with_two_candidates(exact):

@@ -88,7 +88,7 @@ contains
 
   !> Orbits begin at a level and go down from level to level as their errors grow.
   subroutine label_orbits(d, level, before, most, orbit, ending)
-    type(dynamics_t), intent(inout) :: d
+    type(dynamics_t), intent(inout), target :: d
     integer, intent(in) :: level
     integer, intent(in) :: before
     integer(c_int64_t), intent(in) :: most

@@ -51,7 +51,8 @@ module kz_labels_orbits
 
 contains
 
-  !> Follows orbits up to age `most`. ending(i)%label = PENDING and the orbit as it is then where its error has reached `handover`.
+  !> Follows orbits up to age `most`. ending(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
+  !> that is below TOLERABLE.
   subroutine follow_orbits(carrier, flow, regions, attractors, most, handover, guess, orbit, ending)
     !> what moves the orbits by one period
     class(carrier_t), intent(inout) :: carrier
@@ -179,7 +180,7 @@ contains
 
       is_open = .true.
       late = lanes%age(lane) >= most
-      if (trace >= handover**2) then
+      if (handover < TOLERABLE .and. trace >= handover**2) then
         call pass_on(lane)
         is_open = .false.
         return

@@ -22,10 +22,6 @@ module kz_lanes_map
     real(c_double) :: v(ROOM) = 0
     !> net turns, counterclockwise +
     integer(c_int64_t) :: turns(ROOM) = 0
-    !> has a label ceased to follow from the state? One that is integrated without its error never does
-    logical :: doubtful(ROOM) = .false.
-    !> does a trapping region hold the state, but not all that its error leaves open? Later it may
-    logical :: straddling(ROOM) = .false.
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state
@@ -38,8 +34,6 @@ module kz_lanes_map
     !> matrix(:, :, lane), if present, is multiplied by the derivative of the change; flows alone know it.
     procedure :: enter => same_coordinates
     procedure :: leave => same_coordinates
-    !> How far the state of a lane may be off where it follows its error, rad; 0 where it does not.
-    procedure :: reach => no_reach
   end type map_t
 
   !> A map that is integrated: it also knows its derivative and what happens within the period.
@@ -87,16 +81,6 @@ contains
     if (present(matrix) .or. present(first)) return
   end subroutine same_coordinates
 
-  pure function no_reach(self, lane) result(reach)
-    class(map_t), intent(in) :: self
-    integer, intent(in) :: lane
-    real(c_double) :: reach
-
-    associate (unused => self, unused_too => lane)
-    end associate
-    reach = 0
-  end function no_reach
-
   !> Puts a state into a lane.
   subroutine put_state(self, lane, u, v)
     !> the map
@@ -111,8 +95,6 @@ contains
     self%u(lane) = u
     self%v(lane) = v
     self%turns(lane) = 0
-    self%doubtful(lane) = .false.
-    self%straddling(lane) = .false.
   end subroutine put_state
 
   !> Copies the state of a lane to another one.
@@ -127,8 +109,6 @@ contains
     self%u(to) = self%u(from)
     self%v(to) = self%v(from)
     self%turns(to) = self%turns(from)
-    self%doubtful(to) = self%doubtful(from)
-    self%straddling(to) = self%straddling(from)
   end subroutine move_state
 
 end module kz_lanes_map
