@@ -17,6 +17,8 @@ typedef struct kz_ranks kz_ranks;
 /* What can be known without starting MPI: this process's rank as its launcher told it at the first call (-1: none did), and the
  * library. */
 int kz_launch_rank(void);
+/* How many ranks the launcher says that there are; -1 where it says nothing. */
+int kz_launch_count(void);
 const char *kz_parallel_library(void);
 
 typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;

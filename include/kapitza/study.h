@@ -64,6 +64,7 @@ typedef struct {
   kz_edges theta_edges, velocity_edges;
   int32_t method;
   int64_t table_theta, table_velocity; /* nodes of the map table */
+  bool table_is_idle;                  /* the scene gives a map table that its method does not use */
   int32_t interpolation;
   int64_t max_periods;
   int64_t starts;

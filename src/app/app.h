@@ -75,6 +75,9 @@ void kz_starts_free(kz_starts *starts);
 /* "theta": .., "velocity": .., and where that start ends, as members of a JSON object, to standard output. */
 void kz_ending_print(const double *start, const kz_ending *ending);
 
+/* KZ_REFUSED where ranks were given other words behind the program's name than rank 0. Collective. */
+kz_status kz_options_agree(const kz_options *options, kz_ranks *ranks);
+
 /* FILE of a run, written to path [bytes]. KZ_REFUSED where the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);
 /* Everything about FILE that can be known before modelling. *complete: it holds this very scene already (with --resume). */
@@ -101,5 +104,8 @@ void kz_cost_print_bytes(double bytes, char *text);
 /* A scene as text in memory (kz_scene_write), and what a resumed run must share. NULL without memory; the caller frees. */
 char *kz_scene_resolved(const kz_scene *scene);
 char *kz_scene_fingerprint(const kz_scene *scene);
+
+/* Warnings, a line each, before a scene is modelled. */
+void kz_warnings_print(const kz_scene *scene, FILE *out);
 
 #endif

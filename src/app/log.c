@@ -15,12 +15,21 @@ static bool is_log(int file) {
   return n == 0 || (n == sizeof FIRST - 1 && memcmp(begin, FIRST, sizeof FIRST - 1) == 0);
 }
 
+/* A run that was killed may have cut its last line: what follows begins on a line of its own. */
+static void end_line(int file, off_t bytes, FILE *log) {
+  char last = '\n';
+  if (bytes > 0 && pread(file, &last, 1, bytes - 1) == 1 && last != '\n') fputc('\n', log);
+}
+
 kz_status kz_log_open(const char *path, FILE **log) {
   struct stat facts;
   const int file = open(path, O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (file < 0) return kz_fail(KZ_REFUSED, "--log: %s: cannot be written: %s; use another name", path, strerror(errno));
   const bool regular = fstat(file, &facts) == 0 && S_ISREG(facts.st_mode);
-  if (regular && is_log(file) && (*log = fdopen(file, "a"))) return KZ_OK;
+  if (regular && is_log(file) && (*log = fdopen(file, "a"))) {
+    end_line(file, facts.st_size, *log);
+    return KZ_OK;
+  }
   close(file);
   return kz_fail(KZ_REFUSED, "--log: %s: is there and no log of this program; use another name", path);
 }

@@ -185,6 +185,9 @@ static bool is_operand(const char *argument) {
 }
 
 static kz_status take_operand(const kz_command *command, char *argument, kz_options *options) {
+  const char *last = options->n_sets > 0 ? options->sets[options->n_sets - 1] : "=";
+  if (options->n_operands == command->most && !strchr(last, '='))
+    return kz_fail(KZ_REFUSED, "--set %.80s %.80s: is two words; write --set %.80s=%.80s", last, argument, last, argument);
   if (options->n_operands == command->most)
     return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", argument, command->name, command->operand);
   options->operands[options->n_operands++] = argument;
@@ -242,11 +245,28 @@ static kz_status check_operands(const kz_command *command, const kz_options *opt
   return KZ_OK;
 }
 
+kz_status kz_options_agree(const kz_options *options, kz_ranks *ranks) {
+  const char *words = strchr(options->line, ' ');
+  return kz_ranks_compare(ranks, words ? words : "", "command line");
+}
+
+/* A command that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
+ * for ever for those that were not. */
+static kz_status agree_alone(const kz_options *options) {
+  kz_ranks *ranks = NULL;
+  if (kz_launch_count() <= 1) return KZ_OK;
+  kz_status status = kz_ranks_start(NULL, NULL, &ranks);
+  if (status == KZ_OK) status = kz_options_agree(options, ranks);
+  kz_ranks_end(ranks);
+  return status;
+}
+
 static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_options *options) {
   KZ_TRY(read_options(command, argc, argv, options));
   if (options->answered) return KZ_OK;
   KZ_TRY(check_operands(command, options));
   options->scene = options->operands[0];
+  if (command->carry_out != kz_app_run) KZ_TRY(agree_alone(options));
   return command->carry_out(options);
 }
 

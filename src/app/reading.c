@@ -72,11 +72,20 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
     kz_complain(reading, node, key->path, "the value %s; it must be %s", wrong, accepted);
 }
 
+/* "0,3" in a flow mapping is the number 0 and a key 3 without a value. */
+static bool is_decimal_comma(const kz_node *node) {
+  return node->kind == KZ_SCALAR && !node->text[0] && node->name[0] && node->name[strspn(node->name, "0123456789")] == '\0';
+}
+
 static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path) {
   char names[1024], list[1024], nearest[64];
   const kz_key *mapping = kz_key_find(reading->keys, parent);
   if (mapping && kz_key_renamed(mapping, node->name, nearest, sizeof nearest)) {
     complain_key(reading, node, path, "is gone; use %s", nearest);
+    return;
+  }
+  if (is_decimal_comma(node)) {
+    complain_key(reading, node, path, "is no key; a number takes a decimal point (0.3), and a comma ends it");
     return;
   }
   kz_key_children(reading->keys, parent, names, sizeof names);

@@ -78,7 +78,7 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   if (status == KZ_OK) status = try_studies(scene, &tried);
   if (status == KZ_OK) {
     print_check(options, scene, resolved, tried);
-    kz_settling_warn(scene, stdout);
+    kz_warnings_print(scene, stdout);
   }
   free(resolved);
   return status;

@@ -19,6 +19,13 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!plan->velocity.centre.text[0]) kz_axis_rules(reading, &plan->velocity, "basin.velocity");
 }
 
+/* A map table without method icm: nothing is wrong with it, but nothing uses it either. Who chooses another method by an option knows. */
+static void table_rules(kz_reading *reading, kz_scene *scene) {
+  const kz_node *method = kz_tree_find(reading->root, "basin.method");
+  const bool given = kz_tree_find(reading->root, "basin.icm") && !(method && method->line == 0);
+  scene->basin.table_is_idle = given && isnan(scene->basin.accuracy) && scene->basin.method != KZ_METHOD_ICM;
+}
+
 /* Sizes of shocks go up, as an axis does. */
 static void shocks_rules(kz_reading *reading, kz_scene *scene) {
   const kz_reals *sizes = &scene->basin.shocks.sizes;
@@ -253,9 +260,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules, shocks_rules,    attractors_rules, saddles_rules,     manifolds_rules,
-                             orbit_rules, stability_rules, tradeoff_rules,   pendulum_rules,    stiffness_rules,
-                             sweep_rules, chart_rules,     edge_rules,       orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,    table_rules,     shocks_rules,      attractors_rules,
+                             saddles_rules,  manifolds_rules, orbit_rules,       stability_rules,
+                             tradeoff_rules, pendulum_rules,  stiffness_rules,   sweep_rules,
+                             chart_rules,    edge_rules,      orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

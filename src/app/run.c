@@ -47,6 +47,7 @@ static kz_status read_scene(job *j) {
 
 /* One scene, one program, one name of the result: whatever command line each rank was given. */
 static kz_status agree_on_scene(job *j) {
+  KZ_TRY(kz_options_agree(j->options, j->run.ranks));
   KZ_TRY(share_text(j));
   KZ_TRY(kz_ranks_agree(j->run.ranks, read_scene(j)));
   KZ_TRY(kz_ranks_compare(j->run.ranks, j->fingerprint, "scene or program"));
@@ -67,7 +68,7 @@ static kz_status prepare(job *j, bool *complete) {
   const kz_cost cost = kz_cost_of(&j->scene);
   KZ_TRY(kz_ranks_agree(j->run.ranks, kz_cost_check(&cost, j->run.ranks)));
   KZ_TRY(kz_ranks_agree(j->run.ranks, j->first && !*complete ? kz_studies_check(&j->scene) : KZ_OK));
-  if (j->first && !*complete) kz_settling_warn(&j->scene, stderr);
+  if (j->first && !*complete) kz_warnings_print(&j->scene, stderr);
   return KZ_OK;
 }
 

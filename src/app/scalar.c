@@ -112,7 +112,11 @@ const char *kz_scalar_boolean(const kz_node *node, bool *value) {
 }
 
 int kz_control_bytes(const char *c) {
-  const unsigned char first = (unsigned char)c[0];
+  const unsigned char first = (unsigned char)c[0], last = c[0] && c[1] ? (unsigned char)c[2] : 0;
+  /* U+200E, U+200F, U+202A to U+202E and U+2066 to U+2069 turn the direction of a terminal's text. */
+  const bool turns = last == 0x8e || last == 0x8f || (last >= 0xaa && last <= 0xae);
+  if (first == 0xe2 && (unsigned char)c[1] == 0x80) return turns ? 3 : 0;
+  if (first == 0xe2 && (unsigned char)c[1] == 0x81) return last >= 0xa6 && last <= 0xa9 ? 3 : 0;
   if (first == 0xc2) return (unsigned char)c[1] >= 0x80 && (unsigned char)c[1] <= 0x9f ? 2 : 0;
   return (first > 0 && first < 0x20) || first == 0x7f;
 }

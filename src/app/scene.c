@@ -15,9 +15,6 @@ static kz_status check_file(const char *path) {
     return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give the name of a scene file", path, strerror(errno));
   if (S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is a folder; give the name of a scene file", path);
   if (!S_ISREG(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is not a regular file; give the name of a scene file", path);
-  if (facts.st_size > MAX_BYTES)
-    return kz_fail(KZ_REFUSED, "%s: has %lld bytes, too many for a scene, which has at most %d", path, (long long)facts.st_size,
-                   MAX_BYTES);
   return KZ_OK;
 }
 
@@ -30,25 +27,32 @@ static kz_status open_scene(const char *path, FILE **file) {
   return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give a readable scene file", path, strerror(errno));
 }
 
+/* The first bytes of an HDF5 file. */
+static bool is_result(const char *text, size_t length) {
+  static const char signature[] = "\211HDF\r\n\032\n";
+  return length >= sizeof signature - 1 && memcmp(text, signature, sizeof signature - 1) == 0;
+}
+
+/* Why what was read is no scene, as the end of a message; NULL where it is one. */
+static const char *not_a_scene(const char *text, size_t length, FILE *file) {
+  if (ferror(file)) return strerror(errno);
+  if (is_result(text, length))
+    return "is a result, not a scene; kapitza-plot draws it, and its attribute `scene` holds the scene";
+  return length > MAX_BYTES ? "has more than 1000000 bytes, too many for a scene" : NULL;
+}
+
 kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   FILE *file;
   KZ_TRY(open_scene(path, &file));
-  *text = kz_malloc(MAX_BYTES + 1);
-  *length = fread(*text, 1, MAX_BYTES, file);
-  const bool broken = ferror(file) != 0, too_long = !broken && fgetc(file) != EOF;
+  *text = kz_malloc(MAX_BYTES + 2);
+  *length = fread(*text, 1, MAX_BYTES + 1, file);
+  const char *wrong = not_a_scene(*text, *length, file);
+  (*text)[*length] = '\0';
   if (file != stdin) fclose(file);
-  if (too_long) {
-    free(*text);
-    *text = NULL;
-    return kz_fail(KZ_REFUSED, "%s: has too many bytes for a scene, which has at most %d", path, MAX_BYTES);
-  }
-  if (!broken) {
-    (*text)[*length] = '\0';
-    return KZ_OK;
-  }
+  if (!wrong) return KZ_OK;
   free(*text);
   *text = NULL;
-  return kz_fail(KZ_REFUSED, "%s: cannot be read: %s; give a readable scene file", path, strerror(errno));
+  return kz_fail(KZ_REFUSED, "%s: %s", path, wrong);
 }
 
 /* Refuses an option whose key is not in the table, naming the nearest one of its mapping. */

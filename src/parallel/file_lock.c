@@ -58,8 +58,10 @@ static kz_status attempt(const char *path, bool may_exist, kz_file_lock *file_lo
     status = kz_fail(KZ_REFUSED, "%s: a checkpoint is there; use --resume to go on from it or --force to discard it", path);
   else if (lock(file_lock->file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, file_lock->file))
     return KZ_OK;
-  else if (!is_held(errno) && kz_file_lock_names(path, file_lock->file))
+  else if (!is_held(errno) && kz_file_lock_names(path, file_lock->file)) {
     status = kz_fail(KZ_REFUSED, "%s: cannot be locked: %s", path, strerror(errno));
+    if (!file_lock->existed) unlink(path); /* else this empty file would stop the next run */
+  }
   close(file_lock->file);
   file_lock->file = -1;
   return status;

@@ -5,22 +5,39 @@
 
 #include "kapitza/parallel.h"
 
-/* SLURM_PROCID is no such sign: a batch script and a shell within a job have it too. */
-static int told_rank(void) {
-  const char *const names[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
-  for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+/* The first of `names` that the environment holds, as a number; -1 where it holds none. */
+static int told(const char *const names[], size_t n) {
+  for (size_t i = 0; i < n; ++i) {
     const char *value = getenv(names[i]);
     if (value) return atoi(value);
   }
   return -1;
 }
 
+/* MPI_Init writes some of these names by itself where no launcher did: they are looked for once, before it. SLURM_PROCID is no
+ * such sign: a batch script and a shell within a job have it too. */
+static struct {
+  bool known;
+  int rank, count;
+} launch;
+
+static void look(void) {
+  const char *const ranks[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
+  const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+  if (launch.known) return;
+  launch.rank = told(ranks, sizeof ranks / sizeof *ranks);
+  launch.count = told(counts, sizeof counts / sizeof *counts);
+  launch.known = true;
+}
+
 int kz_launch_rank(void) {
-  static bool known;
-  static int rank;
-  if (!known) rank = told_rank(); /* MPI_Init writes some of these names by itself where no launcher did */
-  known = true;
-  return rank;
+  look();
+  return launch.rank;
+}
+
+int kz_launch_count(void) {
+  look();
+  return launch.count;
 }
 
 const char *kz_parallel_library(void) {

@@ -207,8 +207,8 @@ def test_resume_of_a_complete_file_removes_its_own_checkpoint_alone(kapitza, tmp
     assert [path.name for path in tmp_path.iterdir()] == ["small.h5"]
 
 
-@pytest.mark.parametrize("differs, said", [(["--set", "basin.theta.count=50"], "another scene or program"),
-                                           (["-o", "y.h5"], "another name")])
+@pytest.mark.parametrize("differs, said", [(["--set", "basin.theta.count=50"], "another command line"),
+                                           (["-o", "y.h5"], "another command line")])
 def test_ranks_that_were_told_different_things(tmp_path, differs, said):
     words = ["mpirun", "-n", "1", PROGRAM, "run", SMALL, ":", "-n", "1", PROGRAM, "run", SMALL, *differs]
     done = subprocess.run(list(map(str, words)), cwd=tmp_path, capture_output=True, text=True, timeout=60)

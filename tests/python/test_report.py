@@ -42,7 +42,7 @@ def test_it_holds_pictures_attractors_numbers_scene_and_provenance(report, small
     basin = result.group("basin").attrs
     exponent, error = basin["uncertainty_exponent"], basin["uncertainty_exponent_stderr"]
     assert f">{float(exponent):.10g} ± {float(error):.2g}<" in text
-    assert result.attributes["scene"] in html.unescape(text) and "max_periods: 2000" in text
+    assert result.attributes["scene"].rstrip() in html.unescape(text) and "max_periods: 2000" in text
     assert result.attributes["git_revision"] in text and hashlib.sha256(small_result.read_bytes()).hexdigest() in text
 
 

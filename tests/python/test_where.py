@@ -106,7 +106,7 @@ def test_a_scene_comes_from_standard_input(tmp_path):
     subprocess.run([*run, "-o", "x.h5"], input=text, text=True, cwd=tmp_path, timeout=60, check=True, capture_output=True)
     assert Result(tmp_path / "x.h5").attributes["scene"] == text
     long = subprocess.run([PROGRAM, "check", "-"], input=text + "#" * 1_000_000, capture_output=True, text=True, timeout=60)
-    assert long.returncode == 2 and "too many bytes" in long.stderr
+    assert long.returncode == 2 and "too many for a scene" in long.stderr
 
 
 @pytest.mark.parametrize(("arguments", "text", "message"), [

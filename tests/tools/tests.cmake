@@ -15,3 +15,9 @@ add_executable(uneven tools/uneven.c)
 target_compile_options(uneven PRIVATE ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
 target_link_libraries(uneven PRIVATE kapitza_parallel)
 set_target_properties(uneven PROPERTIES LINKER_LANGUAGE C RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+
+# A file system without locks, for tests/python/test_advice.py.
+add_library(no_locks MODULE tools/no_locks.c)
+target_compile_options(no_locks PRIVATE ${KAPITZA_FLAGS_C} -Wno-pedantic)
+target_link_libraries(no_locks PRIVATE ${CMAKE_DL_LIBS})
+set_target_properties(no_locks PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

@@ -3,6 +3,7 @@
 import base64
 import hashlib
 import html
+import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -82,9 +83,14 @@ def _numbers(result: Result) -> str:
     rows = []
     for group, attributes in groups.items():
         for name, value in attributes.items():
-            if not name.endswith(("_low", "_high", "_stderr")):
+            if not name.endswith(("_low", "_high", "_stderr")) and not _is_nan(value):
                 rows.append([_text(f"{group}: {name.replace('_', ' ')}"), _value(value) + _interval(name, attributes)])
     return "<h2>Numbers</h2>\n" + _table(["", ""], rows)
+
+
+def _is_nan(value: Any) -> bool:
+    """A number that this scene does not have."""
+    return isinstance(value, float | np.floating) and bool(np.isnan(value))
 
 
 def _value(value: Any) -> str:
@@ -100,7 +106,9 @@ def _interval(name: str, attributes: Mapping[Any, Any]) -> str:
 
 def _scene(result: Result) -> str:
     written, resolved = (result.attributes.get(name, "") for name in ("scene", "scene_resolved"))
-    return (f"<h2>Scene</h2>\n<pre>{_text(written)}</pre>\n<details><summary>with every default</summary>"
+    changed = re.findall(r"--set[ =](.+?)(?= --?[a-z]|$)", str(result.attributes.get("command", "")))
+    options = "".join(f"\n# changed on the command line: --set {option}" for option in changed)
+    return (f"<h2>Scene</h2>\n<pre>{_text(str(written).rstrip() + options)}</pre>\n<details><summary>with every default</summary>"
             f"<pre>{_text(resolved)}</pre></details>")
 
 

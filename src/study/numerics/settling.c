@@ -70,6 +70,11 @@ static void warn(const char *key, double beta, int64_t max_periods, FILE *out) {
 
 void kz_settling_warn(const kz_scene *scene, FILE *out) {
   const double beta = weakest_damping(scene);
+  if (!(beta > 0) && (scene->has_basin || scene->has_attractors))
+    fputs(
+        "warning: pendulum: has no damping: no motion attracts others, and no start gets a label; give damping, or ask for "
+        "orbit or saddles\n",
+        out);
   if (!(beta > 0)) return;
   if (scene->has_basin) warn("basin.max_periods", beta, scene->basin.max_periods, out);
   if (scene->has_attractors) warn("pendulum", beta, kz_settling_periods(beta), out);

@@ -1,0 +1,63 @@
+"""What a user is told where something is odd: keys that do nothing, words in the wrong place, ranks that were told different things,
+file systems without locks, logs that a kill has cut. Nothing is left behind that stops the next run."""
+
+import json
+import os
+import subprocess
+
+import pytest
+from conftest import PROGRAM, ROOT
+
+SMALL = ROOT / "scenes" / "small.yaml"
+TINY = ["--set", "basin.theta.count=8", "--set", "basin.velocity.count=8", "--set", "basin.icm={theta: 40, velocity: 40}"]
+IDLE = "warning: basin.icm: is not used by this basin.method"
+UNDAMPED = "warning: pendulum: has no damping"
+
+
+TABLE = "basin={velocity: {min: -2, max: 2}, icm: {theta: 40, velocity: 40}}"
+
+
+@pytest.mark.parametrize("setting, warning", [(TABLE, IDLE), ("basin.method=direct", ""), ("basin.method=icm", ""),
+                                              ("pendulum={k: 0.01, damping: 0, m: 0.3}", UNDAMPED)])
+def test_what_does_nothing_is_said(kapitza, tmp_path, setting, warning):
+    said = kapitza("check", SMALL, "--set", setting, folder=tmp_path).stdout
+    assert said.count("warning: ") == (warning != "") and warning in said
+
+
+def test_no_scene_of_the_repository_has_keys_that_do_nothing(kapitza, tmp_path):
+    """One check for all: scenes that give a map table and leave the method out."""
+    scenes = [path.read_text() for path in (ROOT / "scenes").glob("*.yaml")]
+    assert not [text for text in scenes if "icm:" in text and "method: icm" not in text]
+
+
+@pytest.mark.parametrize("other", [["run", SMALL, "-o", "x.h5"], ["where", SMALL, 1, 0], ["check", SMALL]], ids=lambda words: words[0])
+def test_ranks_with_other_commands_are_refused(tmp_path, other):
+    """They ran rank 0's scene, or waited for ever."""
+    words = ["mpirun", "-n", 1, PROGRAM, "run", SMALL, "-o", "x.h5", *TINY, ":", "-n", 1, PROGRAM, *other]
+    done = subprocess.run(list(map(str, words)), cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and "rank 1 has another command line than rank 0" in done.stderr and done.stderr.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_file_system_without_locks(kapitza, tmp_path):
+    """The empty checkpoint stayed and stopped the next run."""
+    done = subprocess.run([PROGRAM, "run", SMALL, *TINY], cwd=tmp_path, capture_output=True, text=True, timeout=60,
+                          env=os.environ | {"LD_PRELOAD": str(PROGRAM.parent / "tests" / "no_locks.so")})
+    assert done.returncode == 2 and "cannot be locked: No locks available" in done.stderr, done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_log_whose_last_line_was_cut(kapitza, tmp_path):
+    for _ in range(2):
+        kapitza("run", SMALL, *TINY, "--force", "--log", "run.log", folder=tmp_path)
+        lines = (tmp_path / "run.log").read_text().splitlines()
+        assert json.loads(lines[-1])["event"] == "end"
+        (tmp_path / "run.log").write_text("\n".join(lines)[:-20])
+    kapitza("run", SMALL, *TINY, "--force", "--log", "run.log", folder=tmp_path)
+    broken = [line for line in (tmp_path / "run.log").read_text().splitlines() if not line.endswith("}")]
+    assert len(broken) == 2
+
+
+def test_a_title_cannot_turn_the_terminal_round(kapitza, tmp_path):
+    done = kapitza("check", SMALL, "--set", 'title="a \u202e b"', folder=tmp_path, status=2)
+    assert "holds a line break or a control character" in done.stderr and "\u202e" not in done.stderr
