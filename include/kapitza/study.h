@@ -14,7 +14,7 @@
 #include "kapitza/store.h"
 
 /* A number of any digits: its text (radians, or degrees with " deg" behind), and the sum of two doubles nearest to it; "" = not given. */
-enum { KZ_DECIMAL_LENGTH = 128 };
+enum { KZ_DECIMAL_LENGTH = 1024 };
 typedef struct {
   char text[KZ_DECIMAL_LENGTH];
   double high, low;
@@ -30,6 +30,8 @@ typedef struct {
 
 /* Whether the cells of an axis are too narrow for doubles to tell apart: only method exact labels them. */
 bool kz_axis_is_deep(const kz_axis *axis);
+/* The number of a decimal text, maybe with " deg" behind it; 0 where it is none. */
+__float128 kz_decimal_quad(const char *text);
 
 /* The edges of a window as written; NaN = not given. */
 typedef struct {

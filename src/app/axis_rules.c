@@ -19,7 +19,7 @@ void kz_axis_rules(kz_reading *reading, const kz_axis *axis, const char *path) {
   if (axis->max <= axis->min)
     kz_complain(reading, node, name, "%s is too small; it must be greater than min = %s", kz_shortest(axis->max).text,
                 kz_shortest(axis->min).text);
-  else if (cell < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max)))
+  else if (cell < DBL_MIN || cell < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max)))
     kz_complain(reading, node, name,
                 "%s leaves cells of width %g, too narrow for double precision; use a wider window or a smaller count",
                 kz_shortest(axis->max).text, cell);
@@ -29,20 +29,19 @@ static bool is_exact(const kz_basin_plan *plan) {
   return isnan(plan->accuracy) ? plan->method == KZ_METHOD_EXACT : plan->accuracy >= 1;
 }
 
-/* A window by its middle: cells that pairs of doubles can tell apart, and the method where doubles cannot. */
+/* A window by its middle: of cells that doubles cannot tell apart, method exact, and digits enough in this build. */
 static void check_centred(kz_reading *reading, const kz_basin_plan *plan, const kz_axis *axis, const char *path) {
-  static const double pairs = 0x1p-102; /* some last places of a pair of doubles */
+  static const double least_of_quads = 1e-25;
   char name[128];
   snprintf(name, sizeof name, "%s.width", path);
   const kz_node *node = kz_tree_find(reading->root, name);
   const double cell = axis->width.high / (double)(axis->count > 0 ? axis->count : 1);
-  if (cell < pairs * fmax(fabs(axis->centre.high), axis->width.high))
-    kz_complain(reading, node, name,
-                "%s leaves cells of width %g, too narrow for 32 digits; use a wider window or a smaller count",
-                axis->width.text, cell);
-  else if (kz_axis_is_deep(axis) && !is_exact(plan))
+  if (kz_axis_is_deep(axis) && !is_exact(plan))
     kz_complain(reading, node, name, "%s leaves cells of width %g, too narrow for double precision; choose basin.method exact",
                 axis->width.text, cell);
+  else if (axis->width.high < least_of_quads && kz_arbitrary_bits() < KZ_MOST_BITS)
+    kz_complain(reading, node, name, "%s is too narrow for this build, which is without FLINT (Arb); it must be at least %g",
+                axis->width.text, least_of_quads);
 }
 
 void kz_axis_set(kz_reading *reading, const kz_basin_plan *plan, kz_edges edges, kz_axis *axis, const char *path) {

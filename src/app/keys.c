@@ -29,7 +29,7 @@
   ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = -limit, .high = limit, .form = 'a')
 #define DECIMAL(path, unit_, low_, high_, fallback, field, help) \
   ROW(path, KZ_KEY_DECIMAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_, .form = 'b')
-#define CENTRE_HELP "Middle of the window; any number of digits, of which some 32 count."
+#define CENTRE_HELP "Middle of the window; up to 1000 digits, all of which count."
 #define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
@@ -103,7 +103,7 @@ const kz_key kz_keys[] = {
     EDGE("basin.theta.min", "rad", 1e6, "", basin.theta_edges.min, "Lower edge of the window."),
     EDGE("basin.theta.max", "rad", 1e6, "", basin.theta_edges.max, "Upper edge of the window."),
     DECIMAL("basin.theta.centre", "rad", -1e6, 1e6, "", basin.theta.centre, CENTRE_HELP),
-    DECIMAL("basin.theta.width", "rad", KZ_ABOVE_ZERO, 7, "", basin.theta.width, "Width of the window."),
+    DECIMAL("basin.theta.width", "rad", 1e-300, 7, "", basin.theta.width, "Width of the window."),
     INTEGER("basin.theta.count", 1, 1e6, "1000", basin.theta.count, "Cells along theta."),
     MAPPING("basin.velocity", NULL, KZ_NO_FIELD, "Velocities of the cells."),
     EDGE("basin.velocity.min", "rad per drive radian", KZ_MOST_SPEED, NULL, basin.velocity_edges.min,
@@ -112,7 +112,7 @@ const kz_key kz_keys[] = {
          "Upper edge of the window."),
     DECIMAL("basin.velocity.centre", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, basin.velocity.centre,
             CENTRE_HELP),
-    DECIMAL("basin.velocity.width", "rad per drive radian", KZ_ABOVE_ZERO, 2e9, NULL, basin.velocity.width,
+    DECIMAL("basin.velocity.width", "rad per drive radian", 1e-300, 2e9, NULL, basin.velocity.width,
             "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "direct", basin.method,

@@ -8,9 +8,6 @@
 
 #include "scene.h"
 
-/* Of libquadmath, whose header is in a folder of gcc. */
-__float128 strtoflt128(const char *text, char **end);
-
 static const char *skip_digits(const char *c) {
   while (isdigit((unsigned char)*c)) c++;
   return c;
@@ -82,19 +79,28 @@ const char *kz_scalar_angle(const kz_node *node, double *value) {
   return wrong;
 }
 
+/* What keeps a node from being a text of at most `most` bytes, or NULL. */
+static const char *text_wrong(const kz_node *node, size_t most, const char *too_long) {
+  if (node->kind == KZ_SEQUENCE) return "is a list";
+  if (node->kind == KZ_MAPPING) return "is a mapping";
+  if (node->plain && node->text[0] == '\0') return "is empty";
+  for (const char *c = node->text; *c; c++)
+    if (kz_control_bytes(c)) return "holds a line break or a control character";
+  return strlen(node->text) > most ? too_long : NULL;
+}
+
 /* A number, as the sum of two doubles that is nearest to it; the text may be longer than doubles can tell. */
 const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value) {
-  static const char unit[] = " deg", radians[] = "0.0174532925199432957692369076848861271344";
+  static const char unit[] = " deg";
   char number[KZ_DECIMAL_LENGTH];
   bool whole;
-  const char *wrong = kz_scalar_text(node);
+  const char *wrong = text_wrong(node, sizeof number - 1, "has more than 1023 characters");
   if (wrong) return wrong;
-  if (strlen(node->text) >= sizeof number) return "has more than 127 characters";
   const char *tail = is_angle ? strstr(node->text, unit) : NULL;
   const bool degrees = tail && tail[sizeof unit - 1] == '\0';
   snprintf(number, sizeof number, "%.*s", (int)(degrees ? tail - node->text : (long)strlen(node->text)), node->text);
   if (!is_decimal(number, &whole)) return "is not a finite decimal number";
-  const __float128 quad = strtoflt128(number, NULL) * (degrees ? strtoflt128(radians, NULL) : 1);
+  const __float128 quad = kz_decimal_quad(node->text);
   value->high = (double)quad;
   if (!isfinite(value->high)) return "is too large for double precision";
   const size_t mantissa = strcspn(number, "eE");
@@ -122,12 +128,7 @@ int kz_control_bytes(const char *c) {
 }
 
 const char *kz_scalar_text(const kz_node *node) {
-  if (node->kind == KZ_SEQUENCE) return "is a list";
-  if (node->kind == KZ_MAPPING) return "is a mapping";
-  if (node->plain && node->text[0] == '\0') return "is empty";
-  for (const char *c = node->text; *c; c++)
-    if (kz_control_bytes(c)) return "holds a line break or a control character";
-  return strlen(node->text) > 500 ? "is longer than 500 bytes" : NULL;
+  return text_wrong(node, 500, "is longer than 500 bytes");
 }
 
 void kz_scalar_print(double value, char *text) {

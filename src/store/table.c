@@ -73,8 +73,8 @@ static const kz_variable variables[] = {
 
     {"basin", "velocity", KZ_REAL, {"velocity"}, VELOCITY, "angular velocity of the cell centre", {0}},
     {"basin", "theta", KZ_REAL, {"theta"}, ANGLE, "angle of the cell centre from down, counterclockwise", {0}},
-    {"basin", "velocity_offset", KZ_REAL, {"velocity"}, VELOCITY, "angular velocity less the attribute velocity_centre", {0}},
-    {"basin", "theta_offset", KZ_REAL, {"theta"}, ANGLE, "angle of the cell centre less the attribute theta_centre", {0}},
+    {"basin", "velocity_offset", KZ_REAL, {"velocity"}, NONE, "angular velocity less the attribute velocity_centre, in units of velocity_width", {0}},
+    {"basin", "theta_offset", KZ_REAL, {"theta"}, NONE, "angle of the cell centre less the attribute theta_centre, in units of theta_width", {0}},
     {"basin", "attractor", KZ_INT16, {"velocity", "theta"}, NONE, "id of the attractor that is reached; -1 = not settled", {0}},
     {"basin",
      "settling_time",

@@ -105,6 +105,7 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   kz_labelling labelling = {.plan = plan,
+                            .pendulum = &scene->parameters.pendulum,
                             .run = run,
                             .tiles = kz_tiles_of(scene, CELLS),
                             .batch = kz_tile_cells(scene, CELLS),

@@ -86,14 +86,16 @@ static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
 }
 
-/* Distances from the centre, and the centre as it was written: doubles may not tell the cells apart. */
+/* Shares of the width from the centre, and both as they were written: doubles may not tell the cells apart. */
 static kz_status write_offsets(const kz_axis *axis, const char *name, double *values, kz_store *store) {
   char label[32];
-  for (int64_t i = 0; i < axis->count; i++) values[i] = kz_axis_offset(axis, i);
+  for (int64_t i = 0; i < axis->count; i++) values[i] = (double)kz_axis_share(axis, i);
   snprintf(label, sizeof label, "%s_offset", name);
   KZ_TRY(kz_store_variable(store, "basin", label, values));
   snprintf(label, sizeof label, "%s_centre", name);
-  return kz_store_text(store, "basin", label, axis->centre.text);
+  KZ_TRY(kz_store_text(store, "basin", label, axis->centre.text));
+  snprintf(label, sizeof label, "%s_width", name);
+  return kz_store_text(store, "basin", label, axis->width.text);
 }
 
 static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {

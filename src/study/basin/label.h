@@ -4,6 +4,7 @@
 
 #include "attractors/search.h"
 #include "tiles.h"
+#include "window/images.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: not decided by the scene's own numerics, but
  * for KZ_PROVED, which is of basin.proof, whatever the method; no tile has it. KZ_LEFT: of method direct, which leaves it so. */
@@ -33,9 +34,12 @@ typedef struct kz_workspace kz_workspace;
 
 typedef struct {
   const kz_basin_plan *plan;
+  const kz_pendulum *pendulum;
   kz_dynamics *dynamics;
   kz_search search; /* of the starts */
   kz_tiles tiles;
+  kz_images *images; /* of a window given by its centre and width, for method exact; else NULL */
+  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY]; /* where its cells begin at each level */
   int64_t batch; /* cells that are followed together */
   const kz_run *run;
   kz_workspace *work;  /* of this rank */

@@ -5,6 +5,7 @@
 
 #include "numerics/step_table.h"
 #include "label_parts.h"
+#include "window/reference.h"
 
 enum { ROUNDS = 4 };
 
@@ -18,7 +19,7 @@ static kz_status discover(kz_labelling *l, bool again) {
   kz_status status = kz_ranks_agree(
       l->run->ranks, state && label && cell ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   if (status == KZ_OK && again) status = kz_open_pick(l, 0, all, n, cell);
-  for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cell_state(plan, cell[i], state + 2 * i);
+  for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cells_state(l, cell[i], state + 2 * i);
   if (status == KZ_OK)
     status = again ? kz_discover(l->run, l->dynamics, plan->max_periods, n, state, label)
                    : kz_search_window(l->run, l->dynamics, &l->search, state, label);
@@ -54,9 +55,18 @@ static kz_status check_table(const kz_labelling *l) {
   return kz_steps_check_table(l->plan, kz_dynamics_table_defect(l->dynamics, kz_stencil(l->plan->interpolation)));
 }
 
+/* Where cells begin at each level, of a window whose images are followed. */
+static kz_status follow_images(kz_labelling *l) {
+  if (!l->images) return KZ_OK;
+  KZ_TRY(kz_images_run(l->run, l->dynamics, l->images, l->plan->max_periods));
+  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++) l->hand_over[level] = kz_hand_over_at(l->images, level, 0.5);
+  return KZ_OK;
+}
+
 /* `exact` alone leaves doubtful cells. */
 static kz_status run_rounds(kz_labelling *l) {
   KZ_TRY(discover(l, false));
+  KZ_TRY(follow_images(l));
   KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
   KZ_TRY(kz_levels_escalate(l, 1));
@@ -76,6 +86,12 @@ static kz_status run_rounds(kz_labelling *l) {
 
 static kz_status allocate(kz_labelling *l) {
   const size_t room = (size_t)kz_tile_room(&l->tiles);
+  const kz_basin_plan *plan = l->plan;
+  const bool is_centred = kz_axis_is_centred(&plan->theta) || kz_axis_is_centred(&plan->velocity);
+  if (is_centred && plan->method == KZ_METHOD_EXACT) {
+    l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
+    if (!l->images) return kz_fail(KZ_FAILED, "no memory for the images of a window");
+  }
   l->work = kz_workspace_make();
   l->cell = kz_calloc(room + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
@@ -99,6 +115,7 @@ kz_status kz_label_window(kz_labelling *l) {
 
 void kz_labelling_free(kz_labelling *l) {
   kz_pieces_free(&l->pieces);
+  kz_images_free(l->images);
   free(l->work);
   free(l->cell);
   free(l->before);

@@ -2,6 +2,17 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
+
+/* Of libquadmath, whose header is in a folder of gcc. */
+__float128 strtoflt128(const char *text, char **end);
+
+__float128 kz_decimal_quad(const char *text) {
+  static const char radians[] = "0.0174532925199432957692369076848861271344";
+  char *end;
+  const __float128 number = strtoflt128(text, &end);
+  return strcmp(end, " deg") == 0 ? number * strtoflt128(radians, NULL) : number;
+}
 
 static __float128 middle_of(const kz_axis *axis) {
   return (__float128)axis->centre.high + axis->centre.low;
@@ -21,10 +32,6 @@ static void split(__float128 value, double pair[2]) {
   pair[1] = (double)(value - pair[0]);
 }
 
-void kz_axis_pair(const kz_axis *axis, int64_t i, double pair[2]) {
-  split(axis->centre.text[0] ? centre_of(axis, i) : kz_axis_centre(axis, i), pair);
-}
-
 void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]) {
   if (axis->centre.text[0])
     split((share - 0.5) * width_of(axis) + middle_of(axis) + offset, pair);
@@ -32,8 +39,17 @@ void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]
     split((__float128)(axis->min + share * (axis->max - axis->min)) + offset, pair);
 }
 
-double kz_axis_offset(const kz_axis *axis, int64_t i) {
-  return (double)(2 * i + 1 - axis->count) * (axis->width.high / (2.0 * (double)axis->count));
+bool kz_axis_is_centred(const kz_axis *axis) {
+  return axis->centre.text[0] != '\0';
+}
+
+__float128 kz_axis_width(const kz_axis *axis) {
+  return kz_axis_is_centred(axis) ? kz_decimal_quad(axis->width.text) : (__float128)axis->max - axis->min;
+}
+
+__float128 kz_axis_share(const kz_axis *axis, int64_t i) {
+  if (kz_axis_is_centred(axis)) return (double)(2 * i + 1 - axis->count) / (2.0 * (double)axis->count);
+  return (kz_axis_centre(axis, i) - (__float128)((axis->min + axis->max) / 2)) / kz_axis_width(axis);
 }
 
 bool kz_axis_is_deep(const kz_axis *axis) {
@@ -45,6 +61,12 @@ double kz_axis_centre(const kz_axis *axis, int64_t i) {
   if (axis->centre.text[0]) return (double)centre_of(axis, i);
   return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
          (axis->min + axis->max) / 2;
+}
+
+kz_coordinate kz_axis_coordinate(const kz_axis *axis, int64_t i) {
+  if (!kz_axis_is_centred(axis)) return (kz_coordinate){.high = kz_axis_centre(axis, i)};
+  return (kz_coordinate){
+      .centre = axis->centre.text, .width = axis->width.text, .share = (double)kz_axis_share(axis, i)};
 }
 
 double kz_axis_fastest(const kz_axis *velocity) {
@@ -92,16 +114,6 @@ void kz_start_state(double theta, double velocity, double state[2]) {
 void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]) {
   start[0] = kz_axis_centre(&plan->theta, f % plan->theta.count);
   start[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
-}
-
-void kz_cell_pairs(const kz_basin_plan *plan, int64_t f, double start[2], double low[2]) {
-  double theta[2], velocity[2];
-  kz_axis_pair(&plan->theta, f % plan->theta.count, theta);
-  kz_axis_pair(&plan->velocity, f / plan->theta.count, velocity);
-  for (int part = 0; part < 2; part++) {
-    (part ? low : start)[0] = theta[part];
-    (part ? low : start)[1] = velocity[part];
-  }
 }
 
 void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {

@@ -5,11 +5,16 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* Centre of cell i; exactly mirrored in a symmetric window. Of a window given by its centre and width also as a pair of doubles, and
- * relative to the centre. */
+/* Centre of cell i, as the nearest double where the window is given by its centre and width; exactly mirrored in a symmetric window. */
 double kz_axis_centre(const kz_axis *axis, int64_t i);
-void kz_axis_pair(const kz_axis *axis, int64_t i, double pair[2]);
-double kz_axis_offset(const kz_axis *axis, int64_t i);
+/* Where cell i lies in its window, as a share of the width from the centre: a double where the window is given by its centre and width,
+ * else as near as a quad is. */
+__float128 kz_axis_share(const kz_axis *axis, int64_t i);
+/* The same as a coordinate of any precision; its texts are the axis's. */
+kz_coordinate kz_axis_coordinate(const kz_axis *axis, int64_t i);
+/* Whether the window is given by its centre and width: its cells are centre + share width, in all digits. */
+bool kz_axis_is_centred(const kz_axis *axis);
+__float128 kz_axis_width(const kz_axis *axis);
 /* The point so large a share of the axis from its lower edge, and `offset` more, as a pair of doubles. */
 void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]);
 /* Width of a cell. */
@@ -34,8 +39,6 @@ int64_t kz_own_cells(const kz_basin_plan *plan);
 void kz_start_state(double theta, double velocity, double state[2]);
 /* Centre of cell f, velocity-major, in rad and rad per drive radian; its state. */
 void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]);
-/* The same with what is to be added to it where doubles cannot tell the cells apart. */
-void kz_cell_pairs(const kz_basin_plan *plan, int64_t f, double start[2], double low[2]);
 void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
 
 /* Nodes an axis that an interpolation (KZ_LINEAR, ...) takes. */

@@ -1,0 +1,110 @@
+/* Where the cells of a window begin: the last image whose polynomial is as right as the arithmetic that goes on from it. */
+#include <math.h>
+
+#include "images.h"
+
+/* rad: what the arithmetic of a level adds in a period, or less. */
+static const long double level_error[] = {[KZ_LEVEL_DOUBLE] = 1e-16L,   [KZ_LEVEL_FINE] = 1e-16L,  [KZ_LEVEL_PAIRS_20] = 1e-21L,
+                                          [KZ_LEVEL_PAIRS_28] = 1e-29L, [KZ_LEVEL_QUAD] = 1e-32L};
+/* rad: images that are wider are bent too much for any estimate of the fourth degree. */
+static const long double widest = 1e-3L;
+/* Relative rounding of the coefficients of the first degree, a period, and of all that a pair of doubles holds. */
+static const long double linear_error = 4e-34L, bent_error = 1e-18L, pair_error = 4e-32L;
+
+/* Sums of the coefficients' moduli of one degree, for shares up to `reach`. */
+typedef struct {
+  long double linear, square, cube;
+} sizes;
+
+static sizes sizes_of(const kz_jet *jet, double reach) {
+  sizes s = {0};
+  for (int axis = 0; axis < 2; axis++) {
+    for (int i = 0; i < 2; i++) s.linear += fabsl((long double)jet->linear[axis][i]);
+    for (int i = 0; i < 3; i++) s.square += fabsl(jet->bent[axis][i]);
+    for (int i = 3; i < KZ_BENT; i++) s.cube += fabsl(jet->bent[axis][i]);
+  }
+  s.linear *= reach;
+  s.square *= (long double)reach * reach;
+  s.cube *= (long double)reach * reach * reach;
+  return s;
+}
+
+/* What degrees above the third would add: the third times the larger of the ratios of the degrees before. Near a fold the first is small. */
+static long double left_out(const sizes *s) {
+  const long double third = s->square > 0 ? s->cube / s->square : 0, second = s->linear > 0 ? s->square / s->linear : 0;
+  return s->cube * fmaxl(third, second);
+}
+
+/* Errors of a start from image n, rad; the first image is the window itself. */
+static long double error_of(const kz_images *images, int64_t n, const sizes *s) {
+  const kz_image *image = images->image + n;
+  const long double whole = sizes_of(&image->jet, 0.5).linear;
+  const long double state = pair_error * hypotl(image->theta[0], image->velocity[0]);
+  if (n == 0) return state;
+  return left_out(s) + linear_error * (long double)n * s->linear + bent_error * (long double)n * (s->square + s->cube) +
+         image->lost * whole + state;
+}
+
+static int64_t last_image(const kz_images *images, int32_t level, double reach) {
+  int64_t last = 0;
+  for (int64_t n = 1; n <= images->n; n++) {
+    const sizes s = sizes_of(&images->image[n].jet, reach);
+    const long double bound = level_error[level] + pair_error * hypotl(images->image[n].theta[0], images->image[n].velocity[0]);
+    if (!(s.linear < widest)) break;
+    if (left_out(&s) + bent_error * (long double)n * (s.square + s.cube) <= bound) last = n;
+  }
+  return last;
+}
+
+kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reach) {
+  const int64_t n = last_image(images, level, reach);
+  const kz_image *image = images->image + n;
+  const sizes s = sizes_of(&image->jet, reach);
+  kz_hand_over h = {.image = image,
+                    .periods = n,
+                    .in_quads = n == 0 || level >= KZ_LEVEL_PAIRS_20,
+                    .error = (double)error_of(images, n, &s)};
+  for (int axis = 0; axis < 2; axis++) {
+    for (int i = 0; i < 2; i++) h.linear[axis][i] = (double)image->jet.linear[axis][i];
+    for (int i = 0; i < KZ_BENT; i++) h.bent[axis][i] = (double)image->jet.bent[axis][i];
+  }
+  return h;
+}
+
+static double in_doubles(const double *linear, const double *b, double x, double y) {
+  const double second = (b[0] * x + b[1] * y) * x + b[2] * y * y;
+  const double third = (b[3] * x + b[4] * y) * x * x + (b[5] * x + b[6] * y) * y * y;
+  return (linear[0] * x + linear[1] * y) + (second + third);
+}
+
+static __float128 in_quads(const __float128 *linear, const long double *b, __float128 x, __float128 y) {
+  const __float128 second = (b[0] * x + b[1] * y) * x + b[2] * y * y;
+  const __float128 third = (b[3] * x + b[4] * y) * x * x + (b[5] * x + b[6] * y) * y * y;
+  return linear[0] * x + linear[1] * y + (second + third);
+}
+
+/* pair = centre + change, where the change is the smaller one. */
+static void add(const double centre[2], double change, double pair[2]) {
+  const double rest = centre[1] + change;
+  pair[0] = centre[0] + rest;
+  pair[1] = rest - (pair[0] - centre[0]);
+}
+
+static void add_quad(const double centre[2], __float128 change, double pair[2]) {
+  const __float128 sum = (centre[1] + change) + centre[0];
+  pair[0] = (double)sum;
+  pair[1] = (double)(sum - pair[0]);
+}
+
+void kz_hand_over_start(const kz_hand_over *h, __float128 theta, __float128 velocity, kz_start *start) {
+  *start = (kz_start){.periods = h->periods, .error = {h->error * h->error, 0, h->error * h->error}};
+  const kz_image *image = h->image;
+  if (h->in_quads) {
+    add_quad(image->theta, in_quads(image->jet.linear[0], image->jet.bent[0], theta, velocity), start->theta);
+    add_quad(image->velocity, in_quads(image->jet.linear[1], image->jet.bent[1], theta, velocity), start->velocity);
+  } else {
+    const double x = (double)theta, y = (double)velocity;
+    add(image->theta, in_doubles(h->linear[0], h->bent[0], x, y), start->theta);
+    add(image->velocity, in_doubles(h->linear[1], h->bent[1], x, y), start->velocity);
+  }
+}

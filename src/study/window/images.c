@@ -1,0 +1,150 @@
+/* The orbit of a window's centre, and its images. */
+#include "images.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "numerics/cells.h"
+
+/* Bits that the orbit keeps below the size of the window's image: its error is then some 1e-27 of that size. */
+enum { GUARD = 90 };
+/* rad: the image's size, above which a cubic serves no level. */
+static const long double widest = 1e-3L;
+
+static char *copy_of(const char *text) {
+  return text && text[0] ? strdup(text) : NULL;
+}
+
+static bool take_axis(const kz_axis *axis, int i, kz_images *images) {
+  kz_coordinate *centre = &images->centre[i];
+  const bool is_centred = axis->centre.text[0];
+  if (!is_centred) {
+    centre->high = (axis->min + axis->max) / 2;
+    images->width_of[i] = (__float128)axis->max - axis->min;
+    return true;
+  }
+  centre->centre = copy_of(axis->centre.text);
+  images->width[i] = copy_of(axis->width.text);
+  images->width_of[i] = kz_decimal_quad(axis->width.text);
+  return centre->centre && images->width[i];
+}
+
+/* The size of an image: the sum of its first coefficients, for shares up to 1/2. */
+static long double size_of(const kz_jet *jet) {
+  long double sum = 0;
+  for (int i = 0; i < 4; i++) sum += fabsl((long double)jet->linear[i / 2][i % 2]);
+  return sum / 2;
+}
+
+/* Bits behind the point for an image of this size. */
+static int64_t bits_for(long double size) {
+  const int64_t bits = (int64_t)ceill(-log2l(size)) + GUARD;
+  return bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
+}
+
+static bool begin(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity, kz_images *images) {
+  images->pendulum = *pendulum;
+  images->room = 64;
+  images->image = calloc((size_t)images->room, sizeof *images->image);
+  if (!images->image || !take_axis(theta, 0, images) || !take_axis(velocity, 1, images)) return false;
+  kz_image *first = images->image;
+  for (int i = 0; i < 2; i++) first->jet.linear[i][i] = images->width_of[i];
+  const int64_t bits = bits_for(size_of(&first->jet)), most = kz_arbitrary_bits();
+  images->bits = bits < most ? bits : most;
+  images->orbit = kz_arbitrary_create(pendulum, images->centre, images->bits);
+  if (!images->orbit) return false;
+  kz_arbitrary_read(images->orbit, first->theta, first->velocity);
+  return true;
+}
+
+kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
+  kz_images *images = calloc(1, sizeof *images);
+  if (images && begin(pendulum, theta, velocity, images)) return images;
+  kz_images_free(images);
+  return NULL;
+}
+
+void kz_images_free(kz_images *images) {
+  if (!images) return;
+  for (int i = 0; i < 2; i++) {
+    free((char *)images->centre[i].centre);
+    free(images->width[i]);
+  }
+  kz_arbitrary_free(images->orbit);
+  free(images->image);
+  free(images);
+}
+
+/* Whether a trapping region holds the whole image: its size counts as an error of the centre. */
+static bool is_trapped(const kz_image *image, kz_dynamics *dynamics) {
+  const double size = (double)size_of(&image->jet);
+  const kz_start start = {.theta = {image->theta[0], image->theta[1]},
+                          .velocity = {image->velocity[0], image->velocity[1]},
+                          .error = {size * size, 0, size * size}};
+  kz_decision decision;
+  kz_dynamics_label(dynamics, KZ_LEVEL_DOUBLE, 1, &start, 1, &decision);
+  return decision.label > 0;
+}
+
+static kz_status make_room(kz_images *images, int64_t n) {
+  if (n < images->room) return KZ_OK;
+  const int64_t room = 2 * images->room > n + 1 ? 2 * images->room : n + 1;
+  kz_image *more = realloc(images->image, (size_t)room * sizeof *more);
+  if (!more) return kz_fail(KZ_FAILED, "no memory for %lld images of a window", (long long)room);
+  images->image = more;
+  images->room = room;
+  return KZ_OK;
+}
+
+kz_status kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
+  KZ_TRY(make_room(images, before + n));
+  memcpy(images->image + before + 1, image, (size_t)n * sizeof *image);
+  images->n = before + n;
+  images->finished = finished;
+  return KZ_OK;
+}
+
+static kz_status add_image(kz_images *images) {
+  KZ_TRY(make_room(images, images->n + 1));
+  const kz_image *last = images->image + images->n;
+  kz_image *next = images->image + images->n + 1;
+  const int64_t needed = bits_for(size_of(&last->jet)), bits = needed < images->bits ? needed : images->bits;
+  memset(next, 0, sizeof *next);
+  next->jet = last->jet;
+  KZ_TRY(kz_arbitrary_advance(images->orbit, bits, &next->jet));
+  kz_arbitrary_read(images->orbit, next->theta, next->velocity);
+  next->lost = last->lost + (double)(exp2l((long double)(4 - bits)) / size_of(&next->jet));
+  images->n++;
+  return KZ_OK;
+}
+
+kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods) {
+  for (int64_t i = 0; i < most && !images->finished; i++) {
+    const kz_image *last = images->image + images->n;
+    images->finished = images->n >= max_periods || !(size_of(&last->jet) < widest) || is_trapped(last, dynamics);
+    if (!images->finished) KZ_TRY(add_image(images));
+  }
+  return KZ_OK;
+}
+
+static bool same_text(const char *a, const char *b) {
+  return strcmp(a ? a : "", b ? b : "") == 0;
+}
+
+static bool same_axis(const kz_images *images, int i, const kz_axis *axis) {
+  const kz_coordinate *centre = &images->centre[i];
+  return same_text(centre->centre, axis->centre.text) && (centre->centre || centre->high == (axis->min + axis->max) / 2);
+}
+
+bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity,
+                     double *ratio) {
+  const kz_axis *axes[2] = {theta, velocity};
+  *ratio = 0;
+  if (memcmp(pendulum, &images->pendulum, sizeof *pendulum) != 0) return false;
+  for (int i = 0; i < 2; i++) {
+    if (!same_axis(images, i, axes[i])) return false;
+    *ratio = fmax(*ratio, (double)(kz_axis_width(axes[i]) / images->width_of[i]));
+  }
+  return *ratio >= 1;
+}

@@ -1,0 +1,62 @@
+/* The images of a window under the map. All cells of a small window share their first periods: one orbit, that of the centre, is followed in
+ * as many digits as the depth takes, and beside it the window as a polynomial of degree 3. So cells become starts that have spent n periods.
+ * Nothing here is collective. */
+#ifndef KAPITZA_STUDY_IMAGES_H
+#define KAPITZA_STUDY_IMAGES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "kapitza/dynamics.h"
+#include "kapitza/study.h"
+
+/* The window after n periods: its centre, and the rest as a polynomial in shares of its width, -1/2 to 1/2 along each axis. */
+typedef struct {
+  double theta[2], velocity[2]; /* pairs: rad in [-pi, pi], rad per drive radian */
+  kz_jet jet;
+  double lost; /* error of the centre, relative to the window's size now */
+} kz_image;
+
+typedef struct {
+  kz_pendulum pendulum;
+  kz_coordinate centre[2]; /* theta, velocity; texts of its own */
+  char *width[2];          /* as texts; NULL: width_of is exact */
+  __float128 width_of[2];
+  int64_t bits; /* of the orbit in its first periods */
+  int64_t n;    /* image [0 .. n] */
+  int64_t room;
+  kz_image *image;
+  bool finished; /* no later image serves: the window has become wide, or is trapped as a whole */
+  kz_arbitrary *orbit;
+} kz_images;
+
+/* Of the window of two axes, with its image after 0 periods; NULL where memory ran out. */
+kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity);
+void kz_images_free(kz_images *images);
+
+/* Adds up to `most` images. Ends earlier where it is finished: max_periods have passed, the image has become too wide for a cubic, or a
+ * trapping region holds all of it. */
+kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods);
+
+/* Takes n images that follow image `before` from elsewhere, in the place of those that are here. */
+kz_status kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished);
+
+/* Whether the images serve the cells of a window: one with the same centre that is not smaller; *ratio = its width over theirs. */
+bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity,
+                     double *ratio);
+
+/* Where the cells of a window begin at a precision level: an image, its polynomial in doubles, the error of a start. */
+typedef struct {
+  const kz_image *image;
+  int64_t periods;
+  bool in_quads; /* starts are needed in more digits than doubles have */
+  double linear[2][2], bent[2][KZ_BENT];
+  double error; /* rad */
+} kz_hand_over;
+
+/* The last image whose polynomial is right to the errors of the level, for shares up to `reach`. */
+kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reach);
+/* The start at shares of the width. */
+void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);
+
+#endif

@@ -1,0 +1,90 @@
+/* One start followed in as many digits as decide where it ends. */
+#include "own_orbit.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+  FIRST_BITS = 192, /* of the first try; each further one has twice as many */
+  MOST_BITS = 12288,
+  TRY_EVERY = 8 /* periods between two looks whether doubles decide the rest */
+};
+
+/* rad: the orbit is followed in many digits as long as its error is below this; doubles add as much in a period. */
+static const double tolerable = 1e-17;
+
+/* The error of an orbit as an ellipse, in units of the error of a period: it grows far beyond the range of doubles. */
+typedef struct {
+  long double xx, xy, yy;
+} ellipse;
+
+/* Carries the ellipse through a period with the tangent map, and adds that of the period's own error, whatever their directions: the sum
+ * holds both (the sum of the axes, not of their squares). */
+static void carry(const kz_jet *tangent, ellipse *e) {
+  const long double a = (long double)tangent->linear[0][0], b = (long double)tangent->linear[0][1],
+                    c = (long double)tangent->linear[1][0], d = (long double)tangent->linear[1][1];
+  const ellipse s = {a * a * e->xx + 2 * a * b * e->xy + b * b * e->yy,
+                     a * c * e->xx + (a * d + b * c) * e->xy + b * d * e->yy,
+                     c * c * e->xx + 2 * c * d * e->xy + d * d * e->yy};
+  const long double ratio = sqrtl((s.xx + s.yy) / 2), old = 1 + 1 / ratio, new = 1 + ratio;
+  *e = (ellipse){old * s.xx + new, old * s.xy, old * s.yy + new};
+}
+
+/* The orbit and what is known of it. */
+typedef struct {
+  kz_arbitrary *orbit;
+  int64_t bits, periods;
+  ellipse error;
+} path;
+
+static long double unit_of(const path *p) {
+  return exp2l((long double)(4 - p->bits));
+}
+
+static bool is_lost(const path *p) {
+  return !(unit_of(p) * sqrtl(p->error.xx + p->error.yy) < tolerable);
+}
+
+/* The rest of the motion in double precision. */
+static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
+  const long double unit = unit_of(p) * unit_of(p);
+  kz_start start = {.periods = p->periods,
+                    .error = {(double)(unit * p->error.xx), (double)(unit * p->error.xy), (double)(unit * p->error.yy)}};
+  kz_arbitrary_read(p->orbit, start.theta, start.velocity);
+  for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_FINE; level++) {
+    kz_dynamics_label(dynamics, level, 1, &start, max_periods, decision);
+    if (decision->label != KZ_DOUBTFUL) return;
+  }
+}
+
+/* Until it is decided, or has lost its digits: decision->label is KZ_DOUBTFUL then. */
+static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
+  decision->label = KZ_DOUBTFUL;
+  for (; p->periods <= max_periods && !is_lost(p); p->periods++) {
+    kz_jet tangent = {.linear = {{1, 0}, {0, 1}}};
+    if (p->periods % TRY_EVERY == 0 || p->periods == max_periods) {
+      try_in_doubles(p, dynamics, max_periods, decision);
+      if (decision->label != KZ_DOUBTFUL || p->periods == max_periods) return KZ_OK;
+    }
+    KZ_TRY(kz_arbitrary_advance(p->orbit, p->bits, &tangent));
+    carry(&tangent, &p->error);
+  }
+  return KZ_OK;
+}
+
+kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
+                              int64_t max_periods, kz_decision *decision) {
+  const int64_t all = kz_arbitrary_bits(), most = all < MOST_BITS ? all : MOST_BITS;
+  kz_status status = KZ_OK;
+  *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
+  for (int64_t bits = FIRST_BITS; status == KZ_OK && decision->label == KZ_DOUBTFUL; bits *= 2) {
+    path p = {.bits = bits < most ? bits : most, .error = {1, 0, 1}};
+    p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
+    if (!p.orbit) return kz_fail(KZ_FAILED, "no memory for an orbit of %lld bits", (long long)p.bits);
+    status = follow(&p, dynamics, max_periods, decision);
+    kz_arbitrary_free(p.orbit);
+    if (bits >= most) break;
+  }
+  decision->level = decision->label == KZ_DOUBTFUL ? KZ_LEVELS : KZ_LEVEL_ARBITRARY;
+  return status;
+}

@@ -1,0 +1,58 @@
+/* The images of a window in pieces of a few periods: each piece needs the one before, and is a stage of one tile. */
+#include "reference.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { PIECE = 8 }; /* periods */
+
+/* A record. After it: the state of the orbit. */
+typedef struct {
+  kz_image image[PIECE];
+  int64_t n;
+  bool finished;
+} piece;
+
+typedef struct {
+  kz_images *images;
+  kz_dynamics *dynamics;
+  int64_t max_periods;
+} work;
+
+static kz_status follow(void *context, int64_t tile, void *record) {
+  const work *w = context;
+  piece *p = record;
+  const int64_t before = w->images->n;
+  (void)tile;
+  KZ_TRY(kz_images_follow(w->images, w->dynamics, PIECE, w->max_periods));
+  p->n = w->images->n - before;
+  p->finished = w->images->finished;
+  memcpy(p->image, w->images->image + before + 1, (size_t)p->n * sizeof *p->image);
+  kz_arbitrary_write(w->images->orbit, (char *)(p + 1));
+  return KZ_OK;
+}
+
+static kz_status run_piece(const kz_run *run, const work *w, piece *record, size_t bytes) {
+  const int64_t before = w->images->n;
+  const kz_stage stage = {.name = "reference",
+                          .n_tiles = 1,
+                          .record_bytes = bytes,
+                          .work = follow,
+                          .context = (void *)w,
+                          .keep = true,
+                          .everywhere = true};
+  KZ_TRY(kz_stage_run(run, &stage, record));
+  kz_status status = kz_images_extend(w->images, before, record->n, record->image, record->finished);
+  if (status == KZ_OK) status = kz_arbitrary_restore(w->images->orbit, (const char *)(record + 1));
+  return kz_ranks_agree(run->ranks, status);
+}
+
+kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods) {
+  const work w = {.images = images, .dynamics = dynamics, .max_periods = max_periods};
+  const size_t bytes = sizeof(piece) + kz_arbitrary_size(images->orbit);
+  piece *record = malloc(bytes);
+  kz_status status = kz_ranks_agree(run->ranks, record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the images of a window"));
+  while (status == KZ_OK && !images->finished) status = run_piece(run, &w, record, bytes);
+  free(record);
+  return status;
+}

@@ -1,0 +1,129 @@
+/* Windows of any depth: labels of cells that are handed over by one reference orbit, against each cell's own orbit in as many digits as it
+ * takes; the catalogue is found as for a basin. KAPITZA_EXTENSIVE=1: more cells, and the deepest windows. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../study/attractors/search.h"
+#include "../study/labelling/labeller.h"
+#include "../study/numerics/cells.h"
+#include "../study/window/images.h"
+#include "../study/window/own_orbit.h"
+#include "scene.h"
+
+#define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
+#define FIG12 "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"
+#define K01_BOUNDARY "-2.36717282205514094284618936441679792892500699963420629501343"
+#define FIG12_BOUNDARY "-0.264011425069458192092654683104843683"
+
+typedef struct {
+  const char *pendulum, *theta, *velocity, *width;
+  int cells;
+} window;
+
+/* A window with all that its labels need. */
+typedef struct {
+  kz_scene scene;
+  kz_dynamics *dynamics;
+  kz_images *images;
+  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+} view;
+
+enum { COUNT = 1009 }; /* cells along an axis */
+
+static void find_attractors(view *v) {
+  kz_search search = kz_search_of(&v->scene);
+  double *state = malloc(2 * sizeof(double) * (size_t)search.starts);
+  int32_t *label = malloc(sizeof(int32_t) * (size_t)search.starts);
+  search.max_velocity = kz_dynamics_max_velocity(v->dynamics, &search.window);
+  assert_int_equal(kz_search_window(NULL, v->dynamics, &search, state, label), KZ_OK);
+  kz_dynamics_update(v->dynamics);
+  free(state);
+  free(label);
+}
+
+static view open_view(const window *w) {
+  char text[1000];
+  view v;
+  snprintf(text, sizeof text,
+           "%s\nbasin:\n  theta: {centre: '%s', width: %s, count: %d}\n  velocity: {centre: '%s', width: %s, count: %d}\n"
+           "  method: exact\n  attractors: {starts: 512}\n",
+           w->pendulum, w->theta, w->width, COUNT, w->velocity, w->width, COUNT);
+  if (kz_scene_read(text, strlen(text), "s.yaml", 0, NULL, &v.scene) != KZ_OK) fail_msg("%s", kz_message());
+  const kz_basin_plan *plan = &v.scene.basin;
+  v.dynamics = kz_dynamics_create(&v.scene.parameters.pendulum, &v.scene.numerics, plan->max_period);
+  find_attractors(&v);
+  v.images = kz_images_create(&v.scene.parameters.pendulum, &plan->theta, &plan->velocity);
+  assert_int_equal(kz_images_follow(v.images, v.dynamics, plan->max_periods, plan->max_periods), KZ_OK);
+  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++) v.hand_over[level] = kz_hand_over_at(v.images, level, 0.5);
+  return v;
+}
+
+static void close_view(view *v) {
+  kz_images_free(v->images);
+  kz_dynamics_free(v->dynamics);
+  kz_scene_free(&v->scene);
+}
+
+static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
+  const view *v = context;
+  const kz_basin_plan *plan = &v->scene.basin;
+  kz_hand_over_start(&v->hand_over[level], kz_axis_share(&plan->theta, cell % COUNT), kz_axis_share(&plan->velocity, cell / COUNT),
+                     start);
+  return KZ_OK;
+}
+
+static void own_label(const view *v, int64_t cell, kz_decision *decision) {
+  const kz_basin_plan *plan = &v->scene.basin;
+  const kz_coordinate start[2] = {kz_axis_coordinate(&plan->theta, cell % COUNT), kz_axis_coordinate(&plan->velocity, cell / COUNT)};
+  assert_int_equal(
+      kz_own_orbit_decide(v->dynamics, &v->scene.parameters.pendulum, start, plan->max_periods, decision), KZ_OK);
+  assert_int_equal(decision->level, KZ_LEVEL_ARBITRARY);
+}
+
+/* Every cell is decided, and as its own orbit ends. The labels differ among the cells. */
+static void compare(const window *w) {
+  enum { MOST = 64 };
+  view v = open_view(w);
+  int64_t item[MOST];
+  kz_decision decision[MOST], own;
+  const kz_labeller labeller = {
+      .dynamics = v.dynamics, .max_periods = v.scene.basin.max_periods, .start = start_cell, .context = &v};
+  const int cells = getenv("KAPITZA_EXTENSIVE") ? 50 : w->cells;
+  bool several = false;
+  srand(3);
+  for (int i = 0; i < MOST; i++) item[i] = (int64_t)(rand() % COUNT) * COUNT + rand() % COUNT;
+  assert_int_equal(kz_label(&labeller, MOST, item, decision), KZ_OK);
+  for (int i = 0; i < MOST; i++) several = several || decision[i].label != decision[0].label;
+  for (int i = 0; i < cells; i++) {
+    own_label(&v, item[i], &own);
+    if (decision[i].label != own.label || getenv("KZ_SHOW"))
+      print_message("width %s cell %d: %d at level %d after %lld, own %d after %lld\n", w->width, i, decision[i].label,
+                    decision[i].level, (long long)decision[i].periods, own.label, (long long)own.periods);
+    assert_true(decision[i].label == own.label);
+  }
+  assert_true(several);
+  close_view(&v);
+}
+
+static void labels_are_those_of_own_orbits(void **state) {
+  (void)state;
+  static const window windows[] = {
+      {K01, K01_BOUNDARY, "17", "1e-7", 6},         {K01, K01_BOUNDARY, "17", "1e-20", 6},
+      {FIG12, FIG12_BOUNDARY, "1.42", "1e-12", 4},  {FIG12, FIG12_BOUNDARY, "1.42", "1e-25", 1},
+      {K01, K01_BOUNDARY, "17", "1e-40", 3},
+  };
+  for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) compare(windows + i);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(labels_are_those_of_own_orbits),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
