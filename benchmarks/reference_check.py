@@ -65,13 +65,13 @@ def states_text(theta, velocity):
 
 
 def centres(basin, name):
-    """The cell centres of an axis: doubles, or decimal numbers of 40 digits where the window was given by its centre."""
+    """The cell centres of an axis: doubles, or decimal numbers of 60 digits where the window was given by its centre."""
     if f"{name}_offset" not in basin:
         return basin[name].values
-    getcontext().prec = 40
-    text = basin.attrs[f"{name}_centre"]
-    unit = DEGREE if text.endswith(" deg") else 1
-    return np.array([unit * Decimal(text.removesuffix(" deg")) + Decimal(offset) for offset in basin[f"{name}_offset"].values.tolist()])
+    getcontext().prec = 60
+    centre, width = (DEGREE * Decimal(text.removesuffix(" deg")) if text.endswith(" deg") else Decimal(text)
+                     for text in (basin.attrs[f"{name}_centre"], basin.attrs[f"{name}_width"]))
+    return np.array([centre + width * Decimal(offset) for offset in basin[f"{name}_offset"].values.tolist()])
 
 
 def reference_labels(catalogue, theta, velocity, max_periods=4000, processes=2):

@@ -176,7 +176,7 @@ typedef struct {
   long double bent[2][KZ_BENT];
 } kz_jet;
 
-/* A state in many digits. Opaque; NULL where memory ran out. `bits` behind the point are kept at most; the start is rounded to them. */
+/* A state in many digits. Opaque. `bits` behind the point are kept at most; the start is rounded to them. */
 typedef struct kz_arbitrary kz_arbitrary;
 kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits);
 void kz_arbitrary_free(kz_arbitrary *orbit);

@@ -40,20 +40,25 @@ def write(result: Result, output: Path) -> None:
 
 
 def _window(result: Result) -> tuple[list[int], list[float], list[float]]:
-    """Extent, lower corner and size of the cells: theta along x, velocity along y, from the centre where the window was given
-    by it; BadFile where the group is not whole."""
+    """Extent, lower corner and size of the cells: theta along x, velocity along y; BadFile where the group is not whole."""
     with h5py.File(result.path, "r") as file:
         group = file["basin"]
         lacking = [name for name in ("theta", "velocity", *VARIABLES) if name not in group]
         if lacking:
             raise BadFile(f"{result.path}: incomplete, the group basin lacks {', '.join(lacking)}")
-        axes = [group[f"{name}_offset" if f"{name}_offset" in group else name][:] for name in ("theta", "velocity")]
+        axes = [_axis(group, name) for name in ("theta", "velocity")]
         shape = (len(axes[1]), len(axes[0]))
         if 0 in shape or any(group[name].shape != shape for name in VARIABLES):
             raise BadFile(f"{result.path}: the group basin has variables of another shape than its axes")
     sizes = [float((axis[-1] - axis[0]) / (len(axis) - 1)) if len(axis) > 1 else 1.0 for axis in axes]
     corner = [float(axis[0]) - size / 2 for axis, size in zip(axes, sizes, strict=True)]
     return [0, shape[1], 0, shape[0], 0, 0], [*corner, 0.0], [*sizes, 1.0]
+
+
+def _axis(group: h5py.Group, name: str) -> np.ndarray:
+    """The cell centres; where doubles do not tell them apart, as shares of the window's width from its centre."""
+    values = group[name][:]
+    return group[f"{name}_offset"][:] if f"{name}_offset" in group and not (np.diff(values) > 0).all() else values
 
 
 def main(words: list[str]) -> None:

@@ -122,13 +122,13 @@ def deep(folder, theta, velocity, width, count, pendulum=PENDULUM):
 
 
 def wrong_labels(path):
-    """How many decided labels quad precision does not confirm; the shares that are undecided, and that doubles do not decide."""
+    """How many decided labels quad precision does not confirm, and how many are undecided."""
     with h5py.File(path) as file:
         evidence = file["basin/evidence"][:]
     _, (_, _, labels, true_labels) = reference_check.check_file(path, evidence.size, 1, 2, 4000)
     evidence = evidence[reference_check.sample_cells(evidence.shape, evidence.size, 1)]
     wrong = (labels != true_labels) & (evidence != UNDECIDED)
-    return np.count_nonzero(wrong), np.mean(evidence == UNDECIDED), np.mean(evidence >= UNDECIDED)
+    return np.count_nonzero(wrong), np.count_nonzero(evidence == UNDECIDED)
 
 
 def labels_of_typed_starts(kapitza, folder, width, count):
@@ -140,11 +140,10 @@ def labels_of_typed_starts(kapitza, folder, width, count):
     return np.array([json.loads(line)["attractor"] for line in done.stdout.splitlines()]).reshape(count, count)
 
 
-@pytest.mark.parametrize("width, precise", [("2e-7", 0.05), ("1e-10", 0.5), ("1e-15", 0.9), ("1e-20", 0.8)])
-def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width, precise):
+@pytest.mark.parametrize("width", ["2e-7", "1e-20"])
+def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width):
     kapitza("run", deep(tmp_path, BOUNDARY, "17", width, 30 if EXTENSIVE else 8), folder=tmp_path)
-    wrong, undecided, more = wrong_labels(tmp_path / "deep.h5")
-    assert wrong == 0 and undecided < 0.1 and more > precise
+    assert wrong_labels(tmp_path / "deep.h5") == (0, 0)
     with h5py.File(tmp_path / "deep.h5") as file:
         labels = file["basin/attractor"][:]
         assert len(np.unique(labels)) > 1
@@ -156,8 +155,7 @@ def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width, precise):
 @pytest.mark.parametrize("width", ["1e-7", "1e-10", "1e-15", "1e-20", "1e-25"])
 def test_a_zoom_into_fig12(kapitza, tmp_path, width):
     kapitza("run", deep(tmp_path, FIG12_BOUNDARY, "1.42", width, 20, SMALL), folder=tmp_path)
-    wrong, undecided, _ = wrong_labels(tmp_path / "deep.h5")
-    assert wrong == 0 and undecided < (0.1 if width == "1e-25" else 0.01)
+    assert wrong_labels(tmp_path / "deep.h5") == (0, 0)
 
 
 def test_a_deep_window_in_its_file(kapitza, tmp_path):
@@ -166,14 +164,16 @@ def test_a_deep_window_in_its_file(kapitza, tmp_path):
     kapitza("run", path, ranks=2, folder=tmp_path)
     basin = Result(tmp_path / "deep.h5").group("basin")
     assert np.all(np.diff(basin["theta"].values) == 0)
-    assert basin["theta_offset"].values == pytest.approx((np.arange(6) - 2.5) / 6 * 1e-18, rel=1e-15)
+    assert np.array_equal(basin["theta_offset"].values, (2 * np.arange(6) - 5) / 12) and "units" in basin["theta_offset"].attrs
     assert basin.attrs["theta_centre"] == BOUNDARY and basin.attrs["velocity_centre"] == "17"
+    assert basin.attrs["theta_width"] == basin.attrs["velocity_width"] == "1e-18"
     with h5py.File(tmp_path / "deep.h5") as file:
         (tmp_path / "again.yaml").write_text(file.attrs["scene_resolved"])
     kapitza("run", "again.yaml", folder=tmp_path)
     assert datasets(tmp_path / "deep.h5") == datasets(tmp_path / "again.h5")
     plane = Plane(basin, "down")
-    assert plane.theta_range == pytest.approx((-5e-19, 5e-19)) and plane.centres == {"theta": BOUNDARY, "velocity": "17"}
+    assert plane.theta_range == pytest.approx((-0.5, 0.5)) and plane.centres == {"theta": BOUNDARY, "velocity": "17"}
+    assert plane.place == "θ ≈ −2.36717282205…, dθ/d(ωt) ≈ 17"
     assert plane.inside(np.array([0.0]), np.array([0.0]))[0].size == 0
 
 

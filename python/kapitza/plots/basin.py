@@ -198,8 +198,8 @@ def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors:
 def show_in_si(figure: Figure, omega: float) -> None:
     """Velocities in rad/s, and the bar of settling times in seconds; `omega`: the drive's angular frequency, rad/s."""
     axes, *bars = [figure.axes[0], *figure.axes[0].child_axes]
-    words = axes.get_ylabel().removesuffix(" (rad per drive radian)")  # of a narrow window: less its centre, in drive units
-    show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)" if words == "velocity dθ/d(ωt)" else f"ω × ({words}) (rad/s)")
+    if axes.get_ylabel() == "velocity dθ/d(ωt) (rad per drive radian)":  # a deep window's axis counts widths
+        show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)")
     for bar in bars:
         show_in(bar.yaxis, 2 * np.pi / omega, "time until trapped, plus one drive period (s)")
 

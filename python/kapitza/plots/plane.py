@@ -15,7 +15,9 @@ class Plane:
     """The window of starts as drawn: cells in the order of the picture, and its edges."""
 
     def __init__(self, basin: xarray.Dataset, centre: str) -> None:
-        self.centres = {name: str(basin.attrs[f"{name}_centre"]) for name in ("theta", "velocity") if _is_deep(basin, name)}
+        deep = [name for name in ("theta", "velocity") if _is_deep(basin, name)]
+        self.centres = {name: str(basin.attrs[f"{name}_centre"]) for name in deep}
+        self.widths = {name: str(basin.attrs[f"{name}_width"]) for name in deep}
         theta, velocity = (basin[f"{name}_offset" if name in self.centres else name].values for name in ("theta", "velocity"))
         width = _step(theta) * len(theta)
         self.whole_circle = abs(width - 2 * np.pi) < 1e-9
@@ -56,6 +58,12 @@ class Plane:
         return labels[rows, columns]
 
     @property
+    def place(self) -> str:
+        """Where a deep window lies: its centre, shortened; empty for another one."""
+        names = {"theta": "θ", "velocity": "dθ/d(ωt)"}
+        return ", ".join(f"{names[name]} ≈ {shortened(centre)}" for name, centre in self.centres.items())
+
+    @property
     def shape(self) -> float:
         """Height over width of the picture: a radian is as long on both axes where that gives a readable shape."""
         width, height = np.ptp(self.theta_range), np.ptp(self.velocity_range)
@@ -63,9 +71,13 @@ class Plane:
 
 
 def _is_deep(basin: xarray.Dataset, name: str) -> bool:
-    """Whether an axis is narrower than its values can tell, so that it is drawn by distances from its centre."""
-    offset = basin.get(f"{name}_offset")
-    return offset is not None and f"{name}_centre" in basin.attrs and _step(offset.values) * len(offset) < DEEP
+    """Whether an axis is narrower than its values can tell, so that it is drawn in units of its width, from its centre."""
+    return f"{name}_width" in basin.attrs and _number(basin.attrs[f"{name}_width"]) < DEEP
+
+
+def _number(text: str) -> float:
+    """The double of a decimal text, maybe with " deg" behind it."""
+    return float(np.radians(float(text.removesuffix(" deg")))) if text.endswith(" deg") else float(text)
 
 
 def _step(centres: np.ndarray) -> float:
@@ -73,9 +85,13 @@ def _step(centres: np.ndarray) -> float:
     return (centres[-1] - centres[0]) / (len(centres) - 1) if len(centres) > 1 else 1.0
 
 
-def _less(centre: str) -> str:
-    """" − 1.5" or " + 1.5" of a centre 1.5 or -1.5, as an axis says from where it counts."""
-    return f" + {centre[1:]}" if centre.startswith("-") else f" − {centre}" if centre else ""
+def shortened(text: str, digits: int = 12) -> str:
+    """A long decimal number by its first digits."""
+    number, unit = (text.removesuffix(" deg"), "°") if text.endswith(" deg") else (text, "")
+    mantissa, e, exponent = number.partition("e")
+    place = next((i for i, letter in enumerate(mantissa) if letter in "123456789"), 0) + digits + 1
+    cut = mantissa if len(mantissa) <= place + 2 else mantissa[:place] + "…"
+    return (cut + e + exponent).replace("-", "−") + unit
 
 
 def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
@@ -87,16 +103,17 @@ def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
     step = min(steps, key=lambda step: abs(width / step - 5))
     first = np.ceil(plane.theta_range[0] / unit / step - 1e-9)
     ticks = np.arange(first, plane.theta_range[1] / unit / step + 1e-9) * step
-    if width > 2 * steps[0]:
+    if width > 2 * steps[0] and "theta" not in plane.widths:
         axes.set_xticks(ticks * unit, [f"{tick:.0f}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
-    elif degrees:
+    elif degrees and "theta" not in plane.widths:
         axes.xaxis.set_major_formatter(lambda theta, _: f"{np.degrees(theta):.6g}°".replace("-", "−"))
-    theta, velocity = (_less(plane.centres.get(name, "")) for name in ("theta", "velocity"))
-    axes.set_xlabel(f"angle θ from down{theta}" + ("" if degrees else " (rad)"))
-    axes.set_ylabel(f"velocity dθ/d(ωt){velocity} (rad per drive radian)")
-    for axis, centre in ((axes.xaxis, theta), (axes.yaxis, velocity)):
-        axis.label.set_fontsize(8 if centre else axis.label.get_fontsize())
-    if velocity:
-        axes.yaxis.get_offset_text().set_x(-0.11)  # beside the line of parameters
+    if "theta" in plane.widths:
+        axes.set_xlabel(f"angle θ less the centre's (units of {plane.widths['theta']} rad)")
+    else:
+        axes.set_xlabel("angle θ from down" + ("" if degrees else " (rad)"))
+    if "velocity" in plane.widths:
+        axes.set_ylabel(f"velocity dθ/d(ωt) less the centre's (units of {plane.widths['velocity']})")
+    else:
+        axes.set_ylabel("velocity dθ/d(ωt) (rad per drive radian)")
     axes.tick_params(direction="out", length=3)
     return axes

@@ -20,7 +20,7 @@ typedef arb_struct kz_number;
 typedef __float128 kz_number;
 #endif
 
-/* n numbers, all 0; NULL where memory ran out. */
+/* n numbers, all 0. */
 kz_number *kz_numbers_make(int64_t n);
 void kz_numbers_free(kz_number *numbers, int64_t n);
 

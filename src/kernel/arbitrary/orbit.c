@@ -41,15 +41,10 @@ static void share_room(kz_arbitrary *o) {
 
 kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits) {
   kz_arbitrary *o = kz_calloc(1, sizeof *o);
-  if (!o) return NULL;
   o->pendulum = *pendulum;
   o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
   o->series.orders = orders_for(o->bits);
   o->room = kz_numbers_make(room_of(o));
-  if (!o->room) {
-    free(o);
-    return NULL;
-  }
   share_room(o);
   each_number(o, kz_number_init);
   kz_number_of(&start[0], &o->place.theta, o->bits);

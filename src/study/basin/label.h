@@ -38,9 +38,9 @@ typedef struct {
   kz_dynamics *dynamics;
   kz_search search; /* of the starts */
   kz_tiles tiles;
-  kz_images *images; /* of a window given by its centre and width, for method exact; else NULL */
+  kz_images *images;                          /* of a window given by its centre and width, for method exact; else NULL */
   kz_hand_over hand_over[KZ_LEVEL_ARBITRARY]; /* where its cells begin at each level */
-  int64_t batch; /* cells that are followed together */
+  int64_t batch;                              /* cells that are followed together */
   const kz_run *run;
   kz_workspace *work;  /* of this rank */
   kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */

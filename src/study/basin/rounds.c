@@ -88,10 +88,7 @@ static kz_status allocate(kz_labelling *l) {
   const size_t room = (size_t)kz_tile_room(&l->tiles);
   const kz_basin_plan *plan = l->plan;
   const bool is_centred = kz_axis_is_centred(&plan->theta) || kz_axis_is_centred(&plan->velocity);
-  if (is_centred && plan->method == KZ_METHOD_EXACT) {
-    l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
-    if (!l->images) return kz_fail(KZ_FAILED, "no memory for the images of a window");
-  }
+  if (is_centred && plan->method == KZ_METHOD_EXACT) l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
   l->work = kz_workspace_make();
   l->cell = kz_calloc(room + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);

@@ -65,8 +65,7 @@ double kz_axis_centre(const kz_axis *axis, int64_t i) {
 
 kz_coordinate kz_axis_coordinate(const kz_axis *axis, int64_t i) {
   if (!kz_axis_is_centred(axis)) return (kz_coordinate){.high = kz_axis_centre(axis, i)};
-  return (kz_coordinate){
-      .centre = axis->centre.text, .width = axis->width.text, .share = (double)kz_axis_share(axis, i)};
+  return (kz_coordinate){.centre = axis->centre.text, .width = axis->width.text, .share = (double)kz_axis_share(axis, i)};
 }
 
 double kz_axis_fastest(const kz_axis *velocity) {

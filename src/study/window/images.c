@@ -12,22 +12,12 @@ enum { GUARD = 90 };
 /* rad: the image's size, above which a cubic serves no level. */
 static const long double widest = 1e-3L;
 
-static char *copy_of(const char *text) {
-  return text && text[0] ? strdup(text) : NULL;
-}
-
-static bool take_axis(const kz_axis *axis, int i, kz_images *images) {
-  kz_coordinate *centre = &images->centre[i];
-  const bool is_centred = axis->centre.text[0];
-  if (!is_centred) {
+static void take_axis(const kz_axis *axis, kz_coordinate *centre, __float128 *width) {
+  *width = kz_axis_width(axis);
+  if (kz_axis_is_centred(axis))
+    centre->centre = kz_strdup(axis->centre.text);
+  else
     centre->high = (axis->min + axis->max) / 2;
-    images->width_of[i] = (__float128)axis->max - axis->min;
-    return true;
-  }
-  centre->centre = copy_of(axis->centre.text);
-  images->width[i] = copy_of(axis->width.text);
-  images->width_of[i] = kz_decimal_quad(axis->width.text);
-  return centre->centre && images->width[i];
 }
 
 /* The size of an image: the sum of its first coefficients, for shares up to 1/2. */
@@ -43,34 +33,25 @@ static int64_t bits_for(long double size) {
   return bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
 }
 
-static bool begin(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity, kz_images *images) {
+kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
+  enum { ROOM = 64 };
+  kz_images *images = kz_calloc(1, sizeof *images);
   images->pendulum = *pendulum;
-  images->room = 64;
-  images->image = calloc((size_t)images->room, sizeof *images->image);
-  if (!images->image || !take_axis(theta, 0, images) || !take_axis(velocity, 1, images)) return false;
-  kz_image *first = images->image;
-  for (int i = 0; i < 2; i++) first->jet.linear[i][i] = images->width_of[i];
+  images->room = ROOM;
+  kz_image *first = images->image = kz_calloc(ROOM, sizeof *images->image);
+  take_axis(theta, &images->centre[0], &images->width[0]);
+  take_axis(velocity, &images->centre[1], &images->width[1]);
+  for (int i = 0; i < 2; i++) first->jet.linear[i][i] = images->width[i];
   const int64_t bits = bits_for(size_of(&first->jet)), most = kz_arbitrary_bits();
   images->bits = bits < most ? bits : most;
   images->orbit = kz_arbitrary_create(pendulum, images->centre, images->bits);
-  if (!images->orbit) return false;
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
-  return true;
-}
-
-kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
-  kz_images *images = calloc(1, sizeof *images);
-  if (images && begin(pendulum, theta, velocity, images)) return images;
-  kz_images_free(images);
-  return NULL;
+  return images;
 }
 
 void kz_images_free(kz_images *images) {
   if (!images) return;
-  for (int i = 0; i < 2; i++) {
-    free((char *)images->centre[i].centre);
-    free(images->width[i]);
-  }
+  for (int i = 0; i < 2; i++) free((char *)images->centre[i].centre);
   kz_arbitrary_free(images->orbit);
   free(images->image);
   free(images);
@@ -87,26 +68,21 @@ static bool is_trapped(const kz_image *image, kz_dynamics *dynamics) {
   return decision.label > 0;
 }
 
-static kz_status make_room(kz_images *images, int64_t n) {
-  if (n < images->room) return KZ_OK;
-  const int64_t room = 2 * images->room > n + 1 ? 2 * images->room : n + 1;
-  kz_image *more = realloc(images->image, (size_t)room * sizeof *more);
-  if (!more) return kz_fail(KZ_FAILED, "no memory for %lld images of a window", (long long)room);
-  images->image = more;
-  images->room = room;
-  return KZ_OK;
+static void make_room(kz_images *images, int64_t n) {
+  if (n < images->room) return;
+  images->room = 2 * images->room > n + 1 ? 2 * images->room : n + 1;
+  images->image = kz_realloc(images->image, (size_t)images->room * sizeof *images->image);
 }
 
-kz_status kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
-  KZ_TRY(make_room(images, before + n));
+void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
+  make_room(images, before + n);
   memcpy(images->image + before + 1, image, (size_t)n * sizeof *image);
   images->n = before + n;
   images->finished = finished;
-  return KZ_OK;
 }
 
 static kz_status add_image(kz_images *images) {
-  KZ_TRY(make_room(images, images->n + 1));
+  make_room(images, images->n + 1);
   const kz_image *last = images->image + images->n;
   kz_image *next = images->image + images->n + 1;
   const int64_t needed = bits_for(size_of(&last->jet)), bits = needed < images->bits ? needed : images->bits;
@@ -144,7 +120,7 @@ bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const
   if (memcmp(pendulum, &images->pendulum, sizeof *pendulum) != 0) return false;
   for (int i = 0; i < 2; i++) {
     if (!same_axis(images, i, axes[i])) return false;
-    *ratio = fmax(*ratio, (double)(kz_axis_width(axes[i]) / images->width_of[i]));
+    *ratio = fmax(*ratio, (double)(kz_axis_width(axes[i]) / images->width[i]));
   }
   return *ratio >= 1;
 }

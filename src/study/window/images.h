@@ -19,9 +19,8 @@ typedef struct {
 
 typedef struct {
   kz_pendulum pendulum;
-  kz_coordinate centre[2]; /* theta, velocity; texts of its own */
-  char *width[2];          /* as texts; NULL: width_of is exact */
-  __float128 width_of[2];
+  kz_coordinate centre[2]; /* theta, velocity; their texts are its own */
+  __float128 width[2];
   int64_t bits; /* of the orbit in its first periods */
   int64_t n;    /* image [0 .. n] */
   int64_t room;
@@ -30,7 +29,7 @@ typedef struct {
   kz_arbitrary *orbit;
 } kz_images;
 
-/* Of the window of two axes, with its image after 0 periods; NULL where memory ran out. */
+/* Of the window of two axes, with its image after 0 periods. */
 kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity);
 void kz_images_free(kz_images *images);
 
@@ -39,7 +38,7 @@ void kz_images_free(kz_images *images);
 kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods);
 
 /* Takes n images that follow image `before` from elsewhere, in the place of those that are here. */
-kz_status kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished);
+void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished);
 
 /* Whether the images serve the cells of a window: one with the same centre that is not smaller; *ratio = its width over theirs. */
 bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity,

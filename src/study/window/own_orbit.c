@@ -23,8 +23,7 @@ typedef struct {
 static void carry(const kz_jet *tangent, ellipse *e) {
   const long double a = (long double)tangent->linear[0][0], b = (long double)tangent->linear[0][1],
                     c = (long double)tangent->linear[1][0], d = (long double)tangent->linear[1][1];
-  const ellipse s = {a * a * e->xx + 2 * a * b * e->xy + b * b * e->yy,
-                     a * c * e->xx + (a * d + b * c) * e->xy + b * d * e->yy,
+  const ellipse s = {a * a * e->xx + 2 * a * b * e->xy + b * b * e->yy, a * c * e->xx + (a * d + b * c) * e->xy + b * d * e->yy,
                      c * c * e->xx + 2 * c * d * e->xy + d * d * e->yy};
   const long double ratio = sqrtl((s.xx + s.yy) / 2), old = 1 + 1 / ratio, new = 1 + ratio;
   *e = (ellipse){old * s.xx + new, old * s.xy, old * s.yy + new};
@@ -80,7 +79,6 @@ kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum
   for (int64_t bits = FIRST_BITS; status == KZ_OK && decision->label == KZ_DOUBTFUL; bits *= 2) {
     path p = {.bits = bits < most ? bits : most, .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
-    if (!p.orbit) return kz_fail(KZ_FAILED, "no memory for an orbit of %lld bits", (long long)p.bits);
     status = follow(&p, dynamics, max_periods, decision);
     kz_arbitrary_free(p.orbit);
     if (bits >= most) break;

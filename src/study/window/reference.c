@@ -42,16 +42,15 @@ static kz_status run_piece(const kz_run *run, const work *w, piece *record, size
                           .keep = true,
                           .everywhere = true};
   KZ_TRY(kz_stage_run(run, &stage, record));
-  kz_status status = kz_images_extend(w->images, before, record->n, record->image, record->finished);
-  if (status == KZ_OK) status = kz_arbitrary_restore(w->images->orbit, (const char *)(record + 1));
-  return kz_ranks_agree(run->ranks, status);
+  kz_images_extend(w->images, before, record->n, record->image, record->finished);
+  return kz_ranks_agree(run->ranks, kz_arbitrary_restore(w->images->orbit, (const char *)(record + 1)));
 }
 
 kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods) {
   const work w = {.images = images, .dynamics = dynamics, .max_periods = max_periods};
   const size_t bytes = sizeof(piece) + kz_arbitrary_size(images->orbit);
-  piece *record = malloc(bytes);
-  kz_status status = kz_ranks_agree(run->ranks, record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the images of a window"));
+  piece *record = kz_malloc(bytes);
+  kz_status status = KZ_OK;
   while (status == KZ_OK && !images->finished) status = run_piece(run, &w, record, bytes);
   free(record);
   return status;

@@ -46,16 +46,17 @@ static void expect_refused(const char *velocity, const char *words) {
 
 static void what_is_no_window_is_refused(void **state) {
   (void)state;
-  char longest[200] = "basin.velocity={width: 1, centre: 0.";
-  memset(longest + strlen(longest), '1', 126);
+  char longest[1100] = "basin.velocity={width: 1, centre: 0.";
+  memset(longest + strlen(longest), '1', 1022);
   strcpy(longest + strlen(longest), "}");
   expect_refused(longest, "basin.velocity.centre: \"0.1111");
-  expect_refused(longest, "has more than 127 characters");
+  expect_refused(longest, "has more than 1023 characters");
   expect_refused("basin.velocity={centre: 1e999, width: 1}", "is too large for double precision");
   expect_refused("basin.velocity={centre: 1, width: 1e-999}", "is too small for double precision");
   expect_refused("basin.velocity={centre: 1 deg, width: 1}", "\"1 deg\" is not a finite decimal number");
   expect_refused("basin.velocity={centre: [1], width: 1}", "is a list");
-  expect_refused("basin.velocity={centre: 1, width: 1e-28, count: 1000}", "too narrow for 32 digits; use a wider window");
+  expect_refused("basin.velocity={centre: 1, width: 1e-301}", "it must be a number from 1e-300");
+  expect_refused("basin.velocity={min: 0, max: 5e-324, count: 50}", "too narrow for double precision");
   expect_refused("basin.velocity={centre: 1, max: 2}", "contradicts basin.velocity.centre");
 }
 

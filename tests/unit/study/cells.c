@@ -1,4 +1,4 @@
-/* Cell centres of a window given by its middle: pairs of doubles, offsets, mirror images. */
+/* Cell centres of a window given by its middle: shares of the width, mirror images. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,8 +10,9 @@
 #include "numerics/cells.h"
 
 static kz_axis window(const char *centre, double high, double low, double width, int64_t count) {
-  kz_axis axis = {.min = high - width / 2, .max = high + width / 2, .count = count, .width = {"w", width, 0}};
+  kz_axis axis = {.min = high - width / 2, .max = high + width / 2, .count = count, .width = {"", width, 0}};
   snprintf(axis.centre.text, sizeof axis.centre.text, "%s", centre);
+  snprintf(axis.width.text, sizeof axis.width.text, "%.17g", width);
   axis.centre.high = high;
   axis.centre.low = low;
   return axis;
@@ -24,11 +25,19 @@ static void cells_below_the_last_place_of_a_double(void **state) {
   assert_true(kz_axis_is_deep(&axis));
   assert_true(kz_axis_step(&axis) == 1e-20 / 8);
   for (int64_t i = 0; i < 8; i++) {
-    double pair[2];
-    kz_axis_pair(&axis, i, pair);
-    assert_true(pair[0] == 17 && kz_axis_centre(&axis, i) == 17);
-    assert_true(fabs(pair[1] - (1e-18 + (2 * (double)i - 7) * (1e-20 / 16))) < 1e-32);
-    assert_true(fabs(kz_axis_offset(&axis, i) - (2 * (double)i - 7) * (1e-20 / 16)) < 1e-35);
+    const kz_coordinate cell = kz_axis_coordinate(&axis, i);
+    assert_true(kz_axis_share(&axis, i) == (2 * (double)i - 7) / 16 && cell.share == (2 * (double)i - 7) / 16);
+    assert_true(cell.centre == axis.centre.text && cell.width == axis.width.text && kz_axis_centre(&axis, i) == 17);
+  }
+}
+
+/* Of a window between edges the cell is the double of the file, to all digits. */
+static void cells_between_edges(void **state) {
+  (void)state;
+  const kz_axis axis = {.min = 0.1, .max = 0.7, .count = 7};
+  for (int64_t i = 0; i < 7; i++) {
+    assert_true(kz_axis_coordinate(&axis, i).high == kz_axis_centre(&axis, i));
+    assert_true((double)(kz_axis_share(&axis, i) * kz_axis_width(&axis) + (0.1 + 0.7) / 2) == kz_axis_centre(&axis, i));
   }
 }
 
@@ -57,10 +66,11 @@ static void a_window_about_the_origin_is_its_own_mirror_image(void **state) {
   kz_basin_plan plan = {.theta = window("0", 0, 0, 1e-20, 7), .velocity = window("0", 0, 0, 3, 4)};
   assert_int_equal(kz_own_cells(&plan), 14);
   for (int64_t f = 0; f < 28; f++) {
-    double start[2], low[2], mirror[2], mirror_low[2];
-    kz_cell_pairs(&plan, f, start, low);
-    kz_cell_pairs(&plan, 27 - f, mirror, mirror_low);
-    for (int x = 0; x < 2; x++) assert_true(start[x] == -mirror[x] && low[x] == -mirror_low[x]);
+    double start[2], mirror[2];
+    kz_cell_start(&plan, f, start);
+    kz_cell_start(&plan, 27 - f, mirror);
+    for (int x = 0; x < 2; x++) assert_true(start[x] == -mirror[x]);
+    assert_true(kz_axis_share(&plan.theta, f % 7) == -kz_axis_share(&plan.theta, 6 - f % 7));
   }
   plan.theta = window("1e-30", 1e-30, 0, 1, 7); /* its edges are those of a mirrored window to all digits of a double */
   assert_int_equal(kz_own_cells(&plan), 28);
@@ -69,6 +79,7 @@ static void a_window_about_the_origin_is_its_own_mirror_image(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(cells_below_the_last_place_of_a_double),
+      cmocka_unit_test(cells_between_edges),
       cmocka_unit_test(points_below_the_last_place_of_a_double),
       cmocka_unit_test(a_neighbourhood_is_searched),
       cmocka_unit_test(a_window_about_the_origin_is_its_own_mirror_image),
