@@ -168,6 +168,9 @@ typedef struct {
   double share;
 } kz_coordinate;
 
+/* a - b, right to 2^-bits or to a quad. */
+__float128 kz_coordinate_difference(const kz_coordinate *a, const kz_coordinate *b, int64_t bits);
+
 /* The neighbourhood of an orbit: coefficients of x, y; xx, xy, yy; xxx, xxy, xyy, yyy for the angle (0) and the velocity (1). Those of the
  * first degree are right to 33 digits, the others to 17. */
 enum { KZ_BENT = 7 };

@@ -234,3 +234,14 @@ void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits) {
   kz_number_round(x, digits);
   for (int i = 0; i < 2; i++) kz_number_clear(part + i);
 }
+
+__float128 kz_coordinate_difference(const kz_coordinate *a, const kz_coordinate *b, int64_t bits) {
+  kz_number x[2];
+  for (int i = 0; i < 2; i++) kz_number_init(x + i);
+  kz_number_of(a, x, bits);
+  kz_number_of(b, x + 1, bits);
+  kz_number_subtract(x, x, x + 1, bits + 64);
+  const __float128 difference = kz_number_quad(x);
+  for (int i = 0; i < 2; i++) kz_number_clear(x + i);
+  return difference;
+}

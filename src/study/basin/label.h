@@ -4,7 +4,7 @@
 
 #include "attractors/search.h"
 #include "tiles.h"
-#include "window/images.h"
+#include "window/starts.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: not decided by the scene's own numerics, but
  * for KZ_PROVED, which is of basin.proof, whatever the method; no tile has it. KZ_LEFT: of method direct, which leaves it so. */
@@ -38,9 +38,9 @@ typedef struct {
   kz_dynamics *dynamics;
   kz_search search; /* of the starts */
   kz_tiles tiles;
-  kz_images *images;                          /* of a window given by its centre and width, for method exact; else NULL */
-  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY]; /* where its cells begin at each level */
-  int64_t batch;                              /* cells that are followed together */
+  kz_images *images;       /* of a window given by its centre and width, for method exact; else NULL */
+  kz_window_starts starts; /* of all cells */
+  int64_t batch;           /* cells that are followed together */
   const kz_run *run;
   kz_workspace *work;  /* of this rank */
   kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "kapitza/store.h"
-#include "window/own_orbit.h"
 
 enum { MOST_DECIDED = 100000 }; /* cells of a window whose open ones are decided, each by its own orbit, though nobody asked */
 
@@ -38,43 +37,8 @@ static void follow_batch(const kz_labelling *l, int64_t n, kz_labelled *out) {
     out[i] = (kz_labelled){.periods = (uint32_t)w->periods[i], .label = (int16_t)w->label[i], .evidence = KZ_FOLLOWED};
 }
 
-/* A kz_start_fn: the centre of a cell. */
-static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
-  const kz_labelling *l = context;
-  const int64_t column = cell % l->plan->theta.count, row = cell / l->plan->theta.count;
-  if (l->images)
-    kz_hand_over_start(&l->hand_over[level], kz_axis_share(&l->plan->theta, column), kz_axis_share(&l->plan->velocity, row),
-                       start);
-  else
-    *start = kz_start_at(kz_axis_centre(&l->plan->theta, column), kz_axis_centre(&l->plan->velocity, row));
-  return KZ_OK;
-}
-
-/* A kz_decide_fn: the cell's own orbit. */
-static kz_status decide_cell(void *context, int64_t cell, kz_decision *decision) {
-  const kz_labelling *l = context;
-  const kz_coordinate start[2] = {kz_axis_coordinate(&l->plan->theta, cell % l->plan->theta.count),
-                                  kz_axis_coordinate(&l->plan->velocity, cell / l->plan->theta.count)};
-  return kz_own_orbit_decide(l->dynamics, l->pendulum, start, l->plan->max_periods, decision);
-}
-
-kz_labeller kz_cells_labeller(kz_labelling *l) {
-  const bool decide = l->images && l->tiles.cells <= MOST_DECIDED;
-  return (kz_labeller){.dynamics = l->dynamics,
-                       .max_periods = l->plan->max_periods,
-                       .start = start_cell,
-                       .decide = decide ? decide_cell : NULL,
-                       .context = l};
-}
-
-void kz_cells_state(const kz_labelling *l, int64_t cell, double state[2]) {
-  kz_start start;
-  if (!l->images) {
-    kz_cell_state(l->plan, cell, state);
-    return;
-  }
-  start_cell((void *)l, cell, KZ_LEVEL_DOUBLE, &start);
-  kz_start_state(start.theta[0], start.velocity[0], state);
+kz_labeller kz_cells_labeller(const kz_labelling *l) {
+  return kz_window_labeller(&l->starts, l->images && l->tiles.cells <= MOST_DECIDED);
 }
 
 /* At the present level. */

@@ -11,9 +11,7 @@ enum { KZ_BATCH = 16384 }; /* cells that are followed together, at most */
 kz_workspace *kz_workspace_make(void);
 
 /* The labeller of cells: items are their numbers. */
-kz_labeller kz_cells_labeller(kz_labelling *labelling);
-/* Where a cell is when it is handed over to doubles: half-turns, rad per drive radian. */
-void kz_cells_state(const kz_labelling *labelling, int64_t cell, double state[2]);
+kz_labeller kz_cells_labeller(const kz_labelling *labelling);
 /* Labels n cells at the present level: cells [n], or first, first + 1, ... where that is NULL. KZ_STOPPED where a stop is asked. */
 kz_status kz_label_cells(kz_labelling *labelling, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out);
 

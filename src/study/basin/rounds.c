@@ -19,7 +19,8 @@ static kz_status discover(kz_labelling *l, bool again) {
   kz_status status = kz_ranks_agree(
       l->run->ranks, state && label && cell ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
   if (status == KZ_OK && again) status = kz_open_pick(l, 0, all, n, cell);
-  for (int64_t i = 0; again && status == KZ_OK && i < n; i++) kz_cells_state(l, cell[i], state + 2 * i);
+  for (int64_t i = 0, spent; again && status == KZ_OK && i < n; i++)
+    kz_window_state(&l->starts, cell[i], state + 2 * i, &spent);
   if (status == KZ_OK)
     status = again ? kz_discover(l->run, l->dynamics, plan->max_periods, n, state, label)
                    : kz_search_window(l->run, l->dynamics, &l->search, state, label);
@@ -55,18 +56,21 @@ static kz_status check_table(const kz_labelling *l) {
   return kz_steps_check_table(l->plan, kz_dynamics_table_defect(l->dynamics, kz_stencil(l->plan->interpolation)));
 }
 
-/* Where cells begin at each level, of a window whose images are followed. */
-static kz_status follow_images(kz_labelling *l) {
-  if (!l->images) return KZ_OK;
-  KZ_TRY(kz_images_run(l->run, l->dynamics, l->images, l->plan->max_periods));
-  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++) l->hand_over[level] = kz_hand_over_at(l->images, level, 0.5);
+/* The starts of all cells, after the images of the window where they need them. */
+static kz_status make_starts(kz_labelling *l) {
+  const kz_basin_plan *plan = l->plan;
+  if (kz_plan_is_centred(plan) && plan->method == KZ_METHOD_EXACT) {
+    l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
+    KZ_TRY(kz_images_run(l->run, l->dynamics, l->images, plan->max_periods));
+  }
+  kz_window_starts_make(plan, l->pendulum, l->dynamics, l->images, &l->starts);
   return KZ_OK;
 }
 
 /* `exact` alone leaves doubtful cells. */
 static kz_status run_rounds(kz_labelling *l) {
   KZ_TRY(discover(l, false));
-  KZ_TRY(follow_images(l));
+  KZ_TRY(make_starts(l));
   KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
   KZ_TRY(kz_levels_escalate(l, 1));
@@ -86,9 +90,6 @@ static kz_status run_rounds(kz_labelling *l) {
 
 static kz_status allocate(kz_labelling *l) {
   const size_t room = (size_t)kz_tile_room(&l->tiles);
-  const kz_basin_plan *plan = l->plan;
-  const bool is_centred = kz_axis_is_centred(&plan->theta) || kz_axis_is_centred(&plan->velocity);
-  if (is_centred && plan->method == KZ_METHOD_EXACT) l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
   l->work = kz_workspace_make();
   l->cell = kz_calloc(room + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
@@ -112,6 +113,7 @@ kz_status kz_label_window(kz_labelling *l) {
 
 void kz_labelling_free(kz_labelling *l) {
   kz_pieces_free(&l->pieces);
+  kz_window_starts_free(&l->starts);
   kz_images_free(l->images);
   free(l->work);
   free(l->cell);

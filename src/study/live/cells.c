@@ -5,33 +5,23 @@
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 
-/* As method direct labels them. */
-static void follow(const kz_resident *r, const kz_basin_plan *plan, int64_t n, const int64_t *number, kz_frame_cell *cells) {
+/* As method direct labels them, from where they are handed over to doubles. */
+static void follow(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                   kz_frame_cell *cells) {
   double state[2 * KZ_FRAME_TILE];
   int32_t label[KZ_FRAME_TILE];
-  int64_t periods[KZ_FRAME_TILE];
-  for (int64_t i = 0; i < n; i++) kz_cell_state(plan, number[i], state + 2 * i);
-  kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, n, plan->max_periods, state, label, periods);
+  int64_t periods[KZ_FRAME_TILE], spent[KZ_FRAME_TILE];
+  for (int64_t i = 0; i < n; i++) kz_window_state(starts, number[i], state + 2 * i, spent + i);
+  kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, n, starts->plan->max_periods, state, label, periods);
   for (int64_t i = 0; i < n; i++)
-    cells[number[i]] = (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)periods[i], .state = KZ_CELL_FOLLOWED};
-}
-
-/* A kz_start_fn: the centre of a cell. */
-static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
-  const kz_basin_plan *plan = context;
-  (void)level;
-  *start = (kz_start){.periods = 0};
-  kz_axis_pair(&plan->theta, cell % plan->theta.count, start->theta);
-  kz_axis_pair(&plan->velocity, cell / plan->theta.count, start->velocity);
-  return KZ_OK;
+    cells[number[i]] =
+        (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)(spent[i] + periods[i]), .state = KZ_CELL_FOLLOWED};
 }
 
 /* As method exact labels them. */
-static kz_status decide(const kz_resident *r, const kz_basin_plan *plan, int64_t n, const int64_t *number,
-                        kz_frame_cell *cells) {
+static kz_status decide(const kz_window_starts *starts, int64_t n, const int64_t *number, kz_frame_cell *cells) {
   kz_decision decision[KZ_FRAME_TILE];
-  const kz_labeller labeller = {
-      .dynamics = r->dynamics, .max_periods = plan->max_periods, .start = start_cell, .context = (void *)plan};
+  const kz_labeller labeller = kz_window_labeller(starts, false);
   KZ_TRY(kz_label(&labeller, n, number, decision));
   for (int64_t i = 0; i < n; i++) {
     kz_decision *d = decision + i;
@@ -45,22 +35,51 @@ static kz_status decide(const kz_resident *r, const kz_basin_plan *plan, int64_t
   return KZ_OK;
 }
 
-kz_status kz_cells_follow(const kz_resident *resident, const kz_basin_plan *plan, int64_t n, const int64_t *number,
+kz_status kz_cells_follow(const kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_frame_cell *cells) {
-  const bool deep = kz_axis_is_deep(&plan->theta) || kz_axis_is_deep(&plan->velocity);
-  if (!resident->moving || deep) return decide(resident, plan, n, number, cells);
-  follow(resident, plan, n, number, cells);
+  if (!resident->moving) return decide(starts, n, number, cells);
+  follow(resident, starts, n, number, cells);
   return KZ_OK;
 }
 
-kz_status kz_cells_discover(kz_resident *resident, const kz_basin_plan *plan, int64_t n, const int64_t *number, bool *born) {
+/* The images that serve the window: those of the last frame, or new ones. */
+static kz_images *find_images(kz_resident *r, const kz_basin_plan *plan) {
+  const kz_pendulum *pendulum = &r->scene.parameters.pendulum;
+  kz_view view;
+  if (!r->images || !kz_images_serve(r->images, pendulum, &plan->theta, &plan->velocity, &view)) {
+    kz_images_free(r->images);
+    r->images = kz_images_create(pendulum, &plan->theta, &plan->velocity);
+  }
+  return kz_images_hold(r->images);
+}
+
+/* Another frame may be made in a pause. */
+static kz_status follow_images(kz_resident *r, const kz_basin_plan *plan, const kz_frame *frame, kz_images *images) {
+  enum { AT_A_TIME = 4 };
+  while (!images->finished) {
+    KZ_TRY(frame->pause(frame->context));
+    KZ_TRY(kz_images_follow(images, r->dynamics, AT_A_TIME, plan->max_periods));
+  }
+  return KZ_OK;
+}
+
+kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts) {
+  kz_images *images = kz_plan_is_centred(plan) ? find_images(resident, plan) : NULL;
+  const kz_status status = images ? follow_images(resident, plan, frame, images) : KZ_OK;
+  if (status == KZ_OK) kz_window_starts_make(plan, &resident->scene.parameters.pendulum, resident->dynamics, images, starts);
+  kz_images_free(images);
+  return status;
+}
+
+kz_status kz_cells_discover(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                            bool *born) {
   enum { MOST = 64 };
   double state[2 * MOST];
   int32_t label[MOST];
   const int64_t known = kz_dynamics_count(resident->dynamics), share = (n + MOST - 1) / MOST;
-  int64_t taken = 0;
-  for (int64_t i = 0; i < n; i += share) kz_cell_state(plan, number[i], state + 2 * taken++);
-  KZ_TRY(kz_discover(NULL, resident->dynamics, plan->max_periods, taken, state, label));
+  int64_t taken = 0, spent;
+  for (int64_t i = 0; i < n; i += share) kz_window_state(starts, number[i], state + 2 * taken++, &spent);
+  KZ_TRY(kz_discover(NULL, resident->dynamics, starts->plan->max_periods, taken, state, label));
   *born = kz_dynamics_count(resident->dynamics) > known;
   if (*born) kz_dynamics_update(resident->dynamics);
   return KZ_OK;

@@ -16,11 +16,15 @@ typedef struct {
 /* Cells that are followed at a time. */
 enum { KZ_FRAME_TILE = 1024 };
 
-/* Follows n <= KZ_FRAME_TILE cells (their numbers, theta fastest) of the scene's basin. */
-kz_status kz_cells_follow(const kz_resident *resident, const kz_basin_plan *plan, int64_t n, const int64_t *number,
+/* The starts of a frame's cells: at any depth, with the images of the last frame where these serve. To be freed where it is KZ_OK. */
+kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts);
+
+/* Follows n <= KZ_FRAME_TILE cells (their numbers, theta fastest). */
+kz_status kz_cells_follow(const kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_frame_cell *cells);
 
 /* Looks for attractors that up to n of these cells end on, which have not settled. *born: some have joined. */
-kz_status kz_cells_discover(kz_resident *resident, const kz_basin_plan *plan, int64_t n, const int64_t *number, bool *born);
+kz_status kz_cells_discover(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                            bool *born);
 
 #endif

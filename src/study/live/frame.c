@@ -14,6 +14,7 @@ typedef struct {
   kz_resident *resident;
   const kz_scene *scene;
   const kz_frame *frame;
+  kz_window_starts starts;
   int64_t total, own;  /* cells; the first ones, of which the others are mirror images */
   kz_frame_cell *cell; /* [total] */
   int64_t *open;       /* [total] numbers of the cells that a level follows */
@@ -57,7 +58,7 @@ static kz_status follow(making *m, int64_t n) {
   for (int64_t done = 0; done < n; done += KZ_FRAME_TILE) {
     KZ_TRY(m->frame->pause(m->frame->context));
     const int64_t part = n - done < KZ_FRAME_TILE ? n - done : KZ_FRAME_TILE;
-    KZ_TRY(kz_cells_follow(m->resident, &m->scene->basin, part, m->open + done, m->cell));
+    KZ_TRY(kz_cells_follow(m->resident, &m->starts, part, m->open + done, m->cell));
   }
   return KZ_OK;
 }
@@ -78,7 +79,7 @@ static kz_status label(making *m, int64_t n) {
   bool born = false;
   if (left == 0 || m->searched) return KZ_OK;
   m->searched = true;
-  KZ_TRY(kz_cells_discover(m->resident, &m->scene->basin, left, m->open, &born));
+  KZ_TRY(kz_cells_discover(m->resident, &m->starts, left, m->open, &born));
   if (!born) return KZ_OK;
   kz_engine_list(m->engine, m->resident);
   return follow(m, left);
@@ -138,6 +139,7 @@ static kz_status show(making *m, int64_t level) {
 
 static kz_status make(making *m) {
   allocate(m);
+  if (m->resident->dynamics) KZ_TRY(kz_cells_begin(m->resident, &m->scene->basin, m->frame, &m->starts));
   for (int64_t i = 0; i < m->frame->levels->count; i++) {
     const int64_t level = m->frame->levels->values[i];
     KZ_TRY(label(m, list_open(m, level)));
@@ -162,6 +164,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   m.resident->busy = true;
   const kz_status status = make(&m);
   m.resident->busy = was_busy;
+  kz_window_starts_free(&m.starts);
   free(m.cell);
   free(m.open);
   free(m.room);

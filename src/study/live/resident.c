@@ -62,6 +62,7 @@ static void free_catalogue(kz_live_catalogue *catalogue) {
 
 void kz_resident_free(kz_resident *resident) {
   if (resident->dynamics) kz_dynamics_free(resident->dynamics);
+  kz_images_free(resident->images);
   free_catalogue(&resident->catalogue);
   *resident = (kz_resident){0};
 }

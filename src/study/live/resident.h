@@ -5,6 +5,7 @@
 #include "attractors/catalogue.h"
 #include "attractors/search.h"
 #include "kapitza/study_live.h"
+#include "window/starts.h"
 
 typedef struct {
   kz_scene scene; /* pendulum, numerics, and the basin whose window was searched; no title */
@@ -13,6 +14,7 @@ typedef struct {
   int64_t used;   /* the larger, the later */
   kz_dynamics *dynamics;
   kz_search search;
+  kz_images *images; /* of the last window whose cells they served; NULL: none yet */
   kz_live_catalogue catalogue;
 } kz_resident;
 

@@ -43,6 +43,10 @@ bool kz_axis_is_centred(const kz_axis *axis) {
   return axis->centre.text[0] != '\0';
 }
 
+bool kz_plan_is_centred(const kz_basin_plan *plan) {
+  return kz_axis_is_centred(&plan->theta) || kz_axis_is_centred(&plan->velocity);
+}
+
 __float128 kz_axis_width(const kz_axis *axis) {
   return kz_axis_is_centred(axis) ? kz_decimal_quad(axis->width.text) : (__float128)axis->max - axis->min;
 }

@@ -14,6 +14,7 @@ __float128 kz_axis_share(const kz_axis *axis, int64_t i);
 kz_coordinate kz_axis_coordinate(const kz_axis *axis, int64_t i);
 /* Whether the window is given by its centre and width: its cells are centre + share width, in all digits. */
 bool kz_axis_is_centred(const kz_axis *axis);
+bool kz_plan_is_centred(const kz_basin_plan *plan); /* along any axis */
 __float128 kz_axis_width(const kz_axis *axis);
 /* The point so large a share of the axis from its lower edge, and `offset` more, as a pair of doubles. */
 void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]);

@@ -12,12 +12,16 @@ enum { GUARD = 90 };
 /* rad: the image's size, above which a cubic serves no level. */
 static const long double widest = 1e-3L;
 
+/* Its text is the axis's. */
+static kz_coordinate centre_of(const kz_axis *axis) {
+  if (kz_axis_is_centred(axis)) return (kz_coordinate){.centre = axis->centre.text};
+  return (kz_coordinate){.high = (axis->min + axis->max) / 2};
+}
+
 static void take_axis(const kz_axis *axis, kz_coordinate *centre, __float128 *width) {
   *width = kz_axis_width(axis);
-  if (kz_axis_is_centred(axis))
-    centre->centre = kz_strdup(axis->centre.text);
-  else
-    centre->high = (axis->min + axis->max) / 2;
+  *centre = centre_of(axis);
+  if (centre->centre) centre->centre = kz_strdup(centre->centre);
 }
 
 /* The size of an image: the sum of its first coefficients, for shares up to 1/2. */
@@ -36,6 +40,7 @@ static int64_t bits_for(long double size) {
 kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
   enum { ROOM = 64 };
   kz_images *images = kz_calloc(1, sizeof *images);
+  images->holders = 1;
   images->pendulum = *pendulum;
   images->room = ROOM;
   kz_image *first = images->image = kz_calloc(ROOM, sizeof *images->image);
@@ -49,8 +54,13 @@ kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, c
   return images;
 }
 
+kz_images *kz_images_hold(kz_images *images) {
+  if (images) images->holders++;
+  return images;
+}
+
 void kz_images_free(kz_images *images) {
-  if (!images) return;
+  if (!images || --images->holders > 0) return;
   for (int i = 0; i < 2; i++) free((char *)images->centre[i].centre);
   kz_arbitrary_free(images->orbit);
   free(images->image);
@@ -104,23 +114,21 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
   return KZ_OK;
 }
 
-static bool same_text(const char *a, const char *b) {
-  return strcmp(a ? a : "", b ? b : "") == 0;
-}
-
-static bool same_axis(const kz_images *images, int i, const kz_axis *axis) {
-  const kz_coordinate *centre = &images->centre[i];
-  return same_text(centre->centre, axis->centre.text) && (centre->centre || centre->high == (axis->min + axis->max) / 2);
-}
-
 bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity,
-                     double *ratio) {
+                     kz_view *view) {
+  static const double narrowest = 0.1, farthest = 16; /* shares of the images' width, and of the window's */
   const kz_axis *axes[2] = {theta, velocity};
-  *ratio = 0;
-  if (memcmp(pendulum, &images->pendulum, sizeof *pendulum) != 0) return false;
+  bool is_near = memcmp(pendulum, &images->pendulum, sizeof *pendulum) == 0, is_wide = false;
+  *view = (kz_view){.reach = 0};
   for (int i = 0; i < 2; i++) {
-    if (!same_axis(images, i, axes[i])) return false;
-    *ratio = fmax(*ratio, (double)(kz_axis_width(axes[i]) / images->width[i]));
+    const kz_coordinate centre = centre_of(axes[i]);
+    if (images->width[i] == 0) return false;
+    view->scale[i] = kz_axis_width(axes[i]) / images->width[i];
+    view->offset[i] = kz_coordinate_difference(&centre, &images->centre[i], images->bits) / images->width[i];
+    const double scale = (double)view->scale[i], offset = fabs((double)view->offset[i]);
+    is_near = is_near && offset <= farthest * scale;
+    is_wide = is_wide || scale >= narrowest;
+    view->reach = fmax(view->reach, offset + scale / 2);
   }
-  return *ratio >= 1;
+  return is_near && is_wide;
 }

@@ -18,6 +18,7 @@ typedef struct {
 } kz_image;
 
 typedef struct {
+  int64_t holders;
   kz_pendulum pendulum;
   kz_coordinate centre[2]; /* theta, velocity; their texts are its own */
   __float128 width[2];
@@ -31,6 +32,8 @@ typedef struct {
 
 /* Of the window of two axes, with its image after 0 periods. */
 kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity);
+/* One more holds them; the last one that lets go frees them (NULL: nothing). */
+kz_images *kz_images_hold(kz_images *images);
 void kz_images_free(kz_images *images);
 
 /* Adds up to `most` images. Ends earlier where it is finished: max_periods have passed, the image has become too wide for a cubic, or a
@@ -40,9 +43,15 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
 /* Takes n images that follow image `before` from elsewhere, in the place of those that are here. */
 void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished);
 
-/* Whether the images serve the cells of a window: one with the same centre that is not smaller; *ratio = its width over theirs. */
+/* Where a window lies in that of the images: at offset + scale x for a share x of its own width; `reach`: the farthest share of theirs. */
+typedef struct {
+  __float128 offset[2], scale[2];
+  double reach;
+} kz_view;
+
+/* Whether the images serve the cells of a window: one about nearly the same place that is as wide or wider, or little narrower. */
 bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity,
-                     double *ratio);
+                     kz_view *view);
 
 /* Where the cells of a window begin at a precision level: an image, its polynomial in doubles, the error of a start. */
 typedef struct {
@@ -55,7 +64,7 @@ typedef struct {
 
 /* The last image whose polynomial is right to the errors of the level, for shares up to `reach`. */
 kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reach);
-/* The start at shares of the width. */
+/* The start at shares of the width of the images. */
 void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);
 
 #endif

@@ -1,0 +1,66 @@
+#include "starts.h"
+
+#include <stdlib.h>
+
+#include "numerics/cells.h"
+#include "own_orbit.h"
+
+/* Places of the cells of an axis. */
+static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {
+  __float128 *place = kz_malloc((size_t)axis->count * sizeof *place);
+  for (int64_t cell = 0; cell < axis->count; cell++) place[cell] = view->offset[i] + view->scale[i] * kz_axis_share(axis, cell);
+  return place;
+}
+
+void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
+                           kz_window_starts *starts) {
+  kz_view view;
+  *starts = (kz_window_starts){.plan = plan, .pendulum = pendulum, .dynamics = dynamics, .images = kz_images_hold(images)};
+  if (!images) return;
+  kz_images_serve(images, pendulum, &plan->theta, &plan->velocity, &view);
+  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++)
+    starts->hand_over[level] = kz_hand_over_at(images, level, view.reach);
+  starts->place[0] = places(&plan->theta, &view, 0);
+  starts->place[1] = places(&plan->velocity, &view, 1);
+}
+
+void kz_window_starts_free(kz_window_starts *starts) {
+  kz_images_free(starts->images);
+  free(starts->place[0]);
+  free(starts->place[1]);
+  *starts = (kz_window_starts){0};
+}
+
+/* A kz_start_fn. */
+static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
+  const kz_window_starts *s = context;
+  const int64_t column = cell % s->plan->theta.count, row = cell / s->plan->theta.count;
+  if (s->images)
+    kz_hand_over_start(&s->hand_over[level], s->place[0][column], s->place[1][row], start);
+  else
+    *start = kz_start_at(kz_axis_centre(&s->plan->theta, column), kz_axis_centre(&s->plan->velocity, row));
+  return KZ_OK;
+}
+
+/* A kz_decide_fn. */
+static kz_status decide_cell(void *context, int64_t cell, kz_decision *decision) {
+  const kz_window_starts *s = context;
+  const kz_coordinate start[2] = {kz_axis_coordinate(&s->plan->theta, cell % s->plan->theta.count),
+                                  kz_axis_coordinate(&s->plan->velocity, cell / s->plan->theta.count)};
+  return kz_own_orbit_decide(s->dynamics, s->pendulum, start, s->plan->max_periods, decision);
+}
+
+kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide) {
+  return (kz_labeller){.dynamics = starts->dynamics,
+                       .max_periods = starts->plan->max_periods,
+                       .start = start_cell,
+                       .decide = decide ? decide_cell : NULL,
+                       .context = (void *)starts};
+}
+
+void kz_window_state(const kz_window_starts *starts, int64_t cell, double state[2], int64_t *periods) {
+  kz_start start;
+  start_cell((void *)starts, cell, KZ_LEVEL_DOUBLE, &start);
+  kz_start_state(start.theta[0], start.velocity[0], state);
+  *periods = start.periods;
+}

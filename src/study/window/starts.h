@@ -1,0 +1,28 @@
+/* The cells of a basin's window as starts for a labeller, at any depth. Items are the numbers of cells, theta fastest. Not collective. */
+#ifndef KAPITZA_STUDY_WINDOW_STARTS_H
+#define KAPITZA_STUDY_WINDOW_STARTS_H
+
+#include "images.h"
+#include "labelling/labeller.h"
+
+typedef struct {
+  const kz_basin_plan *plan;
+  const kz_pendulum *pendulum;
+  kz_dynamics *dynamics;
+  kz_images *images; /* held; NULL: the cells are doubles */
+  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+  __float128 *place[2]; /* with images: of each column and of each row, in shares of the images' width */
+} kz_window_starts;
+
+/* Of images that serve the window (kz_images_serve; NULL: none are needed) and have been followed. To be freed. */
+void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
+                           kz_window_starts *starts);
+void kz_window_starts_free(kz_window_starts *starts);
+
+/* The labeller of the cells; `decide`: what quad precision leaves open is decided, each cell by its own orbit. */
+kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide);
+
+/* Where a cell is when it is handed over to doubles: half-turns, rad per drive radian; *periods that it has spent then. */
+void kz_window_state(const kz_window_starts *starts, int64_t cell, double state[2], int64_t *periods);
+
+#endif
