@@ -112,8 +112,7 @@ const kz_key kz_keys[] = {
          "Upper edge of the window."),
     DECIMAL("basin.velocity.centre", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, basin.velocity.centre,
             CENTRE_HELP),
-    DECIMAL("basin.velocity.width", "rad per drive radian", 1e-300, 2e9, NULL, basin.velocity.width,
-            "Width of the window."),
+    DECIMAL("basin.velocity.width", "rad per drive radian", 1e-300, 2e9, NULL, basin.velocity.width, "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "direct", basin.method,
          "direct: every cell is integrated; icm: interpolated cell mapping, the method of the papers; exact: every cell is "

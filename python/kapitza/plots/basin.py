@@ -178,6 +178,8 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
         label_axes(axes, plane, degrees=True)
     if arguments.si:
         show_in_si(figure, pivot_frequency(result))
+    if plane.place:
+        axes.set_title(plane.place, fontsize="medium", fontweight="normal", parse_math=False)
     rows, columns = basin["attractor"].shape
     entitle(figure, result, style.parameters_text(result.pendulum), f"{columns} × {rows} starts", _method(basin))
     if not arguments.no_dots and arguments.quantity == "attractor":
