@@ -74,7 +74,7 @@ static bool is_trapped(const kz_image *image, kz_dynamics *dynamics) {
                           .velocity = {image->velocity[0], image->velocity[1]},
                           .error = {size * size, 0, size * size}};
   kz_decision decision;
-  kz_dynamics_label(dynamics, KZ_LEVEL_DOUBLE, 1, &start, 1, &decision);
+  kz_dynamics_label(dynamics, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, 1, &start, 1, &decision);
   return decision.label > 0;
 }
 

@@ -51,7 +51,7 @@ static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_per
                     .error = {(double)(unit * p->error.xx), (double)(unit * p->error.xy), (double)(unit * p->error.yy)}};
   kz_arbitrary_read(p->orbit, start.theta, start.velocity);
   for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_FINE; level++) {
-    kz_dynamics_label(dynamics, level, 1, &start, max_periods, decision);
+    kz_dynamics_label(dynamics, level, KZ_LEVEL_DOUBLE, 1, &start, max_periods, decision);
     if (decision->label != KZ_DOUBTFUL) return;
   }
 }

@@ -36,7 +36,7 @@ static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start
   const kz_window_starts *s = context;
   const int64_t column = cell % s->plan->theta.count, row = cell / s->plan->theta.count;
   if (s->images)
-    kz_hand_over_start(&s->hand_over[level], s->place[0][column], s->place[1][row], start);
+    kz_hand_over_start(&s->hand_over[level < 0 ? KZ_LEVEL_DOUBLE : level], s->place[0][column], s->place[1][row], start);
   else
     *start = kz_start_at(kz_axis_centre(&s->plan->theta, column), kz_axis_centre(&s->plan->velocity, row));
   return KZ_OK;

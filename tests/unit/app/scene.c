@@ -89,7 +89,7 @@ static void angles_are_in_degrees_where_they_say_so(void **state) {
       "or in degrees such as 90 deg");
   expect_refused(GOOD, "basin.velocity.min=-1 deg",
                  "--set basin.velocity.min=-1 deg: basin.velocity.min: \"-1 deg\" is not a finite decimal number; it must be a "
-                 "number from -1000000000 to 1000000000 in rad per drive radian");
+                 "number from -10000 to 10000 in rad per drive radian");
 }
 
 static void the_frequency_of_the_pivot_is_given_once(void **state) {
