@@ -1,6 +1,6 @@
 /* kernel: tiles of trajectories of the shaken pendulum through whole drive periods (Fortran; layer 0).
+ The equation: model.h.
  *
- * theta'' + beta theta' + (k - m cos t) sin theta = 0   (BSG Eq. 2, BUT Eq. 9 in drive time)
  * theta in rad from the DOWN position, t in drive radians, velocity in rad per drive radian. A period is 2 pi; every period
  * starts at t = 0 (pivot at its top). Inside, angles are half-turns (theta/pi): wrapping is exact. */
 #ifndef KAPITZA_KERNEL_H
@@ -8,13 +8,7 @@
 
 #include <stdint.h>
 
-#include "kapitza/common.h"
-
-typedef struct {
-  double k;    /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */
-  double beta; /* damping, >= 0 */
-  double m;    /* drive, any sign */
-} kz_pendulum;
+#include "kapitza/model.h"
 
 typedef struct {
   int32_t scheme;           /* row of the table of schemes */

@@ -190,12 +190,10 @@ typedef struct {
 /* Fills everything but `written` from `written`. KZ_REFUSED where k, beta or m is not finite; then nothing is usable. */
 kz_status kz_parameters_resolve(kz_parameters *parameters);
 
-/* The stiffest pendulum and the fastest start whose motions are followed: |k| + |m|; rad per drive radian. Beyond them one drive period
+/* The stiffest pendulum and the fastest start whose motions are followed: kz_stiffness; rad per drive radian. Beyond them one drive period
  * takes more than 300,000 steps, or 10,000 turns. */
 #define KZ_MOST_STIFFNESS 1e7
 #define KZ_MOST_SPEED 1e4
-/* |k| + |m|. */
-double kz_stiffness(const kz_pendulum *pendulum);
 
 /* The numerics mapping as written. */
 typedef struct {

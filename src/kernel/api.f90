@@ -5,7 +5,8 @@ module kz_kernel_api
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow, fine_numerics, sampling_numerics
   use kz_lanes_schemes, only: SCHEMES
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_model_pendulum, only: pendulum_t
+  use kz_lanes_step_table, only: numerics_t
   use kz_processed_processor, only: sine
   implicit none
   private

@@ -3,7 +3,8 @@
 module kz_kernel_models
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use kz_kernel_plan, only: FINE
-  use kz_lanes_step_table, only: pendulum_t, numerics_t, period_t, make_period
+  use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_lanes_step_table, only: numerics_t, period_t, make_period
   implicit none
   private
 
@@ -68,7 +69,7 @@ contains
     type(numerics_t) :: numerics
     real(c_double) :: speed
 
-    speed = sqrt(abs(pendulum%k) + abs(pendulum%m))
+    speed = sqrt(stiffness(pendulum))
     if (code == EFFECTIVE) speed = sqrt(abs(pendulum%k) + pendulum%m**2) + abs(velocity)
     numerics = FINE
     numerics%steps_per_period = samples*ceiling(FINE%steps_per_period*max(1.0_c_double, speed)/samples)

@@ -5,7 +5,8 @@ module kz_kernel_plan
   use kz_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
                                  MOST_DRIFTS, MOST_KICKS
   use kz_lanes_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
-  use kz_lanes_step_table, only: pendulum_t, numerics_t, period_t, make_period
+  use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_lanes_step_table, only: numerics_t, period_t, make_period
   use kz_processed_tile, only: make_processed_tile
   use kz_split_tile, only: make_tile
   implicit none
@@ -24,7 +25,7 @@ contains
     type(numerics_t) :: numerics
 
     numerics = FINE
-    numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_c_double, abs(pendulum%k) + abs(pendulum%m))))
+    numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_c_double, stiffness(pendulum))))
   end function fine_numerics
 
   !> With which numerics motions are shown within a period: the scene's, or fine steps in place of the processed splitting, whose

@@ -8,7 +8,8 @@ module kz_kernel_processed_choice
   use kz_kernel_plan, only: make_processed_flow
   use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_lanes_schemes, only: PROCESSED_ROW
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_lanes_step_table, only: numerics_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period
   implicit none
   private
@@ -76,7 +77,7 @@ contains
     logical :: out
     real(c_double), parameter :: STEP = 2*PI/MOST_STEPS
 
-    out = .not. (STEP*fastest <= LONGEST_TURN .and. STEP*sqrt(abs(pendulum%k) + abs(pendulum%m)) <= LONGEST_SWING)
+    out = .not. (STEP*fastest <= LONGEST_TURN .and. STEP*sqrt(stiffness(pendulum)) <= LONGEST_SWING)
   end function out_of_reach
 
   subroutine make_probes(pendulum, fastest, probes)
@@ -98,7 +99,7 @@ contains
     theta = probes%start(1, :)*PI_QUAD
     velocity = probes%start(2, :)
     turns = 0
-    call make_drive(drive, pendulum%k, pendulum%beta, pendulum%m, STEPS)
+    call make_drive(drive, pendulum, STEPS)
     call advance_period(drive, theta, velocity, turns)
     probes%image(1, :) = real(theta/PI_QUAD, c_double)
     probes%image(2, :) = real(velocity, c_double)

@@ -23,10 +23,6 @@ static kz_pendulum from_si(const kz_pendulum_keys *written) {
                        .m = lever * written->pivot_amplitude};
 }
 
-double kz_stiffness(const kz_pendulum *pendulum) {
-  return fabs(pendulum->k) + fabs(pendulum->m);
-}
-
 double kz_point_inertia(const kz_pendulum_keys *written) {
   return written->mass * written->radius * written->radius;
 }

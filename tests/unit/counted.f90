@@ -4,7 +4,8 @@ module kz_test_counted
   use kz_lanes_map, only: flow_t, WIDTH
   use kz_kernel_plan, only: make_flow, fine_numerics
   use kz_lanes_schemes, only: SPLIT6_ROW
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_model_pendulum, only: pendulum_t
+  use kz_lanes_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t
   use kz_attractors_cycle_search, only: search_t, find_cycle
   implicit none

@@ -1,7 +1,7 @@
 !> The C interface of dynamics: ends of motions of many pendulums (include/kapitza/dynamics.h).
 module kz_api_chart
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_plane_ends, only: motion_t, ending_t, find_ends
   implicit none
   private

@@ -3,7 +3,8 @@ module kz_api_close_cycle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_lanes_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_model_pendulum, only: pendulum_t
+  use kz_lanes_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t, close_cycle
   use kz_maps_states, only: enter_states, leave_states
   implicit none

@@ -3,7 +3,7 @@ module kz_api_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_lanes_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_saddles_manifold, only: grow_manifold
   implicit none
   private

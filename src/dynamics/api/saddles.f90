@@ -3,7 +3,8 @@ module kz_api_saddles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_lanes_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_model_pendulum, only: pendulum_t
+  use kz_lanes_step_table, only: numerics_t
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: append_with_mirror, join
   use kz_cycles_cycles, only: attractor_t, enter_points, symmetrise

@@ -2,7 +2,7 @@
 module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: flow_t, PI
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
   use kz_grown_ellipses, only: find_ellipses
   use kz_cycles_newton, only: n_periods, eigenvalues

@@ -3,7 +3,7 @@ module kz_cycles_continuation
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_lanes_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_cycles_cycles, only: attractor_t, orbit_of
   use kz_cycles_newton, only: eigenvalues, n_periods, solved, minimal_period
   use kz_cycles_features, only: find_features

@@ -2,7 +2,7 @@
 module kz_cycles_features
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_lanes_map, only: flow_t, PI
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, acceleration
   use kz_cycles_cycles, only: attractor_t
   use kz_maps_states, only: angle_difference
   implicit none
@@ -82,11 +82,11 @@ contains
     end do
   contains
     !> theta'' at sample j
-    pure function bend(j) result(acceleration)
+    pure function bend(j) result(rate)
       integer, intent(in) :: j
-      real(dp) :: acceleration
+      real(dp) :: rate
 
-      acceleration = -pendulum%beta*velocity(j) - (pendulum%k - pendulum%m*cos(2*PI*j/SAMPLES))*sin(PI*angle(j))
+      rate = acceleration(pendulum, 2*PI*j/SAMPLES, PI*angle(j), velocity(j))
     end function bend
   end function largest
 

@@ -11,7 +11,8 @@ module kz_labels_levels
   use kz_labels_precise_carrier, only: precise_carrier_t, make_precise_carrier
   use kz_lanes_map, only: flow_t
   use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_model_pendulum, only: pendulum_t
+  use kz_lanes_step_table, only: numerics_t
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
   private
@@ -71,7 +72,7 @@ contains
     case (LEVEL_QUAD)
       if (.not. allocated(levels%drive)) then
         allocate (levels%drive)
-        call make_drive(levels%drive, pendulum%k, pendulum%beta, pendulum%m, QUAD_STEPS)
+        call make_drive(levels%drive, pendulum, QUAD_STEPS)
       end if
     end select
     call ieee_set_flag(ieee_usual, .false.)

@@ -4,7 +4,7 @@ module kz_labels_period_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   implicit none
   private
   public :: period_error_t, probes_t, make_probes, measure_period, class_of
@@ -54,7 +54,7 @@ contains
     theta = PI_QUAD*probes%start(1, :)
     velocity = probes%start(2, :)
     turns = 0
-    call make_drive(drive, pendulum%k, pendulum%beta, pendulum%m, TAYLOR_STEPS)
+    call make_drive(drive, pendulum, TAYLOR_STEPS)
     call advance_period(drive, theta, velocity, turns)
     probes%image(1, :) = theta/PI_QUAD
     probes%image(2, :) = velocity

@@ -4,7 +4,7 @@ module kz_labels_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_maps_states, only: enter_states
   use kz_lanes_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_maps_states, only: wrapped
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
@@ -48,7 +48,7 @@ contains
     !> (2, n): what is to be added to the starts; nothing if left out
     real(dp), intent(in), optional :: low(:, :)
 
-    call make_drive(map%drive, pendulum%k, pendulum%beta, pendulum%m, n_steps)
+    call make_drive(map%drive, pendulum, n_steps)
     allocate (map%start, source=start)
     allocate (map%low, mold=start)
     map%low = 0

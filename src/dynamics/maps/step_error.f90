@@ -5,7 +5,8 @@ module kz_maps_step_error
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_lanes_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow_and_finer
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_lanes_step_table, only: numerics_t
   use kz_maps_states, only: separation
   implicit none
   private
@@ -36,7 +37,7 @@ contains
     call make_flow_and_finer(pendulum, numerics, flow, finer)
     do c = 1, n
       largest = 0
-      limit = speed(c + 1) + 2*PI*(abs(pendulum%k) + abs(pendulum%m))
+      limit = speed(c + 1) + 2*PI*stiffness(pendulum)
       do first = 1, STATES, WIDTH
         call put_class(flow, first, speed(c), speed(c + 1))
         call put_class(finer, first, speed(c), speed(c + 1))

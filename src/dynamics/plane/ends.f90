@@ -4,7 +4,7 @@ module kz_plane_ends
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_lanes_map, only: WIDTH, PI
   use kz_split_mixed_tile, only: mixed_tile_t, track_t, make_mixed_tile
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_plane_closing, only: closed_t, close_motions
   use kz_plane_recurrence, only: past_t, make_past
   implicit none

@@ -9,7 +9,7 @@ module kz_extended_pairs
   use kz_lanes_map, only: WIDTH
   use kz_extended_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
   use kz_processed_tables, only: series_t, make_processed_series, MOST_PAIR_KICKS, MOST_DAMPING, ORDER
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period
   implicit none
   private
@@ -59,7 +59,7 @@ contains
     logical :: halting(size(ieee_usual))
     integer :: n
 
-    call make_drive(pairs%drive, pendulum%k, pendulum%beta, pendulum%m, TAYLOR_STEPS)
+    call make_drive(pairs%drive, pendulum, TAYLOR_STEPS)
     pairs%error = ROUNDING
     n = 0
     allocate (levels(0:MOST_LEVELS))

@@ -3,7 +3,7 @@ module kz_extended_pairs_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_lanes_map, only: WIDTH
   use kz_extended_pairs, only: pairs_t, pair_lanes_t, make_pairs, advance_pairs
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   implicit none
   private
 

@@ -4,7 +4,7 @@ module kz_extended_pairs_level
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: WIDTH
   use kz_processed_tables, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   implicit none
   private
   public :: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of, SINE_COEFFICIENTS

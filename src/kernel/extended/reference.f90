@@ -1,7 +1,7 @@
 !> The C interface of the quad-precision reference: include/kapitza/reference.h. Quads stay inside, doubles come out.
 module kz_extended_reference
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
   implicit none
   private
@@ -41,7 +41,7 @@ contains
     real(qp) :: theta(n), velocity(n)
     integer(c_int64_t) :: turns(n), period
 
-    call make_drive(drive, pendulum%k, pendulum%beta, pendulum%m, int(n_steps))
+    call make_drive(drive, pendulum, int(n_steps))
     theta = states%theta
     velocity = states%velocity
     turns = states%turns

@@ -1,8 +1,8 @@
 !> Taylor series of one step for a few orbits at once: the inner loops of the quad-precision reference.
 !>
 !> With w = h theta', s = sin theta, c = cos theta over t = t0 + h x, 0 <= x <= 1, the scaled coefficients obey
-!>   (n+1) w_(n+1) = -beta h w_n - sum_i f_i s_(n-i),  (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),
-!> where f_i are those of h^2 (k - m cos t). Real128 is not done by hardware, so the orders up to FINE are pairs of doubles
+!>   (n+1) w_(n+1) = -beta h w_n - sum_i (f_i s_(n-i) + g_i c_(n-i)) (+ h^2 torque at n = 0),  (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),
+!> where f_i are those of h^2 a(t), g_i those of -h^2 b(t) (kz_model_pendulum). Real128 is not done by hardware, so the orders up to FINE are pairs of doubles
 !> (32 digits; products by Dekker 1971: this file must be compiled without contraction); the orders beyond, smaller than
 !> 1e-16 of the motion, need 16 digits and are plain doubles. Orders are fixed and lanes never look at each other: a lane's
 !> result does not depend on its neighbours.
@@ -10,7 +10,7 @@ module kz_extended_series
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
-  public :: LANES, LAST, force_t, series_t, round_force, begin_series, expand, sums, converged
+  public :: LANES, LAST, force_t, series_t, round_series, begin_series, expand, sums, converged
 
   integer, parameter :: dp = real64
   integer, parameter :: qp = real128
@@ -37,11 +37,19 @@ module kz_extended_series
     real(dp) :: top(LANES, 0:FINE)
   end type coefficients_t
 
-  !> The series of h^2 (k - m cos t), the same for all lanes.
-  type :: force_t
+  !> A series that is the same for all lanes.
+  type :: shared_t
     real(dp) :: high(0:LAST - 1)
     real(dp) :: low(0:LAST - 1)
     real(dp) :: top(0:LAST - 1)
+  end type shared_t
+
+  !> The force over a step.
+  type :: force_t
+    type(shared_t) :: along  !< f: times sin theta
+    type(shared_t) :: across !< g: times cos theta
+    real(qp) :: torque = 0   !< h^2 torque
+    logical :: has_across    !< whether there are g and torque
   end type force_t
 
   type :: series_t
@@ -52,16 +60,16 @@ module kz_extended_series
 
 contains
 
-  !> A force series as pairs.
-  pure function round_force(series) result(force)
-    !> coefficients of h^2 (k - m cos t), order by order
+  !> A series as pairs.
+  pure function round_series(series) result(rounded)
+    !> coefficients, order by order
     real(qp), intent(in) :: series(0:LAST - 1)
-    type(force_t) :: force
+    type(shared_t) :: rounded
 
-    force%high = real(series, dp)
-    force%low = real(series - force%high, dp)
-    force%top = upper_half(force%high)
-  end function round_force
+    rounded%high = real(series, dp)
+    rounded%low = real(series - rounded%high, dp)
+    rounded%top = upper_half(rounded%high)
+  end function round_series
 
   !> Order 0.
   pure subroutine begin_series(series, w, s, c)
@@ -92,7 +100,7 @@ contains
   pure subroutine expand(series, force, damping)
     !> its lowest order, in; all orders, out
     type(series_t), intent(inout) :: series
-    !> the rounded coefficients of h^2 (k - m cos t)
+    !> over the step
     type(force_t), intent(in) :: force
     !> beta h.
     real(qp), intent(in) :: damping
@@ -105,7 +113,7 @@ contains
       call next_pair(n, force, damping_high, damping_low, series%w, series%s, series%c)
     end do
     do n = FINE, LAST - 1
-      call next_double(n, force%high, damping_high, series%w%high, series%s%high, series%c%high)
+      call next_double(n, force, damping_high, series%w%high, series%s%high, series%c%high)
     end do
   end subroutine expand
 
@@ -134,7 +142,7 @@ contains
     do i = 0, n
       j = n - i
       do lane = 1, LANES
-        call add_product(force%high(i), force%low(i), force%top(i), &
+        call add_product(force%along%high(i), force%along%low(i), force%along%top(i), &
                          s%high(lane, j), s%low(lane, j), s%top(lane, j), w_high(lane), w_low(lane))
         call add_product(c%high(lane, i), c%low(lane, i), c%top(lane, i), &
                          w%high(lane, j), w%low(lane, j), w%top(lane, j), s_high(lane), s_low(lane))
@@ -142,10 +150,30 @@ contains
                          w%high(lane, j), w%low(lane, j), w%top(lane, j), c_high(lane), c_low(lane))
       end do
     end do
+    if (force%has_across) call add_across(n, force, c, w_high, w_low)
     call set_order(w, n + 1, -w_high, -w_low)
     call set_order(s, n + 1, s_high, s_low)
     call set_order(c, n + 1, -c_high, -c_low)
   end subroutine next_pair
+
+  !> sum += sum_i g_i c_(n-i), and minus the torque.
+  pure subroutine add_across(n, force, c, sum_high, sum_low)
+    integer, intent(in) :: n
+    type(force_t), intent(in) :: force
+    type(coefficients_t), intent(in) :: c
+    real(dp), intent(inout) :: sum_high(LANES)
+    real(dp), intent(inout) :: sum_low(LANES)
+    real(dp) :: high
+    integer :: i
+
+    do i = 0, n
+      call add_product(force%across%high(i), force%across%low(i), force%across%top(i), &
+                       c%high(:, n - i), c%low(:, n - i), c%top(:, n - i), sum_high, sum_low)
+    end do
+    if (n > 0) return
+    high = real(force%torque, dp)
+    call add_product(-high, -real(force%torque - high, dp), -upper_half(high), 1.0_dp, 0.0_dp, 1.0_dp, sum_high, sum_low)
+  end subroutine add_across
 
   !> x_n = (high + low) / n.
   pure subroutine set_order(x, n, high, low)
@@ -170,7 +198,7 @@ contains
   !> Order n + 1 in doubles.
   pure subroutine next_double(n, force, damping, w, s, c)
     integer, intent(in) :: n
-    real(dp), intent(in) :: force(0:LAST - 1)
+    type(force_t), intent(in) :: force
     real(dp), intent(in) :: damping
     real(dp), intent(inout) :: w(LANES, 0:LAST)
     real(dp), intent(inout) :: s(LANES, 0:LAST)
@@ -182,10 +210,15 @@ contains
     of_s = 0
     of_c = 0
     do i = 0, n
-      of_w = of_w + force(i)*s(:, n - i)
+      of_w = of_w + force%along%high(i)*s(:, n - i)
       of_s = of_s + c(:, i)*w(:, n - i)
       of_c = of_c + s(:, i)*w(:, n - i)
     end do
+    if (force%has_across) then
+      do i = 0, n
+        of_w = of_w + force%across%high(i)*c(:, n - i)
+      end do
+    end if
     w(:, n + 1) = -of_w/(n + 1)
     s(:, n + 1) = of_s/(n + 1)
     c(:, n + 1) = -of_c/(n + 1)

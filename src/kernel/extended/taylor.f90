@@ -1,14 +1,14 @@
-!> The reference: whole periods of theta'' + beta theta' + (k - m cos t) sin theta = 0 in quad precision (real128), by Taylor
+!> The reference: whole periods of the pendulum's equation (kz_model_pendulum) in quad precision (real128), by Taylor
 !> series of fixed order (series.f90) in steps that are halved until the series of every step is complete.
 module kz_extended_taylor
-  use, intrinsic :: iso_fortran_env, only: real64, real128, int64
+  use, intrinsic :: iso_fortran_env, only: real128, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_extended_series, only: LANES, LAST, force_t, series_t, round_force, begin_series, expand, sums, converged
+  use kz_model_pendulum, only: pendulum_t, force_series
+  use kz_extended_series, only: LANES, LAST, force_t, series_t, round_series, begin_series, expand, sums, converged
   implicit none
   private
   public :: drive_t, make_drive, advance_period, qp
 
-  integer, parameter :: dp = real64
   integer, parameter :: qp = real128
   real(qp), parameter :: TWO_PI = 2*acos(-1.0_qp)
   !> How often steps may be halved.
@@ -16,9 +16,7 @@ module kz_extended_taylor
 
   !> A pendulum with the drive's series at the start of every unhalved step of a period.
   type :: drive_t
-    real(qp) :: k
-    real(qp) :: beta
-    real(qp) :: m
+    type(pendulum_t) :: pendulum
     integer :: n_steps
     type(force_t), allocatable :: force(:)
   end type drive_t
@@ -26,49 +24,38 @@ module kz_extended_taylor
 contains
 
   !> The drive of a pendulum for n_steps steps a period.
-  pure subroutine make_drive(drive, k, beta, m, n_steps)
+  pure subroutine make_drive(drive, pendulum, n_steps)
     !> the series of the drive for each step
     type(drive_t), intent(out) :: drive
-    !> 1/Omega^2.
-    real(dp), intent(in) :: k
-    !> Damping.
-    real(dp), intent(in) :: beta
-    !> Drive amplitude.
-    real(dp), intent(in) :: m
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
     !> Steps a period where the motion is gentle.
     integer, intent(in) :: n_steps
     integer :: i
 
-    drive%k = k
-    drive%beta = beta
-    drive%m = m
+    drive%pendulum = pendulum
     drive%n_steps = n_steps
     allocate (drive%force(n_steps))
     do i = 1, n_steps
-      drive%force(i) = force_series(drive, (i - 1)*TWO_PI/n_steps, TWO_PI/n_steps)
+      drive%force(i) = force_of_step(pendulum, (i - 1)*TWO_PI/n_steps, TWO_PI/n_steps)
     end do
   end subroutine make_drive
 
-  !> Scaled Taylor coefficients of h^2 (k - m cos t) about t0.
-  pure function force_series(drive, t0, h) result(force)
-    type(drive_t), intent(in) :: drive
-    !> Drive time, rad.
+  !> The force over a step h from t0, rad.
+  pure function force_of_step(pendulum, t0, h) result(force)
+    type(pendulum_t), intent(in) :: pendulum
     real(qp), intent(in) :: t0
-    !> Step, rad.
     real(qp), intent(in) :: h
     type(force_t) :: force
-    real(qp) :: series(0:LAST - 1), cycle(0:3), scale
-    integer :: i
+    real(qp) :: along(0:LAST - 1), across(0:LAST - 1)
 
-    cycle = [cos(t0), -sin(t0), -cos(t0), sin(t0)]
-    scale = h*h*drive%m
-    do i = 0, LAST - 1
-      series(i) = -scale*cycle(mod(i, 4))
-      scale = scale*h/(i + 1)
-    end do
-    series(0) = series(0) + h*h*drive%k
-    force = round_force(series)
-  end function force_series
+    call force_series(pendulum, t0, h, along, across)
+    force%along = round_series(along)
+    force%has_across = pendulum%unmirrored /= 0
+    if (.not. force%has_across) return
+    force%across = round_series(-across)
+    force%torque = h*h*pendulum%torque
+  end function force_of_step
 
   !> One whole drive period from t = 0. A state that no step is fine enough for becomes NaN.
   pure subroutine advance_period(drive, theta, velocity, turns)
@@ -157,10 +144,10 @@ contains
       if (halvings == 0) then
         force = drive%force(i)
       else
-        force = force_series(drive, (i - 1)*h, h)
+        force = force_of_step(drive%pendulum, (i - 1)*h, h)
       end if
       call begin_series(series, velocity*h, s, c)
-      call expand(series, force, drive%beta*h)
+      call expand(series, force, drive%pendulum%beta*h)
       carried = carried .and. converged(series)
       if (.not. any(carried)) exit
       call sums(series, of_theta, of_w, of_s, of_c)

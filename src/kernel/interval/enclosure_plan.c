@@ -51,7 +51,7 @@ static double choose(const kz_pendulum *p, double fastest, majorant *best) {
   majorant at = {.w = fastest, .a = {1, 0}, .slope = {0, 1}};
   double longest = 0;
   *best = at;
-  const double dr = 2.0 / MARCHES / fmax(fmax(1, fastest), sqrt(fabs(p->k) + fabs(p->m)));
+  const double dr = 2.0 / MARCHES / fmax(fmax(1, fastest), sqrt(kz_stiffness(p)));
   for (int i = 0; i < 4 * MARCHES && march(p, dr, &at); i++) {
     const double h = at.r * pow(REST / at.w, 1.0 / KZ_ENCLOSURE_ORDER);
     if (h <= longest) continue;
@@ -82,7 +82,7 @@ static void set_torque(const kz_pendulum *p, int32_t i, int32_t n, kz_enclosure_
   const double beyond = step->torque[0].mag - fabs(step->torque[0].mid);
   step->torque[0] = about(torque, beyond + KZ_ROUNDING * (fabs(gravity) + fabs(torque)));
   const double from = fabs(p->k - p->m * cos(angle[0])), to = fabs(p->k - p->m * cos(angle[0] + h));
-  step->most_torque = h * (fmax(from, to) + fabs(p->m) * h * h / 8 + CAUTION * (fabs(p->k) + fabs(p->m)));
+  step->most_torque = h * (fmax(from, to) + fabs(p->m) * h * h / 8 + CAUTION * kz_stiffness(p));
 }
 
 static void set_rests(const majorant *at, kz_enclosure_plan *plan) {

@@ -2,20 +2,15 @@
 module kz_lanes_step_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
+  use kz_model_pendulum, only: pendulum_t, force_at
   use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
   implicit none
   private
-  public :: pendulum_t, numerics_t, period_t, make_period, INVERSE_PI_QUAD
+  public :: numerics_t, period_t, make_period, INVERSE_PI_QUAD
 
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
   real(qp), parameter :: INVERSE_PI_QUAD = 1/PI
-
-  type, bind(C) :: pendulum_t
-    real(c_double) :: k
-    real(c_double) :: beta
-    real(c_double) :: m
-  end type pendulum_t
 
   type, bind(C) :: numerics_t
     integer(c_int32_t) :: scheme
@@ -27,8 +22,9 @@ module kz_lanes_step_table
     real(c_double) :: fastest = 0
   end type numerics_t
 
-  !> Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi u); after the last one a drift more.
-  !> rk4: kick(2 i + 1 .. 2 i + 3) = k - m cos t at the beginning, middle and end of step i + 1.
+  !> Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi (u - shift(s))) - push(s); after the last one a
+  !> drift more. rk4: kick(2 i + 1 .. 2 i + 3), shift and push at the beginning, middle and end of step i + 1. The force a sin theta - b
+  !> cos theta is one sine, kick = hypot(a, b) shifted by their angle; without b and torque kick = a, and there is neither shift nor push.
   type :: period_t
     logical :: split
     integer :: n_steps
@@ -37,6 +33,9 @@ module kz_lanes_step_table
     real(qp), allocatable :: drift(:)
     real(qp), allocatable :: decay(:)
     real(qp), allocatable :: kick(:)
+    real(qp), allocatable :: shift(:) !< half-turns
+    real(qp), allocatable :: push(:)
+    logical :: mirrored
     real(qp) :: beta
     real(qp) :: step
   end type period_t
@@ -58,6 +57,7 @@ contains
     period%n_steps = numerics%steps_per_period
     period%beta = real(pendulum%beta, qp)
     period%step = 2*PI/period%n_steps
+    period%mirrored = pendulum%unmirrored == 0
     period%split = SCHEMES(numerics%scheme + 1)%form /= RUNGE_KUTTA
     if (period%split) then
       call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), fused)
@@ -71,9 +71,9 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     integer :: i
 
-    allocate (period%kick(2*period%n_steps + 1))
+    call allocate_kicks(period, 2*period%n_steps + 1)
     do i = 0, 2*period%n_steps
-      period%kick(i + 1) = force(pendulum, real(i, qp)/(2*period%n_steps))
+      call set_kick(period, pendulum, i + 1, 1.0_qp, real(i, qp)/(2*period%n_steps))
     end do
   end subroutine rk4_tables
 
@@ -84,10 +84,11 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     type(stage_t), intent(in) :: stages(:)
     logical, intent(in) :: fused
-    real(qp) :: shift, clock, kick
+    real(qp) :: shift, clock
     integer :: n, i, s
 
-    allocate (period%drift(period%n_steps*size(stages) + 1), period%kick(period%n_steps*size(stages) + 1))
+    allocate (period%drift(period%n_steps*size(stages) + 1))
+    call allocate_kicks(period, period%n_steps*size(stages) + 1)
     allocate (period%step_end(period%n_steps))
     n = 0
     shift = 0
@@ -99,22 +100,26 @@ contains
           clock = clock + stages(s)%share
           cycle
         end if
-        kick = stages(s)%share*period%step*force(pendulum, (i + clock)/period%n_steps)
-        call append(kick)
+        call append(stages(s)%share*period%step, (i + clock)/period%n_steps)
       end do
-      if (.not. fused .and. shift > 0) call append(0.0_qp)
+      if (.not. fused .and. shift > 0) call append(0.0_qp, 0.0_qp)
       period%step_end(i + 1) = n
     end do
     period%kick = period%kick(:n)
+    if (.not. period%mirrored) then
+      period%shift = period%shift(:n)
+      period%push = period%push(:n)
+    end if
     period%drift = [period%drift(:n), shift]*period%step
     call damp(period)
   contains
-    subroutine append(kick)
-      real(qp), intent(in) :: kick
+    subroutine append(weight, turn)
+      real(qp), intent(in) :: weight
+      real(qp), intent(in) :: turn
 
       n = n + 1
       period%drift(n) = shift
-      period%kick(n) = kick
+      call set_kick(period, pendulum, n, weight, turn)
       shift = 0
     end subroutine append
   end subroutine split_tables
@@ -157,13 +162,29 @@ contains
     end do
   end function mean_decay
 
-  !> k - m cos t at t = 2 pi * turn.
-  pure function force(pendulum, turn) result(f)
-    type(pendulum_t), intent(in) :: pendulum
-    real(qp), intent(in) :: turn
-    real(qp) :: f
+  subroutine allocate_kicks(period, n)
+    type(period_t), intent(inout) :: period
+    integer, intent(in) :: n
 
-    f = real(pendulum%k, qp) - pendulum%m*cos(2*PI*turn)
-  end function force
+    allocate (period%kick(n))
+    if (.not. period%mirrored) allocate (period%shift(n), period%push(n))
+  end subroutine allocate_kicks
+
+  !> Kick n: the force at t = 2 pi * turn times a weight.
+  pure subroutine set_kick(period, pendulum, n, weight, turn)
+    type(period_t), intent(inout) :: period
+    type(pendulum_t), intent(in) :: pendulum
+    integer, intent(in) :: n
+    real(qp), intent(in) :: weight
+    real(qp), intent(in) :: turn
+    real(qp) :: a, b
+
+    call force_at(pendulum, turn, a, b)
+    period%kick(n) = weight*a
+    if (period%mirrored) return
+    period%kick(n) = weight*hypot(a, b)
+    period%shift(n) = atan2(b, a)/PI
+    period%push(n) = weight*pendulum%torque
+  end subroutine set_kick
 
 end module kz_lanes_step_table

@@ -5,7 +5,7 @@ module kz_processed_tables
   use, intrinsic :: iso_fortran_env, only: real64, real128
   use kz_processed_series_r64, only: series_r64_t => series_t, make_series_r64 => make_series
   use kz_processed_series_r128, only: series_t, make_series, ORDER, HARMONICS
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, exact_stiffness
   implicit none
   private
   public :: series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS
@@ -98,7 +98,7 @@ contains
     table%decay = exp(-2*PI*beta)
     allocate (table%row(n_drift + n_kick, n_steps), table%last(n_drift))
     harmonics = harmonic_polynomials(n_kick)
-    drift = fitted_drift(series, h, fastest + abs(real(pendulum%k, qp)) + abs(pendulum%m), n_drift)
+    drift = fitted_drift(series, h, fastest + exact_stiffness(pendulum), n_drift)
     do s = 0, n_steps
       time = (s - merge(0.0_qp, 0.5_qp, s == 0))*h
       do i = 1, n_drift

@@ -6,7 +6,7 @@ module kz_split_mixed_tile
   use kz_lanes_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
   use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI, VECTOR
-  use kz_lanes_step_table, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   implicit none
   private
   public :: mixed_tile_t, track_t, make_mixed_tile

@@ -17,6 +17,9 @@ module kz_split_stages
     real(rk), allocatable :: drift_u(:)  !< half-turns per unit of velocity
     real(rk), allocatable :: decay(:)
     real(rk), allocatable :: kick(:)
+    logical :: mirrored
+    real(rk), allocatable :: shift(:)    !< half-turns; where the pendulum is not mirrored (shifted.f90)
+    real(rk), allocatable :: push(:)
     real(rk) :: beta
     real(rk) :: step
   end type steps_t
@@ -33,6 +36,11 @@ contains
     steps%split = period%split
     steps%n_steps = period%n_steps
     allocate (steps%kick, source=real(period%kick, rk))
+    steps%mirrored = period%mirrored
+    if (.not. period%mirrored) then
+      allocate (steps%shift, source=real(period%shift, rk))
+      allocate (steps%push, source=real(period%push, rk))
+    end if
     steps%beta = real(period%beta, rk)
     steps%step = real(period%step, rk)
     if (.not. period%split) return

@@ -16,7 +16,7 @@ static const double GAIN = 0.002;   /* of the cells: a round that adds less is t
 
 static double top_of(const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  return fmax(kz_axis_fastest(&scene->basin.velocity), SLOWEST) + 0.5 * (fabs(pendulum->k) + fabs(pendulum->m));
+  return fmax(kz_axis_fastest(&scene->basin.velocity), SLOWEST) + 0.5 * kz_stiffness(pendulum);
 }
 
 static int64_t rows_of(const kz_scene *scene) {

@@ -70,7 +70,7 @@ static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_sp
   double strongest = -1, error;
   int64_t which = 0;
   for (int64_t i = 0; i < n; i++) {
-    const double strength = fabs(pendulum[i].k) + fabs(pendulum[i].m);
+    const double strength = kz_stiffness(pendulum + i);
     if (strength > strongest) which = i;
     strongest = fmax(strongest, strength);
   }

@@ -30,7 +30,7 @@ double kz_settling_search(const kz_pendulum *pendulum, double starts, double per
   if (!(pendulum->beta > 0)) return 0;
   const double mean = fmin(kz_settling_mean(pendulum->beta), (double)max_periods);
   const double doublings = 0.25 * log2(1 + pow(mean / slow, 4));
-  const double torque = ceil(sqrt(fmax(1, fabs(pendulum->k) + fabs(pendulum->m)))); /* as steps of published values go */
+  const double torque = ceil(sqrt(fmax(1, kz_stiffness(pendulum)))); /* as steps of published values go */
   return least + starts * (first_round + mean) * period + fmin(starts, asked) * doublings * newton_seconds * torque;
 }
 

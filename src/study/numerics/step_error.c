@@ -9,7 +9,7 @@ static const double ROUNDED = 1e-10;
 
 kz_speed_errors kz_step_error_classes(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
   kz_speed_errors classes = {{0}, {0}};
-  double top = fmax(fmax(fastest, 1.5), 2 * sqrt(fabs(pendulum->k) + fabs(pendulum->m)));
+  double top = fmax(fmax(fastest, 1.5), 2 * sqrt(kz_stiffness(pendulum)));
   for (int c = 1; c <= KZ_SPEED_CLASSES; c++) classes.speed[c] = ldexp(top, c - KZ_SPEED_CLASSES);
   kz_step_errors(pendulum, numerics, KZ_SPEED_CLASSES, classes.speed, classes.error);
   return classes;

@@ -16,7 +16,7 @@ static double multiple(double unit, double least) {
 
 /* Rad per drive radian: the fastest swing about an equilibrium. */
 static double swing(const kz_pendulum *p) {
-  return sqrt(fabs(p->k) + fabs(p->m));
+  return sqrt(kz_stiffness(p));
 }
 
 static double samples_of(const kz_scene *scene) {

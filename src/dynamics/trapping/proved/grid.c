@@ -11,7 +11,7 @@ kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t 
   made->rows = rows;
   made->top = top;
   made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
-  return kz_enclosure_plan_create(pendulum, top + fabs(pendulum->k) + fabs(pendulum->m), &made->plan);
+  return kz_enclosure_plan_create(pendulum, top + kz_stiffness(pendulum), &made->plan);
 }
 
 void kz_proof_free(kz_proof *proof) {

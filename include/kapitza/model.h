@@ -1,0 +1,43 @@
+/* model: the pendulum, what drives it, its symmetry and bounds (Fortran; the layer above common).
+ *
+ * theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque
+ * a = k - m cos t - sum_j (vertical[j-1][0] cos j t + vertical[j-1][1] sin j t)
+ * b = sum_j (horizontal[j-1][0] cos j t + horizontal[j-1][1] sin j t)
+ * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. Without the further terms this is BSG Eq. 2 and BUT Eq.
+ * 9 in drive time: {k, beta, m} alone. */
+#ifndef KAPITZA_MODEL_H
+#define KAPITZA_MODEL_H
+
+#include <stdint.h>
+
+#include "kapitza/common.h"
+
+enum { KZ_HARMONICS = 16 };
+
+typedef struct {
+  double k;    /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */
+  double beta; /* damping, >= 0 */
+  double m;    /* drive, any sign */
+  double torque;
+  double vertical[KZ_HARMONICS][2]; /* amplitudes of cosine and sine of harmonics 1, 2, .. */
+  double horizontal[KZ_HARMONICS][2];
+  int32_t harmonics;  /* highest harmonic of these; 0 = none */
+  int32_t unmirrored; /* 1 where there is a torque or a horizontal drive */
+} kz_pendulum;
+
+/* A bound of |a(t)| + |b(t)| + |torque|. */
+double kz_stiffness(const kz_pendulum *pendulum);
+
+/* 1 where (theta, velocity) -> (-theta, -velocity) takes motions to motions: no torque, no horizontal drive. */
+int32_t kz_is_mirrored(const kz_pendulum *pendulum);
+
+/* 1 where the drive is k - m cos t alone. */
+int32_t kz_is_sine(const kz_pendulum *pendulum);
+
+/* Highest harmonic of the drive, at least 1. */
+int32_t kz_highest_harmonic(const kz_pendulum *pendulum);
+
+/* The same pendulum where t = 0 is at the phase `phase` (rad) of the drive. */
+void kz_pendulum_shift(const kz_pendulum *pendulum, double phase, kz_pendulum *shifted);
+
+#endif

@@ -1,0 +1,199 @@
+!> The equation of motion, theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque, with
+!> a = k - m cos t - sum_j (vertical(1, j) cos j t + vertical(2, j) sin j t), b = sum_j (horizontal(1, j) cos j t + horizontal(2, j) sin j t):
+!> include/kapitza/model.h. Integrators take a and b, their series in time, their symmetry and bounds from here.
+module kz_model_pendulum
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
+  use, intrinsic :: iso_fortran_env, only: real128
+  implicit none
+  private
+  public :: pendulum_t, stiffness, exact_stiffness, is_mirrored, is_sine, highest_harmonic, acceleration, force_at, force_series, &
+            MOST_HARMONICS
+
+  integer, parameter :: qp = real128
+  !> KZ_HARMONICS of model.h.
+  integer, parameter :: MOST_HARMONICS = 16
+  real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
+
+  type, bind(C) :: pendulum_t
+    real(c_double) :: k
+    real(c_double) :: beta
+    real(c_double) :: m
+    real(c_double) :: torque = 0
+    real(c_double) :: vertical(2, MOST_HARMONICS) = 0
+    real(c_double) :: horizontal(2, MOST_HARMONICS) = 0
+    integer(c_int32_t) :: harmonics = 0
+    integer(c_int32_t) :: unmirrored = 0
+  end type pendulum_t
+
+contains
+
+  !> A bound of |a(t)| + |b(t)| + |torque|.
+  pure function stiffness(pendulum) bind(C, name='kz_stiffness') result(bound)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double) :: bound
+
+    bound = real(exact_stiffness(pendulum), c_double)
+  end function stiffness
+
+  !> The same in quad precision.
+  pure function exact_stiffness(pendulum) result(bound)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    real(qp) :: bound
+    integer :: j
+
+    bound = abs(real(pendulum%k, qp)) + abs(pendulum%m)
+    do j = 1, pendulum%harmonics
+      bound = bound + hypot(pendulum%vertical(1, j), pendulum%vertical(2, j)) &
+              + hypot(pendulum%horizontal(1, j), pendulum%horizontal(2, j))
+    end do
+    bound = bound + abs(pendulum%torque)
+  end function exact_stiffness
+
+  !> 1 where the mirror image (-theta, -velocity) of a motion is one.
+  pure function is_mirrored(pendulum) bind(C, name='kz_is_mirrored') result(mirrored)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int32_t) :: mirrored
+
+    mirrored = 1 - pendulum%unmirrored
+  end function is_mirrored
+
+  !> 1 where the drive is k - m cos t alone.
+  pure function is_sine(pendulum) bind(C, name='kz_is_sine') result(sine)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int32_t) :: sine
+
+    sine = merge(1, 0, pendulum%harmonics == 0 .and. pendulum%unmirrored == 0)
+  end function is_sine
+
+  !> Highest harmonic of the drive, at least 1.
+  pure function highest_harmonic(pendulum) bind(C, name='kz_highest_harmonic') result(highest)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int32_t) :: highest
+
+    highest = max(1_c_int32_t, pendulum%harmonics)
+  end function highest_harmonic
+
+  !> a(t) and b(t) at t = 2 pi * turn.
+  pure subroutine force_at(pendulum, turn, a, b)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    !> drive periods
+    real(qp), intent(in) :: turn
+    !> of sin theta
+    real(qp), intent(out) :: a
+    !> of -cos theta
+    real(qp), intent(out) :: b
+    real(qp) :: c, s
+    integer :: j
+
+    a = real(pendulum%k, qp) - pendulum%m*cos(2*PI*turn)
+    b = 0
+    do j = 1, pendulum%harmonics
+      c = cos(2*PI*j*turn)
+      s = sin(2*PI*j*turn)
+      a = a - pendulum%vertical(1, j)*c - pendulum%vertical(2, j)*s
+      b = b + pendulum%horizontal(1, j)*c + pendulum%horizontal(2, j)*s
+    end do
+  end subroutine force_at
+
+  !> theta'' at the drive's angle t, rad.
+  pure function acceleration(pendulum, t, theta, velocity) result(rate)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    !> drive time, rad
+    real(c_double), intent(in) :: t
+    !> rad
+    real(c_double), intent(in) :: theta
+    !> rad per drive radian
+    real(c_double), intent(in) :: velocity
+    real(c_double) :: rate
+    integer :: j
+
+    rate = -pendulum%beta*velocity - (pendulum%k - pendulum%m*cos(t))*sin(theta)
+    do j = 1, pendulum%harmonics
+      rate = rate + (pendulum%vertical(1, j)*cos(j*t) + pendulum%vertical(2, j)*sin(j*t))*sin(theta) &
+             + (pendulum%horizontal(1, j)*cos(j*t) + pendulum%horizontal(2, j)*sin(j*t))*cos(theta)
+    end do
+    if (pendulum%unmirrored /= 0) rate = rate + pendulum%torque
+  end function acceleration
+
+  !> Scaled Taylor coefficients of h**2 a(t) and h**2 b(t) about t0, in (t - t0)/h, orders 0, 1, ..
+  pure subroutine force_series(pendulum, t0, h, a, b)
+    !> the pendulum
+    type(pendulum_t), intent(in) :: pendulum
+    !> drive time, rad
+    real(qp), intent(in) :: t0
+    !> step, rad
+    real(qp), intent(in) :: h
+    !> of sin theta
+    real(qp), intent(out) :: a(0:)
+    !> of -cos theta
+    real(qp), intent(out) :: b(0:)
+    integer :: j
+
+    a = 0
+    b = 0
+    call add_harmonic(1, -h*h*pendulum%m, 0.0_qp, t0, h, a)
+    do j = 1, pendulum%harmonics
+      call add_harmonic(j, -h*h*pendulum%vertical(1, j), -h*h*pendulum%vertical(2, j), t0, h, a)
+      call add_harmonic(j, h*h*pendulum%horizontal(1, j), h*h*pendulum%horizontal(2, j), t0, h, b)
+    end do
+    a(0) = a(0) + h*h*pendulum%k
+  end subroutine force_series
+
+  !> series += coefficients of cosine*cos(j t) + sine*sin(j t).
+  pure subroutine add_harmonic(j, cosine, sine, t0, h, series)
+    integer, intent(in) :: j
+    real(qp), intent(in) :: cosine
+    real(qp), intent(in) :: sine
+    real(qp), intent(in) :: t0
+    real(qp), intent(in) :: h
+    real(qp), intent(inout) :: series(0:)
+    real(qp) :: c, s, of_cosine(0:3), of_sine(0:3), scale(2)
+    integer :: n
+
+    c = cos(j*t0)
+    s = sin(j*t0)
+    of_cosine = [c, -s, -c, s]
+    of_sine = [s, c, -s, -c]
+    scale = [cosine, sine]
+    do n = 0, ubound(series, 1)
+      series(n) = series(n) + scale(1)*of_cosine(mod(n, 4)) + scale(2)*of_sine(mod(n, 4))
+      scale = scale*(j*h)/(n + 1)
+    end do
+  end subroutine add_harmonic
+
+  !> kz_pendulum_shift of model.h: cos j(t + phase) by cosine and sine; m becomes a part of harmonic 1.
+  subroutine shift(pendulum, phase, shifted) bind(C, name='kz_pendulum_shift')
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), value :: phase
+    type(pendulum_t), intent(out) :: shifted
+    integer :: j
+
+    shifted = pendulum
+    if (.not. abs(phase) > 0) return
+    shifted%harmonics = highest_harmonic(pendulum)
+    do j = 1, shifted%harmonics
+      shifted%vertical(:, j) = turned(pendulum%vertical(:, j), j*real(phase, qp))
+      shifted%horizontal(:, j) = turned(pendulum%horizontal(:, j), j*real(phase, qp))
+    end do
+    shifted%vertical(:, 1) = shifted%vertical(:, 1) + turned([pendulum%m, 0.0_c_double], real(phase, qp))
+    shifted%m = 0
+  end subroutine shift
+
+  !> Amplitudes of cos and sin after a shift by an angle.
+  pure function turned(amplitude, angle) result(now)
+    real(c_double), intent(in) :: amplitude(2)
+    real(qp), intent(in) :: angle
+    real(c_double) :: now(2)
+
+    now(1) = real(amplitude(1)*cos(angle) + amplitude(2)*sin(angle), c_double)
+    now(2) = real(amplitude(2)*cos(angle) - amplitude(1)*sin(angle), c_double)
+  end function turned
+
+end module kz_model_pendulum
