@@ -18,6 +18,8 @@ enum {
 };
 /* A bracket is narrow enough, and a fan, where it is so small a part of the distance. */
 static const double NARROW = 1e-13, CLOSED = 1e-6;
+/* Share of the way to a boundary along a line that is looked at most closely: the size is known to RIM / (MOST / 2) of it, 5e-6. */
+static const double RIM = 1.0 / 16;
 
 /* Room for one batch of starts. */
 typedef struct {
@@ -84,23 +86,32 @@ static void bisect(room *r, int n, ray *rays) {
   }
 }
 
-/* The smallest shock along a direction and its opposite, up to `farthest`. */
+/* The nearest change along a direction and its opposite between `near` and *far on `points` points of each: it becomes *far. False where
+ * none shows. */
+static bool nearest_of_line(room *r, const double direction[2], double near, int points, double *far, kz_shock *shock) {
+  ray rays[2] = {{{direction[0], direction[1]}, near, *far, -1}, {{-direction[0], -direction[1]}, near, *far, -1}};
+  bool crossed[2];
+  narrow(r, 2, rays, points, false, crossed);
+  const int best = !crossed[0] || (crossed[1] && rays[1].far < rays[0].far);
+  if (!crossed[best]) return false;
+  bisect(r, 1, rays + best);
+  const ray *found = rays + best;
+  if (found->far > *far * (1 - CLOSED) && shock->end >= 0) return false; /* the one that is known */
+  *far = found->far;
+  *shock = (kz_shock){found->direction[0] * *far, found->direction[1] * *far, *far, found->end};
+  return true;
+}
+
+/* The smallest shock along a direction and its opposite, up to `farthest`. Each one that is found bounds the next search, of LINE points on
+ * each side; where it finds none, the last RIM of the way is looked at on MOST / 2 points, because tongues along a boundary are thin. */
 static kz_shock along_line(room *r, double theta, double velocity, double farthest) {
+  const double direction[2] = {theta, velocity};
   kz_shock shock = {NAN, NAN, NAN, -1};
   double far = farthest;
-  for (int pass = 0; pass < PASSES; pass++) {
-    ray rays[2] = {{{theta, velocity}, 0, far, -1}, {{-theta, -velocity}, 0, far, -1}};
-    bool crossed[2];
-    narrow(r, 2, rays, LINE, false, crossed);
-    const int best = !crossed[0] || (crossed[1] && rays[1].far < rays[0].far);
-    if (!crossed[best]) break;
-    const bool same = rays[best].far >= far * (1 - 1.5 / LINE);
-    far = rays[best].far;
-    bisect(r, 1, rays + best);
-    if (rays[best].far < far) far = rays[best].far;
-    shock = (kz_shock){rays[best].direction[0] * far, rays[best].direction[1] * far, far, rays[best].end};
-    if (same) break;
-  }
+  for (int pass = 0; pass < PASSES; pass++)
+    if (!nearest_of_line(r, direction, 0, LINE, &far, &shock) &&
+        (isnan(shock.size) || !nearest_of_line(r, direction, far * (1 - RIM), MOST / 2, &far, &shock)))
+      break;
   return shock;
 }
 
