@@ -110,7 +110,7 @@ void kz_checkpoint_clear(const char *path, const char *fingerprint);
  * differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
-/* What stages run on. */
+/* What stages run on. Without ranks (NULL) everything is done by this process alone, without MPI: collective calls return at once. */
 typedef struct {
   kz_ranks *ranks;
   kz_checkpoint *checkpoint; /* of the records of kept stages; NULL: nothing is kept */
@@ -152,9 +152,12 @@ typedef struct {
 /* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless
  * everywhere). The first failing rank stops the others, and all return its status. Collective. KZ_STOPPED: a signal or the
  * time limit came before the last tile was begun; finished kept records are on disk. Kept stages must come in the same
- * order in every run. `run` NULL: this rank alone does all tiles in order, keeps nothing and hears no stop request; not for
- * pieces. */
+ * order in every run. `run` NULL, or without ranks: this process alone does all tiles in order and keeps nothing; not for pieces. */
 kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
+
+/* What all tiles of a stage would take, seconds of processor time, from some that this process does alone and throws away: at most `most`,
+ * spread over the stage, and no more of them once they took `enough` seconds. Added to *seconds. Not collective. */
+kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, double *seconds);
 
 /* What becomes of pieces: each rank makes a message of each of its own, rank 0 takes all messages, in no order. Both may return
  * KZ_FAILED; `make` fills message [message_bytes, at most 1 GiB] and says how many bytes it used, more than 0. */

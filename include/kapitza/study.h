@@ -271,20 +271,19 @@ typedef struct {
   double memory_bytes; /* of every rank */
   double first_bytes;  /* of rank 0 besides */
   double shared_bytes; /* of all ranks together besides */
-  double core_seconds; /* rough, on one core */
 } kz_cost;
 
 /* One row per study. `summary` is a stream for people on rank 0, NULL elsewhere; so is `store`. All ranks call run. `check`
  * (NULL = nothing to check) refuses a scene that the study cannot model, as where the steps are too coarse for its motions. The
- * message begins with the keys that a user could change ("numerics.steps_per_period|basin.velocity: ..."). `try` (NULL = nothing to try)
- * does and times a part of what `cost` does not count, since nothing but its attractors tells what that takes: seconds on one core of all of it. */
+ * message begins with the keys that a user could change ("numerics.steps_per_period|basin.velocity: ..."). `measure`
+ * tells the processor time that run would take, seconds on one core, from samples of its work that it does and times; not collective. */
 typedef struct {
   const char *name;
   bool (*wanted)(const kz_scene *scene);
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
-  kz_status (*try)(const kz_scene *scene, double *seconds);
+  kz_status (*measure)(const kz_scene *scene, double *seconds);
 } kz_study;
 extern const kz_study kz_studies[];
 extern const int kz_study_count;

@@ -15,7 +15,6 @@ kz_cost kz_cost_of(const kz_scene *scene) {
     const kz_cost cost = kz_studies[i].cost(scene);
     total.cells += cost.cells;
     total.disk_bytes += cost.disk_bytes;
-    total.core_seconds += cost.core_seconds;
     total.memory_bytes = fmax(total.memory_bytes, cost.memory_bytes);
     total.first_bytes = fmax(total.first_bytes, cost.first_bytes);
     total.shared_bytes = fmax(total.shared_bytes, cost.shared_bytes);

@@ -71,11 +71,11 @@ void kz_ranks_abandon(kz_ranks *ranks, kz_status status) {
 }
 
 int kz_ranks_own(const kz_ranks *ranks) {
-  return ranks->rank;
+  return ranks ? ranks->rank : 0;
 }
 
 int kz_ranks_count(const kz_ranks *ranks) {
-  return ranks->size;
+  return ranks ? ranks->size : 1;
 }
 
 kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *count) {
@@ -95,6 +95,7 @@ static int severity(kz_status status) {
 }
 
 kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine) {
+  if (!ranks) return mine;
   struct {
     int severity, rank;
   } own = {severity(mine), ranks->rank}, worst;
@@ -121,7 +122,7 @@ kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what) 
 }
 
 kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {
-  for (size_t sent = 0; sent < bytes; sent += CHUNK_BYTES) {
+  for (size_t sent = 0; ranks && sent < bytes; sent += CHUNK_BYTES) {
     const size_t left = bytes - sent;
     KZ_MPI(MPI_Bcast((char *)data + sent, (int)(left < CHUNK_BYTES ? left : CHUNK_BYTES), MPI_BYTE, 0, ranks->comm));
   }
@@ -130,7 +131,7 @@ kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {
 
 kz_status kz_ranks_sum(kz_ranks *ranks, int64_t *numbers, int64_t n) {
   static const int64_t part = (int64_t)1 << 27; /* MPI counts are int */
-  for (int64_t done = 0; done < n; done += part) {
+  for (int64_t done = 0; ranks && done < n; done += part) {
     const int count = (int)(n - done < part ? n - done : part);
     KZ_MPI(MPI_Allreduce(MPI_IN_PLACE, numbers + done, count, MPI_INT64_T, MPI_SUM, ranks->comm));
   }
@@ -148,7 +149,7 @@ void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds) {
 kz_status kz_ranks_interrupted(const kz_ranks *ranks) {
   const char *signal = kz_signals_caught();
   if (signal) return kz_fail(KZ_STOPPED, "stopped by %s", signal);
-  if (ranks->limit > 0 && kz_clock() - ranks->start >= ranks->limit)
+  if (ranks && ranks->limit > 0 && kz_clock() - ranks->start >= ranks->limit)
     return kz_fail(KZ_STOPPED, "stopped by the time limit of %g s", ranks->limit);
   return KZ_OK;
 }

@@ -1,4 +1,5 @@
 /* A stage: tiles are drawn, worked, kept and delivered. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -185,7 +186,7 @@ static kz_status run_alone(const kz_stage *stage, char *records) {
 }
 
 kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
-  if (!on) return run_alone(stage, records);
+  if (!on || !on->ranks) return run_alone(stage, records);
   stage_run run = {.ranks = on->ranks,
                    .checkpoint = on->checkpoint,
                    .stage = stage,
@@ -196,5 +197,24 @@ kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
   kz_record_buffer_end(&run.buffered);
   free(run.buffer);
   free(run.left);
+  return status;
+}
+
+kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, double *seconds) {
+  static const double GOLDEN = 0.61803398874989484820; /* its multiples spread evenly, however many there are */
+  const int64_t n = stage->n_tiles < most ? stage->n_tiles : most;
+  char *record = kz_malloc(stage->record_bytes);
+  double spent = 0, place = 0.5;
+  int64_t done = 0;
+  kz_status status = KZ_OK;
+  for (; status == KZ_OK && done < n && spent < enough; done++, place += GOLDEN) {
+    const int64_t tile = n == stage->n_tiles ? done : (int64_t)((place - floor(place)) * (double)stage->n_tiles);
+    memset(record, 0, stage->record_bytes);
+    const double start = kz_processor_clock();
+    status = stage->work(stage->context, tile, record);
+    spent += kz_processor_clock() - start;
+  }
+  free(record);
+  if (done > 0) *seconds += spent / (double)done * (double)stage->n_tiles;
   return status;
 }

@@ -17,12 +17,6 @@ static int64_t samples_for(double accuracy) {
   return (int64_t)fmax(1000, ceil(n));
 }
 
-void kz_accuracy_cost(double accuracy, kz_cost *cost) {
-  static const double mean_periods = 30, period_seconds = 2e-4, setting_seconds = 0.5;
-  if (accuracy >= 1) return;
-  cost->core_seconds += (double)samples_for(accuracy) * mean_periods * period_seconds + 10 * setting_seconds;
-}
-
 enum { MOST = 32 }; /* candidates */
 
 /* The candidates in ascending order of their cost on these cells. */
@@ -98,6 +92,25 @@ static kz_status choose(const kz_reference_labels *reference, const kz_run *run,
   order(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
   return climb(&w, run, accuracy, choice);
+}
+
+kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds) {
+  enum { FEW = 4 }; /* candidates, the cheapest: half of the others are tried, as a rule */
+  const int64_t samples = samples_for(scene->basin.accuracy);
+  kz_reference_labels reference = {0};
+  walk w;
+  double taken = 0;
+  if (samples == 0) return KZ_OK;
+  kz_status status = kz_reference_labels_measure(scene, samples, &reference, seconds);
+  if (status == KZ_OK) order(&reference, &w);
+  for (int64_t i = 0; i < FEW && status == KZ_OK; i++) {
+    kz_measured measured;
+    status = kz_config_measure(w.ladder[i], &reference, 0, &measured);
+    taken += measured.set_up + measured.cell * (double)samples;
+  }
+  if (status == KZ_OK) *seconds += taken / FEW * (double)w.count / 2;
+  kz_reference_labels_free(&reference);
+  return status;
 }
 
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {

@@ -17,7 +17,7 @@ kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store 
 /* The choice as attributes of /basin. Rank 0. */
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store);
 
-/* Adds the cost of the choice itself to `cost`. */
-void kz_accuracy_cost(double accuracy, kz_cost *cost);
+/* What the choice itself takes, seconds of processor time from samples, is added to *seconds. Not collective. */
+kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds);
 
 #endif

@@ -38,6 +38,8 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
                                    kz_reference_labels *reference);
 /* Writes the cache where there are more labels than it holds. Rank 0. */
 kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path);
+/* Those of a few cells, by this process alone; what `samples` of them take is added to *seconds. Not collective. */
+kz_status kz_reference_labels_measure(const kz_scene *scene, int64_t samples, kz_reference_labels *reference, double *seconds);
 void kz_reference_labels_free(kz_reference_labels *reference);
 
 /* The labels of a cache that was made for the same pendulum, window, seed, limit and attractors: as many as there are and at

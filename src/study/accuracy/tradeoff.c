@@ -29,16 +29,12 @@ static const kz_config *config_at(const kz_tradeoff_plan *plan, int64_t i) {
 }
 
 kz_cost kz_tradeoff_cost(const kz_scene *scene) {
-  static const double kick_seconds = 1e-9, mean_periods = 30, reference_seconds = 3e-4;
-  double kicks = 0, nodes = 0;
+  double nodes = 0;
   for (int64_t i = 0; i < count_configs(&scene->tradeoff); i++) {
     const kz_config *config = config_at(&scene->tradeoff, i);
-    kicks += kz_config_cost(config, TIMED, mean_periods);
     nodes = fmax(nodes, (double)config->nodes * (double)config->nodes);
   }
-  return (kz_cost){.disk_bytes = 1e6,
-                   .memory_bytes = 120 * nodes,
-                   .core_seconds = kicks * kick_seconds + reference_seconds * mean_periods * (double)scene->tradeoff.samples};
+  return (kz_cost){.disk_bytes = 1e6, .memory_bytes = 120 * nodes};
 }
 
 /* Without damping there are no reference labels. */
@@ -95,20 +91,40 @@ static void rate(const kz_reference_labels *reference, kz_trade *trade) {
   kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
 }
 
-static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
-  measuring m = {reference, trade};
-  kz_stage stage = {.name = "settings",
-                    .n_tiles = trade->count,
+static kz_stage stage_of(measuring *m) {
+  return (kz_stage){.name = "settings",
+                    .n_tiles = m->trade->count,
                     .record_bytes = sizeof(kz_measured),
                     .work = measure_tile,
-                    .context = &m,
+                    .context = m,
                     .keep = true,
                     .everywhere = true};
+}
+
+static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
+  measuring m = {reference, trade};
+  const kz_stage stage = stage_of(&m);
   for (int64_t i = 0; i < trade->count; i++)
     trade->numerics[i] = kz_config_numerics(trade->configs[i], &reference->pendulum, reference->plan);
   KZ_TRY(kz_stage_run(run, &stage, trade->measured));
   rate(reference, trade);
   return KZ_OK;
+}
+
+kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds) {
+  kz_reference_labels reference = {0};
+  kz_trade trade = {0};
+  if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  kz_status status = kz_reference_labels_measure(scene, scene->tradeoff.samples, &reference, seconds);
+  if (status == KZ_OK) {
+    measuring m = {&reference, &trade};
+    allocate(&scene->tradeoff, &trade);
+    const kz_stage stage = stage_of(&m);
+    status = kz_stage_measure(&stage, 6, 2.0, seconds);
+  }
+  kz_reference_labels_free(&reference);
+  free_trade(&trade);
+  return status;
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

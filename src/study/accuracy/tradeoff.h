@@ -26,6 +26,7 @@ char *kz_reference_path(const kz_store *store);
 
 bool kz_tradeoff_wanted(const kz_scene *scene);
 kz_cost kz_tradeoff_cost(const kz_scene *scene);
+kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds);
 kz_status kz_tradeoff_check(const kz_scene *scene);
 kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 

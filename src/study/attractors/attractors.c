@@ -23,13 +23,7 @@ bool kz_attractors_wanted(const kz_scene *scene) {
 }
 
 kz_cost kz_attractors_cost(const kz_scene *scene) {
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  double starts = (double)scene->attractors.starts, kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
-  return (kz_cost){.disk_bytes = 1e5,
-                   .memory_bytes = 100 * starts,
-                   .core_seconds = kz_settling_search(pendulum, starts, 1e-9 * kicks, kz_settling_periods(pendulum->beta))};
+  return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * (double)scene->attractors.starts};
 }
 
 static kz_motions motions_of_starts(const kz_scene *scene) {
@@ -48,12 +42,17 @@ static void allocate(const kz_scene *scene, finding *s) {
   s->label = kz_malloc(n * sizeof *s->label);
 }
 
-static kz_status discover(const kz_run *run, finding *s) {
+static kz_search search_of(const finding *s) {
   kz_search search = {.window = kz_window_of(&s->plan->theta, &s->plan->velocity),
                       .starts = s->plan->starts,
                       .seed = s->plan->seed,
                       .max_periods = s->max_periods};
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
+  return search;
+}
+
+static kz_status discover(const kz_run *run, finding *s) {
+  const kz_search search = search_of(s);
   KZ_TRY(kz_search_window(run, s->dynamics, &search, s->state, s->label));
   s->reached = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
   for (int64_t i = 0; i < s->plan->starts; i++) s->reached[s->label[i]]++;
@@ -83,15 +82,36 @@ static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store
   return kz_catalogue_write(&(kz_catalogue){0}, &scene->parameters.pendulum, false, store);
 }
 
-kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
+static finding begin(const kz_scene *scene) {
   finding s = {.plan = &scene->attractors, .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
   allocate(scene, &s);
+  return s;
+}
+
+static void end(finding *s) {
+  kz_dynamics_free(s->dynamics);
+  free(s->state);
+  free(s->label);
+  free(s->reached);
+}
+
+kz_status kz_attractors_measure(const kz_scene *scene, double *seconds) {
+  double state[2 * KZ_SEARCH_FEW];
+  int32_t label[KZ_SEARCH_FEW];
+  int64_t n;
+  if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  finding s = begin(scene);
+  const kz_search search = search_of(&s);
+  const kz_status status = kz_search_measure(s.dynamics, &search, state, label, &n, seconds);
+  end(&s);
+  return status;
+}
+
+kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
+  finding s = begin(scene);
   kz_status status = kz_ranks_agree(run->ranks, discover(run, &s));
   if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = publish(scene, &s, store, summary);
-  kz_dynamics_free(s.dynamics);
-  free(s.state);
-  free(s.label);
-  free(s.reached);
+  end(&s);
   return status;
 }

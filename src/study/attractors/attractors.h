@@ -6,6 +6,7 @@
 
 bool kz_attractors_wanted(const kz_scene *scene);
 kz_cost kz_attractors_cost(const kz_scene *scene);
+kz_status kz_attractors_measure(const kz_scene *scene, double *seconds);
 kz_status kz_attractors_check(const kz_scene *scene);
 kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 

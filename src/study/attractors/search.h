@@ -33,6 +33,12 @@ kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_peri
  * settled. In kept stages. Collective. */
 kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
 
+/* The same with KZ_SEARCH_FEW starts at most, by this process alone: *n of them, state and label [KZ_SEARCH_FEW] as above. What all would take
+ * is added to *seconds, processor time; a map table of few nodes is made. Not collective. */
+enum { KZ_SEARCH_FEW = 1024 };
+kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
+                            double *seconds);
+
 /* The search for the attractors of the scene's study basin or attractors. */
 kz_search kz_search_of(const kz_scene *scene);
 

@@ -10,13 +10,10 @@
 
 #include "accuracy/accuracy.h"
 #include "boundary.h"
-#include "numerics/settling.h"
 #include "resilience/resilience.h"
 #include "numerics/step_table.h"
 #include "proof.h"
 #include "shocks_write.h"
-
-enum { CELLS = 16384 }; /* of a tile, about: so many that the few that take long hardly leave lanes empty */
 
 /* The errors of the numerics behind the labels, and warnings about them. */
 static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_labels *labels, FILE *summary) {
@@ -107,8 +104,8 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_labelling labelling = {.plan = plan,
                             .pendulum = &scene->parameters.pendulum,
                             .run = run,
-                            .tiles = kz_tiles_of(scene, CELLS),
-                            .batch = kz_tile_cells(scene, CELLS),
+                            .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
+                            .batch = kz_tile_cells(scene, KZ_TILE_CELLS),
                             .search = {.window = kz_window_of(&plan->theta, &plan->velocity),
                                        .starts = plan->starts,
                                        .seed = plan->seed,
@@ -139,7 +136,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
 
 /* Without damping areas are conserved and nothing attracts. */
 static kz_status write_undamped(const kz_scene *scene, kz_store *store, FILE *summary) {
-  const kz_tiles tiles = kz_tiles_of(scene, CELLS);
+  const kz_tiles tiles = kz_tiles_of(scene, KZ_TILE_CELLS);
   const kz_labels labels = {.cells = tiles.cells, .counts = {.unsettled = tiles.cells}, .step_error = NAN, .table_error = NAN};
   fprintf(summary, "basin: without damping nothing attracts: every cell is labelled -1\n");
   KZ_TRY(kz_basin_declare(scene, &tiles, store));
@@ -168,42 +165,4 @@ kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store
 
 bool kz_basin_wanted(const kz_scene *scene) {
   return scene->has_basin;
-}
-
-/* Of FILE and FILE.checkpoint. Measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
-static double packed_bytes(double cells) {
-  return 0.9 * pow(cells, 0.96);
-}
-
-kz_cost kz_basin_cost(const kz_scene *scene) {
-  const kz_basin_plan *plan = &scene->basin;
-  const kz_tiles tiles = kz_tiles_of(scene, CELLS);
-  double cells = (double)plan->theta.count * (double)plan->velocity.count;
-  double nodes = plan->method == KZ_METHOD_ICM ? (double)plan->table_theta * (double)plan->table_velocity : 0;
-  double regions = pow((double)kz_regions_cells(plan->theta.count * plan->velocity.count), 2);
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  static const double kick_seconds = 8e-10;
-  const bool chosen = plan->accuracy >= 1; /* exact, with the processed splitting: some 40 kicks */
-  double kicks = chosen ? 40 : (double)scheme.kicks * scene->numerics.steps_per_period;
-  double period = kicks * kick_seconds;
-  const int32_t method = chosen ? KZ_METHOD_EXACT : plan->method;
-  /* exact: with tangent map, finer steps and changes of coordinates; then a few cells, and those for long, in
-   * more precision */
-  static const double integrated[] = {[KZ_METHOD_ICM] = 0, [KZ_METHOD_DIRECT] = 1, [KZ_METHOD_EXACT] = 12};
-  static const double others[] = {[KZ_METHOD_ICM] = 7e-8, [KZ_METHOD_DIRECT] = 0, [KZ_METHOD_EXACT] = 4e-7};
-  const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  const double periods = kz_settling_cells(pendulum->beta, plan->max_periods);
-  double cell_period = integrated[method] * period + others[method];
-  kz_cost cost = {.cells = plan->theta.count * plan->velocity.count,
-                  .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes(cells),
-                  .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_room(&tiles),
-                  .first_bytes = 4e6,
-                  .shared_bytes = 0.2 * cells,
-                  .core_seconds = kz_settling_search(pendulum, (double)plan->starts, period, plan->max_periods) +
-                                  nodes / 2 * period + regions / 2 * (8 * period + 1e-6) + cells * periods * cell_period +
-                                  (double)kz_doubt_cells(plan) * periods * 4 * period + kz_proof_seconds(scene)};
-  if (method == KZ_METHOD_EXACT) cost.core_seconds += 0.5; /* tables of the pairs of doubles */
-  if (!isnan(plan->accuracy)) kz_accuracy_cost(plan->accuracy, &cost);
-  return cost;
 }

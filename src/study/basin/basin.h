@@ -7,6 +7,8 @@
 #include "labelling/doubt.h"
 #include "resilience/resilience.h"
 
+enum { KZ_TILE_CELLS = 16384 }; /* of a tile, about: so many that the few that take long hardly leave lanes empty */
+
 /* What is known of a labelled window. */
 typedef struct {
   int64_t cells;
@@ -33,7 +35,7 @@ kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan);
 bool kz_basin_wanted(const kz_scene *scene);
 kz_cost kz_basin_cost(const kz_scene *scene);
 kz_status kz_basin_check(const kz_scene *scene);
-kz_status kz_basin_try(const kz_scene *scene, double *seconds);
+kz_status kz_basin_measure(const kz_scene *scene, double *seconds);
 kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 #endif

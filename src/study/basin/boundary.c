@@ -102,25 +102,25 @@ static kz_status pair_tile(void *context, int64_t tile, void *record) {
   return status;
 }
 
-kz_status kz_boundary_try(const kz_basin_plan *plan, kz_dynamics *dynamics, int64_t tile) {
-  pairing p = {plan, dynamics};
-  pair_record record = {0};
-  return pair_tile(&p, tile, &record);
+static kz_stage stage_of(pairing *p) {
+  return (kz_stage){.name = "pairs",
+                    .n_tiles = (p->plan->boundary.pairs + STARTS - 1) / STARTS,
+                    .record_bytes = sizeof(pair_record),
+                    .work = pair_tile,
+                    .context = p,
+                    .keep = true,
+                    .everywhere = true};
 }
 
-int64_t kz_boundary_tiles(const kz_basin_plan *plan) {
-  return (plan->boundary.pairs + STARTS - 1) / STARTS;
+kz_status kz_boundary_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds) {
+  pairing p = {plan, dynamics};
+  const kz_stage stage = stage_of(&p);
+  return plan->has_boundary ? kz_stage_measure(&stage, 16, 0.5, seconds) : KZ_OK;
 }
 
 static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labelling, kz_uncertain *uncertain) {
   pairing p = {plan, labelling->dynamics};
-  const kz_stage stage = {.name = "pairs",
-                          .n_tiles = kz_boundary_tiles(plan),
-                          .record_bytes = sizeof(pair_record),
-                          .work = pair_tile,
-                          .context = &p,
-                          .keep = true,
-                          .everywhere = true};
+  const kz_stage stage = stage_of(&p);
   pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status =
       kz_ranks_agree(labelling->run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for pairs of starts"));

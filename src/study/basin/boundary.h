@@ -10,9 +10,8 @@
 kz_status kz_boundary_find(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue, kz_store *store,
                            FILE *summary);
 
-/* Follows tile `tile` of kz_boundary_tiles of its pairs, to be timed. */
-kz_status kz_boundary_try(const kz_basin_plan *plan, kz_dynamics *dynamics, int64_t tile);
-int64_t kz_boundary_tiles(const kz_basin_plan *plan);
+/* What the pairs take, seconds of processor time from some of them, is added to *seconds. */
+kz_status kz_boundary_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds);
 
 /* Mean lifetime of the tail of the settling times, of the cells in the store: attributes of /basin, and a line. Rank 0. */
 kz_status kz_lifetime_write(const kz_scene *scene, kz_store *store, FILE *summary);

@@ -12,8 +12,6 @@ enum { LEAST_STEPS = 8, MOST_STEPS = 4000 };
 static const double TOLERANCE = 1e-8;
 /* Of split6: the steps with which errors are measured, and those below which rounding prevails. */
 static const double MEASURED_STEPS = 24, ROUNDING = 1e-13;
-/* Time of a step of one motion, s. */
-static const double STEP_SECONDS = 2.5e-8;
 
 typedef struct {
   kz_chart_ending ending[KZ_CHART_POINTS];
@@ -51,17 +49,9 @@ static int64_t periods_of(const kz_chart_plan *plan, double beta) {
 kz_cost kz_chart_cost(const kz_scene *scene) {
   const kz_chart_plan *plan = &scene->chart;
   const double motions = (double)points_of(plan) * (double)plan->theta.count;
-  const int64_t corner = points_of(plan) - 1;
-  double beta = 0;
-  for (int i = 0; i <= 4; i++) {
-    kz_pendulum pendulum;
-    if (pendulum_of(scene, corner * i / 4, &pendulum)) beta += pendulum.beta / 5;
-  }
-  const double periods = beta > 0 ? fmin(2 * 12 / (2 * M_PI * beta), (double)periods_of(plan, beta)) : 0;
   return (kz_cost){.cells = (int64_t)motions,
                    .disk_bytes = 2 * motions * sizeof(kz_chart_ending),
-                   .first_bytes = 3 * motions * sizeof(kz_chart_ending),
-                   .core_seconds = STEP_SECONDS * 12 * periods * motions};
+                   .first_bytes = 3 * motions * sizeof(kz_chart_ending)};
 }
 
 /* Steps of split6 that keep the error of a period: measured for the strongest of n pendulums, and scaled by the order of the
@@ -118,15 +108,24 @@ static void pack(const kz_chart_plan *plan, tile_record *records) {
     memmove(endings + place * points, records + place * tiles_of(plan), (size_t)points * sizeof *endings);
 }
 
+static kz_stage stage_of(const kz_scene *scene) {
+  return (kz_stage){.name = "ends",
+                    .n_tiles = tiles_of(&scene->chart) * scene->chart.theta.count,
+                    .record_bytes = sizeof(tile_record),
+                    .work = work,
+                    .context = (void *)scene,
+                    .keep = true};
+}
+
+kz_status kz_chart_measure(const kz_scene *scene, double *seconds) {
+  const kz_stage stage = stage_of(scene);
+  return kz_stage_measure(&stage, 24, 0.5, seconds);
+}
+
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_chart_plan *plan = &scene->chart;
   const bool here = kz_ranks_own(run->ranks) == 0;
-  const kz_stage stage = {.name = "ends",
-                          .n_tiles = tiles_of(plan) * plan->theta.count,
-                          .record_bytes = sizeof(tile_record),
-                          .work = work,
-                          .context = (void *)scene,
-                          .keep = true};
+  const kz_stage stage = stage_of(scene);
   tile_record *records = here ? kz_malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
   kz_status status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK && here) {

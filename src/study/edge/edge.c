@@ -9,7 +9,6 @@
 
 #include "attractors/catalogue.h"
 #include "attractors/search.h"
-#include "numerics/settling.h"
 #include "labelling/starts.h"
 #include "track.h"
 
@@ -29,9 +28,7 @@ kz_cost kz_edge_cost(const kz_scene *scene) {
   const kz_search search = kz_search_of(scene);
   const double points = (double)scene->edge.periods + 1;
   return (kz_cost){.disk_bytes = 64 * points + 40 * (double)search.starts,
-                   .memory_bytes = 64 * points + 40 * (double)search.starts,
-                   .core_seconds = 2e-3 * points + kz_settling_search(&scene->parameters.pendulum, (double)search.starts, 1e-6,
-                                                                      search.max_periods)};
+                   .memory_bytes = 64 * points + 40 * (double)search.starts};
 }
 
 /* Record: the edge, then its orbit [periods + 1][2]. */
@@ -137,11 +134,37 @@ static kz_status follow(edging *e, const kz_run *run, kz_store *store, FILE *sum
   return status;
 }
 
+static void end(edging *e) {
+  kz_dynamics_free(e->dynamics);
+  free(e->state);
+  free(e->label);
+}
+
+/* The edge of a few periods; the starts may end elsewhere where few starts have found fewer attractors. */
+kz_status kz_edge_measure(const kz_scene *scene, double *seconds) {
+  enum { FEW = 16 };
+  kz_scene part = *scene;
+  edging e = {.scene = &part, .search = kz_search_of(scene)};
+  kz_edge edge;
+  double orbit[2 * (FEW + 1)];
+  int64_t n;
+  if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  if (part.edge.periods > FEW) part.edge.periods = FEW;
+  if (e.search.starts < KZ_SEARCH_FEW) e.search.starts = KZ_SEARCH_FEW;
+  allocate(&e);
+  e.search.max_velocity = kz_dynamics_max_velocity(e.dynamics, &e.search.window);
+  e.search.starts = kz_search_of(scene).starts;
+  kz_status status = kz_search_measure(e.dynamics, &e.search, e.state, e.label, &n, seconds);
+  const double start = kz_processor_clock();
+  if (status == KZ_OK && kz_edge_track(&part, e.dynamics, e.search.max_periods, &edge, orbit) != KZ_OK) kz_message_clear();
+  *seconds += (kz_processor_clock() - start) * (double)scene->edge.periods / (double)part.edge.periods;
+  end(&e);
+  return status;
+}
+
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   edging e = {.scene = scene, .search = kz_search_of(scene)};
   const kz_status status = follow(&e, run, store, summary);
-  kz_dynamics_free(e.dynamics);
-  free(e.state);
-  free(e.label);
+  end(&e);
   return status;
 }

@@ -50,14 +50,24 @@ kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, cons
   return (kz_doubt){n, kz_share_of_part(doubtful, n, of), kz_share_of_part(differing, n, of)};
 }
 
-kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed) {
-  sample s = {.plan = plan, .dynamics = dynamics};
-  kz_stage stage = {.name = "doubt",
-                    .n_tiles = (kz_doubt_cells(plan) + TILE - 1) / TILE,
+static kz_stage stage_of(sample *s) {
+  return (kz_stage){.name = "doubt",
+                    .n_tiles = (kz_doubt_cells(s->plan) + TILE - 1) / TILE,
                     .record_bytes = TILE * sizeof(int32_t),
                     .work = follow_tile,
-                    .context = &s,
+                    .context = s,
                     .keep = true};
+}
+
+kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds) {
+  sample s = {.plan = plan, .dynamics = dynamics};
+  const kz_stage stage = stage_of(&s);
+  return kz_stage_measure(&stage, 4, 0.2, seconds);
+}
+
+kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed) {
+  sample s = {.plan = plan, .dynamics = dynamics};
+  const kz_stage stage = stage_of(&s);
   return kz_stage_run(run, &stage, followed);
 }
 

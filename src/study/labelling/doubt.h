@@ -22,6 +22,8 @@ int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i);
  * a checkpoint. Collective. */
 enum { KZ_DOUBT_TILE = 256 };
 kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed);
+/* What the sample takes, seconds of processor time from a part of it, is added to *seconds. Not collective. */
+kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds);
 /* What method exact tells: of n cells. */
 kz_doubt kz_doubt_of_all(int64_t doubtful, int64_t n);
 /* What the sample tells about the labels of the sample's cells: numbers of the same dynamics. */

@@ -23,24 +23,6 @@ int64_t kz_settling_periods(double beta) {
   return (int64_t)(wanted > MOST ? LEAST : fmax(wanted, LEAST));
 }
 
-/* The first rounds know no trapping region. From a mean of some 256 periods on, every doubling of it leaves unsettled starts,
- * whose slow spirals Newton's method then follows to cycles of up to 48 periods. */
-double kz_settling_search(const kz_pendulum *pendulum, double starts, double period, int64_t max_periods) {
-  static const double first_round = 128, slow = 256, asked = 400, newton_seconds = 1e-2, least = 0.25;
-  if (!(pendulum->beta > 0)) return 0;
-  const double mean = fmin(kz_settling_mean(pendulum->beta), (double)max_periods);
-  const double doublings = 0.25 * log2(1 + pow(mean / slow, 4));
-  const double torque = ceil(sqrt(fmax(1, kz_stiffness(pendulum)))); /* as steps of published values go */
-  return least + starts * (first_round + mean) * period + fmin(starts, asked) * doublings * newton_seconds * torque;
-}
-
-double kz_settling_cells(double beta, int64_t max_periods) {
-  static const double grown = 100; /* measured: 9 to 15 periods where the mean is 40, 664 where it is 750 */
-  if (!(beta > 0)) return 0;
-  const double mean = kz_settling_mean(beta);
-  return fmin(mean * mean / (mean + grown), (double)max_periods);
-}
-
 /* Damping changes one way along every key, so that it is weakest at an end. */
 static double weakest_damping(const kz_scene *scene) {
   double beta = scene->parameters.pendulum.beta;

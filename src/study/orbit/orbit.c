@@ -12,7 +12,7 @@
 /* Periods of an open record that the scene does not bound. */
 enum { OPEN_PERIODS = 100 };
 /* Periods that an open record is looked ahead, as a rule, and the most steps a period with which it is. */
-enum { AHEAD_PERIODS = 2000, AHEAD_STEPS = 1500 };
+enum { AHEAD_STEPS = 1500 };
 /* Periods of the transient between two looks at stop requests: a few seconds. */
 enum { STRETCH = 100000 };
 
@@ -35,12 +35,8 @@ static int64_t given(int64_t value, int64_t fallback) {
 kz_cost kz_orbit_cost(const kz_scene *scene) {
   const kz_orbit_plan *plan = &scene->orbit;
   double periods = (double)given(plan->periods, OPEN_PERIODS), rows = periods * (double)plan->samples_per_period;
-  double ahead = plan->closed || plan->model != KZ_PENDULUM ? 0 : AHEAD_PERIODS;
   double samples = fmax(96, (double)plan->samples_per_period) * periods;
-  return (kz_cost){.cells = 0,
-                   .disk_bytes = 32 * rows + 300 * periods,
-                   .first_bytes = 80 * samples + 32 * rows,
-                   .core_seconds = 1e-4 * (periods + (double)plan->transient + ahead)};
+  return (kz_cost){.cells = 0, .disk_bytes = 32 * rows + 300 * periods, .first_bytes = 80 * samples + 32 * rows};
 }
 
 /* The state and the period of an attractor, as the study before has written it. */
@@ -155,11 +151,42 @@ static kz_status model(kz_orbit *orbit, const kz_scene *scene, const kz_run *run
   return kz_ranks_own(run->ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
 }
 
+static kz_orbit begin(const kz_scene *scene) {
+  return (kz_orbit){.plan = &scene->orbit, .pendulum = scene->parameters.pendulum, .lyapunov = NAN, .lyapunov_error = NAN};
+}
+
+static void end(kz_orbit *orbit) {
+  kz_orbit_features_free(&orbit->features);
+  kz_motion_free(&orbit->motion);
+  kz_model_free(&orbit->model);
+}
+
+/* A short record from the start, or from somewhere where that is an attractor still to be found, and a part of the transient. */
+kz_status kz_orbit_measure(const kz_scene *scene, double *seconds) {
+  enum { FEW = 64 };
+  kz_scene part = *scene;
+  kz_orbit_plan *plan = &part.orbit;
+  const double periods = (double)given(plan->periods, OPEN_PERIODS);
+  plan->periods = given(plan->periods, OPEN_PERIODS) < FEW ? given(plan->periods, OPEN_PERIODS) : FEW;
+  if (plan->attractor >= 0) plan->closed = false;
+  kz_orbit orbit = begin(&part);
+  orbit.cycle.state = plan->attractor >= 0 ? (kz_state){3, 0} : (kz_state){plan->theta, plan->velocity};
+  orbit.cycle.period = plan->closed ? given(plan->period, 0) : 0;
+  kz_model_make(&part, &orbit.model);
+  const double start = kz_processor_clock();
+  kz_state state = orbit.cycle.state;
+  kz_model_skip(&orbit.model, FEW, &state);
+  const double skipped = kz_processor_clock();
+  if (follow(&orbit) != KZ_OK) kz_message_clear(); /* the run says so */
+  *seconds += (skipped - start) / FEW * (double)plan->transient +
+              (kz_processor_clock() - skipped) * fmax(1, periods / (double)plan->periods);
+  end(&orbit);
+  return KZ_OK;
+}
+
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_orbit orbit = {.plan = &scene->orbit, .pendulum = scene->parameters.pendulum, .lyapunov = NAN, .lyapunov_error = NAN};
-  kz_status status = model(&orbit, scene, run, store, summary);
-  kz_orbit_features_free(&orbit.features);
-  kz_motion_free(&orbit.motion);
-  kz_model_free(&orbit.model);
+  kz_orbit orbit = begin(scene);
+  const kz_status status = model(&orbit, scene, run, store, summary);
+  end(&orbit);
   return status;
 }

@@ -23,6 +23,7 @@ void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
 
 bool kz_orbit_wanted(const kz_scene *scene);
 kz_cost kz_orbit_cost(const kz_scene *scene);
+kz_status kz_orbit_measure(const kz_scene *scene, double *seconds);
 kz_status kz_orbit_check(const kz_scene *scene);
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 

@@ -7,6 +7,9 @@
 
 bool kz_saddles_wanted(const kz_scene *scene);
 kz_cost kz_saddles_cost(const kz_scene *scene);
+kz_status kz_saddles_measure(const kz_scene *scene, double *seconds);
+/* How many cycles a search would find, roughly. */
+double kz_saddles_expected(const kz_scene *scene);
 kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 /* The unstable ones among the cycles and the index sums: group /saddles. */

@@ -30,13 +30,7 @@ kz_cost kz_stability_cost(const kz_scene *scene) {
   const kz_stability_plan *plan = &scene->stability;
   double points = (double)plan->k.count * (double)plan->m.count;
   double curves = (double)plan->k.count * (double)(plan->curves.count + plan->subharmonics.count);
-  double beta = isnan(plan->damping) ? 0 : plan->damping;
-  double highest_k = fmax(fabs(plan->k.min), fabs(plan->k.max)), highest_m = fmax(fabs(plan->m.min), fabs(plan->m.max));
-  double stiffness = highest_k + highest_m + (plan->quality_factor > 0 ? highest_k / pow(plan->quality_factor, 2) : 0);
-  return (kz_cost){.cells = (int64_t)points,
-                   .disk_bytes = 34 * points + 32 * curves,
-                   .first_bytes = 34 * points + 32 * curves,
-                   .core_seconds = 1e-7 * (1 + sqrt(stiffness + beta * beta)) * points + 1e-4 * curves};
+  return (kz_cost){.cells = (int64_t)points, .disk_bytes = 34 * points + 32 * curves, .first_bytes = 34 * points + 32 * curves};
 }
 
 /* Values from min to max, both exactly. */
@@ -144,14 +138,26 @@ static void unpack_curves(kz_chart *chart, const curve_record *records) {
   }
 }
 
+static kz_stage chart_stage(kz_chart *chart) {
+  return (kz_stage){.name = "chart",
+                    .n_tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS),
+                    .record_bytes = sizeof(chart_record),
+                    .work = chart_tile,
+                    .context = chart,
+                    .keep = true};
+}
+
+static kz_stage curve_stage(kz_chart *chart) {
+  return (kz_stage){.name = "curves",
+                    .n_tiles = chart->n_tasks * tiles_of(chart->plan->k.count, PIECE),
+                    .record_bytes = sizeof(curve_record),
+                    .work = curve_tile,
+                    .context = chart,
+                    .keep = true};
+}
+
 static kz_status model_chart(const kz_run *run, kz_chart *chart) {
-  int64_t points = chart->plan->k.count * chart->plan->m.count;
-  const kz_stage stage = {.name = "chart",
-                          .n_tiles = tiles_of(points, POINTS),
-                          .record_bytes = sizeof(chart_record),
-                          .work = chart_tile,
-                          .context = chart,
-                          .keep = true};
+  const kz_stage stage = chart_stage(chart);
   void *records;
   kz_status status = run_stage(run, &stage, &records);
   if (status == KZ_OK && records) unpack_chart(chart, records);
@@ -161,12 +167,7 @@ static kz_status model_chart(const kz_run *run, kz_chart *chart) {
 
 static kz_status model_curves(const kz_run *run, kz_chart *chart) {
   if (chart->n_tasks == 0) return KZ_OK;
-  const kz_stage stage = {.name = "curves",
-                          .n_tiles = chart->n_tasks * tiles_of(chart->plan->k.count, PIECE),
-                          .record_bytes = sizeof(curve_record),
-                          .work = curve_tile,
-                          .context = chart,
-                          .keep = true};
+  const kz_stage stage = curve_stage(chart);
   void *records;
   kz_status status = run_stage(run, &stage, &records);
   if (status == KZ_OK && records) unpack_curves(chart, records);
@@ -174,10 +175,39 @@ static kz_status model_curves(const kz_run *run, kz_chart *chart) {
   return status;
 }
 
-kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+static kz_chart begin(const kz_scene *scene, bool here) {
   const kz_stability_plan *plan = &scene->stability;
   kz_chart chart = {.plan = plan, .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor}};
-  allocate(&chart, kz_ranks_own(run->ranks) == 0);
+  allocate(&chart, here);
+  return chart;
+}
+
+/* Packing the points for the file: the middle tile's, as many times as there are tiles. */
+static void measure_packing(kz_chart *chart, double *seconds) {
+  const int64_t tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS);
+  chart_record *record = kz_calloc(1, sizeof *record);
+  uint8_t *packed = kz_malloc(kz_pack_room(POINTS, sizeof(double)));
+  chart_tile(chart, tiles / 2, record);
+  const double start = kz_processor_clock();
+  kz_pack_into(record->log_multiplier, POINTS, sizeof(double), packed);
+  kz_pack_into(record->angle, POINTS, sizeof(double), packed);
+  *seconds += (kz_processor_clock() - start) * (double)tiles;
+  free(packed);
+  free(record);
+}
+
+kz_status kz_stability_measure(const kz_scene *scene, double *seconds) {
+  kz_chart chart = begin(scene, false);
+  measure_packing(&chart, seconds);
+  const kz_stage stages[] = {chart_stage(&chart), curve_stage(&chart)};
+  kz_status status = KZ_OK;
+  for (int i = 0; i < 2 && status == KZ_OK; i++) status = kz_stage_measure(stages + i, 48, 0.2, seconds);
+  release(&chart);
+  return status;
+}
+
+kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  kz_chart chart = begin(scene, kz_ranks_own(run->ranks) == 0);
   kz_status status = model_chart(run, &chart);
   if (status == KZ_OK) status = model_curves(run, &chart);
   if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) {

@@ -7,6 +7,7 @@
 
 bool kz_stability_wanted(const kz_scene *scene);
 kz_cost kz_stability_cost(const kz_scene *scene);
+kz_status kz_stability_measure(const kz_scene *scene, double *seconds);
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
 /* ---- inside the study ---- */

@@ -225,15 +225,19 @@ typedef struct {
   const kz_run *run;
 } sweeping;
 
-static kz_status work(void *context, int64_t tile, void *record) {
-  const sweeping *sweep = context;
-  searching s = {.scene = sweep->scene, .run = sweep->run};
+kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_t value, kz_sweep_catalogue *catalogue) {
+  searching s = {.scene = scene, .run = run};
   kz_pendulum pendulum;
-  if (!kz_sweep_pendulum(s.scene, kz_sweep_value(&s.scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
+  if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, value), &pendulum) || pendulum.beta <= 0) return KZ_OK;
   begin(&pendulum, &s);
-  const kz_status status = search(&s, record);
+  const kz_status status = search(&s, catalogue);
   end(&s);
   return status;
+}
+
+static kz_status work(void *context, int64_t tile, void *record) {
+  const sweeping *sweep = context;
+  return kz_sweep_catalogue_at(sweep->scene, sweep->run, tile, record);
 }
 
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {

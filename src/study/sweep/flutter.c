@@ -233,15 +233,42 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
   return kz_store_real(store, "sweep", "fit_exponent_error", law.exponent_error);
 }
 
-kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+/* The scene's flutter by this rank, or by all: f->amplitude is to be freed. */
+static kz_status follow_scene(const kz_scene *scene, const kz_run *run, fluttering *f) {
   const int64_t n = scene->sweep.values.count;
-  fluttering f = {.scene = scene,
-                  .run = run,
-                  .path = kz_sweep_path(scene),
-                  .critical = NAN,
-                  .amplitude = kz_malloc((size_t)n * sizeof(double))};
-  for (int64_t i = 0; i < n; i++) f.amplitude[i] = NAN;
-  kz_status status = find_flutter(&f);
+  *f = (fluttering){.scene = scene,
+                    .run = run,
+                    .path = kz_sweep_path(scene),
+                    .critical = NAN,
+                    .amplitude = kz_malloc((size_t)n * sizeof(double))};
+  for (int64_t i = 0; i < n; i++) f->amplitude[i] = NAN;
+  return find_flutter(f);
+}
+
+/* The same range with few values, which takes nearly as long as with many; and the walk from value to value. */
+kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds) {
+  enum { FEW = 24, STEPS = 8 };
+  const kz_run alone = {NULL, NULL};
+  const kz_sweep_plan *plan = &scene->sweep;
+  const double n = (double)plan->values.count, step = (plan->values.max - plan->values.min) / fmax(1, n - 1);
+  kz_scene fewer = *scene;
+  fluttering f;
+  if (n > FEW) fewer.sweep.values.count = FEW;
+  const double start = kz_processor_clock();
+  const kz_status status = follow_scene(&fewer, &alone, &f);
+  const double followed = kz_processor_clock();
+  *seconds += followed - start;
+  if (status == KZ_OK && n > FEW && f.begun.found) {
+    kz_walk(&f.path, f.begun.at, f.begun.at + copysign(STEPS * step, f.begun.at - f.critical), &f.begun.flutter);
+    *seconds += (kz_processor_clock() - followed) / STEPS * (n - FEW);
+  }
+  free(f.amplitude);
+  return status;
+}
+
+kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  fluttering f;
+  kz_status status = follow_scene(scene, run, &f);
   if (status == KZ_OK && store) status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
   if (status == KZ_OK && store) status = write_fit(&f, store, summary);
   free(f.amplitude);

@@ -62,17 +62,21 @@ static kz_status work(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
+static kz_stage leg_of(walking *w) {
+  return (kz_stage){.name = "sweep strobe",
+                    .n_tiles = WALKS,
+                    .record_bytes = sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double),
+                    .work = work,
+                    .context = w,
+                    .keep = true,
+                    .everywhere = true};
+}
+
 /* One leg of both walks; its points go to their places in `points` [walks][values][2][samples]. */
 static kz_status run_leg(walking *w, const kz_run *run, double *points) {
   const kz_sweep_plan *plan = &w->scene->sweep;
   const size_t value = (size_t)(2 * w->samples) * sizeof(double);
-  const kz_stage stage = {.name = "sweep strobe",
-                          .n_tiles = WALKS,
-                          .record_bytes = sizeof(strobe_state) + (size_t)w->values * value,
-                          .work = work,
-                          .context = w,
-                          .keep = true,
-                          .everywhere = true};
+  const kz_stage stage = leg_of(w);
   char *records = kz_malloc(WALKS * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, records);
   for (int64_t walk = 0; status == KZ_OK && walk < WALKS; walk++) {
@@ -124,6 +128,30 @@ static kz_status write_strobe(const kz_scene *scene, const double *points, kz_st
   free(walk);
   fprintf(summary, "strobe points of %lld periods at each value, up and down\n", (long long)samples);
   return status;
+}
+
+/* Both walks at one value, with a part of its periods: the plan of a period and the periods take their own time. */
+static kz_status measure_value(const kz_scene *scene, int64_t value, int64_t skip, double *seconds) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  const strobe_state start = {plan->start_theta, plan->start_velocity};
+  walking w = {
+      .scene = scene, .state = {start, start}, .first = value, .values = 1, .samples = 1, .skip = skip, .pushed = true};
+  const kz_stage leg = leg_of(&w);
+  return kz_stage_measure(&leg, WALKS, 1.0, seconds);
+}
+
+kz_status kz_sweep_strobe_measure(const kz_scene *scene, double *seconds) {
+  enum { VALUES = 4, FEW = 200 };
+  const kz_sweep_plan *plan = &scene->sweep;
+  const double periods = (double)(plan->transient + plan->samples), values = (double)plan->values.count;
+  double none = 0, some = 0;
+  for (int i = 0; i < VALUES; i++) {
+    const int64_t value = (2 * i + 1) * plan->values.count / (2 * VALUES);
+    KZ_TRY(measure_value(scene, value, 0, &none));
+    KZ_TRY(measure_value(scene, value, FEW, &some));
+  }
+  *seconds += values / VALUES * (none + fmax(0, some - none) / FEW * periods);
+  return KZ_OK;
 }
 
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

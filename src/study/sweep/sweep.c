@@ -4,9 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "numerics/settling.h"
-
-#define BARRED(code, word, run) "|" word
+#define BARRED(code, word, run, measure) "|" word
 const char *kz_sweep_measure_words(void) {
   static const char words[] = KZ_SWEEP_MEASURES(BARRED);
   return words + 1;
@@ -22,36 +20,6 @@ bool kz_sweep_wanted(const kz_scene *scene) {
   return scene->has_sweep;
 }
 
-/* Rough seconds of one value, whose pendulum this is, on one core. */
-static double value_seconds(const kz_scene *scene, const kz_pendulum *pendulum) {
-  const kz_sweep_plan *plan = &scene->sweep;
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  const double period = 1e-9 * (double)scheme.kicks * scene->numerics.steps_per_period;
-  const bool fractions = kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS);
-  double seconds = 0;
-  const bool resilience = kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE);
-  if (resilience) seconds += 5;
-  if (fractions || resilience || kz_sweep_measures(plan, KZ_SWEEP_ATTRACTORS))
-    seconds += kz_settling_search(pendulum, (double)plan->starts, period, kz_settling_periods(pendulum->beta)) + 0.1;
-  if (fractions && scene->has_basin)
-    seconds += (double)(scene->basin.table_theta * scene->basin.table_velocity) / 2 * period + 0.1 +
-               7e-8 * kz_settling_cells(pendulum->beta, scene->basin.max_periods) *
-                   (double)(scene->basin.theta.count * scene->basin.velocity.count);
-  if (kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE)) seconds += 0.3;
-  if (kz_sweep_measures(plan, KZ_SWEEP_FLUTTER_RANGE)) seconds += 0.5;
-  if (kz_sweep_measures(plan, KZ_SWEEP_STROBE)) seconds += 2 * 4 * period * (double)(plan->transient + plan->samples);
-  return seconds;
-}
-
-static double all_seconds(const kz_scene *scene) {
-  double seconds = 0;
-  kz_pendulum pendulum;
-  for (int64_t i = 0; i < scene->sweep.values.count; i++)
-    if (kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, i), &pendulum)) seconds += value_seconds(scene, &pendulum);
-  return seconds;
-}
-
 kz_cost kz_sweep_cost(const kz_scene *scene) {
   const double values = (double)scene->sweep.values.count;
   const bool grid = kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS) && scene->has_basin;
@@ -59,28 +27,27 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
   const double cells = grid ? (double)scene->basin.theta.count * (double)scene->basin.velocity.count : 0;
   return (kz_cost){.cells = (int64_t)(cells * values),
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
-                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells,
-                   .core_seconds = all_seconds(scene)};
+                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells};
 }
 
-kz_status kz_sweep_stage(const kz_scene *scene, const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store,
-                         FILE *summary) {
-  kz_stage kept = *stage;
-  kept.context = (void *)scene;
-  kept.keep = true;
+kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {
   void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
-  kz_status status = kz_stage_run(run, &kept, records);
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = write(scene, records, store, summary);
+  kz_status status = kz_stage_run(run, stage, records);
+  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = write(stage->context, records, store, summary);
   free(records);
   return kz_ranks_agree(run->ranks, status);
+}
+
+static bool has_branches(const kz_sweep_plan *plan) {
+  bool wanted = false;
+  for (int64_t measure = 0; measure <= KZ_SWEEP_RESILIENCE; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
+  return wanted;
 }
 
 /* The catalogues and what joins them. */
 static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
-  bool wanted = false;
-  for (int64_t measure = 0; measure <= KZ_SWEEP_RESILIENCE; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
-  if (!wanted) return KZ_OK;
+  if (!has_branches(plan)) return KZ_OK;
   kz_sweep_branches branches = {0};
   kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
   kz_status status = kz_sweep_catalogues(scene, run, catalogue);
@@ -112,11 +79,40 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
 
 kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   typedef kz_status (*run_fn)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-#define RUN(code, word, procedure) procedure,
+#define RUN(code, word, run, measure) run,
   static const run_fn runs[] = {KZ_SWEEP_MEASURES(RUN)};
   KZ_TRY(kz_ranks_agree(run->ranks, kz_ranks_own(run->ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
     if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
+  return KZ_OK;
+}
+
+/* A value of the sweep: its catalogue, and the walk of its cycles to the next value. */
+static kz_status branch_tile(void *context, int64_t tile, void *record) {
+  const kz_scene *scene = context;
+  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_run alone = {NULL, NULL};
+  const kz_path path = kz_sweep_path(scene);
+  kz_sweep_catalogue *catalogue = record;
+  KZ_TRY(kz_sweep_catalogue_at(scene, &alone, tile, catalogue));
+  for (int64_t i = 0; i < catalogue->count && tile + 1 < plan->values.count; i++)
+    if (catalogue->entries[i].point.period > 0)
+      kz_walk(&path, kz_sweep_value(plan, tile), kz_sweep_value(plan, tile + 1), &catalogue->entries[i].point);
+  return KZ_OK;
+}
+
+kz_status kz_sweep_measure(const kz_scene *scene, double *seconds) {
+  typedef kz_status (*measure_fn)(const kz_scene *scene, double *seconds);
+#define MEASURE(code, word, run, measure) measure,
+  static const measure_fn measures[] = {KZ_SWEEP_MEASURES(MEASURE)};
+  const kz_stage branches = {.name = "branches",
+                             .n_tiles = scene->sweep.values.count,
+                             .record_bytes = sizeof(kz_sweep_catalogue),
+                             .work = branch_tile,
+                             .context = (void *)scene};
+  if (has_branches(&scene->sweep)) KZ_TRY(kz_stage_measure(&branches, 12, 2.0, seconds));
+  for (int64_t i = 0; i < (int64_t)(sizeof measures / sizeof measures[0]); i++)
+    if (measures[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(measures[i](scene, seconds));
   return KZ_OK;
 }

@@ -5,18 +5,19 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* What a sweep can measure: its code, its word in the scene, what runs it; NULL: the branches, which serve four measures. */
-#define KZ_SWEEP_MEASURES(MEASURE)                                           \
-  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                           \
-  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)                 \
-  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                               \
-  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                           \
-  MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter) \
-  MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range)    \
-  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release)         \
-  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)
+/* What a sweep can measure: its code, its word in the scene, what runs it and what times samples of it; NULL: the branches, which serve
+ * four measures. */
+#define KZ_SWEEP_MEASURES(MEASURE)                                                                        \
+  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL, NULL)                                                  \
+  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL, NULL)                                        \
+  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL, NULL)                                                      \
+  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL, NULL)                                                  \
+  MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter, kz_sweep_flutter_measure)    \
+  MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range, kz_sweep_flutter_range_measure) \
+  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release, kz_sweep_release_measure)            \
+  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe, kz_sweep_strobe_measure)
 
-#define KZ_MEASURE_CODE(code, word, run) code,
+#define KZ_MEASURE_CODE(code, word, run, measure) code,
 enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) };
 
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
@@ -81,6 +82,8 @@ kz_status kz_sweep_lifetime_write(const kz_sweep_plan *plan, const kz_sweep_cata
 
 /* Fills catalogue [values.count] on every rank. Collective. */
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue);
+/* The same at one of the values. */
+kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_t value, kz_sweep_catalogue *catalogue);
 
 /* ---- branches: the same attractor along the values ---- */
 
@@ -115,11 +118,16 @@ kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_st
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
+/* What each takes, seconds of processor time from samples, is added to *seconds. Not collective. */
+kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds);
+kz_status kz_sweep_flutter_range_measure(const kz_scene *scene, double *seconds);
+kz_status kz_sweep_release_measure(const kz_scene *scene, double *seconds);
+kz_status kz_sweep_strobe_measure(const kz_scene *scene, double *seconds);
+
 /* What such a measure does with its records on rank 0. */
 typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, kz_store *store, FILE *summary);
-/* Runs a kept stage whose `work` takes the scene as context, then `write`. Collective. */
-kz_status kz_sweep_stage(const kz_scene *scene, const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store,
-                         FILE *summary);
+/* Runs a stage whose context is the scene, then `write`. Collective. */
+kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary);
 
 /* Releases from rest at t = 0, `angle` [n] rad from inverted: stays [n] = 1 where the motion stays within half a turn of it. */
 kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays);
@@ -130,6 +138,7 @@ void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
 /* One row of kz_studies. */
 bool kz_sweep_wanted(const kz_scene *scene);
 kz_cost kz_sweep_cost(const kz_scene *scene);
+kz_status kz_sweep_measure(const kz_scene *scene, double *seconds);
 kz_status kz_sweep_check(const kz_scene *scene);
 kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 

@@ -1,0 +1,170 @@
+/* What a basin costs: memory and disk by its counts, time by samples. The attractors are looked for from few starts; with them some cells
+ * are labelled, and parts of what comes after are done. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "accuracy/accuracy.h"
+#include "attractors/catalogue.h"
+#include "attractors/search.h"
+#include "basin.h"
+#include "boundary.h"
+#include "label_parts.h"
+#include "proof.h"
+#include "shocks_write.h"
+
+/* s a cell, as measured: its record, its measures, its place in the file. */
+static const double WRITE_SECONDS = 1.2e-7;
+
+/* Of FILE and FILE.checkpoint. Measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
+static double packed_bytes(double cells) {
+  return 0.9 * pow(cells, 0.96);
+}
+
+kz_cost kz_basin_cost(const kz_scene *scene) {
+  const kz_basin_plan *plan = &scene->basin;
+  const kz_tiles tiles = kz_tiles_of(scene, KZ_TILE_CELLS);
+  const int64_t cells = plan->theta.count * plan->velocity.count;
+  const double nodes = plan->method == KZ_METHOD_ICM ? (double)plan->table_theta * (double)plan->table_velocity : 0;
+  const double regions = pow((double)kz_regions_cells(cells), 2);
+  return (kz_cost){.cells = cells,
+                   .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
+                   .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_room(&tiles),
+                   .first_bytes = 4e6,
+                   .shared_bytes = 0.2 * (double)cells};
+}
+
+typedef struct {
+  const kz_scene *scene;
+  kz_dynamics *dynamics;
+  kz_labelling labelling; /* of some cells, by this process alone */
+  int64_t *item;          /* [FEW_CELLS] */
+  double seconds;
+} sample;
+
+enum { FEW_CELLS = 8192, BATCH = 512 };
+
+static const kz_run ALONE = {NULL, NULL};
+
+/* The catalogue of the attractors that a few starts end on; regions and table are as the study has them. */
+static kz_status discover(sample *s, kz_catalogue *catalogue) {
+  const kz_basin_plan *plan = &s->scene->basin;
+  double state[2 * KZ_SEARCH_FEW];
+  int32_t label[KZ_SEARCH_FEW];
+  int64_t n;
+  kz_search search = kz_search_of(s->scene);
+  if (plan->method == KZ_METHOD_ICM) search.table_theta = plan->table_theta;
+  search.table_velocity = plan->table_velocity;
+  search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
+  KZ_TRY(kz_search_measure(s->dynamics, &search, state, label, &n, &s->seconds));
+  kz_dynamics_update(s->dynamics);
+  int64_t *reached = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *reached);
+  for (int64_t i = 0; i < n; i++) reached[label[i]]++;
+  kz_catalogue_make(s->dynamics, reached, catalogue);
+  free(reached);
+  return KZ_OK;
+}
+
+/* Without regard to errors. */
+static kz_status measure_followed(sample *s, int64_t n) {
+  kz_labelled *cell = kz_malloc((size_t)n * sizeof *cell);
+  const double start = kz_processor_clock();
+  const kz_status status = kz_label_cells(&s->labelling, 0, s->item, n, cell);
+  s->seconds += (kz_processor_clock() - start) / (double)n * (double)kz_own_cells(&s->scene->basin);
+  free(cell);
+  return status;
+}
+
+/* One precision level for n cells of `all` that come to it: *n becomes how many it leaves, to the front of s->item. */
+static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t level, double all, int64_t *n, double *share) {
+  static const double enough = 0.3; /* s */
+  kz_decision *decision = kz_malloc(BATCH * sizeof *decision);
+  const double start = kz_processor_clock();
+  int64_t done = 0, left = 0, part;
+  kz_status status = KZ_OK;
+  for (; status == KZ_OK && done < *n && kz_processor_clock() - start < enough; done += part) {
+    const int64_t batch = kz_level_tile(level) < BATCH ? kz_level_tile(level) : BATCH;
+    part = *n - done < batch ? *n - done : batch;
+    status = kz_label_at(labeller, level, part, s->item + done, decision);
+    for (int64_t i = 0; i < part; i++)
+      if (decision[i].label == KZ_DOUBTFUL) s->item[left++] = s->item[done + i];
+  }
+  s->seconds += (kz_processor_clock() - start) / (double)done * all;
+  *n = left;
+  *share = (double)left / (double)done;
+  free(decision);
+  return status;
+}
+
+static kz_status measure_exact(sample *s, int64_t n) {
+  const kz_labeller labeller = kz_cells_labeller(&s->labelling);
+  double all = (double)kz_own_cells(&s->scene->basin), share;
+  const double start = kz_processor_clock();
+  kz_labeller_prepare(&labeller);
+  s->seconds += kz_processor_clock() - start;
+  for (int32_t level = KZ_LEVEL_DOUBLE; n > 0 && level < KZ_LEVELS;
+       level = kz_level_after(&labeller, level, (int64_t)ceil(all))) {
+    KZ_TRY(measure_level(s, &labeller, level, all, &n, &share));
+    all *= share;
+  }
+  return KZ_OK;
+}
+
+static kz_status measure_cells(sample *s) {
+  const kz_basin_plan *plan = &s->scene->basin;
+  const int64_t own = kz_own_cells(plan), n = own < FEW_CELLS ? own : FEW_CELLS;
+  for (int64_t i = 0; i < n; i++) s->item[i] = kz_shuffled(i, own, plan->seed);
+  s->labelling = (kz_labelling){.plan = plan,
+                                .dynamics = s->dynamics,
+                                .run = &ALONE,
+                                .work = kz_workspace_make(),
+                                .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS),
+                                .level = KZ_LEVEL_DOUBLE};
+  s->seconds += WRITE_SECONDS * (double)(plan->theta.count * plan->velocity.count);
+  const kz_status status = plan->method == KZ_METHOD_EXACT ? measure_exact(s, n) : measure_followed(s, n);
+  free(s->labelling.work);
+  KZ_TRY(status);
+  return kz_doubt_measure(plan, s->dynamics, &s->seconds);
+}
+
+/* The shocks of one strobe point, as many times as there are points that are not mirror images of others. */
+static kz_status measure_shocks(sample *s, const kz_catalogue *catalogue) {
+  const kz_resilience_plan plan = kz_shocks_asked(&s->scene->basin);
+  int64_t n, own;
+  if (!s->scene->basin.has_shocks) return KZ_OK;
+  kz_resilience *point = kz_resilience_list(s->dynamics, catalogue, &n);
+  const double start = kz_processor_clock();
+  const kz_status status = kz_resilience_try(s->dynamics, &plan, n, point, &own);
+  s->seconds += (kz_processor_clock() - start) * (double)own;
+  free(point);
+  return status;
+}
+
+static kz_status measure_parts(sample *s) {
+  kz_catalogue catalogue = {0};
+  kz_status status = discover(s, &catalogue);
+  if (status == KZ_OK) status = measure_cells(s);
+  if (status == KZ_OK) status = kz_boundary_measure(&s->scene->basin, s->dynamics, &s->seconds);
+  if (status == KZ_OK) status = measure_shocks(s, &catalogue);
+  kz_catalogue_free(&catalogue);
+  return status;
+}
+
+static kz_status measure_damped(const kz_scene *scene, double *seconds) {
+  sample s = {.scene = scene, .item = kz_malloc(FEW_CELLS * sizeof *s.item), .seconds = kz_proof_seconds(scene)};
+  s.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->basin.max_period);
+  const kz_status status = measure_parts(&s);
+  kz_dynamics_free(s.dynamics);
+  free(s.item);
+  *seconds += s.seconds;
+  return status;
+}
+
+kz_status kz_basin_measure(const kz_scene *scene, double *seconds) {
+  if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  if (isnan(scene->basin.accuracy)) return measure_damped(scene, seconds);
+  kz_scene chosen = *scene; /* in most cases the setting is method exact, or takes less */
+  kz_config_apply(kz_config_exact, &chosen);
+  KZ_TRY(kz_accuracy_measure(scene, seconds));
+  return measure_damped(&chosen, seconds);
+}
