@@ -88,3 +88,40 @@ def test_the_time_of_boundaries_and_shocks_is_tried(kapitza, tmp_path, keys):
     taken = kapitza("run", *scene, "-o", tmp_path / "x.h5", "--timings").stdout
     seconds = float(re.search(r"^all +[\d.]+ +([\d.]+)", taken, re.MULTILINE)[1])
     assert 1 / 1.5 < estimate / seconds < 1.5, (estimate, seconds)
+
+
+# Scenes of all studies that take a second or less: what is foretold comes from samples, so that a tenth or ten times would be a mistake
+# in what they stand for, whatever machine this is.
+PENDULUM = "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
+TIMED = {
+    "basin": "basin: {theta: {count: 200}, velocity: {min: -2, max: 2, count: 200}, method: direct}\n",
+    "exact": "basin: {theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, method: exact}\n",
+    "attractors": "attractors: {velocity: {min: -2, max: 2}, starts: 2048}\n",
+    "strobe": "sweep: {parameter: drive_amplitude, min: 0.46, max: 0.58, count: 8, measure: [strobe], start: {theta: 3.1, velocity: 0}, "
+              "transient: 600, samples: 64}\n",
+    "chart": "chart: {x: {parameter: drive_amplitude, min: 0.2, max: 0.5, count: 24}, y: {parameter: quality_factor, min: 3, max: 9, "
+             "count: 24}, start: {theta: [1], velocity: [0]}}\n",
+    "stability": "stability: {k: {min: -1, max: 2, count: 600}, m: {min: 0, max: 3, count: 600}, curves: [exact_1, exact_2]}\n",
+    "orbit": "orbit: {start: {theta: 0.5, velocity: 0}, transient: 4000}\n",
+}
+
+
+def processor_seconds(kapitza, scene, folder):
+    """(foretold, taken); all of a run, MPI's start too."""
+    (folder / "s.yaml").write_text(PENDULUM + scene)
+    foretold = float(re.search(r"estimated time +([\d.]+) s", kapitza("check", "s.yaml", folder=folder).stdout)[1])
+    before = os.times()
+    kapitza("run", "s.yaml", "--force", folder=folder)
+    after = os.times()
+    return foretold, after.children_user + after.children_system - before.children_user - before.children_system
+
+
+@pytest.mark.parametrize("study", TIMED)
+def test_the_time_is_foretold_from_samples(kapitza, tmp_path, study):
+    ratio = 0.0
+    for _ in range(3):  # a machine that is busy with other things may disturb one of them
+        foretold, taken = processor_seconds(kapitza, TIMED[study], tmp_path)
+        ratio = foretold / taken
+        if 1 / 2 < ratio < 2:
+            return
+    assert 1 / 3 < ratio < 3, (foretold, taken)

@@ -83,38 +83,6 @@ def test_check_predicts_what_run_would_do(kapitza, tmp_path):
     assert "MB" in rows["memory per rank"] and "on one core" in rows["estimated time"]
 
 
-# Scene and processor seconds that it took (AMD EPYC with AVX2, release build).
-FIG12 = "pendulum: {quality_factor: %d, drive_frequency: 11, drive_amplitude: 0.3}\n"
-SMALLER = ("basin: {theta: {count: 150}, velocity: {min: -2, max: 2, count: 150}, icm: {theta: 400, velocity: 400}, "
-           "attractors: {starts: %d}}\n")
-MEASURED = {
-    "Q = 5": (FIG12 % 5 + SMALLER % 2048, 0.42),
-    "Q = 50": (FIG12 % 50 + SMALLER % 1024, 7.0),
-    "Q = 200": (FIG12 % 200 + SMALLER % 1024, 22),
-    "exact": ("pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.46}\n"
-              "basin: {velocity: {min: -2, max: 2}, method: exact}\n", 10),
-    "accuracy of 1": ("pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.46}\n"
-                      "basin: {velocity: {min: -2, max: 2}, accuracy: 1}\n", 10),
-    "Q = 50, direct": (FIG12 % 50 + "basin: {theta: {count: 80}, velocity: {min: -2, max: 2, count: 80}, method: direct, "
-                       "icm: {theta: 200, velocity: 200}, attractors: {starts: 1024}}\n", 4.9),
-    "Q = 50, no grid": (FIG12 % 50 + "attractors: {velocity: {min: -2, max: 2}, starts: 2048}\n", 4.2),
-    "a sweep": (FIG12 % 50 + "sweep: {parameter: drive_amplitude, min: 0.2, max: 0.5, count: 4, measure: [attractors], "
-                "starts: 512}\n", 42),
-    "SI units": ("pendulum: {mass: 0.1, radius: 0.2, inertia: 0.005, friction: 0.0012, gravity: 9.81, pivot_amplitude: 0.06, "
-                 "pivot_frequency: 70}\nattractors: {velocity: {min: -2, max: 2}, starts: 1024}\n", 0.83),
-}
-
-
-@pytest.mark.parametrize("case", MEASURED)
-def test_check_knows_what_damping_costs(kapitza, tmp_path, case):
-    scene, measured = MEASURED[case]
-    (tmp_path / "s.yaml").write_text(scene)
-    done = kapitza("check", "s.yaml", folder=tmp_path)
-    number, unit = re.search(r"estimated time +(\S+) (s|min|h) on one core", done.stdout).groups()
-    estimated = float(number) * {"s": 1, "min": 60, "h": 3600}[unit]
-    assert measured / 3 < estimated < 3 * measured
-
-
 def test_si_values_stand_in_the_file(kapitza, tmp_path):
     """With the frequency in Hz: seconds and rad/s follow from pivot_frequency."""
     si = {"mass": 0.1, "radius": 0.2, "inertia": 0.008, "friction": 0.0145, "gravity": 33.06, "pivot_amplitude": 0.12}

@@ -35,7 +35,7 @@ kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, i
 
 /* The same with KZ_SEARCH_FEW starts at most, by this process alone: *n of them, state and label [KZ_SEARCH_FEW] as above. What all would take
  * is added to *seconds, processor time; a map table of few nodes is made. Not collective. */
-enum { KZ_SEARCH_FEW = 1024 };
+enum { KZ_SEARCH_FEW = 256, KZ_SEARCH_MOST_SOUGHT = 1024 /* starts that a round looks for cycles from */ };
 kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
                             double *seconds);
 

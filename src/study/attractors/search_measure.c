@@ -10,16 +10,14 @@ static int64_t smaller(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-/* The starts beyond those of the search, once the regions have grown. */
-static kz_status measure_rest(kz_dynamics *dynamics, const kz_search *search, int64_t rest, double *seconds) {
-  enum { SAMPLE = 256 };
-  double state[2 * SAMPLE];
-  int32_t label[SAMPLE];
-  if (rest <= 0) return KZ_OK;
-  kz_dynamics_starts(&search->window, search->seed + 1, SAMPLE, state);
+/* Seconds that as many other starts take to settle where the attractors are known. */
+static kz_status measure_settling(kz_dynamics *dynamics, const kz_search *search, int64_t n, double *seconds) {
+  double state[2 * KZ_SEARCH_FEW];
+  int32_t label[KZ_SEARCH_FEW];
+  kz_dynamics_starts(&search->window, search->seed + 1, n, state);
   const double start = kz_processor_clock();
-  KZ_TRY(kz_settle(NULL, dynamics, search->max_periods, SAMPLE, state, label));
-  *seconds += (kz_processor_clock() - start) / SAMPLE * (double)rest;
+  KZ_TRY(kz_settle(NULL, dynamics, search->max_periods, n, state, label));
+  *seconds = kz_processor_clock() - start;
   return KZ_OK;
 }
 
@@ -33,14 +31,21 @@ static kz_status measure_table(kz_dynamics *dynamics, const kz_search *search, d
   return KZ_OK;
 }
 
+/* All starts settle; cycles are looked for from few of them at a time, where they settle slowly from many. */
 kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
                             double *seconds) {
-  kz_search few = *search;
-  few.starts = *n = smaller(search->starts, KZ_SEARCH_FEW);
-  few.table_theta = 0;
+  const int64_t cells = kz_regions_cells(search->cells);
+  double settling;
+  *n = smaller(search->starts, KZ_SEARCH_FEW);
   const double start = kz_processor_clock();
-  KZ_TRY(kz_search_window(NULL, dynamics, &few, state, label));
-  *seconds += kz_processor_clock() - start;
-  KZ_TRY(measure_rest(dynamics, search, search->starts - few.starts, seconds));
+  kz_dynamics_starts(&search->window, search->seed, *n, state);
+  kz_dynamics_coarse_regions(dynamics, search->max_velocity);
+  KZ_TRY(kz_discover(NULL, dynamics, search->max_periods, *n, state, label));
+  const double found = kz_processor_clock();
+  if (cells > 0) kz_dynamics_fine_regions(dynamics, cells, search->max_velocity);
+  *seconds += kz_processor_clock() - found;
+  KZ_TRY(measure_settling(dynamics, search, *n, &settling));
+  *seconds += settling / (double)*n * (double)search->starts +
+              fmax(0, found - start - settling) / (double)*n * (double)smaller(search->starts, KZ_SEARCH_MOST_SOUGHT);
   return measure_table(dynamics, search, seconds);
 }

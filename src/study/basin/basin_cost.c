@@ -76,16 +76,19 @@ static kz_status measure_followed(sample *s, int64_t n) {
 }
 
 /* One precision level for n cells of `all` that come to it: *n becomes how many it leaves, to the front of s->item. */
-static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t level, double all, int64_t *n, double *share) {
+static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t level, int32_t before, double all, int64_t *n,
+                               double *share) {
   static const double enough = 0.3; /* s */
   kz_decision *decision = kz_malloc(BATCH * sizeof *decision);
+  const double before_tables = kz_processor_clock();
+  kz_status status = kz_label_at(labeller, level, before, 1, s->item, decision); /* makes its tables */
   const double start = kz_processor_clock();
   int64_t done = 0, left = 0, part;
-  kz_status status = KZ_OK;
+  s->seconds += start - before_tables;
   for (; status == KZ_OK && done < *n && kz_processor_clock() - start < enough; done += part) {
     const int64_t batch = kz_level_tile(level) < BATCH ? kz_level_tile(level) : BATCH;
     part = *n - done < batch ? *n - done : batch;
-    status = kz_label_at(labeller, level, part, s->item + done, decision);
+    status = kz_label_at(labeller, level, before, part, s->item + done, decision);
     for (int64_t i = 0; i < part; i++)
       if (decision[i].label == KZ_DOUBTFUL) s->item[left++] = s->item[done + i];
   }
@@ -99,13 +102,11 @@ static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t l
 static kz_status measure_exact(sample *s, int64_t n) {
   const kz_labeller labeller = kz_cells_labeller(&s->labelling);
   double all = (double)kz_own_cells(&s->scene->basin), share;
-  const double start = kz_processor_clock();
-  kz_labeller_prepare(&labeller);
-  s->seconds += kz_processor_clock() - start;
-  for (int32_t level = KZ_LEVEL_DOUBLE; n > 0 && level < KZ_LEVELS;
-       level = kz_level_after(&labeller, level, (int64_t)ceil(all))) {
-    KZ_TRY(measure_level(s, &labeller, level, all, &n, &share));
+  for (int32_t level = KZ_LEVEL_DOUBLE, before = level; n > 0 && level < KZ_LEVELS;) {
+    KZ_TRY(measure_level(s, &labeller, level, before, all, &n, &share));
     all *= share;
+    before = level;
+    level = kz_level_after(&labeller, level, (int64_t)ceil(all));
   }
   return KZ_OK;
 }
