@@ -7,7 +7,7 @@
 #include "numerics/cells.h"
 #include "attractors/search.h"
 #include "numerics/share.h"
-#include "numerics/step_error.h"
+#include "numerics/steps.h"
 #include "kapitza/kernel.h"
 
 enum {
@@ -28,9 +28,8 @@ int64_t kz_reference_labels_cell(const kz_reference_labels *reference, int64_t i
 }
 
 kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics) {
-  const double stiffness = fmax(1, kz_stiffness(pendulum));
   const double fastest = kz_axis_fastest(&plan->velocity);
-  const double steps = STEPS * ceil(sqrt(stiffness)), most = fmin(ldexp(steps, DOUBLINGS), MOST_STEPS);
+  const double steps = kz_steps_by_stiffness(pendulum, STEPS), most = fmin(ldexp(steps, DOUBLINGS), MOST_STEPS);
   *numerics = (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)fmin(steps, most)};
   if (steps <= most && kz_steps_enough(pendulum, fastest, FINE, (int32_t)most, numerics)) return KZ_OK;
   return kz_fail(KZ_REFUSED,

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "numerics/cells.h"
-#include "numerics/step_error.h"
+#include "numerics/steps.h"
 #include "kapitza/kernel.h"
 #include "tradeoff.h"
 

@@ -6,12 +6,11 @@
 #include <string.h>
 
 #include "numerics/cells.h"
+#include "numerics/steps.h"
 
 enum { LEAST_STEPS = 8, MOST_STEPS = 4000 };
 /* Error that a drive period may have, rad: ends are cycles that Newton's method finds, and a motion only has to be led to its own. */
 static const double TOLERANCE = 1e-8;
-/* Of split6: the steps with which errors are measured, and those below which rounding prevails. */
-static const double MEASURED_STEPS = 24, ROUNDING = 1e-13;
 
 typedef struct {
   kz_chart_ending ending[KZ_CHART_POINTS];
@@ -54,22 +53,15 @@ kz_cost kz_chart_cost(const kz_scene *scene) {
                    .first_bytes = 3 * motions * sizeof(kz_chart_ending)};
 }
 
-/* Steps of split6 that keep the error of a period: measured for the strongest of n pendulums, and scaled by the order of the
- * scheme. */
+/* Steps of split6 that keep the error of a period of the strongest of n pendulums. */
 static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_speed) {
-  double strongest = -1, error;
-  int64_t which = 0;
-  for (int64_t i = 0; i < n; i++) {
-    const double strength = kz_stiffness(pendulum + i);
-    if (strength > strongest) which = i;
-    strongest = fmax(strongest, strength);
-  }
-  const double speed[] = {0, fmax(start_speed, 1 + 2 * sqrt(strongest))};
-  const double measured = fmin(MEASURED_STEPS * ceil(sqrt(fmax(1, strongest))), MOST_STEPS);
-  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)measured};
-  kz_step_errors(pendulum + which, &numerics, 1, speed, &error);
-  const double steps = ceil(measured * pow(fmax(error, ROUNDING) / TOLERANCE, 1.0 / 6));
-  return (int32_t)fmin(fmax(steps, LEAST_STEPS), MOST_STEPS);
+  const kz_pendulum *strongest = pendulum;
+  for (int64_t i = 1; i < n; i++)
+    if (kz_stiffness(pendulum + i) > kz_stiffness(strongest)) strongest = pendulum + i;
+  kz_numerics numerics = kz_steps_plain();
+  numerics.steps_per_period = (int32_t)fmin(kz_steps_by_stiffness(strongest, numerics.steps_per_period), MOST_STEPS);
+  return kz_steps_scaled(strongest, &numerics, fmax(start_speed, 1 + 2 * sqrt(kz_stiffness(strongest))), TOLERANCE, LEAST_STEPS,
+                         MOST_STEPS);
 }
 
 void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending) {

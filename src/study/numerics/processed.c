@@ -4,6 +4,7 @@
 
 #include "cells.h"
 #include "step_check.h"
+#include "steps.h"
 
 enum { SWEEP_VALUES = 9 }; /* of a sweep that are tried, both ends included */
 
@@ -22,7 +23,7 @@ bool kz_is_processed(int32_t scheme) {
 }
 
 double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows) {
-  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
+  const kz_numerics numerics = kz_steps_plain();
   kz_dynamics *dynamics = kz_dynamics_create(pendulum, &numerics, 1);
   if (!dynamics) return INFINITY;
   double fastest = MARGIN * kz_dynamics_max_velocity(dynamics, window);
@@ -98,9 +99,6 @@ bool kz_processed_choose(kz_scene *scene) {
 
 kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, double tolerance, double fastest) {
   kz_numerics numerics = {0};
-  kz_scheme scheme;
   double error;
-  if (kz_numerics_choose(pendulum, tolerance, fastest, &numerics, &error) == KZ_OK) return numerics;
-  kz_scheme_row(kz_scheme_find("split6"), &scheme);
-  return (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = scheme.default_steps};
+  return kz_numerics_choose(pendulum, tolerance, fastest, &numerics, &error) == KZ_OK ? numerics : kz_steps_plain();
 }

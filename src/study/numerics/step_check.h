@@ -4,7 +4,7 @@
 #define KAPITZA_STUDY_STEP_CHECK_H
 
 #include "kapitza/study.h"
-#include "step_error.h"
+#include "steps.h"
 
 /* Motions of one study: their numerics, the errors that are allowed, the keys that a user could change. */
 typedef struct {

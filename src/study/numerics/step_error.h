@@ -1,4 +1,4 @@
-/* Errors of one drive period by classes of speeds, and the steps that make them small enough. */
+/* Errors of one drive period by classes of speeds. */
 #ifndef KAPITZA_STUDY_STEP_ERROR_H
 #define KAPITZA_STUDY_STEP_ERROR_H
 
@@ -20,13 +20,5 @@ kz_speed_errors kz_step_error_classes(const kz_pendulum *pendulum, const kz_nume
 /* The class of the largest error, and that error, rad. */
 int kz_worst_class(const kz_speed_errors *classes);
 double kz_worst_error(const kz_speed_errors *classes);
-
-/* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
- * `most` steps: then the last number tried. */
-bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
-
-/* False where the error of one drive period exceeds KZ_STEPS_LOST or the motion diverges: labels would be random. */
-#define KZ_STEPS_LOST 0.1 /* rad */
-bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
 
 #endif

@@ -1,51 +1,18 @@
 /* Motions of the three models through one interface. */
 #include "motion.h"
-#include "numerics/processed.h"
+#include "numerics/resolve.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Samples a period that turning points and spectra need, whatever the scene wants to see. */
-enum { LEAST_SAMPLES = 96 };
 /* Periods of a simpler model that are skipped at once. */
 enum { CHUNK = 1024 };
-
-static double multiple(double unit, double least) {
-  return unit * ceil(least / unit);
-}
-
-/* Rad per drive radian: the fastest swing about an equilibrium. */
-static double swing(const kz_pendulum *p) {
-  return sqrt(kz_stiffness(p));
-}
-
-static double samples_of(const kz_scene *scene) {
-  return multiple((double)scene->orbit.samples_per_period, LEAST_SAMPLES * fmax(1, swing(&scene->parameters.pendulum)));
-}
-
-/* Within a period the processed splitting shows nothing. */
-static int32_t orbit_scheme(const kz_scene *scene) {
-  return kz_is_processed(scene->asked.scheme) ? kz_scheme_find("split6") : scene->asked.scheme;
-}
-
-double kz_orbit_steps(const kz_scene *scene) {
-  const double start = isfinite(scene->orbit.velocity) ? fabs(scene->orbit.velocity) : 0;
-  const double speed = 1 + 2 * swing(&scene->parameters.pendulum) + start;
-  kz_scheme scheme;
-  kz_scheme_row(orbit_scheme(scene), &scheme);
-  const double asked = scene->asked.steps_per_period == KZ_AUTO ? scheme.default_steps : scene->asked.steps_per_period;
-  return multiple(samples_of(scene), fmax(asked, scheme.default_steps * speed / 2));
-}
-
-kz_numerics kz_orbit_numerics(const kz_scene *scene) {
-  return (kz_numerics){.scheme = orbit_scheme(scene), .steps_per_period = (int32_t)kz_orbit_steps(scene)};
-}
 
 void kz_model_make(const kz_scene *scene, kz_model *model) {
   const kz_orbit_plan *orbit = &scene->orbit;
   const kz_pendulum *p = &scene->parameters.pendulum;
   bool inverted = orbit->model == KZ_MATHIEU && orbit->about == KZ_ABOUT_INVERTED;
-  *model = (kz_model){.kind = orbit->model, .pendulum = *p, .samples = (int64_t)samples_of(scene)};
+  *model = (kz_model){.kind = orbit->model, .pendulum = *p, .samples = kz_orbit_samples(scene)};
   if (inverted) model->pendulum = (kz_pendulum){-p->k, p->beta, -p->m};
   if (inverted) model->origin = M_PI;
   if (model->kind != KZ_PENDULUM) return;

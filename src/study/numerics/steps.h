@@ -1,0 +1,26 @@
+/* How many steps a drive period takes so that its error, as step_error.h measures it, is small enough. Not collective. */
+#ifndef KAPITZA_STUDY_STEPS_H
+#define KAPITZA_STUDY_STEPS_H
+
+#include "step_error.h"
+
+/* Steps that resolve the fastest oscillation of a pendulum as `gentle` steps do that of a weak drive. */
+double kz_steps_by_stiffness(const kz_pendulum *pendulum, double gentle);
+
+/* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
+ * `most` steps: then the last number tried. */
+bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
+
+/* False where the error of one drive period exceeds KZ_STEPS_LOST or the motion diverges: labels would be random. */
+#define KZ_STEPS_LOST 0.1 /* rad */
+bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
+
+/* The steps of a scheme whose error at speeds from 0 to `fastest` (rad per drive radian) is at most `tolerance` (rad): measured with the
+ * steps of *numerics, and scaled by the order of the scheme. Within least .. most. */
+int32_t kz_steps_scaled(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest, double tolerance,
+                        int32_t least, int32_t most);
+
+/* split6 with its own number of steps: where nothing else is asked for. */
+kz_numerics kz_steps_plain(void);
+
+#endif
