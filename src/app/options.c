@@ -245,11 +245,6 @@ static kz_status check_operands(const kz_command *command, const kz_options *opt
   return KZ_OK;
 }
 
-kz_status kz_options_agree(const kz_options *options, kz_ranks *ranks) {
-  const char *words = strchr(options->line, ' ');
-  return kz_ranks_compare(ranks, words ? words : "", "command line");
-}
-
 /* A command that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
  * for ever for those that were not. */
 static kz_status agree_alone(const kz_options *options) {

@@ -26,6 +26,7 @@ void kz_labels_note_reached(const kz_labelling *labelling, const kz_piece *piece
 
 /* What a level writes into the file as evidence, KZ_LEVELS: of what none decides; and how many cells it takes at a time, where it takes
  * those that another one left. */
+const char *kz_level_name(int level); /* of its stages; the first one's are those of all cells */
 uint8_t kz_level_evidence(int level);
 int64_t kz_level_tile(int level);
 /* Labels those that the first level leaves, in stages of round `round`. Collective. */

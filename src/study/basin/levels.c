@@ -1,7 +1,4 @@
-/* Method exact: the precision levels, each for the cells that the one before leaves doubtful; and the candidates of those that none
- * decides. */
-#include <stdio.h>
-
+/* The precision levels of method exact as stages of cells; and the candidates of those that none decides. */
 #include "label_parts.h"
 
 typedef struct {
@@ -20,25 +17,14 @@ static const level levels[KZ_LEVELS + 1] = {
     [KZ_LEVELS] = {"candidates", 64, KZ_UNDECIDED},
 };
 
+const char *kz_level_name(int number) {
+  return levels[number].name;
+}
+
 int64_t kz_level_tile(int number) {
   return levels[number].tile;
 }
 
 uint8_t kz_level_evidence(int number) {
   return levels[number].evidence;
-}
-
-kz_status kz_levels_escalate(kz_labelling *l, int round) {
-  const kz_labeller labeller = kz_cells_labeller(l);
-  char name[32];
-  while (l->level < KZ_LEVELS) {
-    KZ_TRY(kz_open_count(l, KZ_DOUBTFUL));
-    if (l->before[l->tiles.own] == 0) break;
-    l->before_level = l->level;
-    l->level = kz_level_after(&labeller, l->level, l->before[l->tiles.own]);
-    snprintf(name, sizeof name, "%s %d", levels[l->level].name, round);
-    KZ_TRY(kz_open_label(l, name));
-  }
-  l->level = l->before_level = KZ_LEVEL_DOUBLE;
-  return KZ_OK;
 }

@@ -1,4 +1,5 @@
 /* Open cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -103,4 +104,19 @@ kz_status kz_open_label(kz_labelling *l, const char *name) {
   l->open = NULL;
   free(open);
   return status;
+}
+
+kz_status kz_levels_escalate(kz_labelling *l, int round) {
+  const kz_labeller labeller = kz_cells_labeller(l);
+  char name[32];
+  while (l->level < KZ_LEVELS) {
+    KZ_TRY(kz_open_count(l, KZ_DOUBTFUL));
+    if (l->before[l->tiles.own] == 0) break;
+    l->before_level = l->level;
+    l->level = kz_level_after(&labeller, l->level, l->before[l->tiles.own]);
+    snprintf(name, sizeof name, "%s %d", kz_level_name(l->level), round);
+    KZ_TRY(kz_open_label(l, name));
+  }
+  l->level = l->before_level = KZ_LEVEL_DOUBLE;
+  return KZ_OK;
 }

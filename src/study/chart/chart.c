@@ -20,10 +20,6 @@ bool kz_chart_wanted(const kz_scene *scene) {
   return scene->has_chart;
 }
 
-double kz_chart_velocity(const kz_chart_plan *plan, int64_t place) {
-  return plan->velocity.values[plan->velocity.count == 1 ? 0 : place];
-}
-
 static int64_t points_of(const kz_chart_plan *plan) {
   return plan->x.values.count * plan->y.values.count;
 }

@@ -20,6 +20,8 @@ void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int6
 kz_status kz_chart_publish(const kz_chart_plan *plan, const kz_chart_ending *endings, kz_store *store, FILE *summary);
 
 /* Start `place` of the list: rad, rad per drive radian. */
-double kz_chart_velocity(const kz_chart_plan *plan, int64_t place);
+static inline double kz_chart_velocity(const kz_chart_plan *plan, int64_t place) {
+  return plan->velocity.values[plan->velocity.count == 1 ? 0 : place];
+}
 
 #endif

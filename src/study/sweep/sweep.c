@@ -10,12 +10,6 @@ const char *kz_sweep_measure_words(void) {
   return words + 1;
 }
 
-bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
-  for (int64_t i = 0; i < plan->measure.count; i++)
-    if (plan->measure.values[i] == measure) return true;
-  return false;
-}
-
 bool kz_sweep_wanted(const kz_scene *scene) {
   return scene->has_sweep;
 }
@@ -28,14 +22,6 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
   return (kz_cost){.cells = (int64_t)(cells * values),
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
                    .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells};
-}
-
-kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {
-  void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
-  kz_status status = kz_stage_run(run, stage, records);
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = write(stage->context, records, store, summary);
-  free(records);
-  return kz_ranks_agree(run->ranks, status);
 }
 
 static bool has_branches(const kz_sweep_plan *plan) {

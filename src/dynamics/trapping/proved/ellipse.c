@@ -15,12 +15,6 @@ static void advance(const kz_enclosure_plan *plan, int64_t periods, kz_enclosure
   for (int64_t i = 0; i < periods && isfinite(set->reach[0]); i++) kz_enclosures_advance(plan, 1, set);
 }
 
-void kz_proof_solve(const double M[2][2], const double x[2], double z[2]) {
-  const double det = M[0][0] * M[1][1] - M[0][1] * M[1][0];
-  z[0] = (M[1][1] * x[0] - M[0][1] * x[1]) / det;
-  z[1] = (M[0][0] * x[1] - M[1][0] * x[0]) / det;
-}
-
 /* Real and imaginary part of the eigenvector (J01, mu - J00) of a complex mu. */
 static void complex_basis(const double J[2][2], double half, double root, double M[2][2]) {
   const double scale = sqrt(fabs(J[0][1]) * root);

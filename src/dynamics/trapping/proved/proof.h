@@ -31,7 +31,11 @@ bool kz_proof_within(const kz_proof *proof, const kz_parallelogram *image);
 uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *image);
 
 /* z with M z = x. */
-void kz_proof_solve(const double M[2][2], const double x[2], double z[2]);
+static inline void kz_proof_solve(const double M[2][2], const double x[2], double z[2]) {
+  const double det = M[0][0] * M[1][1] - M[0][1] * M[1][0];
+  z[0] = (M[1][1] * x[0] - M[0][1] * x[1]) / det;
+  z[1] = (M[0][0] * x[1] - M[1][0] * x[0]) / det;
+}
 /* The radius to which an ellipse grows, ring by ring: every start in it is proved to reach it as it is. */
 double kz_proof_grow_rings(const kz_enclosure_plan *plan, const double centre[2], const kz_proof_ellipse *ellipse);
 
