@@ -67,23 +67,20 @@ contains
     logical, intent(in) :: precisely
     type(orbit_t) :: orbit
     real(qp) :: u
-    real(dp) :: lost, x
 
     if (precisely) then
       u = (real(start%theta(1), qp) + start%theta(2))/PI_QUAD
       orbit%u = pair_of(u - 2*anint(u/2))
       orbit%v = start%velocity
-      lost = 1e-31_dp
+      orbit%lost = 1e-31_dp
     else
       orbit%u = [wrapped(start%theta(1)/PI), start%theta(2)/PI]
       orbit%v = start%velocity
-      lost = 2*epsilon(1.0_dp)
+      orbit%lost = 2*epsilon(1.0_dp)
     end if
-    lost = lost*hypot(max(abs(start%theta(1)), PI), start%velocity(1))
+    orbit%lost = orbit%lost*(max(abs(start%theta(1)), PI) + abs(start%velocity(1)))
     orbit%age = start%periods
     orbit%p = start%error
-    x = sqrt((orbit%p(1) + orbit%p(3))/(2*lost**2) + 1e-6_dp)
-    orbit%p = (1 + 1/x)*orbit%p + (1 + x)*lost**2*[1, 0, 1]
   end function orbit_of
 
   !> Orbits begin at a level and go down from level to level as their errors grow.
@@ -103,7 +100,6 @@ contains
 
     call prepare_level(d%levels, LEVEL_DOUBLE, d%search%pendulum, d%numerics, d%flow, d%regions%top)
     now = max(level, LEVEL_DOUBLE)
-    place = [(i, i=1, size(orbit))]
     do
       next = merge(before, now - 1, now == level)
       handover = huge(handover)
@@ -112,15 +108,18 @@ contains
         call prepare_level(d%levels, next, d%search%pendulum, d%numerics, d%flow, d%regions%top)
         handover = RATIO*noise_of(d%levels, next)
       end if
-      if (size(place) == 0) return
+      if (.not. any(ending%label == PENDING)) return
       call make_carrier(d%levels, now, d%flow, carrier)
-      some = orbit(place)
-      allocate (found(size(place)))
-      call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, some, found)
-      orbit(place) = some
-      ending(place) = found
-      deallocate (found)
-      place = pack(place, ending(place)%label == PENDING)
+      if (.not. allocated(place)) then
+        call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, orbit, ending)
+      else
+        some = orbit(place)
+        found = ending(place)
+        call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, .false., some, found)
+        orbit(place) = some
+        ending(place) = found
+      end if
+      place = pack([(i, i=1, size(orbit))], ending%label == PENDING)
       now = next
     end do
   end subroutine label_orbits

@@ -12,7 +12,8 @@ module kz_labels_carrier
   type :: orbit_t
     real(dp) :: u(2) = 0  !< half-turns: the sum of two doubles
     real(dp) :: v(2) = 0  !< rad per drive radian: the sum of two doubles
-    real(dp) :: p(3) = 0  !< what its state may be off: theta theta, theta v, v v (rad, rad per drive radian)
+    real(dp) :: p(3) = 0  !< what its state may be off: theta theta, theta v, v v (rad, rad per drive radian),
+    real(dp) :: lost = 0  !< and so much more in any direction
     integer(c_int64_t) :: age = 0 !< periods since it was released
   end type orbit_t
 
@@ -109,7 +110,7 @@ contains
     type(orbit_t), intent(inout) :: orbit
 
     call self%flow%put(lane, orbit%u(1), orbit%v(1))
-    call add_ellipse(self%error%noise(class_of(self%error, orbit%v(1))) + PI*abs(orbit%u(2)) + abs(orbit%v(2)), orbit%p)
+    call add_ellipse(orbit%lost + self%error%noise(class_of(self%error, orbit%v(1))) + PI*abs(orbit%u(2)) + abs(orbit%v(2)), orbit%p)
   end subroutine put
 
   subroutine take(self, lane, orbit)
@@ -144,17 +145,12 @@ contains
   subroutine advance(self, n)
     class(plain_carrier_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(dp) :: matrix(2, 2, WIDTH)
     integer :: lane
 
     do lane = 1, n
       self%noise(lane) = self%error%noise(class_of(self%error, self%v(lane)))
-      matrix(:, :, lane) = reshape([1, 0, 0, 1], [2, 2])
     end do
-    call self%flow%advance_tangent(n, matrix)
-    do lane = 1, n
-      self%tangent(lane, :) = [matrix(1, 1, lane), matrix(1, 2, lane), matrix(2, 1, lane), matrix(2, 2, lane)]
-    end do
+    call self%flow%advance_linear(n, self%tangent)
     self%u(:n) = self%flow%u(:n)
     self%v(:n) = self%flow%v(:n)
   end subroutine advance

@@ -19,7 +19,7 @@ module kz_labels_orbits
   real(dp), parameter :: TOLERABLE = 0.03_dp
   !> rad: of larger errors what is not linear is carried too. The largest second derivatives of a period are some 100, so
   !> what is left out is less than a hundredth of an error, and less than a thousandth where it is half as large.
-  real(dp), parameter :: LINEAR = 3e-5_dp
+  real(dp), parameter :: LINEAR = 1e-4_dp
   !> Points of an ellipse's rim that a trapping region must hold.
   integer, parameter :: RIM = 8
   !> An orbit belongs to a chaotic attractor once it has stayed in its cover for so many periods.
@@ -108,6 +108,7 @@ contains
       integer :: large(WIDTH), count, i
 
       bent = 0
+      if (all(lanes%p(:n, 1) + lanes%p(:n, 3) < LINEAR**2)) return
       count = 0
       do i = 1, n
         if (lanes%p(i, 1) + lanes%p(i, 3) < LINEAR**2) cycle
@@ -230,6 +231,7 @@ contains
       associate (o => orbit(lanes%number(lane)))
         call carrier%take(lane, o)
         o%p = lanes%p(lane, :)
+        o%lost = 0
         o%age = lanes%age(lane)
       end associate
       ending(lanes%number(lane))%label = PENDING
@@ -244,7 +246,7 @@ contains
 
       periods = lanes%age(lane)
       if (label > 0 .and. label == lanes%first(lane)) periods = lanes%since(lane)
-      ending(lanes%number(lane)) = ending_t(label, decided, periods, SAFETY*largest_error(p))
+      ending(lanes%number(lane)) = ending_t(label, decided, periods, SAFETY*sqrt(p(1) + p(3)))
     end subroutine settle
   end subroutine follow_orbits
 
@@ -291,14 +293,6 @@ contains
     lanes%stay(to) = lanes%stay(from)
     lanes%doubted(to) = lanes%doubted(from)
   end subroutine move
-
-  !> Half the longer axis of the ellipse of P, rad; not a number for one that is lost.
-  pure function largest_error(p) result(error)
-    real(dp), intent(in) :: p(3)
-    real(dp) :: error
-
-    error = sqrt(0.5_dp*(p(1) + p(3) + hypot(p(1) - p(3), 2*p(2))))
-  end function largest_error
 
   !> Does the trapping region that holds (u0, v0) hold the whole ellipse, and `seen` rad beyond?
   function holds(regions, attractors, u0, v0, p, seen, region) result(inside)

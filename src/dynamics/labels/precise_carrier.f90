@@ -48,7 +48,7 @@ contains
     type(orbit_t), intent(inout) :: orbit
 
     call self%inner%put(lane, orbit%u, orbit%v)
-    call add_ellipse(self%inner%noise(orbit%v(1)), orbit%p)
+    call add_ellipse(orbit%lost + self%inner%noise(orbit%v(1)), orbit%p)
   end subroutine put
 
   subroutine take(self, lane, orbit)
@@ -101,17 +101,12 @@ contains
   subroutine advance(self, n)
     class(precise_carrier_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(dp) :: matrix(2, 2, WIDTH)
     integer :: lane
 
     do lane = 1, n
       self%noise(lane) = self%inner%noise(self%v(lane))
-      matrix(:, :, lane) = reshape([1, 0, 0, 1], [2, 2])
     end do
-    call self%flow%advance_tangent(n, matrix)
-    do lane = 1, n
-      self%tangent(lane, :) = [matrix(1, 1, lane), matrix(1, 2, lane), matrix(2, 1, lane), matrix(2, 2, lane)]
-    end do
+    call self%flow%advance_linear(n, self%tangent)
     call self%inner%advance(n)
     call see(self, 1, n)
   end subroutine advance

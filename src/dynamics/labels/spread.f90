@@ -55,6 +55,10 @@ contains
     real(dp) :: x
 
     if (.not. radius > 0) return
+    if (.not. p(1) + p(3) > 0) then
+      p = radius**2*[1, 0, 1]
+      return
+    end if
     x = sqrt((p(1) + p(3))/(2*radius**2) + 1e-6_dp)
     p = (1 + 1/x)*p + (1 + x)*radius**2*[1, 0, 1]
   end subroutine add_ellipse

@@ -41,6 +41,9 @@ module kz_lanes_map
   contains
     !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.
     procedure(advance_tangent_i), deferred :: advance_tangent
+    !> Advances the lanes 1 .. n by one period; tangent(lane, :), if only to three digits: the derivatives of theta by theta and v, of v by
+    !> both, rad.
+    procedure :: advance_linear => linear_of_tangent
     !> Advances lane 1 by one period, shown at n equal times in physical coordinates; u(n) is not yet wrapped.
     procedure(sample_i), deferred :: sample
   end type flow_t
@@ -80,6 +83,23 @@ contains
     end associate
     if (present(matrix) .or. present(first)) return
   end subroutine same_coordinates
+
+  !> By advance_tangent.
+  subroutine linear_of_tangent(self, n, tangent)
+    class(flow_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(c_double), intent(inout) :: tangent(WIDTH, 4)
+    real(c_double) :: matrix(2, 2, WIDTH)
+    integer :: lane
+
+    do lane = 1, n
+      matrix(:, :, lane) = reshape([1, 0, 0, 1], [2, 2])
+    end do
+    call self%advance_tangent(n, matrix)
+    do lane = 1, n
+      tangent(lane, :) = [matrix(1, :, lane), matrix(2, :, lane)]
+    end do
+  end subroutine linear_of_tangent
 
   !> Puts a state into a lane.
   subroutine put_state(self, lane, u, v)

@@ -3,6 +3,8 @@
  * drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2). */
 #include "stages.h"
 
+#include <stdbool.h>
+
 #if defined __AVX512F__
 enum { VECTOR_BYTES = 64 };
 #else
@@ -15,8 +17,11 @@ static const double round_to_even = 0x3p52; /* adding it rounds to an even integ
 
 typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
 
-static inline __attribute__((always_inline)) void block(int n_drift, int n_kick, int64_t n_stages, const double *row, vector *u,
-                                                        vector *v) {
+typedef float narrow __attribute__((vector_size(VECTOR_BYTES / 2), aligned(sizeof(float)), may_alias));
+
+/* keep: into kept go the squares of the reduced angles at each kick, WIDTH a stage. */
+static inline __attribute__((always_inline)) void block(int n_drift, int n_kick, int64_t n_stages, const double *restrict row,
+                                                        vector *u, vector *v, bool keep, float *restrict kept) {
   vector a[CHAINS], b[CHAINS], r[CHAINS], q[CHAINS], p[CHAINS];
   EACH a[i] = u[i];
   EACH b[i] = v[i];
@@ -27,6 +32,10 @@ static inline __attribute__((always_inline)) void block(int n_drift, int n_kick,
     EACH a[i] += p[i] * b[i];
     EACH r[i] = a[i] - ((a[i] + round_to_even) - round_to_even);
     EACH q[i] = r[i] * r[i];
+    if (keep) {
+      EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(q[i], narrow);
+      kept += WIDTH;
+    }
     EACH p[i] = row[n_drift + n_kick - 1] * q[i] + row[n_drift + n_kick - 2];
     for (int j = n_kick - 3; j >= 0; j--) EACH p[i] = p[i] * q[i] + row[n_drift + j];
     EACH r[i] -= r[i] * q[i];
@@ -36,20 +45,27 @@ static inline __attribute__((always_inline)) void block(int n_drift, int n_kick,
   EACH v[i] = b[i];
 }
 
-void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v) {
 #define ALL(D, K) \
-  for (int64_t i = 0; i < n; i += CHAINS * LANES) block(D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i))
+  for (int64_t i = 0; i < n; i += CHAINS * LANES) block(D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), KEEP)
 #ifdef __SANITIZE_ADDRESS__ /* one body for all lengths: the checks of 32 take a minute to compile */
-  ALL(n_drift, n_kick);
+#define RUN ALL(n_drift, n_kick);
 #else
 #define CASE(D, K)     \
   case 16 * (D) + (K): \
     ALL(D, K);         \
     break;
 #define CASES(K) CASE(1, K) CASE(2, K) CASE(3, K) CASE(4, K)
+#define RUN \
   switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
-#undef CASES
-#undef CASE
 #endif
-#undef ALL
+
+#define KEEP false, 0
+void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
+                        double *v){RUN}
+#undef KEEP
+
+#define KEEP true, squares + i
+void kz_processed_kicks_kept(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
+                             double *v, float *squares) {
+  RUN
 }

@@ -1,13 +1,16 @@
 !> The stages of a period of the processed splitting in double precision, and their derivative.
 module kz_processed_stages
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_lanes_map, only: WIDTH
+  use kz_lanes_map, only: WIDTH, PI
   use kz_lanes_sine, only: MAGIC
   use kz_processed_tables, only: processed_t
   implicit none
   private
-  public :: stages_t, make_stages, advance_stages, tangent_stages
+  public :: stages_t, make_stages, advance_stages, linear_stages, tangent_stages
+
+  !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
+  integer, parameter :: TERMS = 5
 
   !> The rows of processed_t.
   type :: stages_t
@@ -16,6 +19,8 @@ module kz_processed_stages
     real(rk), allocatable :: row(:, :)
     real(rk), allocatable :: last(:)
     real(rk) :: decay
+    real(c_float), allocatable :: slope(:, :)   !< (1 + TERMS, steps): a drift, and the slope of a kick
+    real(c_float), allocatable :: squares(:, :) !< (WIDTH, steps): of the reduced angles of the last period
   end type stages_t
 
   interface
@@ -30,6 +35,31 @@ module kz_processed_stages
       real(c_double), intent(inout) :: u(WIDTH)
       real(c_double), intent(inout) :: v(WIDTH)
     end subroutine run_stages
+
+    !> The same, and the squares of the reduced angles.
+    subroutine run_stages_kept(n_drift, n_kick, n_stages, row, n, u, v, squares) bind(C, name='kz_processed_kicks_kept')
+      import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
+      integer(c_int32_t), value :: n_drift
+      integer(c_int32_t), value :: n_kick
+      integer(c_int64_t), value :: n_stages
+      real(c_double), intent(in) :: row(*)
+      integer(c_int64_t), value :: n
+      real(c_double), intent(inout) :: u(WIDTH)
+      real(c_double), intent(inout) :: v(WIDTH)
+      real(c_float), intent(out) :: squares(WIDTH, *)
+    end subroutine run_stages_kept
+
+    !> The derivative from them (tangents.c).
+    subroutine run_tangents(n_stages, row, last, decay, squares, n, c) bind(C, name='kz_processed_tangents')
+      import :: c_float, c_int64_t, WIDTH
+      integer(c_int64_t), value :: n_stages
+      real(c_float), intent(in) :: row(*)
+      real(c_float), value :: last
+      real(c_float), value :: decay
+      real(c_float), intent(in) :: squares(WIDTH, *)
+      integer(c_int64_t), value :: n
+      real(c_float), intent(out) :: c(WIDTH, 4)
+    end subroutine run_tangents
   end interface
 
 contains
@@ -50,7 +80,65 @@ contains
     end do
     allocate (stages%last, source=real(table%last, rk))
     stages%decay = real(table%decay, rk)
+    allocate (stages%slope(1 + TERMS, size(table%row, 2)), stages%squares(WIDTH, size(table%row, 2)))
+    do i = 1, size(table%row, 2)
+      stages%slope(1, i) = real(stages%row(1, i), c_float)
+      stages%slope(2:, i) = real(slope_of(stages%row(stages%n_drift + 1:, i)), c_float)
+    end do
   end subroutine make_stages
+
+  !> The derivative (1 - 3 q) C + 2 q (1 - q) C' of a kick (r - r**3) C(q), q = r**2, interpolated at the Chebyshev nodes of [0, 1].
+  pure function slope_of(kick) result(slope)
+    real(rk), intent(in) :: kick(:)
+    real(rk) :: slope(TERMS)
+    real(rk) :: node(TERMS), value(TERMS), c, derivative
+    integer :: i, j
+
+    do i = 1, TERMS
+      node(i) = 0.5_rk - 0.5_rk*cos(PI*(2*i - 1)/(2*TERMS))
+      c = 0
+      derivative = 0
+      do j = size(kick), 1, -1
+        derivative = derivative*node(i) + c
+        c = c*node(i) + kick(j)
+      end do
+      value(i) = (1 - 3*node(i))*c + 2*node(i)*(1 - node(i))*derivative
+    end do
+    do j = 1, TERMS - 1 ! divided differences
+      value(j + 1:) = (value(j + 1:) - value(j:TERMS - 1))/(node(j + 1:) - node(:TERMS - j))
+    end do
+    slope = 0
+    do j = TERMS, 1, -1
+      slope(2:) = slope(:TERMS - 1) - node(j)*slope(2:)
+      slope(1) = value(j) - node(j)*slope(1)
+    end do
+  end function slope_of
+
+  !> One period of n lanes, and its derivative in single precision: of the angle by angle and velocity, of the velocity by both, rad.
+  subroutine linear_stages(self, n, u, v, tangent)
+    !> tables of a period
+    type(stages_t), intent(inout) :: self
+    !> lanes
+    integer, intent(in) :: n
+    !> half-turns
+    real(rk), intent(inout) :: u(WIDTH)
+    !> rad per drive radian
+    real(rk), intent(inout) :: v(WIDTH)
+    !> (WIDTH, 4)
+    real(rk), intent(inout) :: tangent(WIDTH, 4)
+    real(c_float) :: c(WIDTH, 4)
+    integer(c_int64_t) :: steps
+
+    steps = size(self%row, 2, c_int64_t)
+    call run_stages_kept(int(self%n_drift, c_int32_t), int(self%n_kick, c_int32_t), steps, self%row, int(n, c_int64_t), u, v, &
+                         self%squares)
+    call finish_period(self, n, u, v)
+    call run_tangents(steps, self%slope, real(self%last(1), c_float), real(self%decay, c_float), self%squares, int(n, c_int64_t), c)
+    tangent(:n, 1) = c(:n, 1)
+    tangent(:n, 2) = PI*c(:n, 2)
+    tangent(:n, 3) = (1/PI)*c(:n, 3)
+    tangent(:n, 4) = c(:n, 4)
+  end subroutine linear_stages
 
   !> One period of n lanes.
   subroutine advance_stages(self, n, u, v)

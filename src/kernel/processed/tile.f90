@@ -7,7 +7,7 @@ module kz_processed_tile
   use kz_lanes_sine, only: INVERSE_PI
   use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
   use kz_processed_processor, only: displacement_t, make_displacement, change_coordinates, change_derivative
-  use kz_processed_stages, only: stages_t, make_stages, advance_stages, tangent_stages
+  use kz_processed_stages, only: stages_t, make_stages, advance_stages, linear_stages, tangent_stages
   use kz_processed_tables, only: processed_t
   implicit none
   private
@@ -25,6 +25,7 @@ module kz_processed_tile
     procedure :: move => processed_move
     procedure :: advance => processed_advance
     procedure :: advance_tangent => processed_tangent
+    procedure :: advance_linear => processed_linear
     procedure :: sample => processed_sample
     procedure :: enter => processed_enter
     procedure :: leave => processed_leave
@@ -61,6 +62,49 @@ contains
     u = self%u(:WIDTH)
     v = self%v(:WIDTH)
     call advance_stages(self%stages, n, u, v)
+    call take_images(self, n, u, v)
+  end subroutine processed_advance
+
+  !> The same, and the tangent map in kernel coordinates, in single precision. Numbers below the normal ones are slow.
+  subroutine processed_linear(self, n, tangent)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: tangent(WIDTH, 4)
+    real(rk) :: u(WIDTH), v(WIDTH)
+    integer(c_int64_t) :: control
+
+    control = flush_subnormals()
+    u = self%u(:WIDTH)
+    v = self%v(:WIDTH)
+    call linear_stages(self%stages, n, u, v, tangent)
+    if (any(self%physical(:n))) call linear_fall_back(self, n, tangent)
+    call take_images(self, n, u, v)
+    call restore_control(control)
+  end subroutine processed_linear
+
+  !> The tangent map of lanes that another flow advances.
+  subroutine linear_fall_back(self, n, tangent)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: tangent(WIDTH, 4)
+    real(rk) :: one(WIDTH, 4)
+    integer :: i
+
+    do i = 1, n
+      if (.not. self%physical(i)) cycle
+      call self%fallback%put(1, self%u(i), self%v(i))
+      call self%fallback%advance_linear(1, one)
+      tangent(i, :) = one(1, :)
+    end do
+  end subroutine linear_fall_back
+
+  !> The images of n lanes that the tables have advanced.
+  subroutine take_images(self, n, u, v)
+    class(processed_tile_t), intent(inout) :: self
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: u(WIDTH)
+    real(rk), intent(inout) :: v(WIDTH)
+
     if (count(abs(v(:n)) > self%fastest .or. self%physical(:n)) > 0) then
       call fall_back(self, n, u, v)
       call change_fast_lanes(self, n, u, v)
@@ -69,7 +113,7 @@ contains
     self%u(:n) = u(:n)
     self%v(:n) = v(:n)
     call wrap(self, 1, n)
-  end subroutine processed_advance
+  end subroutine take_images
 
   !> Lanes in physical coordinates take another flow's image.
   subroutine fall_back(self, n, u, v)

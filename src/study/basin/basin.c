@@ -44,12 +44,12 @@ static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dy
 /* What is known besides the cells. Rank 0. */
 static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, const sample *s, FILE *summary) {
   kz_dynamics *dynamics = chunks->labelling->dynamics;
-  const bool exact = scene->basin.method == KZ_METHOD_EXACT;
+  const bool table = scene->basin.method == KZ_METHOD_ICM;
   kz_labels labels = {.cells = chunks->labelling->tiles.cells,
                       .counts = chunks->counts,
                       .trapped_share = kz_dynamics_trapped_share(dynamics),
-                      .doubt = exact ? kz_doubt_of_all(chunks->counts.doubtful, kz_own_cells(&scene->basin))
-                                     : kz_doubt_count(&scene->basin, s->followed, s->label)};
+                      .doubt = table ? kz_doubt_count(&scene->basin, s->followed, s->label)
+                                     : kz_doubt_of_all(chunks->counts.doubtful, kz_own_cells(&scene->basin))};
   measure_numerics(scene, dynamics, &labels, summary);
   return kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary);
 }
@@ -82,7 +82,7 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
   const kz_run *run = labelling->run;
   KZ_TRY(kz_label_window(labelling));
   if (proof) KZ_TRY(kz_prove_regions(run, labelling->dynamics, proof));
-  if (scene->basin.method != KZ_METHOD_EXACT) KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
+  if (scene->basin.method == KZ_METHOD_ICM) KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
   kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue);
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   kz_chunks chunks = {.labelling = labelling,

@@ -26,7 +26,7 @@ kz_workspace *kz_workspace_make(void) {
   return kz_malloc(sizeof(kz_workspace));
 }
 
-/* Without regard to errors. */
+/* By the map table. */
 static void follow_batch(const kz_labelling *l, int64_t n, kz_labelled *out) {
   const kz_basin_plan *plan = l->plan;
   kz_workspace *w = l->work;
@@ -41,11 +41,14 @@ kz_labeller kz_cells_labeller(const kz_labelling *l) {
   return kz_window_labeller(&l->starts, l->images && l->tiles.cells <= MOST_DECIDED);
 }
 
-/* At the present level. */
+/* At the present level; by method direct the labels of states alone, and whether their errors change them. */
 static kz_status label_batch(kz_labelling *l, int64_t n, kz_labelled *out) {
   const kz_labeller labeller = kz_cells_labeller(l);
   kz_decision *decision = l->work->decision;
-  if (l->level == KZ_LEVELS)
+  const bool direct = l->plan->method == KZ_METHOD_DIRECT;
+  if (direct)
+    KZ_TRY(kz_label_at(&labeller, KZ_LEVEL_GUESS, KZ_LEVEL_DOUBLE, n, l->work->cell, decision));
+  else if (l->level == KZ_LEVELS)
     KZ_TRY(kz_label_candidates(&labeller, n, l->work->cell, decision));
   else
     KZ_TRY(kz_label_at(&labeller, l->level, l->before_level, n, l->work->cell, decision));
@@ -53,7 +56,7 @@ static kz_status label_batch(kz_labelling *l, int64_t n, kz_labelled *out) {
     out[i] = (kz_labelled){.periods = (uint32_t)decision[i].periods,
                            .label = (int16_t)decision[i].label,
                            .other = (int16_t)decision[i].other,
-                           .evidence = kz_level_evidence(l->level)};
+                           .evidence = direct && decision[i].level == KZ_LEVELS ? KZ_LEFT : kz_level_evidence(l->level)};
   return KZ_OK;
 }
 
@@ -62,7 +65,7 @@ kz_status kz_label_cells(kz_labelling *l, int64_t first, const int64_t *cells, i
     const int64_t part = n - done < l->batch ? n - done : l->batch;
     KZ_TRY(kz_ranks_interrupted(l->run->ranks));
     for (int64_t i = 0; i < part; i++) l->work->cell[i] = cells ? cells[done + i] : first + done + i;
-    if (l->plan->method == KZ_METHOD_EXACT)
+    if (l->plan->method != KZ_METHOD_ICM)
       KZ_TRY(label_batch(l, part, out + done));
     else
       follow_batch(l, part, out + done);

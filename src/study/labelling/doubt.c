@@ -18,7 +18,7 @@ int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i) {
 }
 
 int64_t kz_doubt_cells(const kz_basin_plan *plan) {
-  const int64_t own = plan->method == KZ_METHOD_EXACT ? 0 : kz_own_cells(plan);
+  const int64_t own = plan->method == KZ_METHOD_ICM ? kz_own_cells(plan) : 0;
   return own < SAMPLE ? own : SAMPLE;
 }
 
@@ -82,20 +82,20 @@ static void tell(const kz_doubt *doubt, int32_t method, FILE *summary) {
             100 * share->share);
     return;
   }
-  fprintf(
-      summary,
-      "%.3g %% of the labels are doubtful (95 %%: %.3g to %.3g %%): steps and rounding may change them; %lld cells integrated "
-      "again\n",
-      100 * share->share, 100 * share->low, 100 * share->high, (long long)doubt->cells);
+  if (method == KZ_METHOD_DIRECT)
+    fprintf(summary, "%.3g %% of the labels are doubtful: steps and rounding may change them (evidence 9)\n",
+            100 * share->share);
+  if (method == KZ_METHOD_ICM)
+    fprintf(summary,
+            "%.3g %% of the labels are doubtful (95 %%: %.3g to %.3g %%): steps and rounding may change them; %lld cells "
+            "integrated\n",
+            100 * share->share, 100 * share->low, 100 * share->high, (long long)doubt->cells);
   if (method == KZ_METHOD_ICM)
     fprintf(summary, "%.3g %% more (95 %%: %.3g to %.3g %%) are labelled otherwise than by integration\n", 100 * other->share,
             100 * other->low, 100 * other->high);
   if (share->share > MANY)
-    fprintf(
-        summary,
-        "warning: more than %g %% of the labels are doubtful; more numerics.steps_per_period may decide some of them, rounding "
-        "stays\n",
-        100 * MANY);
+    fprintf(summary, "warning: more than %g %% of the labels are doubtful; basin.method exact decides nearly all of them\n",
+            100 * MANY);
 }
 
 static kz_status write_share(const char *name, const kz_share *share, kz_store *store) {

@@ -1,5 +1,5 @@
-/* How many labels of a basin its numerics do not decide: a random sample of cells, each integrated again with the error of its
- * orbit. */
+/* How many labels of a basin its numerics do not decide: of all cells that are integrated, and of a map table's by a random sample of
+ * cells, each integrated with the error of its orbit. */
 #ifndef KAPITZA_STUDY_DOUBT_H
 #define KAPITZA_STUDY_DOUBT_H
 
@@ -13,7 +13,7 @@ typedef struct {
   kz_share differing; /* share with another label than a decided one: errors of the map table */
 } kz_doubt;
 
-/* Cells of the sample; none for method exact, which asks about all cells. */
+/* Cells of the sample; none but for method icm, since the others ask about all cells. */
 int64_t kz_doubt_cells(const kz_basin_plan *plan);
 /* Cell i of the sample, one of the kz_own_cells: a function of the window, its cells and the seed alone. */
 int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i);
@@ -24,7 +24,7 @@ enum { KZ_DOUBT_TILE = 256 };
 kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed);
 /* What the sample takes, seconds of processor time from a part of it, is added to *seconds. Not collective. */
 kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds);
-/* What method exact tells: of n cells. */
+/* What is told of n cells, all of them. */
 kz_doubt kz_doubt_of_all(int64_t doubtful, int64_t n);
 /* What the sample tells about the labels of the sample's cells: numbers of the same dynamics. */
 kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, const int64_t *label);

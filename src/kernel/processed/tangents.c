@@ -1,0 +1,44 @@
+/* The derivative of a period of the processed splitting in single precision, which is enough for an error: from the squares of the
+ * reduced angles at every kick, which the loop of the states keeps (stages.c). */
+#include "stages.h"
+
+#if defined __AVX512F__
+enum { VECTOR_BYTES = 64, CHAINS = 4 };
+#else
+enum { VECTOR_BYTES = 32, CHAINS = 2 };
+#endif
+/* Lanes of a batch (lanes/map.f90), of a vector, and coefficients of a slope (stages.f90). */
+enum { WIDTH = 64, LANES = VECTOR_BYTES / 4, TERMS = 5 };
+#define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
+
+typedef float vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(float)), may_alias));
+
+static void store(float *to, const vector *x) {
+  EACH *(vector *)(to + i * LANES) = x[i];
+}
+
+void kz_processed_tangents(int64_t n_stages, const float *row, float last, float decay, const float *squares, int64_t n,
+                           float *c) {
+  for (int64_t first = 0; first < n; first += CHAINS * LANES) {
+    const float *r = row, *q = squares + first;
+    vector uu[CHAINS], uv[CHAINS], vu[CHAINS], vv[CHAINS], p[CHAINS];
+    EACH uu[i] = vv[i] = 1 + (vector){0};
+    EACH uv[i] = vu[i] = (vector){0};
+    for (int64_t s = 0; s < n_stages; s++, r += 1 + TERMS, q += WIDTH) {
+      EACH uu[i] += r[0] * vu[i];
+      EACH uv[i] += r[0] * vv[i];
+      EACH p[i] = r[TERMS] + (vector){0};
+      for (int j = TERMS - 1; j >= 1; j--) EACH p[i] = p[i] * *(const vector *)(q + i * LANES) + r[j];
+      EACH vu[i] -= p[i] * uu[i];
+      EACH vv[i] -= p[i] * uv[i];
+    }
+    EACH uu[i] += last * vu[i];
+    EACH uv[i] += last * vv[i];
+    EACH vu[i] *= decay;
+    EACH vv[i] *= decay;
+    store(c + first, uu);
+    store(c + WIDTH + first, uv);
+    store(c + 2 * WIDTH + first, vu);
+    store(c + 3 * WIDTH + first, vv);
+  }
+}
