@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "kapitza/parallel.h"
+#include "launch.h"
 
 /* The first of `names` that the environment holds, as a number; -1 where it holds none. */
 static int told(const char *const names[], size_t n) {
@@ -38,6 +39,27 @@ int kz_launch_rank(void) {
 int kz_launch_count(void) {
   look();
   return launch.count;
+}
+
+/* Beginnings of what launchers tell the processes that they start, known or not. */
+static const char *const launchers[] = {"PMI",      "PMIX_", "OMPI_COMM_WORLD", "ORTE_",         "SLURM_STEP",
+                                        "ALPS_APP", "PALS_", "FLUX_",           "MPI_LOCALRANK", "MPIRUN_RANK",
+                                        "MV2_COMM", "HYDRA", "LSB_MCPU",        "PBS_TASKNUM"};
+
+extern char **environ;
+
+static bool is_launched(void) {
+  for (char **variable = environ; *variable; variable++)
+    for (size_t i = 0; i < sizeof launchers / sizeof *launchers; i++)
+      if (strncmp(*variable, launchers[i], strlen(launchers[i])) == 0) return true;
+  return false;
+}
+
+void kz_launch_alone(void) {
+  static const char *const settings[][2] = {
+      {"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_btl", "self"}, {"OMPI_MCA_pml", "ob1"}};
+  if (is_launched()) return;
+  for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) setenv(settings[i][0], settings[i][1], false);
 }
 
 const char *kz_parallel_library(void) {

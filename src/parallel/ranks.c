@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "bytes.h"
+#include "launch.h"
 
 enum { MESSAGE_BYTES = 2048, ABANDON_SECONDS = 5 };
 static const size_t CHUNK_BYTES = (size_t)1 << 30; /* MPI counts are int */
@@ -30,6 +31,7 @@ static kz_status connect_ranks(kz_ranks *ranks) {
 
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   kz_signals_catch();
+  kz_launch_alone();
   kz_launch_rank(); /* remembers what the launcher said, before MPI_Init writes the same names */
   kz_ranks *started = kz_calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
   started->comm = MPI_COMM_NULL;

@@ -1,13 +1,15 @@
 """The command run from end to end: the file's root, resuming, stopping, exit statuses."""
 
 import math
+import os
 import re
+import subprocess
 from datetime import UTC, datetime
 
 import h5py
 import pytest
 import yaml
-from conftest import ROOT, datasets, run_until_saved
+from conftest import PROGRAM, ROOT, datasets, run_until_saved
 from kapitza import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
@@ -102,3 +104,20 @@ def test_the_frequency_is_swept_in_hz(kapitza, tmp_path):
     kapitza("run", "sweep.yaml", folder=tmp_path)
     with h5py.File(tmp_path / "sweep.h5") as file:
         assert list(file["sweep/value"][:]) == [1.5, 2] and file["sweep"].attrs["parameter_units"] == "Hz"
+
+
+def test_a_lone_process_starts_no_daemon(tmp_path):
+    """Open MPI's own would be looked for in an empty folder."""
+    command = [PROGRAM, "run", SMALL, "-o", tmp_path / "out.h5"]
+    environment = {**os.environ, "OPAL_BINDIR": str(tmp_path), "OMPI_MCA_orte_execute_quiet": "1"}
+    subprocess.run(command, check=True, capture_output=True, env=environment)
+
+
+def test_lone_processes_of_an_unknown_launcher_do_not_write_one_file(tmp_path):
+    """Each believes that it is alone: one has the lock, the others are refused."""
+    command = [PROGRAM, "run", SMALL, "-o", tmp_path / "out.h5", *SLOW[:6]]
+    running = [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) for _ in range(3)]
+    errors = [process.communicate()[1] for process in running]
+    refused = [error for process, error in zip(running, errors, strict=True) if process.returncode]
+    assert sorted(process.returncode for process in running) == [0, 2, 2] and len(refused) == 2
+    assert all(error.count("\n") == 1 for error in refused), refused

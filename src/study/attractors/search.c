@@ -17,7 +17,7 @@ enum {
   CHUNKS = 16,         /* searches per round */
   PILOT_STARTS = 512,  /* starts that are followed before regions grow */
   WORTH_CELLS = 40000, /* that are to be labelled: for fewer, regions do not grow */
-  FEWEST_CELLS = 250,  /* of the regions' grid along an axis: in coarser ones hardly anything grows */
+  FEWEST_CELLS = 200,  /* of the regions' grid along an axis: in coarser ones hardly anything grows */
   MOST_CELLS = 500,    /* finer ones trap hardly more */
   STRETCH = 1024,      /* periods of a tile at least */
   STRETCHES = 64,      /* of a round, about */
@@ -197,7 +197,7 @@ kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_peri
 
 int64_t kz_regions_cells(int64_t cells) {
   if (cells < WORTH_CELLS) return 0;
-  return (int64_t)fmin(fmax(FEWEST_CELLS, 0.7 * sqrt((double)cells)), MOST_CELLS);
+  return (int64_t)fmin(fmax(FEWEST_CELLS, 0.256 * sqrt((double)cells)), MOST_CELLS);
 }
 
 kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
