@@ -21,6 +21,12 @@ typedef struct {
 kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
 void kz_dynamics_free(kz_dynamics *dynamics);
 
+/* The same for a pendulum nearby, to be freed too: its attractors are those of `dynamics` that continue, by Newton's method, and its trapping regions
+ * what is left of theirs without their outermost cells. So they are only likely to trap: for moving pictures, until
+ * kz_dynamics_fine_regions. *lost: attractors that do not continue, mirror images not counted. */
+kz_dynamics *kz_dynamics_continue(const kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_numerics *numerics,
+                                  int64_t *lost);
+
 /* Starts spread evenly over the window: state [n][2]. The seed moves them. */
 void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
 

@@ -67,6 +67,9 @@ typedef struct {
 /* A frame of the scene's study basin: pendulum, window, cells, max_periods. The scene's numerics need not be resolved. */
 kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_frame *frame);
 
+/* When nothing is asked: looks for attractors where cells of the last moving frames have not settled. Takes milliseconds at most of the time. */
+void kz_engine_rest(kz_engine *engine);
+
 /* What is known of the scene's pendulum; it belongs to the engine and holds until the next call. */
 kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue);
 

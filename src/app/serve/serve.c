@@ -113,7 +113,11 @@ static kz_status draw_next(server *s) {
 
 static kz_status answer_all(server *s) {
   while (!s->quits) {
-    KZ_TRY(listen(s, s->waiting == NULL));
+    KZ_TRY(listen(s, false));
+    if (s->waiting == NULL && !s->quits) {
+      kz_engine_rest(s->drawing.engine);
+      KZ_TRY(listen(s, true));
+    }
     if (!s->quits && s->waiting) KZ_TRY(draw_next(s));
   }
   return KZ_OK;

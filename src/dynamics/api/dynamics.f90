@@ -1,12 +1,13 @@
 !> The C interface of dynamics: the handle (include/kapitza/dynamics.h).
 module kz_api_dynamics
-  use, intrinsic :: iso_c_binding, only: c_int64_t, c_ptr, c_null_ptr, c_loc
+  use, intrinsic :: iso_c_binding, only: c_int64_t, c_ptr, c_loc
   use kz_kernel_plan, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
   use kz_api_handle, only: dynamics_t, of_handle
   implicit none
   private
+  public :: make_dynamics
 
 contains
 
@@ -15,22 +16,30 @@ contains
     type(numerics_t), intent(in) :: numerics
     integer(c_int64_t), value :: max_period
     type(c_ptr) :: handle
-    type(dynamics_t), pointer :: d
-    integer :: status
 
-    handle = c_null_ptr
-    allocate (d, stat=status)
-    if (status /= 0) return
+    handle = c_loc(make_dynamics(pendulum, numerics, int(max_period)))
+  end function create
+
+  !> Maps without attractors and regions.
+  function make_dynamics(pendulum, numerics, max_period) result(d)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> of the map that labels
+    type(numerics_t), intent(in) :: numerics
+    !> of the cycles that a search looks for
+    integer, intent(in) :: max_period
+    type(dynamics_t), pointer :: d
+
+    allocate (d)
     d%numerics = numerics
     call make_flow(pendulum, numerics, .true., d%flow)
     d%search%pendulum = pendulum
-    d%search%max_period = int(max_period)
+    d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)
     call make_flow(pendulum, fine_numerics(pendulum), .true., d%search%fine)
     call make_flow(pendulum, fine_numerics(pendulum), .false., d%search%sampling_flow)
     allocate (d%attractors(0))
-    handle = c_loc(d)
-  end function create
+  end function make_dynamics
 
   subroutine destroy(handle) bind(C, name='kz_dynamics_free')
     type(c_ptr), value :: handle

@@ -1,21 +1,22 @@
 #include "cells.h"
 
-#include <stdlib.h>
+#include <string.h>
 
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 
 /* As method direct labels them, from where they are handed over to doubles. */
-static void follow(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                   kz_frame_cell *cells) {
+static void follow(kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number, kz_frame_cell *cells) {
   double state[2 * KZ_FRAME_TILE];
   int32_t label[KZ_FRAME_TILE];
   int64_t periods[KZ_FRAME_TILE], spent[KZ_FRAME_TILE];
   for (int64_t i = 0; i < n; i++) kz_window_state(starts, number[i], state + 2 * i, spent + i);
-  kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, n, starts->plan->max_periods, state, label, periods);
-  for (int64_t i = 0; i < n; i++)
+  kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, n, r->periods, state, label, periods);
+  for (int64_t i = 0; i < n; i++) {
     cells[number[i]] =
         (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)(spent[i] + periods[i]), .state = KZ_CELL_FOLLOWED};
+    if (label[i] == 0 && r->n_strays < KZ_STRAYS) memcpy(r->stray + 2 * r->n_strays++, state + 2 * i, 2 * sizeof *state);
+  }
 }
 
 /* As method exact labels them. */
@@ -35,7 +36,7 @@ static kz_status decide(const kz_window_starts *starts, int64_t n, const int64_t
   return KZ_OK;
 }
 
-kz_status kz_cells_follow(const kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_frame_cell *cells) {
   if (!resident->moving) return decide(starts, n, number, cells);
   follow(resident, starts, n, number, cells);

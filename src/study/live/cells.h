@@ -20,7 +20,7 @@ enum { KZ_FRAME_TILE = 1024 };
 kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts);
 
 /* Follows n <= KZ_FRAME_TILE cells (their numbers, theta fastest). */
-kz_status kz_cells_follow(const kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_frame_cell *cells);
 
 /* Looks for attractors that up to n of these cells end on, which have not settled. *born: some have joined. */

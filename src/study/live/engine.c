@@ -29,6 +29,19 @@ static kz_resident *find(kz_engine *engine, const kz_scene *scene, bool moving) 
   return NULL;
 }
 
+/* The moving resident of the nearest pendulum that can be carried to the scene's. */
+static kz_resident *nearest(kz_engine *engine, const kz_scene *scene) {
+  kz_resident *found = NULL;
+  double least = INFINITY;
+  for (int i = 0; i < KZ_RESIDENTS; i++) {
+    const double distance = kz_resident_distance(engine->resident + i, scene);
+    if (distance >= least) continue;
+    least = distance;
+    found = engine->resident + i;
+  }
+  return found;
+}
+
 /* The place of the one that was used least lately, and of none that is busy. */
 static kz_resident *oldest(kz_engine *engine) {
   kz_resident *place = NULL;
@@ -59,14 +72,26 @@ static kz_status make(kz_engine *engine, const kz_scene *scene, bool moving, kz_
 }
 
 kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident) {
+  kz_resident *near = NULL;
   *resident = find(engine, scene, moving);
-  if (!*resident) {
+  if (!*resident && moving && (near = nearest(engine, scene))) {
+    kz_resident_move(near, scene);
+    kz_engine_list(engine, near);
+    *resident = near;
+  } else if (!*resident) {
     *resident = oldest(engine);
     KZ_TRY(make(engine, scene, moving, *resident));
   }
   (*resident)->used = ++engine->calls;
   engine->shown = &(*resident)->catalogue;
   return KZ_OK;
+}
+
+void kz_engine_rest(kz_engine *engine) {
+  for (int i = 0; i < KZ_RESIDENTS; i++) {
+    kz_resident *r = engine->resident + i;
+    if (r->n_strays > 0 && kz_resident_discover(r)) kz_engine_list(engine, r);
+  }
 }
 
 kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue) {

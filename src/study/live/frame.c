@@ -77,7 +77,7 @@ static kz_status label(making *m, int64_t n) {
   KZ_TRY(follow(m, n));
   const int64_t left = list_unsettled(m, n);
   bool born = false;
-  if (left == 0 || m->searched) return KZ_OK;
+  if (left == 0 || m->searched || m->resident->moving) return KZ_OK;
   m->searched = true;
   KZ_TRY(kz_cells_discover(m->resident, &m->starts, left, m->open, &born));
   if (!born) return KZ_OK;

@@ -15,6 +15,15 @@ enum { CELLS = 130000 };
 /* rad: strobe points that moved by more between two catalogues belong to different attractors. */
 static const double NEAR = 0.5;
 
+/* Carried to a pendulum whose parameters differ by more of their sum, a moving resident would lose too much; its numerics are chosen anew
+ * beyond this; and its trapping regions are grown anew after so many pendulums. */
+static const double FARTHEST = 0.3, RECHOSEN = 0.1;
+/* rad: how near strays must come back to themselves. */
+static const double CLOSENESS = 0.02;
+enum { OLDEST = 5, MOVING_CELLS = 192 };
+/* Of moving frames: drive periods that cells are followed, at least, and lifetimes 1/(2 pi beta). */
+static const double LEAST_PERIODS = 400, LIFETIMES = 24;
+
 static kz_window window_of(const kz_scene *scene) {
   return kz_window_of(&scene->basin.theta, &scene->basin.velocity);
 }
@@ -43,8 +52,14 @@ static kz_status search(kz_resident *r) {
   return status;
 }
 
+static int64_t periods_of(const kz_scene *scene, bool moving) {
+  const double enough = fmax(LEAST_PERIODS, LIFETIMES / (2 * M_PI * scene->parameters.pendulum.beta));
+  return moving ? (int64_t)fmin(enough, (double)scene->basin.max_periods) : scene->basin.max_periods;
+}
+
 kz_status kz_resident_make(const kz_scene *scene, bool moving, kz_resident *resident) {
-  *resident = (kz_resident){.scene = *scene, .moving = moving};
+  *resident = (kz_resident){.scene = *scene, .moving = moving, .chosen = scene->parameters.pendulum};
+  resident->periods = periods_of(scene, moving);
   resident->scene.title = NULL;
   resident->search = kz_search_of(scene);
   resident->search.cells = CELLS;
@@ -71,14 +86,64 @@ static bool same_pendulum(const kz_pendulum *a, const kz_pendulum *b) {
   return a->k == b->k && a->beta == b->beta && a->m == b->m;
 }
 
-bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, bool moving) {
+bool kz_resident_discover(kz_resident *r) {
+  const int64_t known = kz_dynamics_count(r->dynamics);
+  double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
+  while ((int)found[0] < r->n_strays) {
+    kz_dynamics_find_cycle(r->dynamics, r->n_strays, r->stray, CLOSENESS, found);
+    kz_dynamics_adopt(r->dynamics, found + 1);
+  }
+  free(found);
+  r->n_strays = 0;
+  if (kz_dynamics_count(r->dynamics) == known) return false;
+  kz_dynamics_update(r->dynamics);
+  return true;
+}
+
+static bool same_search(const kz_resident *resident, const kz_scene *scene) {
   const kz_basin_plan *mine = &resident->scene.basin, *plan = &scene->basin;
   const kz_window own = window_of(&resident->scene), asked = window_of(scene);
+  return asked.velocity_min >= own.velocity_min && asked.velocity_max <= own.velocity_max &&
+         mine->max_period == plan->max_period && mine->starts == plan->starts && mine->seed == plan->seed;
+}
+
+static double parted(const kz_pendulum *a, const kz_pendulum *b) {
+  const double size = fabs(a->k) + fabs(a->m) + a->beta;
+  return (fabs(a->k - b->k) + fabs(a->m - b->m) + fabs(a->beta - b->beta)) / size;
+}
+
+double kz_resident_distance(const kz_resident *resident, const kz_scene *scene) {
+  if (resident->used == 0 || !resident->moving || !resident->dynamics || resident->busy) return INFINITY;
+  if (!(scene->parameters.pendulum.beta > 0) || !same_search(resident, scene)) return INFINITY;
+  const double distance = parted(&resident->scene.parameters.pendulum, &scene->parameters.pendulum);
+  return distance < FARTHEST ? distance : INFINITY;
+}
+
+void kz_resident_move(kz_resident *r, const kz_scene *scene) {
+  const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  int64_t lost;
+  r->scene.parameters = scene->parameters;
+  r->scene.basin.max_periods = scene->basin.max_periods;
+  r->search.max_periods = scene->basin.max_periods;
+  r->periods = periods_of(scene, true);
+  if (parted(&r->chosen, pendulum) > RECHOSEN) {
+    choose_numerics(r);
+    r->chosen = *pendulum;
+  }
+  kz_dynamics *moved = kz_dynamics_continue(r->dynamics, pendulum, &r->scene.numerics, &lost);
+  kz_dynamics_free(r->dynamics);
+  r->dynamics = moved;
+  r->n_strays = 0;
+  if (lost > 0 || ++r->age >= OLDEST) {
+    kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
+    r->age = 0;
+  }
+}
+
+bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, bool moving) {
   return resident->used > 0 && resident->moving == moving &&
          same_pendulum(&resident->scene.parameters.pendulum, &scene->parameters.pendulum) &&
-         asked.velocity_min >= own.velocity_min && asked.velocity_max <= own.velocity_max &&
-         mine->max_periods == plan->max_periods && mine->max_period == plan->max_period && mine->starts == plan->starts &&
-         mine->seed == plan->seed;
+         resident->scene.basin.max_periods == scene->basin.max_periods && same_search(resident, scene);
 }
 
 /* rad: how far the nearest strobe point of `b` lies from the first one of `a`. Chaotic attractors have none. */

@@ -7,20 +7,36 @@
 #include "kapitza/study_live.h"
 #include "window/starts.h"
 
+/* States of cells of moving frames that have not settled: attractors may have been born there. */
+enum { KZ_STRAYS = 16 };
+
 typedef struct {
-  kz_scene scene; /* pendulum, numerics, and the basin whose window was searched; no title */
-  bool moving;    /* for moving frames */
-  bool busy;      /* a frame is being made of it */
-  int64_t used;   /* the larger, the later */
+  kz_scene scene;  /* pendulum, numerics, and the basin whose window was searched; no title */
+  bool moving;     /* for moving frames */
+  bool busy;       /* a frame is being made of it */
+  int64_t used;    /* the larger, the later */
+  int64_t periods; /* that cells are followed at most */
   kz_dynamics *dynamics;
   kz_search search;
-  kz_images *images; /* of the last window whose cells they served; NULL: none yet */
+  kz_images *images;  /* of the last window whose cells they served; NULL: none yet */
+  kz_pendulum chosen; /* that the numerics were chosen for */
+  int age;            /* pendulums since the trapping regions were grown */
+  int n_strays;
+  double stray[2 * KZ_STRAYS]; /* [n_strays][2] half-turns and velocity */
   kz_live_catalogue catalogue;
 } kz_resident;
 
 /* Attractors of the scene's window, trapping regions, catalogue without tracks. To be freed in every case. */
 kz_status kz_resident_make(const kz_scene *scene, bool moving, kz_resident *resident);
 void kz_resident_free(kz_resident *resident);
+
+/* Can a moving one be carried to the scene's pendulum? How far it is from it, a relative number; INFINITY: no. */
+double kz_resident_distance(const kz_resident *resident, const kz_scene *scene);
+/* Carries it there: attractors continued, trapping regions of up to some pendulums before. */
+void kz_resident_move(kz_resident *resident, const kz_scene *scene);
+
+/* Looks for attractors that its strays are on, and forgets these. Returns whether some have joined. */
+bool kz_resident_discover(kz_resident *resident);
 
 /* Does it serve a frame of the scene? */
 bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, bool moving);
