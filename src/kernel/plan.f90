@@ -61,7 +61,7 @@ contains
 
     if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
       allocate (series)
-      call make_processed_series(pendulum, 0, series)
+      call make_processed_series(pendulum, series)
       call make_processed_flow(pendulum, series, numerics, flow)
       return
     end if
@@ -85,7 +85,7 @@ contains
     halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest)
     if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
       allocate (series) ! made once: it does not depend on the steps
-      call make_processed_series(pendulum, 0, series)
+      call make_processed_series(pendulum, series)
       call make_processed_flow(pendulum, series, numerics, flow)
       call make_processed_flow(pendulum, series, halved, finer, refined=2)
     else

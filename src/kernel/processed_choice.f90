@@ -55,7 +55,7 @@ contains
     call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
     call ieee_set_halting_mode(ieee_usual, .false.)
     allocate (series)
-    call make_processed_series(pendulum, 0, series)
+    call make_processed_series(pendulum, series)
     call make_probes(pendulum, fastest, probes)
     numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest

@@ -9,7 +9,7 @@
 #include "../tools/find.h"
 #include "kapitza/dynamics.h"
 
-enum { SPLIT6 = 2, RK4 = 0, STATES = 64, MOST = 64 };
+enum { SPLIT6 = 1, RK4 = 0, STATES = 64, MOST = 64 };
 
 static const double PI = 3.14159265358979323846;
 /* The steps of published values, and of scenes. */

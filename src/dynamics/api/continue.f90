@@ -1,7 +1,8 @@
 !> The C interface of dynamics: what is known of a pendulum carried to one nearby (include/kapitza/dynamics.h).
 module kz_api_continue
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr, c_loc
-  use kz_lanes_step_table, only: pendulum_t, numerics_t
+  use kz_lanes_step_table, only: numerics_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_api_dynamics, only: make_dynamics
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: search_t, add_with_mirror, known

@@ -8,7 +8,8 @@ module kz_extended_pairs
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_lanes_map, only: WIDTH
   use kz_extended_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
-  use kz_processed_tables, only: series_t, make_processed_series, MOST_PAIR_KICKS, MOST_DAMPING, ORDER
+  use kz_processed_tables, only: MOST_DAMPING
+  use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
   use kz_model_pendulum, only: pendulum_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period
   implicit none
@@ -67,7 +68,7 @@ contains
       call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
       call ieee_set_halting_mode(ieee_usual, .false.)
       allocate (series)
-      call make_processed_series(pendulum, QUAD_GRADES, series)
+      call make_mixed_series(pendulum, QUAD_GRADES, series)
       do while (n < MOST_LEVELS .and. levels(n)%fastest < fastest)
         call choose_level(pendulum, series, pairs%drive, tolerance, levels(n), levels(n + 1))
         if (levels(n + 1)%error > tolerance) exit

@@ -3,7 +3,7 @@ module kz_extended_pairs_level
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: WIDTH
-  use kz_processed_tables, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
+  use kz_processed_tables_r128, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
   use kz_model_pendulum, only: pendulum_t
   implicit none
   private
