@@ -17,6 +17,7 @@ class Server:
         self.process = subprocess.Popen([PROGRAM, "serve", scene, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.ready, _ = self.receive()
         self.sequence = 0
+        self.catalogues = {}  # attractors by version
 
     def __enter__(self):
         return self
@@ -33,6 +34,8 @@ class Server:
     def receive(self):
         """The next answer: header and payload."""
         header = json.loads(self.process.stdout.readline())
+        if header["answer"] == "catalogue":
+            self.catalogues[header["version"]] = header["attractors"]
         return header, self.process.stdout.read(header["bytes"])
 
     def post(self, request, **keys):

@@ -30,6 +30,10 @@ def strobe(attractors, labels):
     return table[np.where(labels == 255, len(attractors), labels)]
 
 
+def ends(server, header, planes):
+    return strobe(server.catalogues[header["catalogue"]], planes["labels"])
+
+
 def test_the_program_says_what_it_serves(server):
     assert server.ready["answer"] == "ready" and server.ready["protocol"] == 1
     assert server.ready["pendulum"] == {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
@@ -61,8 +65,9 @@ def test_a_level_shows_cells_of_the_frame(server):
 
 
 def test_a_moving_frame_is_rougher_by_one_cell_in_a_hundred_at_most(server):
-    exact, moving = (server.frame(100, 160, quality=quality)[1][-1][1]["labels"] for quality in ("exact", "moving"))
-    assert 0 < np.mean(exact != moving) < 0.015
+    server.frame(100, 160, quality="moving")  # attractors that it lacks are looked for behind it
+    exact, moving = (ends(server, *server.frame(100, 160, quality=quality)[1][-1]) for quality in ("exact", "moving"))
+    assert 0 < np.mean(np.any(abs(exact - moving) > 1e-6, axis=-1)) < 0.015
 
 
 def test_a_symmetric_window_has_mirrored_labels(server):

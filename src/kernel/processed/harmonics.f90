@@ -14,6 +14,7 @@ contains
   !> sin(pi j r)/(r (1 - r**2)) as polynomials in r**2 of n coefficients, interpolated at the Chebyshev nodes of [0, 1]: the
   !> kick is 0 at the two rest positions, exactly.
   pure function harmonic_polynomials(n) result(polynomial)
+    !> coefficients
     integer, intent(in) :: n
     real(qp) :: polynomial(HARMONICS, n)
     real(qp) :: node(n), difference(n), root

@@ -47,6 +47,6 @@ contains
     series%leave(:, :, :quad_grades - 2, :) = exact%leave(:, :, :quad_grades - 2, :)
   end subroutine make_mixed_series
 
-  include 'tables.inc'
+  include 'table_procedures.inc'
 
 end module kz_processed_tables_r128

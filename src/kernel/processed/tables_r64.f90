@@ -15,6 +15,6 @@ module kz_processed_tables_r64
 
 contains
 
-  include 'tables.inc'
+  include 'table_procedures.inc'
 
 end module kz_processed_tables_r64

@@ -83,7 +83,7 @@ void kz_resident_free(kz_resident *resident) {
 }
 
 static bool same_pendulum(const kz_pendulum *a, const kz_pendulum *b) {
-  return a->k == b->k && a->beta == b->beta && a->m == b->m;
+  return memcmp(a, b, sizeof *a) == 0;
 }
 
 bool kz_resident_discover(kz_resident *r) {
@@ -107,8 +107,14 @@ static bool same_search(const kz_resident *resident, const kz_scene *scene) {
          mine->max_period == plan->max_period && mine->starts == plan->starts && mine->seed == plan->seed;
 }
 
+/* How far two pendulums are apart, of the size of their parameters; INFINITY where they differ in more than k, beta and m. */
 static double parted(const kz_pendulum *a, const kz_pendulum *b) {
+  kz_pendulum alike = *a;
+  alike.k = b->k;
+  alike.beta = b->beta;
+  alike.m = b->m;
   const double size = fabs(a->k) + fabs(a->m) + a->beta;
+  if (!same_pendulum(&alike, b)) return INFINITY;
   return (fabs(a->k - b->k) + fabs(a->m - b->m) + fabs(a->beta - b->beta)) / size;
 }
 
