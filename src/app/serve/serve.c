@@ -7,6 +7,7 @@
 #include "answer.h"
 #include "drawing.h"
 #include "inbox.h"
+#include "watch.h"
 
 typedef struct {
   kz_scene_tree tree;
@@ -145,6 +146,7 @@ kz_status kz_app_serve(const kz_options *options) {
   if (strcmp(options->scene, "-") == 0)
     return kz_fail(KZ_REFUSED, "serve: -: standard input is for requests; give the name of a scene file");
   signal(SIGPIPE, SIG_IGN); /* whoever asks may leave at any time */
+  KZ_TRY(kz_input_watch());
   kz_inbox_open(&s.inbox);
   kz_drawing_open(&s.drawing);
   kz_status status = greet(&s, options);
