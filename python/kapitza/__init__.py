@@ -6,6 +6,7 @@
 >>> result.labels().sel(theta=3.1, velocity=0, method="nearest").item()   # xarray
 >>> result.plot(centre="inverted")                         # matplotlib
 >>> result.compare(kapitza.run("scenes/small.yaml"))
+>>> kapitza.explore("scenes/small.yaml")                   # in a cell of a notebook: the basins, to be zoomed and dragged
 >>> kapitza.where("scenes/small.yaml", [3.1, 3.0], "0.2")  # where single starts end
 
 A result that is there already: kapitza.Result("blackburn-fig12.h5"). kapitza.plots has the panels of the pictures; each of its draw_*
@@ -13,8 +14,9 @@ functions takes and returns a matplotlib Axes.
 """
 
 from kapitza.engine import Engine
+from kapitza.explorer.notebook import explore
 from kapitza.program import RunError, SceneError
 from kapitza.result import BadFile, Result
 from kapitza.session import check, orbit, run, sweep, where
 
-__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "orbit", "run", "sweep", "where"]
+__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "explore", "orbit", "run", "sweep", "where"]

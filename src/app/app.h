@@ -35,6 +35,8 @@ typedef struct {
   const char *output; /* FILE; NULL = base name of the scene + ".h5" in the current folder */
   char **sets;        /* KEY=VALUE of every --set, in order */
   int n_sets;
+  char **origins; /* of every --origin, in order */
+  int n_origins;
   bool resume, force, json, json_schema, no_browser;
   bool answered;     /* help and the like: nothing is left to do */
   const char *port;  /* of view, as written; NULL = not given */
@@ -68,9 +70,8 @@ void kz_app_version(FILE *out);
 typedef struct {
   int64_t n;
   double *start, *low;
-  double pivot_frequency; /* rad/s, NaN where the scene is not in SI units: of velocities per second */
 } kz_starts;
-kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts);
+kz_status kz_starts_read(const kz_options *options, kz_starts *starts);
 void kz_starts_free(kz_starts *starts);
 
 /* "theta": .., "velocity": .., and where that start ends, as members of a JSON object, to standard output. */

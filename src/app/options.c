@@ -61,6 +61,11 @@ static kz_status set_port(kz_options *options, const char *argument) {
   return KZ_OK;
 }
 
+static kz_status add_origin(kz_options *options, const char *argument) {
+  options->origins[options->n_origins++] = (char *)argument;
+  return KZ_OK;
+}
+
 static kz_status set_no_browser(kz_options *options, const char *argument) {
   (void)argument;
   options->no_browser = true;
@@ -126,7 +131,7 @@ static kz_status set_timings(kz_options *options, const char *argument) {
 
 const kz_option kz_option_rows[] = {
     {"output", 'o', "FILE", RUN, set_output, "the result; default: base name of SCENE + .h5 in the current folder", NULL},
-    {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE | SERVE, add_set,
+    {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE | VIEW | SERVE, add_set,
      "override or create a key; VALUE is YAML flow text; the last one wins", NULL},
     {"resume", 257, NULL, RUN, set_resume, "go on from FILE.checkpoint where there is one", NULL},
     {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint", NULL},
@@ -138,6 +143,8 @@ const kz_option kz_option_rows[] = {
     {"json-schema", 262, NULL, KEYS, set_json_schema, "print them as a JSON schema, for editors", NULL},
     {"port", 263, "N", VIEW, set_port, "of the local server, 1024 to 65535; default: any that is free", NULL},
     {"no-browser", 264, NULL, VIEW, set_no_browser, "print the address and open nothing", NULL},
+    {"origin", 269, "ORIGIN", VIEW, add_origin,
+     "also answer pages of this origin: https://hub.example.org, a proxy's or a tunnel's", NULL},
     {"completion", 265, "SHELL", TOP, set_completion, "print what bash, zsh or fish need to complete command lines",
      "bash|zsh|fish"},
     {"manual", 266, NULL, TOP, set_manual, "print the manual page, for man -l -", NULL},
@@ -300,9 +307,11 @@ kz_status kz_app(int argc, char **argv) {
   kz_options options = {.speaks = speaks, .progress = KZ_PROGRESS_AUTO};
   options.line = join(argc, argv);
   options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
+  options.origins = kz_calloc((size_t)argc + 1, sizeof *options.origins);
   const kz_status status = dispatch(argc, argv, &options);
   free(options.line);
   free(options.sets);
+  free(options.origins);
   if (!speaks && status != KZ_FAILED) kz_message_clear();
   return status;
 }

@@ -172,9 +172,7 @@ static kz_status write_pendulum(job *j) {
                {"inertia", si->inertia},
                {"friction", si->friction},
                {"gravity", si->gravity},
-               {"length", si->length},
-               {"decay_time", si->decay_time},
-               {"pivot_amplitude", isnan(si->amplitude) ? si->pivot_amplitude : si->amplitude},
+               {"pivot_amplitude", si->pivot_amplitude},
                {"pivot_frequency", p->pivot_frequency}};
   for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++)
     if (reals[i].value == reals[i].value) KZ_TRY(kz_store_real(j->store, "/pendulum", reals[i].name, reals[i].value));
@@ -202,7 +200,6 @@ static void print_summary(job *j) {
   const kz_pendulum *p = &j->scene.parameters.pendulum;
   fclose(j->summary);
   j->summary = NULL;
-  kz_rest_print(&j->scene.parameters, stdout);
   if (j->scene.title[0]) puts(j->scene.title);
   if (!isnan(p->k)) printf("k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   printf("%swritten to %s\n", j->words, j->path);
@@ -266,7 +263,7 @@ kz_status kz_app_run(const kz_options *options) {
   kz_status status = kz_ranks_start(NULL, NULL, &j.run.ranks);
   if (status == KZ_OK) {
     kz_abandon_run(&j.run, NULL);
-    j.first = kz_rank(j.run.ranks) == 0;
+    j.first = kz_ranks_own(j.run.ranks) == 0;
     status = carry_out(&j);
     if (j.first && options->timings && (status == KZ_OK || status == KZ_STOPPED)) kz_timings_print(j.run.ranks, stdout);
     status = kz_scene_locate(status, j.text, j.length, options->scene, options->n_sets, options->sets);

@@ -52,19 +52,32 @@ static kz_status set_module_path(const places *p) {
   return set ? KZ_OK : kz_fail(KZ_FAILED, "out of memory");
 }
 
+/* The command line of the explorer, which the caller frees. */
+static const char **words_of(const places *p, const char *python, const kz_options *options) {
+  const char *module[] = {"-m", "kapitza.explorer"}, *script[] = {"-P", p->entry};
+  const char *const *entry = p->entry[0] ? script : module;
+  const char *browser = options->no_browser ? "--no-browser" : "--browser", *port = options->port ? options->port : "0";
+  const char *fixed[] = {python, entry[0], entry[1], browser, "--program", p->program, "--port", port};
+  const size_t n_fixed = sizeof fixed / sizeof fixed[0];
+  const char **words = kz_calloc(n_fixed + 2 * (size_t)(options->n_sets + options->n_origins) + 3, sizeof *words);
+  memcpy(words, fixed, sizeof fixed);
+  size_t n = n_fixed;
+  for (int i = 0; i < options->n_sets; i++) words[n++] = "--set", words[n++] = options->sets[i];
+  for (int i = 0; i < options->n_origins; i++) words[n++] = "--origin", words[n++] = options->origins[i];
+  words[n++] = "--", words[n++] = options->scene;
+  return words;
+}
+
 kz_status kz_app_view(const kz_options *options) {
   places p;
   if (!options->speaks) return KZ_OK;
   KZ_TRY(find_places(&p));
   KZ_TRY(set_module_path(&p));
-  const char *python = python_of(&p), *port = options->port ? options->port : "0";
-  const char *module[] = {"-m", "kapitza.explorer"}, *script[] = {"-P", p.entry};
-  const char *const *entry = p.entry[0] ? script : module;
-  const char *words[] = {python,      entry[0],       entry[1], options->no_browser ? "--no-browser" : "--browser",
-                         "--program", p.program,      "--port", port,
-                         "--",        options->scene, NULL};
+  const char *python = python_of(&p);
+  const char **words = words_of(&p, python, options);
   fflush(stdout);
   execvp(python, (char *const *)words);
+  free(words);
   return kz_fail(KZ_FAILED,
                  "view: %s cannot be run: %s; set KAPITZA_PYTHON to a Python that has the packages of scripts/requirements.txt",
                  python, strerror(errno));

@@ -1,8 +1,10 @@
 """The explorer as its tests reach it: the server's process, its requests, a real browser."""
 
 import json
+import os
 import shutil
 import subprocess
+import sys
 import time
 import urllib.error
 import urllib.request
@@ -10,50 +12,82 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM
+from conftest import PROGRAM, ROOT
+
+PYTHON = os.environ | {"PYTHONPATH": str(ROOT / "python")}
+FAKE = ROOT / "tests" / "tools" / "fake_serve.py"
 
 
 class Server:
-    """`kapitza view` at work."""
+    """`kapitza view` at work; with the double of the program where `fake`. Its page's token is traded at once."""
 
-    def __init__(self, source, *options):
-        command = [PROGRAM, "view", source, "--no-browser", *options]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def __init__(self, source, *options, fake=False, environment=None):
+        own = [sys.executable, "-m", "kapitza.explorer", "--program", FAKE]
+        command = [*(own if fake else [PROGRAM, "view"]), source, "--no-browser", *options]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment or PYTHON)
         self.title, self.url, self.hint = (self.process.stdout.readline().strip() for _ in range(3))
-        self.base, _, self.token = self.url.partition("/?token=")
+        self.base, _, once = self.url.partition("/?once=")
+        self.token = self.request("token", {"once": once}, X_Kapitza_Token=None)[1]["token"]
+        self.process.stdout.readline()  # the address for another browser
+
+    @property
+    def port(self):
+        return int(self.base.rsplit(":", 1)[1])
+
+    def address(self):
+        """An address for a browser."""
+        return f"{self.base}/?once={self.request('link', {})[1]['once']}"
+
+    def post(self, name, body, **headers):
+        data = body if isinstance(body, bytes) else json.dumps(body).encode()
+        sent = {"X-Kapitza-Token": getattr(self, "token", None)} | {key.replace("_", "-"): value for key, value in headers.items()}
+        asked = urllib.request.Request(f"{self.base}/{name}", data, {key: value for key, value in sent.items() if value is not None})
+        return urllib.request.urlopen(asked, timeout=120)
 
     def request(self, name, body, **headers):
         """Status and JSON of a POST; a header of None is left out."""
-        data = body if isinstance(body, bytes) else json.dumps(body).encode()
-        sent = {"X-Kapitza-Token": self.token} | {key.replace("_", "-"): value for key, value in headers.items()}
-        asked = urllib.request.Request(f"{self.base}/{name}", data, {key: value for key, value in sent.items() if value is not None})
-        return answer_of(asked)
+        try:
+            with self.post(name, body, **headers) as answer:
+                return answer.status, json.loads(answer.read())
+        except urllib.error.HTTPError as error:
+            return error.code, json.loads(error.read())
+
+    def ask(self, request, view="a"):
+        """[(header, payload), ...] of the program's answers."""
+        with self.post(f"ask?view={view}", request) as stream:
+            answers = []
+            while not answers or not answers[-1][0]["final"]:
+                header = json.loads(stream.readline())
+                answers.append((header, stream.read(header["bytes"])))
+            return answers
 
     def children(self):
         """Processes that compute for it."""
-        found = []
-        for path in Path("/proc").glob("[0-9]*/stat"):
-            try:
-                name, rest = path.read_text().rsplit(")", 1)
-            except (FileNotFoundError, ProcessLookupError):
-                continue
-            if int(rest.split()[1]) == self.process.pid and rest.split()[0] != "Z":
-                found.append(int(name.split()[0]))
-        return found
+        return [int(path.parent.name) for path in Path("/proc").glob("[0-9]*/stat") if self.process.pid == parent_of(path)]
 
     def end(self):
         """Its exit status and what it said, after SIGTERM."""
         self.process.terminate()
         output, errors = self.process.communicate(timeout=20)
-        return self.process.returncode, output + errors
+        return self.process.returncode, errors + "".join(line for line in output.splitlines() if "for another browser" not in line)
 
 
-def answer_of(request):
+def parent_of(path):
+    """Parent of the process of a stat file; None where it has gone or is a zombie."""
     try:
-        with urllib.request.urlopen(request, timeout=120) as answer:
-            return answer.status, json.loads(answer.read())
-    except urllib.error.HTTPError as error:
-        return error.code, json.loads(error.read())
+        rest = path.read_text().rsplit(")", 1)[1].split()
+    except (FileNotFoundError, ProcessLookupError):
+        return None
+    return None if rest[0] == "Z" else int(rest[1])
+
+
+def wait_for(condition, seconds=30):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if condition():
+            return True
+        time.sleep(0.02)
+    return False
 
 
 @contextmanager
@@ -65,10 +99,11 @@ def browser(folder, size):
         pytest.skip("chromium or chromedriver is not installed: the explorer is not tested in a browser")
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
-    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "disable-gpu", f"window-size={size}",
+    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "disable-gpu", "enable-unsafe-swiftshader", f"window-size={size}",
                  f"user-data-dir={folder / 'profile'}"):
         options.add_argument(f"--{word}")
-    options.add_experimental_option("prefs", {"download.default_directory": str(folder)})
+    options.add_experimental_option("prefs", {
+        "download.default_directory": str(folder), "profile.default_content_setting_values.automatic_downloads": 1})
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     page = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
     try:
@@ -84,32 +119,77 @@ class Page:
         self.driver = driver
         driver.get(url)
 
-    def element(self, name):
-        return self.driver.find_element("id", name)
+    def run(self, text, *arguments):
+        """The value of a JavaScript expression; `explorer` is the page's own, `$` finds an element by its id."""
+        return self.driver.execute_script(f"const $ = (id) => document.getElementById(id); return ({text})", *arguments)
 
-    def wait(self, seconds=120):
+    def module(self, name, text):
+        """The value of an expression of what a module of the page exports, as `its`."""
+        script = f"const done = arguments[0]; import('/{name}').then((its) => done({text})).catch((error) => done(String(error)))"
+        return self.driver.execute_async_script(script)
+
+    def wait(self, seconds=120, state="done"):
         """Until the page has what was asked of it; its status line."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            state = self.driver.find_element("tag name", "body").get_attribute("data-state")
-            if state in ("done", "error"):
-                assert state == "done", self.element("status").text
-                return self.element("status").text
-            time.sleep(0.05)
-        raise AssertionError(f"the page is still {state} after {seconds} s")
+        assert wait_for(lambda: self.state() in ("done", "error"), seconds), self.state()
+        words = self.run("$('status').textContent")
+        assert self.state() == state, words
+        return words
+
+    def state(self):
+        return self.run("document.body.dataset.state")
+
+    def press(self, name):
+        self.run("$(arguments[0]).click()", name)
+
+    def choose(self, name, value):
+        self.run("($(arguments[0]).value = arguments[1], $(arguments[0]).dispatchEvent(new Event('change')))", name, value)
+
+    def slide(self, name, place):
+        self.run("($(arguments[0]).value = arguments[1], $(arguments[0]).dispatchEvent(new Event('input')))", f"slider-{name}", place)
+
+    def key(self, name):
+        self.run("document.body.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true, cancelable: true}))", name)
 
     def shares(self):
-        """Name and share of every line of the legend; mirror images may share a name."""
-        rows = self.driver.find_elements("css selector", "#legend tr")
-        return sorted((row.get_attribute("data-name"), float(row.get_attribute("data-share"))) for row in rows)
+        """Name and share of every line of the legend that is seen; mirror images may share a name."""
+        rows = self.run("[...$('legend').rows].map((row) => [row.dataset.name, Number(row.dataset.share)])")
+        return sorted((name, share) for name, share in rows if share > 0)
 
     def window(self):
-        return json.loads(self.element("where").get_attribute("data-window"))
+        return json.loads(self.run("$('where').dataset.window"))
+
+    def wheel(self, x, y, *steps):
+        """Wheel events of so many px at a share of the plot."""
+        self.run("""((x, y, steps) => { const pane = explorer.basins.panes[0], box = pane.over.getBoundingClientRect();
+            const [left, top] = pane.plane.placeOf(x, y);
+            const at = {clientX: box.left + left, clientY: box.top + top, bubbles: true, cancelable: true};
+            for (const deltaY of steps) pane.over.dispatchEvent(new WheelEvent("wheel", {deltaY, ...at})); })(...arguments)""",
+                 x, y, list(steps))
+
+    def hand(self, x, y, to_x, to_y):
+        """A drag between shares of the plot; a click where they are equal."""
+        from selenium.webdriver import ActionChains
+        pane = self.driver.find_element("css selector", ".over")
+        def offset(across, up):
+            left, top, wide, high = self.run("[...explorer.basins.panes[0].plane.placeOf(arguments[0], arguments[1]), "
+                                             "explorer.basins.panes[0].over.clientWidth, explorer.basins.panes[0].over.clientHeight]",
+                                             across, up)
+            return round(left - wide / 2), round(top - high / 2)
+        chain = ActionChains(self.driver, duration=0).move_to_element_with_offset(pane, *offset(x, y)).click_and_hold()
+        if (x, y) != (to_x, to_y):
+            chain = chain.move_to_element_with_offset(pane, *offset((x + to_x) / 2, (y + to_y) / 2))
+            chain = chain.move_to_element_with_offset(pane, *offset(to_x, to_y))
+        chain.release().perform()
+
+    def pixels(self):
+        """The basins as drawn: rows of [r, g, b, a] of every 7th pixel."""
+        return self.run("""(() => { const pane = explorer.basins.panes[0]; pane.drawNow(); const copy = document.createElement("canvas");
+            Object.assign(copy, {width: pane.basins.width, height: pane.basins.height}); const context = copy.getContext("2d");
+            context.drawImage(pane.basins, 0, 0); const data = context.getImageData(0, 0, copy.width, copy.height).data, found = [];
+            for (let i = 0; i < data.length; i += 28) found.push([...data.slice(i, i + 4)]); return found; })()""")
 
     def saved(self, button, path, seconds=30):
         """The file that a button saves."""
-        self.element(button).click()
-        end = time.monotonic() + seconds
-        while time.monotonic() < end and not path.is_file():
-            time.sleep(0.05)
+        self.press(button)
+        assert wait_for(path.is_file, seconds)
         return path

@@ -1,1 +1,1 @@
-"""The explorer: a local page on which basins are zoomed and dragged; every view is computed by the program (`kapitza view`)."""
+"""The explorer: a local page on which basins are zoomed and dragged; frames come from `kapitza serve`."""

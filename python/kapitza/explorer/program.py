@@ -1,97 +1,199 @@
-"""The program as the explorer runs it: one computation at a time; a new request ends the one before."""
+"""The program as the explorer keeps it: one `kapitza serve` for each view of a page, its answers passed on as they come."""
 
+import itertools
 import json
-import os
-import signal
+import queue
+import re
 import subprocess
-import tempfile
 import threading
-from pathlib import Path
+import time
+from contextlib import suppress
 
-from kapitza.result import BadFile
+from .colours import Colours
 
-SECONDS = 300  # after which a computation is given up
+MOST_VIEWS = 6       # programs at once; the one that has waited longest ends for a new one
+START = 60.0         # seconds until a program must be ready
+PATIENCE = 2.0       # seconds until a program must have ended a frame that a newer one, or a person, ends
+ENDING = ("frame", "chart", "cancel")  # requests that end the frame before
+CATALOGUES = 8       # versions that are remembered
+_PLACE = re.compile(r"^(-|/proc/self/fd/\d+)?:\d+:\d+: ")
 
 
-class Superseded(Exception):
-    """A newer request has ended this one."""
+class Deaf(Exception):
+    """The program does not end what a newer request, or a person, wants ended."""
 
 
 class Refused(Exception):
-    """The program's own message on why it did not compute."""
+    """The program's own words on why it does not answer."""
 
 
-class Program:
-    """Runs build/kapitza. Every request takes a ticket first; only the holder of the newest one may compute."""
+def plain(message):
+    """A message without its prefix, and without the place in a text that nobody wrote."""
+    return _PLACE.sub("", message.strip().removeprefix("kapitza: error: "))
 
-    def __init__(self, path):
-        self.path = Path(path)
-        self._folder = tempfile.TemporaryDirectory(prefix="kapitza-view-")
-        self._state, self._busy = threading.Lock(), threading.Lock()
-        self._ticket, self._process, self._closed = 0, None, False
+
+class View:
+    """One program at work. It ends when its standard input does, and so with this process, however this ends."""
+
+    def __init__(self, command, descriptors=()):
+        try:
+            self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                             pass_fds=descriptors, start_new_session=True)
+        except OSError as error:
+            raise Refused(f"the program cannot be started: {error.strerror}") from error
+        self.used = time.monotonic()
+        self._lock = threading.Lock()
+        self._numbers, self._waiting, self._last_frame = itertools.count(1), {}, None
+        self._unanswered = set()  # numbers of requests whose last answer has not come
+        self._catalogues, self._colours = {}, Colours()
+        self._errors = []
+        first = self._waiting[None] = queue.SimpleQueue()
+        threading.Thread(target=self._read_errors, daemon=True).start()
+        threading.Thread(target=self._read, daemon=True).start()
+        try:
+            self.ready, _ = first.get(timeout=START)
+        except queue.Empty:
+            self.close()
+            raise Refused(f"the program is not ready after {START:g} s") from None
+        if self.ready["answer"] != "ready":
+            self.close()
+            raise Refused(self.ready["message"])
+
+    def answers(self, request):
+        """(header, payload) of each answer to the request. A frame's catalogue is said before it, whoever heard it before."""
+        number, said, mine = next(self._numbers), set(), queue.SimpleQueue()
+        kind, before = request.get("request"), self._last_frame
+        with self._lock:
+            self._waiting[number] = mine
+            self._unanswered.add(number)
+            if kind in ENDING:
+                self._last_frame = number
+        self.used, final = time.monotonic(), False
+        try:
+            self._send(request | {"sequence": number})
+            if kind in ENDING:
+                self._check_heard(before)
+            while not final:
+                header, payload = mine.get()
+                self.used, final, version = time.monotonic(), header["final"], header.get("catalogue")
+                if header["answer"] == "frame" and version not in said and version in self._catalogues:
+                    said.add(version)
+                    yield self._catalogues[version] | {"sequence": number, "final": False}, b""
+                if header["answer"] != "catalogue" or kind == "catalogue":
+                    yield header, payload
+        finally:
+            with self._lock:
+                self._waiting.pop(number, None)
+            if not final and number == self._last_frame:  # nobody reads on
+                with suppress(Refused):
+                    self._send({"request": "cancel", "sequence": next(self._numbers)})
+
+    def _check_heard(self, number):
+        """Waits until the program has answered the request before for the last time."""
+        end = time.monotonic() + PATIENCE
+        while number in self._unanswered:
+            if time.monotonic() > end:
+                raise Deaf
+            time.sleep(0.005)
+
+    def _send(self, request):
+        try:
+            with self._lock:
+                self._process.stdin.write(json.dumps(request).encode() + b"\n")
+                self._process.stdin.flush()
+        except (OSError, ValueError) as error:
+            raise Refused(self._end_words()) from error
+
+    def _read(self):
+        """Gives each answer to the request that it belongs to; at the end everybody who waits hears why."""
+        try:
+            while line := self._process.stdout.readline():
+                header = json.loads(line)
+                payload = self._process.stdout.read(header["bytes"])
+                if header["answer"] == "error":
+                    header["message"] = plain(header["message"])
+                if header["answer"] == "catalogue":
+                    self._keep_catalogue(header)
+                with self._lock:
+                    waiting = self._waiting.get(header["sequence"])
+                    if header["final"]:
+                        self._unanswered.discard(header["sequence"])
+                if waiting is not None:
+                    waiting.put((header, payload))
+        except (ValueError, KeyError, OSError):
+            pass  # it was ended amid an answer
+        self._process.wait()
+        words = self._end_words()
+        with self._lock:
+            for waiting in self._waiting.values():
+                waiting.put(({"answer": "error", "final": True, "bytes": 0, "status": 1, "message": words}, b""))
+
+    def _keep_catalogue(self, header):
+        header["attractors"] = self._colours.added(header["attractors"])
+        self._catalogues[header["version"]] = header
+        while len(self._catalogues) > CATALOGUES:
+            del self._catalogues[next(iter(self._catalogues))]
+
+    def _read_errors(self):
+        with self._process.stderr as stream:
+            for line in stream:
+                self._errors = [*self._errors, line.decode(errors="replace").strip()][-5:]
+
+    def _end_words(self):
+        time.sleep(0.02)  # its last words may still be on their way
+        said = [line for line in self._errors if line.startswith("kapitza: error: ")]
+        return plain(said[-1]) if said else "the program has ended"
+
+    @property
+    def ended(self):
+        return self._process.poll() is not None
 
     def close(self):
-        """Ends what runs and removes the temporary files."""
-        with self._state:
-            self._closed = True
-            self._kill()
-        with self._busy:
-            self._folder.cleanup()
+        """Ends the program, at once where it does not go by itself."""
+        with suppress(OSError):
+            self._process.stdin.close()
+        try:
+            self._process.wait(0.5)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
 
-    def ticket(self):
-        """The right to compute, which it takes from every other request."""
-        with self._state:
-            self._ticket += 1
-            self._kill()
-            return self._ticket
 
-    def _kill(self):
-        if self._process and self._process.poll() is None:
-            os.killpg(self._process.pid, signal.SIGKILL)
+class Views:
+    """The programs by the names that pages give their views."""
 
-    def _run(self, ticket, arguments, text):
-        with self._busy:
-            with self._state:
-                if self._closed or ticket != self._ticket:
-                    raise Superseded
-                process = self._process = subprocess.Popen(
-                    [self.path, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                    cwd=self._folder.name, start_new_session=True)
-            try:
-                output, errors = process.communicate(text, timeout=SECONDS)
-            except subprocess.TimeoutExpired:
-                with self._state:
-                    self._kill()
-                process.communicate()
-                raise Refused(f"given up after {SECONDS} s") from None
-            finally:
-                with self._state:
-                    self._process = None
-        if process.returncode == -signal.SIGKILL and (self._closed or ticket != self._ticket):
-            raise Superseded
-        if process.returncode != 0:
-            raise Refused(errors.strip().removeprefix("kapitza: error: ") or f"ended with status {process.returncode}")
-        return output
+    def __init__(self, command, descriptors=()):
+        self._command, self._descriptors = command, descriptors
+        self._lock = threading.Lock()
+        self._views = {}
 
-    def run(self, ticket, scene):
-        """The summary of a run, and the path of its result, which the caller removes."""
-        path = Path(self._folder.name) / f"{ticket}.h5"
-        output = self._run(ticket, ["run", "-", "-o", path, "--force", "--progress", "never"], json.dumps(scene))
-        return output, path
+    def answers(self, name, request):
+        """Those of the view of that name. A program that does not hear is ended: a new one is ready sooner."""
+        try:
+            yield from self.view(name).answers(request)
+        except Deaf:
+            self.close(name)
+            yield from self.view(name).answers(request)
 
-    def where(self, ticket, scene, theta, velocity):
-        """The JSON object of the command where."""
-        return json.loads(self._run(ticket, ["where", "-", repr(theta), repr(velocity), "--json"], json.dumps(scene)))
+    def view(self, name):
+        """The view of that name; begun where there is none."""
+        with self._lock:
+            found = self._views.get(name)
+            if found is None or found.ended:
+                while len(self._views) >= MOST_VIEWS:
+                    self._views.pop(min(self._views, key=lambda other: self._views[other].used)).close()
+                found = self._views[name] = View(self._command, self._descriptors)
+            return found
 
-    def resolved(self, path):
-        """The scene of a file with every default, as the program prints it."""
-        done = subprocess.run([self.path, "check", path], capture_output=True, text=True, timeout=SECONDS)
-        if done.returncode != 0:
-            raise BadFile(done.stderr.strip().removeprefix("kapitza: error: "))
-        return done.stdout.split("\n\n")[1]
+    def rename(self, old, new):
+        """The program that was begun before any page came serves the first view."""
+        with self._lock:
+            if old in self._views and new not in self._views:
+                self._views[new] = self._views.pop(old)
 
-    def methods(self):
-        """The words of the key basin.method."""
-        done = subprocess.run([self.path, "keys", "--json-schema"], capture_output=True, text=True, timeout=SECONDS, check=True)
-        scene = json.loads(done.stdout)["allOf"][0]
-        return scene["properties"]["basin"]["properties"]["method"]["enum"]
+    def close(self, name=None):
+        """Ends the view of that name, or all."""
+        with self._lock:
+            names = list(self._views) if name is None else [name] if name in self._views else []
+            for ending in names:
+                self._views.pop(ending).close()

@@ -1,140 +1,220 @@
-"""The explorer's server: 127.0.0.1 only, a token in every request, small requests, nothing from the network."""
+"""The explorer's server: loopback addresses only, a token in every request, small requests, answers as they come."""
 
 import json
-import secrets
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from importlib.resources import files
-from urllib.parse import parse_qs, urlsplit
+import socket
+import sys
+import threading
+from http.server import BaseHTTPRequestHandler
+from pathlib import Path
 
+from kapitza import style
 from kapitza.result import BadFile
 
-from . import views
-from .program import Refused, Superseded
-from .scene import BadRequest, block_text
+from .access import Access
+from .connections import Door, Gate
+from .overlays import overlays
+from .program import Refused, Views
+from .scene import BadRequest, Start, pivot_frequency
 
-MOST_BYTES = 20_000  # of a request
-SCRIPTS = ("surface.js", "map.js", "pendulum.js", "explorer.js", "controls.js")
-
-
-def page():
-    """The page with its style and scripts: one self-contained file."""
-    folder = files(__package__).joinpath("page")
-    def text(name):
-        return folder.joinpath(name).read_text(encoding="utf-8")
-    whole = text("page.html").replace("/* style.css */", text("style.css"))
-    return whole.replace("/* scripts */", '"use strict";\n' + "\n".join(map(text, SCRIPTS)))
+MOST_BYTES = 65_536  # of a request
+MOST_NAME = 64       # characters of a view's name
+KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
+FIRST = "first"      # the view that is begun before a page comes
 
 
-class Explorer(ThreadingHTTPServer):
-    """What the handlers share."""
+def page_folder():
+    """Where the page is: in the package where it is installed, in a folder of its own in the sources."""
+    places = [Path(__file__).resolve().parents[up] / "web" / "explorer" for up in (1, 3)]
+    return next((place for place in places if place.is_dir()), places[-1])
 
-    daemon_threads = True
 
-    def __init__(self, port, start, program):
-        super().__init__(("127.0.0.1", port), Handler)
-        self.start, self.program = start, program
-        self.token = secrets.token_urlsafe(32)
-        self.methods = program.methods()
-        self.page = page()
+class Explorer:
+    """The server with its views. `origins`: of pages that may ask beside its own; `frames`: that may show it in a frame."""
+
+    def __init__(self, start: Start, program, port=0, origins=(), frames=()):
+        words, descriptors = start.words()
+        self.start, self.views = start, Views([str(program), "serve", *words], descriptors)
+        self.files = {path.name: path.read_bytes() for path in page_folder().iterdir() if path.suffix in KINDS}
+        self.access, self.frames = Access(origins), tuple(frames)
+        try:
+            self.ready = self.views.view(FIRST).ready
+            self.gate = Gate()
+            self._doors = _doors(port, self.gate, type("Connected", (Handler,), {"explorer": self}))
+        except BaseException:
+            self.views.close()
+            self.start.close()
+            raise
+        self.on_trade = lambda: None  # called when a page has come
+        self._threads = [threading.Thread(target=door.serve_forever, daemon=True) for door in self._doors]
 
     @property
-    def address(self):
-        return f"127.0.0.1:{self.server_port}"
+    def port(self):
+        return self._doors[0].server_port
 
     @property
-    def url(self):
-        return f"http://{self.address}/?token={self.token}"
+    def title(self):
+        return self.ready.get("title") or self.start.name
+
+    def new_address(self, base=None):
+        """An address that is good for one browser."""
+        return f"{base or f'http://127.0.0.1:{self.port}/'}?once={self.access.new_address()}"
+
+    def serve(self):
+        for thread in self._threads:
+            thread.start()
+
+    def close(self):
+        """Ends every program and every connection."""
+        self.views.close()
+        for door in self._doors:
+            door.shutdown()
+            door.server_close()
+        self.gate.close()
+        self.start.close()
 
 
-def state(server, request):
-    """What the page needs before its first view."""
-    start = server.start
-    return {"title": start.title, "window": start.window, "sliders": start.sliders, "methods": server.methods,
-            "overlays": views.overlays(start.result)}
+def _doors(port, gate, handler):
+    """Listening sockets on 127.0.0.1 and, where this machine has it, [::1]: nobody else shall have the same port there."""
+    for attempt in range(20):
+        first = Door(socket.AF_INET, ("127.0.0.1", port), handler, gate)
+        try:
+            return [first, Door(socket.AF_INET6, ("::1", first.server_port), handler, gate)]
+        except OSError as error:
+            if error.errno not in (98,) or (port == 0 and attempt == 19):
+                return [first]
+            if port != 0:
+                first.server_close()
+                raise
+            first.server_close()
+    raise AssertionError("unreachable")
 
 
-def view(server, request):
-    """The labels of one view."""
-    scene = server.start.view(request, server.methods)
-    summary, path = server.program.run(server.program.ticket(), scene)
-    try:
-        return views.view(path) | {"summary": summary, "window": request["window"], "method": scene["basin"]["method"]}
-    finally:
-        path.unlink(missing_ok=True)
+# ---- what a page may ask: each takes the server and the request, and gives JSON ----
 
 
-def start(server, request):
-    """Where a start ends, and the motion until a few periods after it has settled."""
-    scene = server.start.view(request, server.methods)
-    server.start.orbit(request, 1)  # refuses a start that is none
-    ticket = server.program.ticket()
-    ending = server.program.where(ticket, scene, float(request["theta"]), float(request["velocity"]))
-    orbit = server.start.orbit(request, (ending["settling_time"] or 0) + 4 * (ending["period"] or 1) + 8)
-    _, path = server.program.run(ticket, orbit)
-    try:
-        return {"ending": ending, "motion": views.motion(path)}
-    finally:
-        path.unlink(missing_ok=True)
+def state(explorer, request):
+    """What the page needs before its first frame."""
+    pendulum = explorer.ready["pendulum"]
+    return {"title": explorer.title, "pendulum": pendulum, "window": explorer.start.window(explorer.ready), "kinds": style.KINDS,
+            "pivot_frequency": pivot_frequency(pendulum), "overlays": overlays(explorer.start.result)}
 
 
-def scene(server, request):
-    """The view as the text of a scene."""
-    return {"text": block_text(server.start.view(request, server.methods))}
+def scene(explorer, request):
+    """The scene of a view."""
+    return {"text": explorer.start.view(request)}
 
 
-ANSWERS = {"/state": state, "/view": view, "/start": start, "/scene": scene}
+def link(explorer, request):
+    """The token of another address."""
+    return {"once": explorer.access.new_address()}
+
+
+ANSWERS = {"state": state, "scene": scene, "link": link}
 
 
 class Handler(BaseHTTPRequestHandler):
-    """GET / is the page, POST /NAME a JSON object that is answered by one."""
+    """GET: the page's files. POST: `token` and `close`, which bring their token in the body; `ask?view=NAME`, whose answers are passed on;
+    and what ANSWERS holds."""
 
+    explorer: Explorer
     protocol_version = "HTTP/1.1"
-    timeout = 60
+    server_version, sys_version = "kapitza", ""
 
     def log_message(self, *arguments):
         """Nothing: what a person should know stands on the page."""
 
+    def handle(self):
+        try:
+            super().handle()
+        except (OSError, ValueError):
+            pass  # the connection has gone, or is ended by the gate
+
     def do_GET(self):
-        target = urlsplit(self.path)
-        given = parse_qs(target.query).get("token", [""])[0]
-        if target.path != "/":
+        self.close_connection = True  # files are for strangers too: their connections do not stay
+        name = self.path.partition("?")[0].lstrip("/") or "index.html"
+        if not self.explorer.access.knows(self.headers.get("Host"), self.headers.get("Origin")):
+            self._refuse(403, "foreign host or origin")
+        elif name in self.explorer.files:
+            self._send(200, self.explorer.files[name], f"{KINDS[Path(name).suffix]}; charset=utf-8")
+        else:
             self._refuse(404, "no such page")
-        elif self._is_ours(given):
-            self._send(200, self.server.page.encode(), "text/html; charset=utf-8")
 
     def do_POST(self):
-        answer = ANSWERS.get(self.path)
-        if not self._is_ours(self.headers.get("X-Kapitza-Token", "")):
-            return
-        if answer is None:
-            self._refuse(404, "no such request")
-            return
+        name, _, query = self.path.partition("?")
+        name = name.lstrip("/")
         try:
-            self._send_json(200, answer(self.server, self._request()))
-        except Superseded:
-            self._refuse(409, "a newer request has ended this one")
+            if not self.explorer.access.knows(self.headers.get("Host"), self.headers.get("Origin")):
+                raise PermissionError("foreign origin: kapitza view --origin allows others")
+            if name == "token":
+                return self._trade(self._request())
+            if name == "close":
+                return self._close(self._request())
+            self._check(self.headers.get("X-Kapitza-Token", ""))
+            self._answer(name, query)
+        except PermissionError as error:
+            self._refuse(403, str(error))
         except (BadRequest, Refused, BadFile) as error:
             self._refuse(400, str(error))
+        except (OSError, TimeoutError):
+            raise
+        except Exception as error:  # a fault of ours: one line, and the server goes on
+            print(f"kapitza: error: view: {type(error).__name__}: {error}", file=sys.stderr, flush=True)
+            self._refuse(500, "the explorer's server failed; its terminal says where")
+        finally:
+            self.explorer.gate.waiting(self.connection)
 
-    def _is_ours(self, token):
-        """Whether host, origin and token are those of this server's own page; else they are refused."""
-        origin = self.headers.get("Origin")
-        if self.headers.get("Host") != self.server.address or origin not in (None, f"http://{self.server.address}"):
-            self._refuse(403, "foreign origin")
-        elif not secrets.compare_digest(token.encode(), self.server.token.encode()):
-            self._refuse(403, "wrong token: open the address that kapitza view has printed")
+    def _check(self, token):
+        if not self.explorer.access.admits(token):
+            raise PermissionError("wrong token: open the address that kapitza view has printed")
+        self.explorer.gate.working(self.connection)
+
+    def _trade(self, request):
+        token = self.explorer.access.trade(request.get("once"))
+        if token is None:
+            raise PermissionError("this address has served already; the terminal shows another one")
+        self._send_json(200, {"token": token})
+        self.explorer.on_trade()
+
+    def _close(self, request):
+        self._check(request.get("token"))
+        self.explorer.views.close(str(request.get("view")))
+        self._send_json(200, {})
+
+    def _answer(self, name, query):
+        request = self._request()
+        if name == "ask" and query.startswith("view=") and len(query) <= MOST_NAME:
+            self._pass_on(query.removeprefix("view="), request)
+        elif name in ANSWERS:
+            self._send_json(200, ANSWERS[name](self.explorer, request))
         else:
-            return True
-        return False
+            self._refuse(404, "no such request")
+
+    def _pass_on(self, view, request):
+        """The program's answers, each as a chunk: header, line feed, bytes."""
+        self.explorer.views.rename(FIRST, view)
+        answers = self.explorer.views.answers(view, request)
+        try:
+            first = next(answers)
+            self._begin(200, {"Content-Type": "application/octet-stream", "Transfer-Encoding": "chunked"})
+            self._chunk(*first)
+            for answer in answers:
+                self._chunk(*answer)
+            self.wfile.write(b"0\r\n\r\n")
+        finally:
+            answers.close()
+
+    def _chunk(self, header, payload):
+        line = json.dumps(header, ensure_ascii=False).encode() + b"\n"
+        self.wfile.write(b"%x\r\n" % (len(line) + len(payload)) + line + payload + b"\r\n")
 
     def _request(self):
         length = self.headers.get("Content-Length", "")
-        if not length.isdigit() or int(length) > MOST_BYTES:
+        if not (length.isascii() and length.isdigit() and len(length) < 7 and int(length) <= MOST_BYTES):
             self.close_connection = True
             raise BadRequest(f"a request has a length, of at most {MOST_BYTES} bytes")
         try:
             request = json.loads(self.rfile.read(int(length)))
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise BadRequest("a request is JSON") from error
         if not isinstance(request, dict):
             raise BadRequest("a request is a JSON object")
@@ -148,17 +228,19 @@ class Handler(BaseHTTPRequestHandler):
         self._send(status, json.dumps(answer).encode(), "application/json")
 
     def _send(self, status, body, kind):
-        headers = {"Content-Type": kind, "Content-Length": len(body), "Cache-Control": "no-store", "Referrer-Policy": "no-referrer",
-                   "X-Content-Type-Options": "nosniff", "X-Frame-Options": "DENY",
-                   "Content-Security-Policy": "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
-                                              "img-src data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'"}
+        self._begin(status, {"Content-Type": kind, "Content-Length": str(len(body))})
+        self.wfile.write(body)
+
+    def _begin(self, status, headers):
+        frames = " ".join(self.explorer.frames)
+        fixed = {"Cache-Control": "no-store", "Referrer-Policy": "no-referrer", "X-Content-Type-Options": "nosniff",
+                 "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src data: blob:; "
+                 f"connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors {frames or chr(39) + 'none' + chr(39)}"}
+        if not frames:
+            fixed["X-Frame-Options"] = "DENY"
         if self.close_connection:
-            headers["Connection"] = "close"
-        try:
-            self.send_response(status)
-            for name, value in headers.items():
-                self.send_header(name, str(value))
-            self.end_headers()
-            self.wfile.write(body)
-        except ConnectionError:
-            self.close_connection = True  # the page has left
+            fixed["Connection"] = "close"
+        self.send_response(status)
+        for name, value in (headers | fixed).items():
+            self.send_header(name, value)
+        self.end_headers()

@@ -1,0 +1,324 @@
+"""The explorer's page in a real browser: numbers of its modules, hands and keys, what is drawn, what it saves. Most of it stands on the
+double of the program (tests/tools/fake_serve.py), whose basins are stripes along theta."""
+
+import json
+import os
+import re
+import time
+import xml.etree.ElementTree as ElementTree
+import zipfile
+from pathlib import Path
+
+import matplotlib.image
+import mpmath
+import numpy as np
+import pytest
+import yaml
+from conftest import ROOT
+from explorer_page import Page, Server, browser, wait_for
+from kapitza.result import Result
+
+SMALL = ROOT / "scenes" / "small.yaml"
+SCREENSHOTS = os.environ.get("KAPITZA_SCREENSHOTS")  # a folder for the pictures of the documentation
+TURN = 2 * np.pi
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("browser")
+
+
+@pytest.fixture(scope="module")
+def driver(folder):
+    with browser(folder, "1280,829") as found:  # 690 px are left inside of the window
+        yield found
+        assert [entry for entry in found.get_log("browser") if entry["level"] == "SEVERE"] == []
+
+
+@pytest.fixture(scope="module")
+def striped():
+    running = Server(SMALL, fake=True)
+    yield running
+    assert running.end() == (0, "")
+
+
+@pytest.fixture
+def page(driver, striped):
+    """A fresh page of stripes, one cell a pixel."""
+    driver.get("about:blank")
+    fresh = Page(driver, striped.address() + "#samples=1&quality=moving")
+    fresh.wait()
+    return fresh
+
+
+# ---- modules ----
+
+
+def test_windows_are_counted_in_all_their_digits(page):
+    mpmath.mp.dps = 120
+    assert page.module("decimal.js", "its.turn(110).toString()") == mpmath.nstr(2 * mpmath.pi, 111)
+    text = page.module("decimal.js", "its.Decimal.from('-1.25e-3').plus(its.Decimal.from('1e-40')).toString()")
+    assert text == "-0.001249" + "9" * 34
+    deep = """(() => { let w = its.Window.from({theta: {min: -3, max: 3}, velocity: {min: -2, max: 2}});
+        for (let i = 0; i < 90; i++) w = w.zoomed(0.1, 0.31, 0.77);
+        return [w.theta.width, w.theta.centre.toString(), w.moved(0.25, 0).moved(-0.25, 0).theta.low.minus(w.theta.low).toString(),
+                w.placeOf(w.moved(0.5, 0)).left, JSON.stringify(w.toRequest())]; })()"""
+    width, centre, back, left, request = page.module("window.js", deep)
+    assert width == pytest.approx(6e-90) and back == "0" and left == pytest.approx(0.5)
+    point = -3 + mpmath.mpf(repr(6 * 0.31))  # stays where it is
+    assert abs(mpmath.mpf(centre) - point) < mpmath.mpf("6e-90") and json.loads(request)["theta"]["centre"] == centre
+
+
+def test_windows_have_bounds_and_wrap(page):
+    script = """(() => { const w = its.Window.from({theta: {min: -3.14159, max: 3.14159}, velocity: {min: -2, max: 2}});
+        const out = w.zoomed(50, 0.5, 0.5), far = out.moved(3.25, 0).wrapped(); let deep = w;
+        for (let i = 0; i < 60; i++) deep = deep.zoomed(0.01, 0.5, 0.5);
+        return [out.theta.width, out.velocity.width, far.theta.centre.toNumber(), deep.theta.width]; })()"""
+    width, fast, centre, deep = page.module("window.js", script)
+    assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN) and 1e-100 <= deep < 1e-97
+
+
+@pytest.mark.parametrize("width", ["3", "0.02", "1e-5", "3e-13", "7e-40", "2e-99"])
+def test_ticks_differ_and_lie_where_they_say(page, width):
+    """1e-5, 1e-5 stood twice on an axis."""
+    axis = json.dumps({"centre": "-1.2345678901234567890123", "width": width})
+    found = page.driver.execute_async_script(f"""const done = arguments[0]; Promise.all([import('/ticks.js'), import('/window.js')])
+        .then(([ticks, window]) => done(ticks.ticksOf(window.Range.from({axis}), 8)))""")
+    words = [tick["words"] for tick in found["ticks"]]
+    assert 3 <= len(words) == len(set(words)) and not any(re.search("e", word) for word in words)
+    origin, unit = re.fullmatch(r"(.*) \+ n × (.*)", found["origin"]).groups() if found["origin"] else ("0", "1")
+    low = mpmath.mpf("-1.2345678901234567890123") - mpmath.mpf(width) / 2
+    for tick in found["ticks"] if "…" not in origin else []:
+        value = number(origin) + number(tick["words"]) * number(unit)
+        assert abs((value - low) / mpmath.mpf(width) - tick["share"]) < 1e-6
+
+
+def number(text):
+    return mpmath.mpf(text.replace("−", "-"))
+
+
+# ---- hands and keys ----
+
+
+def test_the_wheel_zooms_by_distance_not_by_events(page):
+    """A trackpad's 25 events of 4 px are one notch of 100 px, about the place under the pointer."""
+    page.wheel(0.3, 0.6, *[-4] * 25)
+    many = page.window()
+    page.press("home")
+    page.wheel(0.3, 0.6, -100)
+    one = page.window()
+    width = one["theta"]["max"] - one["theta"]["min"]
+    assert 1.2 < TURN / width < 1.35 and many["theta"]["max"] - many["theta"]["min"] == pytest.approx(width)
+    assert one["theta"]["min"] + 0.3 * width == pytest.approx(-np.pi + 0.3 * TURN, abs=0.005)
+
+
+def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page):
+    page.driver.execute_script("explorer.basins.panes[0].pursue = () => {}")  # no new frame: the old one is moved
+    before = np.array(page.pixels())
+    for _ in range(3):
+        page.hand(0.9, 0.5, 0.4, 0.5)
+    window = page.window()["theta"]
+    assert window["min"] == pytest.approx(-np.pi + 1.5 * TURN - TURN, abs=0.05) and window["max"] - window["min"] == pytest.approx(TURN)
+    after = np.array(page.pixels())
+    assert np.all(after[:, 3] == 255) and np.any(before != after)  # the picture goes round: nothing is empty
+
+
+def test_keys_do_what_hands_do(page):
+    for key in ("+", "+", "ArrowRight", "ArrowUp"):
+        page.key(key)
+    window = page.window()["theta"]
+    width = TURN / 1.6**2
+    assert window["max"] - window["min"] == pytest.approx(width) and window["min"] + window["max"] == pytest.approx(width / 4)
+    page.key("Enter")
+    assert wait_for(lambda: page.run("$('ending').dataset.ending"))
+    page.key(" ")
+    assert page.run("explorer.state.playing") is False
+    for key in ("Backspace", "Backspace", "h"):
+        page.key(key)
+    assert page.window()["theta"]["min"] == pytest.approx(-np.pi)
+    page.key("c")
+    page.key("m")
+    assert page.run("document.querySelectorAll('.pane').length") == 3
+
+
+def test_dive_goes_to_a_boundary_between_two_starts(page):
+    page.press("dive")
+    for across in np.linspace(0.52, 0.58, 7):
+        page.hand(across, 0.5, across, 0.5)
+        time.sleep(0.3)
+        if page.run("!explorer.basins.onClick"):
+            break
+    assert wait_for(lambda: page.run("explorer.state.window.theta.width") < 1e-3, 60)
+    page.key("Escape")
+    page.wait()
+    width = page.run("explorer.state.window.theta.width")
+    assert len(page.shares()) > 1 and width < 1e-3 and page.run("$('dive').getAttribute('aria-pressed')") == "false"
+
+
+# ---- what is shown ----
+
+
+def test_a_reload_keeps_the_view_and_the_address_has_no_token(page, striped):
+    page.wheel(0.3, 0.6, -900)
+    page.slide("m", 0.4)
+    page.choose("units", "degrees")
+    page.wait()
+    window, shares = page.window(), page.shares()
+    assert wait_for(lambda: "units=degrees" in page.driver.current_url and "pendulum.m" in page.driver.current_url)
+    assert "once" not in page.driver.current_url and page.driver.current_url.startswith(striped.base)
+    page.driver.refresh()
+    page.wait()
+    assert page.window() == window and page.shares() == shares
+    assert float(page.run("$('value-m').value")) == pytest.approx(0.3 * 4**0.4, rel=1e-5)
+
+
+def test_a_refusal_empties_the_picture_and_the_view_lives_on(page):
+    assert np.any(np.array(page.pixels())[:, 3])
+    page.choose("value-m", "8")
+    assert page.wait(state="error") == "pendulum.m: must not be 8" == page.run("document.querySelector('.refusal').textContent")
+    assert not np.any(np.array(page.pixels())[:, 3]) and page.shares() == []
+    page.choose("value-m", "9")
+    assert page.wait(state="error") == "out of memory"
+    page.choose("value-m", "0.3")
+    page.wait()
+    assert np.any(np.array(page.pixels())[:, 3]) and page.run("document.querySelector('.refusal').hidden")
+
+
+def test_a_change_of_the_pendulum_takes_its_motion_away(page):
+    page.hand(0.7, 0.5, 0.7, 0.5)
+    assert wait_for(lambda: page.run("$('ending').dataset.ending"))
+    words, is_gone = page.run("($('slider-m').value = 0.2, $('slider-m').oninput(), [$('ending').textContent, !explorer.basins.motion])")
+    assert words == "…" and is_gone
+    page.wait()
+    assert wait_for(lambda: page.run("$('ending').dataset.ending"))  # followed anew, with the new pendulum
+    assert page.run("explorer.basins.motion.m") == pytest.approx(0.3 * 4**0.2, rel=1e-5)
+
+
+def test_a_slow_frame_can_be_cancelled(page):
+    page.choose("value-m", "7")
+    assert wait_for(lambda: not page.run("$('cancel').disabled"))
+    page.key("Escape")
+    assert "cancelled" in page.wait(10)
+    page.choose("value-m", "0.3")
+    page.wait()
+
+
+def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
+    assert page.run("innerHeight") == pytest.approx(690, abs=12)
+    bottoms = page.run("[...document.querySelectorAll('.slider')].map((row) => row.getBoundingClientRect().bottom)")
+    assert len(bottoms) == 3 and max(bottoms) < 690 and page.run("document.documentElement.scrollHeight") <= page.run("innerHeight")
+    places = "JSON.stringify(['legend', 'ending', 'pendulum', 'slider-m'].map((id) => $(id).getBoundingClientRect().top))"
+    names = "JSON.stringify([...$('legend').rows].map((row) => row.dataset.name))"
+    before = page.run(places), page.run(names)
+    for place in (0.1, 0.35, -0.4):
+        page.slide("m", place)
+        page.wait()
+        assert (page.run(places), page.run(names)) == before
+
+
+def test_two_values_stand_side_by_side_with_linked_cursors(page):
+    page.press("compare")
+    page.slide("m", 0.5)
+    page.wait()
+    assert page.run("explorer.basins.panes.map((pane) => pane.pendulum.m)") == ["0.3", "0.6"]
+    assert page.run("[...document.querySelectorAll('.caption')].map((words) => words.textContent)") == ["A  m 0.3", "B  m 0.6"]
+    page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
+    assert page.run("explorer.basins.panes.map((pane) => pane.plain.cursor)") == [None, [0.25, 0.75]]
+    assert "|" in page.run("$('pointer').textContent") and len(page.run("[...$('legend').rows[0].cells]")) == 4
+    page.press("compare")
+    page.wait()
+    assert page.run("document.querySelectorAll('.pane').length") == 1
+
+
+def test_a_click_on_the_chart_sets_the_pendulum(page):
+    page.press("chart")
+    assert wait_for(lambda: page.run("explorer.charts.have?.level") == 1)
+    page.run("explorer.charts.pick(0.5, 0.25)")
+    page.wait()
+    assert page.run("[explorer.state.pendulum.k, explorer.state.pendulum.m]") == ["0.125", "0.2625"]
+    page.press("chart")
+    assert page.run("document.querySelectorAll('.chart').length") == 0
+
+
+def test_both_painters_draw_the_same(page, driver, striped):
+    page.choose("shade", "settling")
+    page.choose("quality", "exact")
+    page.wait()
+    first = np.array(page.pixels())
+    assert page.run("explorer.basins.panes[0].painter.kind") == "webgl"
+    driver.get("about:blank")
+    plain = Page(driver, striped.address() + "#samples=1&shade=settling&painter=2d")
+    plain.wait()
+    second = np.array(plain.pixels())
+    assert plain.run("explorer.basins.panes[0].painter.kind") == "2d" and len(np.unique(second, axis=0)) > 2
+    assert np.mean(np.max(np.abs(first - second), axis=1) > 12) < 0.35  # doubtful cells are striped otherwise, and shares of pixels
+
+
+def test_samples_soften_what_is_finer_than_a_pixel(page):
+    before = len(np.unique(np.array(page.pixels()), axis=0))
+    page.choose("samples", "3")
+    assert "3 × 3 a pixel" in page.wait()
+    assert len(np.unique(np.array(page.pixels()), axis=0)) > before
+
+
+# ---- what is saved ----
+
+
+def test_pictures_tables_and_films_are_saved(page, folder):
+    page.hand(0.7, 0.5, 0.7, 0.5)
+    assert wait_for(lambda: not page.run("$('save-csv').disabled"))
+    table = np.genfromtxt(page.saved("save-csv", folder / "orbit.csv"), delimiter=",", names=True)
+    assert len(table) == 24 * 48 + 1 and table["pivot_height"][0] == 0.3
+    assert table["theta_rad"][0] == pytest.approx(-np.pi + 0.7 * TURN, abs=0.01)
+    picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))
+    assert picture.shape[1] > 1500 and picture[..., :3].std() > 0.05
+    drawing = ElementTree.parse(page.saved("save-svg", folder / "view.svg")).getroot()
+    words = [item.text for item in drawing.iter("{http://www.w3.org/2000/svg}text")]
+    assert "inverted" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1
+    page.choose("film-count", "3")
+    with zipfile.ZipFile(page.saved("film-png", folder / "film.zip", 60)) as film:
+        assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(3)]
+    assert page.saved("film-webm", folder / "film.webm", 60).read_bytes()[:4] == b"\x1a\x45\xdf\xa3"
+
+
+# ---- with the program itself ----
+
+
+def test_with_the_program(driver, kapitza, folder, tmp_path):
+    """The whole circle, a slider, a deep window, a start; labels are those of runs of the saved scenes."""
+    running = Server(SMALL)
+    if not SCREENSHOTS:
+        driver.set_window_size(760, 520)  # fewer cells
+    page = Page(driver, running.address() + "#samples=1")
+    assert "every label decided" in page.wait()
+    check_saved_scene(page, kapitza, folder, tmp_path)
+    page.slide("drive_amplitude", 0.1)
+    page.wait()
+    check_saved_scene(page, kapitza, folder, tmp_path)
+    page.hand(0.68, 0.36, 0.68, 0.36)
+    assert wait_for(lambda: page.run("$('ending').dataset.ending"))
+    ending = json.loads(page.run("$('ending').dataset.ending"))
+    assert ending["name"] in page.run("$('ending').textContent").replace("−", "-") and ending["decided"]
+    if SCREENSHOTS:
+        page.choose("samples", "2")
+        page.choose("value-drive_amplitude", "0.3")
+        page.wait()
+        time.sleep(3)
+        driver.save_screenshot(str(Path(SCREENSHOTS) / "explorer.png"))
+    page.run("explorer.basins.zoom(1e-20, 0.4, 0.6)")
+    page.wait()
+    assert page.run("explorer.state.window.theta.width") == pytest.approx(TURN * 1e-20)
+    assert page.run("explorer.basins.panes[0].top.level") == 1
+    assert running.end() == (0, "")
+
+
+def check_saved_scene(page, kapitza, folder, tmp_path):
+    path = folder / "view.yaml"
+    path.unlink(missing_ok=True)
+    scene = yaml.safe_load(page.saved("save-scene", path).read_text())
+    kapitza("run", path, "-o", tmp_path / "view.h5", "--force")
+    table = Result(tmp_path / "view.h5").group("attractors")
+    run = sorted((str(name), float(share)) for name, share in zip(table["name"].values, table["fraction"].values, strict=True) if share)
+    shown = page.shares()
+    assert scene["basin"]["method"] == "exact" and [name for name, _ in shown] == [name for name, _ in run]
+    assert [share for _, share in shown] == pytest.approx([share for _, share in run], abs=1e-4)  # undecided cells may differ

@@ -1,0 +1,227 @@
+// The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of them.
+
+import { endingWords, Motion } from "./motion.js";
+import { asScene } from "./frames.js";
+import { listen } from "./gestures.js";
+import { rowsOf, writeLegend } from "./legend.js";
+import { Pane } from "./pane.js";
+import { signed } from "./ticks.js";
+
+const SECOND = 1.2; // drive periods that a second shows
+const SAMPLES = 48; // of a motion, a drive period
+const [LEAST, MOST] = [24, 400]; // drive periods of a motion
+const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples"];
+const element = (id) => document.getElementById(id);
+
+export class Basins {
+  constructor(state) {
+    this.state = state;
+    this.panes = [];
+    this.overlays = new Set(Object.keys(state.overlays));
+    this.states = new Map();
+    this.followed = 0;
+    state.listen((keys) => this.changed(keys));
+    requestAnimationFrame((now) => this.tick(now));
+  }
+
+  get active() {
+    return this.panes.find((pane) => pane.name === this.state.pane) ?? this.panes[0];
+  }
+
+  show() {
+    this.arrange();
+    this.write();
+    if (this.state.start) this.follow();
+  }
+
+  /** As many panes as there are pendulums. */
+  arrange() {
+    const wanted = this.state.other ? ["a", "b"] : ["a"];
+    for (const pane of this.panes.filter(({ name }) => !wanted.includes(name))) {
+      pane.root.remove();
+      pane.close();
+      this.states.delete(pane);
+    }
+    this.panes = wanted.map((name) => this.panes.find((pane) => pane.name === name) ?? this.add(name));
+    for (const pane of this.panes) pane.over.setAttribute("aria-label", `Basins ${this.state.other ? pane.name.toUpperCase() : ""}: wheel or + and − zoom, dragging or arrows move, a click plays the pendulum`);
+  }
+
+  add(name) {
+    const root = element("pane").content.firstElementChild.cloneNode(true);
+    element("panes").insertBefore(root, element("panes").querySelector(".chart"));
+    const pane = new Pane(root, name, this.state, { report: () => this.write(), say: (...words) => this.say(...words) });
+    listen(pane.over, this.handsOn(pane));
+    pane.plain.overlays = this.overlaysOf(pane);
+    return pane;
+  }
+
+  handsOn(pane) {
+    const shares = (x, y) => pane.plane.sharesOf(x, y);
+    return {
+      holds: (x, y) => pane.plane.holds(x, y),
+      zoom: (factor, x, y) => this.zoom(factor, ...shares(x, y)),
+      move: (dx, dy) => {
+        const [, , width, height] = pane.plane.box;
+        this.state.change({ window: this.state.window.moved(-dx / width, dy / height), jump: true });
+      },
+      click: (x, y) => this.click(pane, ...shares(x, y)),
+      hover: (at) => this.point(pane, at && shares(...at)),
+      grip: () => (this.before = this.state.window),
+      release: () => {
+        if (!this.before.equals(this.state.window)) this.state.past.push(this.before);
+        this.state.change({ window: this.state.window.wrapped(), jump: true });
+      },
+    };
+  }
+
+  zoom(factor, x = 0.5, y = 0.5) {
+    const window = this.state.window.zoomed(factor, x, y);
+    if (performance.now() - (this.zoomed ?? 0) > 1000) this.state.past.push(this.state.window);
+    this.zoomed = performance.now();
+    this.state.change({ window, jump: false });
+  }
+
+  /** The start at shares of the window asked for, as decimal texts. */
+  startAt(across, up) {
+    const { theta, velocity } = this.state.window;
+    return { theta: theta.at(across).toString(), velocity: velocity.at(up).toString() };
+  }
+
+  click(pane, across, up) {
+    const start = this.startAt(across, up);
+    if (this.onClick) return this.onClick(pane, start);
+    this.state.change({ start: { ...start, pane: pane.name } });
+  }
+
+  changed(keys) {
+    if (keys.has("other")) this.arrange();
+    if (FRAME_KEYS.some((key) => keys.has(key))) for (const pane of this.panes) pane.changed();
+    if (keys.has("pendulum") || keys.has("other")) this.forgetMotion();
+    if (keys.has("start") || keys.has("pendulum") || keys.has("other")) this.followSoon();
+    for (const pane of this.panes) pane.draw();
+    this.write();
+  }
+
+  // ---- the motion from a start ----
+
+  forgetMotion() {
+    this.motion = null;
+    for (const pane of this.panes) Object.assign(pane.plain, { motion: null, overlays: this.overlaysOf(pane) });
+    element("ending").textContent = this.state.start ? "…" : "Click on the basins.";
+    delete element("ending").dataset.ending;
+    element("pendulum").getContext("2d").clearRect(0, 0, 220, 220);
+    element("save-csv").disabled = element("play").disabled = true;
+  }
+
+  followSoon() {
+    clearTimeout(this.timer);
+    if (this.state.start) this.timer = setTimeout(() => this.follow(), 220);
+  }
+
+  async follow() {
+    const { start } = this.state;
+    const order = ++this.followed;
+    const pane = this.panes.find(({ name }) => name === start.pane) ?? this.panes[0];
+    const request = { theta: start.theta, velocity: start.velocity, pendulum: asScene(pane.pendulum) };
+    try {
+      const [ending] = await pane.engine.answer({ request: "where", ...request });
+      if (order !== this.followed) return;
+      const wanted = (ending.settling_time ?? 0) + 4 * (ending.period || 1) + 8;
+      const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
+      const [header, bytes] = await pane.engine.answer({ request: "orbit", ...request, periods, samples_per_period: SAMPLES });
+      if (order === this.followed) this.play(pane, new Motion(header, bytes, { ...ending, ...start }));
+    } catch (error) {
+      if (order === this.followed) element("ending").textContent = error.message;
+    }
+  }
+
+  play(pane, motion) {
+    this.motion = motion;
+    for (const other of this.panes) other.plain.motion = other === pane ? motion : null;
+    element("ending").textContent = signed(endingWords(motion.ending));
+    element("ending").dataset.ending = JSON.stringify(motion.ending);
+    element("save-csv").disabled = element("play").disabled = false;
+    this.state.change({ playing: true });
+  }
+
+  tick(now) {
+    const seconds = Math.min(0.1, (now - (this.last ?? now)) / 1000);
+    this.last = now;
+    if (this.motion && this.state.playing) {
+      this.motion.advance(seconds * SECOND);
+      this.motion.drawPendulum(element("pendulum"), this.state.colours);
+      for (const pane of this.panes) if (pane.plain.motion) pane.draw();
+    }
+    requestAnimationFrame((next) => this.tick(next));
+  }
+
+  // ---- words ----
+
+  overlaysOf(pane) {
+    const same = JSON.stringify(pane.pendulum) === JSON.stringify(this.state.scene);
+    return same ? [...this.overlays].map((name) => this.state.overlays[name]) : [];
+  }
+
+  /** Linked cursors, and what lies under this one. */
+  point(pane, at) {
+    for (const other of this.panes) {
+      other.plain.cursor = other === pane ? null : at;
+      if (this.panes.length > 1) other.draw();
+    }
+    const words = at ? this.panes.map((each) => wordsAt(each, ...at)).join("  |  ") : "";
+    const start = at && this.startAt(...at);
+    element("pointer").textContent = at ? signed(`θ ${brief(start.theta)}  velocity ${brief(start.velocity)}  ${words}`) : "";
+  }
+
+  say(pane, state, words, progress) {
+    const known = this.states.get(pane) ?? {};
+    this.states.set(pane, { state: state ?? known.state, words: words ?? known.words, progress: progress ?? (state === "done" ? 1 : known.progress) });
+    const all = [...this.states.values()];
+    const worst = ["error", "computing", "moving", "done"].find((name) => all.some((one) => one.state === name)) ?? "starting";
+    document.body.dataset.state = worst;
+    element("status").textContent = all.find((one) => one.state === worst)?.words ?? "";
+    element("progress").value = Math.min(...all.map((one) => one.progress ?? 0));
+    element("cancel").disabled = worst !== "computing" && worst !== "moving";
+    const refusal = pane.root.querySelector(".refusal");
+    refusal.hidden = this.states.get(pane).state !== "error";
+    refusal.textContent = refusal.hidden ? "" : this.states.get(pane).words;
+  }
+
+  /** The legend and the window in words, once for each picture of the screen. */
+  write() {
+    this.written ??= requestAnimationFrame(() => {
+      this.written = null;
+      this.writeNow();
+    });
+  }
+
+  writeNow() {
+    writeLegend(element("legend"), rowsOf(this.panes.map((pane) => pane.top)));
+    const { theta, velocity } = this.state.window;
+    const depth = this.state.home.theta.width / theta.width;
+    const digits = Math.max(2, 3 - Math.floor(Math.log10(theta.width)));
+    const middle = (range) => signed(brief(range.centre.rounded(digits).toString()));
+    element("where").textContent = `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×  centre θ ${middle(theta)}, velocity ${middle(velocity)}`;
+    element("where").dataset.window = JSON.stringify(this.state.window.toRequest());
+    element("where").dataset.depth = depth;
+    for (const pane of this.panes) pane.root.querySelector(".caption").textContent = this.captionOf(pane);
+  }
+
+  /** What tells a pane's pendulum from the other's. */
+  captionOf(pane) {
+    if (!this.state.other) return "";
+    const differing = Object.keys(this.state.pendulum).filter((name) => this.state.pendulum[name] !== this.state.other[name]);
+    return `${pane.name.toUpperCase()}  ${differing.map((name) => `${name.replace(/_/g, " ")} ${pane.pendulum[name]}`).join(", ")}`;
+  }
+}
+
+function wordsAt(pane, across, up) {
+  const found = pane.cellAt(across, up);
+  if (!found) return "";
+  const { frame, cell } = found;
+  const name = frame.labels[cell] === 255 ? "not settled" : frame.catalogue.attractors[frame.labels[cell]].name;
+  const time = frame.times && Number.isFinite(frame.times[cell]) ? ` after ${Math.round(frame.times[cell])} periods` : "";
+  return name + time + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");
+}
+
+const brief = (text) => (text.length > 26 ? `${text.slice(0, 12)}…${text.slice(-12)}` : text);

@@ -1,0 +1,98 @@
+// Buttons, lists and sliders.
+
+import { Dive } from "./dive.js";
+import { ask } from "./engine.js";
+import { Film } from "./film.js";
+import { copyText, savePng, saveScene, saveSvg, saveText } from "./save.js";
+import { Sliders } from "./sliders.js";
+
+const CHOICES = ["quality", "samples", "shade", "units", "theme"];
+const element = (id) => document.getElementById(id);
+
+export function listenControls(state, basins, charts) {
+  listenWindow(state, basins);
+  listenPendulums(state, basins, charts);
+  listenChoices(state, basins);
+  listenSaving(state, basins);
+}
+
+function complain(words) {
+  document.body.dataset.state = "error";
+  element("status").textContent = words;
+}
+
+/** Runs what a button does; what goes wrong stands in the status line. */
+const guarded = (action) => () => Promise.resolve().then(action).catch((error) => complain(error.message));
+
+function listenWindow(state, basins) {
+  element("home").onclick = () => (state.change({ jump: false }), state.visit(state.home));
+  element("back").onclick = () => state.back();
+  element("zoom-in").onclick = () => basins.zoom(0.5);
+  element("zoom-out").onclick = () => basins.zoom(2);
+  element("play").onclick = () => state.change({ playing: !state.playing });
+  state.listen(() => (element("play").textContent = state.playing ? "Pause" : "Play"));
+  const dive = new Dive(state, basins, (words) => (element("status").textContent = words));
+  element("dive").onclick = () => dive.toggle();
+  element("cancel").onclick = () => {
+    dive.stop();
+    for (const pane of basins.panes) pane.cancel();
+  };
+}
+
+function listenPendulums(state, basins, charts) {
+  const key = () => (state.pane === "b" && state.other ? "other" : "pendulum");
+  const set = (name, value) => state.change({ [key()]: { ...state[key()], [name]: value }, jump: false });
+  const sliders = new Sliders(element("sliders"), state.scene, { change: set, say: complain });
+  const show = () => {
+    sliders.show(state[key()]);
+    element("compare").setAttribute("aria-pressed", String(Boolean(state.other)));
+    element("which").hidden = !state.other;
+    for (const button of element("which").children) button.setAttribute("aria-pressed", String(button.dataset.pane === state.pane));
+  };
+  for (const button of element("which").children) button.onclick = () => state.change({ pane: button.dataset.pane });
+  element("compare").onclick = () => state.change(state.other ? { other: null, pane: "a" } : { other: { ...state.pendulum }, pane: "b" });
+  element("chart").onclick = () => charts.toggle(sliders.names, set);
+  new Film(state, basins, sliders.names, set, complain);
+  state.listen(show);
+  show();
+}
+
+function listenChoices(state, basins) {
+  if (!state.pivotFrequency) element("units").querySelector("[value=si]").disabled = true;
+  const show = () => {
+    for (const name of CHOICES) element(name).value = state[name];
+    element("points").checked = state.points === "on";
+  };
+  for (const name of CHOICES) element(name).onchange = () => state.change({ [name]: element(name).value });
+  element("points").onchange = () => state.change({ points: element("points").checked ? "on" : "off" });
+  for (const name of Object.keys(state.overlays)) element("overlays").append(overlayBox(name, basins));
+  state.listen(show);
+  show();
+}
+
+function overlayBox(name, basins) {
+  const label = document.createElement("label");
+  const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: true, value: name });
+  box.onchange = () => {
+    basins.overlays[box.checked ? "add" : "delete"](name);
+    for (const pane of basins.panes) {
+      pane.plain.overlays = basins.overlaysOf(pane);
+      pane.draw();
+    }
+  };
+  label.append(box, ` ${name}`);
+  return label;
+}
+
+function listenSaving(state, basins) {
+  element("save-scene").onclick = guarded(() => saveScene(state, basins.active));
+  element("save-png").onclick = guarded(() => savePng(state, basins));
+  element("save-svg").onclick = guarded(() => saveSvg(state, basins));
+  element("save-csv").onclick = () => saveText("orbit.csv", basins.motion.toCsv(), "text/csv");
+  element("copy").onclick = guarded(() => copyText(JSON.stringify(state.window.toRequest())));
+  element("link").onclick = guarded(async () => {
+    const { once } = await ask("link");
+    await copyText(`${location.origin}${location.pathname}?once=${once}${location.hash}`);
+    element("status").textContent = "an address of this view is copied; it serves once";
+  });
+}

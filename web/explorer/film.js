@@ -1,0 +1,118 @@
+// A film: one value of the pendulum moves from a first value to a last. Played on the page, or recorded picture by picture.
+
+import { pictureCanvas, pictureSize, pngOf, saveBlob } from "./save.js";
+import { numberOf, withUnit } from "./sliders.js";
+import { zipOf } from "./zip.js";
+
+const MOST = 1000; // pictures
+const RATE = 25; // pictures a second
+const element = (id) => document.getElementById(id);
+const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+export class Film {
+  constructor(state, basins, names, set, complain) {
+    Object.assign(this, { state, basins, set, complain, running: null });
+    for (const name of names) element("film-key").append(new Option(name.replace(/_/g, " "), name));
+    element("film-key").value = names.find((name) => /amplitude|^m$/.test(name)) ?? names[0];
+    element("film-key").onchange = () => this.propose();
+    element("film-play").onclick = () => this.toggle(() => this.play());
+    element("film-webm").onclick = () => this.toggle(() => this.webm());
+    element("film-png").onclick = () => this.toggle(() => this.pngs());
+    if (names.length) this.propose();
+  }
+
+  /** Ends of the scene's value less and more a tenth. */
+  propose() {
+    const { number, unit } = numberOf(this.state.scene[element("film-key").value]);
+    const reach = number === 0 ? 0.1 : Math.abs(number) / 10;
+    element("film-from").value = withUnit(Number((number - reach).toPrecision(6)), unit);
+    element("film-to").value = withUnit(Number((number + reach).toPrecision(6)), unit);
+  }
+
+  /** Starts what a button does, or ends what runs. */
+  async toggle(action) {
+    if (this.running) return (this.running = null);
+    const mine = (this.running = {});
+    const before = this.state[this.state.pane === "b" ? "other" : "pendulum"];
+    element("film-play").textContent = "Stop";
+    try {
+      await action();
+    } catch (error) {
+      this.complain(error.message);
+    }
+    if (this.running === mine) this.running = null;
+    element("film-play").textContent = "Play";
+    this.state.change({ [this.state.pane === "b" ? "other" : "pendulum"]: before });
+  }
+
+  /** Value number n of `count`. */
+  valueAt(n, count) {
+    const [from, to] = [numberOf(element("film-from").value), numberOf(element("film-to").value)];
+    if (!from || !to) throw new Error("the film's first and last value must be numbers");
+    return withUnit(Number((from.number + ((to.number - from.number) * n) / (count - 1)).toPrecision(8)), from.unit);
+  }
+
+  /** Pictures that the film has. */
+  count() {
+    const count = Number(element("film-count").value);
+    if (!(Number.isInteger(count) && count >= 2 && count <= MOST)) throw new Error(`a film has 2 to ${MOST} pictures`);
+    return count;
+  }
+
+  /** To the last value and back, until it is stopped. */
+  async play() {
+    const count = this.count();
+    for (let n = 0; this.running; n = (n + 1) % (2 * count)) {
+      this.set(element("film-key").value, this.valueAt(n < count ? n : 2 * count - 1 - n, count));
+      await pause(1000 / RATE);
+      while (this.running && this.basins.active.frames.at(-1)?.key !== JSON.stringify(this.basins.active.pendulum)) await pause(10);
+    }
+  }
+
+  /** Calls `take(n)` on every picture, each when its labels are there as right and fine as the page asks for. */
+  async pictures(take) {
+    const count = this.count();
+    for (let n = 0; this.running && n < count; n++) {
+      this.set(element("film-key").value, this.valueAt(n, count));
+      await pause(20);
+      while (this.running && !["done", "error"].includes(document.body.dataset.state)) await pause(20);
+      if (this.running && document.body.dataset.state === "error") throw new Error(element("status").textContent);
+      if (this.running) await take(n);
+    }
+  }
+
+  async pngs() {
+    const files = [];
+    await this.pictures(async (n) => {
+      const blob = await pngOf(pictureCanvas(this.state, this.basins));
+      files.push({ name: `film-${String(n).padStart(3, "0")}.png`, bytes: new Uint8Array(await blob.arrayBuffer()) });
+    });
+    if (files.length) saveBlob("film.zip", zipOf(files));
+  }
+
+  async webm() {
+    const bitmaps = [];
+    await this.pictures(async () => bitmaps.push(await createImageBitmap(pictureCanvas(this.state, this.basins, 1))));
+    if (bitmaps.length) saveBlob("film.webm", await recorded(bitmaps, pictureSize(this.basins)));
+  }
+}
+
+/** A WebM film of pictures, recorded as they are shown in turn. */
+async function recorded(bitmaps, [width, height]) {
+  const canvas = Object.assign(document.createElement("canvas"), { width, height });
+  const context = canvas.getContext("2d");
+  const stream = canvas.captureStream(0);
+  const recorder = new MediaRecorder(stream, { mimeType: "video/webm", videoBitsPerSecond: 8e6 });
+  const parts = [];
+  recorder.ondataavailable = (event) => parts.push(event.data);
+  const ended = new Promise((resolve) => (recorder.onstop = resolve));
+  recorder.start();
+  for (const bitmap of bitmaps) {
+    context.drawImage(bitmap, 0, 0);
+    stream.getVideoTracks()[0].requestFrame();
+    await pause(1000 / RATE);
+  }
+  recorder.stop();
+  await ended;
+  return new Blob(parts, { type: "video/webm" });
+}

@@ -1,0 +1,64 @@
+// Frames between page and program: what is asked for, what the bytes mean, the colours of a catalogue.
+
+const MOST_MOVING = 250_000; // cells of a frame while things move
+const MOST_RESTING = 4_000_000;
+const UNSETTLED = "#ffffff";
+
+/** The request for a frame that fills a canvas; `samples` x `samples` cells a pixel. */
+export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest }) {
+  const most = quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING;
+  const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
+  const planes = quality === "exact" ? ["labels", "settling_time", "doubt", "other"] : ["labels", "settling_time"];
+  return {
+    request: "frame", window: window.toRequest(), pendulum: asScene(pendulum), quality, levels, planes,
+    rows: Math.max(8, Math.round(canvas.height * scale)), columns: Math.max(8, Math.round(canvas.width * scale)),
+  };
+}
+
+/** A pendulum as a scene has it: what reads as a number is one. */
+export function asScene(pendulum) {
+  const value = (text) => (typeof text === "string" && text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : text);
+  return Object.fromEntries(Object.entries(pendulum).map(([name, text]) => [name, value(text)]));
+}
+
+/** The planes of an answer by name. */
+export function decoded(header, bytes) {
+  const cells = header.rows * header.columns;
+  const planes = {};
+  let at = 0;
+  for (const name of header.planes) {
+    const size = name === "settling_time" ? 4 : 1;
+    const part = bytes.slice(at, at + size * cells);
+    planes[name] = size === 4 ? new Float32Array(part.buffer) : part;
+    at += size * cells;
+  }
+  return planes;
+}
+
+const palettes = new WeakMap();
+
+/** 256 colours of 4 bytes: colour i of label i of a catalogue. */
+export function paletteOf(catalogue) {
+  if (!palettes.has(catalogue)) {
+    const bytes = new Uint8Array(1024).fill(255);
+    const put = (label, colour) => bytes.set(bytesOf(colour), 4 * label);
+    put(255, UNSETTLED);
+    for (const row of catalogue.attractors) put(row.id, row.colour);
+    palettes.set(catalogue, bytes);
+  }
+  return palettes.get(catalogue);
+}
+
+export function bytesOf(colour) {
+  return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+}
+
+/** {name: share} of the labels of a frame, the rows of its catalogue first; mirror images may share a name. */
+export function sharesOf(frame) {
+  const counts = new Uint32Array(256);
+  for (const label of frame.labels) counts[label]++;
+  const rows = frame.catalogue.attractors.map((row) => ({ ...row, share: counts[row.id] / frame.labels.length }));
+  if (counts[255] > 0)
+    rows.push({ id: -1, name: "not settled", kind: "not settled", period: 0, winding: 0, colour: UNSETTLED, share: counts[255] / frame.labels.length });
+  return rows;
+}

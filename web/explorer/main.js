@@ -1,0 +1,60 @@
+// The page: the state, the panes that show it, and what the controls do to it.
+
+import { Basins } from "./basins.js";
+import { Charts } from "./charts.js";
+import { listenControls } from "./controls.js";
+import { ask, signIn } from "./engine.js";
+import { listenKeys } from "./keyboard.js";
+import { addressOf, DEFAULTS, readAddress, State } from "./state.js";
+import { DARK, LIGHT } from "./surface.js";
+import { Window } from "./window.js";
+
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+async function begin() {
+  await signIn();
+  const start = await ask("state");
+  const scene = textsOf(start.pendulum);
+  const state = new State({
+    ...DEFAULTS, title: start.title, scene, pendulum: scene, other: null, pane: "a", home: Window.from(start.window),
+    pivotFrequency: start.pivot_frequency, overlays: start.overlays, kinds: start.kinds, start: null, playing: true, jump: false,
+  });
+  Object.assign(state, { window: state.home }, readAddress(location.hash, { pendulum: scene }));
+  document.title = document.getElementById("title").textContent = start.title;
+  setTheme(state);
+  state.listen((keys) => keys.has("theme") && setTheme(state));
+  dark.addEventListener("change", () => setTheme(state));
+  keepAddress(state);
+  const basins = new Basins(state);
+  const charts = new Charts(state);
+  listenControls(state, basins, charts);
+  listenKeys(state, basins);
+  basins.show();
+  window.explorer = { state, basins, charts }; // for the browser's console
+}
+
+/** Numbers as texts; lists and mappings stay. */
+function textsOf(pendulum) {
+  return Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
+}
+
+function setTheme(state) {
+  const name = state.theme === "auto" ? (dark.matches ? "dark" : "light") : state.theme;
+  document.documentElement.dataset.theme = name;
+  state.change({ colours: name === "dark" ? DARK : LIGHT });
+}
+
+/** The address follows the state, a little later. */
+function keepAddress(state) {
+  let timer = 0;
+  state.listen(() => {
+    clearTimeout(timer);
+    timer = setTimeout(() => history.replaceState(null, "", addressOf(state)), 250);
+  });
+  addEventListener("hashchange", () => state.change(readAddress(location.hash, { pendulum: state.scene })));
+}
+
+begin().catch((error) => {
+  document.body.dataset.state = "error";
+  document.getElementById("status").textContent = error.message;
+});

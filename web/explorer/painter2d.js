@@ -1,0 +1,60 @@
+// The painter of browsers without WebGL: each frame becomes a picture of its own, which is drawn where it lies.
+
+import { placementOf } from "./painter.js";
+
+const UNDRAWN = -1;
+
+export class Painter2d {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d");
+    this.kind = "2d";
+    this.largest = 8192;
+  }
+
+  draw(frames, window, shading) {
+    const { context, canvas } = this;
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    for (const frame of frames) {
+      const picture = this.pictureOf(frame, shading);
+      const { place, period } = placementOf(frame, window);
+      const [left, bottom, width, height] = place;
+      context.imageSmoothingEnabled = frame.columns > 1.4 * canvas.width * width;
+      const step = period * width;
+      for (let n = Math.ceil((-left - width) / step); left + n * step < 1; n++)
+        context.drawImage(picture, (left + n * step) * canvas.width, (1 - bottom - height) * canvas.height,
+          width * canvas.width, height * canvas.height);
+    }
+  }
+
+  pictureOf(frame, shading) {
+    frame.texture ??= { shading: UNDRAWN, canvas: document.createElement("canvas") };
+    if (frame.texture.shading !== shading) this.paint(frame, shading);
+    frame.texture.shading = shading;
+    return frame.texture.canvas;
+  }
+
+  /** One pixel a cell, the highest velocity on top; doubtful cells in the colours of both candidates, in turn. */
+  paint(frame, shading) {
+    const { rows, columns, cells, palette } = frame;
+    const { canvas } = frame.texture;
+    Object.assign(canvas, { width: columns, height: rows });
+    const context = canvas.getContext("2d");
+    const image = context.createImageData(columns, rows);
+    for (let row = 0; row < rows; row++)
+      for (let column = 0; column < columns; column++) {
+        const cell = 4 * (row * columns + column);
+        const pixel = 4 * ((rows - 1 - row) * columns + column);
+        const second = cells[cell + 2] === 255 && (row + column) % 2 === 1;
+        const label = 4 * (second ? cells[cell + 3] : cells[cell]);
+        const light = (1 - (shading * cells[cell + 1]) / 255) ** (1 / 2.2);
+        for (let part = 0; part < 3; part++) image.data[pixel + part] = palette[label + part] * light;
+        image.data[pixel + 3] = 255;
+      }
+    context.putImageData(image, 0, 0);
+  }
+
+  forget(frame) {
+    frame.texture = null;
+  }
+}

@@ -1,0 +1,246 @@
+// One picture of basins: it asks the program for frames, keeps the last ones, and draws them with axes and marks over them.
+
+import { Decimal } from "./decimal.js";
+import { Engine } from "./engine.js";
+import { decoded, paletteOf, requestOf } from "./frames.js";
+import { frameOf, painterOn, placementOf } from "./painter.js";
+import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
+import { CanvasSurface } from "./surface.js";
+
+const MOST_FRAMES = 6; // kept under each other while the window moves
+const PATIENCE = 90; // ms after which a frame of a window that is no longer wanted is given up
+const QUIET = 60; // ms in which coarse levels of another pendulum are not shown: the whole frame comes at once
+const REST = 160; // ms without a change, after which labels are made as right and fine as asked for
+const EASE = 0.4; // of the way to the window wanted, a picture of the screen
+const LEAP = 30;
+
+export class Pane {
+  /** In the element `root`; `name`: of its program; `report(pane)` hears of every frame, `say` of what it does. */
+  constructor(root, name, state, { report, say }) {
+    Object.assign(this, { root, name, state, report, say });
+    this.basins = root.querySelector(".basins");
+    this.over = root.querySelector(".over");
+    this.engine = new Engine(name);
+    this.painter = painterOn(this.basins, state.painter === "2d");
+    this.frames = [];
+    this.window = state.window;
+    this.version = 0;
+    this.plain = { motion: null, marks: [], cursor: null, overlays: [] };
+    this.controller = new AbortController();
+    new ResizeObserver(() => this.resized()).observe(root);
+  }
+
+  get pendulum() {
+    return this.name === "b" ? this.state.other : this.state.pendulum;
+  }
+
+  get plane() {
+    return new Plane(this.window, this.over.clientWidth, this.over.clientHeight);
+  }
+
+  /** The last frame that came, which may be coarse, or of the pendulum before; null after a refusal. */
+  get top() {
+    return this.frames.includes(this.latest) ? this.latest : null;
+  }
+
+  resized() {
+    const ratio = devicePixelRatio || 1;
+    const [left, top, width, height] = this.plane.box;
+    Object.assign(this.over, { width: Math.round(this.over.clientWidth * ratio), height: Math.round(this.over.clientHeight * ratio) });
+    Object.assign(this.basins, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
+    Object.assign(this.basins.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+    this.draw();
+    this.changed();
+  }
+
+  /** The window, the pendulum or the quality that is wanted has changed. */
+  changed() {
+    this.version++;
+    if (this.resting || performance.now() - this.begun > PATIENCE) this.controller.abort();
+    this.move();
+    this.pursue();
+  }
+
+  /** Moves the old picture towards the window wanted, a step for each picture of the screen. */
+  move() {
+    if (this.moving) return;
+    const step = () => {
+      this.moving = !this.window.equals(this.state.window);
+      const near = Math.abs(Math.log(this.state.window.theta.width / this.window.theta.width)) < 0.004 && this.nearlyThere();
+      this.window = near || this.state.jump ? this.state.window : this.window.towards(this.state.window, this.ease());
+      this.drawNow();
+      if (this.moving) requestAnimationFrame(step);
+    };
+    this.moving = true;
+    requestAnimationFrame(step);
+  }
+
+  /** The part of the way that the next picture goes; so much that windows LEAP times narrower are near in one step. */
+  ease() {
+    const ratio = this.window.theta.width / this.state.window.theta.width;
+    return Math.max(EASE, 1 - LEAP / ratio);
+  }
+
+  nearlyThere() {
+    const { left, bottom } = this.state.window.placeOf(this.window);
+    return Math.abs(left) < 0.004 && Math.abs(bottom) < 0.004;
+  }
+
+  /** Asks for frames until the last one wanted is there: quickly while things change, then as right and fine as asked for. */
+  async pursue() {
+    if (this.pursuing) return;
+    this.pursuing = true;
+    for (let done = -1; done !== this.version && !this.closed; ) {
+      const version = this.version;
+      try {
+        await this.frame({ quality: "moving", levels: [8, 4, 2, 1], samples: 1 });
+        if (version === this.version) await pause(REST);
+        this.resting = true;
+        if (version === this.version) await this.rest(version);
+      } catch (error) {
+        if (error.name !== "AbortError" && version === this.version && !this.closed) this.refused(error);
+      }
+      this.resting = false;
+      done = version;
+    }
+    this.pursuing = false;
+  }
+
+  /** One request whose coarse levels already are as right as the last, which has several samples a pixel. */
+  async rest(version) {
+    const { quality } = this.state;
+    const samples = Number(this.state.samples);
+    this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "more samples ...", 0);
+    if (quality === "exact" || samples > 1) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
+    if (version === this.version) this.say(this, "done", this.words());
+  }
+
+  async frame({ quality, levels, samples }) {
+    const { window, pendulum } = { window: this.state.window, pendulum: this.pendulum };
+    const request = requestOf(window, pendulum, this.basins, { quality, levels, samples, largest: this.painter.largest });
+    const key = JSON.stringify(pendulum);
+    this.controller = new AbortController();
+    this.begun = performance.now();
+    if (!this.resting) this.say(this, "moving", "");
+    let last = null;
+    for await (const [header, bytes] of this.engine.answers(request, this.controller.signal)) {
+      if (header.answer !== "frame") continue;
+      const same = this.frames.at(-1)?.key === key;
+      if (!same && !header.final && performance.now() - this.begun < QUIET) continue;
+      const { catalogue } = this.engine;
+      const full = { ...header, full: [request.rows, request.columns] };
+      const made = Object.assign(frameOf(full, decoded(header, bytes), window, paletteOf(catalogue)), { key, catalogue, quality, samples });
+      this.keep(made, last);
+      last = made;
+      this.say(this, null, null, 1 / header.level ** 2);
+    }
+  }
+
+  /** A new frame, which takes the place of the coarser one of the same request. */
+  keep(frame, coarser) {
+    const covered = (old) => old.key !== frame.key || old === coarser || (frame.level === 1 && old.window.equals(frame.window));
+    for (const old of this.frames.filter(covered)) this.painter.forget(old);
+    this.frames = [...this.frames.filter((old) => !covered(old)), frame].sort((one, two) => cellOf(two) - cellOf(one));
+    while (this.frames.length > MOST_FRAMES) this.painter.forget(this.frames.shift());
+    this.latest = frame;
+    this.draw();
+    this.report(this);
+  }
+
+  /** Nothing stays under axes that it does not belong to. */
+  refused(error) {
+    for (const frame of this.frames) this.painter.forget(frame);
+    this.frames = [];
+    this.draw();
+    this.report(this);
+    this.say(this, "error", error.message);
+  }
+
+  cancel() {
+    this.controller.abort();
+    this.engine.cancel().catch(() => {});
+    this.say(this, "done", "cancelled: the picture is as far as it came");
+  }
+
+  words() {
+    const top = this.top;
+    if (!top) return "";
+    const samples = top.samples > 1 ? `, ${top.samples} × ${top.samples} a pixel` : "";
+    const right = top.quality === "exact" ? decidedWords(top.doubtful) : "quick labels";
+    return `${top.columns} × ${top.rows} starts${samples}, ${right}`;
+  }
+
+  /** The frame and the cell of it that lie at a place of the window (shares): {frame, cell}, or null. */
+  cellAt(across, up) {
+    for (const frame of this.frames.toReversed()) {
+      const { place, period } = placementOf(frame, this.window);
+      const x = ((across - place[0]) / place[2]) % period;
+      const [column, row] = [Math.floor((x < 0 ? x + period : x) * frame.columns), Math.floor(((up - place[1]) / place[3]) * frame.rows)];
+      if (column >= 0 && column < frame.columns && row >= 0 && row < frame.rows) return { frame, cell: row * frame.columns + column };
+    }
+    return null;
+  }
+
+  /** At the next picture of the screen, however often it is asked for. */
+  draw() {
+    this.drawn ??= requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow() {
+    cancelAnimationFrame(this.drawn);
+    this.drawn = null;
+    const ratio = devicePixelRatio || 1;
+    this.painter.draw(this.frames, this.window, this.state.shade === "settling" ? 0.8 : 0);
+    const context = this.over.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);
+    this.drawOver(new CanvasSurface(context, this.state.colours), this.plane);
+  }
+
+  /** All that lies over the basins, on any surface. */
+  drawOver(surface, plane) {
+    const { motion, marks, cursor, overlays } = this.plain;
+    surface.clipped(plane.box, () => {
+      for (const { lines = [], points = [] } of overlays) {
+        for (const line of lines) drawLine(surface, plane, line, "#000000", 1);
+        drawPoints(surface, plane, points, "#ffffff", 3.6, "#000000");
+      }
+      if (this.state.points === "on" && this.top)
+        for (const row of this.top.catalogue.attractors) drawPoints(surface, plane, row.strobe, "#1c2127", row.strobe.length > 2 ? 3.2 : 4.6);
+      if (motion) motion.drawOver(surface, plane);
+      for (const mark of marks) {
+        const at = [plane.window.theta.shareOf(Decimal.from(mark[0])), plane.window.velocity.shareOf(Decimal.from(mark[1]))];
+        surface.circle(...plane.placeOf(...at), 5, "#ffffff", "#b3261e");
+      }
+    });
+    drawAxes(surface, plane, axesOf(this.state.units, this.state.pivotFrequency));
+    if (cursor) drawCross(surface, plane, cursor);
+  }
+
+  /** Ends its program. */
+  close() {
+    this.closed = true;
+    this.controller.abort();
+    this.engine.close();
+  }
+}
+
+const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+/** Width of a cell, by which frames are laid over each other; of equal ones the exact frame lies on top. */
+function cellOf(frame) {
+  return ((frame.window.theta.width * frame.level) / frame.full[1]) * (frame.quality === "exact" ? 0.999 : 1);
+}
+
+function decidedWords(doubtful) {
+  if (doubtful === undefined) return "exact labels";
+  return doubtful === 0 ? "every label decided" : `${doubtful} undecided (striped)`;
+}
+
+function drawCross(surface, plane, [across, up]) {
+  const [left, top, width, height] = plane.box;
+  const [x, y] = plane.placeOf(across, up);
+  surface.line([[left, y], [left + width, y]], "#ffffffa0", 1);
+  surface.line([[x, top], [x, top + height]], "#ffffffa0", 1);
+  surface.circle(x, y, 5, "transparent", "#1c2127");
+}

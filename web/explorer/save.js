@@ -1,0 +1,93 @@
+// Files of what is seen: a scene, pictures, tables.
+
+import { ask } from "./engine.js";
+import { asScene } from "./frames.js";
+import { rowsOf, shareWords } from "./legend.js";
+import { Plane } from "./plane.js";
+import { CanvasSurface, LIGHT, SvgSurface } from "./surface.js";
+import { signed } from "./ticks.js";
+
+const LEGEND = 250; // px beside a saved picture
+const HEAD = 28;
+
+export function saveBlob(name, blob) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+export function saveText(name, text, kind) {
+  saveBlob(name, new Blob([text], { type: kind }));
+}
+
+export async function copyText(text) {
+  await navigator.clipboard.writeText(text);
+}
+
+/** The view of a pane as a scene that gives the same labels. */
+export async function saveScene(state, pane) {
+  const frame = pane.top;
+  const body = {
+    window: state.window.toRequest(), pendulum: asScene(pane.pendulum),
+    rows: frame?.rows ?? pane.basins.height, columns: frame?.columns ?? pane.basins.width,
+  };
+  saveText("view.yaml", (await ask("scene", body)).text, "application/yaml");
+}
+
+/** Size of a picture of all panes with their legend. */
+export function pictureSize(basins) {
+  const wide = basins.panes.reduce((sum, pane) => sum + pane.over.clientWidth, 0);
+  return [wide + LEGEND, basins.panes[0].over.clientHeight + HEAD];
+}
+
+/** All panes beside each other, title above and legend beside, on white. */
+export function drawPicture(surface, state, basins) {
+  const [width, height] = pictureSize(basins);
+  surface.rectangle(0, 0, width, height, LIGHT.paper);
+  surface.text(state.title, 66, 20, "left", { size: 15 });
+  let left = 0;
+  for (const pane of basins.panes) {
+    drawPane(surface, pane, left, basins.captionOf(pane));
+    left += pane.over.clientWidth;
+  }
+  rowsOf(basins.panes.map((pane) => pane.top)).forEach((row, i) => {
+    surface.rectangle(left + 8, HEAD + 12 + 20 * i, 13, 13, LIGHT.ink);
+    surface.rectangle(left + 9, HEAD + 13 + 20 * i, 11, 11, row.colour);
+    surface.text(signed(row.name), left + 28, HEAD + 23 + 20 * i, "left");
+    surface.text(row.shares.map(shareWords).join("  "), left + 240, HEAD + 23 + 20 * i, "right");
+  });
+}
+
+function drawPane(surface, pane, left, caption) {
+  const plane = new Plane(pane.window, pane.over.clientWidth, pane.over.clientHeight);
+  plane.box = [plane.box[0] + left, plane.box[1] + HEAD, plane.box[2], plane.box[3]];
+  pane.drawNow(); // the painter's canvas is read in the same turn in which it is drawn
+  surface.image(pane.basins, plane.box);
+  pane.drawOver(surface, plane);
+  if (caption) surface.text(caption, plane.box[0] + 6, plane.box[1] + 16, "left");
+}
+
+export function pictureCanvas(state, basins, scale = 2) {
+  const [width, height] = pictureSize(basins);
+  const canvas = Object.assign(document.createElement("canvas"), { width: scale * width, height: scale * height });
+  const context = canvas.getContext("2d");
+  context.scale(scale, scale);
+  drawPicture(new CanvasSurface(context, LIGHT), state, basins);
+  return canvas;
+}
+
+export async function savePng(state, basins) {
+  saveBlob("view.png", await pngOf(pictureCanvas(state, basins)));
+}
+
+export function pngOf(canvas) {
+  return new Promise((resolve) => canvas.toBlob(resolve));
+}
+
+export function saveSvg(state, basins) {
+  const surface = new SvgSurface(...pictureSize(basins));
+  drawPicture(surface, state, basins);
+  saveText("view.svg", surface.toString(), "image/svg+xml");
+}

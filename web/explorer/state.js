@@ -1,0 +1,77 @@
+// What the page shows, in one place, and its copy in the address: a reload keeps it, and a link shares it.
+
+import { Window } from "./window.js";
+
+export const DEFAULTS = { quality: "exact", samples: "2", shade: "none", units: "pi", theme: "auto", points: "on", painter: "auto" };
+
+/** The state: change() tells everyone who listens which keys have changed. */
+export class State {
+  constructor(start) {
+    Object.assign(this, start);
+    this.listeners = [];
+    this.past = [];
+  }
+
+  listen(listener) {
+    this.listeners.push(listener);
+  }
+
+  change(values) {
+    const keys = Object.keys(values).filter((key) => this[key] !== values[key]);
+    Object.assign(this, values);
+    if (keys.length) for (const listener of this.listeners) listener(new Set(keys));
+  }
+
+  /** Goes to another window; the present one is kept for back(). */
+  visit(window) {
+    if (window.equals(this.window)) return;
+    this.past.push(this.window);
+    this.change({ window });
+  }
+
+  back() {
+    if (this.past.length) this.change({ window: this.past.pop() });
+  }
+}
+
+const axisText = ({ min, max, centre, width }) => (centre === undefined ? `${min}..${max}` : `${centre}~${width}`);
+
+function axisFrom(text) {
+  const [min, max] = text.split("..");
+  if (max !== undefined) return { min, max };
+  const [centre, width] = text.split("~");
+  return { centre, width };
+}
+
+/** The part of an address after #. */
+export function addressOf(state) {
+  const { theta, velocity } = state.window.toRequest();
+  const parts = new URLSearchParams({ theta: axisText(theta), velocity: axisText(velocity) });
+  for (const [name, value] of Object.entries(state.pendulum)) if (value !== state.scene[name]) parts.set(`pendulum.${name}`, value);
+  if (state.start) parts.set("start", `${state.start.theta}~${state.start.velocity}~${state.start.pane}`);
+  if (state.other) for (const [name, value] of Object.entries(state.other)) parts.set(`other.${name}`, value);
+  for (const [name, value] of Object.entries(DEFAULTS)) if (state[name] !== value) parts.set(name, state[name]);
+  return `#${parts}`;
+}
+
+/** What an address says beside the start: {window, pendulum, other, ...}; what it says wrongly is left out. */
+export function readAddress(hash, start) {
+  const parts = new URLSearchParams(hash.replace(/^#/, ""));
+  const found = { pendulum: { ...start.pendulum }, other: null };
+  for (const [name, value] of parts) {
+    const [group, key] = name.split(".");
+    if (name in DEFAULTS) found[name] = value;
+    else if (group === "pendulum" && key in start.pendulum) found.pendulum[key] = value;
+    else if (group === "other" && key in start.pendulum) found.other = { ...(found.other ?? start.pendulum), [key]: value };
+  }
+  if (parts.has("start")) {
+    const [theta, velocity, pane] = parts.get("start").split("~");
+    found.start = { theta, velocity, pane };
+  }
+  try {
+    found.window = Window.from({ theta: axisFrom(parts.get("theta")), velocity: axisFrom(parts.get("velocity")) });
+  } catch {
+    // the scene's own window stays
+  }
+  return found;
+}
