@@ -176,7 +176,10 @@ typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
   double k, damping, m;                                                              /* b: k, beta, m */
   double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
-  double frequency;                                                                  /* c: Hz, instead of pivot_frequency */
+  double length;     /* c: m, of a point mass, instead of radius and inertia */
+  double frequency;  /* c: Hz, instead of pivot_frequency */
+  double amplitude;  /* c: m, instead of pivot_amplitude */
+  double decay_time; /* c: s, 2 I/b, instead of friction or quality_factor */
 } kz_pendulum_keys;
 
 /* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */
@@ -186,6 +189,9 @@ typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;
   double pivot_frequency; /* rad s-1; NaN without SI */
 } kz_parameters;
+
+/* m s-2; CGPM 1901. */
+#define KZ_STANDARD_GRAVITY 9.80665
 
 /* Fills everything but `written` from `written`. KZ_REFUSED where k, beta or m is not finite; then nothing is usable. */
 kz_status kz_parameters_resolve(kz_parameters *parameters);
@@ -238,6 +244,10 @@ double kz_orbit_steps(const kz_scene *scene);
 /* The numerics of the study `orbit`: with that many steps of the scene's scheme, or of split6 where that is the processed one. */
 kz_numerics kz_orbit_numerics(const kz_scene *scene);
 
+/* One line: whether down and inverted are stable at rest (linearly), and between which amplitudes of the pivot, in the user's words. Nothing
+ * without a pendulum. */
+void kz_rest_print(const kz_parameters *parameters, FILE *out);
+
 /* M r^2 of a pendulum written in SI units, kg m2; whether its inertia is at least that, to rounding. */
 double kz_point_inertia(const kz_pendulum_keys *written);
 bool kz_inertia_is_possible(const kz_pendulum_keys *written);
@@ -247,7 +257,7 @@ typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
-enum { KZ_SWEEP_PARAMETERS = 14 };
+enum { KZ_SWEEP_PARAMETERS = 17 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, and what a sweep can measure, joined by '|'. */
 const char *kz_sweep_words(void);

@@ -70,8 +70,9 @@ void kz_app_version(FILE *out);
 typedef struct {
   int64_t n;
   double *start, *low;
+  double pivot_frequency; /* rad/s, NaN where the scene is not in SI units: of velocities per second */
 } kz_starts;
-kz_status kz_starts_read(const kz_options *options, kz_starts *starts);
+kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts);
 void kz_starts_free(kz_starts *starts);
 
 /* "theta": .., "velocity": .., and where that start ends, as members of a JSON object, to standard output. */

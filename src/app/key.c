@@ -83,9 +83,14 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
     snprintf(names, sizeof names, "%s", kz_key_words(key));
   kz_key_list(names, detail, sizeof detail);
   if (key->high > key->low) print_range(key, detail, sizeof detail);
-  snprintf(text, bytes, "%s%s%s%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit,
-           kz_key_is_angle(key) ? ", or in degrees such as 90 deg" : "", key->type == KZ_KEY_COUNT && names[0] ? ", or " : "",
-           key->type == KZ_KEY_COUNT ? names : "");
+  char others[128] = "";
+  kz_unit_names(key->unit, others, sizeof others);
+  snprintf(text, bytes, "%s%s%s%s%s%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit,
+           others[0] ? ", or with its unit: " : "", others,
+           !kz_key_is_angle(key)         ? ""
+           : key->type == KZ_KEY_DECIMAL ? ", or in degrees such as 90 deg"
+                                         : ", or in degrees such as 90 deg, or a part of pi such as pi/2",
+           key->type == KZ_KEY_COUNT && names[0] ? ", or " : "", key->type == KZ_KEY_COUNT ? names : "");
 }
 
 static size_t least(size_t a, size_t b) {

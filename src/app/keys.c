@@ -26,9 +26,9 @@
   ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_)
 /* The two ways to give a window: by its edges, and by its middle. */
 #define EDGE(path, unit_, limit, fallback, field, help) \
-  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = -limit, .high = limit, .form = 'a')
+  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = -limit, .high = limit, .form = "a")
 #define DECIMAL(path, unit_, low_, high_, fallback, field, help) \
-  ROW(path, KZ_KEY_DECIMAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_, .form = 'b')
+  ROW(path, KZ_KEY_DECIMAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_, .form = "b")
 #define CENTRE_HELP "Middle of the window; up to 1000 digits, all of which count."
 #define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
@@ -43,8 +43,8 @@
   MAPPING("chart." #axis, NULL, KZ_NO_FIELD, help),                                                                           \
       ROW("chart." #axis ".parameter", KZ_KEY_WORD, NULL, AT(chart.axis.parameter),                                           \
           "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words), \
-      REAL("chart." #axis ".min", "", -DBL_MAX, DBL_MAX, NULL, chart.axis.values.min, "First value."),                        \
-      REAL("chart." #axis ".max", "", -DBL_MAX, DBL_MAX, NULL, chart.axis.values.max, "Last value."),                         \
+      REAL("chart." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, chart.axis.values.min, "First value."),               \
+      REAL("chart." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, chart.axis.values.max, "Last value."),                \
       INTEGER("chart." #axis ".count", 2, 1e5, "500", chart.axis.values.count, "Values, both ends included.")
 #define STABILITY_DAMPING(form_, name, low_, help) \
   ROW("stability." #name, KZ_KEY_REAL, "", AT(stability.name), help, .unit = "", .low = low_, .high = 1e5, .form = form_)
@@ -66,20 +66,25 @@ const kz_key kz_keys[] = {
     TEXT("title", "", title, "One line that names the scene in files and pictures."),
 
     MAPPING("pendulum", NULL, KZ_NO_FIELD, "The parameters, in ONE of three ways; a scene of `stability` alone needs none."),
-    PENDULUM('a', quality_factor, "", KZ_ABOVE_ZERO, "", "Q = omega0 I/b, so that beta = 1/(Omega Q); left out: no damping."),
-    PENDULUM('a', drive_frequency, "", KZ_ABOVE_ZERO, NULL, "Omega = omega/omega0, so that k = 1/Omega^2."),
-    PENDULUM('a', drive_amplitude, "", -DBL_MAX, NULL, "epsilon = (A/r)(M r^2/I), so that m = epsilon."),
-    PENDULUM('b', k, "", -DBL_MAX, NULL, "Gravity: 1/Omega^2; 0 = none, < 0 = upward."),
-    PENDULUM('b', damping, "", 0.0, NULL, "beta of theta'' + beta theta' + (k - m cos t) sin theta = 0."),
-    PENDULUM('b', m, "", -DBL_MAX, NULL, "Drive, of any sign."),
-    PENDULUM('c', mass, "kg", KZ_ABOVE_ZERO, NULL, "M."),
-    PENDULUM('c', radius, "m", KZ_ABOVE_ZERO, NULL, "r, from the pivot to the centre of mass."),
-    PENDULUM('c', inertia, "kg m2", KZ_ABOVE_ZERO, NULL, "I, about the pivot; at least M r^2."),
-    PENDULUM('c', friction, "kg m2 s-1", 0.0, NULL, "b; beta = b/(I omega)."),
-    PENDULUM('c', gravity, "m s-2", -DBL_MAX, NULL, "g; k = M g r/(I omega^2)."),
-    PENDULUM('c', pivot_amplitude, "m", -DBL_MAX, NULL, "A; m = M r A/I."),
-    PENDULUM('c', pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "", "omega of the pivot; this or frequency."),
-    PENDULUM('c', frequency, "Hz", KZ_ABOVE_ZERO, "", "omega/(2 pi) of the pivot, instead of pivot_frequency."),
+    PENDULUM("ac", quality_factor, "", KZ_ABOVE_ZERO, "",
+             "Q = omega0 I/b, so that beta = 1/(Omega Q); left out of (a): no damping."),
+    PENDULUM("a", drive_frequency, "", KZ_ABOVE_ZERO, NULL, "Omega = omega/omega0, so that k = 1/Omega^2."),
+    PENDULUM("a", drive_amplitude, "", -DBL_MAX, NULL, "epsilon = (A/r)(M r^2/I), so that m = epsilon."),
+    PENDULUM("b", k, "", -DBL_MAX, NULL, "Gravity: 1/Omega^2; 0 = none, < 0 = upward."),
+    PENDULUM("b", damping, "", 0.0, NULL, "beta of theta'' + beta theta' + (k - m cos t) sin theta = 0."),
+    PENDULUM("b", m, "", -DBL_MAX, NULL, "Drive, of any sign."),
+    PENDULUM("c", length, "m", KZ_ABOVE_ZERO, "", "l of a point mass (I = M l^2); another body has mass, radius and inertia."),
+    PENDULUM("c", frequency, "Hz", KZ_ABOVE_ZERO, "", "omega/(2 pi) of the pivot; this or pivot_frequency."),
+    PENDULUM("c", amplitude, "m", -DBL_MAX, "", "A of the pivot; m = M r A/I = A/l."),
+    PENDULUM("c", decay_time, "s", KZ_ABOVE_ZERO, "",
+             "Time in which small swings shrink e-fold, 2 I/b; instead of quality_factor."),
+    PENDULUM("c", gravity, "m s-2", -DBL_MAX, "", "g; k = M g r/(I omega^2) = g/(l omega^2). Left out: 9.80665."),
+    PENDULUM("c", mass, "kg", KZ_ABOVE_ZERO, "", "M."),
+    PENDULUM("c", radius, "m", KZ_ABOVE_ZERO, "", "r, from the pivot to the centre of mass."),
+    PENDULUM("c", inertia, "kg m2", KZ_ABOVE_ZERO, "", "I, about the pivot; at least M r^2."),
+    PENDULUM("c", friction, "kg m2 s-1", 0.0, "", "b, instead of quality_factor; beta = b/(I omega)."),
+    PENDULUM("c", pivot_amplitude, "m", -DBL_MAX, "", "A, another name of amplitude."),
+    PENDULUM("c", pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "", "omega of the pivot, instead of frequency."),
 
     ROW("numerics", KZ_KEY_MAPPING, "", KZ_NO_FIELD, "How one drive period is integrated.", .unit = "",
         .former = "precision=basin.method exact"),
@@ -234,8 +239,8 @@ const kz_key kz_keys[] = {
     REAL("stability.m.min", "", -1e6, 1e6, NULL, stability.m.min, "First value."),
     REAL("stability.m.max", "", -1e6, 1e6, NULL, stability.m.max, "Last value."),
     INTEGER("stability.m.count", 1, 1e6, "1000", stability.m.count, "Number of values."),
-    STABILITY_DAMPING('a', damping, 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
-    STABILITY_DAMPING('b', quality_factor, 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
+    STABILITY_DAMPING("a", damping, 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
+    STABILITY_DAMPING("b", quality_factor, 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
     ROW("stability.curves", KZ_KEY_WORDS, "", AT(stability.curves),
         "Transition curves; one that turns back brings its upper branch.", .unit = "", .words_from = kz_curve_names),
     ROW("stability.subharmonics", KZ_KEY_INTEGERS, "", AT(stability.subharmonics),
@@ -251,8 +256,8 @@ const kz_key kz_keys[] = {
     MAPPING("sweep", "", AT(has_sweep), "Study: quantities along one key of the pendulum mapping."),
     ROW("sweep.parameter", KZ_KEY_WORD, NULL, AT(sweep.parameter),
         "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words),
-    REAL("sweep.min", "", -DBL_MAX, DBL_MAX, NULL, sweep.values.min, "First value."),
-    REAL("sweep.max", "", -DBL_MAX, DBL_MAX, NULL, sweep.values.max, "Last value."),
+    REAL("sweep.min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, sweep.values.min, "First value."),
+    REAL("sweep.max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, sweep.values.max, "Last value."),
     INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Values, both ends included."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(sweep.measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "

@@ -113,15 +113,17 @@ static void read_key(kz_reading *reading, const kz_key *key, const kz_node *node
   if (wrong) complain_value(reading, key, culprit, wrong);
 }
 
-/* The first key of a mapping that belongs to a form: it chooses the form. NULL where none does. */
+/* The first key of a mapping that belongs to one form alone, else the first of several: it chooses the form. NULL where none does. */
 static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, const char *parent) {
+  const kz_key *several = NULL;
   for (const kz_node *child = mapping->first; child; child = child->next) {
     char path[256];
     snprintf(path, sizeof path, "%s.%.100s", parent, child->name);
     const kz_key *key = kz_key_find(keys, path);
-    if (key && key->form) return key;
+    if (key && key->form && !key->form[1]) return key;
+    if (key && key->form && !several) several = key;
   }
-  return NULL;
+  return several;
 }
 
 static void read_child(kz_reading *reading, const kz_node *mapping, const kz_node *child, const char *parent) {
@@ -133,7 +135,7 @@ static void read_child(kz_reading *reading, const kz_node *mapping, const kz_nod
     complain_key(reading, child, path, "is given twice; once");
   else if (!key)
     complain_unknown(reading, child, parent, path);
-  else if (chooser && chooser->form != key->form)
+  else if (chooser && !strpbrk(chooser->form, key->form))
     complain_key(reading, child, path, "contradicts %s, which gives the same in another way; use the keys of one way",
                  chooser->path);
   else
@@ -169,7 +171,7 @@ static void check_missing(kz_reading *reading, const kz_key *key) {
   if (!mapping || key->fallback || kz_tree_find(reading->root, key->path)) return;
   if (strcmp(key->path, "pendulum") == 0 && needs_no_pendulum(reading)) return;
   const kz_key *chooser = key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
-  if (chooser && chooser->form != key->form) return;
+  if (chooser && !strpbrk(chooser->form, key->form)) return;
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
   kz_complain(reading, NULL, key->path, "is missing; it must be %s", accepted);
 }

@@ -60,6 +60,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   const kz_pendulum *p = &scene->parameters.pendulum;
   printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
   if (!isnan(p->k)) printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
+  kz_rest_print(&scene->parameters, stdout);
   fputs("studies         ", stdout);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);

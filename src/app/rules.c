@@ -3,6 +3,7 @@
 #include <stdio.h>
 
 #include "axis_rules.h"
+#include "pendulum_rules.h"
 
 static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin) return;
@@ -135,6 +136,16 @@ static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
   if (follows && !reading->message[0]) check_stiffness(reading, &scene->parameters.pendulum, "pendulum");
 }
 
+/* A value that was written with a unit, as so many of the parameter's own. */
+static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value) {
+  const char *unit = kz_sweep_parameters[parameter].unit;
+  const kz_node *node = kz_tree_find(reading->root, path);
+  const char *wrong = node && !isnan(*value) ? kz_scalar_quantity(node, unit, value) : NULL;
+  if (wrong)
+    kz_complain(reading, node, path, "\"%.60s\" %s; it must be a number%s%s, as pendulum.%s is", node->text, wrong,
+                unit[0] == '1' ? "" : " in ", unit[0] == '1' ? "" : unit, kz_sweep_parameters[parameter].name);
+}
+
 /* One value of a key of the pendulum mapping: in the range of the key itself, and a pendulum. */
 static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t parameter, const char *path, double value) {
   char key[64];
@@ -157,10 +168,14 @@ static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t 
 }
 
 /* The values of a key of the pendulum mapping that `path` walks along. */
-static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t parameter, const kz_axis *values,
-                             const char *path) {
+static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t parameter, kz_axis *values, const char *path) {
   char key[64], name[64];
   if (parameter == KZ_UNSET_WORD) return;
+  snprintf(name, sizeof name, "%s.min", path);
+  read_in_unit(reading, parameter, name, &values->min);
+  snprintf(name, sizeof name, "%s.max", path);
+  read_in_unit(reading, parameter, name, &values->max);
+  kz_axis_rules(reading, values, path);
   snprintf(key, sizeof key, "pendulum.%s", kz_sweep_parameters[parameter].name);
   snprintf(name, sizeof name, "%s.parameter", path);
   if (!kz_tree_find(reading->root, key))
@@ -178,7 +193,6 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_sweep) return;
   kz_theta_rules(reading, &sweep->theta, "sweep.theta");
   kz_axis_rules(reading, &sweep->velocity, "sweep.velocity");
-  kz_axis_rules(reading, &sweep->values, "sweep");
   if (scene->has_basin && !isnan(scene->basin.accuracy))
     kz_complain(reading, kz_tree_find(reading->root, "basin.accuracy"), "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
@@ -188,13 +202,12 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
 }
 
-static void chart_axis_rules(kz_reading *reading, kz_scene *scene, const kz_chart_axis *axis, const char *path) {
-  kz_axis_rules(reading, &axis->values, path);
+static void chart_axis_rules(kz_reading *reading, kz_scene *scene, kz_chart_axis *axis, const char *path) {
   parameter_values(reading, scene, axis->parameter, &axis->values, path);
 }
 
 static void chart_rules(kz_reading *reading, kz_scene *scene) {
-  const kz_chart_plan *chart = &scene->chart;
+  kz_chart_plan *chart = &scene->chart;
   if (!scene->has_chart) return;
   chart_axis_rules(reading, scene, &chart->x, "chart.x");
   chart_axis_rules(reading, scene, &chart->y, "chart.y");
@@ -205,38 +218,6 @@ static void chart_rules(kz_reading *reading, kz_scene *scene) {
     kz_complain(reading, kz_tree_find(reading->root, "chart.start.velocity"), "chart.start.velocity",
                 "has %lld values for %lld angles; give one for each angle, or one for all", (long long)chart->velocity.count,
                 (long long)chart->theta.count);
-}
-
-/* No body has less inertia about the pivot than its mass in one point. */
-static void inertia_rules(kz_reading *reading, kz_scene *scene) {
-  const kz_pendulum_keys *written = &scene->parameters.written;
-  if (reading->message[0] || isnan(written->inertia) || kz_inertia_is_possible(written)) return;
-  kz_complain(reading, kz_tree_find(reading->root, "pendulum.inertia"), "pendulum.inertia",
-              "%s is below pendulum.mass * pendulum.radius^2 = %s, the least of any body; at least that",
-              kz_shortest(written->inertia).text, kz_shortest(kz_point_inertia(written)).text);
-}
-
-/* k, beta, m from the form that the scene chose; only a reading without complaints has it whole. */
-static void pendulum_rules(kz_reading *reading, kz_scene *scene) {
-  if (!kz_tree_child(reading->root, "pendulum")) { /* stability alone does without */
-    scene->parameters.pendulum = (kz_pendulum){NAN, NAN, NAN};
-    scene->parameters.quality_factor = scene->parameters.drive_frequency = scene->parameters.drive_amplitude = NAN;
-    scene->parameters.pivot_frequency = NAN;
-    return;
-  }
-  inertia_rules(reading, scene);
-  const kz_pendulum_keys *written = &scene->parameters.written;
-  if (!isnan(written->frequency) && !isnan(written->pivot_frequency))
-    kz_complain(reading, kz_tree_find(reading->root, "pendulum.frequency"), "pendulum.frequency",
-                "contradicts pivot_frequency, which gives the same in rad s-1; give one of them");
-  if (!isnan(written->mass) && isnan(written->frequency) && isnan(written->pivot_frequency))
-    kz_complain(reading, NULL, "pendulum.pivot_frequency",
-                "is missing; it must be a number above 0 in rad s-1, or give frequency in Hz");
-  if (reading->message[0] || kz_parameters_resolve(&scene->parameters) == KZ_OK) return;
-  char wrong[256];
-  snprintf(wrong, sizeof wrong, "%s", kz_message());
-  kz_message_clear();
-  kz_complain(reading, kz_tree_child(reading->root, "pendulum"), "pendulum", "%s", wrong);
 }
 
 /* What the resolved pendulum does not allow an orbit. */
@@ -260,10 +241,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    table_rules,     shocks_rules,      attractors_rules,
-                             saddles_rules,  manifolds_rules, orbit_rules,       stability_rules,
-                             tradeoff_rules, pendulum_rules,  stiffness_rules,   sweep_rules,
-                             chart_rules,    edge_rules,      orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,    table_rules,       shocks_rules,      attractors_rules,
+                             saddles_rules,  manifolds_rules,   orbit_rules,       stability_rules,
+                             tradeoff_rules, kz_pendulum_rules, stiffness_rules,   sweep_rules,
+                             chart_rules,    edge_rules,        orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -172,7 +172,9 @@ static kz_status write_pendulum(job *j) {
                {"inertia", si->inertia},
                {"friction", si->friction},
                {"gravity", si->gravity},
-               {"pivot_amplitude", si->pivot_amplitude},
+               {"length", si->length},
+               {"decay_time", si->decay_time},
+               {"pivot_amplitude", isnan(si->amplitude) ? si->pivot_amplitude : si->amplitude},
                {"pivot_frequency", p->pivot_frequency}};
   for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++)
     if (reals[i].value == reals[i].value) KZ_TRY(kz_store_real(j->store, "/pendulum", reals[i].name, reals[i].value));
@@ -200,6 +202,7 @@ static void print_summary(job *j) {
   const kz_pendulum *p = &j->scene.parameters.pendulum;
   fclose(j->summary);
   j->summary = NULL;
+  kz_rest_print(&j->scene.parameters, stdout);
   if (j->scene.title[0]) puts(j->scene.title);
   if (!isnan(p->k)) printf("k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   printf("%swritten to %s\n", j->words, j->path);

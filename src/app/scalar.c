@@ -65,20 +65,6 @@ const char *kz_scalar_real(const kz_node *node, double *value) {
   return NULL;
 }
 
-/* 180 degrees are M_PI to the bit. */
-const char *kz_scalar_angle(const kz_node *node, double *value) {
-  static const char unit[] = " deg";
-  char number[64];
-  const size_t length = node->kind == KZ_SCALAR ? strlen(node->text) : 0, tail = sizeof unit - 1;
-  if (length <= tail || length - tail >= sizeof number || strcmp(node->text + length - tail, unit) != 0)
-    return kz_scalar_real(node, value);
-  snprintf(number, sizeof number, "%.*s", (int)(length - tail), node->text);
-  const kz_node degrees = {.kind = KZ_SCALAR, .text = number, .plain = node->plain};
-  const char *wrong = kz_scalar_real(&degrees, value);
-  if (!wrong) *value = *value / 180 * M_PI;
-  return wrong;
-}
-
 /* What keeps a node from being a text of at most `most` bytes, or NULL. */
 static const char *text_wrong(const kz_node *node, size_t most, const char *too_long) {
   if (node->kind == KZ_SEQUENCE) return "is a list";

@@ -41,12 +41,15 @@ typedef struct {
   const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto" */
   const char *(*words_from)(void); /* the same where another layer knows them */
   const char *former;    /* words, or keys of a mapping, that are gone, and what to write instead: "old=new|old=new" */
-  char form;             /* keys of one mapping with different forms exclude each other; 0 = none */
+  const char *form;      /* letters; keys of one mapping without a common letter exclude each other; NULL = of no form */
   size_t offset;         /* of the field in kz_scene */
   const char *chosen_by; /* path of a number instead of which the key is given; NULL = none */
   size_t chooser;        /* offset of that number */
   const char *help;      /* one sentence of the scene reference */
 } kz_key;
+
+/* The unit of values that another key is given. */
+#define KZ_OWN_UNIT "the unit of the parameter"
 
 /* The table; a row without path ends it. */
 extern const kz_key kz_keys[];
@@ -100,12 +103,22 @@ kz_node *kz_tree_copy(const kz_node *root);
 /* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), NULL where it is right. */
 const char *kz_scalar_integer(const kz_node *node, int64_t *value);
 const char *kz_scalar_real(const kz_node *node, double *value);
-/* An angle in rad, or in degrees with " deg" behind the number; value in rad. */
+/* An angle in rad, or in degrees with "deg" behind the number, or a part of pi such as "3 pi/4"; value in rad. */
 const char *kz_scalar_angle(const kz_node *node, double *value);
 /* A number of any digits, in quotes or not; of an angle also in degrees. The text is kept. */
 const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value);
+/* A number, or one with a unit behind it ("20 cm"), as so many of `unit`; "" = of any unit of the table. */
+const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value);
+/* "3 pi/4" as the text "3" [bytes] and the divisor 4; false where the text is no part of pi. */
+bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
 const char *kz_scalar_text(const kz_node *node);
+
+/* Units of the table (units.c): whether a key's unit has others; how many of `of` ("" = any) the unit `text` is, or what is wrong with it;
+ * the others of `of`, written to `text` [bytes]. */
+bool kz_unit_is_known(const char *of);
+const char *kz_unit_factor(const char *text, const char *of, double *factor);
+void kz_unit_names(const char *of, char *text, size_t bytes);
 
 /* Bytes of the control character at `c` (UTF-8: C0, DEL or C1, which terminals obey), 0 where there is none. */
 int kz_control_bytes(const char *c);

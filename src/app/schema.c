@@ -73,18 +73,20 @@ static void write_key(const kz_key *key, FILE *out) {
   const bool list = key->type >= KZ_KEY_WORDS, angle = kz_key_is_angle(key), decimal = key->type == KZ_KEY_DECIMAL;
   if (list) fprintf(out, "{\"type\": \"array\", \"minItems\": 1, \"maxItems\": %d, \"items\": ", KZ_LIST_MAX);
   const bool word_too = key->type == KZ_KEY_COUNT && key->words; /* a number or a word, as "auto" */
-  if (angle || decimal)
+  const bool unit = key->type == KZ_KEY_REAL && (kz_unit_is_known(key->unit) || strcmp(key->unit, KZ_OWN_UNIT) == 0);
+  if (angle)
+    fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^([-+.0-9eE]+ ?deg|%s)$\"}, ",
+            decimal ? "[-+.0-9eE]+" : "[-+.0-9eE]* ?pi(/[0-9]+)?");
+  else if (decimal || unit)
     fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+%s$\"}, ",
-            !angle    ? ""
-            : decimal ? "( deg)?"
-                      : " deg");
+            unit ? " ?[A-Za-z1][A-Za-z0-9/^ *]*" : "");
   if (word_too) {
     fputs("{\"anyOf\": [", out);
     write_words(key->words, out);
     fputs("}, ", out);
   }
   open_value(key, out);
-  if (angle || decimal || word_too) fputs("}]", out);
+  if (angle || decimal || unit || word_too) fputs("}]", out);
   if (list) fputc('}', out);
   if (key->fallback && key->fallback[0]) {
     fputs(", \"default\": ", out);
@@ -99,11 +101,16 @@ static void write_key(const kz_key *key, FILE *out) {
   fputc('}', out);
 }
 
+/* Whether a key belongs to a form; 0: to none. */
+static bool belongs(const kz_key *key, char form) {
+  return form ? key->form && strchr(key->form, form) : !key->form;
+}
+
 /* "required" of the keys of `parent` that belong to `form` (0: to none) and must be there. */
 static void write_required(const kz_key *keys, const char *parent, char form, FILE *out) {
   const char *between = "\"required\": [";
   for (const kz_key *key = keys; key->path; key++) {
-    if (key->fallback || key->form != form || !stands_in(key, parent)) continue;
+    if (key->fallback || !belongs(key, form) || !stands_in(key, parent)) continue;
     fprintf(out, "%s\"%s\"", between, name_of(key));
     between = ", ";
   }
@@ -117,7 +124,7 @@ static void write_form(const kz_key *keys, const char *parent, char form, FILE *
   write_required(keys, parent, form, out);
   fputs(", \"properties\": {", out);
   for (const kz_key *key = keys; key->path; key++) {
-    if (!key->form || key->form == form || !stands_in(key, parent)) continue;
+    if (!key->form || belongs(key, form) || !stands_in(key, parent)) continue;
     fprintf(out, "%s\"%s\": false", between, name_of(key));
     between = ", ";
   }
@@ -127,9 +134,9 @@ static void write_form(const kz_key *keys, const char *parent, char form, FILE *
 static void write_forms(const kz_key *keys, const char *parent, int depth, FILE *out) {
   char seen = 0; /* forms come in the order of their letters */
   for (const kz_key *key = keys; key->path; key++) {
-    if (key->form <= seen || !stands_in(key, parent)) continue;
+    if (!key->form || key->form[0] <= seen || !stands_in(key, parent)) continue;
     fputs(seen ? "," : ", \"anyOf\": [", out);
-    seen = key->form;
+    seen = key->form[0];
     indent(depth + 1, out);
     write_form(keys, parent, seen, out);
   }

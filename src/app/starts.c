@@ -1,6 +1,7 @@
 /* Starts that the command where asks about: two operands, or a table on standard input. */
 #include <ctype.h>
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,17 +21,41 @@ static bool is_long(const char *text) {
   return digits > DBL_DECIMAL_DIG;
 }
 
+/* A velocity in rad/s or deg/s of a scene in SI units, as rad per drive radian; *wrong is NULL where it is right, and false comes back where
+ * it is in neither. */
+static bool read_per_second(const char *text, const kz_starts *starts, double *value, const char **wrong) {
+  char number[64];
+  const char *slash = strstr(text, "rad/s");
+  const bool degrees = !slash;
+  if (degrees) slash = strstr(text, "deg/s");
+  if (!slash || slash[5] != '\0' || slash - text >= (long)sizeof number) return false;
+  while (slash > text && slash[-1] == ' ') slash--;
+  snprintf(number, sizeof number, "%.*s", (int)(slash - text), text);
+  const kz_node node = {.kind = KZ_SCALAR, .text = number, .plain = true};
+  *wrong = kz_scalar_real(&node, value);
+  if (!*wrong && isnan(starts->pivot_frequency)) *wrong = "is per second, but the scene is not in SI units";
+  if (!*wrong) *value = (degrees ? *value / 180 * M_PI : *value) / starts->pivot_frequency;
+  return true;
+}
+
 /* One number of start i; `place` names it. */
 static kz_status read_number(const char *text, int which, const char *place, kz_starts *starts, int64_t i) {
   const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
   kz_decimal value = {0};
-  const char *wrong = kz_scalar_decimal(&node, which == 0, &value);
+  const char *wrong = NULL;
+  long divisor;
+  char multiple[64];
+  if (which == 0 && kz_pi_parts(text, multiple, sizeof multiple, &divisor))
+    wrong = kz_scalar_angle(&node, &value.high);
+  else if (which == 0 || !read_per_second(text, starts, &value.high, &wrong))
+    wrong = kz_scalar_decimal(&node, which == 0, &value);
   if (!wrong && (value.high < -MOST[which] || value.high > MOST[which])) wrong = "is out of range";
   starts->start[2 * i + which] = value.high;
   starts->low[2 * i + which] = value.low;
   if (!wrong) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s; it must be a number from %g to %g in %s", place, NAMES[which], text, wrong,
-                 -MOST[which], MOST[which], which == 0 ? "rad, or in degrees such as 90 deg" : "rad per drive radian");
+                 -MOST[which], MOST[which],
+                 which == 0 ? "rad, or in degrees such as 90 deg, or a part of pi such as pi/2" : "rad per drive radian");
 }
 
 /* Of a start without a long number the nearest doubles are taken: cells of a file keep their labels. */
@@ -95,9 +120,9 @@ static kz_status read_starts(const kz_options *options, kz_starts *starts) {
   return KZ_OK;
 }
 
-kz_status kz_starts_read(const kz_options *options, kz_starts *starts) {
+kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts) {
   const size_t bytes = 2 * sizeof(double) * MOST_STARTS;
-  *starts = (kz_starts){.start = kz_malloc(bytes), .low = kz_malloc(bytes)};
+  *starts = (kz_starts){.start = kz_malloc(bytes), .low = kz_malloc(bytes), .pivot_frequency = pivot_frequency};
   return read_starts(options, starts);
 }
 

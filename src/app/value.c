@@ -72,7 +72,10 @@ static const char *read_count(const kz_key *key, const kz_node *node, void *fiel
 
 static const char *read_real(const kz_key *key, const kz_node *node, void *field) {
   double value;
-  const char *wrong = (kz_key_is_angle(key) ? kz_scalar_angle : kz_scalar_real)(node, &value);
+  const char *wrong = kz_key_is_angle(key)                  ? kz_scalar_angle(node, &value)
+                      : kz_unit_is_known(key->unit)         ? kz_scalar_quantity(node, key->unit, &value)
+                      : strcmp(key->unit, KZ_OWN_UNIT) == 0 ? kz_scalar_quantity(node, "", &value)
+                                                            : kz_scalar_real(node, &value);
   if (wrong) return wrong;
   if (value < key->low || value > key->high) return "is out of range";
   *(double *)field = value;

@@ -20,21 +20,29 @@ static void print_decision(const kz_ending *e) {
   putchar('\n');
 }
 
-static void print_person(const double *start, const kz_ending *e) {
-  printf("theta = %.10g, velocity = %.10g\n", start[0], start[1]);
+/* `omega`: of the pivot, rad/s; NaN where the scene is not in SI units, which are printed then too. */
+static void print_person(const double *start, const kz_ending *e, double omega) {
+  const bool si = !isnan(omega);
+  printf("theta = %.10g (%.6g deg), velocity = %.10g", start[0], start[0] * 180 / M_PI, start[1]);
+  si ? printf(" (%.6g rad/s)\n", start[1] * omega) : puts("");
   if (e->attractor < 0) {
     puts("ends on         nothing known: it has not settled");
     return;
   }
   printf("ends on         %s (attractor %d)\n", e->name, (int)e->attractor);
-  printf("settling time   %lld drive periods\n", (long long)e->settling_time);
+  printf("settling time   %lld drive periods", (long long)e->settling_time);
+  si ? printf(" (%.4g s)\n", (double)e->settling_time * 2 * M_PI / omega) : puts("");
   print_decision(e);
   if (e->period == 0) {
     puts("period          none: chaotic");
     return;
   }
-  printf("period          %d\nwinding         %d\nstrobe points   theta, velocity\n", (int)e->period, (int)e->winding);
-  for (int i = 0; i < e->period; i++) printf("  %18.12f  %18.12f\n", e->strobe_theta[i], e->strobe_velocity[i]);
+  printf("period          %d\nwinding         %d\nstrobe points   theta, velocity%s\n", (int)e->period, (int)e->winding,
+         si ? ", in deg and rad/s" : "");
+  for (int i = 0; i < e->period; i++) {
+    printf("  %18.12f  %18.12f", e->strobe_theta[i], e->strobe_velocity[i]);
+    si ? printf("  %12.6f  %12.6f\n", e->strobe_theta[i] * 180 / M_PI, e->strobe_velocity[i] * omega) : puts("");
+  }
 }
 
 static void print_list(const char *name, int n, const double *values) {
@@ -102,12 +110,17 @@ static void print_csv(const double *start, const kz_ending *e) {
 
 static void print_endings(const kz_options *options, const kz_starts *starts, const kz_ending *endings) {
   const bool table = options->n_operands == 2;
-  void (*print)(const double *, const kz_ending *) = options->json ? print_json : table ? print_csv : print_person;
   if (table && !options->json)
     puts(
         "theta,velocity,attractor,name,period,winding,settling_time,decided,strobe_theta,strobe_velocity,"
         "precision,error,other_attractor,other_name");
-  for (int64_t i = 0; i < starts->n; i++) print(starts->start + 2 * i, endings + i);
+  for (int64_t i = 0; i < starts->n; i++) {
+    const double *start = starts->start + 2 * i;
+    if (options->json || table)
+      (options->json ? print_json : print_csv)(start, endings + i);
+    else
+      print_person(start, endings + i, starts->pivot_frequency);
+  }
 }
 
 static kz_status answer(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
@@ -129,7 +142,7 @@ kz_status kz_app_where(const kz_options *options) {
   KZ_TRY(kz_scene_load(options->scene, &text, &length));
   kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
   if (status == KZ_OK) {
-    status = kz_starts_read(options, &starts);
+    status = kz_starts_read(options, scene.parameters.pivot_frequency, &starts);
     if (status == KZ_OK) status = answer(options, &scene, &starts);
     status = kz_scene_locate(status, text, length, options->scene, options->n_sets, options->sets);
     kz_scene_free(&scene);

@@ -63,7 +63,7 @@ static void write_row(const kz_key *keys, const kz_key *key, FILE *out) {
   char accepted[700];
   kz_key_accepts(keys, key, accepted, sizeof accepted);
   fprintf(out, "| `%s` | %s | %s | %s%s%s%s |\n", key->path, accepted, default_of(key), key->form ? "(" : "",
-          key->form ? (const char[2]){key->form, '\0'} : "", key->form ? ") " : "", key->help);
+          key->form ? key->form : "", key->form ? ") " : "", key->help);
 }
 
 /* A section for each top-level mapping. */

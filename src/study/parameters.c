@@ -14,13 +14,21 @@ static double pivot_frequency(const kz_pendulum_keys *written) {
   return isnan(written->frequency) ? written->pivot_frequency : 2 * M_PI * written->frequency;
 }
 
-/* k = M g r/(I omega^2), beta = b/(I omega), m = M r A/I (BSG Eq. 1 in drive time). */
+/* beta from whatever says how swings decay: b/(I omega), 2/(tau omega), or omega0/(Q omega); `lever` = M r/I, 1/m. */
+static double damping_of(const kz_pendulum_keys *written, double lever, double omega) {
+  if (!isnan(written->decay_time)) return 2 / (written->decay_time * omega);
+  if (!isnan(written->quality_factor)) return sqrt(lever * fabs(written->gravity)) / (written->quality_factor * omega);
+  const double inertia = isnan(written->length) ? written->inertia : written->mass * written->length * written->length;
+  return written->friction / (inertia * omega);
+}
+
+/* k = M g r/(I omega^2), m = M r A/I (BSG Eq. 1 in drive time); M r/I = 1/l of a point mass. */
 static kz_pendulum from_si(const kz_pendulum_keys *written) {
-  const double lever = written->mass * written->radius / written->inertia; /* M r/I, 1/m */
+  const double lever = isnan(written->length) ? written->mass * written->radius / written->inertia : 1 / written->length;
   const double omega = pivot_frequency(written);
   return (kz_pendulum){.k = lever * written->gravity / (omega * omega),
-                       .beta = written->friction / (written->inertia * omega),
-                       .m = lever * written->pivot_amplitude};
+                       .beta = damping_of(written, lever, omega),
+                       .m = lever * (isnan(written->amplitude) ? written->pivot_amplitude : written->amplitude)};
 }
 
 double kz_point_inertia(const kz_pendulum_keys *written) {
@@ -33,7 +41,7 @@ bool kz_inertia_is_possible(const kz_pendulum_keys *written) {
 
 static kz_pendulum from_written(const kz_pendulum_keys *written) {
   if (!isnan(written->drive_frequency)) return from_quality(written);
-  if (!isnan(written->mass)) return from_si(written);
+  if (!isnan(pivot_frequency(written))) return from_si(written);
   return (kz_pendulum){.k = written->k, .beta = written->damping, .m = written->m};
 }
 
@@ -45,9 +53,10 @@ static void fill_defined(kz_parameters *parameters) {
   parameters->drive_amplitude = p->m;
   parameters->pivot_frequency = pivot_frequency(written);
   parameters->drive_frequency = given ? written->drive_frequency : NAN;
-  parameters->quality_factor = given ? written->quality_factor : NAN;
+  parameters->quality_factor = written->quality_factor;
   if (!given && p->k > 0.0) parameters->drive_frequency = 1.0 / sqrt(p->k);
-  if (!given && p->k != 0.0 && p->beta > 0.0) parameters->quality_factor = sqrt(fabs(p->k)) / p->beta;
+  if (!given && isnan(written->quality_factor) && p->k != 0.0 && p->beta > 0.0)
+    parameters->quality_factor = sqrt(fabs(p->k)) / p->beta;
 }
 
 kz_status kz_parameters_resolve(kz_parameters *parameters) {

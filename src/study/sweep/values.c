@@ -20,6 +20,9 @@ const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(pivot_amplitude, "m"),
     KEY(pivot_frequency, "rad s-1"),
     KEY(frequency, "Hz"),
+    KEY(length, "m"),
+    KEY(amplitude, "m"),
+    KEY(decay_time, "s"),
 };
 
 const char *kz_sweep_words(void) {
@@ -40,7 +43,7 @@ bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, cons
     return false;
   }
   *pendulum = parameters.pendulum;
-  return pendulum->beta >= 0 && (isnan(parameters.written.mass) || kz_inertia_is_possible(&parameters.written));
+  return pendulum->beta >= 0 && (isnan(parameters.written.inertia) || kz_inertia_is_possible(&parameters.written));
 }
 
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum) {

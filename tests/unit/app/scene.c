@@ -59,8 +59,13 @@ static void forms_agree(void **state) {
       ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
        "pivot_amplitude: 0.12, pivot_frequency: 100}"), /* in brackets: clang takes two strings in a list for a forgotten comma */
       ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
-       "pivot_amplitude: 0.12, frequency: 15.915494309189533}")};
-  for (int i = 0; i < 4; i++) {
+       "pivot_amplitude: 0.12, frequency: 15.915494309189533}"),
+      ("pendulum={mass: 100 g, radius: 20cm, inertia: 80000 g*cm^2, friction: 0.014545454545454545 N m s, "
+       "gravity: 3305.7851239669425 cm/s^2, amplitude: 120 mm, frequency: 954.92965855137201 rpm}"),
+      ("pendulum={length: 40 cm, gravity: 33.057851239669425, amplitude: 12 cm, pivot_frequency: 15.915494309189533 Hz, "
+       "quality_factor: 5}"),
+      "pendulum={length: 0.4, gravity: 33.057851239669425, amplitude: 0.12, frequency: 100 rad/s, decay_time: 1100 ms}"};
+  for (int i = 0; i < 7; i++) {
     kz_scene scene;
     assert_int_equal(read_scene(GOOD, forms[i], &scene), KZ_OK);
     assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-15);
@@ -79,14 +84,17 @@ static void angles_are_in_degrees_where_they_say_so(void **state) {
   assert_int_equal(read_scene(GOOD, "basin.theta={min: -90 deg, max: 180 deg}", &scene), KZ_OK);
   assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI);
   kz_scene_free(&scene);
+  assert_int_equal(read_scene(GOOD, "basin.theta={min: -pi/2, max: 0.5 pi}", &scene), KZ_OK);
+  assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI / 2);
+  kz_scene_free(&scene);
   expect_refused(
       GOOD "  theta: {min: 1 degree, max: 2}\n", NULL,
       "s.yaml:4:16: basin.theta.min: \"1 degree\" is not a finite decimal number; it must be a number from -1000000 to "
-      "1000000 in rad, or in degrees such as 90 deg");
+      "1000000 in rad, or in degrees such as 90 deg, or a part of pi such as pi/2");
   expect_refused(
       GOOD "  theta: {min: 1 deg, max: 2e9 deg}\n", NULL,
       "s.yaml:4:28: basin.theta.max: \"2e9 deg\" is out of range; it must be a number from -1000000 to 1000000 in rad, "
-      "or in degrees such as 90 deg");
+      "or in degrees such as 90 deg, or a part of pi such as pi/2");
   expect_refused(GOOD, "basin.velocity.min=-1 deg",
                  "--set basin.velocity.min=-1 deg: basin.velocity.min: \"-1 deg\" is not a finite decimal number; it must be a "
                  "number from -10000 to 10000 in rad per drive radian");
@@ -96,12 +104,10 @@ static void the_frequency_of_the_pivot_is_given_once(void **state) {
   (void)state;
 #define SI "pendulum: {mass: 1, radius: 1, inertia: 1, friction: 1, gravity: 1, pivot_amplitude: 1"
 #define STUDY "basin: {velocity: {min: -1, max: 1}}\n"
-  expect_refused(
-      SI ", pivot_frequency: 10, frequency: 2}\n" STUDY, NULL,
-      "s.yaml:1:121: pendulum.frequency: contradicts pivot_frequency, which gives the same in rad s-1; give one of them");
-  expect_refused(
-      SI "}\n" STUDY, NULL,
-      "s.yaml:1:11: pendulum.pivot_frequency: is missing; it must be a number above 0 in rad s-1, or give frequency in Hz");
+  expect_refused(SI ", pivot_frequency: 10, frequency: 2}\n" STUDY, NULL,
+                 "s.yaml:1:121: pendulum.frequency: contradicts pivot_frequency, which gives the same; give one of them");
+  expect_refused(SI "}\n" STUDY, NULL,
+                 "s.yaml:1:11: pendulum.amplitude: the pendulum lacks: frequency (in Hz; or pivot_frequency in rad/s)");
 }
 
 static void undefined_parameters_are_nan(void **state) {
@@ -154,8 +160,8 @@ static void errors_name_place_key_and_remedy(void **state) {
       "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; it must be an integer from 1 to 4000000000");
   expect_refused("basin: {}\n", NULL,
                  "s.yaml:1:1: pendulum: is missing; it must be a mapping of quality_factor, drive_frequency, "
-                 "drive_amplitude, k, damping, m, mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency, "
-                 "frequency");
+                 "drive_amplitude, k, damping, m, length, frequency, amplitude, decay_time, gravity, mass, radius, inertia, "
+                 "friction, pivot_amplitude, pivot_frequency");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
                  "s.yaml:4:16: basin.theta.max: 1 is too small; it must be greater than min = 2");
   expect_refused(GOOD, "basin.theta.cout=2",
@@ -284,10 +290,13 @@ static void lists_are_read_and_written(void **state) {
       {"s: {w: [red, gren]}\n", "f:1:14: s.w: \"gren\" is unknown; it must be a list out of red, green (did you mean green?)",
        NULL},
       {"s: {r: []}\n",
-       "f:1:8: s.r: the value is an empty list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 deg",
+       "f:1:8: s.r: the value is an empty list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 "
+       "deg, or a part of pi such as pi/2",
        NULL},
       {"s: {r: 1}\n",
-       "f:1:8: s.r: \"1\" is not a list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 deg", NULL},
+       "f:1:8: s.r: \"1\" is not a list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 deg, or a "
+       "part of pi such as pi/2",
+       NULL},
       {"s: {b: yes}\n", "f:1:8: s.b: \"yes\" is neither true nor false; it must be true or false", NULL}};
   for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
     lists scene;

@@ -1,0 +1,84 @@
+/* Rules of the mapping pendulum: what a laboratory must say, and k, beta and m from what is written. */
+#include "pendulum_rules.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "axis_rules.h"
+
+static bool is_given(double value) {
+  return !isnan(value);
+}
+
+/* Whether the keys of a pendulum in SI units are the ones that are used. */
+static bool is_laboratory(const kz_pendulum_keys *w) {
+  return is_given(w->length) || is_given(w->mass) || is_given(w->radius) || is_given(w->inertia) || is_given(w->friction) ||
+         is_given(w->decay_time) || is_given(w->gravity) || is_given(w->amplitude) || is_given(w->pivot_amplitude) ||
+         is_given(w->frequency) || is_given(w->pivot_frequency);
+}
+
+/* Adds one thing that is missing to the list. */
+static void lack(char *list, size_t bytes, bool missing, const char *what) {
+  if (missing) snprintf(list + strlen(list), bytes - strlen(list), "%s%s", list[0] ? "; " : "", what);
+}
+
+/* All that is missing, in one message, each with what would do instead. */
+static void check_complete(kz_reading *reading, const kz_pendulum_keys *w) {
+  char list[700] = "";
+  const size_t n = sizeof list;
+  const bool body = is_given(w->radius) || is_given(w->inertia);
+  const bool friction_alone = is_given(w->friction) && !is_given(w->inertia);
+  if (!body && !is_given(w->length)) lack(list, n, true, "length (of a point mass; of another body mass, radius and inertia)");
+  lack(list, n, (body || friction_alone) && !is_given(w->mass), body ? "mass" : "mass (beside friction)");
+  lack(list, n, body && !is_given(w->radius), "radius");
+  lack(list, n, body && !is_given(w->inertia), "inertia");
+  lack(list, n, !is_given(w->frequency) && !is_given(w->pivot_frequency), "frequency (in Hz; or pivot_frequency in rad/s)");
+  lack(list, n, !is_given(w->amplitude) && !is_given(w->pivot_amplitude), "amplitude (of the pivot)");
+  lack(list, n, !is_given(w->quality_factor) && !is_given(w->decay_time) && !is_given(w->friction),
+       "quality_factor (or decay_time, or friction)");
+  if (list[0]) kz_complain(reading, NULL, "pendulum.amplitude", "the pendulum lacks: %s", list);
+}
+
+/* Two keys that give the same. */
+static void check_once(kz_reading *reading, double one, const char *name, double other, const char *other_name) {
+  char path[64];
+  snprintf(path, sizeof path, "pendulum.%s", other_name);
+  if (is_given(one) && is_given(other))
+    kz_complain(reading, kz_tree_find(reading->root, path), path, "contradicts %s, which gives the same; give one of them",
+                name);
+}
+
+static void check_laboratory(kz_reading *reading, const kz_pendulum_keys *w) {
+  check_once(reading, w->pivot_frequency, "pivot_frequency", w->frequency, "frequency");
+  check_once(reading, w->pivot_amplitude, "pivot_amplitude", w->amplitude, "amplitude");
+  check_once(reading, w->length, "length", w->radius, "radius");
+  check_once(reading, w->length, "length", w->inertia, "inertia");
+  check_once(reading, w->quality_factor, "quality_factor", w->decay_time, "decay_time");
+  check_once(reading, w->quality_factor, "quality_factor", w->friction, "friction");
+  check_once(reading, w->decay_time, "decay_time", w->friction, "friction");
+  check_complete(reading, w);
+  if (reading->message[0] || !is_given(w->inertia) || kz_inertia_is_possible(w)) return;
+  kz_complain(reading, kz_tree_find(reading->root, "pendulum.inertia"), "pendulum.inertia",
+              "%s is below pendulum.mass * pendulum.radius^2 = %s, the least of any body; at least that",
+              kz_shortest(w->inertia).text, kz_shortest(kz_point_inertia(w)).text);
+}
+
+void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
+  kz_pendulum_keys *written = &scene->parameters.written;
+  if (!kz_tree_child(reading->root, "pendulum")) { /* stability alone does without */
+    scene->parameters.pendulum = (kz_pendulum){NAN, NAN, NAN};
+    scene->parameters.quality_factor = scene->parameters.drive_frequency = scene->parameters.drive_amplitude = NAN;
+    scene->parameters.pivot_frequency = NAN;
+    return;
+  }
+  if (is_laboratory(written)) {
+    check_laboratory(reading, written);
+    if (!is_given(written->gravity)) written->gravity = KZ_STANDARD_GRAVITY;
+  }
+  if (reading->message[0] || kz_parameters_resolve(&scene->parameters) == KZ_OK) return;
+  char wrong[256];
+  snprintf(wrong, sizeof wrong, "%s", kz_message());
+  kz_message_clear();
+  kz_complain(reading, kz_tree_child(reading->root, "pendulum"), "pendulum", "%s", wrong);
+}

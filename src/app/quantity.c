@@ -1,0 +1,84 @@
+/* Numbers with a unit behind them: angles in degrees or parts of pi, lengths in cm, and so on. */
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene.h"
+
+enum { LONGEST = 64 };
+
+/* The number before a unit as a node of its own; `length` characters of the text. */
+static const char *read_number(const kz_node *node, size_t length, double *value) {
+  char number[LONGEST];
+  while (length > 0 && (node->text[length - 1] == ' ' || node->text[length - 1] == '*')) length--;
+  if (length == 0 || length >= sizeof number) return "is not a finite decimal number";
+  snprintf(number, sizeof number, "%.*s", (int)length, node->text);
+  const kz_node plain = {.kind = KZ_SCALAR, .text = number, .plain = true};
+  return kz_scalar_real(&plain, value);
+}
+
+/* Where the letters of pi stand, or NULL. */
+static const char *find_pi(const char *text, size_t *letters) {
+  const char *found = strstr(text, "pi"), *greek = strstr(text, "\xcf\x80");
+  *letters = 2;
+  return found ? found : greek;
+}
+
+bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor) {
+  size_t letters;
+  char *end;
+  const char *pi = find_pi(text, &letters);
+  if (!pi) return false;
+  size_t length = (size_t)(pi - text);
+  while (length > 0 && (text[length - 1] == ' ' || text[length - 1] == '*')) length--;
+  if (length == 0 || (length == 1 && (text[0] == '-' || text[0] == '+')))
+    snprintf(multiple, bytes, "%.*s1", (int)length, text);
+  else
+    snprintf(multiple, bytes, "%.*s", (int)length, text);
+  *divisor = 1;
+  if (pi[letters] == '\0') return true;
+  if (pi[letters] != '/' || !isdigit((unsigned char)pi[letters + 1])) return false;
+  *divisor = strtol(pi + letters + 1, &end, 10);
+  return *end == '\0' && *divisor > 0;
+}
+
+/* 180 degrees and pi are M_PI to the bit. */
+const char *kz_scalar_angle(const kz_node *node, double *value) {
+  static const char unit[] = "deg", sign[] = "\xc2\xb0";
+  char multiple[LONGEST];
+  long divisor;
+  const size_t length = node->kind == KZ_SCALAR ? strlen(node->text) : 0;
+  if (length > 3 && strcmp(node->text + length - 3, unit) == 0) {
+    const char *wrong = read_number(node, length - 3, value);
+    if (!wrong) *value = *value / 180 * M_PI;
+    return wrong;
+  }
+  if (length > 2 && strcmp(node->text + length - 2, sign) == 0) {
+    const char *wrong = read_number(node, length - 2, value);
+    if (!wrong) *value = *value / 180 * M_PI;
+    return wrong;
+  }
+  if (length == 0 || !kz_pi_parts(node->text, multiple, sizeof multiple, &divisor)) return kz_scalar_real(node, value);
+  const kz_node factor = {.kind = KZ_SCALAR, .text = multiple, .plain = true};
+  const char *wrong = kz_scalar_real(&factor, value);
+  if (!wrong) *value = *value * M_PI / (double)divisor;
+  return wrong;
+}
+
+const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value) {
+  double factor;
+  if (node->kind != KZ_SCALAR) return kz_scalar_real(node, value);
+  size_t length = strspn(node->text, "+-.0123456789");
+  const char *rest = node->text + length; /* an exponent belongs to the number */
+  if ((*rest == 'e' || *rest == 'E') &&
+      (isdigit((unsigned char)rest[1]) || ((rest[1] == '-' || rest[1] == '+') && isdigit((unsigned char)rest[2]))))
+    rest += 1 + strspn(rest + 1, "+-0123456789");
+  length = (size_t)(rest - node->text);
+  if (*rest == '\0' || length == 0) return kz_scalar_real(node, value);
+  const char *wrong = kz_unit_factor(rest, unit, &factor);
+  if (!wrong) wrong = read_number(node, length, value);
+  if (!wrong && factor != 1) *value *= factor;
+  return wrong;
+}

@@ -1,0 +1,117 @@
+/* Whether the pendulum stays at rest, down and inverted, and which amplitudes of the pivot would change it. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "kapitza/kernel.h"
+#include "kapitza/study.h"
+
+enum { POINTS = 4000, HALVINGS = 40 };
+
+/* The interval of drives m about `at` in which the position keeps its answer, or the next one in which it is stable. */
+typedef struct {
+  bool stable;      /* at the scene's drive */
+  double low, high; /* drives where it begins and ends to be stable; NaN = none was found */
+} rest;
+
+/* How drives are written by the user: m * scale, in `unit`, called `name`. */
+typedef struct {
+  const char *name, *unit;
+  double scale;
+} drive_words;
+
+static bool is_stable(double k, double beta, double m) {
+  double growth, angle;
+  uint8_t stable;
+  kz_linear_floquet(1, &k, &beta, &m, &growth, &angle, &stable);
+  return stable;
+}
+
+/* The drive between two of different answers at which the answer changes. */
+static double change_between(double k, double beta, double below, double above) {
+  const bool first = is_stable(k, beta, below);
+  for (int i = 0; i < HALVINGS; i++) {
+    const double middle = (below + above) / 2;
+    if (is_stable(k, beta, middle) == first)
+      below = middle;
+    else
+      above = middle;
+  }
+  return (below + above) / 2;
+}
+
+/* The nearest change from place `at` on in steps of `by`, and the place behind it; NaN where none is met. */
+static double next_change(const uint8_t *stable, double step, double k, double beta, int *at, int by) {
+  for (int i = *at; i >= 0 && i + by >= 0 && i + by < POINTS; i += by) {
+    if (stable[i] == stable[i + by]) continue;
+    *at = i + by;
+    return change_between(k, beta, step * (by > 0 ? i : i + by), step * (by > 0 ? i + by : i));
+  }
+  *at = -1;
+  return NAN;
+}
+
+/* The position at which gravity counts as k; `most`: the largest drive that is looked at. */
+static rest look(double k, double beta, double m, double most) {
+  double *ks = kz_malloc(5 * POINTS * sizeof *ks), *betas = ks + POINTS, *ms = ks + 2 * POINTS, *growth = ks + 3 * POINTS,
+         *angle = ks + 4 * POINTS;
+  uint8_t *stable = kz_malloc(POINTS);
+  const double step = most / (POINTS - 1);
+  for (int i = 0; i < POINTS; i++) {
+    ks[i] = k;
+    betas[i] = beta;
+    ms[i] = step * i;
+  }
+  kz_linear_floquet(POINTS, ks, betas, ms, growth, angle, stable);
+  int here = (int)lrint(fabs(m) / step), up, down;
+  rest found = {.stable = is_stable(k, beta, fabs(m)), .low = NAN, .high = NAN};
+  stable[here] = found.stable;
+  up = down = here;
+  if (found.stable) {
+    found.low = next_change(stable, step, k, beta, &down, -1);
+    found.high = next_change(stable, step, k, beta, &up, 1);
+  } else {
+    found.low = next_change(stable, step, k, beta, &up, 1);
+    if (up >= 0) {
+      found.high = next_change(stable, step, k, beta, &up, 1);
+    } else { /* none above: the last one below */
+      found.high = next_change(stable, step, k, beta, &down, -1);
+      found.low = next_change(stable, step, k, beta, &down, -1);
+    }
+  }
+  free(ks);
+  free(stable);
+  return found;
+}
+
+static drive_words words_of(const kz_parameters *p) {
+  const kz_pendulum_keys *w = &p->written;
+  if (!isnan(w->drive_amplitude)) return (drive_words){"drive_amplitude", "", 1};
+  if (isnan(p->pivot_frequency)) return (drive_words){"m", "", 1};
+  const double length = isnan(w->length) ? w->inertia / (w->mass * w->radius) : w->length;
+  return (drive_words){isnan(w->amplitude) ? "pivot_amplitude" : "amplitude", " mm", 1e3 * length};
+}
+
+static void print_position(const char *name, const rest *r, const drive_words *words, FILE *out) {
+  const double low = r->low * words->scale, high = r->high * words->scale;
+  fprintf(out, "%s is %s", name, r->stable ? "stable" : "unstable");
+  if (isnan(low) && isnan(high)) return;
+  fprintf(out, r->stable ? " (%s" : " (stable at %s", words->name);
+  if (!isnan(low)) fprintf(out, " from %.4g%s", low, words->unit);
+  if (!isnan(high)) fprintf(out, isnan(low) ? " up to %.4g%s" : " to %.4g%s", high, words->unit);
+  if (!isnan(low) && isnan(high)) fputs(" up", out);
+  fputc(')', out);
+}
+
+void kz_rest_print(const kz_parameters *parameters, FILE *out) {
+  const kz_pendulum *p = &parameters->pendulum;
+  if (isnan(p->k)) return;
+  const double most = 4 * fmax(fmax(fabs(p->m), sqrt(2 * fabs(p->k))), 0.25);
+  const drive_words words = words_of(parameters);
+  const rest down = look(p->k, p->beta, p->m, most), inverted = look(-p->k, p->beta, p->m, most);
+  fputs("at rest: ", out);
+  print_position("down", &down, &words, out);
+  fputs("; ", out);
+  print_position("inverted", &inverted, &words, out);
+  fputc('\n', out);
+}

@@ -1,0 +1,61 @@
+"""A pendulum in a laboratory: units in scenes, starts and sweeps, and what the first line of a summary says of its rest positions."""
+
+import re
+
+import kapitza
+import numpy as np
+import pytest
+from conftest import ROOT
+
+SCENE = ROOT / "scenes" / "laboratory.yaml"
+OMEGA = 2 * np.pi * 50
+
+
+def rest(text):
+    return next(line for line in text.splitlines() if line.startswith("at rest: "))
+
+
+def test_it_is_the_pendulum_that_it_says():
+    """k = g/(l omega^2), m = A/l, beta = omega0/(omega Q)."""
+    page = kapitza.check(SCENE).text
+    k, beta, m = (float(value) for value in re.search(r"k = (\S+), beta = (\S+), m = (\S+)", page).groups())
+    assert (k, m) == pytest.approx((9.80665 / (0.2 * OMEGA**2), 0.008 / 0.2), rel=1e-9)
+    assert beta == pytest.approx(np.sqrt(9.80665 / 0.2) / (OMEGA * 20), rel=1e-9)
+    again = kapitza.check(kapitza.check(SCENE).scene).text
+    assert f"k = {k:.10g}, beta = {beta:.10g}, m = {m:.10g}" in again
+
+
+@pytest.mark.parametrize(("amplitude", "words"), [
+    ("8 mm", "inverted is stable (amplitude from 6.306 mm to 90.9"),
+    ("3 mm", "inverted is unstable (stable at amplitude from 6.306 mm to 90.9"),
+    ("120 mm", "down is unstable (stable at amplitude"),
+])
+def test_the_first_line_says_what_stands(amplitude, words):
+    """6.306 mm: near A = l sqrt(2 k), the classical threshold A omega > sqrt(2 g l), which Q raises a little."""
+    page = kapitza.check(SCENE, set={"pendulum.amplitude": amplitude}).text
+    assert words in rest(page)
+    assert 6.306e-3 == pytest.approx(np.sqrt(2 * 9.80665 * 0.2) / OMEGA, rel=2e-3)
+
+
+def test_a_run_begins_with_that_line(tmp_path):
+    few = {"basin.theta.count": 8, "basin.velocity.count": 8, "basin.attractors.starts": 64}
+    result = kapitza.run(SCENE, set=few, progress=False)
+    assert result.summary.startswith("at rest: down is stable (amplitude up to")
+    assert result.pendulum["length"] == 0.2 and result.pendulum["pivot_amplitude"] == 0.008
+    assert result.pendulum["pivot_frequency"] == pytest.approx(OMEGA) and result.pendulum["quality_factor"] == 20
+
+
+def test_starts_in_laboratory_units(kapitza):
+    said = kapitza("where", SCENE, "175 deg", "3 rad/s").stdout
+    assert "theta = 3.054326191 (175 deg), velocity = 0.009549296586 (3 rad/s)" in said and "deg and rad/s" in said
+    assert re.search(r"settling time   (\d+) drive periods \(([\d.]+) s\)", said)
+    own = kapitza("where", ROOT / "scenes" / "small.yaml", "3 pi/4", "1 rad/s", status=2).stderr
+    assert "the scene is not in SI units" in own
+
+
+def test_sweeps_take_units():
+    swept = kapitza.sweep(SCENE, "amplitude", ("7 mm", "0.9 cm"), 2, "basin_fractions", starts=32, progress=False)
+    assert swept.group("sweep")["value"].values == pytest.approx([0.007, 0.009]) and swept.group("sweep")["value"].attrs["units"] == "m"
+    with pytest.raises(kapitza.SceneError, match="another quantity"):
+        kapitza.check({"pendulum": {"length": "20 cm", "frequency": 50, "amplitude": "8 mm", "quality_factor": 9},
+                       "sweep": {"parameter": "amplitude", "min": "1 mm", "max": "2 Hz", "count": 2, "measure": ["strobe"]}})
