@@ -10,6 +10,7 @@ _INVERTED: _Row = ("-inverted", "basin", ["--centre", "inverted", "--attractor",
 _FLUTTER: _Row = ("-flutter", "basin", ["--centre", "inverted", "--attractor", "flutter"])
 _SADDLES: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--dpi", "90"])
 _MANIFOLDS: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--manifolds", "--dpi", "90"])
+_LABORATORY: _Row = ("", "basin", ["--centre", "inverted", "--degrees", "--si"])
 _ORBIT: _Row = ("", "orbit", [])
 _PHASE: _Row = ("", "orbit", ["--panels", "phase,path"])
 _TIME: _Row = ("", "orbit", ["--panels", "time"])
@@ -64,6 +65,7 @@ _SCENES = {
     "chart-blackburn": [_ENDS],
     "chart-butikov": [_ENDS],
     "formula-errors": [_ERRORS],
+    "laboratory": [_LABORATORY],
     "manifolds-fig12": [_MANIFOLDS],
     "proof-fig12": [_PROVED],
     "saddles-fig12": [_SADDLES],
