@@ -59,13 +59,8 @@ static void forms_agree(void **state) {
       ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
        "pivot_amplitude: 0.12, pivot_frequency: 100}"), /* in brackets: clang takes two strings in a list for a forgotten comma */
       ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
-       "pivot_amplitude: 0.12, frequency: 15.915494309189533}"),
-      ("pendulum={mass: 100 g, radius: 20cm, inertia: 80000 g*cm^2, friction: 0.014545454545454545 N m s, "
-       "gravity: 3305.7851239669425 cm/s^2, amplitude: 120 mm, frequency: 954.92965855137201 rpm}"),
-      ("pendulum={length: 40 cm, gravity: 33.057851239669425, amplitude: 12 cm, pivot_frequency: 15.915494309189533 Hz, "
-       "quality_factor: 5}"),
-      "pendulum={length: 0.4, gravity: 33.057851239669425, amplitude: 0.12, frequency: 100 rad/s, decay_time: 1100 ms}"};
-  for (int i = 0; i < 7; i++) {
+       "pivot_amplitude: 0.12, frequency: 15.915494309189533}")};
+  for (int i = 0; i < 4; i++) {
     kz_scene scene;
     assert_int_equal(read_scene(GOOD, forms[i], &scene), KZ_OK);
     assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-15);
@@ -83,9 +78,6 @@ static void angles_are_in_degrees_where_they_say_so(void **state) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "basin.theta={min: -90 deg, max: 180 deg}", &scene), KZ_OK);
   assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI);
-  kz_scene_free(&scene);
-  assert_int_equal(read_scene(GOOD, "basin.theta={min: -pi/2, max: 0.5 pi}", &scene), KZ_OK);
-  assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI / 2);
   kz_scene_free(&scene);
   expect_refused(
       GOOD "  theta: {min: 1 degree, max: 2}\n", NULL,
