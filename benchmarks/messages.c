@@ -1,7 +1,7 @@
 /* Measures what messages cost, for benchmarks/scaling.py: mpirun -n 2 messages ROUNDS
  *
  * Printed as JSON, in seconds: `message`, one way; `answer`, what rank 0 needs for a request that is there (as
- * src/parallel/draw.c answers it); and `bandwidth`, bytes a second of a broadcast; each the
+ * src/parallel/dispatch.c answers it); and `bandwidth`, bytes a second of a broadcast; each the
  * lowest tenth of ROUNDS. */
 #include <mpi.h>
 #include <stdio.h>

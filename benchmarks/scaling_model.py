@@ -1,4 +1,4 @@
-"""Ranks that share tiles, event by event, by the rules of src/parallel/schedule.c, draw.c and pieces.c."""
+"""Ranks that share tiles, event by event, by the rules of src/parallel/schedule.c, dispatch.c and local_records.c."""
 
 import heapq
 import math
@@ -76,7 +76,7 @@ class Rank:
 
 
 class Stage:
-    """Tiles that are drawn: src/parallel/draw.c."""
+    """Tiles that are drawn: src/parallel/dispatch.c."""
 
     def __init__(self, seconds, ranks, costs, slower=1.0):
         self.seconds, self.costs, self.slower, self.desk = seconds, costs, slower, 0.0

@@ -222,7 +222,7 @@ int64_t kz_manifold_grow(const kz_pendulum *pendulum, const kz_branch *branch, i
 void kz_step_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *speed, double *error);
 
 /* The largest error of one period of the map table (`points` nodes an axis), rad. Needs the table. */
-double kz_dynamics_table_defect(kz_dynamics *dynamics, int32_t points);
+double kz_dynamics_table_error(kz_dynamics *dynamics, int32_t points);
 
 /* ---- proof ---- */
 

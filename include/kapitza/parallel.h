@@ -32,7 +32,7 @@ void kz_ranks_end(kz_ranks *ranks);
 /* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `ranks` may be NULL. */
 void kz_ranks_abandon(kz_ranks *ranks, kz_status status) __attribute__((noreturn));
 
-int kz_ranks_own(const kz_ranks *ranks);
+int kz_rank(const kz_ranks *ranks);
 int kz_ranks_count(const kz_ranks *ranks);
 
 /* The sum of `mine` over the ranks that share this rank's memory, and how many they are. Collective. */
@@ -121,13 +121,13 @@ typedef struct {
   int64_t tile;
   size_t bytes;
   void *data;
-} kz_piece;
+} kz_local_record;
 typedef struct {
   int64_t n, room;
-  kz_piece *list; /* [n], in no order */
-} kz_pieces;
-void kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes);
-void kz_pieces_free(kz_pieces *pieces);
+  kz_local_record *list; /* [n], in no order */
+} kz_local_records;
+void kz_local_records_add(kz_local_records *pieces, int64_t tile, const void *data, size_t bytes);
+void kz_local_records_free(kz_local_records *pieces);
 
 /* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, of kz_ranks only
  * kz_ranks_interrupted. */
@@ -140,12 +140,12 @@ typedef struct {
   kz_tile_fn work;
   void *context;
   bool keep; /* records go to the checkpoint as they finish, and are not done again on resume */
-  kz_pieces
+  kz_local_records
       *pieces;     /* not NULL: a record begins with a uint64_t, the bytes that it uses of record_bytes (a multiple of 8); it is
                         added here, on the rank that made it or, from a checkpoint, on any, and `records` is NULL */
   bool everywhere; /* all ranks receive all records; else only rank 0 */
   bool
-      together; /* all ranks do every tile together, in order, each with the same record (everywhere): `work` is collective and may
+      collective; /* all ranks do every tile together, in order, each with the same record (everywhere): `work` is collective and may
                       run stages, whose kept records last until its tile is finished */
 } kz_stage;
 
@@ -164,11 +164,11 @@ kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, d
 typedef struct {
   const char *name; /* for the progress line */
   size_t message_bytes;
-  kz_status (*make)(void *context, const kz_piece *piece, void *message, size_t *bytes);
+  kz_status (*make)(void *context, const kz_local_record *piece, void *message, size_t *bytes);
   kz_status (*take)(void *context, const void *message, size_t bytes);
   void *context;
 } kz_delivery;
 /* Delivers the pieces of all ranks. KZ_STOPPED as kz_stage_run. Collective. */
-kz_status kz_pieces_deliver(kz_ranks *ranks, const kz_pieces *pieces, const kz_delivery *delivery);
+kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *pieces, const kz_delivery *delivery);
 
 #endif

@@ -140,11 +140,11 @@ typedef struct {
 
 /* Study `tradeoff`: on the window of the basin. */
 typedef struct {
-  int64_t samples;     /* cells compared with quad precision */
-  kz_integers configs; /* indices in the table of configurations; none = all */
+  int64_t samples;      /* cells compared with quad precision */
+  kz_integers settings; /* indices in the table of settings; none = all */
 } kz_tradeoff_plan;
 
-/* The labels of the configurations that a trade-off compares, joined by '|'. */
+/* The labels of the settings that a trade-off compares, joined by '|'. */
 const char *kz_tradeoff_words(void);
 
 /* Study `sweep`. */
@@ -279,7 +279,7 @@ typedef struct {
   int64_t cells;
   double disk_bytes;   /* result file and checkpoint */
   double memory_bytes; /* of every rank */
-  double first_bytes;  /* of rank 0 besides */
+  double rank0_bytes;  /* of rank 0 besides */
   double shared_bytes; /* of all ranks together besides */
 } kz_cost;
 

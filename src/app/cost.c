@@ -16,7 +16,7 @@ kz_cost kz_cost_of(const kz_scene *scene) {
     total.cells += cost.cells;
     total.disk_bytes += cost.disk_bytes;
     total.memory_bytes = fmax(total.memory_bytes, cost.memory_bytes);
-    total.first_bytes = fmax(total.first_bytes, cost.first_bytes);
+    total.rank0_bytes = fmax(total.rank0_bytes, cost.rank0_bytes);
     total.shared_bytes = fmax(total.shared_bytes, cost.shared_bytes);
   }
   total.memory_bytes += PROCESS_BYTES;
@@ -36,9 +36,9 @@ void kz_cost_print_bytes(double bytes, char *text) {
 }
 
 kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
-  const bool first = !ranks || kz_ranks_own(ranks) == 0;
+  const bool first = !ranks || kz_rank(ranks) == 0;
   const double share = cost->shared_bytes / (ranks ? kz_ranks_count(ranks) : 1);
-  const double mine = cost->memory_bytes + share + (first ? cost->first_bytes : 0), memory = node_memory();
+  const double mine = cost->memory_bytes + share + (first ? cost->rank0_bytes : 0), memory = node_memory();
   double sum = mine;
   int node_ranks = 1;
   char needed[32], there[32];

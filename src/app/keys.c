@@ -162,7 +162,7 @@ const kz_key kz_keys[] = {
     MAPPING("tradeoff", "", AT(has_tradeoff),
             "Study: time and wrong labels of many settings on the basin's window, compared with quad precision."),
     INTEGER("tradeoff.samples", 10, 1e6, "4000", tradeoff.samples, "Random cells that are compared."),
-    WORDS("tradeoff.settings", kz_tradeoff_words, "", tradeoff.configs, "What is compared; left out: all of them."),
+    WORDS("tradeoff.settings", kz_tradeoff_words, "", tradeoff.settings, "What is compared; left out: all of them."),
 
     MAPPING("attractors", "", AT(has_attractors), "Study: the attractors of a window of starts, without a grid."),
     MAPPING("attractors.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),

@@ -55,7 +55,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   const kz_cost cost = kz_cost_of(scene);
   kz_cost_print_bytes(cost.disk_bytes, disk);
   kz_cost_print_bytes(cost.memory_bytes, memory);
-  kz_cost_print_bytes(cost.first_bytes, first);
+  kz_cost_print_bytes(cost.rank0_bytes, first);
   kz_cost_print_bytes(cost.shared_bytes, shared);
   const kz_pendulum *p = &scene->parameters.pendulum;
   printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);

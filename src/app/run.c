@@ -266,7 +266,7 @@ kz_status kz_app_run(const kz_options *options) {
   kz_status status = kz_ranks_start(NULL, NULL, &j.run.ranks);
   if (status == KZ_OK) {
     kz_abandon_run(&j.run, NULL);
-    j.first = kz_ranks_own(j.run.ranks) == 0;
+    j.first = kz_rank(j.run.ranks) == 0;
     status = carry_out(&j);
     if (j.first && options->timings && (status == KZ_OK || status == KZ_STOPPED)) kz_timings_print(j.run.ranks, stdout);
     status = kz_scene_locate(status, j.text, j.length, options->scene, options->n_sets, options->sets);

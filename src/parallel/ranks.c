@@ -72,7 +72,7 @@ void kz_ranks_abandon(kz_ranks *ranks, kz_status status) {
   _exit(status);
 }
 
-int kz_ranks_own(const kz_ranks *ranks) {
+int kz_rank(const kz_ranks *ranks) {
   return ranks ? ranks->rank : 0;
 }
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "bytes.h"
-#include "draw.h"
+#include "dispatch.h"
 #include "progress.h"
 #include "ranks.h"
 #include "record_buffer.h"
@@ -25,7 +25,7 @@ typedef struct {
   int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
   kz_record_buffer buffered;
   void *buffer; /* of the delivery, rank 0; of a record among pieces */
-  kz_draw draw;
+  kz_dispatch draw;
   kz_work work;
   kz_meter meter;
 } stage_run;
@@ -63,7 +63,7 @@ static void recall_pieces(stage_run *run, int64_t *done) {
   for (int64_t tile = ranks->rank; tile < run->stage->n_tiles; tile += ranks->size) {
     if (!kz_section_recall(run->checkpoint, &run->section, tile, run->buffer)) continue;
     done[tile] = 1;
-    kz_pieces_add(run->stage->pieces, tile, run->buffer, kz_section_used(&run->section, run->buffer));
+    kz_local_records_add(run->stage->pieces, tile, run->buffer, kz_section_used(&run->section, run->buffer));
   }
 }
 
@@ -99,7 +99,7 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
   else
     record = kz_record_buffer_add(&run->buffered, tile);
   KZ_TRY(stage->work(stage->context, tile, record));
-  if (stage->pieces) kz_pieces_add(stage->pieces, tile, record, *(uint64_t *)record);
+  if (stage->pieces) kz_local_records_add(stage->pieces, tile, record, *(uint64_t *)record);
   return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
 }
 
@@ -107,7 +107,7 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
 static kz_status do_tiles(stage_run *run) {
   for (;;) {
     int64_t drawn;
-    KZ_TRY(kz_draw_next(&run->draw, &drawn));
+    KZ_TRY(kz_dispatch_next(&run->draw, &drawn));
     if (drawn < 0) return KZ_OK;
     kz_meter_show(&run->meter, run->stage->n_tiles - run->n_left + drawn);
     const int64_t tile = run->left ? run->left[drawn] : drawn;
@@ -116,14 +116,14 @@ static kz_status do_tiles(stage_run *run) {
     if (status == KZ_OK) status = do_tile(run, tile);
     kz_work_note(&run->work, tile, &watch);
     if (status != KZ_OK) {
-      KZ_TRY(kz_draw_halt(&run->draw));
+      KZ_TRY(kz_dispatch_halt(&run->draw));
       return status;
     }
   }
 }
 
 /* A tile by all ranks. Sections of the stages that it runs count for this tile alone; those of the next tile take their place. */
-static kz_status do_together(stage_run *run, int64_t tile) {
+static kz_status do_collectively(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   kz_checkpoint *checkpoint = run->checkpoint;
   const kz_checkpoint outside = *checkpoint;
@@ -137,19 +137,19 @@ static kz_status do_together(stage_run *run, int64_t tile) {
   return kz_ranks_agree(run->ranks, status);
 }
 
-static kz_status work_together(stage_run *run) {
+static kz_status work_collectively(stage_run *run) {
   for (int64_t i = 0; i < run->n_left; ++i) {
     kz_meter_show(&run->meter, run->stage->n_tiles - run->n_left + i);
-    KZ_TRY(do_together(run, run->left ? run->left[i] : i));
+    KZ_TRY(do_collectively(run, run->left ? run->left[i] : i));
   }
   return KZ_OK;
 }
 
-static kz_status work(stage_run *run) {
-  kz_draw_prepare(&run->draw, run->ranks, run->n_left);
-  kz_draw_begin(&run->draw);
+static kz_status dispatch_tiles(stage_run *run) {
+  kz_dispatch_prepare(&run->draw, run->ranks, run->n_left);
+  kz_dispatch_begin(&run->draw);
   const kz_status status = do_tiles(run);
-  const kz_status ended = kz_draw_end(&run->draw);
+  const kz_status ended = kz_dispatch_end(&run->draw);
   return kz_ranks_agree(run->ranks, status == KZ_OK ? ended : status);
 }
 
@@ -168,10 +168,10 @@ static kz_status run_stage(stage_run *run) {
   double idle = 0;
   kz_work_begin(&run->work, run->ranks, run->stage->name);
   const kz_stopwatch watch = kz_stopwatch_start();
-  const bool together = run->stage->together;
-  kz_status status = together ? kz_ranks_agree(run->ranks, work_together(run)) : work(run);
+  const bool collective = run->stage->collective;
+  kz_status status = collective ? kz_ranks_agree(run->ranks, work_collectively(run)) : dispatch_tiles(run);
   kz_work_end(&run->work);
-  if (status == KZ_OK && !together) status = kz_timing_note(run->ranks, run->n_left, &watch, &run->work, &idle);
+  if (status == KZ_OK && !collective) status = kz_timing_note(run->ranks, run->n_left, &watch, &run->work, &idle);
   kz_meter_end(&run->meter, status == KZ_OK, idle);
   KZ_TRY(status);
   return deliver(run);

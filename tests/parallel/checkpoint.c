@@ -24,7 +24,7 @@ static kz_status fill(void *context, int64_t tile, void *bytes) {
 }
 
 static bool first(void) {
-  return kz_ranks_own(ranks) == 0;
+  return kz_rank(ranks) == 0;
 }
 
 static int64_t sum(int64_t mine) {

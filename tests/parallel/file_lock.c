@@ -25,7 +25,7 @@ static pid_t lock_for(double seconds) {
 /* Opens against a process that holds the file for so long or until the end of the test; the time it took. */
 static double open_against(double seconds, kz_status expected) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
-  const pid_t child = kz_ranks_own(ranks) == 0 ? lock_for(seconds) : 0;
+  const pid_t child = kz_rank(ranks) == 0 ? lock_for(seconds) : 0;
   const double begun = kz_clock();
   const kz_status status = open_checkpoint(&plan);
   const double took = kz_clock() - begun;
@@ -37,14 +37,14 @@ static double open_against(double seconds, kz_status expected) {
 static void orphans_are_waited_for(void **state) {
   (void)state;
   const double took = open_against(1.5, KZ_OK);
-  assert_all(kz_ranks_own(ranks) != 0 || (took > 1.0));
+  assert_all(kz_rank(ranks) != 0 || (took > 1.0));
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
 static void a_running_program_is_refused(void **state) {
   (void)state;
   const double took = open_against(60, KZ_REFUSED);
-  assert_all(kz_ranks_own(ranks) != 0 || took > 14.0);
+  assert_all(kz_rank(ranks) != 0 || took > 14.0);
 }
 
 static void a_rank_of_this_run_holds_it(void **state) {

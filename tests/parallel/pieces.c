@@ -28,7 +28,7 @@ static kz_status fill(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_status run(job *j, kz_pieces *pieces) {
+static kz_status run(job *j, kz_local_records *pieces) {
   const kz_stage stage = {
       .name = "pieces", .n_tiles = N_TILES, .record_bytes = MOST, .work = fill, .context = j, .keep = true, .pieces = pieces};
   return run_stage(&stage, NULL);
@@ -40,7 +40,7 @@ static size_t padding_of(int64_t tile) {
 }
 
 /* A message: the tile, and the last byte of its record; padding. */
-static kz_status make(void *context, const kz_piece *piece, void *message, size_t *bytes) {
+static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
   const job *j = context;
   if (piece->tile == j->failing) return kz_fail(KZ_FAILED, "tile %lld fails", (long long)piece->tile);
   const int64_t facts[] = {piece->tile, (int64_t)piece->bytes, ((const unsigned char *)piece->data)[piece->bytes - 1]};
@@ -64,13 +64,13 @@ static kz_status take(void *context, const void *message, size_t bytes) {
   return KZ_OK;
 }
 
-static kz_status deliver(job *j, const kz_pieces *pieces) {
+static kz_status deliver(job *j, const kz_local_records *pieces) {
   const kz_delivery delivery = {.name = "mail", .message_bytes = MOST + 64, .make = make, .take = take, .context = j};
-  return kz_pieces_deliver(ranks, pieces, &delivery);
+  return kz_local_records_deliver(ranks, pieces, &delivery);
 }
 
 static bool has_all(const job *j) {
-  for (int tile = 0; tile < N_TILES && kz_ranks_own(ranks) == 0; ++tile)
+  for (int tile = 0; tile < N_TILES && kz_rank(ranks) == 0; ++tile)
     if (j->taken[tile] != 1) return false;
   return true;
 }
@@ -88,39 +88,39 @@ static int64_t sum(int64_t mine) {
 static void each_piece_comes_once(void **state) {
   (void)state;
   job j = {.failing = -1};
-  kz_pieces pieces = {0};
+  kz_local_records pieces = {0};
   assert_all(run(&j, &pieces) == KZ_OK && sum(pieces.n) == N_TILES);
   assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
-  kz_pieces_free(&pieces);
+  kz_local_records_free(&pieces);
 }
 
 static void a_failure_on_the_way_reaches_all(void **state) {
   (void)state;
   job j = {.failing = -1};
-  kz_pieces pieces = {0};
+  kz_local_records pieces = {0};
   assert_all(run(&j, &pieces) == KZ_OK);
   j.failing = N_TILES / 2;
   assert_all(deliver(&j, &pieces) == KZ_FAILED);
   j = (job){.failing = -1};
   assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
-  kz_pieces_free(&pieces);
+  kz_local_records_free(&pieces);
 }
 
 static void spoil(int64_t tile) {
   const int file = open(path, O_WRONLY);
   const off_t slot = 2 * PAGE + tile * (off_t)(MOST + PAGE); /* header, head of the section */
-  assert_all(kz_ranks_own(ranks) != 0 || pwrite(file, "\xa5", 1, slot + 30) == 1);
+  assert_all(kz_rank(ranks) != 0 || pwrite(file, "\xa5", 1, slot + 30) == 1);
   close(file);
 }
 
 static void finished_pieces_are_found_again(void **state) {
   (void)state;
   job j = {.failing = 45};
-  kz_pieces pieces = {0};
+  kz_local_records pieces = {0};
   open_pieces(false);
   assert_all(run(&j, &pieces) == KZ_FAILED);
   assert_all(close_checkpoint(false) == KZ_OK);
-  kz_pieces_free(&pieces);
+  kz_local_records_free(&pieces);
   const int64_t done = sum(j.done);
   spoil(7);
   struct stat facts;
@@ -130,7 +130,7 @@ static void finished_pieces_are_found_again(void **state) {
   assert_all(run(&j, &pieces) == KZ_OK && sum(j.done) == N_TILES - done + 1 && sum(pieces.n) == N_TILES);
   assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
   assert_all(close_checkpoint(true) == KZ_OK);
-  kz_pieces_free(&pieces);
+  kz_local_records_free(&pieces);
 }
 
 int main(void) {

@@ -36,7 +36,7 @@ static inline kz_status close_checkpoint(bool complete) {
 #define assert_all(condition) assert_on_all((condition), #condition, __LINE__)
 
 static inline void assert_on_all(int holds, const char *text, int line) {
-  if (!holds) print_error("rank %d: %s is false (line %d); message: %s\n", kz_ranks_own(ranks), text, line, kz_message());
+  if (!holds) print_error("rank %d: %s is false (line %d); message: %s\n", kz_rank(ranks), text, line, kz_message());
   kz_message_clear();
   const kz_status agreed = kz_ranks_agree(ranks, holds ? KZ_OK : KZ_FAILED);
   kz_message_clear();
@@ -65,7 +65,7 @@ static inline int run_ranks_with_path(const struct CMUnitTest *tests, size_t n, 
   kz_ranks_broadcast(ranks, folder, sizeof folder);
   snprintf(path, bytes, "%s/a.checkpoint", folder);
   const int failed = _cmocka_run_group_tests("ranks", tests, n, NULL, NULL);
-  if (kz_ranks_own(ranks) == 0) {
+  if (kz_rank(ranks) == 0) {
     unlink(path);
     rmdir(folder);
   }

@@ -45,9 +45,9 @@ static void records_arrive_on_rank_0(void **state) {
   (void)state;
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
-  record *records = kz_ranks_own(ranks) == 0 ? malloc(N_TILES * sizeof *records) : NULL;
+  record *records = kz_rank(ranks) == 0 ? malloc(N_TILES * sizeof *records) : NULL;
   assert_all(run_stage(&stage, records) == KZ_OK);
-  assert_all(kz_ranks_own(ranks) != 0 || is_right(records, N_TILES));
+  assert_all(kz_rank(ranks) != 0 || is_right(records, N_TILES));
   assert_all(j.dirty == 0);
   free(records);
 }
@@ -153,21 +153,21 @@ static void rank_0_answers_amid_its_own_tile(void **state) {
   (void)state;
   if (kz_ranks_count(ranks) == 1) skip();
   tally t = {.path = "/tmp/kapitza-tally-XXXXXX"};
-  t.file = kz_ranks_own(ranks) == 0 ? mkstemp(t.path) : -1;
+  t.file = kz_rank(ranks) == 0 ? mkstemp(t.path) : -1;
   kz_ranks_broadcast(ranks, t.path, sizeof t.path);
-  if (kz_ranks_own(ranks) > 0) t.file = open(t.path, O_WRONLY);
+  if (kz_rank(ranks) > 0) t.file = open(t.path, O_WRONLY);
   assert_all(fcntl(t.file, F_SETFL, O_APPEND) == 0);
   const kz_stage stage = {.name = "wait", .n_tiles = N_TILES, .record_bytes = 1, .work = wait_for_others, .context = &t};
   char records[N_TILES];
   const kz_status status = run_stage(&stage, records);
-  assert_all(kz_ranks_own(ranks) != 0 || unlink(t.path) == 0);
+  assert_all(kz_rank(ranks) != 0 || unlink(t.path) == 0);
   assert_all(status == KZ_OK && count(&t) == N_TILES);
   close(t.file);
 }
 
 static void the_worst_status_wins(void **state) {
   (void)state;
-  const int last = kz_ranks_count(ranks) - 1, rank = kz_ranks_own(ranks);
+  const int last = kz_ranks_count(ranks) - 1, rank = kz_rank(ranks);
   const kz_status mine = rank == last ? kz_fail(KZ_REFUSED, "rank %d", rank) : kz_fail(KZ_STOPPED, "stop");
   const kz_status agreed = kz_ranks_agree(ranks, mine);
   char expected[32];
@@ -179,7 +179,7 @@ static void the_worst_status_wins(void **state) {
 static void broadcast_reaches_all(void **state) {
   (void)state;
   char text[100000];
-  memset(text, kz_ranks_own(ranks) == 0 ? 'x' : 'y', sizeof text);
+  memset(text, kz_rank(ranks) == 0 ? 'x' : 'y', sizeof text);
   assert_all(kz_ranks_broadcast(ranks, text, sizeof text) == KZ_OK);
   assert_all(text[0] == 'x' && text[sizeof text - 1] == 'x');
 }

@@ -41,7 +41,7 @@ static void the_time_limit_stops_and_resumes(void **state) {
   assert_all(close_checkpoint(false) == KZ_OK);
   kz_ranks_set_time_limit(ranks, 0);
   assert_all(open_checkpoint(&plan) == KZ_OK);
-  assert_all(run(&more, true) == KZ_OK && (kz_ranks_own(ranks) != 0 || is_right()));
+  assert_all(run(&more, true) == KZ_OK && (kz_rank(ranks) != 0 || is_right()));
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
@@ -59,7 +59,7 @@ static void a_signal_to_one_rank_stops_all(void **state) {
   assert_all(done < N_TILES / 4); /* the others hear of it with their next batch */
   assert_all(run(&done, true) == KZ_STOPPED);
   assert_all(close_checkpoint(false) == KZ_OK);
-  assert_all(kz_ranks_own(ranks) != 0 || unlink(path) == 0);
+  assert_all(kz_rank(ranks) != 0 || unlink(path) == 0);
 }
 
 static void nothing_is_promised_where_nothing_was_kept(void **state) {

@@ -62,7 +62,7 @@ static kz_status work(const kz_run *run, const char *path, bool resume, int log)
   KZ_TRY(kz_ranks_broadcast(run->ranks, &done, sizeof done));
   if (done) return KZ_OK;
   KZ_TRY(run_stages(run, log));
-  return kz_ranks_agree(run->ranks, kz_ranks_own(run->ranks) == 0 ? save(path) : KZ_OK);
+  return kz_ranks_agree(run->ranks, kz_rank(run->ranks) == 0 ? save(path) : KZ_OK);
 }
 
 static kz_status run_worker(kz_ranks *ranks, const char *path, bool resume) {

@@ -40,7 +40,7 @@ static kz_status read_load(const char *path, load *l) {
 }
 
 static kz_status run(kz_ranks *ranks, const char *path, double slower) {
-  load l = {.slower = kz_ranks_count(ranks) > 1 && kz_ranks_own(ranks) == kz_ranks_count(ranks) - 1 ? slower : 1};
+  load l = {.slower = kz_ranks_count(ranks) > 1 && kz_rank(ranks) == kz_ranks_count(ranks) - 1 ? slower : 1};
   kz_status status = read_load(path, &l);
   char *records = calloc((size_t)l.n + 1, 1);
   if (status == KZ_OK && !records) status = kz_fail(KZ_FAILED, "out of memory");

@@ -55,7 +55,7 @@ contains
   end subroutine table_set
 
   !> Sampled over the speeds of the window and what one period adds, without the table's margin.
-  function defect(handle, points) bind(C, name='kz_dynamics_table_defect') result(largest)
+  function defect(handle, points) bind(C, name='kz_dynamics_table_error') result(largest)
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: points
     real(dp) :: largest

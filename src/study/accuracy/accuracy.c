@@ -22,35 +22,35 @@ enum { MOST = 32 }; /* candidates */
 /* The candidates in ascending order of their cost on these cells. */
 typedef struct {
   const kz_reference_labels *reference;
-  const kz_config *ladder[MOST];
+  const kz_setting *candidates[MOST];
   int64_t count, first;
 } walk;
 
 static void order(const kz_reference_labels *reference, walk *w) {
   double cost[MOST];
-  const kz_config *candidate[MOST];
+  const kz_setting *candidate[MOST];
   int64_t rank[MOST];
-  const double mean_periods = kz_reference_labels_sum(reference).mean_periods, cells = (double)kz_own_cells(reference->plan);
+  const double mean_periods = kz_reference_labels_sum(reference).mean_periods, cells = (double)kz_unique_cells(reference->plan);
   *w = (walk){.reference = reference};
-  for (int i = 0; i < kz_config_count && w->count < MOST; i++) {
-    if (!kz_configs[i].candidate) continue;
-    cost[w->count] = kz_config_cost(kz_configs + i, cells, mean_periods);
-    candidate[w->count++] = kz_configs + i;
+  for (int i = 0; i < kz_setting_count && w->count < MOST; i++) {
+    if (!kz_settings[i].candidate) continue;
+    cost[w->count] = kz_setting_cost(kz_settings + i, cells, mean_periods);
+    candidate[w->count++] = kz_settings + i;
   }
   kz_cost_order(w->count, cost, rank);
-  for (int64_t i = 0; i < w->count; i++) w->ladder[i] = candidate[rank[i]];
+  for (int64_t i = 0; i < w->count; i++) w->candidates[i] = candidate[rank[i]];
 }
 
 static kz_status try_config(void *context, int64_t tile, void *record) {
   const walk *w = context;
-  return kz_config_measure(w->ladder[w->first + tile], w->reference, 0, record);
+  return kz_setting_measure(w->candidates[w->first + tile], w->reference, 0, record);
 }
 
-/* Tries the configurations from the cheapest on, two at a time; the first that meets the accuracy is chosen, else `exact`. */
-static kz_status climb(walk *w, const kz_run *run, double accuracy, kz_choice *choice) {
+/* Tries the settings from the cheapest on, two at a time; the first that meets the accuracy is chosen, else `exact`. */
+static kz_status escalate(walk *w, const kz_run *run, double accuracy, kz_choice *choice) {
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
   kz_measured measured[2];
-  for (w->first = 0; w->first < w->count && !choice->config; w->first += step) {
+  for (w->first = 0; w->first < w->count && !choice->setting; w->first += step) {
     const int64_t left = w->count - w->first;
     kz_stage stage = {.name = "settings",
                       .n_tiles = left < step ? left : step,
@@ -60,18 +60,19 @@ static kz_status climb(walk *w, const kz_run *run, double accuracy, kz_choice *c
                       .keep = true,
                       .everywhere = true};
     KZ_TRY(kz_stage_run(run, &stage, measured));
-    for (int64_t i = 0; i < stage.n_tiles && !choice->config; i++) {
+    for (int64_t i = 0; i < stage.n_tiles && !choice->setting; i++) {
       choice->tried++;
       choice->wrong = measured[i].wrong;
-      if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy) choice->config = w->ladder[w->first + i];
+      if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy)
+        choice->setting = w->candidates[w->first + i];
     }
   }
-  if (!choice->config) choice->config = kz_config_exact;
+  if (!choice->setting) choice->setting = kz_setting_exact;
   return KZ_OK;
 }
 
 static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
-  if (choice->config == kz_config_exact) {
+  if (choice->setting == kz_setting_exact) {
     fprintf(summary, "accuracy %.10g: exact: every label is decided or flagged", accuracy);
     if (choice->samples > 0)
       fprintf(summary, "; of the %lld other settings tried none meets it on %lld cells", (long long)choice->tried,
@@ -83,7 +84,7 @@ static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
   fprintf(summary,
           "accuracy %.10g: %s, the cheapest of %lld settings tried that meets it: %lld of %lld cells wrong, at most %.3f %% "
           "(95 %%); the last place of the start alone flips %.3f %%\n",
-          accuracy, choice->config->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
+          accuracy, choice->setting->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
           100 * wrong.high, 100 * flips.share);
 }
 
@@ -91,7 +92,7 @@ static kz_status choose(const kz_reference_labels *reference, const kz_run *run,
   walk w;
   order(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
-  return climb(&w, run, accuracy, choice);
+  return escalate(&w, run, accuracy, choice);
 }
 
 kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds) {
@@ -105,7 +106,7 @@ kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds) {
   if (status == KZ_OK) order(&reference, &w);
   for (int64_t i = 0; i < FEW && status == KZ_OK; i++) {
     kz_measured measured;
-    status = kz_config_measure(w.ladder[i], &reference, 0, &measured);
+    status = kz_setting_measure(w.candidates[i], &reference, 0, &measured);
     taken += measured.set_up + measured.cell * (double)samples;
   }
   if (status == KZ_OK) *seconds += taken / FEW * (double)w.count / 2;
@@ -117,7 +118,7 @@ kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store 
   const double accuracy = scene->basin.accuracy;
   kz_reference_labels reference = {0};
   if (samples_for(accuracy) == 0) {
-    *choice = (kz_choice){.config = kz_config_exact};
+    *choice = (kz_choice){.setting = kz_setting_exact};
     if (summary) tell(choice, accuracy, summary);
     return KZ_OK;
   }
@@ -134,8 +135,8 @@ kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store 
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store) {
   const kz_share wrong = kz_share_of(choice->wrong, choice->samples);
   KZ_TRY(kz_store_real(store, "basin", "accuracy", accuracy));
-  KZ_TRY(kz_store_text(store, "basin", "setting", choice->config->label));
-  if (choice->config == kz_config_exact) return KZ_OK;
+  KZ_TRY(kz_store_text(store, "basin", "setting", choice->setting->label));
+  if (choice->setting == kz_setting_exact) return KZ_OK;
   KZ_TRY(kz_store_integer(store, "basin", "samples", choice->samples));
   KZ_TRY(kz_store_real(store, "basin", "wrong", wrong.share));
   KZ_TRY(kz_store_real(store, "basin", "wrong_low", wrong.low));

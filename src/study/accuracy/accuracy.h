@@ -2,15 +2,15 @@
 #ifndef KAPITZA_STUDY_ACCURACY_H
 #define KAPITZA_STUDY_ACCURACY_H
 
-#include "config.h"
+#include "setting.h"
 
 /* What was chosen and why. */
 typedef struct {
-  const kz_config *config;
+  const kz_setting *setting;
   int64_t samples, wrong, flipped, tried;
 } kz_choice;
 
-/* The cheapest configuration by kz_config_cost whose share of wrong labels of the sample is at most 1 - accuracy at the upper
+/* The cheapest setting by kz_setting_cost whose share of wrong labels of the sample is at most 1 - accuracy at the upper
  * end of its 95 % interval, or method exact, where none is or accuracy is 1. Collective. */
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice);
 

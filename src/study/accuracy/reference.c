@@ -177,7 +177,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
 
 /* What rank 0 found in the cache, on every rank. */
 static kz_status share_known(const kz_run *run, const char *path, kz_reference_labels *reference, int64_t *known) {
-  *known = kz_ranks_own(run->ranks) == 0 && path ? kz_reference_labels_recall(path, reference) : 0;
+  *known = kz_rank(run->ranks) == 0 && path ? kz_reference_labels_recall(path, reference) : 0;
   KZ_TRY(kz_ranks_broadcast(run->ranks, known, sizeof *known));
   return kz_ranks_broadcast(run->ranks, reference->labels, (size_t)*known * sizeof *reference->labels);
 }

@@ -1,6 +1,6 @@
-/* Study `tradeoff`: many configurations on the cells of one basin, each with its time and its share of wrong labels.
+/* Study `tradeoff`: many settings on the cells of one basin, each with its time and its share of wrong labels.
  *
- * reference labels of a sample -> one tile per configuration, done by one rank alone -> table, file. */
+ * reference labels of a sample -> one tile per setting, done by one rank alone -> table, file. */
 #include "tradeoff.h"
 
 #include <math.h>
@@ -20,19 +20,19 @@ bool kz_tradeoff_wanted(const kz_scene *scene) {
   return scene->has_tradeoff;
 }
 
-static int64_t count_configs(const kz_tradeoff_plan *plan) {
-  return plan->configs.count > 0 ? plan->configs.count : kz_config_count;
+static int64_t count_settings(const kz_tradeoff_plan *plan) {
+  return plan->settings.count > 0 ? plan->settings.count : kz_setting_count;
 }
 
-static const kz_config *config_at(const kz_tradeoff_plan *plan, int64_t i) {
-  return kz_configs + (plan->configs.count > 0 ? plan->configs.values[i] : i);
+static const kz_setting *setting_at(const kz_tradeoff_plan *plan, int64_t i) {
+  return kz_settings + (plan->settings.count > 0 ? plan->settings.values[i] : i);
 }
 
 kz_cost kz_tradeoff_cost(const kz_scene *scene) {
   double nodes = 0;
-  for (int64_t i = 0; i < count_configs(&scene->tradeoff); i++) {
-    const kz_config *config = config_at(&scene->tradeoff, i);
-    nodes = fmax(nodes, (double)config->nodes * (double)config->nodes);
+  for (int64_t i = 0; i < count_settings(&scene->tradeoff); i++) {
+    const kz_setting *setting = setting_at(&scene->tradeoff, i);
+    nodes = fmax(nodes, (double)setting->nodes * (double)setting->nodes);
   }
   return (kz_cost){.disk_bytes = 1e6, .memory_bytes = 120 * nodes};
 }
@@ -54,23 +54,23 @@ char *kz_reference_path(const kz_store *store) {
 
 static kz_status measure_tile(void *context, int64_t tile, void *record) {
   const measuring *m = context;
-  return kz_config_measure(m->trade->configs[tile], m->reference, TIMED, record);
+  return kz_setting_measure(m->trade->settings[tile], m->reference, TIMED, record);
 }
 
-static void allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
-  const size_t n = (size_t)count_configs(plan);
+static void tradeoff_allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
+  const size_t n = (size_t)count_settings(plan);
   *trade = (kz_trade){.count = (int64_t)n,
-                      .configs = kz_calloc(n, sizeof *trade->configs),
+                      .settings = kz_calloc(n, sizeof *trade->settings),
                       .numerics = kz_calloc(n, sizeof *trade->numerics),
                       .measured = kz_calloc(n, sizeof *trade->measured),
                       .seconds = kz_calloc(n, sizeof(double)),
                       .wrong = kz_calloc(n, sizeof(double)),
                       .pareto = kz_calloc(n, sizeof(int8_t))};
-  for (int64_t i = 0; i < trade->count; i++) trade->configs[i] = config_at(plan, i);
+  for (int64_t i = 0; i < trade->count; i++) trade->settings[i] = setting_at(plan, i);
 }
 
 static void free_trade(kz_trade *trade) {
-  free(trade->configs);
+  free(trade->settings);
   free(trade->numerics);
   free(trade->measured);
   free(trade->seconds);
@@ -80,13 +80,13 @@ static void free_trade(kz_trade *trade) {
 
 /* Shares, times and the Pareto front from the counts and the measured times. */
 static void rate(const kz_reference_labels *reference, kz_trade *trade) {
-  const double cells = (double)kz_own_cells(reference->plan);
+  const double cells = (double)kz_unique_cells(reference->plan);
   trade->best_wrong = NAN;
   for (int64_t i = 0; i < trade->count; i++) {
     const kz_measured *m = trade->measured + i;
     trade->wrong[i] = kz_share_of(m->wrong, reference->samples).share;
     trade->seconds[i] = m->set_up + m->cell * cells;
-    if (trade->configs[i]->method != KZ_METHOD_EXACT) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
+    if (trade->settings[i]->method != KZ_METHOD_EXACT) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
   }
   kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
 }
@@ -105,7 +105,7 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
   measuring m = {reference, trade};
   const kz_stage stage = stage_of(&m);
   for (int64_t i = 0; i < trade->count; i++)
-    trade->numerics[i] = kz_config_numerics(trade->configs[i], &reference->pendulum, reference->plan);
+    trade->numerics[i] = kz_setting_numerics(trade->settings[i], &reference->pendulum, reference->plan);
   KZ_TRY(kz_stage_run(run, &stage, trade->measured));
   rate(reference, trade);
   return KZ_OK;
@@ -118,7 +118,7 @@ kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds) {
   kz_status status = kz_reference_labels_measure(scene, scene->tradeoff.samples, &reference, seconds);
   if (status == KZ_OK) {
     measuring m = {&reference, &trade};
-    allocate(&scene->tradeoff, &trade);
+    tradeoff_allocate(&scene->tradeoff, &trade);
     const kz_stage stage = stage_of(&m);
     status = kz_stage_measure(&stage, 6, 2.0, seconds);
   }
@@ -131,7 +131,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_reference_labels reference = {0};
   kz_trade trade = {0};
   char *path = kz_reference_path(store);
-  allocate(&scene->tradeoff, &trade);
+  tradeoff_allocate(&scene->tradeoff, &trade);
   kz_status status = kz_reference_labels_make(scene, run, scene->tradeoff.samples, path, &reference);
   if (status == KZ_OK) status = kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
   if (status == KZ_OK) status = run_settings(&reference, &trade, run);

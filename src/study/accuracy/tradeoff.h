@@ -4,18 +4,18 @@
 
 #include "numerics/share.h"
 #include "numerics/processed.h"
-#include "config.h"
+#include "setting.h"
 
-/* Configurations measured on one sample of reference labels. */
+/* Settings measured on one sample of reference labels. */
 typedef struct {
   int64_t count;
-  const kz_config **configs; /* [count] */
-  kz_numerics *numerics;     /* [count] what they come to */
-  kz_measured *measured;     /* [count] */
-  double *seconds;           /* [count] for the whole grid of the basin, without the search for attractors */
-  double *wrong;             /* [count] */
-  int8_t *pareto;            /* [count] */
-  double best_wrong;         /* the lowest share of a configuration in double precision; NaN without one */
+  const kz_setting **settings; /* [count] */
+  kz_numerics *numerics;       /* [count] what they come to */
+  kz_measured *measured;       /* [count] */
+  double *seconds;             /* [count] for the whole grid of the basin, without the search for attractors */
+  double *wrong;               /* [count] */
+  int8_t *pareto;              /* [count] */
+  double best_wrong;           /* the lowest share of a setting in double precision; NaN without one */
 } kz_trade;
 
 /* Group /tradeoff and its table in the summary. Rank 0. */

@@ -17,7 +17,7 @@ static const char *scheme_name(const kz_numerics *numerics) {
 }
 
 static kz_status write_configs(const kz_trade *trade, kz_store *store) {
-  const kz_config *const *s = trade->configs;
+  const kz_setting *const *s = trade->settings;
   COLUMN(const char *, "label", s[i]->label);
   COLUMN(int8_t, "method", s[i]->method);
   COLUMN(const char *, "scheme", scheme_name(trade->numerics + i));
@@ -58,7 +58,7 @@ static kz_status write_attributes(const kz_reference_labels *reference, const kz
 }
 
 static void print_row(const kz_reference_labels *reference, const kz_trade *trade, int64_t i, FILE *summary) {
-  const kz_config *s = trade->configs[i];
+  const kz_setting *s = trade->settings[i];
   const kz_measured *m = trade->measured + i;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
   fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
@@ -71,18 +71,18 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
 /* What the settings of method exact leave undecided. */
 static void tell_undecided(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   for (int64_t i = 0; i < trade->count; i++)
-    if (trade->configs[i]->method == KZ_METHOD_EXACT)
+    if (trade->settings[i]->method == KZ_METHOD_EXACT)
       fprintf(summary, "%s leaves %lld of %lld cells undecided, which count as neither right nor wrong\n",
-              trade->configs[i]->label, (long long)trade->measured[i].undecided, (long long)reference->samples);
+              trade->settings[i]->label, (long long)trade->measured[i].undecided, (long long)reference->samples);
 }
 
-/* Names the configurations whose labels are random here. */
+/* Names the settings whose labels are random here. */
 static void warn(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   const double fastest = kz_axis_fastest(&reference->plan->velocity);
   const char *before = "warning: steps that do not carry the motions of this window: ";
   for (int64_t i = 0; i < trade->count; i++) {
     if (kz_steps_carry(&reference->pendulum, trade->numerics + i, fastest)) continue;
-    fprintf(summary, "%s%s", before, trade->configs[i]->label);
+    fprintf(summary, "%s%s", before, trade->settings[i]->label);
     before = ", ";
   }
   if (before[0] == ',') fprintf(summary, "\n");

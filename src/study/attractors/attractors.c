@@ -35,7 +35,7 @@ kz_status kz_attractors_check(const kz_scene *scene) {
   return motions.pendulum.beta > 0 ? kz_motions_check(&motions) : KZ_OK;
 }
 
-static void allocate(const kz_scene *scene, finding *s) {
+static void attractors_allocate(const kz_scene *scene, finding *s) {
   size_t n = (size_t)scene->attractors.starts;
   s->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
   s->state = kz_malloc(2 * n * sizeof *s->state);
@@ -51,7 +51,7 @@ static kz_search search_of(const finding *s) {
   return search;
 }
 
-static kz_status discover(const kz_run *run, finding *s) {
+static kz_status attractors_discover(const kz_run *run, finding *s) {
   const kz_search search = search_of(s);
   KZ_TRY(kz_search_window(run, s->dynamics, &search, s->state, s->label));
   s->reached = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->reached);
@@ -77,14 +77,14 @@ static kz_status publish(const kz_scene *scene, const finding *s, kz_store *stor
 
 /* Without damping areas are conserved and nothing attracts. */
 static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  if (kz_ranks_own(run->ranks) != 0) return KZ_OK;
+  if (kz_rank(run->ranks) != 0) return KZ_OK;
   fprintf(summary, "attractors: without damping nothing attracts\n");
   return kz_catalogue_write(&(kz_catalogue){0}, &scene->parameters.pendulum, false, store);
 }
 
 static finding begin(const kz_scene *scene) {
   finding s = {.plan = &scene->attractors, .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
-  allocate(scene, &s);
+  attractors_allocate(scene, &s);
   return s;
 }
 
@@ -110,8 +110,8 @@ kz_status kz_attractors_measure(const kz_scene *scene, double *seconds) {
 kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
   finding s = begin(scene);
-  kz_status status = kz_ranks_agree(run->ranks, discover(run, &s));
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = publish(scene, &s, store, summary);
+  kz_status status = kz_ranks_agree(run->ranks, attractors_discover(run, &s));
+  if (status == KZ_OK && kz_rank(run->ranks) == 0) status = publish(scene, &s, store, summary);
   end(&s);
   return status;
 }

@@ -156,7 +156,7 @@ static kz_status find_chaos(const kz_run *run, following *f) {
   return status;
 }
 
-static kz_status discover(const kz_run *run, following *f, int64_t max_periods) {
+static kz_status search_discover(const kz_run *run, following *f, int64_t max_periods) {
   int64_t length = FIRST_LENGTH, done = 0;
   for (;;) {
     kz_dynamics_update(f->dynamics);
@@ -190,7 +190,7 @@ kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, i
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
   following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
   open_all(&f);
-  const kz_status status = discover(run, &f, max_periods);
+  const kz_status status = search_discover(run, &f, max_periods);
   free(f.open);
   return status;
 }

@@ -20,7 +20,7 @@ static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_la
   labels->step_error = kz_basin_warn_steps(scene, summary);
   labels->table_error = NAN;
   if (scene->basin.method != KZ_METHOD_ICM) return;
-  labels->table_error = kz_dynamics_table_defect(dynamics, kz_stencil(scene->basin.interpolation));
+  labels->table_error = kz_dynamics_table_error(dynamics, kz_stencil(scene->basin.interpolation));
   kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
 
@@ -34,8 +34,8 @@ static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dy
   s->n = kz_doubt_cells(plan);
   s->cell = kz_malloc((size_t)s->n * sizeof *s->cell + 1);
   s->label = kz_calloc((size_t)s->n + 1, sizeof *s->label);
-  s->followed = kz_ranks_own(run->ranks) == 0 ? kz_malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
-  const bool has_room = s->cell && s->label && (s->followed || kz_ranks_own(run->ranks) != 0);
+  s->followed = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
+  const bool has_room = s->cell && s->label && (s->followed || kz_rank(run->ranks) != 0);
   KZ_TRY(kz_ranks_agree(run->ranks, has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s->n)));
   for (int64_t i = 0; i < s->n; i++) s->cell[i] = kz_doubt_cell(plan, i);
   return kz_doubt_follow(plan, run, dynamics, s->followed);
@@ -49,7 +49,7 @@ static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, con
                       .counts = chunks->counts,
                       .trapped_share = kz_dynamics_trapped_share(dynamics),
                       .doubt = table ? kz_doubt_count(&scene->basin, s->followed, s->label)
-                                     : kz_doubt_of_all(chunks->counts.doubtful, kz_own_cells(&scene->basin))};
+                                     : kz_doubt_of_all(chunks->counts.doubtful, kz_unique_cells(&scene->basin))};
   measure_numerics(scene, dynamics, &labels, summary);
   return kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary);
 }
@@ -153,7 +153,7 @@ static kz_status run_accurate(const kz_scene *scene, const kz_run *run, kz_store
   kz_choice choice;
   kz_scene chosen = *scene;
   KZ_TRY(kz_accuracy_choose(scene, run, store, summary, &choice));
-  kz_config_apply(choice.config, &chosen);
+  kz_setting_apply(choice.setting, &chosen);
   KZ_TRY(run_damped(&chosen, run, store, summary));
   return kz_ranks_agree(run->ranks, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
 }

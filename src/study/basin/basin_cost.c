@@ -30,7 +30,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   return (kz_cost){.cells = cells,
                    .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
                    .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_room(&tiles),
-                   .first_bytes = 4e6,
+                   .rank0_bytes = 4e6,
                    .shared_bytes = 0.2 * (double)cells};
 }
 
@@ -47,7 +47,7 @@ enum { FEW_CELLS = 8192, BATCH = 512 };
 static const kz_run ALONE = {NULL, NULL};
 
 /* The catalogue of the attractors that a few starts end on; regions and table are as the study has them. */
-static kz_status discover(sample *s, kz_catalogue *catalogue) {
+static kz_status basin_cost_discover(sample *s, kz_catalogue *catalogue) {
   const kz_basin_plan *plan = &s->scene->basin;
   double state[2 * KZ_SEARCH_FEW];
   int32_t label[KZ_SEARCH_FEW];
@@ -70,7 +70,7 @@ static kz_status measure_followed(sample *s, int64_t n) {
   kz_labelled *cell = kz_malloc((size_t)n * sizeof *cell);
   const double start = kz_processor_clock();
   const kz_status status = kz_label_cells(&s->labelling, 0, s->item, n, cell);
-  s->seconds += (kz_processor_clock() - start) / (double)n * (double)kz_own_cells(&s->scene->basin);
+  s->seconds += (kz_processor_clock() - start) / (double)n * (double)kz_unique_cells(&s->scene->basin);
   free(cell);
   return status;
 }
@@ -101,7 +101,7 @@ static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t l
 
 static kz_status measure_exact(sample *s, int64_t n) {
   const kz_labeller labeller = kz_cells_labeller(&s->labelling);
-  double all = (double)kz_own_cells(&s->scene->basin), share;
+  double all = (double)kz_unique_cells(&s->scene->basin), share;
   for (int32_t level = KZ_LEVEL_DOUBLE, before = level; n > 0 && level < KZ_LEVELS;) {
     KZ_TRY(measure_level(s, &labeller, level, before, all, &n, &share));
     all *= share;
@@ -113,7 +113,7 @@ static kz_status measure_exact(sample *s, int64_t n) {
 
 static kz_status measure_cells(sample *s) {
   const kz_basin_plan *plan = &s->scene->basin;
-  const int64_t own = kz_own_cells(plan), n = own < FEW_CELLS ? own : FEW_CELLS;
+  const int64_t own = kz_unique_cells(plan), n = own < FEW_CELLS ? own : FEW_CELLS;
   for (int64_t i = 0; i < n; i++) s->item[i] = kz_shuffled(i, own, plan->seed);
   s->labelling = (kz_labelling){.plan = plan,
                                 .dynamics = s->dynamics,
@@ -143,7 +143,7 @@ static kz_status measure_shocks(sample *s, const kz_catalogue *catalogue) {
 
 static kz_status measure_parts(sample *s) {
   kz_catalogue catalogue = {0};
-  kz_status status = discover(s, &catalogue);
+  kz_status status = basin_cost_discover(s, &catalogue);
   if (status == KZ_OK) status = measure_cells(s);
   if (status == KZ_OK) status = kz_boundary_measure(&s->scene->basin, s->dynamics, &s->seconds);
   if (status == KZ_OK) status = measure_shocks(s, &catalogue);
@@ -165,7 +165,7 @@ kz_status kz_basin_measure(const kz_scene *scene, double *seconds) {
   if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   if (isnan(scene->basin.accuracy)) return measure_damped(scene, seconds);
   kz_scene chosen = *scene; /* in most cases the setting is method exact, or takes less */
-  kz_config_apply(kz_config_exact, &chosen);
+  kz_setting_apply(kz_setting_exact, &chosen);
   KZ_TRY(kz_accuracy_measure(scene, seconds));
   return measure_damped(&chosen, seconds);
 }

@@ -147,7 +147,7 @@ static void note_sample(kz_chunks *c, int64_t tile) {
     if (c->sample[i] >= first && c->sample[i] < end) c->sample_label[i] = l->cell[c->sample[i] - first].label;
 }
 
-static kz_status make(void *context, const kz_piece *piece, void *message, size_t *bytes) {
+static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
   kz_chunks *c = context;
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t image = tiles->n - 1 - piece->tile;
@@ -190,7 +190,7 @@ kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz
   return KZ_OK;
 }
 
-static kz_status allocate(kz_chunks *c) {
+static kz_status chunks_allocate(kz_chunks *c) {
   const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
   c->ids = kz_calloc(n + 1, sizeof *c->ids);
   c->periods = kz_calloc(n + 1, sizeof *c->periods);
@@ -221,7 +221,7 @@ static kz_status deliver(kz_chunks *c) {
   kz_labelling *l = c->labelling;
   const kz_delivery delivery = {
       .name = "file", .message_bytes = message_room(kz_tile_room(&l->tiles)), .make = make, .take = take, .context = c};
-  KZ_TRY(kz_pieces_deliver(l->run->ranks, &l->pieces, &delivery));
+  KZ_TRY(kz_local_records_deliver(l->run->ranks, &l->pieces, &delivery));
   KZ_TRY(kz_ranks_sum(l->run->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
   KZ_TRY(kz_ranks_sum(l->run->ranks, c->cells_of, c->catalogue->count));
   KZ_TRY(kz_ranks_sum(l->run->ranks, c->sample_label, c->n_sample));
@@ -231,7 +231,7 @@ static kz_status deliver(kz_chunks *c) {
 }
 
 kz_status kz_cells_write(kz_chunks *c) {
-  kz_status status = kz_ranks_agree(c->labelling->run->ranks, allocate(c));
+  kz_status status = kz_ranks_agree(c->labelling->run->ranks, chunks_allocate(c));
   if (status == KZ_OK) status = deliver(c);
   free(c->ids);
   free(c->periods);

@@ -42,16 +42,16 @@ typedef struct {
   kz_window_starts starts; /* of all cells */
   int64_t batch;           /* cells that are followed together */
   const kz_run *run;
-  kz_workspace *work;  /* of this rank */
-  kz_labelled *cell;   /* [kz_tile_room] a tile, unpacked */
-  kz_pieces pieces;    /* tiles of this rank, packed */
-  int before_level;    /* that left the cells of the present stage */
-  int level;           /* of the present stage, KZ_LEVELS: candidates of what none decides */
-  int16_t wanted;      /* label of the open cells: 0 or KZ_DOUBTFUL */
-  int64_t *before;     /* [own tiles + 1] open cells in the tiles before */
-  int64_t n_open;      /* cells of the present stage that labels open ones again, */
-  const int64_t *open; /* [n_open] */
-  int64_t *reached;    /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
+  kz_workspace *work;      /* of this rank */
+  kz_labelled *cell;       /* [kz_tile_room] a tile, unpacked */
+  kz_local_records pieces; /* tiles of this rank, packed */
+  int before_level;        /* that left the cells of the present stage */
+  int level;               /* of the present stage, KZ_LEVELS: candidates of what none decides */
+  int16_t wanted;          /* label of the open cells: 0 or KZ_DOUBTFUL */
+  int64_t *before;         /* [own tiles + 1] open cells in the tiles before */
+  int64_t n_open;          /* cells of the present stage that labels open ones again, */
+  const int64_t *open;     /* [n_open] */
+  int64_t *reached;        /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
 } kz_labelling;
 
 /* Finds the attractors and labels all own cells: `pieces` has the tiles of this rank, `reached` what all ranks found. To be freed in
@@ -60,6 +60,6 @@ kz_status kz_label_window(kz_labelling *labelling);
 void kz_labelling_free(kz_labelling *labelling);
 
 /* The own cells of a packed tile into labelling->cell. */
-kz_status kz_labels_unpack(kz_labelling *labelling, const kz_piece *piece);
+kz_status kz_labels_unpack(kz_labelling *labelling, const kz_local_record *piece);
 
 #endif

@@ -104,7 +104,7 @@ kz_status kz_labels_pack(const kz_labelling *l, int64_t tile, void *record) {
   return bytes > 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory to pack a tile of %lld cells", (long long)n);
 }
 
-kz_status kz_labels_unpack(kz_labelling *l, const kz_piece *piece) {
+kz_status kz_labels_unpack(kz_labelling *l, const kz_local_record *piece) {
   const head *h = piece->data;
   const char *packed = (const char *)(h + 1) + (size_t)h->n_reached * sizeof(int32_t);
   const size_t bytes = piece->bytes - (size_t)(packed - (const char *)piece->data);
@@ -112,12 +112,12 @@ kz_status kz_labels_unpack(kz_labelling *l, const kz_piece *piece) {
   return kz_fail(KZ_FAILED, "no memory to unpack a tile of %lld cells", (long long)kz_tile_own(&l->tiles, piece->tile));
 }
 
-int64_t kz_labels_open(const kz_piece *piece, int16_t wanted) {
+int64_t kz_labels_open(const kz_local_record *piece, int16_t wanted) {
   const head *h = piece->data;
   return wanted == 0 ? h->n_open : h->n_doubtful;
 }
 
-void kz_labels_note_reached(const kz_labelling *l, const kz_piece *piece) {
+void kz_labels_note_reached(const kz_labelling *l, const kz_local_record *piece) {
   const head *h = piece->data;
   const int32_t *number = (const int32_t *)(h + 1);
   for (int64_t i = 0; i < h->n_reached; i++) l->reached[number[i]]++;

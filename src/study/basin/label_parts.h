@@ -20,9 +20,9 @@ size_t kz_labels_room(const kz_labelling *labelling);
 /* Packs the own cells of a tile, labelling->cell. */
 kz_status kz_labels_pack(const kz_labelling *labelling, int64_t tile, void *record);
 /* Cells of a packed tile with the label `wanted`, 0 or KZ_DOUBTFUL. */
-int64_t kz_labels_open(const kz_piece *piece, int16_t wanted);
+int64_t kz_labels_open(const kz_local_record *piece, int16_t wanted);
 /* Counts the attractors that it reaches. */
-void kz_labels_note_reached(const kz_labelling *labelling, const kz_piece *piece);
+void kz_labels_note_reached(const kz_labelling *labelling, const kz_local_record *piece);
 
 /* What a level writes into the file as evidence, KZ_LEVELS: of what none decides; and how many cells it takes at a time, where it takes
  * those that another one left. */

@@ -13,7 +13,7 @@ enum {
 
 /* The settling times of every step-th row of those that are not mirror images: how many, and how many cells are open. */
 static kz_status read_times(const kz_basin_plan *plan, kz_store *store, double *time, int64_t *n, int64_t *n_open) {
-  const int64_t columns = plan->theta.count, own = (kz_own_cells(plan) + columns - 1) / columns;
+  const int64_t columns = plan->theta.count, own = (kz_unique_cells(plan) + columns - 1) / columns;
   const int64_t step = 1 + columns * own / CELLS,
                 several = BLOCK / columns / step * step; /* rows of a block; 0: one row is enough */
   const int64_t rows = several > 0 ? several : 1, stride = several > 0 ? several : step;

@@ -22,7 +22,7 @@ kz_status kz_open_count(kz_labelling *l, int16_t wanted) {
 }
 
 /* Those of the wanted cells that lie in one tile. */
-static kz_status pick_from(kz_labelling *l, const kz_piece *piece, int64_t from, int64_t of, int64_t n, int64_t *cell) {
+static kz_status pick_from(kz_labelling *l, const kz_local_record *piece, int64_t from, int64_t of, int64_t n, int64_t *cell) {
   int64_t number = l->before[piece->tile], i = number > from ? ((number - from) * n + of - 1) / of : 0;
   const int64_t end = l->before[piece->tile + 1], first = kz_tile_first(&l->tiles, piece->tile);
   if (i >= n || from + i * of / n >= end || end == number) return KZ_OK;
@@ -50,16 +50,16 @@ static kz_status label_open(void *context, int64_t tile, void *record) {
 }
 
 /* The new labels of the listed cells, of which the first is open cell `from`, replace those of a tile of this rank. */
-static kz_status merge(kz_labelling *l, kz_piece *piece, int64_t from, const kz_labelled *found, void *record) {
+static kz_status merge(kz_labelling *l, kz_local_record *piece, int64_t from, const kz_labelled *found, void *record) {
   int64_t number = l->before[piece->tile] - from;
   const int64_t end = l->before[piece->tile + 1] - from;
-  kz_pieces packed = {0};
+  kz_local_records packed = {0};
   if (number < 0 || number == end || end > l->n_open) return KZ_OK;
   KZ_TRY(kz_labels_unpack(l, piece));
   for (int64_t k = 0; number < end; k++)
     if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
   KZ_TRY(kz_labels_pack(l, piece->tile, record));
-  kz_pieces_add(&packed, piece->tile, record, *(uint64_t *)record);
+  kz_local_records_add(&packed, piece->tile, record, *(uint64_t *)record);
   free(piece->data);
   *piece = packed.list[0];
   free(packed.list);

@@ -10,7 +10,7 @@
 enum { ROUNDS = 4 };
 
 /* What the starts over the window end on, or `again` unsettled cells, evenly chosen, is found and counted. */
-static kz_status discover(kz_labelling *l, bool again) {
+static kz_status rounds_discover(kz_labelling *l, bool again) {
   const kz_basin_plan *plan = l->plan;
   const int64_t all = again ? l->before[l->tiles.own] : 0, n = again && all < plan->starts ? all : plan->starts;
   double *state = kz_malloc((size_t)n * 2 * sizeof *state);
@@ -53,7 +53,7 @@ static kz_status label_tiles(kz_labelling *l) {
 /* Before cells are labelled by a table alone. What basin.accuracy chose is chosen by its labels. */
 static kz_status check_table(const kz_labelling *l) {
   if (l->plan->method != KZ_METHOD_ICM || !isnan(l->plan->accuracy)) return KZ_OK;
-  return kz_steps_check_table(l->plan, kz_dynamics_table_defect(l->dynamics, kz_stencil(l->plan->interpolation)));
+  return kz_steps_check_table(l->plan, kz_dynamics_table_error(l->dynamics, kz_stencil(l->plan->interpolation)));
 }
 
 /* The starts of all cells, after the images of the window where they need them. */
@@ -69,7 +69,7 @@ static kz_status make_starts(kz_labelling *l) {
 
 /* `exact` alone leaves doubtful cells. */
 static kz_status run_rounds(kz_labelling *l) {
-  KZ_TRY(discover(l, false));
+  KZ_TRY(rounds_discover(l, false));
   KZ_TRY(make_starts(l));
   KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
@@ -79,7 +79,7 @@ static kz_status run_rounds(kz_labelling *l) {
     KZ_TRY(kz_open_count(l, 0));
     if (l->before[l->tiles.own] == 0) return KZ_OK;
     const int64_t known = kz_dynamics_count(l->dynamics);
-    KZ_TRY(discover(l, true));
+    KZ_TRY(rounds_discover(l, true));
     if (kz_dynamics_count(l->dynamics) == known) return KZ_OK;
     snprintf(name, sizeof name, "cells %d", round + 1);
     KZ_TRY(kz_open_label(l, name));
@@ -88,7 +88,7 @@ static kz_status run_rounds(kz_labelling *l) {
   return KZ_OK;
 }
 
-static kz_status allocate(kz_labelling *l) {
+static kz_status rounds_allocate(kz_labelling *l) {
   const size_t room = (size_t)kz_tile_room(&l->tiles);
   l->work = kz_workspace_make();
   l->cell = kz_calloc(room + 1, sizeof *l->cell);
@@ -100,19 +100,19 @@ static kz_status allocate(kz_labelling *l) {
 
 /* The starts' counts are the same on every rank, those of tiles each rank's own. */
 static kz_status sum_reached(kz_labelling *l) {
-  for (int i = 0; i <= INT16_MAX && kz_ranks_own(l->run->ranks) != 0; i++) l->reached[i] = 0;
+  for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
   for (int64_t i = 0; i < l->pieces.n; i++) kz_labels_note_reached(l, &l->pieces.list[i]);
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);
 }
 
 kz_status kz_label_window(kz_labelling *l) {
-  KZ_TRY(kz_ranks_agree(l->run->ranks, allocate(l)));
+  KZ_TRY(kz_ranks_agree(l->run->ranks, rounds_allocate(l)));
   KZ_TRY(run_rounds(l));
   return sum_reached(l);
 }
 
 void kz_labelling_free(kz_labelling *l) {
-  kz_pieces_free(&l->pieces);
+  kz_local_records_free(&l->pieces);
   kz_window_starts_free(&l->starts);
   kz_images_free(l->images);
   free(l->work);

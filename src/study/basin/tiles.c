@@ -8,38 +8,38 @@ static int64_t lower(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-/* Length of the pieces of an axis: a multiple of `unit`, at most `wish` or little more, and never more than `most`; `divides`:
+/* Length of the pieces of an axis: a multiple of `unit`, at most `target` or little more, and never more than `most`; `divides`:
  * without rest. 0 where there is none. */
-static int64_t piece(int64_t count, int64_t unit, int64_t wish, int64_t most, bool divides) {
+static int64_t piece(int64_t count, int64_t unit, int64_t target, int64_t most, bool divides) {
   int64_t best = 0;
   for (int64_t length = unit; length <= lower(count, most); length += unit) {
     if (divides && count % length != 0) continue;
-    if (length > wish && best > 0 && 4 * best >= wish) break;
+    if (length > target && best > 0 && 4 * best >= target) break;
     best = length;
-    if (length > wish) break;
+    if (length > target) break;
   }
   return best;
 }
 
-static void choose(kz_tiles *tiles, int64_t wish, int64_t most, bool mirrored) {
+static void choose(kz_tiles *tiles, int64_t target, int64_t most, bool mirrored) {
   int64_t *rows = &tiles->chunk[0], *columns = &tiles->chunk[1];
   *rows = tiles->rows;
   *columns = tiles->columns;
-  if (tiles->columns <= wish && tiles->rows <= wish / tiles->columns) return;
-  *rows = piece(tiles->rows, KZ_BOX, wish / tiles->columns, most / tiles->columns, mirrored);
-  if (*rows == 0) *rows = piece(tiles->rows, 1, wish / tiles->columns, most / tiles->columns, mirrored);
+  if (tiles->columns <= target && tiles->rows <= target / tiles->columns) return;
+  *rows = piece(tiles->rows, KZ_BOX, target / tiles->columns, most / tiles->columns, mirrored);
+  if (*rows == 0) *rows = piece(tiles->rows, 1, target / tiles->columns, most / tiles->columns, mirrored);
   if (*rows > 0) return;
   *rows = 1;
-  *columns = piece(tiles->columns, 1, wish, most, mirrored);
+  *columns = piece(tiles->columns, 1, target, most, mirrored);
 }
 
-kz_tiles kz_tiles_of(const kz_scene *scene, int64_t wish) {
+kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target) {
   const kz_basin_plan *plan = &scene->basin;
-  kz_tiles tiles = {.rows = plan->velocity.count, .columns = plan->theta.count, .own_cells = kz_own_cells(plan)};
+  kz_tiles tiles = {.rows = plan->velocity.count, .columns = plan->theta.count, .own_cells = kz_unique_cells(plan)};
   tiles.cells = tiles.rows * tiles.columns;
   const int64_t enough = kz_tile_cells(scene, MOST_CELLS); /* where nothing settles; nearly all do, long before */
   const bool mirrored = tiles.own_cells < tiles.cells;
-  choose(&tiles, lower(wish, enough), lower(64 * enough, MOST_CELLS), mirrored);
+  choose(&tiles, lower(target, enough), lower(64 * enough, MOST_CELLS), mirrored);
   tiles.across = (tiles.columns + tiles.chunk[1] - 1) / tiles.chunk[1];
   tiles.n = tiles.across * ((tiles.rows + tiles.chunk[0] - 1) / tiles.chunk[0]);
   tiles.own = mirrored ? (tiles.n + 1) / 2 : tiles.n;

@@ -17,8 +17,8 @@ typedef struct {
   bool whole; /* no box and no row lies in two tiles */
 } kz_tiles;
 
-/* The tiles of a scene's basin, of about `wish` cells: a function of the scene alone. */
-kz_tiles kz_tiles_of(const kz_scene *scene, int64_t wish);
+/* The tiles of a scene's basin, of about `target` cells: a function of the scene alone. */
+kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target);
 /* First cell of a tile, and how many it has within the window. */
 int64_t kz_tile_first(const kz_tiles *tiles, int64_t tile);
 int64_t kz_tile_count(const kz_tiles *tiles, int64_t tile);

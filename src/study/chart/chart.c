@@ -46,7 +46,7 @@ kz_cost kz_chart_cost(const kz_scene *scene) {
   const double motions = (double)points_of(plan) * (double)plan->theta.count;
   return (kz_cost){.cells = (int64_t)motions,
                    .disk_bytes = 2 * motions * sizeof(kz_chart_ending),
-                   .first_bytes = 3 * motions * sizeof(kz_chart_ending)};
+                   .rank0_bytes = 3 * motions * sizeof(kz_chart_ending)};
 }
 
 /* Steps of split6 that keep the error of a period of the strongest of n pendulums. */
@@ -76,7 +76,7 @@ void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int6
     if (periods[i] == 0) ending[i] = (kz_chart_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
 }
 
-static kz_status work(void *context, int64_t tile, void *record) {
+static kz_status chart_tile(void *context, int64_t tile, void *record) {
   const kz_scene *scene = context;
   const kz_chart_plan *plan = &scene->chart;
   const int64_t first = tile % tiles_of(plan) * KZ_CHART_POINTS, left = points_of(plan) - first;
@@ -100,7 +100,7 @@ static kz_stage stage_of(const kz_scene *scene) {
   return (kz_stage){.name = "ends",
                     .n_tiles = tiles_of(&scene->chart) * scene->chart.theta.count,
                     .record_bytes = sizeof(tile_record),
-                    .work = work,
+                    .work = chart_tile,
                     .context = (void *)scene,
                     .keep = true};
 }
@@ -112,7 +112,7 @@ kz_status kz_chart_measure(const kz_scene *scene, double *seconds) {
 
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_chart_plan *plan = &scene->chart;
-  const bool here = kz_ranks_own(run->ranks) == 0;
+  const bool here = kz_rank(run->ranks) == 0;
   const kz_stage stage = stage_of(scene);
   tile_record *records = here ? kz_malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
   kz_status status = kz_stage_run(run, &stage, records);

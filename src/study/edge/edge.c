@@ -18,7 +18,7 @@ typedef struct {
   kz_search search;
   double *state; /* [starts of the search][2] */
   int32_t *label;
-} edging;
+} edge_job;
 
 bool kz_edge_wanted(const kz_scene *scene) {
   return scene->has_edge;
@@ -32,13 +32,13 @@ kz_cost kz_edge_cost(const kz_scene *scene) {
 }
 
 /* Record: the edge, then its orbit [periods + 1][2]. */
-static kz_status work(void *context, int64_t tile, void *record) {
-  const edging *e = context;
+static kz_status edge_tile(void *context, int64_t tile, void *record) {
+  const edge_job *e = context;
   (void)tile;
   return kz_edge_track(e->scene, e->dynamics, e->search.max_periods, record, (double *)((kz_edge *)record + 1));
 }
 
-static void name_of(const edging *e, int32_t number, char name[KZ_NAME_LENGTH]) {
+static void name_of(const edge_job *e, int32_t number, char name[KZ_NAME_LENGTH]) {
   const size_t room = (size_t)kz_dynamics_packed_size(e->dynamics);
   double *points = kz_malloc(2 * room * sizeof *points);
   kz_attractor row;
@@ -89,7 +89,7 @@ static kz_status write_group(const kz_edge *edge, const double *orbit, kz_store 
 }
 
 /* What lies between which basins. */
-static kz_status publish(const edging *e, const kz_edge *edge, const double *orbit, kz_store *store, FILE *summary) {
+static kz_status publish(const edge_job *e, const kz_edge *edge, const double *orbit, kz_store *store, FILE *summary) {
   char first[KZ_NAME_LENGTH], second[KZ_NAME_LENGTH], name[KZ_NAME_LENGTH] = "no cycle", full[KZ_NAME_LENGTH + 10] = "";
   int64_t saddle;
   name_of(e, edge->first_end, first);
@@ -113,7 +113,7 @@ static kz_status publish(const edging *e, const kz_edge *edge, const double *orb
   return KZ_OK;
 }
 
-static void allocate(edging *e) {
+static void edge_allocate(edge_job *e) {
   const kz_scene *scene = e->scene;
   e->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
                                    scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
@@ -121,10 +121,10 @@ static void allocate(edging *e) {
   e->label = kz_malloc((size_t)e->search.starts * sizeof *e->label);
 }
 
-static kz_status follow(edging *e, const kz_run *run, kz_store *store, FILE *summary) {
+static kz_status follow(edge_job *e, const kz_run *run, kz_store *store, FILE *summary) {
   const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)e->scene->edge.periods + 1) * sizeof(double);
-  const kz_stage stage = {.name = "edge", .n_tiles = 1, .record_bytes = bytes, .work = work, .context = e, .keep = true};
-  allocate(e);
+  const kz_stage stage = {.name = "edge", .n_tiles = 1, .record_bytes = bytes, .work = edge_tile, .context = e, .keep = true};
+  edge_allocate(e);
   e->search.max_velocity = kz_dynamics_max_velocity(e->dynamics, &e->search.window);
   KZ_TRY(kz_search_window(run, e->dynamics, &e->search, e->state, e->label));
   kz_edge *record = kz_malloc(bytes);
@@ -134,7 +134,7 @@ static kz_status follow(edging *e, const kz_run *run, kz_store *store, FILE *sum
   return status;
 }
 
-static void end(edging *e) {
+static void end(edge_job *e) {
   kz_dynamics_free(e->dynamics);
   free(e->state);
   free(e->label);
@@ -144,14 +144,14 @@ static void end(edging *e) {
 kz_status kz_edge_measure(const kz_scene *scene, double *seconds) {
   enum { FEW = 16 };
   kz_scene part = *scene;
-  edging e = {.scene = &part, .search = kz_search_of(scene)};
+  edge_job e = {.scene = &part, .search = kz_search_of(scene)};
   kz_edge edge;
   double orbit[2 * (FEW + 1)];
   int64_t n;
   if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   if (part.edge.periods > FEW) part.edge.periods = FEW;
   if (e.search.starts < KZ_SEARCH_FEW) e.search.starts = KZ_SEARCH_FEW;
-  allocate(&e);
+  edge_allocate(&e);
   e.search.max_velocity = kz_dynamics_max_velocity(e.dynamics, &e.search.window);
   e.search.starts = kz_search_of(scene).starts;
   kz_status status = kz_search_measure(e.dynamics, &e.search, e.state, e.label, &n, seconds);
@@ -163,7 +163,7 @@ kz_status kz_edge_measure(const kz_scene *scene, double *seconds) {
 }
 
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  edging e = {.scene = scene, .search = kz_search_of(scene)};
+  edge_job e = {.scene = scene, .search = kz_search_of(scene)};
   const kz_status status = follow(&e, run, store, summary);
   end(&e);
   return status;

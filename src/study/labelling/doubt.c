@@ -14,11 +14,11 @@ typedef struct {
 } sample;
 
 int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i) {
-  return kz_shuffled(i, kz_own_cells(plan), plan->seed);
+  return kz_shuffled(i, kz_unique_cells(plan), plan->seed);
 }
 
 int64_t kz_doubt_cells(const kz_basin_plan *plan) {
-  const int64_t own = plan->method == KZ_METHOD_ICM ? kz_own_cells(plan) : 0;
+  const int64_t own = plan->method == KZ_METHOD_ICM ? kz_unique_cells(plan) : 0;
   return own < SAMPLE ? own : SAMPLE;
 }
 
@@ -39,7 +39,7 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
 }
 
 kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, const int64_t *label) {
-  const int64_t n = kz_doubt_cells(plan), of = kz_own_cells(plan);
+  const int64_t n = kz_doubt_cells(plan), of = kz_unique_cells(plan);
   int64_t doubtful = 0, differing = 0;
   for (int64_t i = 0; i < n; i++) {
     if (followed[i] == KZ_DOUBTFUL)

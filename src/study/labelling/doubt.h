@@ -15,7 +15,7 @@ typedef struct {
 
 /* Cells of the sample; none but for method icm, since the others ask about all cells. */
 int64_t kz_doubt_cells(const kz_basin_plan *plan);
-/* Cell i of the sample, one of the kz_own_cells: a function of the window, its cells and the seed alone. */
+/* Cell i of the sample, one of the kz_unique_cells: a function of the window, its cells and the seed alone. */
 int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i);
 
 /* Follows the sample; followed [kz_doubt_cells, rounded up to KZ_DOUBT_TILE] is filled on rank 0, NULL elsewhere. Its stage is kept by

@@ -18,7 +18,7 @@ typedef struct {
   int64_t *open;
 } drawing;
 
-static void allocate(drawing *d) {
+static void chart_allocate(drawing *d) {
   const size_t n = (size_t)(d->rows * d->columns);
   d->period = kz_malloc(4 * n);
   d->open = kz_malloc(n * sizeof *d->open);
@@ -72,7 +72,7 @@ kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_sta
                .rows = scene->chart.y.values.count,
                .columns = scene->chart.x.values.count};
   kz_status status = KZ_OK;
-  allocate(&d);
+  chart_allocate(&d);
   for (int64_t i = 0; status == KZ_OK && i < levels->count; i++) {
     const int64_t step = levels->values[i];
     kz_chart_level level = {.level = step,

@@ -33,7 +33,7 @@ size_t kz_plane_bytes(int plane) {
   return plane == KZ_PLANE_SETTLING_TIME ? sizeof(float) : 1;
 }
 
-static void allocate(making *m) {
+static void frame_allocate(making *m) {
   size_t bytes = 0;
   for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
   m->cell = kz_calloc((size_t)m->total, sizeof *m->cell);
@@ -138,7 +138,7 @@ static kz_status show(making *m, int64_t level) {
 }
 
 static kz_status make(making *m) {
-  allocate(m);
+  frame_allocate(m);
   if (m->resident->dynamics) KZ_TRY(kz_cells_begin(m->resident, &m->scene->basin, m->frame, &m->starts));
   for (int64_t i = 0; i < m->frame->levels->count; i++) {
     const int64_t level = m->frame->levels->values[i];
@@ -158,7 +158,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
               .frame = frame,
               .begin = seconds(),
               .total = scene->basin.theta.count * scene->basin.velocity.count,
-              .own = kz_own_cells(&scene->basin)};
+              .own = kz_unique_cells(&scene->basin)};
   KZ_TRY(kz_engine_resident(engine, scene, frame->moving, &m.resident));
   const bool was_busy = m.resident->busy;
   m.resident->busy = true;

@@ -7,7 +7,7 @@
 #include "numerics/cells.h"
 
 /* Attractors that only these starts end on join. */
-static kz_status discover(kz_engine *engine, kz_resident *r, int64_t n, const double *start) {
+static kz_status where_discover(kz_engine *engine, kz_resident *r, int64_t n, const double *start) {
   double *state = kz_malloc(2 * (size_t)n * sizeof *state);
   int32_t *found = kz_malloc((size_t)n * sizeof *found);
   const int64_t known = kz_dynamics_count(r->dynamics);
@@ -27,7 +27,7 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
   kz_endings_clear(n, endings);
   KZ_TRY(kz_engine_resident(engine, scene, false, &r));
   if (!r->dynamics || n == 0) return KZ_OK;
-  KZ_TRY(discover(engine, r, n, start));
+  KZ_TRY(where_discover(engine, r, n, start));
   kz_question q = {
       .scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start, .low = low};
   const kz_status status = kz_question_decide(&q);

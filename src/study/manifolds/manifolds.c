@@ -124,7 +124,7 @@ static kz_status make_tasks(const kz_manifolds_plan *plan, kz_store *store, work
 static kz_status share_tasks(const kz_run *run, work_list *list) {
   KZ_TRY(kz_ranks_broadcast(run->ranks, &list->count, sizeof list->count));
   const size_t bytes = (size_t)list->count * sizeof *list->tasks;
-  if (kz_ranks_own(run->ranks) != 0) list->tasks = kz_malloc(bytes + 1);
+  if (kz_rank(run->ranks) != 0) list->tasks = kz_malloc(bytes + 1);
   return bytes > 0 ? kz_ranks_broadcast(run->ranks, list->tasks, bytes) : KZ_OK;
 }
 
@@ -199,7 +199,7 @@ static kz_status publish(const kz_manifolds_plan *plan, const work_list *list, c
 }
 
 kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const bool here = kz_ranks_own(run->ranks) == 0;
+  const bool here = kz_rank(run->ranks) == 0;
   work_list list = {.pendulum = &scene->parameters.pendulum};
   grown *records = NULL;
   kz_status status = kz_ranks_agree(run->ranks, here ? make_tasks(&scene->manifolds, store, &list) : KZ_OK);

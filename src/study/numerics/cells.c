@@ -103,7 +103,7 @@ static bool is_symmetric(const kz_axis *axis) {
   return axis->min == -axis->max && axis->centre.high == 0;
 }
 
-int64_t kz_own_cells(const kz_basin_plan *plan) {
+int64_t kz_unique_cells(const kz_basin_plan *plan) {
   const int64_t total = plan->theta.count * plan->velocity.count;
   return is_symmetric(&plan->theta) && is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
 }

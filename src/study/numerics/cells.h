@@ -34,7 +34,7 @@ kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most);
 
 /* Cells that are labelled; the others of a window that is its own mirror image mirror them: cell f mirrors cell total - 1 - f. */
-int64_t kz_own_cells(const kz_basin_plan *plan);
+int64_t kz_unique_cells(const kz_basin_plan *plan);
 
 /* The state of a start in rad and rad per drive radian: half-turns in [-1, 1] and velocity. */
 void kz_start_state(double theta, double velocity, double state[2]);

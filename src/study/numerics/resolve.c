@@ -26,7 +26,7 @@ static void choose_steps(kz_scene *scene, bool enough) {
   scene->numerics.steps_per_period = scheme.default_steps;
   if (!scene->has_basin || !isnan(scene->basin.accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
   const kz_motions motions = kz_motions_of_basin(scene);
-  if ((enough || motions.lost < KZ_STEPS_LOST) && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
+  if ((enough || motions.refuse_above < KZ_STEPS_REFUSED) && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
 }
 
 void kz_numerics_resolve(kz_scene *scene) {

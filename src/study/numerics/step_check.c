@@ -11,32 +11,32 @@ enum {
 };
 
 /* rad, error of one drive period above which the user is warned. */
-static const double LOOSE = 1e-4;
-/* The same in cells of a basin, where a hundredth of a cell is less than LOOSE, and the error above which the scene is refused:
+static const double WARN_ABOVE = 1e-4;
+/* The same in cells of a basin, where a hundredth of a cell is less than WARN_ABOVE, and the error above which the scene is refused:
  * a picture that is shifted by so much. */
-static const double LOOSE_CELLS = 0.01, LOST_CELLS = 0.1;
+static const double WARN_ABOVE_CELLS = 0.01, REFUSE_ABOVE_CELLS = 0.1;
 
 double kz_steps_tolerance(const kz_basin_plan *plan) {
-  return fmin(LOOSE, LOOSE_CELLS * kz_cell_size(plan));
+  return fmin(WARN_ABOVE, WARN_ABOVE_CELLS * kz_cell_size(plan));
 }
 
 kz_motions kz_motions_of(const kz_scene *scene, double fastest, const char *keys) {
-  return (kz_motions){scene->parameters.pendulum, scene->numerics, fastest, LOOSE, KZ_STEPS_LOST, INFINITY, keys, ""};
+  return (kz_motions){scene->parameters.pendulum, scene->numerics, fastest, WARN_ABOVE, KZ_STEPS_REFUSED, INFINITY, keys, ""};
 }
 
 void kz_motions_label_cells(const kz_basin_plan *plan, kz_motions *motions) {
   motions->cell = kz_cell_size(plan);
-  motions->loose = kz_steps_tolerance(plan);
-  if (motions->loose < LOOSE) motions->lost = LOST_CELLS * motions->cell;
+  motions->warn_above = kz_steps_tolerance(plan);
+  if (motions->warn_above < WARN_ABOVE) motions->refuse_above = REFUSE_ABOVE_CELLS * motions->cell;
 }
 
 bool kz_motions_find_steps(const kz_motions *m, kz_numerics *numerics) {
   const int32_t most = (int32_t)fmin(MOST_STEPS, ldexp(m->numerics.steps_per_period, DOUBLINGS));
   *numerics = m->numerics;
-  if (kz_steps_enough(&m->pendulum, m->fastest, m->loose, most, numerics)) return true;
-  if (m->lost >= KZ_STEPS_LOST) return false;
+  if (kz_steps_enough(&m->pendulum, m->fastest, m->warn_above, most, numerics)) return true;
+  if (m->refuse_above >= KZ_STEPS_REFUSED) return false;
   *numerics = m->numerics;
-  return kz_steps_enough(&m->pendulum, m->fastest, m->lost, most, numerics);
+  return kz_steps_enough(&m->pendulum, m->fastest, m->refuse_above, most, numerics);
 }
 
 /* What would help, as the end of a message. */
@@ -46,13 +46,14 @@ static void advice(const kz_motions *m, size_t bytes, char *text) {
     snprintf(text, bytes, "%d steps or more", (int)numerics.steps_per_period);
   else
     snprintf(text, bytes, "not even %d steps are enough: %s", (int)numerics.steps_per_period,
-             m->lost >= KZ_STEPS_LOST ? "slower starts, or weaker damping and drive" : "wider cells, or basin.method exact");
+             m->refuse_above >= KZ_STEPS_REFUSED ? "slower starts, or weaker damping and drive"
+                                                 : "wider cells, or basin.method exact");
 }
 
 static void describe_error(const kz_motions *m, double error, size_t bytes, char *text) {
   if (error == DBL_MAX)
     snprintf(text, bytes, "diverge");
-  else if (m->lost >= KZ_STEPS_LOST)
+  else if (m->refuse_above >= KZ_STEPS_REFUSED)
     snprintf(text, bytes, "are off by up to %.2g rad after one drive period", error);
   else
     snprintf(text, bytes, "are off by up to %.2g rad after one drive period, where a cell is %.2g wide", error, m->cell);
@@ -65,7 +66,7 @@ kz_speed_errors kz_motions_errors(const kz_motions *m) {
 kz_status kz_motions_check(const kz_motions *m) {
   const kz_speed_errors classes = kz_motions_errors(m);
   const int worst = kz_worst_class(&classes);
-  if (classes.error[worst] <= m->lost) return KZ_OK;
+  if (classes.error[worst] <= m->refuse_above) return KZ_OK;
   char what[120], help[160];
   kz_scheme scheme;
   kz_scheme_row(m->numerics.scheme, &scheme);
@@ -79,10 +80,11 @@ kz_status kz_motions_check(const kz_motions *m) {
 void kz_motions_warn(const kz_motions *m, const kz_speed_errors *classes, FILE *summary) {
   char help[160];
   for (int c = 0; c < KZ_SPEED_CLASSES; c++)
-    if (classes->error[c] > m->loose)
+    if (classes->error[c] > m->warn_above)
       fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by up to %.2g rad\n", m->where,
               classes->speed[c], classes->speed[c + 1], classes->error[c]);
-  if (kz_worst_error(classes) <= m->loose) return;
+  if (kz_worst_error(classes) <= m->warn_above) return;
   advice(m, sizeof help, help);
-  fprintf(summary, "warning: to get below %.2g rad per period at every speed: numerics.steps_per_period: %s\n", m->loose, help);
+  fprintf(summary, "warning: to get below %.2g rad per period at every speed: numerics.steps_per_period: %s\n", m->warn_above,
+          help);
 }

@@ -10,11 +10,11 @@
 typedef struct {
   kz_pendulum pendulum;
   kz_numerics numerics;
-  double fastest;     /* start, rad per drive radian */
-  double loose, lost; /* rad, of one drive period: warned of above, refused above */
-  double cell;        /* rad; INFINITY where nothing has cells */
-  const char *keys;   /* "KEY|KEY" */
-  char where[96];     /* "at m = 0.3, ", or "" */
+  double fastest;                  /* start, rad per drive radian */
+  double warn_above, refuse_above; /* rad, of one drive period: warned of above, refused above */
+  double cell;                     /* rad; INFINITY where nothing has cells */
+  const char *keys;                /* "KEY|KEY" */
+  char where[96];                  /* "at m = 0.3, ", or "" */
 } kz_motions;
 
 /* Motions with the scene's pendulum and numerics from starts up to speed `fastest` (rad per drive radian). */
@@ -30,12 +30,12 @@ double kz_steps_tolerance(const kz_basin_plan *plan);
  * number of steps does: then *numerics has the largest number tried. */
 bool kz_motions_find_steps(const kz_motions *motions, kz_numerics *numerics);
 
-/* KZ_REFUSED where one drive period is off by more than `lost`: the message begins with `keys`, and says at which speeds, and
+/* KZ_REFUSED where one drive period is off by more than `refuse_above`: the message begins with `keys`, and says at which speeds, and
  * how many steps would do. */
 kz_status kz_motions_check(const kz_motions *motions);
 /* The errors of all classes of speeds. */
 kz_speed_errors kz_motions_errors(const kz_motions *motions);
-/* A line for each class of speeds whose error exceeds `loose`, and what would help. */
+/* A line for each class of speeds whose error exceeds `warn_above`, and what would help. */
 void kz_motions_warn(const kz_motions *motions, const kz_speed_errors *classes, FILE *summary);
 
 #endif

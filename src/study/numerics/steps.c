@@ -28,7 +28,7 @@ bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double toleran
 
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
   const kz_speed_errors classes = kz_step_error_classes(pendulum, numerics, fastest);
-  return kz_worst_error(&classes) <= KZ_STEPS_LOST;
+  return kz_worst_error(&classes) <= KZ_STEPS_REFUSED;
 }
 
 int32_t kz_steps_scaled(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest, double tolerance,

@@ -11,8 +11,8 @@ double kz_steps_by_stiffness(const kz_pendulum *pendulum, double gentle);
  * `most` steps: then the last number tried. */
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
 
-/* False where the error of one drive period exceeds KZ_STEPS_LOST or the motion diverges: labels would be random. */
-#define KZ_STEPS_LOST 0.1 /* rad */
+/* False where the error of one drive period exceeds KZ_STEPS_REFUSED or the motion diverges: labels would be random. */
+#define KZ_STEPS_REFUSED 0.1 /* rad */
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
 
 /* The steps of a scheme whose error at speeds from 0 to `fastest` (rad per drive radian) is at most `tolerance` (rad): measured with the

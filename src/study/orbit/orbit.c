@@ -36,7 +36,7 @@ kz_cost kz_orbit_cost(const kz_scene *scene) {
   const kz_orbit_plan *plan = &scene->orbit;
   double periods = (double)given(plan->periods, OPEN_PERIODS), rows = periods * (double)plan->samples_per_period;
   double samples = fmax(96, (double)plan->samples_per_period) * periods;
-  return (kz_cost){.cells = 0, .disk_bytes = 32 * rows + 300 * periods, .first_bytes = 80 * samples + 32 * rows};
+  return (kz_cost){.cells = 0, .disk_bytes = 32 * rows + 300 * periods, .rank0_bytes = 80 * samples + 32 * rows};
 }
 
 /* The state and the period of an attractor, as the study before has written it. */
@@ -62,7 +62,7 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
 static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
   const kz_orbit_plan *plan = orbit->plan;
   orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
-  const bool recalls = plan->attractor >= 0 && kz_ranks_own(run->ranks) == 0;
+  const bool recalls = plan->attractor >= 0 && kz_rank(run->ranks) == 0;
   KZ_TRY(
       kz_ranks_agree(run->ranks, recalls ? recall(store, plan->attractor, &orbit->cycle.state, &orbit->cycle.period) : KZ_OK));
   return kz_ranks_broadcast(run->ranks, &orbit->cycle, sizeof orbit->cycle);
@@ -148,7 +148,7 @@ static kz_status model(kz_orbit *orbit, const kz_scene *scene, const kz_run *run
   kz_model_make(scene, &orbit->model);
   KZ_TRY(start(orbit, run, store));
   KZ_TRY(skip_transient(orbit, run));
-  return kz_ranks_own(run->ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
+  return kz_rank(run->ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
 }
 
 static kz_orbit begin(const kz_scene *scene) {

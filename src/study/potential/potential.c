@@ -22,10 +22,10 @@ bool kz_potential_wanted(const kz_scene *scene) {
 
 kz_cost kz_potential_cost(const kz_scene *scene) {
   double points = (double)scene->potential.drive_amplitudes.count * (double)scene->potential.theta_count;
-  return (kz_cost){.disk_bytes = 24 * points, .first_bytes = 24 * points};
+  return (kz_cost){.disk_bytes = 24 * points, .rank0_bytes = 24 * points};
 }
 
-static void allocate(curves *c) {
+static void potential_allocate(curves *c) {
   size_t columns = (size_t)c->plan->theta_count, points = columns * (size_t)c->plan->drive_amplitudes.count;
   c->theta = kz_malloc(columns * sizeof(double));
   c->exact = kz_malloc(points * sizeof(double));
@@ -98,9 +98,9 @@ kz_status kz_potential_measure(const kz_scene *scene, double *seconds) {
 }
 
 kz_status kz_potential_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  if (kz_ranks_own(run->ranks) != 0) return KZ_OK;
+  if (kz_rank(run->ranks) != 0) return KZ_OK;
   curves c = {.plan = &scene->potential};
-  allocate(&c);
+  potential_allocate(&c);
   model(&scene->parameters.pendulum, &c);
   const kz_status status = write(&c, store);
   if (status == KZ_OK) summarise(&c, summary);

@@ -37,7 +37,7 @@ static void follow(void *context, int64_t n, const double *start, int32_t *end, 
   kz_follow_starts(s->dynamics, s->plan->max_periods, n, start, end, periods);
 }
 
-static kz_status work(void *context, int64_t tile, void *record) {
+static kz_status resilience_tile(void *context, int64_t tile, void *record) {
   searching *s = context;
   const kz_resilience *point = s->point + s->own[tile];
   kz_resilience *out = record;
@@ -96,7 +96,7 @@ static kz_status search(const kz_run *run, searching *s, int64_t n, int64_t *own
   const kz_stage stage = {.name = "shocks",
                           .n_tiles = n_own,
                           .record_bytes = sizeof *point,
-                          .work = work,
+                          .work = resilience_tile,
                           .context = s,
                           .keep = true,
                           .everywhere = true};
@@ -129,5 +129,5 @@ kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *pla
   for (int64_t i = 0, left = *own / 2; i < n && left >= 0; i++)
     if (image_of(point, i) == i && left-- == 0) place = i;
   searching s = {dynamics, plan, point, &place};
-  return *own > 0 ? work(&s, 0, &found) : KZ_OK;
+  return *own > 0 ? resilience_tile(&s, 0, &found) : KZ_OK;
 }

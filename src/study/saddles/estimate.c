@@ -57,7 +57,7 @@ kz_cost kz_saddles_cost(const kz_scene *scene) {
   const double cycles = fmin(all.cycles, KZ_SADDLES_MOST), bytes = PIECES_OF_A_CYCLE * (double)kz_cycle_bytes(plan);
   return (kz_cost){.disk_bytes = 1e5 + cycles * bytes,
                    .memory_bytes = PIECES_AT_ONCE * (double)kz_piece_bytes(plan),
-                   .first_bytes = cycles * (CYCLE_BYTES + bytes)};
+                   .rank0_bytes = cycles * (CYCLE_BYTES + bytes)};
 }
 
 kz_status kz_saddles_measure(const kz_scene *scene, double *seconds) {

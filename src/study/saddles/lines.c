@@ -122,7 +122,7 @@ typedef struct {
   kz_found *found;
 } collection;
 
-static kz_status make(void *context, const kz_piece *piece, void *message, size_t *bytes) {
+static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
   (void)context;
   memcpy(message, piece->data, *bytes = piece->bytes);
   return KZ_OK;
@@ -139,7 +139,7 @@ static kz_status take(void *context, const void *message, size_t bytes) {
 }
 
 kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *name, kz_found *found) {
-  kz_pieces pieces = {0};
+  kz_local_records pieces = {0};
   const kz_stage stage = {.name = name,
                           .n_tiles = lines->count * lines->pieces,
                           .record_bytes = kz_piece_bytes(lines->plan),
@@ -151,9 +151,9 @@ kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *nam
   const kz_delivery delivery = {
       .name = "saddles: cycles", .message_bytes = stage.record_bytes, .make = make, .take = take, .context = &all};
   kz_status status = kz_stage_run(run, &stage, NULL);
-  if (status == KZ_OK) status = kz_pieces_deliver(run->ranks, &pieces, &delivery);
-  kz_pieces_free(&pieces);
+  if (status == KZ_OK) status = kz_local_records_deliver(run->ranks, &pieces, &delivery);
+  kz_local_records_free(&pieces);
   KZ_TRY(status);
-  if (kz_ranks_own(run->ranks) == 0) found->count = drop_repeats(lines->plan, found->count, found->cycle);
+  if (kz_rank(run->ranks) == 0) found->count = drop_repeats(lines->plan, found->count, found->cycle);
   return kz_ranks_agree(run->ranks, found->count > KZ_SADDLES_MOST ? too_many(lines->plan, KZ_SADDLES_MOST, "cycles") : KZ_OK);
 }

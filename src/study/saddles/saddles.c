@@ -31,7 +31,7 @@ static void list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_l
 /* Rounds until enough is known; without damping the sums say nothing. Collective. */
 static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_found *found, kz_cycle_list *cycles,
                             kz_index_sums *sums) {
-  const bool here = kz_ranks_own(run->ranks) == 0, undamped = scene->parameters.pendulum.beta <= 0;
+  const bool here = kz_rank(run->ranks) == 0, undamped = scene->parameters.pendulum.beta <= 0;
   int32_t enough = 0;
   for (int round = 0, quiet = 0; round < ROUNDS && !enough; round++) {
     char name[32];
@@ -53,7 +53,7 @@ kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *sto
   kz_cycle_list cycles = {0};
   kz_index_sums sums = {0};
   kz_status status = run_rounds(scene, run, &found, &cycles, &sums);
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) {
+  if (status == KZ_OK && kz_rank(run->ranks) == 0) {
     status = kz_saddles_write(&cycles, &sums, store);
     kz_saddles_print(scene, &cycles, &sums, summary);
   }

@@ -30,7 +30,7 @@ kz_cost kz_stability_cost(const kz_scene *scene) {
   const kz_stability_plan *plan = &scene->stability;
   double points = (double)plan->k.count * (double)plan->m.count;
   double curves = (double)plan->k.count * (double)(plan->curves.count + plan->subharmonics.count);
-  return (kz_cost){.cells = (int64_t)points, .disk_bytes = 34 * points + 32 * curves, .first_bytes = 34 * points + 32 * curves};
+  return (kz_cost){.cells = (int64_t)points, .disk_bytes = 34 * points + 32 * curves, .rank0_bytes = 34 * points + 32 * curves};
 }
 
 /* Values from min to max, both exactly. */
@@ -60,7 +60,7 @@ static void make_tasks(kz_chart *chart) {
       chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
 }
 
-static void allocate(kz_chart *chart, bool here) {
+static void stability_allocate(kz_chart *chart, bool here) {
   const kz_stability_plan *plan = chart->plan;
   size_t points = here ? (size_t)(plan->k.count * plan->m.count) : 1;
   chart->k = axis_values(&plan->k);
@@ -113,7 +113,7 @@ static kz_status curve_tile(void *context, int64_t tile, void *record) {
 
 /* Runs a stage; *records is NULL where this rank receives none. */
 static kz_status run_stage(const kz_run *run, const kz_stage *stage, void **records) {
-  bool here = kz_ranks_own(run->ranks) == 0;
+  bool here = kz_rank(run->ranks) == 0;
   *records = here ? kz_malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
   return kz_stage_run(run, stage, *records);
 }
@@ -178,7 +178,7 @@ static kz_status model_curves(const kz_run *run, kz_chart *chart) {
 static kz_chart begin(const kz_scene *scene, bool here) {
   const kz_stability_plan *plan = &scene->stability;
   kz_chart chart = {.plan = plan, .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor}};
-  allocate(&chart, here);
+  stability_allocate(&chart, here);
   return chart;
 }
 
@@ -207,10 +207,10 @@ kz_status kz_stability_measure(const kz_scene *scene, double *seconds) {
 }
 
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_chart chart = begin(scene, kz_ranks_own(run->ranks) == 0);
+  kz_chart chart = begin(scene, kz_rank(run->ranks) == 0);
   kz_status status = model_chart(run, &chart);
   if (status == KZ_OK) status = model_curves(run, &chart);
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) {
+  if (status == KZ_OK && kz_rank(run->ranks) == 0) {
     status = kz_chart_write(&chart, store);
     kz_chart_summarise(&chart, summary);
   }

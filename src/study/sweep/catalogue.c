@@ -1,5 +1,5 @@
 /* What attracts at each value of a sweep, and how much of the starts or of the cells each attractor takes. A value may
- * take long: all ranks work on it together, and what they have done is kept. */
+ * take long: all ranks work on it collective, and what they have done is kept. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ static void begin(const kz_pendulum *pendulum, searching *s) {
   const kz_scene *scene = s->scene;
   s->n_starts = scene->sweep.starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
-  if (on_grid(scene)) s->n_cells = kz_own_cells(&scene->basin);
+  if (on_grid(scene)) s->n_cells = kz_unique_cells(&scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
   s->state = kz_malloc(2 * most * sizeof *s->state);
@@ -172,7 +172,7 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
 }
 
 /* The attractors of the window of the grid, or without one of the sweep's own. */
-static kz_status discover(searching *s) {
+static kz_status sweep_catalogue_discover(searching *s) {
   const kz_sweep_plan *sweep = &s->scene->sweep;
   const kz_basin_plan *basin = s->n_cells > 0 ? &s->scene->basin : NULL;
   kz_search search = {
@@ -210,7 +210,7 @@ static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
 }
 
 static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
-  KZ_TRY(discover(s));
+  KZ_TRY(sweep_catalogue_discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
   catalogue->samples = count_hits(s);
@@ -235,7 +235,7 @@ kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_
   return status;
 }
 
-static kz_status work(void *context, int64_t tile, void *record) {
+static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record) {
   const sweeping *sweep = context;
   return kz_sweep_catalogue_at(sweep->scene, sweep->run, tile, record);
 }
@@ -245,10 +245,10 @@ kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep
   const kz_stage stage = {.name = "sweep attractors",
                           .n_tiles = scene->sweep.values.count,
                           .record_bytes = sizeof *catalogue,
-                          .work = work,
+                          .work = sweep_catalogue_tile,
                           .context = &sweep,
                           .keep = true,
                           .everywhere = true,
-                          .together = true};
+                          .collective = true};
   return kz_stage_run(run, &stage, catalogue);
 }

@@ -40,7 +40,7 @@ typedef struct {
   leg before;
   int64_t piece; /* the first of the group */
   int64_t step;  /* the first value of the leg, counted in the direction of `side` */
-} fluttering;
+} flutter_job;
 
 /* The range and its neighbourhood, kept on one side of zero where the range is. */
 static void neighbourhood(const kz_axis *range, double *low, double *high) {
@@ -52,7 +52,7 @@ static void neighbourhood(const kz_axis *range, double *low, double *high) {
 }
 
 static kz_status find_critical(void *context, int64_t tile, void *record) {
-  const fluttering *f = context;
+  const flutter_job *f = context;
   const double piece = (double)(f->piece + tile);
   double low, high;
   neighbourhood(&f->scene->sweep.values, &low, &high);
@@ -63,7 +63,7 @@ static kz_status find_critical(void *context, int64_t tile, void *record) {
 
 /* Flutter beside the critical value, on one side. */
 static kz_status begin(void *context, int64_t tile, void *record) {
-  const fluttering *f = context;
+  const flutter_job *f = context;
   const kz_axis *range = &f->scene->sweep.values;
   beginning *out = record;
   kz_pendulum pendulum;
@@ -78,13 +78,13 @@ static kz_status begin(void *context, int64_t tile, void *record) {
 }
 
 /* The value at a step away from the critical one. */
-static int64_t value_at(const fluttering *f, int64_t step) {
+static int64_t value_at(const flutter_job *f, int64_t step) {
   return f->side > 0 ? step : f->scene->sweep.values.count - 1 - step;
 }
 
 /* Carries flutter on to the next values of the range. */
 static kz_status follow_leg(void *context, int64_t tile, void *record) {
-  const fluttering *f = context;
+  const flutter_job *f = context;
   const kz_sweep_plan *plan = &f->scene->sweep;
   leg *out = record;
   (void)tile;
@@ -103,7 +103,7 @@ static kz_status follow_leg(void *context, int64_t tile, void *record) {
 
 /* Values that lie between the critical one and the place where flutter was found. */
 static kz_status follow_back(void *context, int64_t tile, void *record) {
-  const fluttering *f = context;
+  const flutter_job *f = context;
   const kz_sweep_plan *plan = &f->scene->sweep;
   double *amplitude = record;
   for (int64_t i = 0; i < LEG; i++) amplitude[i] = NAN;
@@ -116,14 +116,14 @@ static kz_status follow_back(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_status run_stage(fluttering *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
+static kz_status run_stage(flutter_job *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
   const kz_stage stage = {
       .name = name, .n_tiles = n_tiles, .record_bytes = bytes, .work = work, .context = f, .keep = true, .everywhere = true};
   return kz_stage_run(f->run, &stage, records);
 }
 
 /* From where flutter was found to all values of the range beyond. */
-static kz_status follow_on(fluttering *f) {
+static kz_status follow_on(flutter_job *f) {
   leg after;
   f->before = (leg){.at = f->begun.at, .flutter = f->begun.flutter};
   for (f->step = 0; f->step < f->scene->sweep.values.count && !f->before.lost; f->step += LEG) {
@@ -135,7 +135,7 @@ static kz_status follow_on(fluttering *f) {
   return KZ_OK;
 }
 
-static kz_status return_to_birth(fluttering *f) {
+static kz_status return_to_birth(flutter_job *f) {
   const int64_t count = f->scene->sweep.values.count, n = (count + LEG - 1) / LEG;
   double *amplitude = kz_malloc((size_t)(n * LEG) * sizeof *amplitude);
   kz_status status = run_stage(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
@@ -146,7 +146,7 @@ static kz_status return_to_birth(fluttering *f) {
 }
 
 /* From a critical value to all the flutter that it begins; *reaches = that comes to the range. */
-static kz_status follow(fluttering *f, bool *reaches) {
+static kz_status follow(flutter_job *f, bool *reaches) {
   for (f->side = 1; f->side >= -1; f->side -= 2) {
     KZ_TRY(run_stage(f, "flutter's beginning", begin, 1, sizeof f->begun, &f->begun));
     if (!f->begun.found) continue;
@@ -159,7 +159,7 @@ static kz_status follow(fluttering *f, bool *reaches) {
 }
 
 /* The lowest critical value whose flutter reaches the range; the lowest of all where none does. */
-static kz_status find_flutter(fluttering *f) {
+static kz_status find_flutter(flutter_job *f) {
   double critical[GROUP], first = NAN;
   bool reaches = false;
   for (f->piece = 0; f->piece < PIECES && !reaches; f->piece += GROUP) {
@@ -176,7 +176,7 @@ static kz_status find_flutter(fluttering *f) {
 }
 
 /* Points of the fit: (distance from the critical value, amplitude^2); returns how many. */
-static int64_t gather(const fluttering *f, double *x, double *y) {
+static int64_t gather(const flutter_job *f, double *x, double *y) {
   int64_t n = 0;
   for (int64_t i = 0; i < f->scene->sweep.values.count; i++) {
     if (isnan(f->amplitude[i])) continue;
@@ -212,7 +212,7 @@ static power_law fit(int64_t n, const double *x, const double *y, double *room) 
   return (power_law){kz_fit_line(n, x, y), half, fabs(half - exponent(n, x, y, farthest, room, room + n))};
 }
 
-static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) {
+static kz_status write_fit(const flutter_job *f, kz_store *store, FILE *summary) {
   const size_t n = (size_t)f->scene->sweep.values.count;
   double *x = kz_malloc(4 * n * sizeof *x);
   const power_law law = fit(gather(f, x, x + n), x, x + n, x + 2 * n);
@@ -234,13 +234,13 @@ static kz_status write_fit(const fluttering *f, kz_store *store, FILE *summary) 
 }
 
 /* The scene's flutter by this rank, or by all: f->amplitude is to be freed. */
-static kz_status follow_scene(const kz_scene *scene, const kz_run *run, fluttering *f) {
+static kz_status follow_scene(const kz_scene *scene, const kz_run *run, flutter_job *f) {
   const int64_t n = scene->sweep.values.count;
-  *f = (fluttering){.scene = scene,
-                    .run = run,
-                    .path = kz_sweep_path(scene),
-                    .critical = NAN,
-                    .amplitude = kz_malloc((size_t)n * sizeof(double))};
+  *f = (flutter_job){.scene = scene,
+                     .run = run,
+                     .path = kz_sweep_path(scene),
+                     .critical = NAN,
+                     .amplitude = kz_malloc((size_t)n * sizeof(double))};
   for (int64_t i = 0; i < n; i++) f->amplitude[i] = NAN;
   return find_flutter(f);
 }
@@ -252,7 +252,7 @@ kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds) {
   const kz_sweep_plan *plan = &scene->sweep;
   const double n = (double)plan->values.count, step = (plan->values.max - plan->values.min) / fmax(1, n - 1);
   kz_scene fewer = *scene;
-  fluttering f;
+  flutter_job f;
   if (n > FEW) fewer.sweep.values.count = FEW;
   const double start = kz_processor_clock();
   const kz_status status = follow_scene(&fewer, &alone, &f);
@@ -267,7 +267,7 @@ kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds) {
 }
 
 kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  fluttering f;
+  flutter_job f;
   kz_status status = follow_scene(scene, run, &f);
   if (status == KZ_OK && store) status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
   if (status == KZ_OK && store) status = write_fit(&f, store, summary);

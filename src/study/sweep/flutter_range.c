@@ -97,7 +97,7 @@ static kz_status follow_releases(const kz_path *path, const kz_numerics *numeric
   return KZ_OK;
 }
 
-static kz_status work(void *context, int64_t tile, void *record) {
+static kz_status flutter_range_tile(void *context, int64_t tile, void *record) {
   const kz_scene *scene = context;
   flutter_range *range = record;
   kz_pendulum pendulum;
@@ -142,7 +142,7 @@ static kz_stage stage_of(const kz_scene *scene) {
   return (kz_stage){.name = "sweep flutter zone",
                     .n_tiles = scene->sweep.values.count,
                     .record_bytes = sizeof(flutter_range),
-                    .work = work,
+                    .work = flutter_range_tile,
                     .context = (void *)scene,
                     .keep = true};
 }

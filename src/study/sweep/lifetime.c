@@ -14,7 +14,7 @@ typedef struct {
 } following;
 
 /* Periods until each start of a tile is trapped; -1 = it is not. */
-static kz_status work(void *context, int64_t tile, void *record) {
+static kz_status lifetime_tile(void *context, int64_t tile, void *record) {
   const following *f = context;
   double *time = record, state[2 * TILE];
   int32_t label[TILE];
@@ -34,7 +34,7 @@ kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dyn
   const kz_stage stage = {.name = "sweep lifetimes",
                           .n_tiles = (plan->starts + TILE - 1) / TILE,
                           .record_bytes = TILE * sizeof(double),
-                          .work = work,
+                          .work = lifetime_tile,
                           .context = &f,
                           .keep = true,
                           .everywhere = true};

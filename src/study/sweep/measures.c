@@ -12,7 +12,7 @@ bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
 kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {
   void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
   kz_status status = kz_stage_run(run, stage, records);
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0) status = write(stage->context, records, store, summary);
+  if (status == KZ_OK && kz_rank(run->ranks) == 0) status = write(stage->context, records, store, summary);
   free(records);
   return kz_ranks_agree(run->ranks, status);
 }

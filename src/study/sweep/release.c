@@ -126,7 +126,7 @@ static kz_status find_first(const kz_pendulum *pendulum, const kz_numerics *nume
   return locate(pendulum, numerics, outside - step, outside, false, first);
 }
 
-static kz_status work(void *context, int64_t tile, void *record) {
+static kz_status release_tile(void *context, int64_t tile, void *record) {
   const kz_scene *scene = context;
   released *out = record;
   kz_pendulum pendulum;
@@ -176,7 +176,7 @@ static kz_stage stage_of(const kz_scene *scene) {
   return (kz_stage){.name = "sweep releases",
                     .n_tiles = scene->sweep.values.count,
                     .record_bytes = sizeof(released),
-                    .work = work,
+                    .work = release_tile,
                     .context = (void *)scene,
                     .keep = true};
 }

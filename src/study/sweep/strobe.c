@@ -46,7 +46,7 @@ static void record_value(const walking *w, const kz_plan *map, bool pushed, stro
 }
 
 /* record: the state after the leg, then [values][2][samples] angles and velocities. */
-static kz_status work(void *context, int64_t tile, void *record) {
+static kz_status strobe_tile(void *context, int64_t tile, void *record) {
   const walking *w = context;
   const kz_sweep_plan *plan = &w->scene->sweep;
   strobe_state state = w->state[tile];
@@ -66,7 +66,7 @@ static kz_stage leg_of(walking *w) {
   return (kz_stage){.name = "sweep strobe",
                     .n_tiles = WALKS,
                     .record_bytes = sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double),
-                    .work = work,
+                    .work = strobe_tile,
                     .context = w,
                     .keep = true,
                     .everywhere = true};

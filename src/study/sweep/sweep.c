@@ -38,9 +38,9 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
   kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
   kz_status status = kz_sweep_catalogues(scene, run, catalogue);
   if (status == KZ_OK) status = kz_sweep_branches_make(scene, run, catalogue, &branches);
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0)
+  if (status == KZ_OK && kz_rank(run->ranks) == 0)
     status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
-  if (status == KZ_OK && kz_ranks_own(run->ranks) == 0 && kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
+  if (status == KZ_OK && kz_rank(run->ranks) == 0 && kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
     status = kz_sweep_lifetime_write(plan, catalogue, store);
   kz_sweep_branches_free(&branches);
   free(catalogue);
@@ -67,7 +67,7 @@ kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store
   typedef kz_status (*run_fn)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 #define RUN(code, word, run, measure) run,
   static const run_fn runs[] = {KZ_SWEEP_MEASURES(RUN)};
-  KZ_TRY(kz_ranks_agree(run->ranks, kz_ranks_own(run->ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(run->ranks, kz_rank(run->ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
     if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));

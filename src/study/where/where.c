@@ -14,9 +14,9 @@ typedef struct {
   double *state;    /* [the larger of n and the search's starts][2] */
   int32_t *found;   /* [the same] */
   int64_t *reached; /* [numbers from 1] */
-} asking;
+} where_job;
 
-static void allocate(asking *a) {
+static void where_allocate(where_job *a) {
   kz_question *q = &a->question;
   const int64_t most = q->n > a->search.starts ? q->n : a->search.starts;
   const kz_scene *scene = q->scene;
@@ -27,7 +27,7 @@ static void allocate(asking *a) {
 }
 
 /* The attractors that the window's starts, and then those asked for, end on. */
-static kz_status discover(asking *a) {
+static kz_status where_discover(where_job *a) {
   const kz_question *q = &a->question;
   a->search.max_velocity = kz_dynamics_max_velocity(q->dynamics, &a->search.window);
   KZ_TRY(kz_search_window(NULL, q->dynamics, &a->search, a->state, a->found));
@@ -44,7 +44,7 @@ static kz_status discover(asking *a) {
   return status;
 }
 
-static kz_status answer(asking *a, kz_ending *endings) {
+static kz_status answer(where_job *a, kz_ending *endings) {
   kz_question *q = &a->question;
   kz_catalogue catalogue;
   KZ_TRY(kz_question_decide(q));
@@ -63,10 +63,10 @@ kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, const 
   if (!scene->has_basin && !scene->has_attractors)
     return kz_fail(KZ_REFUSED, "scene: has no window to search for attractors; add a basin or attractors study to it");
   if (n == 0 || scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  asking a = {.search = kz_search_of(scene)};
+  where_job a = {.search = kz_search_of(scene)};
   a.question = (kz_question){.scene = scene, .max_periods = a.search.max_periods, .n = n, .start = start, .low = low};
-  allocate(&a);
-  kz_status status = discover(&a);
+  where_allocate(&a);
+  kz_status status = where_discover(&a);
   if (status == KZ_OK) status = answer(&a, endings);
   if (a.question.dynamics) kz_dynamics_free(a.question.dynamics);
   kz_question_free(&a.question);

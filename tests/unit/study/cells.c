@@ -64,7 +64,7 @@ static void a_neighbourhood_is_searched(void **state) {
 static void a_window_about_the_origin_is_its_own_mirror_image(void **state) {
   (void)state;
   kz_basin_plan plan = {.theta = window("0", 0, 0, 1e-20, 7), .velocity = window("0", 0, 0, 3, 4)};
-  assert_int_equal(kz_own_cells(&plan), 14);
+  assert_int_equal(kz_unique_cells(&plan), 14);
   for (int64_t f = 0; f < 28; f++) {
     double start[2], mirror[2];
     kz_cell_start(&plan, f, start);
@@ -73,7 +73,7 @@ static void a_window_about_the_origin_is_its_own_mirror_image(void **state) {
     assert_true(kz_axis_share(&plan.theta, f % 7) == -kz_axis_share(&plan.theta, 6 - f % 7));
   }
   plan.theta = window("1e-30", 1e-30, 0, 1, 7); /* its edges are those of a mirrored window to all digits of a double */
-  assert_int_equal(kz_own_cells(&plan), 28);
+  assert_int_equal(kz_unique_cells(&plan), 28);
 }
 
 int main(void) {

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "accuracy/config.h"
+#include "accuracy/setting.h"
 #include "numerics/share.h"
 
 /* Wilson's limits solve (share - p)^2 = z^2 p (1 - p)/n. */
@@ -102,23 +102,23 @@ static void test_settings_differ_and_exist(void **state) {
   (void)state;
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   const kz_basin_plan plan = {.theta = {-M_PI, M_PI, 10}, .velocity = {-2, 2, 10}};
-  for (int i = 0; i < kz_config_count; i++) {
-    assert_true(kz_config_numerics(kz_configs + i, &pendulum, &plan).scheme < kz_scheme_count());
-    assert_non_null(strstr(kz_tradeoff_words(), kz_configs[i].label));
-    for (int j = 0; j < i; j++) assert_string_not_equal(kz_configs[i].label, kz_configs[j].label);
+  for (int i = 0; i < kz_setting_count; i++) {
+    assert_true(kz_setting_numerics(kz_settings + i, &pendulum, &plan).scheme < kz_scheme_count());
+    assert_non_null(strstr(kz_tradeoff_words(), kz_settings[i].label));
+    for (int j = 0; j < i; j++) assert_string_not_equal(kz_settings[i].label, kz_settings[j].label);
   }
 }
 
 /* More cells, more periods, more steps and more nodes never cost less. */
 static void test_cost_grows(void **state) {
   (void)state;
-  for (int i = 0; i < kz_config_count; i++) {
-    kz_config more = kz_configs[i];
-    const double cost = kz_config_cost(&more, 1e6, 10);
-    assert_true(kz_config_cost(&more, 2e6, 10) > cost && kz_config_cost(&more, 1e6, 20) > cost);
+  for (int i = 0; i < kz_setting_count; i++) {
+    kz_setting more = kz_settings[i];
+    const double cost = kz_setting_cost(&more, 1e6, 10);
+    assert_true(kz_setting_cost(&more, 2e6, 10) > cost && kz_setting_cost(&more, 1e6, 20) > cost);
     more.steps *= 2;
     more.tolerance /= 16;
-    assert_true(kz_config_cost(&more, 1e6, 10) > cost);
+    assert_true(kz_setting_cost(&more, 1e6, 10) > cost);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "draw.h"
+#include "dispatch.h"
 
 #include <signal.h>
 #include <time.h>
@@ -14,12 +14,12 @@ typedef struct {
 /* Between two looks for messages rank 0 sleeps for a sixteenth of the time in which none came. */
 static const double QUIET_SHARE = 1.0 / 16, SHORTEST = 1e-5, LONGEST = 1e-3; /* s */
 
-static double seconds_a_tile(const kz_draw *draw) {
+static double seconds_a_tile(const kz_dispatch *draw) {
   return draw->n_done > 0 ? draw->busy / (double)draw->n_done : 0;
 }
 
 /* Rank 0: the answer to one request; nothing goes back to a rank that cannot go on. */
-static int answer(kz_draw *draw, int rank, const kz_ask *ask) {
+static int answer(kz_dispatch *draw, int rank, const kz_ask *ask) {
   kz_batch batch = {0};
   kz_schedule *schedule = &draw->schedule;
   if (ask->state == FAILED) draw->halted = true;
@@ -32,7 +32,7 @@ static int answer(kz_draw *draw, int rank, const kz_ask *ask) {
 }
 
 /* Looks for one request; *found: there was one. */
-static int look(kz_draw *draw, kz_ask *ask, MPI_Request *request, int *found) {
+static int look(kz_dispatch *draw, kz_ask *ask, MPI_Request *request, int *found) {
   MPI_Status from;
   int code = MPI_SUCCESS;
   if (*request == MPI_REQUEST_NULL)
@@ -49,7 +49,7 @@ static void rest(double quiet) {
 
 /* Rank 0 answers until every other rank knows that nothing is left. */
 static void *serve(void *context) {
-  kz_draw *draw = context;
+  kz_dispatch *draw = context;
   kz_ask ask;
   MPI_Request request = MPI_REQUEST_NULL;
   double heard = kz_clock();
@@ -69,7 +69,7 @@ static void *serve(void *context) {
 }
 
 /* Signals are for the thread that works. */
-static bool start_thread(kz_draw *draw) {
+static bool start_thread(kz_dispatch *draw) {
   pthread_attr_t attributes;
   sigset_t all, before;
   if (draw->ranks->thread_level < MPI_THREAD_SERIALIZED || pthread_attr_init(&attributes) != 0) return false;
@@ -82,21 +82,21 @@ static bool start_thread(kz_draw *draw) {
   return started;
 }
 
-void kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles) {
-  *draw = (kz_draw){.ranks = ranks, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
+void kz_dispatch_prepare(kz_dispatch *draw, kz_ranks *ranks, int64_t n_tiles) {
+  *draw = (kz_dispatch){.ranks = ranks, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
   draw->batch = (kz_batch){.first = ranks->rank, .n = ranks->rank < n_tiles, .more = ranks->size < n_tiles};
   if (ranks->rank != 0) return;
   draw->asking = draw->batch.more ? ranks->size - 1 : 0;
   kz_schedule_begin(&draw->schedule, n_tiles, ranks->size);
 }
 
-void kz_draw_begin(kz_draw *draw) {
+void kz_dispatch_begin(kz_dispatch *draw) {
   if (draw->ranks->rank != 0 || draw->asking == 0) return;
   draw->threaded = start_thread(draw);
   if (!draw->threaded) serve(draw); /* then the others do the work: rank 0 has time for its own once they are done */
 }
 
-static kz_status ask(kz_draw *draw, int64_t state) {
+static kz_status ask(kz_dispatch *draw, int64_t state) {
   const kz_ask ask = {.seconds = seconds_a_tile(draw), .state = state};
   kz_ranks *ranks = draw->ranks;
   if (state != FAILED)
@@ -105,13 +105,13 @@ static kz_status ask(kz_draw *draw, int64_t state) {
   return KZ_OK;
 }
 
-static kz_status take_answer(kz_draw *draw) {
+static kz_status take_answer(kz_dispatch *draw) {
   KZ_MPI(MPI_Wait(&draw->answer, MPI_STATUS_IGNORE));
   draw->batch = draw->granted;
   return KZ_OK;
 }
 
-static kz_status next_by_message(kz_draw *draw, int64_t *tile) {
+static kz_status next_by_message(kz_dispatch *draw, int64_t *tile) {
   kz_batch *batch = &draw->batch;
   while (batch->n == 0 && batch->more) {
     if (draw->answer == MPI_REQUEST_NULL) KZ_TRY(ask(draw, IDLE));
@@ -124,7 +124,7 @@ static kz_status next_by_message(kz_draw *draw, int64_t *tile) {
 }
 
 /* Rank 0 takes its tiles one by one: they cost no message. */
-static int64_t take_here(kz_draw *draw) {
+static int64_t take_here(kz_dispatch *draw) {
   kz_schedule_note(&draw->schedule, 0, seconds_a_tile(draw));
   if (draw->halted) return -1;
   if (draw->batch.n == 0) return kz_schedule_take(&draw->schedule, 0);
@@ -132,13 +132,13 @@ static int64_t take_here(kz_draw *draw) {
   return draw->batch.first;
 }
 
-static void next_here(kz_draw *draw, int64_t *tile) {
+static void next_here(kz_dispatch *draw, int64_t *tile) {
   pthread_mutex_lock(&draw->ranks->mutex);
   *tile = take_here(draw);
   pthread_mutex_unlock(&draw->ranks->mutex);
 }
 
-kz_status kz_draw_next(kz_draw *draw, int64_t *tile) {
+kz_status kz_dispatch_next(kz_dispatch *draw, int64_t *tile) {
   kz_status status = KZ_OK;
   if (draw->handed > 0) {
     draw->busy += kz_clock() - draw->handed;
@@ -153,7 +153,7 @@ kz_status kz_draw_next(kz_draw *draw, int64_t *tile) {
   return status;
 }
 
-kz_status kz_draw_halt(kz_draw *draw) {
+kz_status kz_dispatch_halt(kz_dispatch *draw) {
   if (draw->ranks->rank == 0) {
     pthread_mutex_lock(&draw->ranks->mutex);
     draw->halted = true;
@@ -164,7 +164,7 @@ kz_status kz_draw_halt(kz_draw *draw) {
   return draw->batch.more ? ask(draw, FAILED) : KZ_OK;
 }
 
-kz_status kz_draw_end(kz_draw *draw) {
+kz_status kz_dispatch_end(kz_dispatch *draw) {
   if (draw->threaded) pthread_join(draw->thread, NULL);
   draw->threaded = false;
   kz_schedule_end(&draw->schedule);

@@ -1,7 +1,7 @@
-/* Configurations: ways to label the cells of a window, from fast to accurate; what each costs by count, and how wrong its labels
+/* Settings: ways to label the cells of a window, from fast to accurate; what each costs by count, and how wrong its labels
  * are. */
-#ifndef KAPITZA_STUDY_CONFIG_H
-#define KAPITZA_STUDY_CONFIG_H
+#ifndef KAPITZA_STUDY_SETTING_H
+#define KAPITZA_STUDY_SETTING_H
 
 #include "reference.h"
 
@@ -14,24 +14,24 @@ typedef struct {
   int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
   int64_t nodes;         /* of the map table, an axis; not used by KZ_METHOD_DIRECT */
   bool candidate;        /* of basin.accuracy: no other is both as fast and as accurate as one of these */
-} kz_config;
+} kz_setting;
 
 /* The table. Labels that end in -1992 name the methods of the first published maps of these basins. */
-extern const kz_config kz_configs[];
-extern const int kz_config_count;
+extern const kz_setting kz_settings[];
+extern const int kz_setting_count;
 /* The row of method exact. */
-extern const kz_config *const kz_config_exact;
+extern const kz_setting *const kz_setting_exact;
 
 /* For the cells of a basin of a pendulum. */
-kz_numerics kz_config_numerics(const kz_config *config, const kz_pendulum *pendulum, const kz_basin_plan *plan);
-/* The scene with the configuration in place of its method, icm and numerics. */
-void kz_config_apply(const kz_config *config, kz_scene *scene);
+kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, const kz_basin_plan *plan);
+/* The scene with the setting in place of its method, icm and numerics. */
+void kz_setting_apply(const kz_setting *setting, kz_scene *scene);
 
-/* The cost of a configuration as a count, which depends on no clock: in kicks of one trajectory, for `cells` cells that take
+/* The cost of a setting as a count, which depends on no clock: in kicks of one trajectory, for `cells` cells that take
  * `mean_periods` each. */
-double kz_config_cost(const kz_config *config, double cells, double mean_periods);
+double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods);
 
-/* One configuration on the sampled cells. */
+/* One setting on the sampled cells. */
 typedef struct {
   int64_t wrong;       /* sampled cells whose label differs from the reference, of those that are decided */
   int64_t undecided;   /* of method exact alone */
@@ -43,7 +43,7 @@ typedef struct {
 } kz_measured;
 
 /* Labels the sample and, for a clock that needs more cells, those that follow it up to `timed`; on this rank alone. */
-kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *reference, int64_t timed,
-                            kz_measured *measured);
+kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
+                             kz_measured *measured);
 
 #endif

@@ -9,26 +9,26 @@
 enum { TAG = 4, END = 5, BUFFERS = 4 };
 static const size_t MESSAGE_MAX = (size_t)1 << 30;
 
-void kz_pieces_add(kz_pieces *pieces, int64_t tile, const void *data, size_t bytes) {
+void kz_local_records_add(kz_local_records *pieces, int64_t tile, const void *data, size_t bytes) {
   if (pieces->n == pieces->room) {
     const int64_t room = 2 * pieces->room + 16;
     pieces->list = kz_realloc(pieces->list, (size_t)room * sizeof *pieces->list);
     pieces->room = room;
   }
   void *copy = kz_malloc(bytes + 1);
-  pieces->list[pieces->n++] = (kz_piece){tile, bytes, memcpy(copy, data, bytes)};
+  pieces->list[pieces->n++] = (kz_local_record){tile, bytes, memcpy(copy, data, bytes)};
 }
 
-void kz_pieces_free(kz_pieces *pieces) {
+void kz_local_records_free(kz_local_records *pieces) {
   for (int64_t i = 0; i < pieces->n; i++) free(pieces->list[i].data);
   free(pieces->list);
-  *pieces = (kz_pieces){0};
+  *pieces = (kz_local_records){0};
 }
 
 typedef struct {
   kz_ranks *ranks;
   const kz_delivery *delivery;
-  const kz_pieces *pieces;
+  const kz_local_records *pieces;
   char *buffer[BUFFERS + 1];        /* [message_bytes]; the last one is for rank 0's own */
   MPI_Request request[BUFFERS + 1]; /* messages on their way, rank 0: and the end of a rank's; MPI_REQUEST_NULL: none */
   int64_t sent;                     /* by the rank that has ended; rank 0 */
@@ -140,7 +140,7 @@ static kz_status take_pieces(mail *m) {
   return status;
 }
 
-static kz_status allocate(mail *m) {
+static kz_status local_records_allocate(mail *m) {
   const int first = m->ranks->size == 1 ? BUFFERS : 0, end = m->ranks->rank == 0 ? BUFFERS + 1 : BUFFERS;
   for (int i = first; i < end; i++) m->buffer[i] = kz_malloc(m->delivery->message_bytes + 1);
   if (m->delivery->message_bytes <= MESSAGE_MAX) return KZ_OK;
@@ -165,11 +165,11 @@ static kz_status deliver(mail *m, int64_t total) {
   return status;
 }
 
-kz_status kz_pieces_deliver(kz_ranks *ranks, const kz_pieces *pieces, const kz_delivery *delivery) {
+kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *pieces, const kz_delivery *delivery) {
   mail m = {.ranks = ranks, .delivery = delivery, .pieces = pieces};
   for (int i = 0; i <= BUFFERS; i++) m.request[i] = MPI_REQUEST_NULL;
   int64_t total = pieces->n;
-  kz_status status = kz_ranks_agree(ranks, allocate(&m));
+  kz_status status = kz_ranks_agree(ranks, local_records_allocate(&m));
   if (status == KZ_OK) status = kz_ranks_sum(ranks, &total, 1);
   if (status == KZ_OK) status = deliver(&m, total);
   for (int i = 0; i <= BUFFERS; i++) free(m.buffer[i]);

@@ -1,5 +1,5 @@
-/* One configuration measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
-#include "config.h"
+/* One setting measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
+#include "setting.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ typedef struct {
 } workspace;
 
 typedef struct {
-  const kz_config *config;
+  const kz_setting *setting;
   const kz_reference_labels *reference;
   kz_dynamics *dynamics;
   workspace *work;
@@ -44,7 +44,7 @@ static kz_status decide_cells(const measurement *g, int64_t first, int64_t n, in
 
 /* Labels [n] of the first n cells in the order of the sample. */
 static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
-  const kz_config *s = g->config;
+  const kz_setting *s = g->setting;
   workspace *w = g->work;
   for (int64_t first = 0; first < n; first += CHUNK) {
     const int64_t some = n - first < CHUNK ? n - first : CHUNK;
@@ -90,7 +90,7 @@ static void compare(const kz_reference_labels *reference, const int32_t *label, 
 }
 
 static kz_status set_up(measurement *g) {
-  const kz_config *s = g->config;
+  const kz_setting *s = g->setting;
   kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
   kz_dynamics_coarse_regions(g->dynamics, g->reference->max_velocity);
   const int64_t cells = kz_regions_cells(g->reference->total);
@@ -112,10 +112,10 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
   return KZ_OK;
 }
 
-kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *reference, int64_t timed,
-                            kz_measured *measured) {
-  measurement g = {.config = config, .reference = reference};
-  const kz_numerics numerics = kz_config_numerics(config, &reference->pendulum, reference->plan);
+kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
+                             kz_measured *measured) {
+  measurement g = {.setting = setting, .reference = reference};
+  const kz_numerics numerics = kz_setting_numerics(setting, &reference->pendulum, reference->plan);
   int64_t n = timed > reference->samples ? timed : reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
@@ -124,7 +124,7 @@ kz_status kz_config_measure(const kz_config *config, const kz_reference_labels *
   int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
   kz_status status = g.dynamics && g.work && label && surplus
                          ? measure(&g, n, label, surplus, measured)
-                         : kz_fail(KZ_FAILED, "no memory for the setting %s", config->label);
+                         : kz_fail(KZ_FAILED, "no memory for the setting %s", setting->label);
   if (g.dynamics) kz_dynamics_free(g.dynamics);
   free(g.work);
   free(label);

@@ -5,8 +5,8 @@
  *   0 -> rank   tiles first .. first + n - 1; whether asking again makes sense
  *
  * A rank begins with the tile of its own number, unasked, and asks for the next batch before the last tile of the present one. */
-#ifndef KAPITZA_PARALLEL_DRAW_H
-#define KAPITZA_PARALLEL_DRAW_H
+#ifndef KAPITZA_PARALLEL_DISPATCH_H
+#define KAPITZA_PARALLEL_DISPATCH_H
 
 #include <pthread.h>
 
@@ -33,17 +33,17 @@ typedef struct {
   bool threaded;
   pthread_t thread;
   int mpi_error; /* of the thread, MPI_SUCCESS */
-} kz_draw;
+} kz_dispatch;
 
 /* Prepares for `n_tiles` tiles; no messages. To be ended on every rank, whatever it returns. */
-void kz_draw_prepare(kz_draw *draw, kz_ranks *ranks, int64_t n_tiles);
-/* Rank 0 answers from here on; no rank but through kz_draw may use MPI before kz_draw_end. */
-void kz_draw_begin(kz_draw *draw);
+void kz_dispatch_prepare(kz_dispatch *draw, kz_ranks *ranks, int64_t n_tiles);
+/* Rank 0 answers from here on; no rank but through kz_dispatch may use MPI before kz_dispatch_end. */
+void kz_dispatch_begin(kz_dispatch *draw);
 /* The next tile of this rank; -1 where none is left, or a rank has halted. */
-kz_status kz_draw_next(kz_draw *draw, int64_t *tile);
+kz_status kz_dispatch_next(kz_dispatch *draw, int64_t *tile);
 /* This rank cannot go on, and no other gets more than it has. */
-kz_status kz_draw_halt(kz_draw *draw);
+kz_status kz_dispatch_halt(kz_dispatch *draw);
 /* Rank 0 waits until all others know that nothing is left. */
-kz_status kz_draw_end(kz_draw *draw);
+kz_status kz_dispatch_end(kz_dispatch *draw);
 
 #endif
