@@ -1,7 +1,7 @@
 # Flags of the compilers that are known: GNU or Clang for C, GNU for Fortran. What labels and map tables promise depends on how products
 # are rounded (-ffp-contract) and on quad precision, so another compiler is refused instead of being given flags that it may read otherwise.
 
-if(NOT CMAKE_C_COMPILER_ID MATCHES "^(GNU|Clang|AppleClang)$")
+if(NOT CMAKE_C_COMPILER_ID MATCHES "^(GNU|Clang)$")
   message(FATAL_ERROR "The C compiler is ${CMAKE_C_COMPILER_ID}; give -DCMAKE_C_COMPILER= one of GNU (gcc) or Clang (clang)")
 endif()
 if(NOT CMAKE_Fortran_COMPILER_ID STREQUAL "GNU")

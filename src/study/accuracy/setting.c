@@ -122,10 +122,8 @@ kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_label
   g.work = kz_malloc(sizeof *g.work);
   int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
   int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
-  kz_status status = g.dynamics && g.work && label && surplus
-                         ? measure(&g, n, label, surplus, measured)
-                         : kz_fail(KZ_FAILED, "no memory for the setting %s", setting->label);
-  if (g.dynamics) kz_dynamics_free(g.dynamics);
+  const kz_status status = measure(&g, n, label, surplus, measured);
+  kz_dynamics_free(g.dynamics);
   free(g.work);
   free(label);
   free(surplus);

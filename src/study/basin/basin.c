@@ -35,8 +35,6 @@ static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dy
   s->cell = kz_malloc((size_t)s->n * sizeof *s->cell + 1);
   s->label = kz_calloc((size_t)s->n + 1, sizeof *s->label);
   s->followed = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
-  const bool has_room = s->cell && s->label && (s->followed || kz_rank(run->ranks) != 0);
-  KZ_TRY(kz_ranks_agree(run->ranks, has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)s->n)));
   for (int64_t i = 0; i < s->n; i++) s->cell[i] = kz_doubt_cell(plan, i);
   return kz_doubt_follow(plan, run, dynamics, s->followed);
 }
@@ -117,14 +115,12 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_proof *proof;
   sample s = {0};
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
-  kz_status status = kz_proof_plan(scene, &proof);
-  if (!labelling.dynamics) status = kz_fail(KZ_FAILED, "no memory for the dynamics");
-  status = kz_ranks_agree(run->ranks, status);
+  kz_status status = kz_ranks_agree(run->ranks, kz_proof_plan(scene, &proof));
   if (status == KZ_OK) {
     labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &labelling.search.window);
     status = write_window(scene, &labelling, proof, &catalogue, &s, store, summary);
   }
-  if (labelling.dynamics) kz_dynamics_free(labelling.dynamics);
+  kz_dynamics_free(labelling.dynamics);
   kz_labelling_free(&labelling);
   kz_proof_free(proof);
   kz_catalogue_free(&catalogue);

@@ -100,7 +100,6 @@ static kz_status write_offsets(const kz_axis *axis, const char *name, double *va
 
 static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {
   double *centres = kz_malloc((size_t)axis->count * sizeof *centres);
-  if (!centres) return kz_fail(KZ_FAILED, "no memory for the axis %s", name);
   for (int64_t i = 0; i < axis->count; i++) centres[i] = kz_axis_centre(axis, i);
   kz_status status = kz_store_dimension(store, "basin", name, axis->count, centres);
   if (status == KZ_OK && axis->centre.text[0]) status = write_offsets(axis, name, centres, store);

@@ -89,7 +89,6 @@ static kz_status pair_tile(void *context, int64_t tile, void *record) {
   pair_record *out = record;
   pair_room *r = kz_malloc(sizeof *r);
   const int distances = distances_of(p->plan), stride = 1 + distances;
-  if (!r) return kz_fail(KZ_FAILED, "no memory for pairs of starts");
   for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, r, stride * i);
   const kz_status status = follow(p, (int64_t)STARTS * stride, r);
   for (int64_t i = 0; status == KZ_OK && i < STARTS; i++)
@@ -122,9 +121,7 @@ static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labe
   pairing p = {plan, labelling->dynamics};
   const kz_stage stage = stage_of(&p);
   pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
-  kz_status status =
-      kz_ranks_agree(labelling->run->ranks, records ? KZ_OK : kz_fail(KZ_FAILED, "no memory for pairs of starts"));
-  if (status == KZ_OK) status = kz_stage_run(labelling->run, &stage, records);
+  kz_status status = kz_stage_run(labelling->run, &stage, records);
   for (int d = 0; d < distances_of(plan); d++) {
     uncertain[d] = (kz_uncertain){.distance = distance_of(d)};
     for (int64_t tile = 0; status == KZ_OK && tile < stage.n_tiles; tile++) {
@@ -167,7 +164,7 @@ static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE
 static kz_status count_boxes(const kz_basin_plan *plan, kz_store *store, kz_box_counts *counts) {
   const int64_t columns = plan->theta.count, rows = plan->velocity.count;
   int16_t *label = kz_malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
-  kz_status status = label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)((STRIP + 1) * columns));
+  kz_status status = KZ_OK;
   for (int64_t row = 0; status == KZ_OK && row + 1 < rows; row += STRIP) {
     const int64_t n = rows - row < STRIP + 1 ? rows - row : STRIP + 1;
     status = kz_store_rows(store, "basin", "attractor", row, n, label);

@@ -190,15 +190,13 @@ kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz
   return KZ_OK;
 }
 
-static kz_status chunks_allocate(kz_chunks *c) {
+static void chunks_allocate(kz_chunks *c) {
   const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
   c->ids = kz_calloc(n + 1, sizeof *c->ids);
   c->periods = kz_calloc(n + 1, sizeof *c->periods);
   c->evidence = kz_calloc(n + 1, sizeof *c->evidence);
   c->others = kz_calloc(n + 1, sizeof *c->others);
   c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
-  if (c->ids && c->periods && c->evidence && c->others && c->cells_of) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
 }
 
 /* Boxes and pairs that tiles cut: rank 0 reads whole rows back, as many as a tile has or a few more. */
@@ -206,7 +204,7 @@ static kz_status count_rows(kz_chunks *c) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t most = (tiles->chunk[0] + KZ_BOX - 1) / KZ_BOX * KZ_BOX;
   int16_t *ids = kz_malloc((size_t)(most * tiles->columns) * sizeof *ids);
-  kz_status status = ids ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld rows of cells", (long long)most);
+  kz_status status = KZ_OK;
   for (int64_t row = 0; row < tiles->rows && status == KZ_OK; row += most) {
     const int64_t n = tiles->rows - row < most ? tiles->rows - row : most;
     if ((status = kz_store_rows(c->store, "basin", "attractor", row, n, ids)) != KZ_OK) break;
@@ -231,8 +229,8 @@ static kz_status deliver(kz_chunks *c) {
 }
 
 kz_status kz_cells_write(kz_chunks *c) {
-  kz_status status = kz_ranks_agree(c->labelling->run->ranks, chunks_allocate(c));
-  if (status == KZ_OK) status = deliver(c);
+  chunks_allocate(c);
+  const kz_status status = deliver(c);
   free(c->ids);
   free(c->periods);
   free(c->evidence);
@@ -251,14 +249,12 @@ kz_status kz_chunks_write_unsettled(const kz_basin_plan *plan, const kz_tiles *t
                  .evidence = kz_calloc(n, sizeof *c.evidence),
                  .others = kz_malloc(n * sizeof *c.others)};
   char *message = kz_malloc(message_room((int64_t)n));
-  const bool has_room = c.ids && c.periods && c.evidence && c.others && message;
-  kz_status status = has_room ? KZ_OK : kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", n);
-  for (size_t i = 0; status == KZ_OK && i < n; i++) {
+  for (size_t i = 0; i < n; i++) {
     c.ids[i] = c.others[i] = -1;
     c.periods[i] = (uint32_t)plan->max_periods;
   }
   size_t bytes = 0;
-  if (status == KZ_OK) status = pack(&c, 0, message, &bytes);
+  kz_status status = pack(&c, 0, message, &bytes);
   for (int64_t tile = 0; tile < tiles->n && status == KZ_OK; tile++) {
     memcpy(message, &tile, sizeof tile);
     status = take(&c, message, bytes);

@@ -19,7 +19,7 @@ static kz_status read_times(const kz_basin_plan *plan, kz_store *store, double *
   const int64_t rows = several > 0 ? several : 1, stride = several > 0 ? several : step;
   int16_t *label = kz_malloc((size_t)(rows * columns) * sizeof *label);
   uint32_t *periods = kz_malloc((size_t)(rows * columns) * sizeof *periods);
-  kz_status status = label && periods ? KZ_OK : kz_fail(KZ_FAILED, "no memory for rows of cells");
+  kz_status status = KZ_OK;
   for (int64_t row = 0; status == KZ_OK && row < own; row += stride) {
     const int64_t here = own - row < rows ? own - row : rows;
     status = kz_store_rows(store, "basin", "attractor", row, here, label);
@@ -57,8 +57,7 @@ kz_status kz_lifetime_write(const kz_scene *scene, kz_store *store, FILE *summar
   const int64_t columns = plan->theta.count;
   int64_t n = 0, n_open = 0;
   double *time = kz_malloc((size_t)(CELLS + 2 * columns) * sizeof *time);
-  kz_status status = time ? KZ_OK : kz_fail(KZ_FAILED, "no memory for settling times");
-  if (status == KZ_OK) status = read_times(plan, store, time, &n, &n_open);
+  kz_status status = read_times(plan, store, time, &n, &n_open);
   if (status == KZ_OK) {
     const kz_lifetime life = kz_lifetime_tail(n, time, n_open, (double)plan->max_periods);
     print(&life, plan->max_periods, summary);

@@ -81,9 +81,7 @@ static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, in
   KZ_TRY(kz_open_pick(l, l->before[from], l->n_open, l->n_open, open));
   kz_labelled *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   void *record = kz_malloc(kz_labels_room(l));
-  kz_status status = found && record ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)l->n_open);
-  status = kz_ranks_agree(l->run->ranks, status);
-  if (status == KZ_OK) status = kz_stage_run(l->run, &stage, found);
+  kz_status status = kz_stage_run(l->run, &stage, found);
   for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++)
     status = merge(l, &l->pieces.list[i], l->before[from], found, record);
   free(found);
@@ -95,8 +93,7 @@ kz_status kz_open_label(kz_labelling *l, const char *name) {
   const int64_t *before = l->before, all = before[l->tiles.own];
   const int64_t most = all < MOST_OPEN ? all : MOST_OPEN;
   int64_t *open = kz_malloc((size_t)most * sizeof *open + 1);
-  kz_status status =
-      kz_ranks_agree(l->run->ranks, open ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld cells", (long long)most));
+  kz_status status = KZ_OK;
   for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {
     for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
     if (before[to] > before[from]) status = label_tiles(l, name, from, to, open);

@@ -16,9 +16,7 @@ static kz_status rounds_discover(kz_labelling *l, bool again) {
   double *state = kz_malloc((size_t)n * 2 * sizeof *state);
   int32_t *label = kz_malloc((size_t)n * sizeof *label);
   int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
-  kz_status status = kz_ranks_agree(
-      l->run->ranks, state && label && cell ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n));
-  if (status == KZ_OK && again) status = kz_open_pick(l, 0, all, n, cell);
+  kz_status status = again ? kz_open_pick(l, 0, all, n, cell) : KZ_OK;
   for (int64_t i = 0, spent; again && status == KZ_OK && i < n; i++)
     kz_window_state(&l->starts, cell[i], state + 2 * i, &spent);
   if (status == KZ_OK)
@@ -88,14 +86,12 @@ static kz_status run_rounds(kz_labelling *l) {
   return KZ_OK;
 }
 
-static kz_status rounds_allocate(kz_labelling *l) {
+static void rounds_allocate(kz_labelling *l) {
   const size_t room = (size_t)kz_tile_room(&l->tiles);
   l->work = kz_workspace_make();
   l->cell = kz_calloc(room + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
   l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
-  if (l->work && l->cell && l->before && l->reached) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory for tiles of %zu cells", room);
 }
 
 /* The starts' counts are the same on every rank, those of tiles each rank's own. */
@@ -106,7 +102,7 @@ static kz_status sum_reached(kz_labelling *l) {
 }
 
 kz_status kz_label_window(kz_labelling *l) {
-  KZ_TRY(kz_ranks_agree(l->run->ranks, rounds_allocate(l)));
+  rounds_allocate(l);
   KZ_TRY(run_rounds(l));
   return sum_reached(l);
 }

@@ -39,7 +39,7 @@ kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64
                       kz_decision *decision) {
   if (level == KZ_LEVEL_ARBITRARY) return decide_each(l, n, item, decision);
   kz_start *start = kz_malloc((size_t)(n < BATCH ? n : BATCH) * sizeof *start + 1);
-  kz_status status = start ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
+  kz_status status = KZ_OK;
   for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
     status = label_batch(l, level, before, n - done < BATCH ? n - done : BATCH, item, done, start, decision + done);
   free(start);
@@ -81,9 +81,8 @@ static kz_status escalate(const kz_labeller *l, int64_t n, const int64_t *item, 
 kz_status kz_label(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
   int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
   kz_decision *found = kz_malloc((size_t)n * sizeof *found + 1);
-  kz_status status = place && found ? KZ_OK : kz_fail(KZ_FAILED, "no memory for %lld starts", (long long)n);
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) place[i] = i;
-  if (status == KZ_OK) status = escalate(l, n, item, place, place + n, found, decision);
+  for (int64_t i = 0; i < n; i++) place[i] = i;
+  const kz_status status = escalate(l, n, item, place, place + n, found, decision);
   free(place);
   free(found);
   return status;

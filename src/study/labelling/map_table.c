@@ -29,9 +29,7 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
                     .keep = true,
                     .everywhere = true};
   double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
-  kz_status status = rows ? KZ_OK : kz_fail(KZ_FAILED, "no memory for the map table");
-  if (run) status = kz_ranks_agree(run->ranks, status);
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, rows);
+  kz_status status = kz_stage_run(run, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);
   free(rows);
   return status;
