@@ -18,7 +18,7 @@ from pathlib import Path
 
 import h5py
 
-UNITS = {"s": 1.0, "minutes": 60.0, "hours": 3600.0, "days": 86400.0}
+UNITS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 TIMED = {"tradeoff/seconds", "tradeoff/seconds_per_cell"}  # of a clock: never the same
 
 
