@@ -1,0 +1,168 @@
+"""Frames of `kapitza serve` on one core: processor time of the program, without that of the reader.
+
+A loop of known arithmetic spins between the frames: on a machine that others load, processor time is longer too, and the
+yardstick tells by how much it varied. Ratios of whole commands against another build are taken in turns (--base)."""
+
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+PROGRAM = ROOT / "build" / "kapitza"
+SCENE = ROOT / "scenes" / "blackburn-fig12.yaml"
+ZOOM = {"theta": {"min": 1.05, "max": 1.065}, "velocity": {"min": 0.44, "max": 0.45}}
+BLACKBURN = {"quality_factor": 5, "drive_frequency": 11}
+# name: pendulum, key that moves, first and last value
+SLIDERS = {
+    "slider-fig12": (BLACKBURN, "drive_amplitude", 0.30, 0.31),
+    "slider-k01": ({"k": 0.1, "damping": 0.1}, "m", 0.40, 0.41),
+    "slider-eps046": (BLACKBURN, "drive_amplitude", 0.46, 0.47),
+}
+# name: scene keys of whole commands against another build
+RUNS = {
+    "direct-1000x1000": ["basin.method=direct"],
+    "direct-400x250": ["basin.method=direct", "basin.theta.count=400", "basin.velocity.count=250"],
+    "icm-1000x1000": ["basin.method=icm"],
+    "exact-1000x1000": ["basin.method=exact"],
+}
+
+
+class Engine:
+    """A running `kapitza serve` on one core."""
+
+    def __init__(self, core):
+        command = ["taskset", "-c", str(core), str(PROGRAM), "serve", str(SCENE)]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self._receive()
+
+    def _receive(self):
+        header = json.loads(self.process.stdout.readline())
+        self.process.stdout.read(header["bytes"])
+        return header
+
+    def frame(self, rows, columns, **keys):
+        """Processor milliseconds of the levels of a frame, by level."""
+        request = {"request": "frame", "rows": rows, "columns": columns, "quality": "moving", **keys}
+        self.process.stdin.write(json.dumps(request).encode() + b"\n")
+        self.process.stdin.flush()
+        times = {}
+        while True:
+            header = self._receive()
+            if header["answer"] == "error":
+                sys.exit(header["message"])
+            if header["answer"] == "frame":
+                times[header["level"]] = header["milliseconds"]
+            if header["final"]:
+                return times
+
+    def seconds(self):
+        """Processor time of the program so far, births between frames included."""
+        fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+def spin():
+    """Milliseconds of a fixed amount of arithmetic."""
+    values = np.linspace(0.1, 0.9, 4096)
+    begin = time.process_time()
+    for _ in range(400):
+        values = 3.7 * values * (1 - values)
+    return 1e3 * (time.process_time() - begin)
+
+
+def still(engine, rounds, window=None):
+    """The least of several frames of a pendulum that stays, after one that prepares it."""
+    keys = {"window": window} if window else {}
+    engine.frame(250, 400, **keys)
+    return min(engine.frame(250, 400, **keys)[1] for _ in range(rounds))
+
+
+def slide(engine, pendulum, key, first, last):
+    """Mean over 50 values, births of attractors between the frames included."""
+    engine.frame(250, 400, pendulum={**pendulum, key: first})
+    begin = engine.seconds()
+    for i in range(1, 51):
+        engine.frame(250, 400, pendulum={**pendulum, key: first + (last - first) * i / 50})
+    return 1e3 * (engine.seconds() - begin) / 50
+
+
+def first_picture(core):
+    """A new program: 8x8 cells, and the whole picture, with all that it took to start."""
+    engine = Engine(core)
+    begin = 1e3 * engine.seconds()
+    times = engine.frame(551, 1000, levels=[8, 4, 2, 1])
+    engine.close()
+    return {level: begin + milliseconds for level, milliseconds in times.items()}
+
+
+def measure(core, rounds):
+    engine = Engine(core)
+    frames = {"frame-400x250": still(engine, rounds), "zoom-400x250": still(engine, rounds, ZOOM)}
+    yardstick = [spin()]
+    for name, slider in SLIDERS.items():
+        frames[name] = slide(engine, *slider)
+        yardstick.append(spin())
+    engine.close()
+    pictures = [first_picture(core) for _ in range(min(rounds, 3))]
+    frames["first-1000x551"] = min(picture[1] for picture in pictures)
+    frames["first-1000x551-8x8"] = min(picture[8] for picture in pictures)
+    return frames, yardstick
+
+
+def run_seconds(program, sets, output):
+    """Of all processes of a run, daemons of MPI included."""
+    words = [word for key in sets for word in ("--set", key)]
+    command = [str(program), "run", str(SCENE), "-o", str(output), "--force", *words]
+    counted = subprocess.run(["perf", "stat", "-x", ",", "-e", "task-clock", *command], check=True, text=True, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE)
+    return float(counted.stderr.strip().splitlines()[-1].split(",")[0])
+
+
+def compare(base, rounds):
+    """Least time of this build over that of another one, in turns."""
+    ratios = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for name, sets in RUNS.items():
+            times = [[run_seconds(program, sets, Path(folder) / "out.h5") for program in (base, PROGRAM)] for _ in range(rounds)]
+            ratios[name] = min(own for _, own in times) / min(other for other, _ in times)
+    return ratios
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--rounds", type=int, default=5, help="frames of which the least counts")
+    parser.add_argument("--core", type=int, default=0, help="on which it runs")
+    parser.add_argument("--base", type=Path, help="another kapitza: ratios of whole commands too (needs perf)")
+    parser.add_argument("--json", action="store_true", help="figures for other programs")
+    options = parser.parse_args()
+    frames, yardstick = measure(options.core, options.rounds)
+    result = {
+        "frames": [{"name": name, "ms": ms, "frames_per_second": 1e3 / ms} for name, ms in frames.items()],
+        "yardstick_ms": {"least": min(yardstick), "median": statistics.median(yardstick), "most": max(yardstick)},
+    }
+    if options.base:
+        result["runs"] = [{"name": name, "ratio": ratio} for name, ratio in compare(options.base, options.rounds).items()]
+    if options.json:
+        print(json.dumps(result, indent=1))
+        return
+    for row in result["frames"]:
+        print(f"{row['name']:20} {row['ms']:8.2f} ms {row['frames_per_second']:8.1f} frames/s")
+    print(f"yardstick {min(yardstick):.2f} to {max(yardstick):.2f} ms")
+    for row in result.get("runs", []):
+        print(f"{row['name']:20} {row['ratio']:8.3f} of the other build's time")
+
+
+if __name__ == "__main__":
+    main()
