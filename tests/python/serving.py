@@ -13,8 +13,9 @@ TYPES = {"labels": np.uint8, "settling_time": np.dtype("<f4"), "doubt": np.uint8
 class Server:
     """A running program; `with` ends it."""
 
-    def __init__(self, scene, *arguments):
-        self.process = subprocess.Popen([PROGRAM, "serve", scene, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    def __init__(self, scene, *arguments, folder=None):
+        command = [PROGRAM, "serve", scene, *arguments]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder)
         self.ready, _ = self.receive()
         self.sequence = 0
         self.catalogues = {}  # attractors by version

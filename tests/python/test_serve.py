@@ -1,6 +1,7 @@
 """The command serve: its frames are those of a run, levels are parts of frames, newer requests end older ones, errors are answers."""
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -193,3 +194,27 @@ def state_of(stat):
         return stat.read_text().rsplit(")", 1)[1].split()[0]
     except FileNotFoundError:
         return "X"
+
+
+def resident_bytes(server):
+    fields = Path(f"/proc/{server.process.pid}/statm").read_text().split()
+    return int(fields[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def drag(server, views):
+    """Sliders and windows that move, rests between."""
+    for i in range(views):
+        pendulum = {**OTHER, "drive_amplitude": 0.30 + 0.01 * (i % 50) / 50}
+        centre, width = 1 + 0.3 * np.sin(i), 2 * 0.97 ** (i % 100)
+        window = {"theta": {"centre": f"{centre:.20f}", "width": f"{width:.20f}"}, "velocity": {"min": -width, "max": width}}
+        server.frame(50, 80, pendulum=pendulum, window=window, levels=[8, 1], quality="exact" if i % 25 == 0 else "moving")
+
+
+@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
+def test_a_thousand_views_leave_nothing_behind(tmp_path):
+    with Server(FIG12, folder=tmp_path) as server:
+        drag(server, 200)
+        before = resident_bytes(server)
+        drag(server, 1000)
+        assert resident_bytes(server) < before + 16e6
+    assert not list(tmp_path.iterdir())
