@@ -51,6 +51,12 @@ int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const doubl
  * at rest. `amplitude` as of a record of n = periods. */
 bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude);
 
+/* ---- shares ---- */
+
+/* Upper bound, with this confidence, of a share seen `hits` times in n independent draws (C. J. Clopper, E. S. Pearson, Biometrika 26
+ * (1934) 404). */
+double kz_share_upper(int64_t hits, int64_t n, double confidence);
+
 /* ---- turning points ---- */
 
 typedef struct {

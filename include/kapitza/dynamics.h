@@ -226,11 +226,11 @@ double kz_dynamics_table_error(kz_dynamics *dynamics, int32_t points);
 
 /* ---- proof ---- */
 
-/* Trapping regions that are proved: every start in them ends on the attractor that they are labelled with, under the true flow (the
- * enclosures of kernel.h). A grid of closed cells over the whole circle and velocities from -top to top; its second half mirrors the
- * first. Cells join by induction: the first ones lie in an ellipse that is proved to contract onto a cycle, the others are proved to
- * reach cells that have joined. Numbers of attractors are 1 .. KZ_PROOF_MOST; nothing here is collective. */
-enum { KZ_PROOF_MOST = 255 };
+/* Where starts are proved to end, under the true flow (the enclosures of kernel.h; docs/proof.md). A region: ellipses that are proved
+ * to contract onto a cycle, and a grid of closed cells over the whole circle and velocities from -top to top, whose second half mirrors
+ * the first. Cells join by induction: they are proved to reach ellipses, or cells that have joined. Single starts are proved where
+ * their set reaches the region. Numbers of attractors are 1 .. KZ_PROOF_MOST; nothing here is collective. */
+enum { KZ_PROOF_MOST = 254, KZ_PROOF_LATE = 255 };
 typedef struct kz_proof kz_proof;
 
 /* An open grid of even numbers of columns and rows. KZ_REFUSED, without a message, where `top` (rad per drive radian) is too fast for
@@ -246,21 +246,35 @@ typedef struct {
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse);
 /* The largest ellipse around a strobe point (rad, rad per drive radian) whose starts are proved to end on one cycle of that period. */
 kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity);
-/* Cells inside the ellipse join attractor `number`, their mirror images its mirror image `mirror`. */
-void kz_proof_draw(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
-                   const kz_proof_ellipse *ellipse);
+/* The ellipse joins the region as a part of attractor `number`, its mirror image as one of the mirror image `mirror`; so do cells
+ * inside them. */
+void kz_proof_add(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
+                  const kz_proof_ellipse *ellipse);
+
+/* A cycle as it is published: theta, velocity [period] strobe points, and its Floquet multipliers. */
+typedef struct {
+  int64_t period;
+  const double *theta, *velocity, *multiplier_re, *multiplier_im;
+} kz_proof_cycle;
+/* True where it is proved that there is one attracting cycle within theta [period], velocity [period] of the strobe points, with multipliers
+ * within multiplier [2]. */
+bool kz_proof_confine(const kz_proof *proof, const kz_proof_cycle *cycle, double *theta, double *velocity,
+                      double multiplier[2]);
 
 /* Cells of the first half. */
 int64_t kz_proof_own(const kz_proof *proof);
-/* label [n] of cells first .. first + n - 1: those that are open are followed through up to 16 periods, until cells of one attractor
- * cover their image. The grid stays as it is. */
+/* label [n] of cells first .. first + n - 1: those that are open are followed through up to 16 periods, until the region
+ * of one attractor holds their image. The grid stays as it is. */
 void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *label);
 /* Takes the labels of the first half; mirror [number]: of the mirror image, mirror[0] = 0. Returns how many cells were open before. */
 int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirror[KZ_PROOF_MOST + 1]);
-/* Cells become four with their label. */
-kz_status kz_proof_refine(kz_proof *proof);
-
-/* The attractor on which a start is proved to end, 0 = none; on the edge of two cells both must say so. */
-uint8_t kz_proof_at(const kz_proof *proof, double theta, double velocity);
+/* A start: high + low, off by at most `radius` in rad and in rad per drive radian. */
+typedef struct {
+  double theta[2], velocity[2], radius;
+} kz_proof_start;
+/* Follows n starts in KZ_ENCLOSE_DOUBLES or KZ_ENCLOSE_PAIRS. number [n]: of the attractor on which they are proved to end; 0: none,
+ * because the set around it has grown, so that more digits may help; KZ_PROOF_LATE: none within most_periods. */
+void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
+                     uint8_t *number);
 
 #endif

@@ -193,27 +193,31 @@ kz_status kz_arbitrary_restore(kz_arbitrary *orbit, const char *text);
 
 /* ---- enclosures ---- */
 
-/* Sets of states that are proved to hold the true motion: no error of a scheme, no rounding is left out. Taylor polynomials, whose
- * remainders follow from bounds in the complex plane (enclosure_plan.c), in doubles with bounds on every rounding. Parameters and
- * starts are the doubles given. Rounding to nearest and the compiler's arithmetic are trusted. */
+/* Sets of states that are proved to hold the true motion: no error of a scheme, no rounding is left out (docs/proof.md). Taylor
+ * polynomials of order 22 in doubles, of order 40 in pairs of doubles. Parameters are the doubles given. */
+enum { KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS };
 
-/* All states centre + matrix z with |z[i]| <= reach[i]. A set that begins with reach 1 holds the image of every start
- * centre0 + matrix0 y, |y[i]| <= 1: z is a function of y with |z[i] - y[i]| <= reach[i] - 1 and |dz[i]/dy[j] - (i == j)| <=
- * bend[i][j]. A set that has been lost has reach INFINITY. */
+/* All states centre + matrix z with |z[i]| <= reach[i]. A set that has been lost has reach INFINITY. */
 typedef struct {
-  double theta, velocity; /* of the centre: rad in [-pi, pi] or beyond by rounding, rad per drive radian */
-  double matrix[2][2];    /* rows: theta, velocity */
+  double theta[2], velocity[2]; /* of the centre, high + low: rad, rad per drive radian */
+  double matrix[2][2];          /* rows: theta, velocity */
   double reach[2];
-  double bend[2][2];
+  double jacobian_error[2][2];
 } kz_enclosure;
 
-/* A plan for sets whose centres are not faster than `fastest` (rad per drive radian); those that are get lost. KZ_REFUSED, without
- * a message, where it takes more than 4096 steps a period. */
+/* Whether the matrix becomes a rotation after each period, by which a set that is followed for long stays small; or remains the
+ * tangent map times the matrix of the start. Then z is a function of z0, where the set began, with |z[i] - z0[i]| <= the growth of
+ * reach[i] and |dz[i]/dz0[j] - (i == j)| <= jacobian_error[i][j], which begins with 0. */
+typedef enum { KZ_NEW_FRAME, KZ_KEEP_FRAME } kz_enclosure_frame;
+
+/* A plan for sets whose centres are never faster than `fastest` (rad per drive radian) where a step begins; those that are get lost.
+ * KZ_REFUSED, without a message, where that takes more than 4096 steps a period, or the drive is not k - m cos t alone. */
 typedef struct kz_enclosure_plan kz_enclosure_plan;
-kz_status kz_enclosure_plan_create(const kz_pendulum *pendulum, double fastest, kz_enclosure_plan **plan);
+kz_status kz_enclosure_plan_create(const kz_pendulum *pendulum, int32_t precision, double fastest, kz_enclosure_plan **plan);
 void kz_enclosure_plan_free(kz_enclosure_plan *plan);
 
-/* Advances n sets [n] through one drive period, whole turns left out. Multiples of 8 go together at best speed. */
-void kz_enclosures_advance(const kz_enclosure_plan *plan, int64_t n, kz_enclosure *set);
+/* Advances n sets [n] through one drive period, whole turns left out. A set's result does not depend on its neighbours; some hundred
+ * go together at best speed. */
+void kz_enclosures_advance(const kz_enclosure_plan *plan, kz_enclosure_frame frame, int64_t n, kz_enclosure *set);
 
 #endif

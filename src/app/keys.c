@@ -135,10 +135,10 @@ const kz_key kz_keys[] = {
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
-    BOOLEAN("basin.proof", "false", basin.proof,
-            "Prove trapping regions of the true flow with bounds on every error: `evidence` marks the starts in them, "
-            "`proved_share` is "
-            "their share. About a minute of one core."),
+    BOOLEAN(
+        "basin.proof", "false", basin.proof,
+        "Prove the labels under the differential equation itself: `evidence` marks those that are proved, `proved_share` is "
+        "their share, `other_share_high` bounds the area that ends elsewhere. Some ten times the time of the cells."),
     REAL("basin.accuracy", "", 0.5, 1, "", basin.accuracy,
          "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a "
          "sample "

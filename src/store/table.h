@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-enum { KZ_MAX_DIMENSIONS = 3, KZ_MAX_FLAGS = 10 };
+enum { KZ_MAX_DIMENSIONS = 3, KZ_MAX_FLAGS = 11 };
 
 typedef enum { KZ_REAL, KZ_INT8, KZ_UINT8, KZ_INT16, KZ_INT32, KZ_UINT32, KZ_TEXT } kz_kind;
 
@@ -24,7 +24,10 @@ typedef struct {
 #define RATE "1|1 per drive period"
 #define NONE "1"
 
-/* The part of the table for the groups saddles and manifolds. */
+/* The part of the table for the groups attractors and basin. */
+extern const kz_variable kz_basin_variables[];
+extern const size_t kz_basin_variable_count;
+/* That for the groups saddles and manifolds. */
 extern const kz_variable kz_saddle_variables[];
 extern const size_t kz_saddle_variable_count;
 

@@ -1,10 +1,10 @@
-"""basin.proof: starts in proved regions are marked, their labels are the proved ones, whoever worked on them."""
+"""basin.proof: proved labels are marked and are the proved ones, whoever worked on them; what cannot be proved is not."""
 
 import h5py
 import numpy as np
 from conftest import datasets
 
-# One attractor, and a saddle whose stable manifold is all that cannot be proved to end there.
+# One attractor, and a saddle whose stable manifold no cell's centre meets.
 SCENE = """\
 pendulum: {k: 0.05, damping: 0.4, m: 0.1}
 basin:
@@ -13,19 +13,34 @@ basin:
   proof: true
   attractors: {starts: 256}
 """
-PROVED = 6
+FIG12 = """\
+pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}
+basin:
+  theta: {count: 60}
+  velocity: {min: -2, max: 2, count: 60}
+  proof: true
+  attractors: {starts: 1024}
+"""
+PROVED, IN_PAIRS = 6, 10
 
 
-def test_proved_cells_are_marked_by_any_number_of_ranks(kapitza, tmp_path):
+def read(path):
+    with h5py.File(path) as file:
+        return {name: file["basin"][name][:] for name in ("attractor", "evidence")}, dict(file["basin"].attrs), \
+               {name: file["attractors"][name][:] for name in file["attractors"]}
+
+
+def test_every_label_is_proved_by_any_number_of_ranks(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(SCENE)
-    done = kapitza("run", "s.yaml", "--timings", folder=tmp_path)
-    assert "% of the window lies in trapping regions that are proved\n" in done.stdout and "refuted" not in done.stdout
-    assert "proved ellipses" in done.stdout + done.stderr
-    with h5py.File(tmp_path / "s.h5") as file:
-        basin = file["basin"]
-        evidence, share = basin["evidence"][:], basin.attrs["proved_share"]
-        assert 0.98 < share < 1 and share == np.mean(evidence == PROVED) and basin.attrs["refuted"] == 0
-        assert not basin["attractor"][:].any()
+    done = kapitza("run", "s.yaml", folder=tmp_path)
+    assert "100 % of the labels are proved" in done.stdout and "refuted" not in done.stdout
+    cells, attributes, attractors = read(tmp_path / "s.h5")
+    assert np.isin(cells["evidence"], [PROVED, IN_PAIRS]).all() and not cells["attractor"].any()
+    assert attributes["proved_share"] == 1 and attributes["refuted"] == 0
+    assert attributes["other_share_starts"] == 1240 and attributes["other_share_confidence"] == 0.95
+    assert np.isclose(attributes["other_share_high"], 1 - 0.05 ** (1 / 1240))
+    assert attractors["proved"].all() and (attractors["multiplier_half_width"] < 1e-9).all()
+    assert (attractors["strobe_theta_half_width"] < 1e-11).all() and (attractors["strobe_velocity_half_width"] < 1e-11).all()
     for ranks in (2, 3):
         kapitza("run", "s.yaml", "-o", f"{ranks}.h5", ranks=ranks, folder=tmp_path)
         assert datasets(tmp_path / f"{ranks}.h5") == datasets(tmp_path / "s.h5")
@@ -36,13 +51,25 @@ def test_labels_that_the_proof_refutes_are_replaced_and_counted(kapitza, tmp_pat
     (tmp_path / "s.yaml").write_text(SCENE)
     kapitza("run", "s.yaml", "-o", "without.h5", "--set", "basin.proof=false", "--set", "basin.max_periods=3", folder=tmp_path)
     done = kapitza("run", "s.yaml", "--set", "basin.max_periods=3", folder=tmp_path)
-    with h5py.File(tmp_path / "s.h5") as file, h5py.File(tmp_path / "without.h5") as without:
-        former, proved = without["basin/attractor"][:], file["basin/evidence"][:] == PROVED
-        refuted = np.count_nonzero(proved & (former == -1))
-        assert refuted > 0 and file["basin"].attrs["refuted"] == refuted
-        assert np.array_equal(file["basin/attractor"][:], np.where(proved, 0, former))
-        assert "proved_share" not in without["basin"].attrs and without["basin/evidence"][:].max() < PROVED
-    assert f"warning: {refuted} cells there had another label, or none" in done.stdout
+    cells, attributes, _ = read(tmp_path / "s.h5")
+    without, bare, _ = read(tmp_path / "without.h5")
+    refuted = np.count_nonzero(without["attractor"] == -1)
+    assert refuted > 0 and attributes["refuted"] == refuted and not cells["attractor"].any()
+    assert "proved_share" not in bare and not np.isin(without["evidence"], [PROVED, IN_PAIRS]).any()
+    assert f"warning: {refuted} of the proved cells had another label, or none" in done.stdout
+
+
+def test_a_wrong_list_of_attractors_leaves_basins_unproved(kapitza, tmp_path):
+    """Without the cycles of 2 and 6 periods nothing is proved about starts that end on them, and everything about the others."""
+    (tmp_path / "s.yaml").write_text(FIG12)
+    kapitza("run", "s.yaml", folder=tmp_path)
+    kapitza("run", "s.yaml", "-o", "few.h5", "--set", "basin.attractors.max_period=1", folder=tmp_path)
+    cells, attributes, attractors = read(tmp_path / "s.h5")
+    few, wrong, _ = read(tmp_path / "few.h5")
+    long = np.isin(cells["attractor"], np.flatnonzero(attractors["period"] > 1))
+    assert attributes["proved_share"] == 1 and long.any()
+    assert np.array_equal(np.isin(few["evidence"], [PROVED, IN_PAIRS]), ~long)
+    assert wrong["proved_share"] == np.mean(~long) and wrong["other_share_high"] > np.mean(long)
 
 
 def test_windows_that_are_too_fast_for_a_proof_are_refused(kapitza, tmp_path):

@@ -48,7 +48,7 @@ void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_c
   free(order);
 }
 
-static int64_t longest(const kz_catalogue *catalogue) {
+int64_t kz_catalogue_longest(const kz_catalogue *catalogue) {
   int64_t most = 1;
   for (int64_t i = 0; i < catalogue->count; i++)
     if (catalogue->entries[i].row.period > most) most = catalogue->entries[i].row.period;
@@ -145,7 +145,7 @@ static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *
 }
 
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store) {
-  matrices x = {.phases = longest(catalogue)};
+  matrices x = {.phases = kz_catalogue_longest(catalogue)};
   x.lines = LINES_PER_PERIOD * x.phases + 1;
   KZ_TRY(kz_store_dimension(store, "attractors", "attractor", catalogue->count, NULL));
   KZ_TRY(kz_store_dimension(store, "attractors", "phase", x.phases, NULL));

@@ -14,6 +14,9 @@
 void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);
 void kz_catalogue_free(kz_catalogue *catalogue);
 
+/* The longest period, 1 at least. */
+int64_t kz_catalogue_longest(const kz_catalogue *catalogue);
+
 /* Writes group /attractors, with the lines of every closed orbit; `fraction` only `with_fraction`. */
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store);
 

@@ -12,7 +12,7 @@
 #include "boundary.h"
 #include "resilience/resilience.h"
 #include "numerics/step_table.h"
-#include "proof.h"
+#include "proof_write.h"
 #include "shocks_write.h"
 
 /* The errors of the numerics behind the labels, and warnings about them. */
@@ -79,19 +79,23 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
                               sample *s, kz_store *store, FILE *summary) {
   const kz_run *run = labelling->run;
   KZ_TRY(kz_label_window(labelling));
-  if (proof) KZ_TRY(kz_prove_regions(run, labelling->dynamics, proof));
+  kz_proof_sample proved_sample = {.starts = 0};
+  if (proof) KZ_TRY(kz_prove_window(labelling, proof, &proved_sample));
   if (scene->basin.method == KZ_METHOD_ICM) KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
   kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue);
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   kz_chunks chunks = {.labelling = labelling,
                       .catalogue = catalogue,
-                      .proof = proof,
                       .store = store,
                       .n_sample = s->n,
                       .sample = s->cell,
                       .sample_label = s->label};
   KZ_TRY(kz_cells_write(&chunks));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK));
+  if (proof)
+    KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_proof_write(proof, catalogue, labelling->tiles.cells, &chunks.counts,
+                                                             &proved_sample, store, summary)
+                                            : KZ_OK));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_lifetime_write(scene, store, summary) : KZ_OK));
   KZ_TRY(kz_boundary_find(scene, labelling, catalogue, store, summary));
   return find_shocks(scene, labelling, catalogue, store, summary);

@@ -107,19 +107,6 @@ static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *sto
   return status;
 }
 
-static kz_status write_proof(const kz_labels *labels, kz_store *store, FILE *summary) {
-  const kz_counts *counts = &labels->counts;
-  const double share = (double)counts->proved / (double)labels->cells;
-  fprintf(summary, "%.1f %% of the window lies in trapping regions that are proved\n", 100 * share);
-  if (counts->refuted > 0)
-    fprintf(summary,
-            "warning: %lld cells there had another label, or none: it is refuted and replaced; the numerics are too coarse, or "
-            "basin.max_periods is too small\n",
-            (long long)counts->refuted);
-  KZ_TRY(kz_store_real(store, "basin", "proved_share", share));
-  return kz_store_integer(store, "basin", "refuted", counts->refuted);
-}
-
 kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store) {
   KZ_TRY(write_axis(&scene->basin.theta, "theta", store));
   KZ_TRY(write_axis(&scene->basin.velocity, "velocity", store));
@@ -143,7 +130,6 @@ kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, c
             (long long)labels->counts.undecided);
     KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.undecided));
   }
-  if (plan->proof) KZ_TRY(write_proof(labels, store, summary));
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
   KZ_TRY(kz_basin_flags_write(catalogue, store));
   KZ_TRY(write_numerics(scene, store));

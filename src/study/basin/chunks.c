@@ -40,7 +40,8 @@ static void count(kz_chunks *c, int64_t tile) {
   const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
   for (int64_t i = 0; i < n; i++) {
     c->counts.undecided += c->evidence[i] == KZ_UNDECIDED;
-    c->counts.proved += c->evidence[i] == KZ_PROVED;
+    c->counts.proved += c->evidence[i] == KZ_PROVED || c->evidence[i] == KZ_PROVED_IN_PAIRS;
+    c->counts.proved_in_pairs += c->evidence[i] == KZ_PROVED_IN_PAIRS;
     if (c->ids[i] < 0)
       c->counts.unsettled++;
     else
@@ -101,27 +102,18 @@ static void fill(kz_chunks *c, int64_t tile) {
   }
 }
 
-/* What is proved of cell f, the present tile's own cell i, replaces its label. True where that was another one. */
-static bool take_proof(const kz_chunks *c, int64_t f, int64_t i) {
-  const kz_basin_plan *plan = c->labelling->plan;
-  kz_labelled *cell = &c->labelling->cell[i];
-  const uint8_t proved = kz_proof_at(c->proof, kz_axis_centre(&plan->theta, f % plan->theta.count),
-                                     kz_axis_centre(&plan->velocity, f / plan->theta.count));
-  if (proved == 0) return false;
-  const bool refuted = cell->label != proved && cell->evidence != KZ_UNDECIDED;
-  cell->label = proved;
-  cell->other = 0;
-  cell->evidence = KZ_PROVED;
-  return refuted;
-}
-
-/* The same for the own cells of a tile; refuted ones count with their mirror images. */
+/* What is proved replaces the labels of the own cells of a tile; those that it refutes count with their mirror images. */
 static void take_proofs(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
-  const int64_t first = kz_tile_first(tiles, tile), n = c->proof ? kz_tile_own(tiles, tile) : 0;
+  const int64_t first = kz_tile_first(tiles, tile), n = kz_tile_own(tiles, tile);
   for (int64_t i = 0; i < n; i++) {
+    kz_labelled *cell = &c->labelling->cell[i];
+    if (cell->proof == 0) continue;
     const bool twice = tiles->own_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells;
-    if (take_proof(c, first + i, i)) c->counts.refuted += twice ? 2 : 1;
+    if (cell->label != cell->proved && cell->evidence != KZ_UNDECIDED) c->counts.refuted += twice ? 2 : 1;
+    cell->label = cell->proved;
+    cell->other = 0;
+    cell->evidence = cell->proof;
   }
 }
 

@@ -9,7 +9,6 @@
 typedef struct {
   kz_labelling *labelling;
   kz_catalogue *catalogue; /* fractions are filled in */
-  const kz_proof *proof;   /* NULL: none was asked for */
   kz_store *store;         /* NULL but on rank 0 */
   int64_t n_sample;
   const int64_t *sample; /* [n_sample] own cells whose labels are wanted */

@@ -18,16 +18,19 @@ enum {
   KZ_PROVED = 6,
   KZ_IN_FINE = 7,
   KZ_IN_ARBITRARY = 8,
-  KZ_LEFT = 9
+  KZ_LEFT = 9,
+  KZ_PROVED_IN_PAIRS = 10
 };
 
 /* A cell. */
 typedef struct {
   uint32_t periods;
-  int16_t label;     /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL until a level decides it */
-  int16_t other;     /* of an undecided cell: the second candidate, 0 = none */
-  uint8_t evidence;  /* from KZ_FOLLOWED on */
-  uint8_t unused[3]; /* 0 */
+  int16_t label;    /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL until a level decides it */
+  int16_t other;    /* of an undecided cell: the second candidate, 0 = none */
+  uint8_t evidence; /* from KZ_FOLLOWED on */
+  uint8_t proof;    /* KZ_PROVED, KZ_PROVED_IN_PAIRS, 0 = not proved */
+  uint8_t proved;   /* where it is proved to end: number of kz_dynamics */
+  uint8_t unused;   /* 0 */
 } kz_labelled;
 
 typedef struct kz_workspace kz_workspace;

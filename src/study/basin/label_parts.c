@@ -104,6 +104,16 @@ kz_status kz_labels_pack(const kz_labelling *l, int64_t tile, void *record) {
   return bytes > 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory to pack a tile of %lld cells", (long long)n);
 }
 
+kz_status kz_labels_replace(const kz_labelling *l, kz_local_record *piece, void *record) {
+  kz_local_records packed = {0};
+  KZ_TRY(kz_labels_pack(l, piece->tile, record));
+  kz_local_records_add(&packed, piece->tile, record, *(uint64_t *)record);
+  free(piece->data);
+  *piece = packed.list[0];
+  free(packed.list);
+  return KZ_OK;
+}
+
 kz_status kz_labels_unpack(kz_labelling *l, const kz_local_record *piece) {
   const head *h = piece->data;
   const char *packed = (const char *)(h + 1) + (size_t)h->n_reached * sizeof(int32_t);

@@ -19,6 +19,8 @@ kz_status kz_label_cells(kz_labelling *labelling, int64_t first, const int64_t *
 size_t kz_labels_room(const kz_labelling *labelling);
 /* Packs the own cells of a tile, labelling->cell. */
 kz_status kz_labels_pack(const kz_labelling *labelling, int64_t tile, void *record);
+/* The same into a piece of this rank, in place of what it had; record: room for a packed tile. */
+kz_status kz_labels_replace(const kz_labelling *labelling, kz_local_record *piece, void *record);
 /* Cells of a packed tile with the label `wanted`, 0 or KZ_DOUBTFUL. */
 int64_t kz_labels_open(const kz_local_record *piece, int16_t wanted);
 /* Counts the attractors that it reaches. */

@@ -53,17 +53,11 @@ static kz_status label_open(void *context, int64_t tile, void *record) {
 static kz_status merge(kz_labelling *l, kz_local_record *piece, int64_t from, const kz_labelled *found, void *record) {
   int64_t number = l->before[piece->tile] - from;
   const int64_t end = l->before[piece->tile + 1] - from;
-  kz_local_records packed = {0};
   if (number < 0 || number == end || end > l->n_open) return KZ_OK;
   KZ_TRY(kz_labels_unpack(l, piece));
   for (int64_t k = 0; number < end; k++)
     if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
-  KZ_TRY(kz_labels_pack(l, piece->tile, record));
-  kz_local_records_add(&packed, piece->tile, record, *(uint64_t *)record);
-  free(piece->data);
-  *piece = packed.list[0];
-  free(packed.list);
-  return KZ_OK;
+  return kz_labels_replace(l, piece, record);
 }
 
 /* The open cells of tiles from .. to - 1. */

@@ -1,5 +1,5 @@
-/* Trapping regions that are proved. First the ellipses of all attractors; then, on a coarse grid and two finer ones, rounds in which
- * every open cell is followed among the cells that were proved before the round: the result does not depend on who follows which. */
+/* The region of a proof. First the ellipses of all attractors; then rounds in which every open cell of a grid is followed into the region of
+ * the round before: the result does not depend on who follows which. */
 #include "proof.h"
 
 #include <math.h>
@@ -8,11 +8,12 @@
 
 #include "numerics/cells.h"
 
-enum { COLUMNS = 250, LEVELS = 3, MOST_ROWS = 8000 };
-static const double ROWS = 116;     /* of the coarse grid, a rad per drive radian */
-static const double SECONDS = 2e-5; /* a cell of the finest grid: measured */
-static const double SLOWEST = 1.5;  /* rad per drive radian: as far reaches the grid at least, for the attractors */
-static const double GAIN = 0.002;   /* of the cells: a round that adds less is the last of its grid */
+enum { COLUMNS = 250, MOST_ROWS = 8000 };
+static const double ROWS = 116;       /* a rad per drive radian */
+static const double SECONDS = 3e-5;   /* a cell or a start: measured at Fig. 12 and 13 */
+static const double SMALLEST = 1e-28; /* rad, rad per drive radian: of a cell, well above the rounding of its centre */
+static const double SLOWEST = 1.5;    /* rad per drive radian: as far reaches the grid at least, for the attractors */
+static const double GAIN = 0.01;      /* of the cells: a round that adds less is the last */
 
 static double top_of(const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
@@ -23,21 +24,24 @@ static int64_t rows_of(const kz_scene *scene) {
   return 2 * (int64_t)ceil(fmin(ROWS * top_of(scene), MOST_ROWS));
 }
 
-static double finest_cells(const kz_scene *scene) {
-  return (double)rows_of(scene) * COLUMNS * pow(4, LEVELS - 1);
-}
-
 double kz_proof_bytes(const kz_scene *scene) {
-  return scene->basin.proof ? 2 * finest_cells(scene) : 0;
+  return scene->basin.proof ? 2 * (double)rows_of(scene) * COLUMNS + 2e6 : 0;
 }
 
 double kz_proof_seconds(const kz_scene *scene) {
-  return scene->basin.proof ? SECONDS * finest_cells(scene) : 0;
+  const double cells = (double)kz_unique_cells(&scene->basin) + (double)kz_proof_sample_starts(&scene->basin);
+  return scene->basin.proof ? SECONDS * (cells + (double)rows_of(scene) / 2 * COLUMNS) : 0;
 }
 
 kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
+  const kz_basin_plan *plan = &scene->basin;
   *proof = NULL;
-  if (!scene->basin.proof || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  if (!plan->proof || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  if (!kz_is_sine(&scene->parameters.pendulum))
+    return kz_fail(KZ_REFUSED, "basin.proof: motions are proved for the drive k - m cos t alone; leave basin.proof out");
+  if (fmin(kz_axis_step(&plan->theta), kz_axis_step(&plan->velocity)) < SMALLEST)
+    return kz_fail(KZ_REFUSED, "basin.proof|basin.theta.width: cells below %.0e are too small for a proof in pairs of doubles",
+                   SMALLEST);
   const double top = top_of(scene);
   const kz_status status = kz_proof_create(&scene->parameters.pendulum, COLUMNS, rows_of(scene), top, proof);
   if (status != KZ_REFUSED) return status;
@@ -52,7 +56,7 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
 typedef struct {
   const kz_dynamics *dynamics;
   kz_proof *proof;
-  int64_t tile_cells;
+  kz_proved *proved;
 } job;
 
 /* An attractor's first strobe point and its ellipse. */
@@ -69,7 +73,6 @@ static kz_status find_seed(void *context, int64_t tile, void *record) {
   kz_attractor attractor;
   const size_t most = (size_t)kz_dynamics_packed_size(j->dynamics);
   double *point = kz_calloc(2 * most, sizeof *point);
-  if (!point) return kz_fail(KZ_FAILED, "no memory for the points of a cycle");
   kz_dynamics_attractor(j->dynamics, tile + 1, &attractor, point, point + most);
   s->mirror = attractor.mirror;
   s->theta = point[0];
@@ -80,7 +83,7 @@ static kz_status find_seed(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_status find_ellipses(const kz_run *run, job *j, uint8_t mirror[KZ_PROOF_MOST + 1], bool *found) {
+static kz_status find_ellipses(const kz_run *run, job *j) {
   const int64_t count = kz_dynamics_count(j->dynamics), n = count < KZ_PROOF_MOST ? count : KZ_PROOF_MOST;
   seed seeds[KZ_PROOF_MOST];
   const kz_stage stage = {.name = "proved ellipses",
@@ -94,51 +97,44 @@ static kz_status find_ellipses(const kz_run *run, job *j, uint8_t mirror[KZ_PROO
   for (int64_t i = 0; i < n; i++) {
     const seed *s = &seeds[i];
     if (s->mirror > KZ_PROOF_MOST) continue;
-    mirror[i + 1] = (uint8_t)s->mirror;
+    j->proved->mirror[i + 1] = (uint8_t)s->mirror;
     if (!(s->ellipse.radius > 0)) continue;
-    *found = true;
-    kz_proof_draw(j->proof, (uint8_t)(i + 1), mirror[i + 1], s->theta, s->velocity, &s->ellipse);
+    j->proved->any = j->proved->has[i + 1] = j->proved->has[s->mirror] = true;
+    kz_proof_add(j->proof, (uint8_t)(i + 1), (uint8_t)s->mirror, s->theta, s->velocity, &s->ellipse);
   }
   return KZ_OK;
 }
 
-static kz_status follow_tile(void *context, int64_t tile, void *record) {
+static kz_status follow_row(void *context, int64_t row, void *record) {
   const job *j = context;
-  kz_proof_cells(j->proof, tile * j->tile_cells, j->tile_cells, record);
+  kz_proof_cells(j->proof, row * COLUMNS, COLUMNS, record);
   return KZ_OK;
 }
 
-/* Rounds on a grid whose first half has n_tiles tiles. */
-static kz_status run_level(const kz_run *run, job *j, int level, int64_t n_tiles, const uint8_t *mirror, uint8_t *label) {
+/* Tiles are rows. */
+static kz_status grow(const kz_run *run, const job *j, uint8_t *label) {
   const int64_t own = kz_proof_own(j->proof);
-  j->tile_cells = own / n_tiles;
   for (int round = 1;; round++) {
     char name[32];
-    snprintf(name, sizeof name, "proof %d.%d", level + 1, round);
+    snprintf(name, sizeof name, "proof region %d", round);
     const kz_stage stage = {.name = name,
-                            .n_tiles = n_tiles,
-                            .record_bytes = (size_t)j->tile_cells,
-                            .work = follow_tile,
-                            .context = j,
+                            .n_tiles = own / COLUMNS,
+                            .record_bytes = COLUMNS,
+                            .work = follow_row,
+                            .context = (void *)j,
                             .keep = true,
                             .everywhere = true};
     KZ_TRY(kz_stage_run(run, &stage, label));
-    if ((double)kz_proof_adopt(j->proof, label, mirror) <= GAIN * (double)own) return KZ_OK;
+    if ((double)kz_proof_adopt(j->proof, label, j->proved->mirror) <= GAIN * (double)own) return KZ_OK;
   }
 }
 
-kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_proof *proof) {
-  job j = {.dynamics = dynamics, .proof = proof};
-  uint8_t mirror[KZ_PROOF_MOST + 1] = {0};
-  const int64_t n_tiles = kz_proof_own(proof) / COLUMNS, finest = kz_proof_own(proof) << (2 * (LEVELS - 1));
-  uint8_t *label = kz_malloc((size_t)finest);
-  kz_status status = kz_ranks_agree(run->ranks, label ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a proof"));
-  bool found = false;
-  if (status == KZ_OK) status = find_ellipses(run, &j, mirror, &found);
-  for (int level = 0; level < LEVELS && status == KZ_OK && found; level++) {
-    if (level > 0) status = kz_ranks_agree(run->ranks, kz_proof_refine(proof));
-    if (status == KZ_OK) status = run_level(run, &j, level, n_tiles, mirror, label);
-  }
+kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_proof *proof, kz_proved *proved) {
+  job j = {.dynamics = dynamics, .proof = proof, .proved = proved};
+  KZ_TRY(find_ellipses(run, &j));
+  if (!proved->any) return KZ_OK;
+  uint8_t *label = kz_malloc((size_t)kz_proof_own(proof));
+  const kz_status status = grow(run, &j, label);
   free(label);
   return status;
 }

@@ -56,6 +56,22 @@ __float128 kz_axis_share(const kz_axis *axis, int64_t i) {
   return (kz_axis_centre(axis, i) - (__float128)((axis->min + axis->max) / 2)) / kz_axis_width(axis);
 }
 
+double kz_axis_place(const kz_axis *axis, int64_t i, double pair[2]) {
+  if (!kz_axis_is_centred(axis)) {
+    split(kz_axis_centre(axis, i), pair);
+    return 0;
+  }
+  split(kz_decimal_quad(axis->centre.text) + kz_axis_share(axis, i) * kz_axis_width(axis), pair);
+  return 0x1p-103 * fmax(1, fabs(pair[0]));
+}
+
+double kz_axis_random(const kz_axis *axis, const uint64_t bits[2], double pair[2]) {
+  const __float128 width = kz_axis_width(axis), share = ((__float128)bits[0] + (__float128)bits[1] * 0x1p-53) * 0x1p-53;
+  split((kz_axis_is_centred(axis) ? kz_decimal_quad(axis->centre.text) - width / 2 : (__float128)axis->min) + width * share,
+        pair);
+  return (double)width * 0x1p-105 + 0x1p-103 * fmax(1, fabs(pair[0]));
+}
+
 bool kz_axis_is_deep(const kz_axis *axis) {
   return axis->centre.text[0] &&
          axis->width.high / (double)axis->count < 8.0 * DBL_EPSILON * fmax(fabs(axis->min), fabs(axis->max));

@@ -18,6 +18,11 @@ bool kz_plan_is_centred(const kz_basin_plan *plan); /* along any axis */
 __float128 kz_axis_width(const kz_axis *axis);
 /* The point so large a share of the axis from its lower edge, and `offset` more, as a pair of doubles. */
 void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]);
+/* Centre of cell i as a pair of doubles; returns what it may be off by: 0 where it is a double. */
+double kz_axis_place(const kz_axis *axis, int64_t i, double pair[2]);
+/* A random real point of the axis, from two numbers of 53 random bits, as a pair of doubles; returns what it may be off by, all further
+ * digits included. */
+double kz_axis_random(const kz_axis *axis, const uint64_t bits[2], double pair[2]);
 /* Width of a cell. */
 double kz_axis_step(const kz_axis *axis);
 /* The largest speed on an axis of velocities. */

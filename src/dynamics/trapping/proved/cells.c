@@ -1,9 +1,10 @@
-/* Cells that are proved by following them: the enclosure of a cell is advanced, period by period, until cells of one attractor cover it. */
+/* Cells that are proved by following them: the set of a cell is advanced, period by period, until the region of one attractor holds it. */
 #include <math.h>
 
 #include "proof.h"
 
-enum { LANES = 8, MOST_PERIODS = 16 };
+enum { LANES = 256, MOST_PERIODS = 16 };
+static const double LARGEST = 0.5; /* of a set's sides, rad and rad per drive radian: no larger one gets small again */
 
 /* Cells under way. */
 typedef struct {
@@ -20,16 +21,14 @@ static kz_enclosure set_of(const kz_proof *proof, int64_t f) {
   kz_proof_centre(proof, f, centre);
   const double larger = 1 + KZ_PROOF_ROUNDING;
   return (kz_enclosure){
-      .theta = centre[0], .velocity = centre[1], .matrix = {{half[0] * larger, 0}, {0, half[1] * larger}}, .reach = {1, 1}};
+      .theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{1, 0}, {0, 1}}, .reach = {half[0] * larger, half[1] * larger}};
 }
 
 /* Cell i of the walk after one more period: its attractor, 0 = none yet; *over: it is not followed any further. */
 static uint8_t look(const kz_proof *proof, walk *w, int i, bool *over) {
   *over = true;
-  if (!isfinite(w->set[i].reach[0])) return 0;
-  const kz_parallelogram image = kz_proof_image(proof, &w->set[i]);
-  if (!kz_proof_within(proof, &image)) return 0;
-  const uint8_t found = kz_proof_cover(proof, &image);
+  if (!(w->set[i].reach[0] < LARGEST && w->set[i].reach[1] < LARGEST)) return 0;
+  const uint8_t found = kz_proof_holds(proof, &w->set[i]);
   *over = found != 0 || ++w->periods[i] == MOST_PERIODS;
   return found;
 }
@@ -51,7 +50,7 @@ void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *la
       w.periods[w.n] = 0;
       w.cell[w.n++] = next;
     }
-    kz_enclosures_advance(proof->plan, w.n, w.set);
+    kz_enclosures_advance(proof->plan[KZ_ENCLOSE_DOUBLES], KZ_NEW_FRAME, w.n, w.set);
     for (int i = w.n - 1; i >= 0; i--) {
       bool over;
       label[w.cell[i]] = look(proof, &w, i, &over);

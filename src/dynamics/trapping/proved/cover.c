@@ -10,7 +10,7 @@ kz_parallelogram kz_proof_image(const kz_proof *proof, const kz_enclosure *set) 
   double half[2];
   kz_proof_half_cell(proof, half);
   kz_parallelogram image;
-  const double centre[2] = {set->theta + M_PI, set->velocity + proof->top};
+  const double centre[2] = {set->theta[0] + M_PI, set->velocity[0] + proof->top};
   for (int i = 0; i < 2; i++) {
     image.centre[i] = centre[i] / (2 * half[i]);
     image.a[i] = set->matrix[i][0] * set->reach[0] / (2 * half[i]);
@@ -57,7 +57,20 @@ static void set_corners(const kz_parallelogram *p, double corner[5][2]) {
     for (int i = 0; i < 2; i++) corner[c][i] = p->centre[i] + side[c][0] * p->a[i] + side[c][1] * p->b[i];
 }
 
+/* One that meets four cells at most: these have the same label. */
+static uint8_t cover_small(const kz_proof *proof, const kz_parallelogram *p, double x, double y) {
+  const double top = (double)(proof->rows - 1);
+  const int64_t left = (int64_t)floor(p->centre[0] - x), right = (int64_t)floor(p->centre[0] + x);
+  const int64_t low = (int64_t)fmax(floor(p->centre[1] - y), 0), high = (int64_t)fmin(floor(p->centre[1] + y), top);
+  const uint8_t label = label_of(proof, low, left);
+  const bool one =
+      label == label_of(proof, low, right) && label == label_of(proof, high, left) && label == label_of(proof, high, right);
+  return one ? label : 0;
+}
+
 uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *p) {
+  const double width = fabs(p->a[0]) + fabs(p->b[0]) + 2 * SLACK, height = fabs(p->a[1]) + fabs(p->b[1]) + 2 * SLACK;
+  if (width < 0.5 && height < 0.5) return cover_small(proof, p, width, height);
   const int64_t top = proof->rows - 1, middle = (int64_t)fmin(floor(p->centre[1]), (double)top);
   const uint8_t label = label_of(proof, middle, (int64_t)floor(p->centre[0]));
   if (label == 0) return 0;
@@ -73,8 +86,25 @@ uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *p) {
   return label;
 }
 
-uint8_t kz_proof_at(const kz_proof *proof, double theta, double velocity) {
-  const kz_enclosure point = {.theta = remainder(theta, 2 * M_PI), .velocity = velocity};
-  const kz_parallelogram image = kz_proof_image(proof, &point);
-  return kz_proof_within(proof, &image) ? kz_proof_cover(proof, &image) : 0;
+bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], const kz_enclosure *set) {
+  for (int corner = 0; corner < 4; corner++) {
+    const double y[2] = {corner % 2 ? set->reach[0] : -set->reach[0], corner / 2 ? set->reach[1] : -set->reach[1]};
+    const double x[2] = {remainder(set->theta[0] - centre[0], 2 * M_PI) + set->matrix[0][0] * y[0] + set->matrix[0][1] * y[1],
+                         set->velocity[0] - centre[1] + set->matrix[1][0] * y[0] + set->matrix[1][1] * y[1]};
+    double z[2];
+    kz_proof_solve(ellipse->axes, x, z);
+    if (!(hypot(z[0], z[1]) < ellipse->radius * (1 - KZ_PROOF_ROUNDING))) return false;
+  }
+  return true;
+}
+
+uint8_t kz_proof_holds(const kz_proof *proof, const kz_enclosure *set) {
+  const kz_parallelogram image = kz_proof_image(proof, set);
+  const uint8_t label = kz_proof_within(proof, &image) ? kz_proof_cover(proof, &image) : 0;
+  for (int i = 0; label == 0 && i < proof->n_parts; i++) {
+    const kz_proof_part *part = &proof->part[i];
+    if (fabs(set->velocity[0] - part->centre[1]) < part->half[1] && kz_ellipse_holds(&part->ellipse, part->centre, set))
+      return part->number;
+  }
+  return label;
 }

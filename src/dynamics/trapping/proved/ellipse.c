@@ -8,11 +8,14 @@
 
 #include "proof.h"
 
-static const double LARGEST = 1, SMALLEST = 1e-4,
+static const double LARGEST = 1, SMALLEST = 1e-5,
                     SHRINK = 0.85; /* radii; axes have an area of 1, or a length of 1 where real */
 
-static void advance(const kz_enclosure_plan *plan, int64_t periods, kz_enclosure *set) {
-  for (int64_t i = 0; i < periods && isfinite(set->reach[0]); i++) kz_enclosures_advance(plan, 1, set);
+static const double CENTRE_ROUNDING = 4e-15; /* of the difference of two centres, rad and rad per drive radian */
+
+static void advance(const kz_proof *proof, int64_t periods, kz_enclosure *set) {
+  for (int64_t i = 0; i < periods && isfinite(set->reach[0]); i++)
+    kz_enclosures_advance(proof->plan[KZ_ENCLOSE_DOUBLES], KZ_KEEP_FRAME, 1, set);
 }
 
 /* Real and imaginary part of the eigenvector (J01, mu - J00) of a complex mu. */
@@ -35,10 +38,10 @@ static void real_basis(const double J[2][2], double half, double root, double M[
 }
 
 /* The eigenbasis of the monodromy, to some digits; false where two eigenvalues are too near to each other, or it is not bounded. */
-static bool find_axes(const kz_enclosure_plan *plan, int64_t period, const double centre[2], double M[2][2]) {
+static bool find_axes(const kz_proof *proof, int64_t period, const double centre[2], double M[2][2]) {
   const double tiny = 1e-6;
-  kz_enclosure near = {.theta = centre[0], .velocity = centre[1], .matrix = {{tiny, 0}, {0, tiny}}, .reach = {1, 1}};
-  advance(plan, period, &near);
+  kz_enclosure near = {.theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{tiny, 0}, {0, tiny}}, .reach = {1, 1}};
+  advance(proof, period, &near);
   if (!isfinite(near.reach[0])) return false;
   double J[2][2];
   for (int i = 0; i < 4; i++) J[i / 2][i % 2] = near.matrix[i / 2][i % 2] / tiny;
@@ -61,11 +64,15 @@ static double length_of(const double B[2][2], double x, double y) {
 
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse) {
   const double r = ellipse->radius, most = 1 - KZ_PROOF_ROUNDING;
-  kz_enclosure set = {.theta = theta, .velocity = velocity, .reach = {1, 1}};
+  kz_enclosure set = {.theta = {theta}, .velocity = {velocity}, .reach = {1, 1}};
   for (int i = 0; i < 4; i++) set.matrix[i / 2][i % 2] = r * ellipse->axes[i / 2][i % 2];
-  advance(proof->plan, period, &set);
+  advance(proof, period, &set);
   if (!isfinite(set.reach[0])) return false;
-  const double off[2] = {remainder(set.theta - theta, 2 * M_PI) / r, (set.velocity - velocity) / r};
+  const double off[2] = {remainder(set.theta[0] - theta, 2 * M_PI) / r, (set.velocity[0] - velocity) / r};
+  const double det = ellipse->axes[0][0] * ellipse->axes[1][1] - ellipse->axes[0][1] * ellipse->axes[1][0];
+  const double inverse[2][2] = {{ellipse->axes[1][1] / det, ellipse->axes[0][1] / det},
+                                {ellipse->axes[1][0] / det, ellipse->axes[0][0] / det}};
+  const double rounded = length_of(inverse, CENTRE_ROUNDING / r, CENTRE_ROUNDING / r);
   double d[2], B[2][2];
   kz_proof_solve(ellipse->axes, off, d);
   for (int j = 0; j < 2; j++) {
@@ -76,16 +83,36 @@ bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double 
     B[1][j] = z[1];
   }
   const double norm = spectral_norm(B), moved = length_of(B, set.reach[0] - 1, set.reach[1] - 1);
-  const double bent = hypot(length_of(B, set.bend[0][0], set.bend[1][0]), length_of(B, set.bend[0][1], set.bend[1][1]));
-  return hypot(d[0], d[1]) + norm + moved < most && norm + bent < most;
+  const double bent = hypot(length_of(B, set.jacobian_error[0][0], set.jacobian_error[1][0]),
+                            length_of(B, set.jacobian_error[0][1], set.jacobian_error[1][1]));
+  return hypot(d[0], d[1]) + rounded + norm + moved < most && norm + bent < most;
+}
+
+kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, double theta, double velocity) {
+  const double centre[2] = {theta, velocity};
+  kz_proof_ellipse ellipse = {.radius = 0};
+  if (!find_axes(proof, period, centre, ellipse.axes)) return ellipse;
+  ellipse.radius = LARGEST;
+  while (ellipse.radius > SMALLEST && !kz_proof_traps(proof, period, theta, velocity, &ellipse)) ellipse.radius *= SHRINK;
+  if (!(ellipse.radius > SMALLEST)) ellipse.radius = 0;
+  return ellipse;
 }
 
 kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity) {
-  const double centre[2] = {theta, velocity};
-  kz_proof_ellipse ellipse = {.radius = 0};
-  if (!find_axes(proof->plan, period, centre, ellipse.axes)) return ellipse;
-  ellipse.radius = LARGEST;
-  while (ellipse.radius > SMALLEST && !kz_proof_traps(proof, period, theta, velocity, &ellipse)) ellipse.radius *= SHRINK;
-  ellipse.radius = ellipse.radius > SMALLEST ? kz_proof_grow_rings(proof->plan, centre, &ellipse) : 0;
+  kz_proof_ellipse ellipse = kz_proof_find_trap(proof, period, theta, velocity);
+  if (ellipse.radius > 0) kz_proof_grow_rings(proof->plan[KZ_ENCLOSE_DOUBLES], (double[]){theta, velocity}, &ellipse);
   return ellipse;
+}
+
+static void add(kz_proof *proof, uint8_t number, double theta, double velocity, const kz_proof_ellipse *ellipse) {
+  kz_proof_part *part = &proof->part[proof->n_parts++];
+  *part = (kz_proof_part){.ellipse = *ellipse, .centre = {theta, velocity}, .number = number};
+  for (int i = 0; i < 2; i++) part->half[i] = 1.001 * ellipse->radius * hypot(ellipse->axes[i][0], ellipse->axes[i][1]);
+  kz_proof_draw(proof, part);
+}
+
+void kz_proof_add(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
+                  const kz_proof_ellipse *ellipse) {
+  add(proof, number, theta, velocity, ellipse);
+  if (mirror != number) add(proof, mirror, -theta, -velocity, ellipse);
 }

@@ -10,27 +10,18 @@ kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t 
   made->columns = columns;
   made->rows = rows;
   made->top = top;
+  made->beta = pendulum->beta;
   made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
-  return kz_enclosure_plan_create(pendulum, top + kz_stiffness(pendulum), &made->plan);
+  const double fastest = top + 1.5 * kz_stiffness(pendulum);
+  KZ_TRY(kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_DOUBLES, fastest, &made->plan[KZ_ENCLOSE_DOUBLES]));
+  return kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_PAIRS, fastest, &made->plan[KZ_ENCLOSE_PAIRS]);
 }
 
 void kz_proof_free(kz_proof *proof) {
   if (!proof) return;
-  kz_enclosure_plan_free(proof->plan);
+  for (int p = 0; p < 2; p++) kz_enclosure_plan_free(proof->plan[p]);
   free(proof->label);
   free(proof);
-}
-
-kz_status kz_proof_refine(kz_proof *proof) {
-  const int64_t columns = 2 * proof->columns, rows = 2 * proof->rows;
-  uint8_t *label = kz_malloc((size_t)(columns * rows));
-  for (int64_t row = 0; row < rows; row++)
-    for (int64_t i = 0; i < columns; i++) label[row * columns + i] = proof->label[row / 2 * proof->columns + i / 2];
-  free(proof->label);
-  proof->label = label;
-  proof->columns = columns;
-  proof->rows = rows;
-  return KZ_OK;
 }
 
 void kz_proof_half_cell(const kz_proof *proof, double half[2]) {
@@ -61,27 +52,23 @@ int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirr
 }
 
 /* The corner of cell f that is farthest from the centre of an ellipse, in its norm. */
-static double farthest_corner(const kz_proof *proof, int64_t f, const double centre[2], const kz_proof_ellipse *ellipse) {
+static double farthest_corner(const kz_proof *proof, int64_t f, const kz_proof_part *part) {
   double half[2], cell[2], farthest = 0;
   kz_proof_half_cell(proof, half);
   kz_proof_centre(proof, f, cell);
   for (int corner = 0; corner < 4; corner++) {
-    const double x[2] = {remainder(cell[0] - centre[0], 2 * M_PI) + (corner % 2 ? half[0] : -half[0]),
-                         cell[1] - centre[1] + (corner / 2 ? half[1] : -half[1])};
+    const double x[2] = {remainder(cell[0] - part->centre[0], 2 * M_PI) + (corner % 2 ? half[0] : -half[0]),
+                         cell[1] - part->centre[1] + (corner / 2 ? half[1] : -half[1])};
     double z[2];
-    kz_proof_solve(ellipse->axes, x, z);
+    kz_proof_solve(part->ellipse.axes, x, z);
     farthest = fmax(farthest, hypot(z[0], z[1]));
   }
   return farthest;
 }
 
-void kz_proof_draw(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
-                   const kz_proof_ellipse *ellipse) {
+void kz_proof_draw(kz_proof *proof, const kz_proof_part *part) {
   const int64_t cells = proof->columns * proof->rows;
-  const double centre[2] = {theta, velocity};
-  for (int64_t f = 0; f < cells; f++) {
-    if (!(farthest_corner(proof, f, centre, ellipse) < ellipse->radius * (1 - KZ_PROOF_ROUNDING))) continue;
-    proof->label[f] = number;
-    proof->label[cells - 1 - f] = mirror;
-  }
+  for (int64_t f = 0; f < cells; f++)
+    if (proof->label[f] == 0 && farthest_corner(proof, f, part) < part->ellipse.radius * (1 - KZ_PROOF_ROUNDING))
+      proof->label[f] = part->number;
 }

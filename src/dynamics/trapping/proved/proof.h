@@ -1,4 +1,4 @@
-/* Inside of the proof of trapping regions (dynamics.h). */
+/* Inside of the proofs (dynamics.h): a region of starts that are proved to end on an attractor, and sets that are followed into it. */
 #ifndef KAPITZA_DYNAMICS_PROOF_H
 #define KAPITZA_DYNAMICS_PROOF_H
 
@@ -6,11 +6,21 @@
 
 #include "kapitza/dynamics.h"
 
+/* An ellipse of the region: its own bounds, along theta and velocity, tell most sets apart from it. */
+typedef struct {
+  kz_proof_ellipse ellipse;
+  double centre[2], half[2]; /* rad, rad per drive radian */
+  uint8_t number;
+} kz_proof_part;
+
 struct kz_proof {
-  kz_enclosure_plan *plan;
-  int64_t columns, rows; /* even */
-  double top;            /* rad per drive radian: rows go from -top to top */
-  uint8_t *label;        /* [rows][columns]: attractor, 0 = open; closed cells */
+  kz_enclosure_plan *plan[2]; /* KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS */
+  int64_t columns, rows;      /* even */
+  double beta;
+  double top;     /* rad per drive radian: rows go from -top to top */
+  uint8_t *label; /* [rows][columns]: attractor, 0 = open; closed cells */
+  int n_parts;
+  kz_proof_part part[2 * KZ_PROOF_MOST];
 };
 
 /* A parallelogram in units of cells: centre + a p + b q, |p|, |q| <= 1; x from theta = -pi, y from velocity = -top. */
@@ -22,6 +32,8 @@ typedef struct {
 void kz_proof_half_cell(const kz_proof *proof, double half[2]);
 /* Centre of cell f: exactly mirrored. */
 void kz_proof_centre(const kz_proof *proof, int64_t f, double state[2]);
+/* Cells inside a part join its attractor. */
+void kz_proof_draw(kz_proof *proof, const kz_proof_part *part);
 
 /* The parallelogram that holds a set. */
 kz_parallelogram kz_proof_image(const kz_proof *proof, const kz_enclosure *set);
@@ -29,6 +41,15 @@ kz_parallelogram kz_proof_image(const kz_proof *proof, const kz_enclosure *set);
 bool kz_proof_within(const kz_proof *proof, const kz_parallelogram *image);
 /* The attractor that all cells of a parallelogram within the grid belong to, 0 where there is none. */
 uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *image);
+/* The attractor of the region that holds a set, 0 where it does not. */
+uint8_t kz_proof_holds(const kz_proof *proof, const kz_enclosure *set);
+/* Is a set inside an ellipse? */
+bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], const kz_enclosure *set);
+
+/* An ellipse that the map of `period` drive periods carries into itself and contracts; radius 0: none was found. */
+kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, double theta, double velocity);
+/* An ellipse grows: every start in it is proved to reach it as it was. */
+void kz_proof_grow_rings(const kz_enclosure_plan *plan, const double centre[2], kz_proof_ellipse *ellipse);
 
 /* z with M z = x. */
 static inline void kz_proof_solve(const double M[2][2], const double x[2], double z[2]) {
@@ -36,8 +57,6 @@ static inline void kz_proof_solve(const double M[2][2], const double x[2], doubl
   z[0] = (M[1][1] * x[0] - M[0][1] * x[1]) / det;
   z[1] = (M[0][0] * x[1] - M[1][0] * x[0]) / det;
 }
-/* The radius to which an ellipse grows, ring by ring: every start in it is proved to reach it as it is. */
-double kz_proof_grow_rings(const kz_enclosure_plan *plan, const double centre[2], const kz_proof_ellipse *ellipse);
 
 /* Relative: tests that decide are passed by more than their own rounding. */
 #define KZ_PROOF_ROUNDING 1e-9

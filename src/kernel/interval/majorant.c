@@ -1,0 +1,43 @@
+/* For complex time t + z, |z| <= R, the motion from a real state is compared with the solution of
+ *   w' = beta w + (|k| + |m| cosh r) cosh y,  y' = w,  y(0) = 0,  w(0) = fastest
+ * along the ray r = |z|: |theta'| <= w(r), |Im theta| <= y(r), since |cos(t + z)| <= cosh r and |sin theta|, |cos theta| <= cosh y.
+ * Its neighbours likewise with (|k| + |m| cosh r) cosh(y) a. */
+#include "majorant.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+static const long double CAUTION = 1e-9L; /* relative, far above the rounding here and in the C library's cosh */
+
+/* An Euler step with the slopes at its end, found by repetition and then checked: all of them grow. */
+static bool march(const kz_pendulum *p, long double dr, kz_majorant *at) {
+  const long double r = at->r + dr, torque = fabs(p->k) + fabs(p->m) * coshl(r);
+  kz_majorant to = *at;
+  to.r = r;
+  bool holds = false;
+  for (int i = 0; i < 60 && !holds && to.y < 25; i++) {
+    const long double w = at->w + dr * (p->beta * to.w + torque * coshl(to.y)), y = at->y + dr * to.w;
+    if (w * (1 + CAUTION / 8) <= to.w && y * (1 + CAUTION / 8) <= to.y) {
+      holds = true;
+    } else {
+      to.w = w * (1 + CAUTION);
+      to.y = (at->y + dr * to.w) * (1 + CAUTION);
+    }
+  }
+  const long double stiffness = torque * coshl(to.y), rest = 1 - dr * p->beta - dr * dr * stiffness;
+  if (!holds || !(rest > 0.5L)) return false;
+  for (int c = 0; c < 2; c++) { /* linear: slope = old + dr (beta slope + stiffness (a + dr slope)) */
+    to.slope[c] = (at->slope[c] + dr * stiffness * at->a[c]) / rest * (1 + CAUTION);
+    to.a[c] = (at->a[c] + dr * to.slope[c]) * (1 + CAUTION);
+  }
+  *at = to;
+  return true;
+}
+
+int kz_majorants_find(const kz_pendulum *pendulum, double fastest, kz_majorant *list) {
+  const double scale = fmax(fmax(1, fastest), sqrt(kz_stiffness(pendulum)));
+  kz_majorant at = {.w = fastest, .a = {1, 0}, .slope = {0, 1}};
+  int n = 0;
+  while (n < KZ_MAJORANTS && march(pendulum, 6.0L / KZ_MAJORANTS / scale, &at)) list[n++] = at;
+  return n;
+}

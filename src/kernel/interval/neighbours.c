@@ -1,0 +1,152 @@
+/* A step of the sets around their centres.
+ *
+ * A set is {c + A z: |z_i| <= Z_i}. Its true image lies in {c' + A' z}, c' and A' the doubles that are kept, where |z| gains at most |A'^-1|
+ * times what c', A' and the linear map leave out, p:
+ *   M = |A| Z,  d = farthest . M,  p = error + tangent_error M + nonlinear T d^2 (|sin theta| / 2 + d / 6),  T >= |k - m cos t|.
+ * jacobian_error bounds |dz_i/dz0_j - (i == j)| of z as a function of its start, as long as the frame is not renewed. */
+#include "operations.h"
+
+static const double LARGEST = 1e6;   /* of the reach of a set that is followed */
+static const double FLATTEST = 0.25; /* sine of the angle between the columns of a frame that is kept */
+
+/* |A| x. */
+OPERATION void spread(const kz_sets *x, vector first, vector second, vector M[2]) {
+  for (int i = 0; i < 2; i++) M[i] = size_of(x->matrix[i][0]) * first + size_of(x->matrix[i][1]) * second;
+}
+
+/* |A^-1| p, with 1 / |det A|. */
+OPERATION void solve(const kz_sets *x, vector inverse, const vector p[2], vector z[2]) {
+  z[0] = inverse * (size_of(x->matrix[1][1]) * p[0] + size_of(x->matrix[0][1]) * p[1]);
+  z[1] = inverse * (size_of(x->matrix[1][0]) * p[0] + size_of(x->matrix[0][0]) * p[1]);
+}
+
+/* Lower bound of |det A|. */
+OPERATION vector least_determinant(const kz_sets *x) {
+  const vector a = x->matrix[0][0] * x->matrix[1][1], b = x->matrix[0][1] * x->matrix[1][0];
+  return size_of(a - b) - 0x1p-40 * (size_of(a) + size_of(b));
+}
+
+/* A set that is not good any more is lost: a point at rest takes its place, so that nothing overflows. */
+static void lose(mask lost, kz_sets *x) {
+  for (int lane = 0; lane < LANES; lane++) {
+    if (!lost[lane]) continue;
+    x->lost[lane] = -1;
+    x->theta.high[lane] = x->theta.low[lane] = x->velocity.high[lane] = x->velocity.low[lane] = 0;
+    for (int i = 0; i < 2; i++) {
+      x->reach[i][lane] = 0;
+      for (int j = 0; j < 2; j++) {
+        x->matrix[i][j][lane] = i == j;
+        x->jacobian_error[i][j][lane] = 0;
+      }
+    }
+  }
+}
+
+void kz_sets_check(const kz_speed_class *speed, kz_sets *x) {
+  const mask slow = size_of(x->velocity.high) <= speed->fastest, small = x->reach[0] + x->reach[1] < LARGEST;
+  const mask good = slow & small & (least_determinant(x) > 1e-250);
+  int64_t all = -1;
+  for (int lane = 0; lane < LANES; lane++) all &= good[lane];
+  if (all) return;
+  x->too_fast |= ~slow;
+  lose(~good, x);
+}
+
+/* The matrix by Taylor series of h (k - m cos t) cos theta and of its columns. */
+OPERATION void move_matrix(const kz_speed_class *speed, const kz_constant *torque, int P, const vector *cosine, kz_sets *x) {
+  vector stiffness[KZ_ORDER_JACOBIAN];
+  for (int n = 0; n + 1 < P; n++) {
+    vector s = same(0);
+    for (int j = 0; j <= n; j++) s = fused(same(torque[j].high), cosine[n - j], s);
+    stiffness[n] = s;
+  }
+  for (int column = 0; column < 2; column++) {
+    vector a[KZ_ORDER_JACOBIAN], b[KZ_ORDER_JACOBIAN];
+    a[0] = x->matrix[0][column];
+    b[0] = x->matrix[1][column];
+    vector farther = b[0] * speed->step[0].high, faster = same(0);
+    for (int n = 0; n + 1 < P; n++) {
+      vector s = same(speed->damping.high) * b[n];
+      for (int j = 0; j <= n; j++) s = fused(stiffness[j], a[n - j], s);
+      a[n + 1] = b[n] * speed->step[n].high;
+      b[n + 1] = s * -speed->inverse[n].high;
+      faster += b[n + 1];
+      farther = fused(same(speed->step[n + 1].high), b[n + 1], farther);
+    }
+    x->matrix[0][column] += farther;
+    x->matrix[1][column] += faster;
+  }
+}
+
+/* What the step adds to (theta, velocity) of neighbours with |A z| <= M, beside its linear part without errors; torque: of what is not
+ * linear. */
+OPERATION void rest_of(const kz_speed_class *speed, bool jacobian, const vector M[2], vector torque, vector p[2]) {
+  const double (*error)[2] = speed->tangent_error[jacobian];
+  for (int i = 0; i < 2; i++) p[i] = (speed->nonlinear[i] * torque + error[i][0] * M[0] + error[i][1] * M[1]) * KZ_LARGER;
+}
+
+void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector cosine[KZ_ORDER_JACOBIAN], bool jacobian,
+                        kz_sets *x) {
+  const double most_torque = speed->most_torque[step], local[2] = {speed->theta_error, speed->velocity_error};
+  vector M[2], p[2], p_column[2][2], gain[2];
+  spread(x, x->reach[0], x->reach[1], M);
+  const vector d = speed->farthest[0] * M[0] + speed->farthest[1] * M[1];
+  rest_of(speed, jacobian, M, most_torque * (d * d) * (0.5 * x->most_sine + d * (1.0 / 6)), p);
+  for (int i = 0; i < 2; i++) p[i] = (p[i] + local[i]) * KZ_LARGER;
+  for (int j = 0; jacobian && j < 2; j++) {
+    spread(x, (j == 0) + x->jacobian_error[0][j], (j == 1) + x->jacobian_error[1][j], M);
+    const vector along = speed->farthest[0] * M[0] + speed->farthest[1] * M[1];
+    rest_of(speed, jacobian, M, most_torque * (d * along) * (x->most_sine + 0.5 * d), p_column[j]);
+  }
+  const kz_constant *torque = &speed->torque[step * speed->order];
+  if (jacobian)
+    move_matrix(speed, torque, KZ_ORDER_JACOBIAN, cosine, x);
+  else
+    move_matrix(speed, torque, KZ_ORDER_TANGENT, cosine, x);
+  const vector inverse = KZ_LARGER / least_determinant(x);
+  solve(x, inverse, p, gain);
+  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
+  for (int j = 0; jacobian && j < 2; j++) {
+    solve(x, inverse, p_column[j], gain);
+    for (int i = 0; i < 2; i++) x->jacobian_error[i][j] = (x->jacobian_error[i][j] + gain[i]) * KZ_LARGER;
+  }
+}
+
+/* (B7) The angle is off by at most 2^-99 + turns 2^-105. */
+void kz_sets_wrap(kz_sets *x) {
+  static const double turn[3] = KZ_TWO_PI;
+  const vector turns = nearest_integer(x->theta.high * (1 / turn[0]));
+  x->theta = less_multiple(x->theta, turns, turn);
+  const vector p[2] = {0x1p-99 + 0x1p-105 * size_of(turns), same(0)};
+  vector gain[2];
+  solve(x, KZ_LARGER / least_determinant(x), p, gain);
+  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
+}
+
+/* Of A z = Q (Q^-1 A z), Q a rotation but for rounding, which the slack covers. */
+void kz_sets_renew_frame(kz_sets *x) {
+  vector squares[2], lengths[2];
+  for (int j = 0; j < 2; j++) {
+    lengths[j] = x->matrix[0][j] * x->matrix[0][j] + x->matrix[1][j] * x->matrix[1][j];
+    squares[j] = lengths[j] * (x->reach[j] * x->reach[j]);
+  }
+  const vector area = x->matrix[0][0] * x->matrix[1][1] - x->matrix[0][1] * x->matrix[1][0];
+  const mask first = squares[0] >= squares[1], keep = area * area > FLATTEST * FLATTEST * lengths[0] * lengths[1];
+  vector a[2], b[2];
+  for (int i = 0; i < 2; i++) {
+    a[i] = pick(first, x->matrix[i][0], x->matrix[i][1]);
+    b[i] = pick(first, x->matrix[i][1], x->matrix[i][0]);
+  }
+  const vector reach_a = pick(first, x->reach[0], x->reach[1]), reach_b = pick(first, x->reach[1], x->reach[0]);
+  vector length = pick(first, lengths[0], lengths[1]);
+  for (int lane = 0; lane < LANES; lane++) length[lane] = sqrt(length[lane]);
+  const vector q[2] = {a[0] / length, a[1] / length};
+  const vector slack = 0x1p-44 * (length * reach_a + (size_of(b[0]) + size_of(b[1])) * reach_b);
+  const vector along = (length * reach_a + size_of(b[0] * q[0] + b[1] * q[1]) * reach_b + slack) * KZ_LARGER;
+  const vector across = (size_of(b[1] * q[0] - b[0] * q[1]) * reach_b + slack) * KZ_LARGER;
+  x->reach[0] = pick(keep, x->reach[0], along);
+  x->reach[1] = pick(keep, x->reach[1], across);
+  for (int i = 0; i < 2; i++) x->matrix[i][0] = pick(keep, x->matrix[i][0], q[i]);
+  x->matrix[0][1] = pick(keep, x->matrix[0][1], -q[1]);
+  x->matrix[1][1] = pick(keep, x->matrix[1][1], q[0]);
+}

@@ -1,0 +1,97 @@
+/* Inside of the enclosures of kernel.h: sets of states in the lanes of vectors, and the constants of a class of speeds. What each bound
+ * covers, and why it does, is derived in docs/proof.md; the numbers (B1) .. (B7) are those of that page. */
+#ifndef KAPITZA_KERNEL_INTERVAL_SETS_H
+#define KAPITZA_KERNEL_INTERVAL_SETS_H
+
+#include <stdbool.h>
+
+#include "kapitza/kernel.h"
+#include "extended/pairs_arithmetic.h"
+
+/* Orders of the Taylor polynomials: of the centre in doubles and in pairs, of the tangent map - where its rest is small beside the set, and
+ * where the frame is kept. KZ_PARTS vectors go together, so that
+ * a processor has enough to do while it waits for sums. */
+enum { KZ_ORDER_DOUBLES = 22, KZ_ORDER_PAIRS = 40, KZ_ORDER_TANGENT = 8, KZ_ORDER_JACOBIAN = 20, KZ_PARTS = 2 };
+
+/* Of a centre in pairs: so many coefficients are pairs. The others, below 1e-18 of the velocity, are doubles. */
+enum { KZ_COEFFICIENTS_PAIRS = 25 };
+
+/* Relative: far above the rounding of the few operations on positive numbers that a bound is made of. */
+#define KZ_LARGER (1 + 0x1p-40)
+
+/* A real number: high + low, |low| at most half a unit in the last place of high. */
+typedef struct {
+  double high, low;
+} kz_constant;
+
+/* A step of 2 pi / n_steps for centres that are at most `fastest` at its beginning. Time s in steps: 0 .. 1. */
+typedef struct {
+  int32_t n_steps, order;
+  int32_t frame_steps;                /* after so many steps the frame is renewed */
+  double fastest;                     /* rad per drive radian */
+  double theta_error, velocity_error; /* (B3) of the centre, a step */
+  double tangent_error
+      [2][2]
+      [2]; /* (B4) [whether the frame is kept] of (theta, velocity) by a neighbour's (theta, velocity) at the step's beginning */
+  double turn;                         /* (B5) rad: theta of a centre on a step, beyond h |velocity| */
+  double farthest[2];                  /* (B5) theta of a neighbour on the step, by the same */
+  double nonlinear[2];                 /* (B6) (theta, velocity) by a torque that acts for the whole step */
+  double *most_torque;                 /* [n_steps] upper bound of |k - m cos t| on each step; behind the torque */
+  kz_constant damping;                 /* h beta */
+  kz_constant step[KZ_ORDER_PAIRS];    /* h / (n + 1) */
+  kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
+  kz_constant torque[];                /* [n_steps][order] powers of s in h (k - m cos t) */
+} kz_speed_class;
+
+struct kz_enclosure_plan {
+  int32_t precision, n_classes;
+  double swing; /* rad per drive radian: a class serves centres that are slower by this at the beginning of a period */
+  kz_speed_class *classes[];
+};
+
+/* LANES sets. */
+typedef struct {
+  pair theta, velocity;
+  vector most_sine; /* upper bound of |sin theta| of the centre on the present step */
+  vector matrix[2][2], reach[2], jacobian_error[2][2];
+  mask too_fast, lost;
+} kz_sets;
+
+/* Before a step: sets that are too fast for the class, too large or without area are lost. */
+void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);
+/* A step of the centres of KZ_PARTS vectors; cosine: the first n coefficients of cos theta along them, in doubles. */
+void kz_centres_step_doubles(const kz_speed_class *speed, const kz_constant *torque, kz_sets *sets, int n,
+                             vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
+void kz_centres_step_pairs(const kz_speed_class *speed, const kz_constant *torque, kz_sets *sets, int n,
+                           vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
+/* The same step of the sets around the centres; `jacobian`: their jacobian_error too. */
+void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector cosine[KZ_ORDER_JACOBIAN], bool jacobian,
+                        kz_sets *sets);
+/* Takes whole turns out of the centres. */
+void kz_sets_wrap(kz_sets *sets);
+/* Sets become rectangles with the longer side of the former set first. */
+void kz_sets_renew_frame(kz_sets *sets);
+
+/* A class of the given precision, for centres up to `fastest`; NULL where it takes too many steps. */
+kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest);
+
+/* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs. */
+void kz_enclosure_sine_doubles(int64_t n, const double *theta, double *sine, double *cosine);
+void kz_enclosure_sine_pairs(int64_t n, const double *theta, double *sine, double *cosine);
+
+OPERATION vector size_of(vector x) {
+  return (vector)((mask)x & INT64_MAX);
+}
+
+/* (B5) The sine is off by less than 1e-14, and changes less than the angle. */
+OPERATION void bound_sine(const kz_speed_class *speed, vector sine, kz_sets *x) {
+  const vector most = (size_of(sine) + speed->step[0].high * size_of(x->velocity.high) + speed->turn + 1e-14) * KZ_LARGER;
+  x->most_sine = pick(most < 1, most, same(1));
+}
+
+OPERATION vector nearest_integer(vector x) {
+  const double to_integer = 0x1.8p52; /* adding it rounds to an integer */
+  return (x + to_integer) - to_integer;
+}
+
+#endif

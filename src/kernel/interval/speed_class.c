@@ -1,0 +1,228 @@
+/* The step of a class of speeds, and the bounds (B2) .. (B6) of docs/proof.md: Taylor's rest by the majorants, rounding by the recurrences
+ * of the step on bounds of the numbers' sizes. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "majorant.h"
+#include "sets.h"
+
+typedef long double real;
+
+enum { MOST_STEPS = 4096, P = KZ_ORDER_PAIRS, MOST = KZ_ORDER_JACOBIAN };
+static const real CAUTION = 1 + 1e-9L; /* far above the rounding of the bounds and in the C library's functions */
+static const real U = 0x1p-53L;
+static const real TINY = 1e-280L; /* products below the range of doubles */
+
+void kz_interval_constants(double k, double beta, double m, int32_t n_steps, int32_t order, double *damping, double *step,
+                           double *inverse, double *torque);
+
+/* What a step is bounded by. */
+typedef struct {
+  const kz_pendulum *pendulum;
+  int n_majorants, order;
+  bool pairs;
+  real h;
+  real torque[P];                        /* sizes of the torque's powers of s */
+  real velocity[P], sine[P];             /* sizes of coefficients; of the cosine's too */
+  real velocity_error[P], sine_error[P]; /* of the computed ones */
+  kz_majorant majorant[KZ_MAJORANTS];
+} bounds;
+
+/* Is coefficient n a pair? */
+static bool is_pair(const bounds *b, int n) {
+  return b->pairs && n < KZ_COEFFICIENTS_PAIRS;
+}
+
+/* Relative: of a sum of products for coefficient n, one factor of which is a constant or computed, times a constant. */
+static real sum_error(const bounds *b, int n, int products) {
+  return is_pair(b, n) ? (real)(products + 4) * (products + 4) * U * U * 1.01L : (products + 4) * U * 1.01L;
+}
+
+static void set_sizes(bounds *b) {
+  real factor = fabsl(b->pendulum->m) * b->h;
+  for (int n = 0; n < b->order; n++) {
+    b->torque[n] = (factor + (n == 0 ? b->h * fabs(b->pendulum->k) : 0)) * CAUTION;
+    factor *= b->h / (n + 1);
+    b->velocity[n] = b->sine[n] = HUGE_VALL;
+  }
+  for (int i = 0; i < b->n_majorants; i++) {
+    const kz_majorant *at = &b->majorant[i];
+    const real ratio = b->h / at->r * CAUTION;
+    real power = CAUTION;
+    for (int n = 0; n < b->order; n++, power *= ratio) {
+      b->velocity[n] = fminl(b->velocity[n], at->w * power);
+      b->sine[n] = fminl(b->sine[n], coshl(at->y) * power);
+    }
+  }
+}
+
+/* (B2) The recurrences of the step, on errors. */
+static void set_errors(bounds *b, double fastest) {
+  b->velocity[0] = fastest;
+  b->sine[0] = 1;
+  b->velocity_error[0] = b->pairs ? 0 : U * fastest;
+  b->sine_error[0] = b->pairs ? 48 * U * U : 8 * U;
+  for (int n = 0; n + 1 < b->order; n++) {
+    /* constant: relative, of factors that were rounded to pairs or, where high parts are multiplied, to doubles; the damping's, 1 / n and
+     * h / n: in sum_error */
+    const real damping = b->h * b->pendulum->beta * CAUTION, constant = is_pair(b, n + 1) ? 2 * U * U : 2 * U * (1 + U);
+    const real summed = sum_error(b, n + 1, n + 2) + constant;
+    real v = damping * (b->velocity_error[n] + summed * (b->velocity[n] + b->velocity_error[n])), s = 0;
+    for (int i = 0; i <= n; i++) {
+      const real sine = b->sine[n - i] + b->sine_error[n - i], velocity = b->velocity[i] + b->velocity_error[i];
+      v += b->torque[i] * (b->sine_error[n - i] + summed * sine);
+      s += b->velocity_error[i] * sine + b->velocity[i] * b->sine_error[n - i] +
+           (sum_error(b, n + 1, n + 1) + constant) * velocity * sine;
+    }
+    b->velocity_error[n + 1] = v / (n + 1) * CAUTION + TINY;
+    b->sine_error[n + 1] = s * b->h / (n + 1) * CAUTION + TINY;
+  }
+}
+
+/* (B3) Errors of the coefficients, rounding of their sums from the last one on, and the rest of the polynomials. */
+static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed) {
+  const real h = b->h, farthest = 4 + 2 * (real)M_PI * fastest * CAUTION; /* theta before whole turns are taken out */
+  real velocity = 0, theta = 0, sum = 0, product = 0, sums = 0, products = 0, rest = HUGE_VALL;
+  real small_sum = 0, small_product = 0;
+  for (int n = b->order - 1; n >= 1; n--) {
+    const real size = b->velocity[n] + b->velocity_error[n];
+    velocity += b->velocity_error[n];
+    theta += b->velocity_error[n] * h / (n + 1);
+    sums += sum += size;
+    products += product += size * h / (n + 1);
+    if (n != KZ_COEFFICIENTS_PAIRS) continue;
+    small_sum = sum;
+    small_product = product;
+  }
+  if (b->pairs) { /* those of the coefficients that are doubles are summed in doubles */
+    velocity += (b->order + 2) * U * 1.01L * small_sum;
+    theta += (b->order + 4) * U * 1.01L * small_product;
+    velocity += 3.1L * U * U * (sums + fastest + sum);
+    theta += 3.1L * U * U * (products + product + h * fastest + farthest) + 8 * U * U * (product + h * fastest);
+  } else {
+    velocity += 1.01L * U * (sums + sum + U * fastest);
+    theta += 1.01L * U * (products + 4 * product + 8 * U * (h * fastest + farthest));
+  }
+  for (int i = 0; i < b->n_majorants; i++) {
+    const real ratio = h / b->majorant[i].r * CAUTION;
+    if (ratio < 0.99L) rest = fminl(rest, b->majorant[i].w * powl(ratio, b->order) / (1 - ratio));
+  }
+  speed->velocity_error = (double)((velocity + rest) * CAUTION + TINY);
+  speed->theta_error = (double)((theta + rest * h / (b->order + 1)) * CAUTION + TINY);
+}
+
+/* Rounding in a column that begins with a = 1 or b = 1, computed in doubles: of its angle and velocity at the step's end. */
+static void column_rounding(const bounds *b, int T, const real stiffness[MOST], const real stiffness_error[MOST], int c,
+                            real error[2]) {
+  real a[MOST + 1] = {c == 0}, v[MOST + 1] = {c == 1}, a_error[MOST + 1] = {0}, v_error[MOST + 1] = {0};
+  const real h = b->h * CAUTION, damping = h * b->pendulum->beta;
+  error[0] = 4 * U * h * v[0];
+  error[1] = 0;
+  for (int n = 0; n < T; n++) {
+    const real summed = (n + 6) * U * 1.01L;
+    real size = damping * v[n], off = damping * (v_error[n] + summed * (v[n] + v_error[n]));
+    for (int j = 0; j <= n; j++) {
+      const real angle = a[n - j] + a_error[n - j];
+      size += stiffness[j] * a[n - j];
+      off += stiffness[j] * a_error[n - j] + stiffness_error[j] * angle + summed * (stiffness[j] + stiffness_error[j]) * angle;
+    }
+    a[n + 1] = v[n] * h / (n + 1);
+    a_error[n + 1] = (v_error[n] + 4 * U * (v[n] + v_error[n])) * h / (n + 1) + TINY;
+    v[n + 1] = size / (n + 1);
+    v_error[n + 1] = off / (n + 1) + TINY;
+    error[0] += a_error[n + 1];
+    if (n + 1 < T) error[1] += v_error[n + 1];
+  }
+  for (int n = 0; n <= T; n++) { /* T + 2 sums of at most these */
+    error[0] += (T + 2) * U * 1.01L * (a[n] + a_error[n]);
+    if (n < T) error[1] += (T + 2) * U * 1.01L * (v[n] + v_error[n]);
+  }
+}
+
+/* (B4) Of the tangent map in doubles, to order T: rounding, and the rest of its polynomials. */
+static void bound_tangent(const bounds *b, int T, double tangent_error[2][2]) {
+  real stiffness[MOST], stiffness_error[MOST];
+  for (int n = 0; n < T; n++) {
+    stiffness[n] = stiffness_error[n] = 0;
+    for (int j = 0; j <= n; j++) {
+      const real cosine = b->sine[n - j], off = b->sine_error[n - j] + U * (cosine + b->sine_error[n - j]);
+      stiffness[n] += b->torque[j] * cosine;
+      stiffness_error[n] += b->torque[j] * (off + (n + 4) * U * 1.01L * (cosine + off));
+    }
+  }
+  for (int c = 0; c < 2; c++) {
+    real rounding[2], rest = HUGE_VALL;
+    column_rounding(b, T, stiffness, stiffness_error, c, rounding);
+    for (int i = 0; i < b->n_majorants; i++) {
+      const real ratio = b->h / b->majorant[i].r * CAUTION;
+      if (ratio < 0.99L) rest = fminl(rest, b->majorant[i].slope[c] * powl(ratio, T) / (1 - ratio));
+    }
+    tangent_error[0][c] = (double)((rounding[0] + rest * b->h / (T + 1)) * CAUTION);
+    tangent_error[1][c] = (double)((rounding[1] + rest) * CAUTION);
+  }
+}
+
+/* (B5), (B6) Neighbours against y'' = beta y' + Q y, Q >= |k - m cos t|, whose solutions grow as exp(rate t) at most. */
+static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
+  const real stiffness = kz_stiffness(b->pendulum) * CAUTION, beta = b->pendulum->beta, h = b->h;
+  const real rate = (beta + sqrtl(beta * beta + 4 * stiffness)) / 2, growth = expl(rate * h) * CAUTION;
+  speed->farthest[0] = (double)((1 + stiffness * h * h / 2 * growth) * CAUTION);
+  speed->farthest[1] = (double)(h * growth * CAUTION);
+  speed->nonlinear[0] = (double)(h * h / 2 * growth * CAUTION);
+  speed->nonlinear[1] = (double)(h * growth * CAUTION);
+  speed->turn = (double)(stiffness * h * h / 2 * CAUTION);
+  for (int32_t i = 0; i < speed->n_steps; i++) { /* beside the chord by at most |m| h^2 / 8 */
+    const real from = fabsl(b->pendulum->k - b->pendulum->m * cosl(i * h)),
+               to = fabsl(b->pendulum->k - b->pendulum->m * cosl((i + 1) * h));
+    speed->most_torque[i] = (double)(fmaxl(from, to) + fabsl(b->pendulum->m) * h * h / 8 + stiffness * 1e-6L);
+  }
+}
+
+/* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
+static int32_t choose_steps(const bounds *b) {
+  const real wished = b->pairs ? 1e-31L : 1e-16L;
+  real longest = 0;
+  for (int i = 0; i < b->n_majorants; i++)
+    longest = fmaxl(longest, b->majorant[i].r * powl(wished / b->majorant[i].w, 1.0L / b->order));
+  return longest * MOST_STEPS > 2 * M_PI ? (int32_t)(2 * M_PI / (double)longest) + 1 : 0;
+}
+
+/* A frame is renewed before damping has made the columns of its matrix alike. */
+static int32_t steps_of_frame(const kz_pendulum *pendulum, int32_t n_steps) {
+  const double frames = fmin(ceil(2 * M_PI * pendulum->beta), n_steps);
+  return frames > 1 ? (int32_t)(n_steps / frames) : n_steps;
+}
+
+static kz_speed_class *create(bounds *b, double fastest) {
+  b->n_majorants = kz_majorants_find(b->pendulum, fastest, b->majorant);
+  const int32_t n_steps = choose_steps(b);
+  if (n_steps == 0) return NULL;
+  kz_speed_class *made = kz_calloc(
+      1, sizeof *made + (size_t)(n_steps * b->order) * sizeof *made->torque + (size_t)n_steps * sizeof *made->most_torque);
+  made->most_torque = (double *)(made->torque + n_steps * b->order);
+  made->n_steps = n_steps;
+  made->order = b->order;
+  made->fastest = fastest;
+  made->frame_steps = steps_of_frame(b->pendulum, n_steps);
+  kz_interval_constants(b->pendulum->k, b->pendulum->beta, b->pendulum->m, n_steps, b->order, &made->damping.high,
+                        &made->step->high, &made->inverse->high, &made->torque->high);
+  b->h = 2 * (real)M_PI / n_steps * CAUTION;
+  set_sizes(b);
+  set_errors(b, fastest);
+  bound_centre(b, fastest, made);
+  bound_tangent(b, KZ_ORDER_TANGENT, made->tangent_error[false]);
+  bound_tangent(b, KZ_ORDER_JACOBIAN, made->tangent_error[true]);
+  bound_neighbours(b, made);
+  return made;
+}
+
+kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest) {
+  bounds *b = kz_calloc(1, sizeof *b);
+  b->pendulum = pendulum;
+  b->pairs = precision == KZ_ENCLOSE_PAIRS;
+  b->order = b->pairs ? KZ_ORDER_PAIRS : KZ_ORDER_DOUBLES;
+  kz_speed_class *speed = create(b, fastest);
+  free(b);
+  return speed;
+}

@@ -1,0 +1,189 @@
+/* Labels that are proved: the start of each cell is followed into the region, in doubles and, where its set grows too large, in pairs of
+ * doubles. Tiles are taken some at a time, so that what all ranks know of them stays small. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "label_parts.h"
+#include "proof.h"
+
+enum { MOST_CELLS = 1 << 22, PAIRS_TILE = 256 }; /* of tiles that are taken together; of a tile of those in pairs */
+
+/* Tiles from .. to - 1, and the stage that works on them. */
+typedef struct {
+  const kz_labelling *labelling;
+  const kz_proof *proof;
+  const kz_proved *proved;
+  int64_t from, to, first, n; /* tiles; first cell, cells */
+  uint64_t *wanted;           /* [n] bits */
+  uint8_t *number, *evidence; /* [n] */
+  int64_t n_left, *left;      /* cells that doubles leave */
+} part;
+
+static bool is_wanted(const part *p, int64_t i) {
+  return p->wanted[i / 64] >> (i % 64) & 1;
+}
+
+static kz_proof_start start_of(const kz_basin_plan *plan, int64_t cell) {
+  kz_proof_start start;
+  const double theta = kz_axis_place(&plan->theta, cell % plan->theta.count, start.theta);
+  const double velocity = kz_axis_place(&plan->velocity, cell / plan->theta.count, start.velocity);
+  start.radius = fmax(theta, velocity);
+  return start;
+}
+
+/* Each rank knows the labels of its own tiles: all then know which cells are wanted. */
+static kz_status find_wanted(kz_labelling *l, part *p) {
+  memset(p->wanted, 0, (size_t)(p->n / 64 + 1) * sizeof *p->wanted);
+  for (int64_t i = 0; i < l->pieces.n; i++) {
+    const int64_t tile = l->pieces.list[i].tile, before = kz_tile_first(&l->tiles, tile) - p->first;
+    if (tile < p->from || tile >= p->to) continue;
+    KZ_TRY(kz_labels_unpack(l, &l->pieces.list[i]));
+    for (int64_t k = 0; k < kz_tile_own(&l->tiles, tile); k++) {
+      const int16_t label = l->cell[k].label;
+      if (label <= 0 || (label <= KZ_PROOF_MOST && p->proved->has[label]))
+        p->wanted[(before + k) / 64] |= (uint64_t)1 << (before + k) % 64;
+    }
+  }
+  return KZ_OK;
+}
+
+/* Follows n wanted cells; number [n]. */
+static void follow(const part *p, int32_t precision, int64_t n, const int64_t *cell, uint8_t *number) {
+  kz_proof_start *start = kz_malloc((size_t)n * sizeof *start + 1);
+  for (int64_t i = 0; i < n; i++) start[i] = start_of(p->labelling->plan, cell[i]);
+  kz_proof_follow(p->proof, precision, n, start, kz_proof_periods(p->labelling->plan), number);
+  free(start);
+}
+
+static kz_status follow_tile(void *context, int64_t tile, void *record) {
+  const part *p = context;
+  const kz_tiles *tiles = &p->labelling->tiles;
+  const int64_t first = kz_tile_first(tiles, p->from + tile), n = kz_tile_own(tiles, p->from + tile);
+  int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1), count = 0;
+  uint8_t *number = kz_malloc((size_t)n + 1), *out = record;
+  for (int64_t i = 0; i < n; i++)
+    if (is_wanted(p, first - p->first + i)) cell[count++] = first + i;
+  follow(p, KZ_ENCLOSE_DOUBLES, count, cell, number);
+  for (int64_t i = 0; i < count; i++) out[cell[i] - first] = number[i];
+  free(cell);
+  free(number);
+  return KZ_OK;
+}
+
+static kz_status follow_left(void *context, int64_t tile, void *record) {
+  const part *p = context;
+  const int64_t first = tile * PAIRS_TILE, n = p->n_left - first < PAIRS_TILE ? p->n_left - first : PAIRS_TILE;
+  follow(p, KZ_ENCLOSE_PAIRS, n, p->left + first, record);
+  return KZ_OK;
+}
+
+static void take(part *p, int64_t i, uint8_t number, uint8_t evidence) {
+  if (number == 0 || number == KZ_PROOF_LATE) return;
+  p->number[i] = number;
+  p->evidence[i] = evidence;
+}
+
+/* All tiles of the part in doubles; a record has the place of whole tiles. */
+static kz_status prove_in_doubles(const kz_run *run, part *p) {
+  const kz_tiles *tiles = &p->labelling->tiles;
+  const size_t room = (size_t)kz_tile_room(tiles);
+  kz_stage stage = {.name = "proof in doubles",
+                    .n_tiles = p->to - p->from,
+                    .record_bytes = room,
+                    .work = follow_tile,
+                    .context = p,
+                    .keep = true,
+                    .everywhere = true};
+  uint8_t *record = kz_malloc((size_t)stage.n_tiles * room);
+  const kz_status status = kz_stage_run(run, &stage, record);
+  p->n_left = 0;
+  for (int64_t tile = p->from; status == KZ_OK && tile < p->to; tile++) {
+    const uint8_t *of = record + (size_t)(tile - p->from) * room;
+    const int64_t before = kz_tile_first(tiles, tile) - p->first;
+    for (int64_t k = 0; k < kz_tile_own(tiles, tile); k++) {
+      take(p, before + k, of[k], KZ_PROVED);
+      if (of[k] == 0 && is_wanted(p, before + k)) p->left[p->n_left++] = p->first + before + k;
+    }
+  }
+  free(record);
+  return status;
+}
+
+static kz_status prove_in_pairs(const kz_run *run, part *p) {
+  kz_stage stage = {.name = "proof in pairs",
+                    .n_tiles = (p->n_left + PAIRS_TILE - 1) / PAIRS_TILE,
+                    .record_bytes = PAIRS_TILE,
+                    .work = follow_left,
+                    .context = p,
+                    .keep = true,
+                    .everywhere = true};
+  uint8_t *record = kz_malloc((size_t)stage.n_tiles * PAIRS_TILE + 1);
+  const kz_status status = kz_stage_run(run, &stage, record);
+  for (int64_t i = 0; status == KZ_OK && i < p->n_left; i++) take(p, p->left[i] - p->first, record[i], KZ_PROVED_IN_PAIRS);
+  free(record);
+  return status;
+}
+
+/* Into the tiles of this rank. */
+static kz_status keep(kz_labelling *l, const part *p, void *room) {
+  for (int64_t i = 0; i < l->pieces.n; i++) {
+    kz_local_record *piece = &l->pieces.list[i];
+    if (piece->tile < p->from || piece->tile >= p->to) continue;
+    const int64_t before = kz_tile_first(&l->tiles, piece->tile) - p->first;
+    KZ_TRY(kz_labels_unpack(l, piece));
+    for (int64_t k = 0; k < kz_tile_own(&l->tiles, piece->tile); k++) {
+      l->cell[k].proof = p->evidence[before + k];
+      l->cell[k].proved = p->number[before + k];
+    }
+    KZ_TRY(kz_labels_replace(l, piece, room));
+  }
+  return KZ_OK;
+}
+
+static kz_status prove_part(kz_labelling *l, part *p) {
+  const kz_run *run = l->run;
+  memset(p->number, 0, (size_t)p->n);
+  memset(p->evidence, 0, (size_t)p->n);
+  KZ_TRY(kz_ranks_agree(run->ranks, find_wanted(l, p)));
+  KZ_TRY(kz_ranks_sum(run->ranks, (int64_t *)p->wanted, p->n / 64 + 1));
+  KZ_TRY(prove_in_doubles(run, p));
+  KZ_TRY(prove_in_pairs(run, p));
+  void *room = kz_malloc(kz_labels_room(l));
+  const kz_status status = keep(l, p, room);
+  free(room);
+  return kz_ranks_agree(run->ranks, status);
+}
+
+kz_status kz_prove_cells(kz_labelling *l, const kz_proof *proof, const kz_proved *proved) {
+  const kz_tiles *tiles = &l->tiles;
+  const int64_t room = kz_tile_room(tiles), at_once = room < MOST_CELLS ? MOST_CELLS / room : 1;
+  const int64_t most = room * (at_once < tiles->own ? at_once : tiles->own);
+  part p = {.labelling = l, .proof = proof, .proved = proved};
+  if (!proved->any) return KZ_OK;
+  p.wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *p.wanted);
+  p.number = kz_malloc((size_t)most);
+  p.evidence = kz_malloc((size_t)most);
+  p.left = kz_malloc((size_t)most * sizeof *p.left);
+  kz_status status = KZ_OK;
+  for (p.from = 0; p.from < tiles->own && status == KZ_OK; p.from = p.to) {
+    p.to = p.from + at_once < tiles->own ? p.from + at_once : tiles->own;
+    p.first = kz_tile_first(tiles, p.from);
+    p.n = kz_tile_first(tiles, p.to - 1) + kz_tile_own(tiles, p.to - 1) - p.first;
+    status = prove_part(l, &p);
+  }
+  free(p.wanted);
+  free(p.number);
+  free(p.evidence);
+  free(p.left);
+  return status;
+}
+
+kz_status kz_prove_window(kz_labelling *labelling, kz_proof *proof, kz_proof_sample *sample) {
+  kz_proved proved = {.any = false};
+  *sample = (kz_proof_sample){.high = 1};
+  KZ_TRY(kz_prove_regions(labelling->run, labelling->dynamics, proof, &proved));
+  if (!proved.any) return KZ_OK;
+  KZ_TRY(kz_prove_cells(labelling, proof, &proved));
+  return kz_prove_sample(labelling->run, labelling->plan, proof, sample);
+}

@@ -1,0 +1,77 @@
+#include "proof_write.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Columns of the attractors. */
+typedef struct {
+  int64_t phases;
+  int8_t *proved;
+  double *theta, *velocity, *multiplier;
+} columns;
+
+static double *nan_filled(int64_t n) {
+  double *values = kz_malloc((size_t)(n + 1) * sizeof *values);
+  for (int64_t i = 0; i < n; i++) values[i] = NAN;
+  return values;
+}
+
+static void fill(const kz_catalogue *catalogue, const kz_proof *proof, columns *c) {
+  for (int64_t i = 0; i < catalogue->count; i++) {
+    const kz_entry *e = &catalogue->entries[i];
+    if (e->row.period == 0) continue;
+    const kz_proof_cycle cycle = {.period = e->row.period,
+                                  .theta = e->theta,
+                                  .velocity = e->velocity,
+                                  .multiplier_re = e->row.multiplier_re,
+                                  .multiplier_im = e->row.multiplier_im};
+    c->proved[i] =
+        kz_proof_confine(proof, &cycle, c->theta + i * c->phases, c->velocity + i * c->phases, c->multiplier + 2 * i);
+  }
+}
+
+static kz_status write_attractors(const kz_catalogue *catalogue, const kz_proof *proof, kz_store *store) {
+  columns c = {.phases = kz_catalogue_longest(catalogue)};
+  c.proved = kz_calloc((size_t)catalogue->count + 1, sizeof *c.proved);
+  c.theta = nan_filled(catalogue->count * c.phases);
+  c.velocity = nan_filled(catalogue->count * c.phases);
+  c.multiplier = nan_filled(catalogue->count * 2);
+  fill(catalogue, proof, &c);
+  kz_status status = kz_store_variable(store, "attractors", "proved", c.proved);
+  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "strobe_theta_half_width", c.theta);
+  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "strobe_velocity_half_width", c.velocity);
+  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "multiplier_half_width", c.multiplier);
+  free(c.proved);
+  free(c.theta);
+  free(c.velocity);
+  free(c.multiplier);
+  return status;
+}
+
+static void print_labels(const kz_counts *counts, int64_t cells, FILE *summary) {
+  fprintf(summary, "%.6g %% of the labels are proved, those of %lld cells in pairs of doubles; %lld cells are not proved\n",
+          100 * (double)counts->proved / (double)cells, (long long)counts->proved_in_pairs,
+          (long long)(cells - counts->proved));
+  if (counts->refuted > 0)
+    fprintf(summary,
+            "warning: %lld of the proved cells had another label, or none: it is refuted and replaced; the numerics are too "
+            "coarse, or "
+            "basin.max_periods is too small\n",
+            (long long)counts->refuted);
+}
+
+kz_status kz_proof_write(const kz_proof *proof, const kz_catalogue *catalogue, int64_t cells, const kz_counts *counts,
+                         const kz_proof_sample *sample, kz_store *store, FILE *summary) {
+  const double share = (double)counts->proved / (double)cells;
+  print_labels(counts, cells, summary);
+  fprintf(summary,
+          "of %lld random real starts of the window %lld are not proved: less than %.2g of its area ends elsewhere (%.0f %% "
+          "confidence)\n",
+          (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
+  KZ_TRY(kz_store_real(store, "basin", "proved_share", share));
+  KZ_TRY(kz_store_integer(store, "basin", "refuted", counts->refuted));
+  KZ_TRY(kz_store_real(store, "basin", "other_share_high", sample->high));
+  KZ_TRY(kz_store_real(store, "basin", "other_share_confidence", KZ_PROOF_CONFIDENCE));
+  KZ_TRY(kz_store_integer(store, "basin", "other_share_starts", sample->starts));
+  return write_attractors(catalogue, proof, store);
+}
