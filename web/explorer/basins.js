@@ -43,7 +43,11 @@ export class Basins {
       this.states.delete(pane);
     }
     this.panes = wanted.map((name) => this.panes.find((pane) => pane.name === name) ?? this.add(name));
-    for (const pane of this.panes) pane.over.setAttribute("aria-label", `Basins ${this.state.other ? pane.name.toUpperCase() : ""}: wheel or + and − zoom, dragging or arrows move, a click plays the pendulum`);
+    for (const pane of this.panes)
+      pane.over.setAttribute(
+        "aria-label",
+        `Basins ${this.state.other ? pane.name.toUpperCase() : ""}: wheel or + and − zoom, dragging or arrows move, a click plays the pendulum`,
+      );
   }
 
   add(name) {
@@ -175,7 +179,11 @@ export class Basins {
 
   say(pane, state, words, progress) {
     const known = this.states.get(pane) ?? {};
-    this.states.set(pane, { state: state ?? known.state, words: words ?? known.words, progress: progress ?? (state === "done" ? 1 : known.progress) });
+    this.states.set(pane, {
+      state: state ?? known.state,
+      words: words ?? known.words,
+      progress: progress ?? (state === "done" ? 1 : known.progress),
+    });
     const all = [...this.states.values()];
     const worst = ["error", "computing", "moving", "done"].find((name) => all.some((one) => one.state === name)) ?? "starting";
     document.body.dataset.state = worst;
@@ -201,7 +209,8 @@ export class Basins {
     const depth = this.state.home.theta.width / theta.width;
     const digits = Math.max(2, 3 - Math.floor(Math.log10(theta.width)));
     const middle = (range) => signed(brief(range.centre.rounded(digits).toString()));
-    element("where").textContent = `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×  centre θ ${middle(theta)}, velocity ${middle(velocity)}`;
+    element("where").textContent =
+      `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×  centre θ ${middle(theta)}, velocity ${middle(velocity)}`;
     element("where").dataset.window = JSON.stringify(this.state.window.toRequest());
     element("where").dataset.depth = depth;
     for (const pane of this.panes) pane.root.querySelector(".caption").textContent = this.captionOf(pane);

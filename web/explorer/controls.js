@@ -22,7 +22,10 @@ function complain(words) {
 }
 
 /** Runs what a button does; what goes wrong stands in the status line. */
-const guarded = (action) => () => Promise.resolve().then(action).catch((error) => complain(error.message));
+const guarded = (action) => () =>
+  Promise.resolve()
+    .then(action)
+    .catch((error) => complain(error.message));
 
 function listenWindow(state, basins) {
   element("home").onclick = () => (state.change({ jump: false }), state.visit(state.home));

@@ -81,7 +81,7 @@ export class Dive {
   async go(order, [theta, velocity]) {
     const deepest = this.state.window.theta.width * DEEPEST * 100;
     this.state.past.push(this.state.window);
-    for (let last = performance.now(); order === this.order && this.state.window.theta.width > deepest; ) {
+    for (let last = performance.now(); order === this.order && this.state.window.theta.width > deepest;) {
       const { window } = this.state;
       const seconds = Math.min(0.5, (performance.now() - last) / 1000);
       last += 1000 * seconds;

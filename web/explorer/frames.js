@@ -10,8 +10,14 @@ export function requestOf(window, pendulum, canvas, { quality, levels, samples, 
   const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
   const planes = quality === "exact" ? ["labels", "settling_time", "doubt", "other"] : ["labels", "settling_time"];
   return {
-    request: "frame", window: window.toRequest(), pendulum: asScene(pendulum), quality, levels, planes,
-    rows: Math.max(8, Math.round(canvas.height * scale)), columns: Math.max(8, Math.round(canvas.width * scale)),
+    request: "frame",
+    window: window.toRequest(),
+    pendulum: asScene(pendulum),
+    quality,
+    levels,
+    planes,
+    rows: Math.max(8, Math.round(canvas.height * scale)),
+    columns: Math.max(8, Math.round(canvas.width * scale)),
   };
 }
 
@@ -59,6 +65,14 @@ export function sharesOf(frame) {
   for (const label of frame.labels) counts[label]++;
   const rows = frame.catalogue.attractors.map((row) => ({ ...row, share: counts[row.id] / frame.labels.length }));
   if (counts[255] > 0)
-    rows.push({ id: -1, name: "not settled", kind: "not settled", period: 0, winding: 0, colour: UNSETTLED, share: counts[255] / frame.labels.length });
+    rows.push({
+      id: -1,
+      name: "not settled",
+      kind: "not settled",
+      period: 0,
+      winding: 0,
+      colour: UNSETTLED,
+      share: counts[255] / frame.labels.length,
+    });
   return rows;
 }

@@ -10,10 +10,21 @@ export function listenKeys(state, basins) {
     state.change({ window: state.window.moved(x, y).wrapped(), jump: false });
   };
   const actions = {
-    ArrowLeft: () => move(-STEP, 0), ArrowRight: () => move(STEP, 0), ArrowUp: () => move(0, STEP), ArrowDown: () => move(0, -STEP),
-    "+": () => basins.zoom(1 / ZOOM), "=": () => basins.zoom(1 / ZOOM), "-": () => basins.zoom(ZOOM),
-    Enter: () => basins.click(basins.active, 0.5, 0.5), " ": () => press("play"), Escape: () => press("cancel"),
-    Backspace: () => press("back"), h: () => press("home"), d: () => press("dive"), c: () => press("compare"), m: () => press("chart"),
+    ArrowLeft: () => move(-STEP, 0),
+    ArrowRight: () => move(STEP, 0),
+    ArrowUp: () => move(0, STEP),
+    ArrowDown: () => move(0, -STEP),
+    "+": () => basins.zoom(1 / ZOOM),
+    "=": () => basins.zoom(1 / ZOOM),
+    "-": () => basins.zoom(ZOOM),
+    Enter: () => basins.click(basins.active, 0.5, 0.5),
+    " ": () => press("play"),
+    Escape: () => press("cancel"),
+    Backspace: () => press("back"),
+    h: () => press("home"),
+    d: () => press("dive"),
+    c: () => press("compare"),
+    m: () => press("chart"),
   };
   addEventListener("keydown", (event) => {
     const typing = event.target.matches("input, select, textarea, button");

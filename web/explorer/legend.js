@@ -3,7 +3,18 @@
 import { sharesOf } from "./frames.js";
 import { signed } from "./ticks.js";
 
-const ORDER = ["down", "inverted", "down nodding", "flutter", "inverted nodding", "rotation +", "rotation -", "other", "chaotic", "not settled"];
+const ORDER = [
+  "down",
+  "inverted",
+  "down nodding",
+  "flutter",
+  "inverted nodding",
+  "rotation +",
+  "rotation -",
+  "other",
+  "chaotic",
+  "not settled",
+];
 
 /** Rows of the last frames, by pane: {key, name, colour, shares: [of a, of b]}. */
 export function rowsOf(frames) {
@@ -18,7 +29,8 @@ export function rowsOf(frames) {
     }
   });
   return [...rows.values()].sort(
-    (one, two) => ORDER.indexOf(one.kind) - ORDER.indexOf(two.kind) || one.period - two.period || one.winding - two.winding || one.id - two.id,
+    (one, two) =>
+      ORDER.indexOf(one.kind) - ORDER.indexOf(two.kind) || one.period - two.period || one.winding - two.winding || one.id - two.id,
   );
 }
 
@@ -36,7 +48,10 @@ export function writeLegend(table, rows) {
   const lines = rows.map((row) => {
     const line = old.get(row.key) ?? newLine(row);
     Object.assign(line.dataset, { id: row.id, name: row.name, share: row.shares[0] });
-    line.classList.toggle("absent", row.shares.every((share) => !share));
+    line.classList.toggle(
+      "absent",
+      row.shares.every((share) => !share),
+    );
     line.querySelector(".patch").style.background = row.colour;
     while (line.cells.length > 2) line.deleteCell(2);
     for (const share of row.shares) line.insertCell().textContent = shareWords(share);

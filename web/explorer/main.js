@@ -16,8 +16,19 @@ async function begin() {
   const start = await ask("state");
   const scene = textsOf(start.pendulum);
   const state = new State({
-    ...DEFAULTS, title: start.title, scene, pendulum: scene, other: null, pane: "a", home: Window.from(start.window),
-    pivotFrequency: start.pivot_frequency, overlays: start.overlays, kinds: start.kinds, start: null, playing: true, jump: false,
+    ...DEFAULTS,
+    title: start.title,
+    scene,
+    pendulum: scene,
+    other: null,
+    pane: "a",
+    home: Window.from(start.window),
+    pivotFrequency: start.pivot_frequency,
+    overlays: start.overlays,
+    kinds: start.kinds,
+    start: null,
+    playing: true,
+    jump: false,
   });
   Object.assign(state, { window: state.home }, readAddress(location.hash, { pendulum: scene }));
   document.title = document.getElementById("title").textContent = start.title;

@@ -53,7 +53,13 @@ export class Motion {
   drawOver(surface, plane) {
     const strobe = [];
     for (let i = 0; i <= this.at; i += this.perPeriod) strobe.push([this.theta[i], this.velocity[i]]);
-    drawLine(surface, plane, this.trace().map((i) => [this.theta[i], this.velocity[i]]), "#1c2127c0", 1.2);
+    drawLine(
+      surface,
+      plane,
+      this.trace().map((i) => [this.theta[i], this.velocity[i]]),
+      "#1c2127c0",
+      1.2,
+    );
     drawPoints(surface, plane, strobe, surface.theme.mark, 3.2);
     drawPoints(surface, plane, [[this.between(this.theta), this.between(this.velocity)]], "#ffffff", 5.5, "#b3261e");
   }
@@ -71,7 +77,11 @@ export class Motion {
     const angle = this.between(this.theta);
     context.clearRect(0, 0, size, size);
     surface.line([place(0, -most), place(0, most)], theme.faint, 5);
-    surface.line(this.trace().map((i) => bob(this.theta[i], this.pivotAt(i))), theme.trace, 1.5);
+    surface.line(
+      this.trace().map((i) => bob(this.theta[i], this.pivotAt(i))),
+      theme.trace,
+      1.5,
+    );
     surface.line([place(0, pivot), bob(angle, pivot)], theme.ink, 3);
     surface.circle(...place(0, pivot), 4, theme.ink, theme.ink);
     surface.circle(...bob(angle, pivot), 9, theme.mark, theme.paper);

@@ -59,7 +59,19 @@ export function frameOf(header, planes, window, palette) {
     doubtful += cells[4 * i + 2] === 255;
     if (other) cells[4 * i + 3] = other[i];
   }
-  return { rows, columns, level: header.level, doubtful: doubt && doubtful, times, labels, cells, window, palette, full: header.full, texture: null };
+  return {
+    rows,
+    columns,
+    level: header.level,
+    doubtful: doubt && doubtful,
+    times,
+    labels,
+    cells,
+    window,
+    palette,
+    full: header.full,
+    texture: null,
+  };
 }
 
 /** Where a frame lies in a window: shares of it, and the period in angle in units of the frame. */
@@ -152,7 +164,10 @@ function texture(gl) {
 
 function linked(gl) {
   const program = gl.createProgram();
-  for (const [kind, text] of [[gl.VERTEX_SHADER, VERTICES], [gl.FRAGMENT_SHADER, FRAGMENTS]]) {
+  for (const [kind, text] of [
+    [gl.VERTEX_SHADER, VERTICES],
+    [gl.FRAGMENT_SHADER, FRAGMENTS],
+  ]) {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, text);
     gl.compileShader(shader);

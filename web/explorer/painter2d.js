@@ -22,8 +22,13 @@ export class Painter2d {
       context.imageSmoothingEnabled = frame.columns > 1.4 * canvas.width * width;
       const step = period * width;
       for (let n = Math.ceil((-left - width) / step); left + n * step < 1; n++)
-        context.drawImage(picture, (left + n * step) * canvas.width, (1 - bottom - height) * canvas.height,
-          width * canvas.width, height * canvas.height);
+        context.drawImage(
+          picture,
+          (left + n * step) * canvas.width,
+          (1 - bottom - height) * canvas.height,
+          width * canvas.width,
+          height * canvas.height,
+        );
     }
   }
 

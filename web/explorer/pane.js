@@ -90,7 +90,7 @@ export class Pane {
   async pursue() {
     if (this.pursuing) return;
     this.pursuing = true;
-    for (let done = -1; done !== this.version && !this.closed; ) {
+    for (let done = -1; done !== this.version && !this.closed;) {
       const version = this.version;
       try {
         await this.frame({ quality: "moving", levels: [8, 4, 2, 1], samples: 1 });
@@ -206,7 +206,8 @@ export class Pane {
         drawPoints(surface, plane, points, "#ffffff", 3.6, "#000000");
       }
       if (this.state.points === "on" && this.top)
-        for (const row of this.top.catalogue.attractors) drawPoints(surface, plane, row.strobe, "#1c2127", row.strobe.length > 2 ? 3.2 : 4.6);
+        for (const row of this.top.catalogue.attractors)
+          drawPoints(surface, plane, row.strobe, "#1c2127", row.strobe.length > 2 ? 3.2 : 4.6);
       if (motion) motion.drawOver(surface, plane);
       for (const mark of marks) {
         const at = [plane.window.theta.shareOf(Decimal.from(mark[0])), plane.window.velocity.shareOf(Decimal.from(mark[1]))];
@@ -240,7 +241,21 @@ function decidedWords(doubtful) {
 function drawCross(surface, plane, [across, up]) {
   const [left, top, width, height] = plane.box;
   const [x, y] = plane.placeOf(across, up);
-  surface.line([[left, y], [left + width, y]], "#ffffffa0", 1);
-  surface.line([[x, top], [x, top + height]], "#ffffffa0", 1);
+  surface.line(
+    [
+      [left, y],
+      [left + width, y],
+    ],
+    "#ffffffa0",
+    1,
+  );
+  surface.line(
+    [
+      [x, top],
+      [x, top + height],
+    ],
+    "#ffffffa0",
+    1,
+  );
   surface.circle(x, y, 5, "transparent", "#1c2127");
 }

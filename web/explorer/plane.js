@@ -54,18 +54,38 @@ export function drawAxes(surface, plane, axes) {
   const [left, top, width, height] = plane.box;
   const { ink } = surface.theme;
   const bottom = top + height;
-  const frame = [[left, top], [left + width, top], [left + width, bottom], [left, bottom], [left, top]];
+  const frame = [
+    [left, top],
+    [left + width, top],
+    [left + width, bottom],
+    [left, bottom],
+    [left, top],
+  ];
   surface.line(frame, ink, 1);
   const along = ticksOf(plane.window.theta, Math.max(2, width / 75), axes.theta);
   const up = ticksOf(plane.window.velocity, Math.max(2, height / 60), axes.velocity);
   for (const { share, words } of along.ticks) {
     const x = left + share * width;
-    surface.line([[x, bottom], [x, bottom + 5]], ink, 1);
+    surface.line(
+      [
+        [x, bottom],
+        [x, bottom + 5],
+      ],
+      ink,
+      1,
+    );
     surface.text(words, x, bottom + 18, "center");
   }
   for (const { share, words } of up.ticks) {
     const y = bottom - share * height;
-    surface.line([[left - 5, y], [left, y]], ink, 1);
+    surface.line(
+      [
+        [left - 5, y],
+        [left, y],
+      ],
+      ink,
+      1,
+    );
     surface.text(words, left - 8, y + 4, "right");
   }
   const label = (axis, origin) => (origin ? `${axis.words} = ${origin}` : axis.words);
@@ -75,8 +95,7 @@ export function drawAxes(surface, plane, axes) {
 
 /** Points of starts given as [[theta, velocity], ...]. */
 export function drawPoints(surface, plane, points, fill, radius, stroke = "#ffffff") {
-  for (const [theta, velocity] of points)
-    for (const [x, y] of plane.images(theta, velocity)) surface.circle(x, y, radius, fill, stroke);
+  for (const [theta, velocity] of points) for (const [x, y] of plane.images(theta, velocity)) surface.circle(x, y, radius, fill, stroke);
 }
 
 /** A line through starts whose angles go on beyond a turn (not wrapped); every image of it that is seen. */
@@ -92,6 +111,10 @@ export function drawLine(surface, plane, points, colour, width) {
   const last = Math.min(first + 64, Math.floor((1 - Math.min(...across)) / period));
   surface.clipped(plane.box, () => {
     for (let n = first; n <= last; n++)
-      surface.line(shares.map(([x, y]) => plane.placeOf(x + n * period, y)), colour, width);
+      surface.line(
+        shares.map(([x, y]) => plane.placeOf(x + n * period, y)),
+        colour,
+        width,
+      );
   });
 }

@@ -30,8 +30,10 @@ export async function copyText(text) {
 export async function saveScene(state, pane) {
   const frame = pane.top;
   const body = {
-    window: state.window.toRequest(), pendulum: asScene(pane.pendulum),
-    rows: frame?.rows ?? pane.basins.height, columns: frame?.columns ?? pane.basins.width,
+    window: state.window.toRequest(),
+    pendulum: asScene(pane.pendulum),
+    rows: frame?.rows ?? pane.basins.height,
+    columns: frame?.columns ?? pane.basins.width,
   };
   saveText("view.yaml", (await ask("scene", body)).text, "application/yaml");
 }

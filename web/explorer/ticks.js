@@ -36,7 +36,10 @@ function plainTicks(low, width, step, digits) {
 
 /** Ticks n 10^-digits from an origin of whole tens of them. */
 function countedTicks(low, high, width, step, digits) {
-  const origin = low.plus(high).half().rounded(Math.max(0, digits - 2));
+  const origin = low
+    .plus(high)
+    .half()
+    .rounded(Math.max(0, digits - 2));
   const unit = 10 ** -digits;
   const from = low.minus(origin).toNumber();
   const each = Math.round(step / unit);

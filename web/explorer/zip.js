@@ -32,7 +32,18 @@ export function zipOf(files) {
   let offset = 0;
   for (const { name, bytes } of files) {
     const letters = new TextEncoder().encode(name);
-    const common = [[2, 20], [2, 0], [2, 0], [2, 0], [2, 33], [4, crcOf(bytes)], [4, bytes.length], [4, bytes.length], [2, letters.length], [2, 0]];
+    const common = [
+      [2, 20],
+      [2, 0],
+      [2, 0],
+      [2, 0],
+      [2, 33],
+      [4, crcOf(bytes)],
+      [4, bytes.length],
+      [4, bytes.length],
+      [2, letters.length],
+      [2, 0],
+    ];
     parts.push(packed([4, 0x04034b50], ...common), letters, bytes);
     directory.push(packed([4, 0x02014b50], [2, 20], ...common, [2, 0], [2, 0], [2, 0], [4, 0], [4, offset]), letters);
     offset += 30 + letters.length + bytes.length;

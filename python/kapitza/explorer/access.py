@@ -8,7 +8,7 @@ LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 UNUSED, PAGES = 16, 32  # addresses and pages that are remembered; the oldest go first
 
 
-class WrongArgument(Exception):
+class WrongArgument(ValueError):
     """An argument that cannot be used; the text names it and says what can."""
 
 
