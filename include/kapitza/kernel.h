@@ -162,6 +162,8 @@ typedef struct {
   double share;
 } kz_coordinate;
 
+/* The coordinate as decimal text, at least so many digits behind the point right: text [size]. KZ_FAILED where it does not fit. */
+kz_status kz_coordinate_text(const kz_coordinate *coordinate, int64_t digits, char *text, size_t size);
 /* a - b, right to 2^-bits or to a quad. */
 __float128 kz_coordinate_difference(const kz_coordinate *a, const kz_coordinate *b, int64_t bits);
 
@@ -178,10 +180,10 @@ typedef struct kz_arbitrary kz_arbitrary;
 kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits);
 void kz_arbitrary_free(kz_arbitrary *orbit);
 
-/* Advances through one drive period with so many bits behind the point, from KZ_FEWEST_BITS on; *jet, NULL = not asked, becomes the
- * neighbourhood at its end. The error of the state is some 2^-bits, and those that the motion makes of earlier ones. KZ_FAILED where the
+/* Advances through one drive period with so many bits behind the point, from KZ_FEWEST_BITS on; *jet becomes the neighbourhood at
+ * its end up to `degree` 1 or 3; 0: it may be NULL. The error of the state is some 2^-bits, and those that the motion makes of earlier ones. KZ_FAILED where the
  * motion is too fast for 2^14 steps a period. */
-kz_status kz_arbitrary_advance(kz_arbitrary *orbit, int64_t bits, kz_jet *jet);
+kz_status kz_arbitrary_advance(kz_arbitrary *orbit, int64_t bits, int degree, kz_jet *jet);
 
 /* The state as pairs of doubles, high + low: rad in [-pi, pi], rad per drive radian; whole turns are left out. */
 void kz_arbitrary_read(const kz_arbitrary *orbit, double theta[2], double velocity[2]);

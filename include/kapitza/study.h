@@ -32,6 +32,8 @@ typedef struct {
 bool kz_axis_is_deep(const kz_axis *axis);
 /* The number of a decimal text, maybe with " deg" behind it; 0 where it is none. */
 __float128 kz_decimal_quad(const char *text);
+/* The same number in all digits; its text is the decimal's. */
+kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal);
 
 /* The edges of a window as written; NaN = not given. */
 typedef struct {
@@ -323,18 +325,28 @@ typedef struct {
   char name[KZ_NAME_LENGTH];       /* "" = not settled */
   int32_t period, winding;         /* as in /attractors */
   int64_t settling_time;           /* drive periods until the orbit is inside a trapping region */
-  const char *precision;           /* that decides it: double, pairs, quad; NULL = none does, or not settled */
+  const char *precision;           /* that decides it: double, pairs, quad, arbitrary; NULL = none does, or not settled */
   double error;                    /* rad: how far the orbit may be off when it is trapped; NaN = not decided, or chaotic */
   int32_t other;                   /* settled, but not decided: the other candidate's id; -1 = none */
   char other_name[KZ_NAME_LENGTH]; /* "" = none */
   double *strobe_theta, *strobe_velocity; /* [period] rad, rad per drive radian; NULL = not settled */
 } kz_ending;
 
-/* Where n starts (start [n][2], rad and rad per drive radian; low [n][2]: what is to be added to them, below their last places) end, into
- * endings [n]. The attractors are those that the search of the scene's study basin or attractors finds, and those that the starts find
- * themselves; each start is then labelled as basin.method exact labels a cell. KZ_REFUSED without such a study. Not collective.
- * kz_where_free in every case. */
-kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, const double *low, kz_ending *endings);
+/* Where n starts (start [n]: theta and velocity; of one with a centre `high` and `low` are the nearest pair) end, into endings [n]. The
+ * attractors are those that the search of the scene's study basin or attractors finds, and those that the starts find themselves; each
+ * start is then labelled as basin.method exact labels a cell, and in as many digits as it takes. KZ_REFUSED without such a study. Not
+ * collective. kz_where_free in every case. */
+kz_status kz_where(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], kz_ending *endings);
 void kz_where_free(int64_t n, kz_ending *endings);
+
+/* A point of the boundary between basins, on the straight line between two starts that end differently: decimal texts, right to so many
+ * digits behind the point, and the attractors that starts beside it end on, towards the first start and towards the second. */
+enum { KZ_BOUNDARY_MOST_DIGITS = 900 };
+typedef struct {
+  char theta[KZ_DECIMAL_LENGTH], velocity[KZ_DECIMAL_LENGTH];
+  int32_t attractor[2];
+  char name[2][KZ_NAME_LENGTH];
+} kz_boundary_point;
+kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[2], int64_t digits, kz_boundary_point *point);
 
 #endif

@@ -74,7 +74,7 @@ void kz_engine_rest(kz_engine *engine);
 kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue);
 
 /* kz_where with the attractors that the engine knows; endings [n] to be freed as there. */
-kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const double *start, const double *low,
+kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings);
 
 /* A level of a chart: the periods and centres (as in /chart) of its points, x fastest; period KZ_NO_LABEL = not settled, or no pendulum. */

@@ -29,7 +29,7 @@ extern const unsigned kz_instructions;
 const char *kz_instruction_names(void);
 
 typedef struct {
-  const char *operands[3]; /* SCENE and what stands behind it */
+  const char *operands[5]; /* SCENE and what stands behind it */
   int n_operands;
   const char *scene;  /* path of the scene file; "-" = standard input */
   const char *output; /* FILE; NULL = base name of the scene + ".h5" in the current folder */
@@ -38,6 +38,7 @@ typedef struct {
   char **origins; /* of every --origin, in order */
   int n_origins;
   bool resume, force, json, json_schema, no_browser;
+  int64_t boundary;  /* digits of --boundary; 0 = not given */
   bool answered;     /* help and the like: nothing is left to do */
   const char *port;  /* of view, as written; NULL = not given */
   double time_limit; /* seconds; 0 = none */
@@ -64,19 +65,18 @@ kz_status kz_app_view(const kz_options *options); /* becomes the explorer: retur
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 
-/* Starts of the command where: one from the operands, or lines "theta,velocity" of standard input. start [n][2] in rad and rad per drive
- * radian, low [n][2] what is to be added to them below their last places. KZ_REFUSED names the operand or the line. To be freed in every
- * case. */
+/* Starts of the command where: from the operands, or lines "theta,velocity" of standard input. start [n]: theta and velocity, as doubles
+ * or, where a number of either is longer, both in all digits. KZ_REFUSED names the operand or the line. To be freed in every case. */
 typedef struct {
   int64_t n;
-  double *start, *low;
+  kz_coordinate (*start)[2];
   double pivot_frequency; /* rad/s, NaN where the scene is not in SI units: of velocities per second */
 } kz_starts;
 kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts);
 void kz_starts_free(kz_starts *starts);
 
 /* "theta": .., "velocity": .., and where that start ends, as members of a JSON object, to standard output. */
-void kz_ending_print(const double *start, const kz_ending *ending);
+void kz_ending_print(const kz_coordinate start[2], const kz_ending *ending);
 
 /* KZ_REFUSED where ranks were given other words behind the program's name than rank 0. Collective. */
 kz_status kz_options_agree(const kz_options *options, kz_ranks *ranks);

@@ -11,9 +11,9 @@ enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64 
 const kz_command kz_commands[] = {
     {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
     {"check", CHECK, " SCENE", 1, 1, kz_app_check, "validate SCENE and print what would be modelled; runs nothing"},
-    {"where", WHERE, " SCENE THETA VELOCITY", 2, 3, kz_app_where,
-     "say where a start ends: THETA in rad from down, VELOCITY in rad per drive radian; - in their place: a CSV of starts on "
-     "standard input"},
+    {"where", WHERE, " SCENE THETA VELOCITY", 2, 5, kz_app_where,
+     "say where a start ends: THETA in rad from down, VELOCITY in rad per drive radian, of any digits; - in their place: a CSV "
+     "of starts on standard input; with --boundary two starts"},
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view,
      "open the basins of a scene or result in the browser, to be zoomed and dragged"},
     {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
@@ -119,6 +119,15 @@ static kz_status set_progress(kz_options *options, const char *argument) {
   return kz_fail(KZ_REFUSED, "--progress: \"%s\" is unknown; it must be auto, always or never", argument);
 }
 
+static kz_status set_boundary(kz_options *options, const char *argument) {
+  const kz_node node = {.kind = KZ_SCALAR, .text = (char *)argument, .plain = true};
+  const char *wrong = kz_scalar_integer(&node, &options->boundary);
+  if (wrong || options->boundary < 1 || options->boundary > KZ_BOUNDARY_MOST_DIGITS)
+    return kz_fail(KZ_REFUSED, "--boundary: \"%.40s\" %s; give a number of digits from 1 to %d", argument,
+                   wrong ? wrong : "is out of range", KZ_BOUNDARY_MOST_DIGITS);
+  return KZ_OK;
+}
+
 static kz_status set_log(kz_options *options, const char *argument) {
   options->log = argument;
   return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--log: the name is empty; give the name of a file");
@@ -141,6 +150,9 @@ const kz_option kz_option_rows[] = {
     {"timings", 267, NULL, RUN, set_timings, "print at the end where the time went, stage by stage", NULL},
     {"log", 268, "FILE", RUN, set_log, "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
     {"json", 261, NULL, WHERE, set_json, "print JSON, one object a line", NULL},
+    {"boundary", 269, "DIGITS", WHERE, set_boundary,
+     "of two starts that end differently: a point between them where their basins meet, right to DIGITS behind the point",
+     NULL},
     {"json-schema", 262, NULL, KEYS, set_json_schema, "print them as a JSON schema, for editors", NULL},
     {"port", 263, "N", VIEW, set_port, "of the local server, 1024 to 65535; default: any that is free", NULL},
     {"no-browser", 264, NULL, VIEW, set_no_browser, "print the address and open nothing", NULL},

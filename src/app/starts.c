@@ -50,17 +50,34 @@ static kz_status read_number(const char *text, int which, const char *place, kz_
   else if (which == 0 || !read_per_second(text, starts, &value.high, &wrong))
     wrong = kz_scalar_decimal(&node, which == 0, &value);
   if (!wrong && (value.high < -MOST[which] || value.high > MOST[which])) wrong = "is out of range";
-  starts->start[2 * i + which] = value.high;
-  starts->low[2 * i + which] = value.low;
+  starts->start[i][which] = (kz_coordinate){.high = value.high, .low = value.low};
   if (!wrong) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s; it must be a number from %g to %g in %s", place, NAMES[which], text, wrong,
                  -MOST[which], MOST[which],
                  which == 0 ? "rad, or in degrees such as 90 deg, or a part of pi such as pi/2" : "rad per drive radian");
 }
 
+/* Whether a text is digits alone, maybe with " deg" behind them. */
+static bool is_digits(const char *text) {
+  const size_t digits = strspn(text, "+-.0123456789eE");
+  return text[digits] == '\0' || strcmp(text + digits, " deg") == 0;
+}
+
 /* Of a start without a long number the nearest doubles are taken: cells of a file keep their labels. */
-static void take_digits(const char *theta, const char *velocity, kz_starts *starts, int64_t i) {
-  if (!is_long(theta) && !is_long(velocity)) starts->low[2 * i] = starts->low[2 * i + 1] = 0;
+static void take_digits(const char *const text[2], kz_coordinate start[2]) {
+  const bool all = is_long(text[0]) || is_long(text[1]);
+  for (int i = 0; i < 2; i++) {
+    if (all && is_digits(text[i]))
+      start[i].centre = kz_strdup(text[i]);
+    else
+      start[i].low = 0;
+  }
+}
+
+static kz_status read_start(const char *const text[2], const char *place, kz_starts *starts) {
+  for (int i = 0; i < 2; i++) KZ_TRY(read_number(text[i], i, place, starts, starts->n));
+  take_digits(text, starts->start[starts->n++]);
+  return KZ_OK;
 }
 
 /* Cuts blanks from both ends, in place. */
@@ -77,10 +94,8 @@ static kz_status read_row(char *line, int64_t number, kz_starts *starts) {
   if (!comma || strchr(comma + 1, ','))
     return kz_fail(KZ_REFUSED, "%s: \"%.60s\" is not a start; write theta,velocity", place, trimmed(line));
   *comma = '\0';
-  KZ_TRY(read_number(trimmed(line), 0, place, starts, starts->n));
-  KZ_TRY(read_number(trimmed(comma + 1), 1, place, starts, starts->n));
-  take_digits(trimmed(line), trimmed(comma + 1), starts, starts->n++);
-  return KZ_OK;
+  const char *const text[2] = {trimmed(line), trimmed(comma + 1)};
+  return read_start(text, place, starts);
 }
 
 /* A first line of names, and empty lines, are no starts. */
@@ -105,8 +120,17 @@ static kz_status read_table(kz_starts *starts) {
   return status;
 }
 
+static kz_status read_operands(const kz_options *options, kz_starts *starts) {
+  static const char *const place[] = {"where", "where, the second start"};
+  for (int i = 1; i < options->n_operands; i += 2) KZ_TRY(read_start(options->operands + i, place[i / 2], starts));
+  return KZ_OK;
+}
+
 static kz_status read_starts(const kz_options *options, kz_starts *starts) {
   const char *const *operands = options->operands;
+  if (options->boundary > 0 && options->n_operands != 5)
+    return kz_fail(KZ_REFUSED,
+                   "--boundary: takes two starts; kapitza where SCENE THETA VELOCITY THETA VELOCITY --boundary DIGITS");
   if (options->n_operands == 2) {
     if (strcmp(operands[1], "-") != 0)
       return kz_fail(KZ_REFUSED, "VELOCITY: is missing; kapitza where SCENE THETA VELOCITY, or - for starts on standard input");
@@ -114,19 +138,17 @@ static kz_status read_starts(const kz_options *options, kz_starts *starts) {
       return kz_fail(KZ_REFUSED, "-: the scene and the starts cannot both come from standard input; give a scene file");
     return read_table(starts);
   }
-  starts->n = 1;
-  for (int i = 0; i < 2; i++) KZ_TRY(read_number(operands[1 + i], i, "where", starts, 0));
-  take_digits(operands[1], operands[2], starts, 0);
-  return KZ_OK;
+  if (options->boundary == 0 && options->n_operands > 3)
+    return kz_fail(KZ_REFUSED, "%.80s: one argument too many; two starts go with --boundary alone", operands[3]);
+  return read_operands(options, starts);
 }
 
 kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts) {
-  const size_t bytes = 2 * sizeof(double) * MOST_STARTS;
-  *starts = (kz_starts){.start = kz_malloc(bytes), .low = kz_malloc(bytes), .pivot_frequency = pivot_frequency};
+  *starts = (kz_starts){.start = kz_malloc(MOST_STARTS * sizeof *starts->start), .pivot_frequency = pivot_frequency};
   return read_starts(options, starts);
 }
 
 void kz_starts_free(kz_starts *starts) {
+  for (int64_t i = 0; i < 2 * starts->n; i++) free((char *)starts->start[i / 2][i % 2].centre);
   free(starts->start);
-  free(starts->low);
 }

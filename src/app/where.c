@@ -21,10 +21,10 @@ static void print_decision(const kz_ending *e) {
 }
 
 /* `omega`: of the pivot, rad/s; NaN where the scene is not in SI units, which are printed then too. */
-static void print_person(const double *start, const kz_ending *e, double omega) {
+static void print_person(const kz_coordinate start[2], const kz_ending *e, double omega) {
   const bool si = !isnan(omega);
-  printf("theta = %.10g (%.6g deg), velocity = %.10g", start[0], start[0] * 180 / M_PI, start[1]);
-  si ? printf(" (%.6g rad/s)\n", start[1] * omega) : puts("");
+  printf("theta = %.10g (%.6g deg), velocity = %.10g", start[0].high, start[0].high * 180 / M_PI, start[1].high);
+  si ? printf(" (%.6g rad/s)\n", start[1].high * omega) : puts("");
   if (e->attractor < 0) {
     puts("ends on         nothing known: it has not settled");
     return;
@@ -59,11 +59,11 @@ static void print_word(const char *name, const char *value) {
   printf(", \"%s\": %s%s%s", name, quote, value[0] ? value : "null", quote);
 }
 
-void kz_ending_print(const double *start, const kz_ending *e) {
+void kz_ending_print(const kz_coordinate start[2], const kz_ending *e) {
   fputs("\"theta\": ", stdout);
-  print_number(start[0]);
+  print_number(start[0].high);
   fputs(", \"velocity\": ", stdout);
-  print_number(start[1]);
+  print_number(start[1].high);
   printf(", \"attractor\": %d", (int)e->attractor);
   if (e->attractor < 0)
     fputs(", \"name\": null, \"period\": null, \"winding\": null, \"settling_time\": null", stdout);
@@ -83,17 +83,17 @@ void kz_ending_print(const double *start, const kz_ending *e) {
   print_word("other_name", e->other_name);
 }
 
-static void print_json(const double *start, const kz_ending *e) {
+static void print_json(const kz_coordinate start[2], const kz_ending *e) {
   putchar('{');
   kz_ending_print(start, e);
   puts("}");
 }
 
 /* The first strobe point stands for the orbit; what there is not stays empty. */
-static void print_csv(const double *start, const kz_ending *e) {
-  print_number(start[0]);
+static void print_csv(const kz_coordinate start[2], const kz_ending *e) {
+  print_number(start[0].high);
   putchar(',');
-  print_number(start[1]);
+  print_number(start[1].high);
   printf(",%d,", (int)e->attractor);
   if (e->attractor < 0)
     fputs(",,,", stdout);
@@ -115,7 +115,7 @@ static void print_endings(const kz_options *options, const kz_starts *starts, co
         "theta,velocity,attractor,name,period,winding,settling_time,decided,strobe_theta,strobe_velocity,"
         "precision,error,other_attractor,other_name");
   for (int64_t i = 0; i < starts->n; i++) {
-    const double *start = starts->start + 2 * i;
+    const kz_coordinate *start = starts->start[i];
     if (options->json || table)
       (options->json ? print_json : print_csv)(start, endings + i);
     else
@@ -123,14 +123,30 @@ static void print_endings(const kz_options *options, const kz_starts *starts, co
   }
 }
 
-static kz_status answer(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
-  KZ_TRY(kz_studies_check(scene));
+static kz_status answer_where(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
   kz_ending *endings = kz_calloc((size_t)starts->n, sizeof *endings);
-  const kz_status status = kz_where(scene, starts->n, starts->start, starts->low, endings);
+  const kz_status status = kz_where(scene, starts->n, starts->start, endings);
   if (status == KZ_OK) print_endings(options, starts, endings);
   kz_where_free(starts->n, endings);
   free(endings);
   return status;
+}
+
+static kz_status answer_boundary(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
+  kz_boundary_point point;
+  KZ_TRY(kz_where_boundary(scene, starts->start, options->boundary, &point));
+  if (options->json)
+    printf("{\"theta\": \"%s\", \"velocity\": \"%s\", \"attractors\": [%d, %d], \"names\": [\"%s\", \"%s\"]}\n", point.theta,
+           point.velocity, (int)point.attractor[0], (int)point.attractor[1], point.name[0], point.name[1]);
+  else
+    printf("theta     %s\nvelocity  %s\nbetween   %s (attractor %d) and %s (attractor %d)\n", point.theta, point.velocity,
+           point.name[0], (int)point.attractor[0], point.name[1], (int)point.attractor[1]);
+  return KZ_OK;
+}
+
+static kz_status answer(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
+  KZ_TRY(kz_studies_check(scene));
+  return (options->boundary > 0 ? answer_boundary : answer_where)(options, scene, starts);
 }
 
 kz_status kz_app_where(const kz_options *options) {

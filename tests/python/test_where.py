@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import subprocess
+from decimal import Decimal, getcontext
 
 import numpy as np
 import pytest
@@ -129,3 +130,35 @@ def test_a_wrong_start_is_one_line(arguments, text, message):
 def test_a_scene_without_a_window_is_refused():
     done = where(ROOT / "scenes" / "butikov-fig01.yaml", 1, 2)
     assert done.returncode == 2 and "add a basin or attractors study" in done.stderr
+
+
+K01 = """\
+pendulum: {k: 0.1, damping: 0.1, m: 0.4}
+basin: {theta: {count: 100}, velocity: {min: -20, max: 20, count: 100}, attractors: {starts: 512}}
+"""
+
+
+def test_a_boundary_point_of_any_digits(kapitza, tmp_path):
+    """Starts 1e-40 to either side of it end as it says, and the digits of a coarser point are its first ones."""
+    (tmp_path / "k01.yaml").write_text(K01)
+    ends = ["k01.yaml", "-2.367", "17", "-2.3672", "17"]
+    point = json.loads(kapitza("where", *ends, "--boundary", "40", "--json", folder=tmp_path).stdout)
+    assert point["velocity"].startswith("17.0") and len(point["theta"]) == 43
+    getcontext().prec = 60
+    beside = "".join(f"{Decimal(point['theta']) + step},17\n" for step in (Decimal("2e-39"), -Decimal("2e-39")))
+    found = [json.loads(line) for line in kapitza("where", "k01.yaml", "-", "--json", folder=tmp_path, text=beside).stdout.splitlines()]
+    assert {row["attractor"] for row in found} <= set(range(10)) and found[0]["attractor"] != found[1]["attractor"]
+    assert all(row["decided"] for row in found)
+    coarse = kapitza("where", *ends, "--boundary", "9", folder=tmp_path).stdout.splitlines()
+    assert coarse[0].split()[1][:9] == point["theta"][:9] and coarse[2].startswith("between")
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["1", "2", "--boundary", "20"], "--boundary: takes two starts"),
+    (["1", "2", "3", "4"], "3: one argument too many; two starts go with --boundary alone"),
+    (["1", "2", "1", "2.0000001", "--boundary", "1000"], "is out of range; give a number of digits from 1 to 900"),
+    (["0.1", "0", "0.11", "0", "--boundary", "9"], "--boundary: both starts end on "),
+])
+def test_what_is_no_boundary_is_refused(kapitza, tmp_path, arguments, words):
+    (tmp_path / "k01.yaml").write_text(K01)
+    assert words in kapitza("where", "k01.yaml", *arguments, folder=tmp_path, status=2).stderr

@@ -161,7 +161,7 @@ kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_l
   return send();
 }
 
-kz_status kz_answer_where(int64_t sequence, const double *start, const kz_ending *ending) {
+kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending) {
   begin("where", sequence, true);
   fputs(", ", stdout);
   kz_ending_print(start, ending);

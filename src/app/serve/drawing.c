@@ -14,10 +14,10 @@ void kz_drawing_close(kz_drawing *drawing) {
 }
 
 static kz_status answer_where(kz_drawing *d, const kz_request *request) {
-  const double start[2] = {request->theta.high, request->velocity.high}, low[2] = {request->theta.low, request->velocity.low};
+  const kz_coordinate start[1][2] = {{kz_decimal_coordinate(&request->theta), kz_decimal_coordinate(&request->velocity)}};
   kz_ending ending;
-  kz_status status = kz_engine_where(d->engine, &request->scene, 1, start, low, &ending);
-  if (status == KZ_OK) status = kz_answer_where(request->sequence, start, &ending);
+  kz_status status = kz_engine_where(d->engine, &request->scene, 1, start, &ending);
+  if (status == KZ_OK) status = kz_answer_where(request->sequence, start[0], &ending);
   kz_where_free(1, &ending);
   return status;
 }

@@ -142,6 +142,15 @@ bool kz_number_read(const char *text, kz_number *x) {
   return arb_load_str(x, text) == 0;
 }
 
+/* So many digits in all. */
+static bool print(const kz_number *x, int64_t digits, char *text, size_t size) {
+  char *whole = arb_get_str(x, digits, ARB_STR_NO_RADIUS);
+  const bool fits = whole && strlen(whole) < size;
+  if (fits) strcpy(text, whole);
+  flint_free(whole);
+  return fits;
+}
+
 #else
 
 int64_t kz_arbitrary_bits(void) {
@@ -213,6 +222,10 @@ bool kz_number_read(const char *text, kz_number *x) {
   return *end == '\0';
 }
 
+static bool print(const kz_number *x, int64_t digits, char *text, size_t size) {
+  return (size_t)quadmath_snprintf(text, size, "%.*Qg", (int)(digits < 36 ? digits : 36), *x) < size;
+}
+
 #endif
 
 void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits) {
@@ -244,4 +257,15 @@ __float128 kz_coordinate_difference(const kz_coordinate *a, const kz_coordinate 
   const __float128 difference = kz_number_quad(x);
   for (int i = 0; i < 2; i++) kz_number_clear(x + i);
   return difference;
+}
+
+kz_status kz_coordinate_text(const kz_coordinate *coordinate, int64_t digits, char *text, size_t size) {
+  const int64_t bits = (int64_t)((double)(digits + 1) / log10(2)) + 1;
+  kz_number x;
+  kz_number_init(&x);
+  kz_number_of(coordinate, &x, bits);
+  const int64_t exponent = kz_number_exponent(&x), before = exponent > 0 ? (int64_t)ceil((double)exponent * log10(2)) : 0;
+  const bool fits = print(&x, digits + before, text, size);
+  kz_number_clear(&x);
+  return fits ? KZ_OK : kz_fail(KZ_FAILED, "a number of %lld digits is too long", (long long)digits);
 }

@@ -96,16 +96,16 @@ static void copy_place(const kz_place *from, kz_place *to) {
 }
 
 /* One period in the present steps; false where a series does not converge. */
-static bool advance_in_steps(kz_arbitrary *o, int64_t bits, kz_jet *jet) {
+static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *jet) {
   kz_number_sin_cos(&o->place.theta, &o->place.sine, &o->place.cosine, bits + 8);
   for (int64_t i = 0; i < o->steps.n; i++) {
     int64_t tangent = 0;
     const int64_t orders = kz_series_expand(&o->series, &o->steps, i, &o->place, bits);
     if (orders == 0) return false;
-    if (jet) {
+    if (degree > 0) {
       tangent = kz_series_expand_tangent(&o->series, &o->steps, &o->place, orders);
       if (tangent == 0) return false;
-      kz_bent_advance(&o->series, &o->steps, tangent, jet);
+      if (degree > 1) kz_bent_advance(&o->series, &o->steps, tangent, jet);
     }
     kz_series_sum(&o->series, &o->steps, orders, tangent, bits, &o->place);
   }
@@ -140,26 +140,26 @@ static void get_tangent(const kz_place *place, kz_jet *jet) {
   }
 }
 
-kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, kz_jet *jet) {
+kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet *jet) {
   const int64_t fine = bits > o->bits ? o->bits : bits;
   kz_place before = {0};
-  kz_jet bent;
+  kz_jet bent = {.bent = {{0}}};
   bool done = false;
   wrap(o, o->bits);
-  set_tangent(&o->place, jet);
+  set_tangent(&o->place, degree > 0 ? jet : NULL);
   copy_place(&o->place, &before);
   for (int64_t halvings = 0; !done && halvings <= HALVINGS; halvings++) {
     make_steps(o, (int64_t)FEWEST_STEPS << halvings);
     copy_place(&before, &o->place);
-    if (jet) bent = *jet;
-    done = advance_in_steps(o, fine, jet ? &bent : NULL);
+    if (degree > 0) bent = *jet;
+    done = advance_in_steps(o, fine, degree, &bent);
   }
   kz_number *const copies[] = {&before.theta,    &before.velocity, &before.sine,    &before.cosine,
                                &before.angle[0], &before.angle[1], &before.rate[0], &before.rate[1]};
   for (size_t i = 0; i < sizeof copies / sizeof *copies; i++) kz_number_clear(copies[i]);
   if (!done) return kz_fail(KZ_FAILED, "a motion is too fast for an orbit of %lld bits", (long long)fine);
   wrap(o, fine);
-  if (jet) {
+  if (degree > 0) {
     *jet = bent;
     get_tangent(&o->place, jet);
   }

@@ -14,6 +14,10 @@ __float128 kz_decimal_quad(const char *text) {
   return strcmp(end, " deg") == 0 ? number * strtoflt128(radians, NULL) : number;
 }
 
+kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal) {
+  return (kz_coordinate){.high = decimal->high, .low = decimal->low, .centre = decimal->text};
+}
+
 static __float128 middle_of(const kz_axis *axis) {
   return (__float128)axis->centre.high + axis->centre.low;
 }

@@ -6,26 +6,37 @@
 
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
+#include "window/own_orbit.h"
 
-static kz_status label(kz_question *q, kz_start *asked) {
+/* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */
+static kz_status start_of(void *context, int64_t i, int32_t level, kz_start *start) {
+  static const double pair_error = 4e-32;
+  const kz_question *q = context;
+  const kz_coordinate *theta = &q->start[i][0], *velocity = &q->start[i][1];
+  const double error = theta->centre || velocity->centre ? pair_error * hypot(theta->high, velocity->high) : 0;
+  (void)level;
+  *start = (kz_start){.theta = {theta->high, theta->low},
+                      .velocity = {velocity->high, velocity->low},
+                      .error = {error * error, 0, error * error}};
+  return KZ_OK;
+}
+
+/* A kz_decide_fn: of starts with more digits than a pair has. Doubles are labelled as method exact labels the cells of a file. */
+static kz_status decide(void *context, int64_t i, kz_decision *decision) {
+  const kz_question *q = context;
+  *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
+  if (!q->start[i][0].centre && !q->start[i][1].centre) return KZ_OK;
+  return kz_own_orbit_decide(q->dynamics, &q->scene->parameters.pendulum, q->start[i], q->max_periods, decision);
+}
+
+kz_status kz_question_decide(kz_question *q) {
   const kz_labeller labeller = {
-      .dynamics = q->dynamics, .max_periods = q->max_periods, .start = kz_start_of_array, .context = asked};
-  for (int64_t i = 0; i < q->n; i++) {
-    asked[i] = kz_start_at(q->start[2 * i], q->start[2 * i + 1]);
-    if (q->low) asked[i].theta[1] = q->low[2 * i], asked[i].velocity[1] = q->low[2 * i + 1];
-  }
+      .dynamics = q->dynamics, .max_periods = q->max_periods, .start = start_of, .decide = decide, .context = q};
+  q->decision = kz_malloc(((size_t)q->n + 1) * sizeof *q->decision);
   KZ_TRY(kz_label(&labeller, q->n, NULL, q->decision));
   for (int64_t i = 0; i < q->n; i++)
     if (q->decision[i].label == KZ_DOUBTFUL) KZ_TRY(kz_label_candidates(&labeller, 1, &i, q->decision + i));
   return KZ_OK;
-}
-
-kz_status kz_question_decide(kz_question *q) {
-  kz_start *asked = kz_malloc(((size_t)q->n + 1) * sizeof *asked);
-  q->decision = kz_malloc(((size_t)q->n + 1) * sizeof *q->decision);
-  const kz_status status = label(q, asked);
-  free(asked);
-  return status;
 }
 
 void kz_question_free(kz_question *q) {

@@ -9,8 +9,8 @@ typedef struct {
   const kz_scene *scene;
   kz_dynamics *dynamics;
   int64_t max_periods, n;
-  const double *start, *low; /* [n][2] as of kz_where */
-  kz_decision *decision;     /* [n] */
+  const kz_coordinate (*start)[2]; /* [n] as of kz_where */
+  kz_decision *decision;           /* [n] */
 } kz_question;
 
 /* Labels the starts as method exact does: fills `decision`, where candidates take the place of KZ_DOUBTFUL. */

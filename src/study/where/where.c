@@ -6,7 +6,7 @@
 #include "numerics/cells.h"
 #include "attractors/search.h"
 #include "labelling/starts.h"
-#include "question.h"
+#include "bisect.h"
 
 typedef struct {
   kz_question question;
@@ -34,7 +34,7 @@ static kz_status where_discover(where_job *a) {
   const int64_t searched = kz_dynamics_count(q->dynamics);
   int64_t *reached = kz_calloc((size_t)searched + 1, sizeof *reached);
   for (int64_t i = 0; i < a->search.starts; i++) reached[a->found[i]]++;
-  for (int64_t i = 0; i < q->n; i++) kz_start_state(q->start[2 * i], q->start[2 * i + 1], a->state + 2 * i);
+  for (int64_t i = 0; i < q->n; i++) kz_start_state(q->start[i][0].high, q->start[i][1].high, a->state + 2 * i);
   kz_status status = kz_discover(NULL, q->dynamics, a->search.max_periods, q->n, a->state, a->found);
   const int64_t known = kz_dynamics_count(q->dynamics);
   a->reached = kz_calloc((size_t)known + 1, sizeof *a->reached);
@@ -58,20 +58,63 @@ static kz_status answer(where_job *a, kz_ending *endings) {
   return KZ_OK;
 }
 
-kz_status kz_where(const kz_scene *scene, int64_t n, const double *start, const double *low, kz_ending *endings) {
+/* The starts as kz_where takes them, with their endings; asked->question.decision is what they say. To be closed in every case. */
+static kz_status where_ask(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], where_job *asked,
+                           kz_ending *endings) {
+  *asked = (where_job){.question = {.scene = scene, .n = n, .start = start}};
   kz_endings_clear(n, endings);
   if (!scene->has_basin && !scene->has_attractors)
     return kz_fail(KZ_REFUSED, "scene: has no window to search for attractors; add a basin or attractors study to it");
   if (n == 0 || scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  where_job a = {.search = kz_search_of(scene)};
-  a.question = (kz_question){.scene = scene, .max_periods = a.search.max_periods, .n = n, .start = start, .low = low};
-  where_allocate(&a);
-  kz_status status = where_discover(&a);
-  if (status == KZ_OK) status = answer(&a, endings);
-  if (a.question.dynamics) kz_dynamics_free(a.question.dynamics);
-  kz_question_free(&a.question);
-  free(a.state);
-  free(a.found);
-  free(a.reached);
+  asked->search = kz_search_of(scene);
+  asked->question.max_periods = asked->search.max_periods;
+  where_allocate(asked);
+  KZ_TRY(where_discover(asked));
+  return answer(asked, endings);
+}
+
+static void where_close(where_job *a) {
+  if (a->question.dynamics) kz_dynamics_free(a->question.dynamics);
+  kz_question_free(&a->question);
+  free(a->state);
+  free(a->found);
+  free(a->reached);
+}
+
+kz_status kz_where(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], kz_ending *endings) {
+  where_job a;
+  const kz_status status = where_ask(scene, n, start, &a, endings);
+  where_close(&a);
+  return status;
+}
+
+static kz_status where_bisect(const where_job *a, int64_t digits, const kz_ending *endings, kz_boundary_point *point) {
+  const kz_question *q = &a->question;
+  kz_bisection bisection;
+  if (endings[0].attractor == endings[1].attractor)
+    return kz_fail(KZ_REFUSED, "--boundary: both starts end on %s; give two that end on different attractors",
+                   endings[0].attractor < 0 ? "nothing known" : endings[0].name);
+  KZ_TRY(kz_bisect(q, digits, &bisection));
+  memcpy(point->theta, bisection.theta, sizeof point->theta);
+  memcpy(point->velocity, bisection.velocity, sizeof point->velocity);
+  kz_catalogue catalogue;
+  kz_catalogue_make(q->dynamics, a->reached, &catalogue);
+  for (int side = 0; side < 2; side++) {
+    const int32_t id = bisection.label[side] > 0 ? catalogue.id_of[bisection.label[side]] : -1;
+    point->attractor[side] = id;
+    if (id >= 0) memcpy(point->name[side], catalogue.entries[id].name, sizeof point->name[side]);
+  }
+  kz_catalogue_free(&catalogue);
+  return KZ_OK;
+}
+
+kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[2], int64_t digits, kz_boundary_point *point) {
+  where_job a;
+  kz_ending endings[2];
+  *point = (kz_boundary_point){.attractor = {-1, -1}};
+  kz_status status = where_ask(scene, 2, start, &a, endings);
+  if (status == KZ_OK) status = where_bisect(&a, digits, endings, point);
+  kz_where_free(2, endings);
+  where_close(&a);
   return status;
 }

@@ -98,7 +98,7 @@ static kz_status add_image(kz_images *images) {
   const int64_t needed = bits_for(size_of(&last->jet)), bits = needed < images->bits ? needed : images->bits;
   memset(next, 0, sizeof *next);
   next->jet = last->jet;
-  KZ_TRY(kz_arbitrary_advance(images->orbit, bits, &next->jet));
+  KZ_TRY(kz_arbitrary_advance(images->orbit, bits, 3, &next->jet));
   kz_arbitrary_read(images->orbit, next->theta, next->velocity);
   next->lost = last->lost + (double)(exp2l((long double)(4 - bits)) / size_of(&next->jet));
   images->n++;

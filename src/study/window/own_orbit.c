@@ -65,7 +65,7 @@ static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_
       try_in_doubles(p, dynamics, max_periods, decision);
       if (decision->label != KZ_DOUBTFUL || p->periods == max_periods) return KZ_OK;
     }
-    KZ_TRY(kz_arbitrary_advance(p->orbit, p->bits, &tangent));
+    KZ_TRY(kz_arbitrary_advance(p->orbit, p->bits, 1, &tangent));
     carry(&tangent, &p->error);
   }
   return KZ_OK;

@@ -24,7 +24,7 @@ static kz_arbitrary *orbit_at(double theta, double velocity, int64_t bits) {
 }
 
 static void advance(kz_arbitrary *orbit, int periods, int64_t bits, kz_jet *jet) {
-  for (int i = 0; i < periods; i++) assert_int_equal(kz_arbitrary_advance(orbit, bits, jet), KZ_OK);
+  for (int i = 0; i < periods; i++) assert_int_equal(kz_arbitrary_advance(orbit, bits, jet ? 3 : 0, jet), KZ_OK);
 }
 
 /* The distance of two states as their pairs tell it. */
