@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 #include "kapitza/dynamics.h"
-#include "kapitza/study.h"
+#include "kapitza/study_where.h"
 
 /* Pendulums of the last requests: their maps, attractors and trapping regions. */
 typedef struct kz_engine kz_engine;

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "kapitza/study_where.h"
 #include "scene.h"
 
 /* Instruction sets that this build uses, as bits; the program's entry refuses a CPU that lacks one of them. */

@@ -3,7 +3,7 @@
 #define KAPITZA_STUDY_QUESTION_H
 
 #include "attractors/catalogue.h"
-#include "kapitza/study.h"
+#include "kapitza/study_where.h"
 
 typedef struct {
   const kz_scene *scene;
