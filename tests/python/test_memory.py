@@ -22,7 +22,7 @@ SCENES = {
                  "subharmonics: [2]}\npotential: {drive_amplitudes: [0.1], theta: {count: 20}}\n",
     "sweep": "sweep: {parameter: drive_amplitude, min: 0.29, max: 0.3, count: 2, velocity: {min: -1, max: 1}, starts: 16, "
              "measure: [attractors, release_angle, strobe]}\n",
-    "tradeoff": BASIN.replace("method: icm, ", "") + "tradeoff: {samples: 16, settings: [direct-8]}\n",
+    "tradeoff": BASIN.replace("icm: {theta: 64, velocity: 64}, method: icm, ", "") + "tradeoff: {samples: 16, settings: [direct-8]}\n",
 }
 CLOCKS = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells"}
 

@@ -275,7 +275,8 @@ def test_the_guide_names_files_that_exist():
     guide = (ROOT / "docs" / "developer.md").read_text()
     rows = re.findall(r"^\| ([^|]+) \| ([^|]+) \|$", guide.split("| to add | touch |")[1].split("\n## ")[0], re.MULTILINE)[1:]
     assert {word for name, _ in rows for word in name.split()} >= {
-        "scheme", "study", "key", "variable", "measure", "interpolation", "plot", "curve", "colour", "test"}
+        "scheme", "study", "key", "variable", "measure", "level", "drive", "interpolation", "plot",
+        "command", "curve", "colour", "test"}
     for name, files in rows:
         ways = [re.findall(r"`((?:src|include|python|scripts|docs|tests|scenes)/[^`]*)`", way) for way in files.split("; in Python")]
         assert all(1 <= len(way) <= 3 for way in ways), name
