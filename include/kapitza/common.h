@@ -39,6 +39,7 @@ double kz_processor_clock(void);
 
 /* Words of scenes and files, in the order of their codes (KZ_METHOD_ICM ..., KZ_LINEAR ...). */
 #define KZ_METHOD_WORDS "icm", "direct", "exact"
+#define KZ_UNDECIDED_WORDS "flag", "decide"
 #define KZ_INTERPOLATION_WORDS "linear", "quintic"
 
 /* Such a list of two or three as one text, "icm|direct|exact". */

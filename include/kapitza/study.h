@@ -41,6 +41,7 @@ typedef struct {
 } kz_edges;
 
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
+enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* cells that quad precision leaves open */
 enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
 
 /* A list of a scene. */
@@ -66,7 +67,7 @@ typedef struct {
   kz_axis theta;    /* rad; the whole circle is [-pi, pi) */
   kz_axis velocity; /* rad per drive radian */
   kz_edges theta_edges, velocity_edges;
-  int32_t method;
+  int32_t method, undecided;
   int64_t table_theta, table_velocity; /* nodes of the map table */
   bool table_is_idle;                  /* the scene gives a map table that its method does not use */
   int32_t interpolation;

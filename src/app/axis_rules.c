@@ -26,7 +26,7 @@ void kz_axis_rules(kz_reading *reading, const kz_axis *axis, const char *path) {
 }
 
 static bool is_exact(const kz_basin_plan *plan) {
-  return isnan(plan->accuracy) ? plan->method == KZ_METHOD_EXACT : plan->accuracy >= 1;
+  return isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
 }
 
 /* A window by its middle: of cells that doubles cannot tell apart, method exact, and digits enough in this build. */

@@ -119,11 +119,16 @@ const kz_key kz_keys[] = {
             CENTRE_HELP),
     DECIMAL("basin.velocity.width", "rad per drive radian", 1e-300, 2e9, NULL, basin.velocity.width, "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
-    WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "direct", basin.method,
-         "direct: every cell is integrated; icm: interpolated cell mapping, the method of the papers; exact: every cell is "
-         "integrated with its error, again in pairs of doubles or quad precision where that decides nothing, and flagged in "
-         "evidence where nothing does.",
+    WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "exact", basin.method,
+         "exact: every cell is integrated with its error, again in more precision where that decides nothing, and flagged in "
+         "evidence where nothing does; direct: doubtful labels stay as they are, and evidence tells them; icm: interpolated "
+         "cell "
+         "mapping, the method of the papers. A sweep integrates its cells directly.",
          .former = "hybrid=direct", CHOSEN),
+    WORD("basin.undecided", KZ_JOINED(KZ_UNDECIDED_WORDS), "flag", basin.undecided,
+         "What quad precision leaves open, by method exact: flagged with its two candidates, or decided by its own orbit in as "
+         "many "
+         "digits as it takes, some 0.1 to 0.4 s a cell."),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),
     INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity.", CHOSEN),
@@ -139,10 +144,10 @@ const kz_key kz_keys[] = {
         "basin.proof", "false", basin.proof,
         "Prove the labels under the differential equation itself: `evidence` marks those that are proved, `proved_share` is "
         "their share, `other_share_high` bounds the area that ends elsewhere. Some ten times the time of the cells."),
-    REAL("basin.accuracy", "", 0.5, 1, "", basin.accuracy,
+    REAL("basin.accuracy", "", 0.5, 0.999999, "", basin.accuracy,
          "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a "
          "sample "
-         "followed in quad precision shows to be as right (95 % bound); 1, or what no setting reaches: method exact."),
+         "followed in quad precision shows to be as right (95 % bound); what no setting reaches: method exact."),
 
     MAPPING("basin.boundary", "", AT(basin.has_boundary),
             "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that share "

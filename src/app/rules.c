@@ -27,6 +27,16 @@ static void table_rules(kz_reading *reading, kz_scene *scene) {
   scene->basin.table_is_idle = given && isnan(scene->basin.accuracy) && scene->basin.method != KZ_METHOD_ICM;
 }
 
+/* Own orbits in as many digits as it takes. */
+static void undecided_rules(kz_reading *reading, kz_scene *scene) {
+  const kz_node *node = kz_tree_find(reading->root, "basin.undecided");
+  if (!scene->has_basin || scene->basin.undecided == KZ_UNDECIDED_FLAG) return;
+  if (scene->basin.method != KZ_METHOD_EXACT || !isnan(scene->basin.accuracy))
+    kz_complain(reading, node, "basin.undecided", "decide is of basin.method exact alone, which says what is undecided");
+  else if (kz_arbitrary_bits() < KZ_MOST_BITS)
+    kz_complain(reading, node, "basin.undecided", "decide needs a build with FLINT (Arb); leave it out");
+}
+
 /* Sizes of shocks go up, as an axis does. */
 static void shocks_rules(kz_reading *reading, kz_scene *scene) {
   const kz_reals *sizes = &scene->basin.shocks.sizes;
@@ -196,9 +206,6 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   if (scene->has_basin && !isnan(scene->basin.accuracy))
     kz_complain(reading, kz_tree_find(reading->root, "basin.accuracy"), "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
-  if (scene->has_basin && scene->basin.method == KZ_METHOD_EXACT)
-    kz_complain(reading, kz_tree_find(reading->root, "basin.method"), "basin.method",
-                "exact labels the cells of one pendulum, and a sweep has many; choose direct or icm");
   parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
 }
 
@@ -241,10 +248,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    table_rules,       shocks_rules,      attractors_rules,
-                             saddles_rules,  manifolds_rules,   orbit_rules,       stability_rules,
-                             tradeoff_rules, kz_pendulum_rules, stiffness_rules,   sweep_rules,
-                             chart_rules,    edge_rules,        orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,       table_rules,     undecided_rules, shocks_rules,    attractors_rules,
+                             saddles_rules,     manifolds_rules, orbit_rules,     stability_rules, tradeoff_rules,
+                             kz_pendulum_rules, stiffness_rules, sweep_rules,     chart_rules,     edge_rules,
+                             orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -17,7 +17,7 @@ basin:
 """
 # What of its numerics alone gets wrong.
 COARSE = ("--set", "numerics={scheme: rk4, steps_per_period: 60}")
-UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE = 0, 3, 4, 7
+UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE, IN_ARBITRARY = 0, 3, 4, 7, 8
 
 
 def cells(path):
@@ -89,10 +89,18 @@ def test_nothing_is_exact_without_damping(kapitza, tmp_path):
     assert np.all(basin["attractor"] == -1) and np.all(basin["other_attractor"] == -1) and np.all(basin["evidence"] == UNSETTLED)
 
 
-def test_a_sweep_is_not_exact(kapitza, tmp_path):
-    sweep = "sweep={parameter: drive_amplitude, min: 0.3, max: 0.31, count: 2, measure: [basin_fractions]}"
-    done = kapitza("check", SMALL, "--set", "basin.method=exact", "--set", sweep, folder=tmp_path, status=2)
-    assert "basin.method: exact labels the cells of one pendulum" in done.stderr and done.stderr.count("\n") == 1
+def test_what_is_open_is_decided_on_demand(kapitza, tmp_path):
+    """By orbits of their own in as many digits as it takes; all other labels stay."""
+    (tmp_path / "s.yaml").write_text(LONG.replace("count: 24", "count: 10"))
+    for name in ("flag", "decide"):
+        kapitza("run", "s.yaml", "-o", f"{name}.h5", "--set", f"basin.undecided={name}", folder=tmp_path)
+    flagged, decided = cells(tmp_path / "flag.h5"), cells(tmp_path / "decide.h5")
+    open_cells = flagged["evidence"] == UNDECIDED
+    assert np.count_nonzero(open_cells) > 0 and decided["undecided"] == 0
+    assert np.all(decided["evidence"][open_cells] == IN_ARBITRARY)
+    assert np.array_equal(flagged["attractor"][~open_cells], decided["attractor"][~open_cells])
+    refused = kapitza("check", SMALL, "--set", "basin.undecided=decide", folder=tmp_path, status=2)
+    assert "basin.undecided: decide is of basin.method exact alone" in refused.stderr
 
 
 def test_the_former_flag_names_what_replaces_it(kapitza, tmp_path):

@@ -10,9 +10,8 @@
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double ROOM = 3;
 
-/* Cells with reference labels for an accuracy; none for 1, which method exact alone has. */
+/* Cells with reference labels for an accuracy. */
 static int64_t samples_for(double accuracy) {
-  if (accuracy >= 1) return 0;
   const double n = ROOM * (double)kz_share_sample(1 - accuracy);
   return (int64_t)fmax(1000, ceil(n));
 }
@@ -74,9 +73,8 @@ static kz_status escalate(walk *w, const kz_run *run, double accuracy, kz_choice
 static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
   if (choice->setting == kz_setting_exact) {
     fprintf(summary, "accuracy %.10g: exact: every label is decided or flagged", accuracy);
-    if (choice->samples > 0)
-      fprintf(summary, "; of the %lld other settings tried none meets it on %lld cells", (long long)choice->tried,
-              (long long)choice->samples);
+    fprintf(summary, "; of the %lld other settings tried none meets it on %lld cells", (long long)choice->tried,
+            (long long)choice->samples);
     fprintf(summary, "\n");
     return;
   }
@@ -117,11 +115,6 @@ kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds) {
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
   const double accuracy = scene->basin.accuracy;
   kz_reference_labels reference = {0};
-  if (samples_for(accuracy) == 0) {
-    *choice = (kz_choice){.setting = kz_setting_exact};
-    if (summary) tell(choice, accuracy, summary);
-    return KZ_OK;
-  }
   char *path = kz_reference_path(store);
   kz_status status = kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference);
   if (status == KZ_OK) status = choose(&reference, run, accuracy, choice);

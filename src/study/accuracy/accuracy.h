@@ -11,7 +11,7 @@ typedef struct {
 } kz_choice;
 
 /* The cheapest setting by kz_setting_cost whose share of wrong labels of the sample is at most 1 - accuracy at the upper
- * end of its 95 % interval, or method exact, where none is or accuracy is 1. Collective. */
+ * end of its 95 % interval, or method exact, where none is. Collective. */
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice);
 
 /* The choice as attributes of /basin. Rank 0. */

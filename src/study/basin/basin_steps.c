@@ -20,7 +20,7 @@ static void print_numerics(const kz_scene *scene, FILE *summary) {
 
 /* Pairs that are nearer than doubles can tell need labels in more precision. */
 static kz_status check_boundary(const kz_basin_plan *plan) {
-  const bool exact = isnan(plan->accuracy) ? plan->method == KZ_METHOD_EXACT : plan->accuracy >= 1;
+  const bool exact = isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
   if (!plan->has_boundary || plan->boundary.decades <= KZ_BOUNDARY_DECADES || exact) return KZ_OK;
   return kz_fail(
       KZ_REFUSED,
@@ -40,7 +40,6 @@ kz_status kz_basin_check(const kz_scene *scene) {
   kz_proof_free(proof);
   KZ_TRY(status);
   if (isnan(scene->basin.accuracy)) return kz_motions_check(&motions);
-  if (scene->basin.accuracy >= 1) return KZ_OK;
   return kz_reference_labels_numerics(&scene->basin, &motions.pendulum, &reference);
 }
 

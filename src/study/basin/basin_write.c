@@ -126,8 +126,10 @@ kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, c
             1 / (M_PI * scene->parameters.pendulum.beta));
   fprintf(summary, "\n");
   if (plan->method == KZ_METHOD_EXACT) {
-    fprintf(summary, "%lld cells are undecided: not even quad precision tells where they end\n",
-            (long long)labels->counts.undecided);
+    fprintf(summary, "%lld cells are undecided: %s\n", (long long)labels->counts.undecided,
+            plan->undecided == KZ_UNDECIDED_DECIDE
+                ? "no number of digits that was tried tells where they end"
+                : "quad precision does not tell where they end; basin.undecided decide does");
     KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.undecided));
   }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));

@@ -38,7 +38,8 @@ static void follow_batch(const kz_labelling *l, int64_t n, kz_labelled *out) {
 }
 
 kz_labeller kz_cells_labeller(const kz_labelling *l) {
-  return kz_window_labeller(&l->starts, l->images && l->tiles.cells <= MOST_DECIDED);
+  return kz_window_labeller(&l->starts,
+                            l->plan->undecided == KZ_UNDECIDED_DECIDE || (l->images && l->tiles.cells <= MOST_DECIDED));
 }
 
 /* At the present level; by method direct the labels of states alone, and whether their errors change them. */
