@@ -2,7 +2,7 @@
 module kz_labels_levels
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
-  use kz_extended_pairs, only: pairs_t, make_pairs
+  use kz_extended_pairs, only: pairs_t, pair_series_t, make_pairs
   use kz_extended_taylor, only: drive_t, make_drive
   use kz_kernel_plan, only: make_flow
   use kz_labels_carrier, only: carrier_t, plain_carrier_t, make_plain_carrier
@@ -23,6 +23,8 @@ module kz_labels_levels
   !> rad: of a period in double precision with more steps; with most steps of all.
   real(dp), parameter :: FINE_ERROR = 1e-14_dp
   integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320
+  !> rad: below it the error of a period is that of rounding.
+  real(dp), parameter :: ROUNDED = 1e-13_dp
   !> rad: of a period in pairs of doubles.
   real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_20:LEVEL_PAIRS_28) = [1e-20_dp, 1e-28_dp]
   !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
@@ -36,6 +38,7 @@ module kz_labels_levels
     class(flow_t), allocatable :: fine          !< double precision with more steps
     type(period_error_t) :: fine_error
     type(pairs_t) :: pairs(LEVEL_PAIRS_20:LEVEL_PAIRS_28)
+    type(pair_series_t) :: pair_series          !< of them all
     type(drive_t), allocatable :: drive
   end type levels_t
 
@@ -68,7 +71,7 @@ contains
     case (LEVEL_FINE)
       if (.not. allocated(levels%fine)) call make_fine(levels, pendulum, numerics, fastest)
     case (LEVEL_PAIRS_20, LEVEL_PAIRS_28)
-      if (.not. allocated(levels%pairs(level)%level)) call make_pairs(pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level))
+      if (.not. allocated(levels%pairs(level)%level)) call make_table(levels, level, pendulum, numerics, fastest)
     case (LEVEL_QUAD)
       if (.not. allocated(levels%drive)) then
         allocate (levels%drive)
@@ -78,6 +81,32 @@ contains
     call ieee_set_flag(ieee_usual, .false.)
     call ieee_set_halting_mode(ieee_usual, halting)
   end subroutine prepare_level
+
+  !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, or from the scene's.
+  subroutine make_table(levels, level, pendulum, numerics, fastest)
+    type(levels_t), intent(inout) :: levels
+    integer, intent(in) :: level
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    real(dp), intent(in) :: fastest
+    real(dp) :: error
+    integer :: steps
+
+    steps = 0
+    error = levels%error%worst
+    if (numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = numerics%steps_per_period
+    if (level > LEVEL_PAIRS_20) then
+      associate (coarser => levels%pairs(level - 1))
+        if (allocated(coarser%level)) then
+          if (size(coarser%level) > 0) then
+            steps = coarser%level(1)%n_steps
+            error = coarser%level(1)%error
+          end if
+        end if
+      end associate
+    end if
+    call make_pairs(pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, error)
+  end subroutine make_table
 
   !> The processed splitting with so many steps that hardly more than rounding is left.
   subroutine make_fine(levels, pendulum, numerics, fastest)

@@ -14,7 +14,7 @@ module kz_extended_pairs
   use kz_extended_taylor, only: drive_t, make_drive, advance_period
   implicit none
   private
-  public :: pairs_t, pair_lanes_t, make_pairs, advance_pairs, pair_of, quad_of
+  public :: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs, pair_of, quad_of
 
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = acos(-1.0_qp)
@@ -42,11 +42,16 @@ module kz_extended_pairs
     type(drive_t) :: drive
   end type pairs_t
 
+  !> What does not depend on the tolerance, once it is made.
+  type :: pair_series_t
+    type(series_t), allocatable :: series
+  end type pair_series_t
+
 contains
 
   !> Tables for a pendulum whose error of one period is at most a tolerance. Speeds that no table reaches are left to the Taylor
   !> series: the error is never larger.
-  subroutine make_pairs(pendulum, tolerance, fastest, pairs)
+  subroutine make_pairs(pendulum, tolerance, fastest, pairs, shared, like_steps, like_error)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> of one period, angle and velocity together, rad
@@ -55,7 +60,12 @@ contains
     real(c_double), intent(in) :: fastest
     !> the tables
     type(pairs_t), intent(out) :: pairs
-    type(series_t), allocatable :: series
+    !> of other tables of the pendulum
+    type(pair_series_t), intent(inout) :: shared
+    !> steps of a table for slow states whose error is known: the number to begin with follows from them; 0 = there is none
+    integer, intent(in) :: like_steps
+    !> rad
+    real(c_double), intent(in) :: like_error
     type(level_t), allocatable :: levels(:)
     logical :: halting(size(ieee_usual))
     integer :: n
@@ -67,10 +77,13 @@ contains
     if (pendulum%beta <= MOST_DAMPING) then
       call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
       call ieee_set_halting_mode(ieee_usual, .false.)
-      allocate (series)
-      call make_mixed_series(pendulum, QUAD_GRADES, series)
+      if (.not. allocated(shared%series)) then
+        allocate (shared%series)
+        call make_mixed_series(pendulum, QUAD_GRADES, shared%series)
+      end if
+      if (like_steps > 0) levels(0)%n_steps = expected_steps(like_steps, like_error, tolerance)
       do while (n < MOST_LEVELS .and. levels(n)%fastest < fastest)
-        call choose_level(pendulum, series, pairs%drive, tolerance, levels(n), levels(n + 1))
+        call choose_level(pendulum, shared%series, pairs%drive, tolerance, levels(n), levels(n + 1))
         if (levels(n + 1)%error > tolerance) exit
         n = n + 1
         pairs%error = max(pairs%error, levels(n)%error)
@@ -81,8 +94,26 @@ contains
     allocate (pairs%level, source=levels(1:n))
   end subroutine make_pairs
 
-  !> The fewest steps whose measured error is at most the tolerance for speeds beyond those of the slower level; then the fewest
-  !> coefficients of a kick.
+  !> By the order of the splitting, and some more.
+  pure function expected_steps(like_steps, like_error, tolerance) result(n)
+    integer, intent(in) :: like_steps
+    real(c_double), intent(in) :: like_error
+    real(c_double), intent(in) :: tolerance
+    integer :: n
+
+    n = STRIDE*ceiling(1.04_c_double*like_steps*(like_error/tolerance)**(1.0_c_double/ORDER)/STRIDE)
+  end function expected_steps
+
+  !> As many coefficients of a kick as a tolerance needs, or some more.
+  pure function expected_kicks(tolerance) result(n)
+    real(c_double), intent(in) :: tolerance
+    integer :: n
+
+    n = min(MOST_PAIR_KICKS, ceiling(7 - 0.39_c_double*log10(tolerance)))
+  end function expected_kicks
+
+  !> The steps that are expected, if the measured error is at most the tolerance for speeds beyond those of the slower level. Else the
+  !> fewest whose error is, and then the fewest coefficients of a kick.
   subroutine choose_level(pendulum, series, drive, tolerance, slower, level)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
@@ -97,7 +128,15 @@ contains
 
     fastest = max(SLOWEST, RATIO*slower%fastest)
     call make_probes(drive, slower%fastest, fastest, start, image)
-    n = max(FEWEST_STEPS, STRIDE*int(1.25_c_double*slower%n_steps/STRIDE)) ! twice the speed needs some 1.5 times the steps
+    n = slower%n_steps ! twice the speed needs some 1.5 times the steps
+    if (slower%fastest > 0) n = STRIDE*int(1.5_c_double*slower%n_steps/STRIDE)
+    n = max(FEWEST_STEPS, n)
+    if (n <= MOST_STEPS) then
+      call make_level(pendulum, series, n, expected_kicks(tolerance), fastest, tolerance, level)
+      level%error = measure(level, start, image)
+      if (level%error <= tolerance) return
+    end if
+    if (slower%fastest > 0) n = max(FEWEST_STEPS, STRIDE*int(1.25_c_double*slower%n_steps/STRIDE))
     do
       call make_level(pendulum, series, n, MOST_PAIR_KICKS, fastest, tolerance, level)
       level%error = measure(level, start, image)

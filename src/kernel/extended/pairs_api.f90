@@ -2,7 +2,7 @@
 module kz_extended_pairs_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_lanes_map, only: WIDTH
-  use kz_extended_pairs, only: pairs_t, pair_lanes_t, make_pairs, advance_pairs
+  use kz_extended_pairs, only: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs
   use kz_model_pendulum, only: pendulum_t
   implicit none
   private
@@ -15,6 +15,7 @@ contains
     real(c_double), value :: fastest
     real(c_double), intent(out) :: error
     type(c_ptr) :: handle
+    type(pair_series_t) :: shared
     type(pairs_t), pointer :: pairs
     integer :: status
 
@@ -22,7 +23,7 @@ contains
     error = huge(error)
     allocate (pairs, stat=status)
     if (status /= 0) return
-    call make_pairs(pendulum, tolerance, fastest, pairs)
+    call make_pairs(pendulum, tolerance, fastest, pairs, shared, 0, 0.0_c_double)
     error = pairs%error
     handle = c_loc(pairs)
   end function pairs_create

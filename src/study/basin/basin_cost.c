@@ -121,8 +121,10 @@ static kz_status measure_cells(sample *s) {
                                 .work = kz_workspace_make(),
                                 .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS),
                                 .level = KZ_LEVEL_DOUBLE};
+  kz_window_starts_make(plan, &s->scene->parameters.pendulum, s->dynamics, NULL, &s->labelling.starts);
   s->seconds += WRITE_SECONDS * (double)(plan->theta.count * plan->velocity.count);
   const kz_status status = plan->method == KZ_METHOD_EXACT ? measure_exact(s, n) : measure_followed(s, n);
+  kz_window_starts_free(&s->labelling.starts);
   free(s->labelling.work);
   KZ_TRY(status);
   return kz_doubt_measure(plan, s->dynamics, &s->seconds);
