@@ -82,7 +82,8 @@ contains
     call ieee_set_halting_mode(ieee_usual, halting)
   end subroutine prepare_level
 
-  !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, or from the scene's.
+  !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, or from the scene's, which have fewer terms than would
+  !> show their order, and a quarter more.
   subroutine make_table(levels, level, pendulum, numerics, fastest)
     type(levels_t), intent(inout) :: levels
     integer, intent(in) :: level
@@ -94,7 +95,7 @@ contains
 
     steps = 0
     error = levels%error%worst
-    if (numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = numerics%steps_per_period
+    if (numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = ceiling(1.25_dp*numerics%steps_per_period)
     if (level > LEVEL_PAIRS_20) then
       associate (coarser => levels%pairs(level - 1))
         if (allocated(coarser%level)) then
