@@ -1,8 +1,13 @@
 """film_basin.py: a film goes on with its own whole frames, and with nobody else's."""
 
+import subprocess
+import sys
+
 import film_basin
+import numpy as np
 import pytest
 from conftest import ROOT, plot, run_script
+from PIL import Image, ImageSequence
 
 SCENE = (ROOT / "scenes" / "small.yaml").read_text()
 COUNTS = ("basin.theta.count", "basin.velocity.count")
@@ -63,3 +68,16 @@ def test_frames_without_a_record_are_another_film(film, tmp_path):
     done, drawn = film(0.15, 0.16)
     assert (done.returncode, drawn) == (1, 0) and "another film" in done.stderr
     assert (tmp_path / "film" / "frame-0000.png").read_bytes() == b"a holiday"
+
+
+def test_a_film_that_falls_into_a_boundary(tmp_path):
+    """Six frames to 1e-24 as GIF: none is empty, none is like the one before."""
+    (tmp_path / "k01.yaml").write_text("pendulum: {k: 0.1, damping: 0.1, m: 0.4}\n"
+                                       "basin: {theta: {count: 9}, velocity: {min: -20, max: 20, count: 9}, attractors: {starts: 512}}\n")
+    subprocess.run([sys.executable, ROOT / "scripts" / "film_zoom.py", "k01.yaml", "-2.36717282205514094284618936441679793", "17",
+                    "--to", "1e-24", "--count", "6", "--columns", "60", "--rows", "40", "-o", "zoom.gif"],
+                   cwd=tmp_path, check=True, timeout=300)
+    with Image.open(tmp_path / "zoom.gif") as film:
+        pictures = [np.asarray(frame.convert("RGB").crop((0, 0, 60, 20))) for frame in ImageSequence.Iterator(film)]
+    assert [len(np.unique(picture.reshape(-1, 3), axis=0)) > 1 for picture in pictures] == [True] * 6
+    assert all((one != other).any() for one, other in zip(pictures, pictures[1:], strict=False))
