@@ -130,7 +130,7 @@ typedef struct {
 } kz_lifetime;
 /* `ended` motions ended within `total` time that all spent together. */
 kz_lifetime kz_lifetime_of(int64_t ended, double total);
-/* Of the tail of n times (sorted here), where n_open motions had not ended by `longest`. */
+/* Of the tail of n times (moved here), where n_open motions had not ended by `longest`. */
 kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double longest);
 
 /* ---- stability ---- */

@@ -1,7 +1,6 @@
 /* How long motions take that have not settled soon: the mean of an exponential tail of which some are still open. */
 #include <gsl/gsl_cdf.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "kapitza/analysis.h"
 
@@ -24,21 +23,38 @@ kz_lifetime kz_lifetime_of(int64_t ended, double total) {
   return life;
 }
 
-static int compare(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
+/* The value that would stand at `place` of the n in order; moves them. C. A. R. Hoare's FIND, Commun. ACM 4 (1961) 321. */
+static double value_at(int64_t place, int64_t n, double *value) {
+  for (int64_t low = 0, high = n - 1; low < high;) {
+    const double middle = value[place];
+    int64_t i = low, j = high;
+    while (i <= j) {
+      while (value[i] < middle) i++;
+      while (value[j] > middle) j--;
+      if (i > j) break;
+      const double moved = value[i];
+      value[i++] = value[j];
+      value[j--] = moved;
+    }
+    if (j < place) low = i;
+    if (place < i) high = j;
+  }
+  return value[place];
 }
 
 kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double longest) {
-  qsort(time, (size_t)n, sizeof *time, compare);
   const int64_t all = n + n_open;
   /* Most motions settle at once; the tail is what is left of them after the nine tenths that settle soonest, or after half of those
    * that settle at all where more are open. */
   const int64_t soonest = 10 * n_open < all ? (9 * all) / 10 : n / 2;
-  const double from = n > 0 ? time[soonest < n ? soonest : n - 1] : 0;
+  const double from = n > 0 ? value_at(soonest < n ? soonest : n - 1, n, time) : 0;
   double total = (double)n_open * (longest - from);
   int64_t ended = 0;
-  for (int64_t i = n - 1; i >= 0 && time[i] > from; i--, ended++) total += time[i] - from;
+  for (int64_t i = 0; i < n; i++) {
+    if (time[i] <= from) continue;
+    total += time[i] - from;
+    ended++;
+  }
   kz_lifetime life = kz_lifetime_of(ended, total);
   life.from = from;
   life.open = n_open;
