@@ -2,6 +2,7 @@
 """Compares the labels of a basin file with quad precision: the share of wrong ones among random cells, with its 95 % interval.
 
     benchmarks/reference_check.py blackburn-fig12.h5 --cells 1000 --seed 7
+    benchmarks/reference_check.py proof-fig13.h5 --cells 4000 --evidence 10
 
 Every sampled cell is followed by build/benchmarks/reference_label to an attractor of the file's catalogue. Unsettled cells are wrong.
 A cell whose true orbit comes to none of the periodic attractors belongs to the chaotic ones; without any it is wrong.
@@ -104,13 +105,17 @@ def compare(labels, true_labels, catalogue):
             "unsettled": int(np.count_nonzero(labels == NONE)), "homeless": int(np.count_nonzero(homeless))}
 
 
-def check_file(path, count, seed, processes, max_periods):
-    """The counts of a result file, and the cells compared."""
+def check_file(path, count, seed, processes, max_periods, evidence=None):
+    """The counts of a result file, and the cells compared: of the given codes of evidence, where some are given."""
     result = Result(path)
     basin, catalogue = result.group("basin"), Catalogue(result)
     if not catalogue.pendulum[1] > 0:
         raise BadFile(f"{path}: undamped, there is nothing to compare")
     row, column = sample_cells(basin["attractor"].shape, count, seed)
+    if evidence:
+        row, column = np.nonzero(np.isin(basin["evidence"].values, evidence))
+        chosen = sample_cells((1, len(row)), count, seed)[1]
+        row, column = row[chosen], column[chosen]
     theta, velocity = centres(basin, "theta")[column], centres(basin, "velocity")[row]
     labels = basin["attractor"].values[row, column].astype(np.int64)
     true_labels = reference_labels(catalogue, theta, velocity, max_periods, processes)
@@ -123,12 +128,14 @@ def main():
     parser.add_argument("file", type=Path)
     parser.add_argument("--cells", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--evidence", type=int, nargs="+", metavar="CODE", help="compare cells of this evidence only (6 10: proved)")
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--max-periods", type=int, default=4000, help="how long a true orbit is followed")
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--list", action="store_true", help="also print every wrong cell")
     arguments = parser.parse_args()
-    counts, cells = check_file(arguments.file, arguments.cells, arguments.seed, arguments.processes, arguments.max_periods)
+    counts, cells = check_file(arguments.file, arguments.cells, arguments.seed, arguments.processes, arguments.max_periods,
+                               arguments.evidence)
     if arguments.json:
         print(json.dumps(counts))
     else:

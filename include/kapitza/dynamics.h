@@ -233,9 +233,11 @@ double kz_dynamics_table_error(kz_dynamics *dynamics, int32_t points);
 enum { KZ_PROOF_MOST = 254, KZ_PROOF_LATE = 255 };
 typedef struct kz_proof kz_proof;
 
-/* An open grid of even numbers of columns and rows. KZ_REFUSED, without a message, where `top` (rad per drive radian) is too fast for
- * enclosures. *proof is to be freed in every case; NULL may be. */
-kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, kz_proof **proof);
+/* An open grid of even numbers of columns and rows, for starts that are not faster than `fastest`. KZ_REFUSED, without a message, where that
+ * or `top` (rad per drive radian) is too fast for enclosures, or the drive is not k - m cos t alone. *proof is to be freed in every case;
+ * NULL may be. */
+kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, double fastest,
+                          kz_proof **proof);
 void kz_proof_free(kz_proof *proof);
 
 /* Around a strobe point: all states point + axes z, |z| <= radius; 0 = none. */

@@ -12,12 +12,13 @@ enum { COLUMNS = 250, MOST_ROWS = 8000 };
 static const double ROWS = 116;       /* a rad per drive radian */
 static const double SECONDS = 3e-5;   /* a cell or a start: measured at Fig. 12 and 13 */
 static const double SMALLEST = 1e-28; /* rad, rad per drive radian: of a cell, well above the rounding of its centre */
-static const double SLOWEST = 1.5;    /* rad per drive radian: as far reaches the grid at least, for the attractors */
-static const double GAIN = 0.01;      /* of the cells: a round that adds less is the last */
+static const double LOWEST = 1.5,
+                    HIGHEST = 3; /* rad per drive radian: as far reaches the grid at least, at most; attractors are slow */
+static const double GAIN = 0.01; /* of the cells: a round that adds less is the last */
 
 static double top_of(const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  return fmax(kz_axis_fastest(&scene->basin.velocity), SLOWEST) + 0.5 * kz_stiffness(pendulum);
+  return fmin(fmax(kz_axis_fastest(&scene->basin.velocity), LOWEST), HIGHEST) + 0.5 * kz_stiffness(pendulum);
 }
 
 static int64_t rows_of(const kz_scene *scene) {
@@ -42,14 +43,14 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
   if (fmin(kz_axis_step(&plan->theta), kz_axis_step(&plan->velocity)) < SMALLEST)
     return kz_fail(KZ_REFUSED, "basin.proof|basin.theta.width: cells below %.0e are too small for a proof in pairs of doubles",
                    SMALLEST);
-  const double top = top_of(scene);
-  const kz_status status = kz_proof_create(&scene->parameters.pendulum, COLUMNS, rows_of(scene), top, proof);
+  const double fastest = kz_axis_fastest(&plan->velocity);
+  const kz_status status = kz_proof_create(&scene->parameters.pendulum, COLUMNS, rows_of(scene), top_of(scene), fastest, proof);
   if (status != KZ_REFUSED) return status;
   return kz_fail(
       KZ_REFUSED,
       "basin.proof|basin.velocity: speeds of %.3g rad per drive radian are too fast for a proof under this pendulum; leave "
       "basin.proof out, or choose slower starts",
-      top);
+      fastest);
 }
 
 /* What the tiles of a stage need. */

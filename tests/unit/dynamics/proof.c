@@ -19,7 +19,7 @@ static const double TOP = 2;
 static void ellipses_that_hold_and_that_do_not(void **state) {
   (void)state;
   kz_proof *proof;
-  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, &proof), KZ_OK);
+  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
   kz_proof_ellipse ellipse = kz_proof_find_ellipse(proof, 1, THETA, VELOCITY);
   assert_true(ellipse.radius > 0.3 && ellipse.radius < 1);
   ellipse.radius = 2e-3;
@@ -32,11 +32,11 @@ static void ellipses_that_hold_and_that_do_not(void **state) {
   assert_true(kz_proof_find_ellipse(proof, 1, 1.0, 0.5).radius <= 0); /* no cycle */
   kz_proof_free(proof);
   const kz_pendulum slow = {1.0 / 121, 1.0 / 55, 0.1}; /* inverted: a saddle */
-  assert_int_equal(kz_proof_create(&slow, COLUMNS, ROWS, TOP, &proof), KZ_OK);
+  assert_int_equal(kz_proof_create(&slow, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
   assert_true(kz_proof_find_ellipse(proof, 1, -M_PI, 0).radius <= 0);
   assert_true(kz_proof_find_ellipse(proof, 1, 0, 0).radius > 0.1);
   kz_proof_free(proof);
-  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, 1e9, &proof), KZ_REFUSED);
+  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, 1e9, &proof), KZ_REFUSED);
   kz_proof_free(proof);
 }
 
@@ -44,7 +44,7 @@ static void ellipses_that_hold_and_that_do_not(void **state) {
 static kz_proof *region_of_rotations(void) {
   const uint8_t mirror[KZ_PROOF_MOST + 1] = {0, OPPOSITE, ROTATION};
   kz_proof *proof;
-  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, &proof), KZ_OK);
+  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
   const kz_proof_ellipse ellipse = kz_proof_find_ellipse(proof, 1, THETA, VELOCITY);
   kz_proof_add(proof, ROTATION, OPPOSITE, THETA, VELOCITY, &ellipse);
   const int64_t own = kz_proof_own(proof);
@@ -128,7 +128,7 @@ static void cycles_are_confined(void **state) {
   kz_proof_cycle cycle = {1, theta, velocity, re, im};
   double half_theta, half_velocity, half_multiplier[2];
   kz_proof *proof;
-  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, &proof), KZ_OK);
+  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
   assert_true(kz_proof_confine(proof, &cycle, &half_theta, &half_velocity, half_multiplier));
   assert_true(half_theta < 1e-11 && half_velocity < 1e-11);
   cycle.velocity = wrong;
@@ -136,7 +136,7 @@ static void cycles_are_confined(void **state) {
   assert_true(half_velocity > 1e-9); /* it must reach the cycle */
   kz_proof_free(proof);
   const kz_pendulum other = {pendulum.k, pendulum.beta, pendulum.m + 1e-3};
-  assert_int_equal(kz_proof_create(&other, COLUMNS, ROWS, TOP, &proof), KZ_OK);
+  assert_int_equal(kz_proof_create(&other, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
   cycle.velocity = velocity;
   kz_proof_ellipse small = kz_proof_find_ellipse(proof, 1, THETA, VELOCITY);
   small.radius = 1e-4;

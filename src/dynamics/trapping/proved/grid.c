@@ -5,16 +5,17 @@
 
 #include "proof.h"
 
-kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, kz_proof **proof) {
+kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, double fastest,
+                          kz_proof **proof) {
   kz_proof *made = *proof = kz_calloc(1, sizeof *made);
   made->columns = columns;
   made->rows = rows;
   made->top = top;
   made->beta = pendulum->beta;
   made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
-  const double fastest = top + 1.5 * kz_stiffness(pendulum);
-  KZ_TRY(kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_DOUBLES, fastest, &made->plan[KZ_ENCLOSE_DOUBLES]));
-  return kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_PAIRS, fastest, &made->plan[KZ_ENCLOSE_PAIRS]);
+  const double most = fmax(top, fastest) + 1.5 * kz_stiffness(pendulum);
+  KZ_TRY(kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_DOUBLES, most, &made->plan[KZ_ENCLOSE_DOUBLES]));
+  return kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_PAIRS, most, &made->plan[KZ_ENCLOSE_PAIRS]);
 }
 
 void kz_proof_free(kz_proof *proof) {
