@@ -1,0 +1,34 @@
+"""Every command of the how-tos, the tutorials and the README is run in the order in which a reader types it."""
+
+import os
+import re
+import subprocess
+
+import pytest
+from conftest import ROOT
+
+PAGES = [*sorted((ROOT / "docs" / "howto").glob("*.md")), *sorted((ROOT / "docs" / "tutorials").glob("*.md"))]
+
+
+def blocks(page):
+    """(language, text) of the blocks that are to be run."""
+    return re.findall(r"^```(bash|python)\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def clone(tmp_path):
+    """A folder that looks like the clone in which a reader works; what is written stays in it."""
+    for name in ("build", "scenes", "scripts", "python", ".venv"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    return tmp_path
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_commands_of_a_page_work(clone, page):
+    settings = os.environ | {"PYTHONPATH": str(ROOT / "python"), "KAPITZA": str(ROOT / "build" / "kapitza"), "MPLBACKEND": "agg"}
+    texts = blocks(page)
+    assert texts
+    for language, text in texts:
+        words = ["bash", "-euc", text] if language == "bash" else [ROOT / ".venv" / "bin" / "python", "-c", text]
+        done = subprocess.run(list(map(str, words)), cwd=clone, env=settings, capture_output=True, text=True, timeout=200)
+        assert done.returncode == 0, text + done.stdout + done.stderr
