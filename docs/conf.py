@@ -6,12 +6,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 project = "kapitza"
 version = release = re.search(r"project\(kapitza VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
-extensions = ["myst_parser"]
+extensions = ["myst_parser", "sphinx_copybutton", "sphinx-mathjax-offline"]  # formulas without a network
 source_suffix = {".md": "markdown"}
 root_doc = "index"
-html_theme = "alabaster"
-html_theme_options = {"page_width": "1100px", "fixed_sidebar": True}
+html_theme = "furo"
+html_title = f"kapitza {version}"
 html_copy_source = False
 myst_heading_anchors = 3
-myst_enable_extensions = ["smartquotes"]
-smartquotes = False
+myst_enable_extensions = ["dollarmath"]
+smartquotes = False  # theta'' is no quotation
+copybutton_exclude = ".linenos, .gp, .go"
