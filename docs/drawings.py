@@ -44,12 +44,15 @@ def circle(theta, velocity, radius, n=200):
 
 
 def save(figure, name):
-    figure.savefig(FOLDER / f"drawing-{name}.svg", metadata={"Date": None}, bbox_inches="tight")
+    path = FOLDER / f"drawing-{name}.svg"
+    figure.savefig(path, metadata={"Date": None}, bbox_inches="tight")
+    path.write_text("\n".join(line.rstrip() for line in path.read_text().splitlines()) + "\n")
     pyplot.close(figure)
 
 
 def arrow(axes, start, end, both=False, colour="black"):
-    axes.add_patch(FancyArrowPatch(start, end, arrowstyle="<|-|>" if both else "-|>", mutation_scale=12, color=colour, shrinkA=0, shrinkB=0))
+    style = "<|-|>" if both else "-|>"
+    axes.add_patch(FancyArrowPatch(start, end, arrowstyle=style, mutation_scale=12, color=colour, shrinkA=0, shrinkB=0))
 
 
 def pendulum():
@@ -160,7 +163,7 @@ def ellipse():
 
 
 def handover():
-    """A window of 11 x 11 cells and its image: the cells of a tiny window share their first periods, and a cubic polynomial carries them."""
+    """A window of 11 x 11 cells and its image: cells of a tiny window share their first periods, and a cubic polynomial carries them."""
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(7, 3.3))
     side = np.linspace(-1, 1, 11)
     x, y = np.meshgrid(side, side)
