@@ -93,8 +93,7 @@ static kz_status set_up(measurement *g) {
   const kz_setting *s = g->setting;
   kz_dynamics_unpack(g->dynamics, g->reference->packed_size, g->reference->packed);
   kz_dynamics_coarse_regions(g->dynamics, g->reference->max_velocity);
-  const int64_t cells = kz_regions_cells(g->reference->total);
-  if (cells > 0) kz_dynamics_fine_regions(g->dynamics, cells, g->reference->max_velocity);
+  kz_regions_grow(g->dynamics, g->reference->total, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
   if (s->method == KZ_METHOD_EXACT) kz_labeller_prepare(&(kz_labeller){.dynamics = g->dynamics});
   if (s->method == KZ_METHOD_ICM) KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));

@@ -200,6 +200,15 @@ int64_t kz_regions_cells(int64_t cells) {
   return (int64_t)fmin(fmax(FEWEST_CELLS, 0.256 * sqrt((double)cells)), MOST_CELLS);
 }
 
+void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity) {
+  static const double few =
+      0.1; /* share of the grid that is trapped: a finer one may trap much more, and each cell pays for what is not */
+  const int64_t coarse = kz_regions_cells(cells), fine = (int64_t)fmin(0.7 * sqrt((double)cells), MOST_CELLS);
+  if (coarse == 0) return;
+  kz_dynamics_fine_regions(dynamics, coarse, max_velocity);
+  if (fine > coarse && kz_dynamics_trapped_share(dynamics) < few) kz_dynamics_fine_regions(dynamics, fine, max_velocity);
+}
+
 kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
   const int64_t cells = kz_regions_cells(search->cells);
   const int64_t pilots = cells > 0 && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts,
@@ -207,7 +216,7 @@ kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_se
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, search->max_velocity);
   KZ_TRY(kz_discover(run, dynamics, search->max_periods, pilots, state, label));
-  if (cells > 0) kz_dynamics_fine_regions(dynamics, cells, search->max_velocity);
+  kz_regions_grow(dynamics, search->cells, search->max_velocity);
   if (search->table_theta > 0)
     KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
   return rest > 0 ? kz_discover(run, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;

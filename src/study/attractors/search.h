@@ -23,6 +23,8 @@ kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_se
 
 /* Cells along an axis of a grid of trapping regions that pays back where so many cells are to be labelled; 0 = none does. */
 int64_t kz_regions_cells(int64_t cells);
+/* Grows the regions on that grid, where there is one, around the attractors that are known; on a finer one where hardly anything grows. */
+void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
  * they end on; those join the catalogue and the regions (coarse or fine) of `dynamics` on every rank. label [n] =

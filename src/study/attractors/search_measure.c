@@ -34,7 +34,6 @@ static kz_status measure_table(kz_dynamics *dynamics, const kz_search *search, d
 /* All starts settle; cycles are looked for from few of them at a time, where they settle slowly from many. */
 kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
                             double *seconds) {
-  const int64_t cells = kz_regions_cells(search->cells);
   double settling;
   *n = smaller(search->starts, KZ_SEARCH_FEW);
   const double start = kz_processor_clock();
@@ -42,7 +41,7 @@ kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, doub
   kz_dynamics_coarse_regions(dynamics, search->max_velocity);
   KZ_TRY(kz_discover(NULL, dynamics, search->max_periods, *n, state, label));
   const double found = kz_processor_clock();
-  if (cells > 0) kz_dynamics_fine_regions(dynamics, cells, search->max_velocity);
+  kz_regions_grow(dynamics, search->cells, search->max_velocity);
   *seconds += kz_processor_clock() - found;
   KZ_TRY(measure_settling(dynamics, search, *n, &settling));
   *seconds += settling / (double)*n * (double)search->starts +
