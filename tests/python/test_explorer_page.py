@@ -21,6 +21,7 @@ from kapitza.result import Result
 SMALL = ROOT / "scenes" / "small.yaml"
 SCREENSHOTS = os.environ.get("KAPITZA_SCREENSHOTS")  # a folder for the pictures of the documentation
 TURN = 2 * np.pi
+mpmath.mp.dps = 120
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +56,6 @@ def page(driver, striped):
 
 
 def test_windows_are_counted_in_all_their_digits(page):
-    mpmath.mp.dps = 120
     assert page.module("decimal.js", "its.turn(110).toString()") == mpmath.nstr(2 * mpmath.pi, 111)
     text = page.module("decimal.js", "its.Decimal.from('-1.25e-3').plus(its.Decimal.from('1e-40')).toString()")
     assert text == "-0.001249" + "9" * 34

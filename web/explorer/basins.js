@@ -10,7 +10,7 @@ import { signed } from "./ticks.js";
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
-const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples"];
+const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples", "shade"];
 const element = (id) => document.getElementById(id);
 
 export class Basins {

@@ -5,10 +5,11 @@ const MOST_RESTING = 4_000_000;
 const UNSETTLED = "#ffffff";
 
 /** The request for a frame that fills a canvas; `samples` x `samples` cells a pixel. */
-export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest }) {
+export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest, shade }) {
   const most = quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING;
   const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
-  const planes = quality === "exact" ? ["labels", "settling_time", "doubt", "other"] : ["labels", "settling_time"];
+  const times = quality === "exact" || shade !== "none" ? ["settling_time"] : [];
+  const planes = ["labels", ...times, ...(quality === "exact" ? ["doubt", "other"] : [])];
   return {
     request: "frame",
     window: window.toRequest(),
@@ -61,6 +62,10 @@ export function bytesOf(colour) {
 
 /** {name: share} of the labels of a frame, the rows of its catalogue first; mirror images may share a name. */
 export function sharesOf(frame) {
+  return (frame.shares ??= countedShares(frame));
+}
+
+function countedShares(frame) {
   const counts = new Uint32Array(256);
   for (const label of frame.labels) counts[label]++;
   const rows = frame.catalogue.attractors.map((row) => ({ ...row, share: counts[row.id] / frame.labels.length }));

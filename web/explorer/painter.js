@@ -7,7 +7,7 @@ const VERTICES = `#version 300 es
 in vec2 corner;
 void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
 
-// A pixel is the mean, in linear light, of the cells that it covers. In `cells`: label, settling time, doubt, the other candidate.
+// A pixel is the mean, in light (about the square of a colour's number), of the cells that it covers. In `cells`: label, settling time, doubt, the other candidate.
 const FRAGMENTS = `#version 300 es
 precision highp float;
 precision highp int;
@@ -23,7 +23,7 @@ vec3 lightOf(ivec2 cell, bool second) {
   vec4 found = texelFetch(cells, cell, 0);
   float label = found.b == 1.0 && second ? found.a : found.r;
   vec3 colour = texelFetch(palette, ivec2(int(label * 255.0 + 0.5), 0), 0).rgb;
-  return pow(colour, vec3(2.2)) * (1.0 - shading * found.g);
+  return colour * colour * (1.0 - shading * found.g);
 }
 
 void main() {
@@ -38,7 +38,7 @@ void main() {
   for (int row = 0; row < count.y; row++)
     for (int column = 0; column < count.x; column++)
       sum += lightOf(clamp(first + ivec2(column, row), ivec2(0), size - 1), second);
-  colour = vec4(pow(sum / float(count.x * count.y), vec3(1.0 / 2.2)), 1.0);
+  colour = vec4(sqrt(sum / float(count.x * count.y)), 1.0);
 }`;
 
 const DOUBLINGS = 10; // of the settling time, until it is as dark as it gets
@@ -83,6 +83,17 @@ export function placementOf(frame, window) {
   const high = (frame.rows * frame.level) / rows;
   const bounded = Math.abs(period - 1) < 1e-9 ? 1 : Math.min(period, 1e30);
   return { place: [place.left, place.bottom, place.width * wide, place.height * high], period: bounded / wide };
+}
+
+/** Those of the frames, the last on top, that are seen in a window: what lies under one that fills it is not. */
+export function seen(frames, window) {
+  const fills = (frame) => {
+    const { place, period } = placementOf(frame, window);
+    const [left, bottom, width, height] = place;
+    const slack = 1e-9;
+    return (period <= 1 || (left <= slack && left + width >= 1 - slack)) && bottom <= slack && bottom + height >= 1 - slack;
+  };
+  return frames.slice(Math.max(0, frames.findLastIndex(fills)));
 }
 
 /** A painter on that canvas: by WebGL where the browser has it. */

@@ -52,7 +52,7 @@ export class Painter2d {
         const pixel = 4 * ((rows - 1 - row) * columns + column);
         const second = cells[cell + 2] === 255 && (row + column) % 2 === 1;
         const label = 4 * (second ? cells[cell + 3] : cells[cell]);
-        const light = (1 - (shading * cells[cell + 1]) / 255) ** (1 / 2.2);
+        const light = (1 - (shading * cells[cell + 1]) / 255) ** 0.5;
         for (let part = 0; part < 3; part++) image.data[pixel + part] = palette[label + part] * light;
         image.data[pixel + 3] = 255;
       }

@@ -3,7 +3,7 @@
 import { Decimal } from "./decimal.js";
 import { Engine } from "./engine.js";
 import { decoded, paletteOf, requestOf } from "./frames.js";
-import { frameOf, painterOn, placementOf } from "./painter.js";
+import { frameOf, painterOn, placementOf, seen } from "./painter.js";
 import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
 import { CanvasSurface } from "./surface.js";
 
@@ -117,7 +117,13 @@ export class Pane {
 
   async frame({ quality, levels, samples }) {
     const { window, pendulum } = { window: this.state.window, pendulum: this.pendulum };
-    const request = requestOf(window, pendulum, this.basins, { quality, levels, samples, largest: this.painter.largest });
+    const request = requestOf(window, pendulum, this.basins, {
+      quality,
+      levels,
+      samples,
+      largest: this.painter.largest,
+      shade: this.state.shade,
+    });
     const key = JSON.stringify(pendulum);
     this.controller = new AbortController();
     this.begun = performance.now();
@@ -190,7 +196,7 @@ export class Pane {
     cancelAnimationFrame(this.drawn);
     this.drawn = null;
     const ratio = devicePixelRatio || 1;
-    this.painter.draw(this.frames, this.window, this.state.shade === "settling" ? 0.8 : 0);
+    this.painter.draw(seen(this.frames, this.window), this.window, this.state.shade === "settling" ? 0.8 : 0);
     const context = this.over.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);

@@ -23,6 +23,10 @@ class Deaf(Exception):
     """The program does not end what a newer request, or a person, wants ended."""
 
 
+class Gone(Exception):
+    """The program has ended before the request reached it."""
+
+
 class Refused(Exception):
     """The program's own words on why it does not answer."""
 
@@ -85,7 +89,7 @@ class View:
             with self._lock:
                 self._waiting.pop(number, None)
             if not final and number == self._last_frame:  # nobody reads on
-                with suppress(Refused):
+                with suppress(Gone):
                     self._send({"request": "cancel", "sequence": next(self._numbers)})
 
     def _check_heard(self, number):
@@ -102,7 +106,7 @@ class View:
                 self._process.stdin.write(json.dumps(request).encode() + b"\n")
                 self._process.stdin.flush()
         except (OSError, ValueError) as error:
-            raise Refused(self._end_words()) from error
+            raise Gone from error
 
     def _read(self):
         """Gives each answer to the request that it belongs to; at the end everybody who waits hears why."""
@@ -171,7 +175,7 @@ class Views:
         """Those of the view of that name. A program that does not hear is ended: a new one is ready sooner."""
         try:
             yield from self.view(name).answers(request)
-        except Deaf:
+        except (Deaf, Gone):
             self.close(name)
             yield from self.view(name).answers(request)
 
