@@ -21,7 +21,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests" / "tools")]
 
-from kapitza import run  # noqa: E402
+from kapitza.script import run_script  # noqa: E402
 from reference_coverage import Kapitza, lively_scene  # noqa: E402
 
 SETTING = "processed-1e-12"  # what direct takes by default
@@ -69,4 +69,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run(main)
+    run_script(main)

@@ -26,7 +26,8 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from kapitza import BadFile, Result, run  # noqa: E402
+from kapitza import BadFile, Result  # noqa: E402
+from kapitza.script import run_script  # noqa: E402
 
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 SETTINGS = ["icm-linear-1000", "icm-1000", "direct-rk4-100-1992", "direct-24"]
@@ -184,4 +185,4 @@ def main():
 
 
 if __name__ == "__main__":
-    run(main)
+    run_script(main)

@@ -1,3 +1,4 @@
+kapitza_test(certain LABEL verification LAYER dynamics)
 kapitza_test(depth LABEL verification LAYER app)
 kapitza_test(orders LABEL verification LAYER kernel)
 kapitza_test(reference LABEL verification LAYER kernel)
