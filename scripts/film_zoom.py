@@ -77,7 +77,7 @@ def frames(arguments):
 
 def write_mp4(arguments, pictures, path):
     command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{arguments.columns}x{arguments.rows}",
-               "-framerate", str(arguments.rate), "-i", "-", "-pix_fmt", "yuv420p", "-f", "mp4", path]
+               "-framerate", str(arguments.rate), "-i", "-", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-f", "mp4", path]
     process = subprocess.Popen(command, stdin=subprocess.PIPE)
     try:
         for image in pictures:

@@ -49,7 +49,7 @@ kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64
 int32_t kz_level_after(const kz_labeller *l, int32_t level, int64_t pending) {
   if (pending == 0 || level >= KZ_LEVEL_ARBITRARY) return KZ_LEVELS;
   if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : KZ_LEVELS;
-  return level == KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
+  return level >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
 }
 
 /* Those that are pending move to the front: how many there are. */

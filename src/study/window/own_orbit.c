@@ -18,14 +18,14 @@ typedef struct {
   long double xx, xy, yy;
 } ellipse;
 
-/* Carries the ellipse through a period with the tangent map, and adds that of the period's own error, whatever their directions: the sum
- * holds both (the sum of the axes, not of their squares). */
-static void carry(const kz_jet *tangent, ellipse *e) {
+/* Carries the ellipse through a period with the tangent map, and adds that of the period's own error `own`, whatever their directions: the
+ * sum holds both (the sum of the axes, not of their squares). */
+static void carry(const kz_jet *tangent, long double own, ellipse *e) {
   const long double a = (long double)tangent->linear[0][0], b = (long double)tangent->linear[0][1],
                     c = (long double)tangent->linear[1][0], d = (long double)tangent->linear[1][1];
   const ellipse s = {a * a * e->xx + 2 * a * b * e->xy + b * b * e->yy, a * c * e->xx + (a * d + b * c) * e->xy + b * d * e->yy,
                      c * c * e->xx + 2 * c * d * e->xy + d * d * e->yy};
-  const long double ratio = sqrtl((s.xx + s.yy) / 2), old = 1 + 1 / ratio, new = 1 + ratio;
+  const long double ratio = sqrtl((s.xx + s.yy) / 2) / own, old = 1 + 1 / ratio, new = (1 + ratio) * own * own;
   *e = (ellipse){old * s.xx + new, old * s.xy, old * s.yy + new};
 }
 
@@ -44,6 +44,18 @@ static bool is_lost(const path *p) {
   return !(unit_of(p) * sqrtl(p->error.xx + p->error.yy) < tolerable);
 }
 
+/* A period: in no more bits than the error so far leaves of use. */
+static kz_status advance(path *p) {
+  enum { FINER = 10 }; /* bits below the error */
+  const int64_t spent = (int64_t)floorl(log2l(p->error.xx + p->error.yy) / 2) - FINER;
+  const int64_t bits = p->bits - spent < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : p->bits - spent;
+  const int64_t taken = bits < p->bits ? bits : p->bits;
+  kz_jet tangent = {.linear = {{1, 0}, {0, 1}}};
+  KZ_TRY(kz_arbitrary_advance(p->orbit, taken, 1, &tangent));
+  carry(&tangent, exp2l((long double)(p->bits - taken)), &p->error);
+  return KZ_OK;
+}
+
 /* The rest of the motion in double precision. */
 static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   const long double unit = unit_of(p) * unit_of(p);
@@ -60,13 +72,11 @@ static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_per
 static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   decision->label = KZ_DOUBTFUL;
   for (; p->periods <= max_periods && !is_lost(p); p->periods++) {
-    kz_jet tangent = {.linear = {{1, 0}, {0, 1}}};
     if (p->periods % TRY_EVERY == 0 || p->periods == max_periods) {
       try_in_doubles(p, dynamics, max_periods, decision);
       if (decision->label != KZ_DOUBTFUL || p->periods == max_periods) return KZ_OK;
     }
-    KZ_TRY(kz_arbitrary_advance(p->orbit, p->bits, 1, &tangent));
-    carry(&tangent, &p->error);
+    KZ_TRY(advance(p));
   }
   return KZ_OK;
 }
