@@ -37,7 +37,7 @@ static void defaults_are_those_of_the_table(void **state) {
   assert_string_equal(scene.title, "");
   assert_int_equal(scene.basin.theta.count, 1000);
   assert_true(scene.basin.theta.min == -M_PI && scene.basin.theta.max == M_PI);
-  assert_int_equal(scene.basin.method, KZ_METHOD_DIRECT);
+  assert_int_equal(scene.basin.method, KZ_METHOD_EXACT);
   assert_int_equal(scene.basin.interpolation, KZ_QUINTIC);
   kz_scheme scheme;
   kz_scheme_row(scene.numerics.scheme, &scheme);
