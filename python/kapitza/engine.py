@@ -19,7 +19,7 @@ class Engine:
     """Labels of windows of starts, of one scene's pendulum or of any other, as quickly as they can be had.
 
     >>> with kapitza.Engine("scenes/blackburn-fig12.yaml") as engine:
-    ...     labels = engine.frame((-3.2, 3.2, -2, 2), (250, 400))
+    ...     labels = engine.frame((-3.1, 3.1, -2, 2), (250, 400))
     ...     engine.attractors.loc[labels[0, 0], "name"]
     """
 
@@ -44,8 +44,8 @@ class Engine:
             self.close()
 
     def __repr__(self) -> str:
-        state = "closed" if self._process.poll() is not None else f"{self.ready['threads']} threads"
-        return f"<kapitza.Engine of {self.ready['title'] or 'a scene'}: {state}>"
+        state = "closed" if self._process.poll() is not None else "ready"
+        return f"<kapitza.Engine of {self.ready.get('title') or 'a scene'}: {state}>"
 
     def close(self) -> None:
         """Ends the program."""

@@ -20,7 +20,7 @@ MPI_SETTINGS = {
 }
 REFUSED, STOPPED = 2, 75  # exit statuses
 _ERROR = "kapitza: error: "
-_PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?)): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
+_PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?|request)): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
 
 
 class SceneError(ValueError):

@@ -73,7 +73,8 @@ class Result:
     @property
     def title(self) -> str:
         """The scene's title, or the file's name."""
-        return str(self.attributes.get("title") or self.path.stem)
+        title = self.attributes.get("title")
+        return title if isinstance(title, str) and title else self.path.stem
 
     @property
     def scene(self) -> str:
@@ -140,7 +141,7 @@ class Result:
         """Writes one self-contained HTML page on the result (by default beside it) and returns its path."""
         from kapitza.report.page import report
         path = Path(output) if output is not None else self.path.with_suffix(".html")
-        path.write_text(report(self), encoding="utf-8")
+        path.write_bytes(report(self).encode("utf-8", "replace"))
         return path
 
     def compare(self, other: "Result | str | os.PathLike[str]") -> "Comparison":

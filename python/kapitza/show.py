@@ -6,6 +6,8 @@ import io
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+import xarray
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -28,7 +30,8 @@ def _studies(result: "Result") -> list[str]:
     lines = []
     for name in result.groups:
         if name not in ("pendulum", "attractors"):
-            sizes = result.tree[name].sizes
+            with xarray.open_dataset(result.path, group=name, engine="h5netcdf", phony_dims="sort") as dataset:
+                sizes = dataset.sizes
             lines.append(f"{name}: " + " x ".join(f"{size} {axis}" for axis, size in sizes.items()))
     return lines
 

@@ -22,7 +22,10 @@ def write(result: Result, output: Path) -> None:
         raise BadFile(f"{result.path}: holds no basin")
     if output.exists() and output.samefile(result.path):
         raise BadFile(f"{output}: is the result itself; choose another name for the sidecar")
-    extent, origin, spacing = _window(result)
+    try:
+        extent, origin, spacing = _window(result)
+    except (AttributeError, KeyError, OSError, RuntimeError, TypeError, ValueError) as error:  # h5py's words for bytes that are damaged
+        raise BadFile(f"{result.path}: damaged in the group basin") from error
     link = os.path.relpath(result.path.resolve(), output.resolve().parent)
     with tempfile.TemporaryDirectory(dir=output.parent, prefix=".kapitza-") as folder:
         made = Path(folder) / output.name

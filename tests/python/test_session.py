@@ -163,3 +163,24 @@ def test_what_goes_into_a_scene_comes_out_of_it(values):
              for key, value in values.items()}
     assert Scene({"title": "x", "basin": values}).tree()["basin"] == words
     assert Scene(f"basin: {flow(values)}\n").tree()["basin"] == words
+
+
+def test_an_engine_answers_again_and_again(result):
+    exact = kapitza.run(SMALL, set=FEW, method="exact", progress=False)
+    with kapitza.Engine(Scene(SMALL, FEW)) as engine:
+        labels = engine.frame((-np.pi, np.pi, -2, 2), (20, 24))
+        assert labels.shape == (20, 24) and np.issubdtype(labels.dtype, np.integer)
+        names = engine.attractors["name"]
+        mine = exact.attractors["name"]
+        assert np.mean([names[a] == mine[b] for a, b in zip(labels.ravel(), exact.labels().values.ravel(), strict=True)]) == 1
+        assert engine.where(3.1, 0)["name"] == "inverted" and len(engine.orbit(3.1, 0, 2)) == 129
+        strong = engine.frame(None, (4, 4), pendulum={"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.52})
+        assert strong.shape == (4, 4) and "flutter" in set(engine.attractors["name"])
+        with pytest.raises(kapitza.SceneError) as caught:
+            engine.frame(pendulum={"k": 1})
+        assert caught.value.key == "pendulum.damping"
+        assert engine.frame(None, (3, 5)).shape == (3, 5)
+    with pytest.raises(RuntimeError, match="closed"):
+        engine.frame()
+    with pytest.raises(kapitza.SceneError):
+        kapitza.Engine("pendulum: {k: 1}\n")

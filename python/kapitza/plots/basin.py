@@ -69,7 +69,7 @@ def draw_basins(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, *
     table = np.array([to_rgb(colour) for colour in [*colours, style.UNSETTLED]])
     image = table[plane.cells(basin["attractor"])]  # -1 takes the last row
     if shade:
-        image = image * (1 - 0.55 * _slowness(plane.cells(basin["settling_time"])))[..., None]
+        image = image * (1 - 0.5 * _slowness(plane.cells(basin["settling_time"])))[..., None]
     plane.show(axes, image)
     if dots:
         dark = {index: style.shade(colour, -0.45) for index, colour in enumerate(colours)}
@@ -80,9 +80,10 @@ def draw_basins(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, *
 
 
 def _slowness(periods: np.ndarray) -> np.ndarray:
-    """0 for the cells that settle first, 1 for the slowest percent, by the logarithm of the time."""
+    """0 for the faster half of the cells, 1 for the slowest percent, by the logarithm of the time between."""
     time = np.log1p(periods.astype(float))
-    return np.clip(time / max(np.percentile(time, 99), 1e-300), 0, 1)
+    middle, last = np.percentile(time, (50, 99))
+    return np.clip((time - middle) / max(last - middle, 1e-300), 0, 1)
 
 
 def basin_entries(attractors: xarray.Dataset, colours: Sequence[str], labels: np.ndarray) -> list[tuple[str, str, float]]:

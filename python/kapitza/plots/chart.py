@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm, TwoSlopeNorm, to_rgb
+from matplotlib.colors import LogNorm, SymLogNorm, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
@@ -21,7 +21,7 @@ from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
 from kapitza.result import BadFile, Result
 
 CYCLE, CHAOTIC = 0, 1  # codes of the variable `end`
-NAMES = {"k": "k = (natural / drive frequency)²", "m": "drive amplitude m", "drive_frequency": "drive frequency Ω (natural frequencies)",
+NAMES = {"k": "gravity k", "m": "drive amplitude m", "drive_frequency": "drive frequency Ω (natural frequencies)",
          "drive_amplitude": "drive amplitude ε", "damping": "damping β", "quality_factor": "quality factor Q"}
 VIEWS = ("ends", "exponent", "settling")
 
@@ -61,7 +61,8 @@ def draw_number(axes: Axes, chart: xarray.Dataset, view: str, *, colours: str | 
     """Exponents or settling times of one start; `colours`: name of a colour map; `legend`: the bar beside it."""
     if view == "exponent":
         values, text = chart["exponent"].values, "largest Lyapunov exponent, per drive period"
-        norm = TwoSlopeNorm(0, min(np.nanquantile(values, 0.02), -1e-6), max(np.nanquantile(values, 0.998), 1e-6))
+        most = max(float(np.nanquantile(np.abs(values), 0.995)), 1e-5) if np.isfinite(values).any() else 1.0
+        norm = SymLogNorm(most / 30, vmin=-most, vmax=most)  # regular blue, chaotic red, both told apart near 0
         image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "RdBu_r", norm=norm, shading="nearest", rasterized=True)
     else:
         values, text = np.maximum(chart["settling_time"].values, 1), "settling time, drive periods"

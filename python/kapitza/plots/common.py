@@ -46,8 +46,11 @@ def parsed(parser: argparse.ArgumentParser, words: list[str]) -> argparse.Namesp
 def write_picture(arguments: argparse.Namespace, draw: Callable[[Result, argparse.Namespace], Figure]) -> None:
     """Writes the figure that `draw` makes of the file."""
     figure = figure_of(Result(arguments.file), arguments, draw)
-    with drawing(page_of(arguments)):
-        style.save(figure, arguments.output, arguments.dpi)
+    try:
+        with drawing(page_of(arguments)):
+            style.save(figure, arguments.output, arguments.dpi)
+    except UserWarning as error:
+        raise BadFile(f"{arguments.output}: its panels do not fit on the page; a larger --width, or a smaller --font-size") from error
 
 
 def figure_of(result: Result, arguments: argparse.Namespace, draw: Callable[[Result, argparse.Namespace], Figure]) -> Figure:

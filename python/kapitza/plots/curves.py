@@ -5,7 +5,9 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from kapitza import style
 
@@ -17,10 +19,16 @@ EXACT = {
     "butikov_4_refined": "exact_4", "butikov_5_refined": "exact_5", "butikov_5_refined_upper": "exact_5_upper",
 }
 LABELS = {
-    "butikov_1": "(3)", "butikov_2": "(4)", "butikov_3": "(5)", "butikov_4": "(6)", "butikov_5": "(7)",
-    "butikov_4_refined": "(17)", "butikov_5_refined": "(19)", "butikov_damped_1": "(25)", "butikov_damped_2": "(26)",
-    "blackburn_lower": "BSG (5)", "blackburn_upper": "BSG (6)", "blackburn_down_upper": "BSG (6), hanging",
+    "butikov_1": "Butikov Eq. 3", "butikov_2": "Butikov Eq. 4", "butikov_3": "Butikov Eq. 5", "butikov_4": "Butikov Eq. 6",
+    "butikov_5": "Butikov Eq. 7", "butikov_4_refined": "Butikov Eq. 17", "butikov_5_refined": "Butikov Eq. 19",
+    "butikov_damped_1": "Butikov Eq. 25", "butikov_damped_2": "Butikov Eq. 26",
+    "blackburn_lower": "Blackburn Eq. 5", "blackburn_upper": "Blackburn Eq. 6", "blackburn_down_upper": "Blackburn Eq. 6, down",
 }
+# What a curve bounds; the numbers are Butikov's.
+CURVES = {1: "curve 1: inverted stands above it", 2: "curve 2: first tongue, left edge", 3: "curve 3: first tongue, right edge",
+          4: "curve 4: second tongue, left edge", 5: "curve 5: second tongue, right edge"}
+SUBHARMONICS = {2: 2, 3: 5, 4: 3, 6: 4}  # order -> colour, no two alike
+K_LABEL, M_LABEL = "gravity k (negative about inverted)", "drive amplitude m"
 KNOWN = re.compile(r"(exact|butikov|subharmonic|damped|butikov_subharmonic|butikov_damped)_\d+(_refined)?(_upper)?|blackburn_\w+")
 
 
@@ -44,18 +52,18 @@ def label(name: str) -> str:
         return LABELS[name]
     match = re.fullmatch(r"(butikov_)?subharmonic_(\d+)", name)
     if match:
-        return f"n = {match[2]}" + (", (21)" if match[1] else "")
+        return f"subharmonic of order {match[2]}" + (", Butikov Eq. 21" if match[1] else "")
     kind, number = name.split("_")[:2]
     if kind == "damped":
-        return "lower boundary, damped" if number == "0" else f"tongue {number}, damped"
-    return f"curve {number}"
+        return "damped: inverted stands above it" if number == "0" else f"tongue {number}, damped"
+    return CURVES.get(int(number), f"curve {number}") if number.isdigit() else name.replace("_", " ")
 
 
 def family(name: str) -> str:
     """Formula and exact curve share a colour."""
     number = int((re.findall(r"\d+", exact_of(name) or name) or ["1"])[0])
     if "subharmonic" in name:
-        return COLOURS[(number // 2 + 1) % len(COLOURS)]
+        return COLOURS[SUBHARMONICS.get(number, number % len(COLOURS))]
     return COLOURS[(0, 1, 3)[number % 3]] if "damped" in name else COLOURS[(number - 1) % len(COLOURS)]
 
 
@@ -90,5 +98,18 @@ def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str]
                   linestyle=(0, (1, 1.2)) if "refined" in name else (0, (4, 2)) if formula else "-",
                   linewidth=0.7 if faint else 1.3 if formula else 1.6, label=label(name) + (", undamped" if faint else ""))
     if names and legend:
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
+        axes.legend(handles=_entries(axes, names, damped), loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes
+
+
+def _entries(axes: Axes, names: list[str], damped: bool) -> list[Artist]:
+    """Every exact curve by its name; formulas, which share the colours of their curves, by how they are drawn."""
+    handles = dict(zip(names, axes.lines[-len(names):], strict=True))
+    exact = [handles[name] for name in names if exact_of(name) is None and not (damped and name.startswith("exact"))]
+    kinds = [(dashes, text) for dashes, text, some in (
+        ((0, (4, 2)), "formula of a paper, colour of its curve", any(exact_of(name) and "refined" not in name for name in names)),
+        ((0, (1, 1.2)), "refined formula", any("refined" in name for name in names))) if some]
+    lines = [Line2D([], [], color=style.INK, linewidth=1.3, linestyle=dashes, label=text) for dashes, text in kinds]
+    if damped and any(name.startswith("exact") for name in names):
+        lines.append(Line2D([], [], color=style.FAINT, linewidth=0.7, label="without damping"))
+    return [*exact, *lines]

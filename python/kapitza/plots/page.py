@@ -137,7 +137,8 @@ def lay_out(figure: Figure, page: Page | None = None) -> Figure:
         figure.suptitle("")
         figure.supxlabel("")
     if page.width is not None:
-        figure.set_size_inches(page.width, figure.get_figheight() * page.width / figure.get_figwidth())
+        panels = len({round(axes.get_position().y0, 3) for axes in figure.axes})
+        figure.set_size_inches(page.width, max(figure.get_figheight() * page.width / figure.get_figwidth(), page.width * panels))
     if page.legend != "right":
         _move_legends(figure, page.legend == "below")
     heading = getattr(figure, "heading", None)

@@ -19,11 +19,12 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.curves import curve_names, draw_curves, exact_of, is_branch, whole_curve
+from kapitza.plots.curves import K_LABEL, M_LABEL, curve_names, draw_curves, exact_of, is_branch, whole_curve
 from kapitza.plots.formula_errors import error_figure
 from kapitza.result import BadFile, Result
 
 STABLE = "#e4e9ee"
+WIDEST, FEWEST = 0.03, 40  # of the view frequency: relative distance of neighbouring columns, and how many there must be
 RESTS = ("white", style.KINDS["inverted"], style.KINDS["down"], "#a9c8a4")  # stable: neither, inverted, hanging, both
 
 
@@ -36,8 +37,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
 def frame(axes: Axes, chart: xarray.Dataset) -> Axes:
     """The chart's edges and what its axes are."""
     axes.set(xlim=chart["k"].values[[0, -1]], ylim=chart["m"].values[[0, -1]])
-    axes.set_xlabel("k = (natural / drive frequency)², negative about the inverted position")
-    axes.set_ylabel("drive amplitude m")
+    axes.set(xlabel=K_LABEL, ylabel=M_LABEL)
     return axes
 
 
@@ -78,12 +78,10 @@ def draw_growth(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = (
 def draw_frequency(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = RESTS, legend: bool = True) -> Axes:
     """Which position is stable at drive frequency Omega: hanging is k = 1/Omega^2, inverted its negative."""
     k = chart["k"].values
-    if not (k.min() < 0 < k.max()):
-        raise BadFile("this view needs a chart on both sides of k = 0")
-    omega = np.linspace(1 / np.sqrt(min(-k.min(), k.max())), 30, 900)
-    inverted, hanging = (chart["stable"].values[:, np.abs(k[:, None] - sign / omega**2).argmin(axis=0)] for sign in (-1, 1))
-    axes.pcolormesh(omega, chart["m"], inverted + 2 * hanging, cmap=ListedColormap(list(colours)), vmin=0, vmax=3, shading="nearest",
-                    rasterized=True)
+    hanging, inverted = columns_of_both(k)
+    omega = 1 / np.sqrt(k[hanging])
+    both = chart["stable"].values[:, inverted] + 2 * chart["stable"].values[:, hanging]
+    axes.pcolormesh(omega, chart["m"], both, cmap=ListedColormap(list(colours)), vmin=0, vmax=3, shading="nearest", rasterized=True)
     for name in curve_names(chart):
         for sign in (-1, 1):
             inside = (sign * k > 0) & np.isfinite(chart[name].values)
@@ -97,12 +95,29 @@ def draw_frequency(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] 
     return axes
 
 
+def columns_of_both(k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Columns of the chart at 1/Omega^2 and at -1/Omega^2, the frequencies upward; BadFile where there are too few.
+
+    Stability is drawn where it was asked for alone: columns that are farther apart than WIDEST of their frequency are left out.
+    """
+    hanging = np.flatnonzero(k > 0)[::-1]
+    inverted = np.array([np.abs(k + k[column]).argmin() for column in hanging], dtype=int)
+    step = np.diff(k).min() if len(k) > 1 else 0
+    paired = np.abs(k[inverted] + k[hanging]) <= 1e-6 * step
+    near = np.append(1 - np.sqrt(k[hanging][1:] / k[hanging][:-1]) < WIDEST, False) if len(hanging) else np.zeros(0, bool)
+    keep = paired & np.logical_and.accumulate(near)
+    if keep.sum() < FEWEST:
+        raise BadFile("this view needs stability at k and at -k, close enough at small k; a scene with such a chart: "
+                      "stability: {k: {min: -0.25, max: 0.25, count: 4001}, m: {min: 0, max: 0.6, count: 400}}")
+    return hanging[keep], inverted[keep]
+
+
 def _frequency_legend(axes: Axes, colours: Sequence[str]) -> None:
     neither, inverted, hanging, both = colours
     patches = [Patch(facecolor=colour, edgecolor=style.FAINT, label=text) for colour, text in
-               ((inverted, "inverted"), (hanging, "hanging"), (both, "both"), (neither, "neither"))]
+               ((inverted, "inverted"), (hanging, "down"), (both, "both"), (neither, "neither"))]
     lines = [Line2D([], [], color=style.INK, linewidth=0.9, label="exact"),
-             Line2D([], [], color=style.INK, linewidth=0.9, linestyle=(0, (4, 2)), label="Eqs. (5), (6)")]
+             Line2D([], [], color=style.INK, linewidth=0.9, linestyle=(0, (4, 2)), label="formulas of a paper")]
     axes.legend(handles=[*patches, *lines], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small", title="stable at rest",
                 title_fontsize="small")
 

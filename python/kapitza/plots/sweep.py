@@ -46,7 +46,7 @@ def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str,
     stays = np.where(sweep["release_stays"].values.T == 1, 1.0, np.nan)
     axes.pcolormesh(edges, np.concatenate([[angle[0] / 2], angle + angle[0] / 2]), stays, cmap=ListedColormap([colours[0]]),
                     rasterized=True)
-    axes.plot(value, np.degrees(sweep["release_angle_largest"].values), color=colours[1], lw=0.9, label="last angle that stays")
+    axes.plot(value, np.degrees(sweep["release_angle_largest"].values), "_", color=colours[1], markersize=3, label="last angle that stays")
     axes.plot(value, np.degrees(sweep["release_angle_scan"].values), ".", color=colours[2], markersize=4,
               label="first failure of a scan in whole degrees")
     axes.plot(value, np.degrees(sweep["release_angle"].values), color=colours[3], lw=1.1, label="first gap")
@@ -62,7 +62,8 @@ def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: 
     """Strobe points of the walk up or down over the parameter, inverted in the middle; `legend`: which walk, as the title."""
     value, walk = sweep["value"].values, sweep["sample_walk"].values
     points = np.mod(sweep["strobe_theta"].values, 2 * np.pi)[:, walk == (0 if up else 1)] / np.pi
-    axes.plot(np.repeat(value, points.shape[1]), points.ravel(), ".", markersize=1.6, markeredgewidth=0,
+    size = float(np.clip(60 / np.sqrt(points.size), 1.2, 3.2))
+    axes.plot(np.repeat(value, points.shape[1]), points.ravel(), "o", markersize=size, markeredgewidth=0,
               color=colours or (UP if up else DOWN), rasterized=True)
     if legend:
         axes.set_title("going up" if up else "going down", fontsize="medium", fontweight="normal")

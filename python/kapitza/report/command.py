@@ -17,5 +17,5 @@ def main(words: list[str]) -> None:
     output = given.output or Path(f"{Path(given.file).stem or 'report'}.html")
     if output.suffix.lower() != ".html":
         parser.error(f"{output}: the name must end in .html")
-    output.write_text(report(Result(given.file)), encoding="utf-8")
+    output.write_bytes(report(Result(given.file)).encode("utf-8", "replace"))  # a crafted text may hold what UTF-8 does not
     print(output)

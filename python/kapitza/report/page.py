@@ -38,7 +38,7 @@ PROVENANCE = ["program", "version", "git_revision", "created", "command", "ranks
 
 def report(result: Result) -> str:
     """The whole page; the same result gives the same bytes."""
-    title = result.attributes.get("title") or result.path.stem
+    title = result.title
     parts = [_pictures(result), _attractors(result), _numbers(result), _scene(result), _provenance(result)]
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8"><title>{_text(title)}</title>'
             f"<style>{STYLE}</style></head>\n<body>\n<h1>{_text(title)}</h1>\n" + "\n".join(filter(None, parts)) + "\n</body>\n</html>\n")
