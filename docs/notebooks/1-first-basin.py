@@ -41,7 +41,7 @@ result.plot(centre="inverted")
 
 # %%
 labels = result.labels()
-print(labels.sel(theta=3.1, velocity=0.2, method="nearest").item(), "is", labels.attrs["flag_meanings"].split()[1:][0], "or another id")
+print("(3.1, 0.2) ends on", result.names[labels.sel(theta=3.1, velocity=0.2, method="nearest").item()])
 print(f"upright: {float(result.basin('inverted').mean()):.1%}")
 print(f"median time: {float(result.convergence_times().median()):.0f} drive periods")
 

@@ -38,7 +38,8 @@ result.plot(centre="inverted", si=True, degrees=True)
 # Which starts at 170 degrees with a push of 1, 5 and 20 rad/s stay up?
 
 # %%
-kapitza.where(scene, "170 deg", ["1 rad/s", "5 rad/s", "20 rad/s"], set={"pendulum.amplitude": "8 mm"})[["velocity", "name", "settling_time"]]
+pushes = ["1 rad/s", "5 rad/s", "20 rad/s"]
+kapitza.where(scene, "170 deg", pushes, set={"pendulum.amplitude": "8 mm"})[["velocity", "name", "settling_time"]]
 
 # %% [markdown]
 # What is missing or wrong is named, all at once, with what would do.

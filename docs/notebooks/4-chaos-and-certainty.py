@@ -20,8 +20,8 @@ scene = {
 }
 
 # %% [markdown]
-# `exact` follows what double precision leaves open in more digits, until its errors cannot change the label. The other methods are faster; where do
-# they differ?
+# `exact`, the default, follows what double precision leaves open in more digits, until its errors cannot change the label. The other
+# methods are faster; where do they differ?
 
 # %%
 exact = kapitza.run(scene, method="exact")
