@@ -25,6 +25,19 @@ typedef struct {
   int32_t unmirrored; /* 1 where there is a torque or a horizontal drive */
 } kz_pendulum;
 
+/* One harmonic of the drive: amplitude cos(order t + phase). */
+typedef struct {
+  int64_t order;
+  double amplitude, phase; /* as m; rad */
+} kz_harmonic;
+typedef struct {
+  int64_t count;
+  kz_harmonic values[KZ_HARMONICS];
+} kz_harmonics;
+
+/* Wave forms of the drive. */
+enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2 };
+
 /* A bound of |a(t)| + |b(t)| + |torque|. */
 double kz_stiffness(const kz_pendulum *pendulum);
 

@@ -76,6 +76,7 @@ typedef struct {
   int64_t max_period;
   int64_t seed;
   bool proof;      /* prove trapping regions of the true flow */
+  bool unmirrored; /* the pendulum has no mirror symmetry */
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;
   struct {
@@ -179,10 +180,13 @@ typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
   double k, damping, m;                                                              /* b: k, beta, m */
   double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
-  double length;     /* c: m, of a point mass, instead of radius and inertia */
-  double frequency;  /* c: Hz, instead of pivot_frequency */
-  double amplitude;  /* c: m, instead of pivot_amplitude */
-  double decay_time; /* c: s, 2 I/b, instead of friction or quality_factor */
+  double length;                /* c: m, of a point mass, instead of radius and inertia */
+  double frequency;             /* c: Hz, instead of pivot_frequency */
+  double amplitude;             /* c: m, instead of pivot_amplitude */
+  double decay_time;            /* c: s, 2 I/b, instead of friction or quality_factor */
+  double tilt, ellipse, torque; /* rad; short axis over long axis; in units of I omega^2 */
+  int32_t waveform;             /* KZ_SINE, ... */
+  kz_harmonics harmonics;       /* further ones */
 } kz_pendulum_keys;
 
 /* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */
@@ -191,6 +195,7 @@ typedef struct {
   kz_pendulum pendulum;
   double quality_factor, drive_frequency, drive_amplitude;
   double pivot_frequency; /* rad s-1; NaN without SI */
+  double start_phase;     /* rad, of the drive at t = 0; NaN = 0 */
 } kz_parameters;
 
 /* m s-2; CGPM 1901. */
@@ -203,6 +208,9 @@ kz_status kz_parameters_resolve(kz_parameters *parameters);
  * takes more than 300,000 steps, or 10,000 turns. */
 #define KZ_MOST_STIFFNESS 1e7
 #define KZ_MOST_SPEED 1e4
+
+/* The drive that the keys describe beyond k, beta and m, which `pendulum` has: the rest of it. */
+void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
 
 /* The numerics mapping as written. */
 typedef struct {
@@ -260,7 +268,7 @@ typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
-enum { KZ_SWEEP_PARAMETERS = 17 };
+enum { KZ_SWEEP_PARAMETERS = 20 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, and what a sweep can measure, joined by '|'. */
 const char *kz_sweep_words(void);
@@ -301,6 +309,8 @@ typedef struct {
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 
+/* KZ_REFUSED where a study cannot serve the drive. */
+kz_status kz_drive_check(const kz_scene *scene);
 /* KZ_REFUSED where a study of the scene does not pass its check: the first one's message. */
 kz_status kz_studies_check(const kz_scene *scene);
 

@@ -1,4 +1,5 @@
 /* The table of every key of a scene. A study's keys stand under its own row; the row's field says whether it is wanted. */
+#include <math.h>
 #include <string.h>
 
 #include "kapitza/analysis.h"
@@ -85,6 +86,17 @@ const kz_key kz_keys[] = {
     PENDULUM("c", friction, "kg m2 s-1", 0.0, "", "b, instead of quality_factor; beta = b/(I omega)."),
     PENDULUM("c", pivot_amplitude, "m", -DBL_MAX, "", "A, another name of amplitude."),
     PENDULUM("c", pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "", "omega of the pivot, instead of frequency."),
+    REAL("pendulum.tilt", "rad", -M_PI, M_PI, "", parameters.written.tilt, "Angle between the pivot's path and the vertical."),
+    REAL("pendulum.ellipse", "", -10, 10, "", parameters.written.ellipse,
+         "The pivot's path is an ellipse: its axis across the path over the one along it; > 0 = clockwise."),
+    REAL("pendulum.torque", "", -1e6, 1e6, "", parameters.written.torque,
+         "Constant torque on the pendulum, in units of I omega^2."),
+    WORD("pendulum.waveform", "sine|square|triangle", "", parameters.written.waveform,
+         "The pivot's motion in time; square and triangle: their Fourier series up to order 7."),
+    ROW("pendulum.harmonics", KZ_KEY_HARMONICS, "", AT(parameters.written.harmonics),
+        "Further harmonics of the drive: amplitude cos(order t + phase), the amplitude in units of m, the phase in rad or "
+        "degrees.",
+        .unit = ""),
 
     ROW("numerics", KZ_KEY_MAPPING, "", KZ_NO_FIELD, "How one drive period is integrated.", .unit = "",
         .former = "precision=basin.method exact"),
@@ -103,6 +115,8 @@ const kz_key kz_keys[] = {
 
     ROW("basin", KZ_KEY_MAPPING, "", AT(has_basin), "Study: the attractors, then a label for every cell of a window.",
         .unit = "", .former = "flag_undecided=basin.method exact"),
+    REAL("basin.start_phase", "rad", -1e6, 1e6, "", parameters.start_phase,
+         "Phase of the drive at which the pendulum is released; all strobe points of the file are at this phase."),
     MAPPING("basin.theta", "", KZ_NO_FIELD,
             "Angles of the cells; min and max, or centre and width, at most 2 pi; neither: the whole circle [-pi, pi)."),
     EDGE("basin.theta.min", "rad", 1e6, "", basin.theta_edges.min, "Lower edge of the window."),

@@ -227,6 +227,13 @@ static void chart_rules(kz_reading *reading, kz_scene *scene) {
                 (long long)chart->theta.count);
 }
 
+/* Whether the pendulum, or one of the sweep's, has no mirror symmetry. */
+static void symmetry_rules(kz_reading *reading, kz_scene *scene) {
+  const kz_pendulum_keys *written = &scene->parameters.written;
+  (void)reading;
+  scene->basin.unmirrored = !isnan(written->tilt) || !isnan(written->ellipse) || !isnan(written->torque);
+}
+
 /* What the resolved pendulum does not allow an orbit. */
 static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_orbit || reading->message[0]) return;
@@ -248,10 +255,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,       table_rules,     undecided_rules, shocks_rules,    attractors_rules,
-                             saddles_rules,     manifolds_rules, orbit_rules,     stability_rules, tradeoff_rules,
-                             kz_pendulum_rules, stiffness_rules, sweep_rules,     chart_rules,     edge_rules,
-                             orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,     table_rules, undecided_rules, shocks_rules,   attractors_rules,  saddles_rules,
+                             manifolds_rules, orbit_rules, stability_rules, tradeoff_rules, kz_pendulum_rules, symmetry_rules,
+                             stiffness_rules, sweep_rules, chart_rules,     edge_rules,     orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

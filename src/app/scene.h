@@ -24,7 +24,8 @@ typedef enum {
   KZ_KEY_DECIMAL,  /* kz_decimal; its text is "" where absent */
   KZ_KEY_WORDS,    /* kz_integers: indices */
   KZ_KEY_INTEGERS, /* kz_integers */
-  KZ_KEY_REALS     /* kz_reals */
+  KZ_KEY_REALS,    /* kz_reals */
+  KZ_KEY_HARMONICS /* kz_harmonics: a list of mappings */
 } kz_key_type;
 
 #define KZ_NO_FIELD ((size_t)-1)

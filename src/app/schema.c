@@ -64,6 +64,14 @@ static void open_value(const kz_key *key, FILE *out) {
     case KZ_KEY_REALS:
       write_number(key, "number", out);
       break;
+    case KZ_KEY_HARMONICS:
+      fprintf(out,
+              "{\"type\": \"object\", \"required\": [\"order\", \"amplitude\"], \"additionalProperties\": false, "
+              "\"properties\": {\"order\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": %d}, \"amplitude\": {\"type\": "
+              "\"number\"}, \"phase\": {\"anyOf\": [{\"type\": \"number\"}, {\"type\": \"string\", \"pattern\": "
+              "\"^[-+.0-9eE]+ deg$\"}]}}",
+              KZ_HARMONICS);
+      break;
     default:
       write_number(key, "integer", out);
   }

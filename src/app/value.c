@@ -91,14 +91,39 @@ static const char *read_decimal(const kz_key *key, const kz_node *node, void *fi
   return NULL;
 }
 
+/* A number of one key of a harmonic; `fallback` where it is not there. */
+static const char *read_part(const kz_node *harmonic, const char *name, bool angle, double fallback, double *value) {
+  const kz_node *node = kz_tree_child(harmonic, name);
+  *value = fallback;
+  if (!node) return isnan(fallback) ? "has no order or no amplitude" : NULL;
+  return (angle ? kz_scalar_angle : kz_scalar_real)(node, value);
+}
+
+static const char *read_harmonic(const kz_key *key, const kz_node *node, void *field) {
+  (void)key;
+  kz_harmonic *harmonic = field;
+  double order;
+  if (node->kind != KZ_MAPPING) return "is not a mapping";
+  for (const kz_node *part = node->first; part; part = part->next)
+    if (strcmp(part->name, "order") != 0 && strcmp(part->name, "amplitude") != 0 && strcmp(part->name, "phase") != 0)
+      return "has a key that is none of order, amplitude, phase";
+  const char *wrong = read_part(node, "order", false, NAN, &order);
+  if (!wrong) wrong = read_part(node, "amplitude", false, NAN, &harmonic->amplitude);
+  if (!wrong) wrong = read_part(node, "phase", true, 0, &harmonic->phase);
+  if (wrong) return wrong;
+  if (order != rint(order) || order < 1 || order > KZ_HARMONICS) return "has an order that is no integer from 1 to 16";
+  harmonic->order = (int64_t)order;
+  return NULL;
+}
+
 typedef const char *(*read_function)(const kz_key *key, const kz_node *node, void *field);
 
 /* One value, or one value of a list, by the type of its key. */
 static const read_function readers[] = {
-    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,   [KZ_KEY_BOOLEAN] = read_boolean,
-    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count, [KZ_KEY_REAL] = read_real,
-    [KZ_KEY_DECIMAL] = read_decimal, [KZ_KEY_WORDS] = read_index, [KZ_KEY_INTEGERS] = read_integer,
-    [KZ_KEY_REALS] = read_real,
+    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,          [KZ_KEY_BOOLEAN] = read_boolean,
+    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count,        [KZ_KEY_REAL] = read_real,
+    [KZ_KEY_DECIMAL] = read_decimal, [KZ_KEY_WORDS] = read_index,        [KZ_KEY_INTEGERS] = read_integer,
+    [KZ_KEY_REALS] = read_real,      [KZ_KEY_HARMONICS] = read_harmonic,
 };
 
 static bool is_list(const kz_key *key) {
@@ -107,10 +132,12 @@ static bool is_list(const kz_key *key) {
 
 /* The count and value i of a list: kz_reals, or kz_integers. */
 static int64_t *count_of(const kz_key *key, void *list) {
+  if (key->type == KZ_KEY_HARMONICS) return &((kz_harmonics *)list)->count;
   return key->type == KZ_KEY_REALS ? &((kz_reals *)list)->count : &((kz_integers *)list)->count;
 }
 
 static void *value_of(const kz_key *key, void *list, int64_t i) {
+  if (key->type == KZ_KEY_HARMONICS) return &((kz_harmonics *)list)->values[i];
   return key->type == KZ_KEY_REALS ? (void *)&((kz_reals *)list)->values[i] : (void *)&((kz_integers *)list)->values[i];
 }
 
@@ -119,6 +146,7 @@ static const char *read_list(const kz_key *key, const kz_node *node, void *list,
   int64_t *count = count_of(key, list);
   *count = 0;
   for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
+    if (key->type == KZ_KEY_HARMONICS && *count == KZ_HARMONICS) return "is one harmonic too many (at most 16)";
     if (*count == KZ_LIST_MAX) return "is one value too many (at most 256)";
     const char *wrong = readers[key->type](key, *culprit, value_of(key, list, (*count)++));
     if (wrong) return wrong;
@@ -207,6 +235,14 @@ static void print_text(const char *text, FILE *out) {
   fputc('"', out);
 }
 
+static void print_harmonic(const kz_harmonic *harmonic, FILE *out) {
+  fprintf(out, "{order: %" PRId64 ", amplitude: ", harmonic->order);
+  print_real(harmonic->amplitude, out);
+  fputs(", phase: ", out);
+  print_real(harmonic->phase, out);
+  fputc('}', out);
+}
+
 static void print_list(const kz_key *key, const void *field, FILE *out) {
   const int64_t count = *count_of(key, (void *)field);
   for (int64_t i = 0; i < count; i++) {
@@ -215,6 +251,7 @@ static void print_list(const kz_key *key, const void *field, FILE *out) {
     if (key->type == KZ_KEY_WORDS) print_word(key, *(const int64_t *)value, out);
     if (key->type == KZ_KEY_INTEGERS) fprintf(out, "%" PRId64, *(const int64_t *)value);
     if (key->type == KZ_KEY_REALS) print_real(*(const double *)value, out);
+    if (key->type == KZ_KEY_HARMONICS) print_harmonic(value, out);
   }
   fputc(']', out);
 }

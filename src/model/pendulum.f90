@@ -168,7 +168,7 @@ contains
     end do
   end subroutine add_harmonic
 
-  !> kz_pendulum_shift of model.h: cos j(t + phase) by cosine and sine; m becomes a part of harmonic 1.
+  !> kz_pendulum_shift of model.h: cos j(t + phase) by cosine and sine; m stays, and harmonic 1 makes up for it.
   subroutine shift(pendulum, phase, shifted) bind(C, name='kz_pendulum_shift')
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), value :: phase
@@ -182,8 +182,7 @@ contains
       shifted%vertical(:, j) = turned(pendulum%vertical(:, j), j*real(phase, qp))
       shifted%horizontal(:, j) = turned(pendulum%horizontal(:, j), j*real(phase, qp))
     end do
-    shifted%vertical(:, 1) = shifted%vertical(:, 1) + turned([pendulum%m, 0.0_c_double], real(phase, qp))
-    shifted%m = 0
+    shifted%vertical(:, 1) = shifted%vertical(:, 1) + turned([pendulum%m, 0.0_c_double], real(phase, qp)) - [pendulum%m, 0.0_c_double]
   end subroutine shift
 
   !> Amplitudes of cos and sin after a shift by an angle.

@@ -60,10 +60,11 @@ static void fill_defined(kz_parameters *parameters) {
 }
 
 kz_status kz_parameters_resolve(kz_parameters *parameters) {
-  const kz_pendulum p = from_written(&parameters->written);
+  kz_pendulum p = from_written(&parameters->written);
   if (!isfinite(p.k) || !isfinite(p.beta) || !isfinite(p.m))
     return kz_fail(KZ_REFUSED, "gives k = %g, beta = %g, m = %g, not all finite; use less extreme parameters", p.k, p.beta,
                    p.m);
+  kz_drive_resolve(parameters, &p);
   parameters->pendulum = p;
   fill_defined(parameters);
   return KZ_OK;

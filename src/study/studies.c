@@ -28,6 +28,7 @@ const kz_study kz_studies[] = {
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];
 
 kz_status kz_studies_check(const kz_scene *scene) {
+  KZ_TRY(kz_drive_check(scene));
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].check && kz_studies[i].wanted(scene)) KZ_TRY(kz_studies[i].check(scene));
   return KZ_OK;

@@ -33,6 +33,8 @@ contains
     sign = 1
     if (branch%stable == 1) then ! time runs backwards: (theta, -v) obeys the equation with -beta
       turned%beta = -pendulum%beta
+      turned%vertical(2, :) = -pendulum%vertical(2, :)
+      turned%horizontal(2, :) = -pendulum%horizontal(2, :)
       sign = -1
     end if
     call make_flow(turned, fine_numerics(turned), .true., flow)

@@ -5,6 +5,7 @@ module kz_api_regions
   use kz_grown_cell_images, only: PERIODS, make_images
   use kz_grown_grid, only: make_regions, draw_attractors
   use kz_grown_growth, only: grow_regions
+  use kz_model_pendulum, only: is_mirrored
   implicit none
   private
 
@@ -20,7 +21,7 @@ contains
 
     d => of_handle(handle)
     if (allocated(d%images)) deallocate (d%images)
-    d%regions = make_regions(COARSE_CELLS, COARSE_CELLS, top)
+    d%regions = make_regions(COARSE_CELLS, COARSE_CELLS, top, is_mirrored(d%search%pendulum) /= 0)
   end subroutine coarse_regions
 
   subroutine fine_regions(handle, cells, top) bind(C, name='kz_dynamics_fine_regions')
@@ -32,7 +33,7 @@ contains
     d => of_handle(handle)
     if (allocated(d%images)) deallocate (d%images)
     allocate (d%images(size(PERIODS)))
-    d%regions = make_regions(2*((int(cells) + 1)/2), int(cells), top)
+    d%regions = make_regions(2*((int(cells) + 1)/2), int(cells), top, is_mirrored(d%search%pendulum) /= 0)
     call make_images(d%regions, d%search%flow, d%images)
     call update_regions(handle)
   end subroutine fine_regions

@@ -3,7 +3,7 @@ module kz_api_saddles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_lanes_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_lanes_step_table, only: numerics_t
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: append_with_mirror, join
@@ -76,7 +76,8 @@ contains
       call place_cycle(d, reshape(found(3:2 + 2*period, i), [2, period]), new, is_placed)
       if (.not. is_placed) cycle
       if (is_known(d%attractors, new) .or. is_known(batch, new)) cycle
-      call symmetrise(new)
+      new%mirrored = is_mirrored(d%search%pendulum) /= 0
+      if (new%mirrored) call symmetrise(new)
       call enter_points(d%search%flow, new)
       call find_features(d%search%sampling_flow, d%search%pendulum, new, new%u(1), new%v(1), period)
       call append_with_mirror(new, batch)

@@ -7,6 +7,7 @@ module kz_attractors_chaos
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_attractors_cycle_search, only: search_t, add_with_mirror
+  use kz_model_pendulum, only: is_mirrored
   implicit none
   private
   public :: find_chaos
@@ -61,6 +62,7 @@ contains
     end do
     call exponent(search%flow, WIDTH, EXPONENT_PERIODS, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
+    attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call set_cover(attractor, visits_of)
     call search%flow%leave(1)
     call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
@@ -69,7 +71,7 @@ contains
       attractor%mean_velocity = 0
     end if
     call add_with_mirror(search, attractor, attractors)
-    if (.not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
+    if (attractor%mirrored .and. .not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
   contains
     subroutine visit(u_now, v_now)
       real(dp), intent(in) :: u_now
@@ -103,7 +105,7 @@ contains
     integer :: cell
 
     allocate (visited, source=visits_of > 0)
-    attractor%symmetric = 2*count(visited .and. visited(COVER**2:1:-1)) > count(visited)
+    attractor%symmetric = attractor%mirrored .and. 2*count(visited .and. visited(COVER**2:1:-1)) > count(visited)
     if (attractor%symmetric) visited = visited .or. visited(COVER**2:1:-1)
     attractor%cover = pack([(cell, cell=1, COVER**2)], visited)
   end subroutine set_cover

@@ -2,7 +2,7 @@
 module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: flow_t, PI
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
   use kz_grown_ellipses, only: find_ellipses
   use kz_cycles_newton, only: n_periods, eigenvalues
@@ -106,6 +106,7 @@ contains
       if (repels(search, period, u(0), v(0))) return
       call close_cycle(search%fine, search%pendulum%beta, period, start(1), start(2), max(0.1_dp, 20*distance(period)), candidate, &
                         found, blurred)
+      candidate%mirrored = is_mirrored(search%pendulum) /= 0
       if (found) call complete_attractor(candidate, found)
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
@@ -188,9 +189,9 @@ contains
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
 
     attractor%mirror = size(attractors) + 1
-    if (.not. attractor%symmetric) attractor%mirror = size(attractors) + 2
+    if (attractor%mirrored .and. .not. attractor%symmetric) attractor%mirror = size(attractors) + 2
     call append(attractors, attractor)
-    if (attractor%symmetric) return
+    if (attractor%symmetric .or. .not. attractor%mirrored) return
     call append(attractors, mirror_image(attractor))
     attractors(size(attractors))%mirror = size(attractors) - 1
   end subroutine append_with_mirror

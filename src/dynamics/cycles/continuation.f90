@@ -3,7 +3,7 @@ module kz_cycles_continuation
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_lanes_map, only: flow_t, PI
   use kz_kernel_plan, only: make_flow, fine_numerics
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, orbit_of
   use kz_cycles_newton, only: eigenvalues, n_periods, solved, minimal_period
   use kz_cycles_features, only: find_features
@@ -154,7 +154,8 @@ contains
     point%amplitude = cycle%amplitude
     point%halves_distance = halves_distance(cycle)
     point%mirror_distance = 0
-    if (point%symmetric == 0) point%mirror_distance = nearest_point(cycle, -x)
+    if (is_mirrored(pendulum) == 0) point%mirror_distance = huge(1.0_dp)
+    if (point%symmetric == 0 .and. is_mirrored(pendulum) /= 0) point%mirror_distance = nearest_point(cycle, -x)
   end subroutine describe
 
   subroutine set_pair(values, re, im)

@@ -12,6 +12,7 @@ module kz_cycles_cycles
   type :: attractor_t
     integer :: period = 0          !< drive periods; 0 = aperiodic
     integer :: winding = 0         !< net turns per `period` drive periods
+    logical :: mirrored = .true.   !< mirror images of motions are motions
     logical :: symmetric = .false. !< the orbit is its own mirror image
     integer :: mirror = 0          !< number of the mirror image in the catalogue, from 1
     integer :: centre = 3          !< 0 down, 1 inverted, 2 rotating, 3 none of these
@@ -79,7 +80,7 @@ contains
     attracts = abs(cycle%multiplier(1)) < 1
     if (.not. attracts) return
     cycle%lyapunov = log(abs(cycle%multiplier(1)))/cycle%period
-    call symmetrise(cycle)
+    if (cycle%mirrored) call symmetrise(cycle)
   end subroutine complete_attractor
 
   !> Strobe points, winding and monodromy of the closed orbit through x.

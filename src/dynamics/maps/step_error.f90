@@ -5,7 +5,7 @@ module kz_maps_step_error
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_lanes_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_plan, only: make_flow_and_finer
-  use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_model_pendulum, only: pendulum_t, stiffness, is_mirrored
   use kz_lanes_step_table, only: numerics_t
   use kz_maps_states, only: separation
   implicit none
@@ -39,8 +39,8 @@ contains
       largest = 0
       limit = speed(c + 1) + 2*PI*stiffness(pendulum)
       do first = 1, STATES, WIDTH
-        call put_class(flow, first, speed(c), speed(c + 1))
-        call put_class(finer, first, speed(c), speed(c + 1))
+        call put_class(flow, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
+        call put_class(finer, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
         call flow%enter(WIDTH)
         call finer%enter(WIDTH)
         call flow%advance(WIDTH)
@@ -54,18 +54,20 @@ contains
   end subroutine step_errors
 
   !> States first .. first + WIDTH - 1 of STATES over the whole circle, both ends of the speeds included; the others are their
-  !> mirror images.
-  subroutine put_class(map, first, slowest, fastest)
+  !> mirror images, or every second one goes the other way.
+  subroutine put_class(map, first, slowest, fastest, mirrored)
     class(map_t), intent(inout) :: map
     integer, intent(in) :: first
     real(dp), intent(in) :: slowest
     real(dp), intent(in) :: fastest
+    logical, intent(in) :: mirrored
     real(dp), parameter :: GOLDEN = 0.61803398874989484820_dp
-    integer :: lane, i
+    integer :: lane, i, sign
 
     do lane = 1, WIDTH
       i = first + lane - 2
-      call map%put(lane, 2*modulo(i*GOLDEN, 1.0_dp) - 1, slowest + (fastest - slowest)*(i/real(STATES - 1, dp)))
+      sign = merge(1, 1 - 2*mod(i, 2), mirrored)
+      call map%put(lane, 2*modulo(i*GOLDEN, 1.0_dp) - 1, sign*(slowest + (fastest - slowest)*(i/real(STATES - 1, dp))))
     end do
   end subroutine put_class
 

@@ -18,7 +18,12 @@ static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
 /* What the labels depend on, one line. */
 static void print_key(const kz_reference_labels *reference, char *key, size_t bytes) {
   const kz_basin_plan *p = reference->plan;
-  const uint64_t attractors = checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
+  uint64_t attractors = checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
+  if (!kz_is_sine(&reference->pendulum)) {
+    attractors = checksum(reference->pendulum.vertical, sizeof reference->pendulum.vertical, attractors);
+    attractors = checksum(reference->pendulum.horizontal, sizeof reference->pendulum.horizontal, attractors);
+    attractors = checksum(&reference->pendulum.torque, sizeof reference->pendulum.torque, attractors);
+  }
   snprintf(key, bytes, "kapitza truth 1: %a %a %a; %a %a %lld%s%s; %a %a %lld%s%s; %lld %lld; %016llx\n", reference->pendulum.k,
            reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max, (long long)p->theta.count,
            p->theta.centre.text, p->theta.width.text, p->velocity.min, p->velocity.max, (long long)p->velocity.count,

@@ -64,7 +64,7 @@ static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction
   COLUMN(int8_t, "centre", e[i].row.centre);
   COLUMN(const char *, "name", e[i].name);
   COLUMN(int8_t, "symmetric", e[i].row.symmetric);
-  COLUMN(int32_t, "mirror", e[i].mirror);
+  COLUMN(int32_t, "mirror", e[i].mirror == (int32_t)i && !e[i].row.symmetric ? -1 : e[i].mirror);
   COLUMN(double, "amplitude", e[i].row.amplitude);
   COLUMN(double, "lyapunov", e[i].row.lyapunov);
   COLUMN(double, "lyapunov_error", e[i].row.lyapunov_error);

@@ -125,7 +125,7 @@ static bool is_symmetric(const kz_axis *axis) {
 
 int64_t kz_unique_cells(const kz_basin_plan *plan) {
   const int64_t total = plan->theta.count * plan->velocity.count;
-  return is_symmetric(&plan->theta) && is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
+  return !plan->unmirrored && is_symmetric(&plan->theta) && is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
 }
 
 void kz_start_state(double theta, double velocity, double state[2]) {

@@ -26,7 +26,7 @@ static bool is_mirrored(const kz_saddles_plan *plan) {
 
 kz_lines kz_lines_of(const kz_pendulum *pendulum, const kz_saddles_plan *plan, int round) {
   kz_axis velocity = plan->velocity;
-  if (is_mirrored(plan)) velocity.min = 0;
+  if (kz_is_mirrored(pendulum) && is_mirrored(plan)) velocity.min = 0;
   kz_lines lines = {.pendulum = pendulum, .plan = plan, .rows = round % 2 == 0};
   lines.along = lines.rows ? plan->theta : velocity;
   lines.across = lines.rows ? velocity : plan->theta;

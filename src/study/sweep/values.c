@@ -23,10 +23,13 @@ const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(length, "m"),
     KEY(amplitude, "m"),
     KEY(decay_time, "s"),
+    KEY(tilt, "rad"),
+    KEY(ellipse, "1"),
+    KEY(torque, "1"),
 };
 
 const char *kz_sweep_words(void) {
-  static char words[256];
+  static char words[512];
   words[0] = '\0';
   for (int i = 0; i < KZ_SWEEP_PARAMETERS; i++) {
     if (i > 0) strcat(words, "|");

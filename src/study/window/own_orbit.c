@@ -86,6 +86,7 @@ kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum
   const int64_t all = kz_arbitrary_bits(), most = all < MOST_BITS ? all : MOST_BITS;
   kz_status status = KZ_OK;
   *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
+  if (!kz_is_sine(pendulum)) return KZ_OK; /* kz_arbitrary has no other drives: left undecided */
   for (int64_t bits = FIRST_BITS; status == KZ_OK && decision->label == KZ_DOUBTFUL; bits *= 2) {
     path p = {.bits = bits < most ? bits : most, .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(pendulum, start, p.bits);

@@ -16,7 +16,7 @@ contains
     type(regions_t) :: regions
     integer :: i, l
 
-    regions = make_regions(old%n_circle, old%n_velocity, old%top)
+    regions = make_regions(old%n_circle, old%n_velocity, old%top, old%mirrored)
     do l = 1, old%n_velocity - 2
       do i = 0, old%n_theta - 1
         if (old%label(i, l) <= 0) cycle

@@ -107,7 +107,7 @@ contains
     integer :: a
 
     distance = huge(1.0_dp)
-    if (.not. attractor%symmetric) distance = to_points(-attractor%kernel_u, -attractor%kernel_v) ! the mirror image's
+    if (attractor%mirrored .and. .not. attractor%symmetric) distance = to_points(-attractor%kernel_u, -attractor%kernel_v) ! the mirror image's
     do a = 1, size(others)
       if (others(a)%period > 0) distance = min(distance, to_points(others(a)%kernel_u, others(a)%kernel_v))
     end do

@@ -1,10 +1,10 @@
-!> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi, each labelled with an
-!> attractor, overlapped by trapping ellipses, or open.
+!> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi (the whole one where there
+!> is no mirror symmetry), each labelled with an attractor, overlapped by trapping ellipses, or open.
 module kz_grown_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: in_ellipse
-  use kz_grown_places, only: look_up, side, wrapped_midperiod_angle, WORD
+  use kz_grown_places, only: look_up, side, from_down, wrapped_midperiod_angle, WORD
   use kz_maps_states, only: angle_difference, midperiod_angle, MIDPERIOD
   implicit none
   private
@@ -19,7 +19,8 @@ module kz_grown_grid
 
   type :: regions_t
     integer :: n_circle = 0   !< cells on the whole circle
-    integer :: n_theta = 0    !< cells from 0 to pi
+    integer :: n_theta = 0    !< cells from 0 to pi, or on the whole circle
+    logical :: mirrored = .true. !< the half stands for the other one, too
     integer :: n_velocity = 0 !< cells from -top to top
     real(dp) :: top = 0
     integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
@@ -38,17 +39,20 @@ module kz_grown_grid
 contains
 
   !> An open grid of an even number of columns.
-  function make_regions(n_circle, n_velocity, top) result(regions)
+  function make_regions(n_circle, n_velocity, top, mirrored) result(regions)
     !> cells on the whole circle
     integer, intent(in) :: n_circle
     !> cells of the velocity
     integer, intent(in) :: n_velocity
     !> largest velocity, rad per drive radian
     real(dp), intent(in) :: top
+    !> whether mirror images of motions are motions
+    logical, intent(in) :: mirrored
     type(regions_t) :: regions
 
     regions%n_circle = n_circle
-    regions%n_theta = n_circle/2
+    regions%mirrored = mirrored
+    regions%n_theta = merge(n_circle/2, n_circle, mirrored)
     regions%n_velocity = n_velocity
     regions%top = top
     allocate (regions%label(0:regions%n_theta - 1, 0:n_velocity - 1), source=0)
@@ -216,7 +220,7 @@ contains
     integer, intent(out) :: label(n)
     integer :: i
 
-    call look_up(regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%closed, n, u, v, label)
+    call look_up(regions%mirrored, regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%closed, n, u, v, label)
     do i = 1, n
       if (label(i) > 0) label(i) = find_region(regions, attractors, label(i) - 1, u(i), v(i))
     end do
@@ -232,7 +236,8 @@ contains
     integer :: a
     real(dp) :: fold
 
-    fold = side(wrapped_midperiod_angle(u, v), v)
+    fold = 1
+    if (regions%mirrored) fold = side(wrapped_midperiod_angle(u, v), v)
     if (cell == size(regions%label)) then
       a = ellipse_at(attractors(:regions%n_drawn), fold*u, fold*v)
     else
@@ -258,8 +263,8 @@ contains
     real(dp) :: w, x, y, margin_x, margin_y
 
     w = wrapped_midperiod_angle(u, v)
-    x = 0.5_dp*regions%n_circle*abs(w)
-    y = (side(w, v)*v + regions%top)*(regions%n_velocity/(2*regions%top))
+    x = 0.5_dp*regions%n_circle*merge(abs(w), from_down(w), regions%mirrored)
+    y = (merge(side(w, v), 1.0_dp, regions%mirrored)*v + regions%top)*(regions%n_velocity/(2*regions%top))
     margin_x = 0.5_dp*regions%n_circle*(du + MIDPERIOD*dv)
     margin_y = regions%n_velocity/(2*regions%top)*dv
     inside = .false.

@@ -24,6 +24,7 @@ module kz_grown_growth
     integer :: n_theta
     integer :: n_velocity
     integer(int8), allocatable :: label(:, :) !< (0 : 2 n_circle - 1, 0 : n_velocity - 1): attractor, from 1; 0 = open
+    logical :: mirrored
     integer(int8), allocatable :: mirror(:)   !< of each attractor, from 1; 0 = not grown
   end type circle_t
 
@@ -74,6 +75,7 @@ contains
 
     circle%n_circle = regions%n_circle
     circle%n_theta = regions%n_theta
+    circle%mirrored = regions%mirrored
     circle%n_velocity = regions%n_velocity
     allocate (circle%label(0:2*regions%n_circle - 1, 0:regions%n_velocity - 1), source=0_int8)
     circle%mirror = int(merge(regions%mirror, 0, regions%mirror <= MOST_GROWN), int8)
@@ -97,7 +99,7 @@ contains
     column = circle%n_circle - 1 - i
     row = circle%n_velocity - 1 - l
     circle%label([i, i + circle%n_circle], l) = int(a, int8)
-    circle%label([column, column + circle%n_circle], row) = circle%mirror(a)
+    if (circle%mirrored) circle%label([column, column + circle%n_circle], row) = circle%mirror(a)
   end subroutine set
 
   !> The attractor one of whose ellipses holds the image of cell (i, l); 0 = none. The ellipses drawn where the image of the cell's

@@ -5,7 +5,7 @@ module kz_grown_places
   use kz_maps_states, only: MIDPERIOD
   implicit none
   private
-  public :: look_up, wrapped_midperiod_angle, side
+  public :: look_up, wrapped_midperiod_angle, side, from_down
 
   !> Cells in a word of bits.
   integer, parameter, public :: WORD = bit_size(0_int32)
@@ -16,7 +16,9 @@ contains
 
   !> In vectors: the numbers (from 1) of the cells that hold n states, folded to the stored half, the last number for those outside;
   !> 0 where the cell is open.
-  pure subroutine look_up(n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
+  pure subroutine look_up(mirrored, n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
+    !> whether the stored half stands for the other one, too
+    logical, intent(in) :: mirrored
     !> stored columns of the grid
     integer, intent(in) :: n_theta
     !> rows of the grid
@@ -42,20 +44,52 @@ contains
     rows = n_velocity
     outside = columns*rows
     per_v = rows/(2*top)
-    do i = 1, n
-      w = u(i) + MIDPERIOD*v(i)
-      w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
-      y = (side(w, v(i))*v(i) + top)*per_v
-      c = aint(abs(w)*per_u)
-      c = merge(c, columns - 1, c < columns) + columns*aint(y)
-      c = merge(c, outside, y >= 0)
-      c = merge(c, outside, y < rows)
-      cell(i) = int(merge(c, outside, abs(w) <= 1)) ! a lost state is outside
-    end do
+    if (.not. mirrored) then
+      do i = 1, n
+        cell(i) = whole_cell(n_theta, n_velocity, per_u, top, u(i), v(i))
+      end do
+    else
+      do i = 1, n
+        w = u(i) + MIDPERIOD*v(i)
+        w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+        y = (side(w, v(i))*v(i) + top)*per_v
+        c = aint(abs(w)*per_u)
+        c = merge(c, columns - 1, c < columns) + columns*aint(y)
+        c = merge(c, outside, y >= 0)
+        c = merge(c, outside, y < rows)
+        cell(i) = int(merge(c, outside, abs(w) <= 1)) ! a lost state is outside
+      end do
+    end if
     do i = 1, n
       cell(i) = iand(ishft(closed(ishft(cell(i), -5)), -iand(cell(i), WORD - 1)), 1)*(cell(i) + 1)
     end do
   end subroutine look_up
+
+  !> The cell (from 0) of a grid over the whole circle that holds (u, v); the number of cells outside.
+  pure function whole_cell(n_theta, n_velocity, per_u, top, u, v) result(cell)
+    integer, intent(in) :: n_theta
+    integer, intent(in) :: n_velocity
+    real(dp), intent(in) :: per_u
+    real(dp), intent(in) :: top
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer :: cell
+    real(dp) :: w, y
+
+    cell = n_theta*n_velocity
+    w = from_down(wrapped_midperiod_angle(u, v))
+    y = (v + top)*(n_velocity/(2*top))
+    if (w >= 0 .and. w <= 2 .and. y >= 0 .and. y < n_velocity) cell = min(int(w*per_u), n_theta - 1) + n_theta*int(y)
+  end function whole_cell
+
+  !> An angle of [-1, 1] in [0, 2).
+  elemental function from_down(w) result(angle)
+    !> half-turns
+    real(dp), intent(in) :: w
+    real(dp) :: angle
+
+    angle = merge(w, w + 2, w >= 0)
+  end function from_down
 
   !> The mid-period angle, wrapped to [-1, 1].
   elemental function wrapped_midperiod_angle(u, v) result(w)

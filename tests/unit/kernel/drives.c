@@ -1,0 +1,140 @@
+/* Drives beyond k - m cos t: the equation of model.h, integrated here by itself, against the reference and the split scheme. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "kapitza/kernel.h"
+
+enum { N = 40, DRIVES = 4 };
+
+static kz_pendulum drive(int which) {
+  kz_pendulum p = {.k = 0.05, .beta = 0.1, .m = 0.4};
+  if (which == 0) p.harmonics = 2, p.vertical[1][0] = 0.2, p.vertical[1][1] = -0.1;
+  if (which == 1)
+    p.harmonics = 1, p.unmirrored = 1, p.vertical[0][0] = -0.05, p.horizontal[0][0] = 0.1, p.horizontal[0][1] = 0.07;
+  if (which == 2) p.unmirrored = 1, p.torque = 0.1;
+  if (which == 3) p.harmonics = 7, p.vertical[2][0] = -0.15, p.vertical[4][0] = 0.1, p.vertical[6][1] = 0.05;
+  return p;
+}
+
+static long double acceleration(const kz_pendulum *p, long double t, long double theta, long double v) {
+  long double a = p->k - p->m * cosl(t), b = 0;
+  for (int j = 1; j <= p->harmonics; j++) {
+    a -= p->vertical[j - 1][0] * cosl(j * t) + p->vertical[j - 1][1] * sinl(j * t);
+    b += p->horizontal[j - 1][0] * cosl(j * t) + p->horizontal[j - 1][1] * sinl(j * t);
+  }
+  return p->torque - p->beta * v - a * sinl(theta) + b * cosl(theta);
+}
+
+/* From t = `from` through `turn` of drive time by Runge and Kutta in long double. */
+static void integrate(const kz_pendulum *p, long double from, long double turn, double *theta, double *velocity) {
+  enum { STEPS = 4000 };
+  long double x = *theta, v = *velocity, h = turn / STEPS;
+  for (int i = 0; i < STEPS; i++) {
+    const long double t = from + i * h;
+    const long double a1 = acceleration(p, t, x, v), v2 = v + h / 2 * a1;
+    const long double a2 = acceleration(p, t + h / 2, x + h / 2 * v, v2), v3 = v + h / 2 * a2;
+    const long double a3 = acceleration(p, t + h / 2, x + h / 2 * v2, v3), v4 = v + h * a3;
+    const long double a4 = acceleration(p, t + h, x + h * v3, v4);
+    x += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
+    v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+  }
+  *theta = (double)x;
+  *velocity = (double)v;
+}
+
+static void put_starts(double *theta, double *velocity, int64_t *turns) {
+  for (int i = 0; i < N; i++)
+    theta[i] = fmod(2.399963 * i, 2 * M_PI) - M_PI, velocity[i] = 3 * fmod(0.7548776662 * i, 1) - 1.5, turns[i] = 0;
+}
+
+static double between(double a, double b) {
+  return fabs(remainder(a - b, 2 * M_PI));
+}
+
+static void the_equation_is_integrated(void **unused) {
+  (void)unused;
+  for (int which = 0; which < DRIVES; which++) {
+    const kz_pendulum p = drive(which);
+    const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 192};
+    double theta[N], velocity[N], x[N], v[N], y[N], w[N];
+    int64_t turns[N];
+    kz_reference_state states[N];
+    put_starts(theta, velocity, turns);
+    memcpy(x, theta, sizeof x), memcpy(v, velocity, sizeof v);
+    kz_plan *plan = kz_plan_create(&p, &fine);
+    kz_advance(plan, N, 1, x, v, turns);
+    kz_plan_free(plan);
+    kz_reference_start(N, theta, velocity, NULL, states);
+    kz_reference_advance(&p, KZ_REFERENCE_STEPS, N, 1, states);
+    kz_reference_read(N, states, y, w, turns);
+    for (int i = 0; i < N; i++) {
+      integrate(&p, 0, 2 * acosl(-1), theta + i, velocity + i);
+      assert_true(between(y[i], theta[i]) < 1e-11 && fabs(w[i] - velocity[i]) < 1e-11);
+      assert_true(between(x[i], y[i]) < 1e-11 && fabs(v[i] - w[i]) < 1e-11);
+    }
+  }
+}
+
+/* Without a torque and a horizontal drive the mirror image is a motion, to the bit; with them it is none. */
+static void symmetry_is_told(void **unused) {
+  (void)unused;
+  for (int which = 0; which < DRIVES; which++) {
+    const kz_pendulum p = drive(which);
+    const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
+    double x[N], v[N], y[N], w[N];
+    int64_t turns[N];
+    put_starts(x, v, turns);
+    for (int i = 0; i < N; i++) y[i] = -x[i], w[i] = -v[i];
+    kz_plan *plan = kz_plan_create(&p, &numerics);
+    kz_advance(plan, N, 3, x, v, turns);
+    kz_advance(plan, N, 3, y, w, turns);
+    kz_plan_free(plan);
+    int mirrored = 0;
+    for (int i = 0; i < N; i++) mirrored += x[i] == -y[i] && v[i] == -w[i];
+    assert_true(kz_is_mirrored(&p) ? mirrored == N : mirrored == 0);
+  }
+}
+
+/* The tangent map is the derivative, and areas shrink by exp(-2 pi beta). */
+static void the_tangent_is_the_derivative(void **unused) {
+  (void)unused;
+  const double h = 1e-5;
+  for (int which = 0; which < DRIVES; which++) {
+    const kz_pendulum p = drive(which);
+    const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
+    kz_plan *plan = kz_plan_create(&p, &numerics);
+    double theta = 0.7, velocity = -0.3, matrix[4], x[2] = {0.7 + h, 0.7 - h}, v[2] = {-0.3, -0.3};
+    int64_t turns[2] = {0};
+    kz_advance_tangent(plan, 1, 1, &theta, &velocity, turns, matrix);
+    kz_advance(plan, 2, 1, x, v, turns);
+    kz_plan_free(plan);
+    assert_true(fabs((x[0] - x[1]) / (2 * h) - matrix[0]) < 1e-7 && fabs((v[0] - v[1]) / (2 * h) - matrix[2]) < 1e-7);
+    assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - exp(-2 * M_PI * p.beta)) < 1e-12);
+  }
+}
+
+/* A shift of the drive's phase is a later beginning. */
+static void a_shift_is_a_later_beginning(void **unused) {
+  (void)unused;
+  for (int which = 0; which < DRIVES; which++) {
+    const kz_pendulum p = drive(which);
+    kz_pendulum shifted;
+    double x = 0.4, v = -0.8, y = 0.4, w = -0.8;
+    kz_pendulum_shift(&p, 1.3, &shifted);
+    integrate(&p, 1.3L, 5, &x, &v);
+    integrate(&shifted, 0, 5, &y, &w);
+    assert_true(fabs(x - y) < 1e-13 && fabs(v - w) < 1e-13);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_equation_is_integrated), cmocka_unit_test(symmetry_is_told),
+                                     cmocka_unit_test(the_tangent_is_the_derivative),
+                                     cmocka_unit_test(a_shift_is_a_later_beginning)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
