@@ -24,8 +24,9 @@ static bool march(const kz_pendulum *p, long double dr, kz_majorant *at) {
       to.y = (at->y + dr * to.w) * (1 + CAUTION);
     }
   }
+  if (!holds) return false;
   const long double stiffness = torque * coshl(to.y), rest = 1 - dr * p->beta - dr * dr * stiffness;
-  if (!holds || !(rest > 0.5L)) return false;
+  if (!(rest > 0.5L)) return false;
   for (int c = 0; c < 2; c++) { /* linear: slope = old + dr (beta slope + stiffness (a + dr slope)) */
     to.slope[c] = (at->slope[c] + dr * stiffness * at->a[c]) / rest * (1 + CAUTION);
     to.a[c] = (at->a[c] + dr * to.slope[c]) * (1 + CAUTION);

@@ -60,14 +60,21 @@ static void print_labels(const kz_counts *counts, int64_t cells, FILE *summary) 
             (long long)counts->refuted);
 }
 
+static void print_sample(const kz_proof_sample *sample, FILE *summary) {
+  if (sample->starts == 0)
+    fprintf(summary, "no attractor is proved, so no label can be\n");
+  else
+    fprintf(summary,
+            "of %lld random real starts of the window %lld are not proved: less than %.2g of its area ends elsewhere (%.0f %% "
+            "confidence)\n",
+            (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
+}
+
 kz_status kz_proof_write(const kz_proof *proof, const kz_catalogue *catalogue, int64_t cells, const kz_counts *counts,
                          const kz_proof_sample *sample, kz_store *store, FILE *summary) {
   const double share = (double)counts->proved / (double)cells;
   print_labels(counts, cells, summary);
-  fprintf(summary,
-          "of %lld random real starts of the window %lld are not proved: less than %.2g of its area ends elsewhere (%.0f %% "
-          "confidence)\n",
-          (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
+  print_sample(sample, summary);
   KZ_TRY(kz_store_real(store, "basin", "proved_share", share));
   KZ_TRY(kz_store_integer(store, "basin", "refuted", counts->refuted));
   KZ_TRY(kz_store_real(store, "basin", "other_share_high", sample->high));
