@@ -156,7 +156,7 @@ const kz_option kz_option_rows[] = {
     {"json-schema", 262, NULL, KEYS, set_json_schema, "print them as a JSON schema, for editors", NULL},
     {"port", 263, "N", VIEW, set_port, "of the local server, 1024 to 65535; default: any that is free", NULL},
     {"no-browser", 264, NULL, VIEW, set_no_browser, "print the address and open nothing", NULL},
-    {"origin", 269, "ORIGIN", VIEW, add_origin,
+    {"origin", 270, "ORIGIN", VIEW, add_origin,
      "also answer pages of this origin: https://hub.example.org, a proxy's or a tunnel's", NULL},
     {"completion", 265, "SHELL", TOP, set_completion, "print what bash, zsh or fish need to complete command lines",
      "bash|zsh|fish"},

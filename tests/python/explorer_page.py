@@ -189,7 +189,8 @@ class Page:
             for (let i = 0; i < data.length; i += 28) found.push([...data.slice(i, i + 4)]); return found; })()""")
 
     def saved(self, button, path, seconds=30):
-        """The file that a button saves."""
+        """The file that a button saves, whole: the browser first makes an empty one."""
         self.press(button)
-        assert wait_for(path.is_file, seconds)
+        part = path.with_name(f"{path.name}.crdownload")
+        assert wait_for(lambda: path.is_file() and path.stat().st_size > 0 and not part.exists(), seconds)
         return path

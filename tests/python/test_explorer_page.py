@@ -49,7 +49,8 @@ def page(driver, striped):
     driver.get("about:blank")
     fresh = Page(driver, striped.address() + "#samples=1&quality=moving")
     fresh.wait()
-    return fresh
+    yield fresh
+    driver.get("about:blank")  # it asks no more when its server ends
 
 
 # ---- modules ----
@@ -309,6 +310,7 @@ def test_with_the_program(driver, kapitza, folder, tmp_path):
     page.wait()
     assert page.run("explorer.state.window.theta.width") == pytest.approx(TURN * 1e-20)
     assert page.run("explorer.basins.panes[0].top.level") == 1
+    driver.get("about:blank")
     assert running.end() == (0, "")
 
 

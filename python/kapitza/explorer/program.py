@@ -177,7 +177,10 @@ class Views:
             yield from self.view(name).answers(request)
         except (Deaf, Gone):
             self.close(name)
-            yield from self.view(name).answers(request)
+            try:
+                yield from self.view(name).answers(request)
+            except (Deaf, Gone) as error:
+                raise Refused("the program has ended") from error
 
     def view(self, name):
         """The view of that name; begun where there is none."""
