@@ -48,15 +48,17 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   kz_proof_start *start = kz_malloc(TILE * sizeof *start);
   uint8_t *number = kz_malloc(TILE);
   for (int64_t i = 0; i < n; i++) start[i] = start_of(j->plan, first + i);
-  int64_t left = n;
+  int64_t left = n, late = 0;
   for (int32_t precision = KZ_ENCLOSE_DOUBLES; precision <= KZ_ENCLOSE_PAIRS; precision++) {
     kz_proof_follow(j->proof, precision, left, start, kz_proof_periods(j->plan), number);
-    int64_t open = 0;
-    for (int64_t i = 0; i < left; i++)
-      if (number[i] == 0 || number[i] == KZ_PROOF_LATE) start[open++] = start[i];
-    left = open;
+    int64_t grown = 0;
+    for (int64_t i = 0; i < left; i++) {
+      late += number[i] == KZ_PROOF_LATE;
+      if (number[i] == 0) start[grown++] = start[i];
+    }
+    left = grown;
   }
-  *(int64_t *)record = left;
+  *(int64_t *)record = left + late;
   free(start);
   free(number);
   return KZ_OK;
