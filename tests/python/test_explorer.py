@@ -339,3 +339,9 @@ def test_without_python_or_its_packages_one_line_says_what_to_set(python, tmp_pa
     environment = os.environ | {"KAPITZA_PYTHON": str(python), "REAL_PYTHON": os.path.realpath(shutil.which("python3"))}
     done = subprocess.run([PROGRAM, "view", SMALL], env=environment, capture_output=True, text=True, timeout=60)
     assert done.returncode == 1 and "KAPITZA_PYTHON" in done.stderr and len(done.stderr.splitlines()) == 1
+
+
+def test_an_output_that_is_full_is_an_answer_not_a_traceback():
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([PROGRAM, "view", SMALL, "--no-browser"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    assert done.returncode == 1 and done.stderr.startswith("kapitza: error: view: No space left"), done.stderr

@@ -15,3 +15,6 @@ try:
 except (BadFile, WrongArgument) as error:
     print(f"kapitza: error: {error}", file=sys.stderr)
     sys.exit(2)
+except OSError as error:  # the address could not be printed: a full disk, a closed pipe
+    print(f"kapitza: error: view: {error.strerror or error}", file=sys.stderr)
+    sys.exit(1)
