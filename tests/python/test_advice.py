@@ -61,3 +61,10 @@ def test_a_log_whose_last_line_was_cut(kapitza, tmp_path):
 def test_a_title_cannot_turn_the_terminal_round(kapitza, tmp_path):
     done = kapitza("check", SMALL, "--set", 'title="a \u202e b"', folder=tmp_path, status=2)
     assert "holds a line break or a control character" in done.stderr and "\u202e" not in done.stderr
+
+
+def test_a_lone_process_needs_no_session_folder(tmp_path):
+    """Lone processes shared Open MPI's folder: one that began while another ended sometimes failed in MPI_Init."""
+    done = subprocess.run([PROGRAM, "run", SMALL, *TINY], cwd=tmp_path, capture_output=True, text=True, timeout=60,
+                          env=os.environ | {"TMPDIR": str(tmp_path / "none")})
+    assert done.returncode == 0, done.stderr
