@@ -115,8 +115,6 @@ const kz_key kz_keys[] = {
 
     ROW("basin", KZ_KEY_MAPPING, "", AT(has_basin), "Study: the attractors, then a label for every cell of a window.",
         .unit = "", .former = "flag_undecided=basin.method exact"),
-    REAL("basin.start_phase", "rad", -1e6, 1e6, "", parameters.start_phase,
-         "Phase of the drive at which the pendulum is released; all strobe points of the file are at this phase."),
     MAPPING("basin.theta", "", KZ_NO_FIELD,
             "Angles of the cells; min and max, or centre and width, at most 2 pi; neither: the whole circle [-pi, pi)."),
     EDGE("basin.theta.min", "rad", 1e6, "", basin.theta_edges.min, "Lower edge of the window."),
@@ -150,6 +148,8 @@ const kz_key kz_keys[] = {
         .unit = "", .words = KZ_JOINED(KZ_INTERPOLATION_WORDS), .former = "cubic=quintic", CHOSEN),
     INTEGER("basin.max_periods", 1, 4e9, "", basin.max_periods,
             "Drive periods after which a cell counts as not settled; left out: what the damping needs, 2000 at least."),
+    REAL("basin.start_phase", "rad", -1e6, 1e6, "", parameters.start_phase,
+         "Phase of the drive at which the pendulum is released; all strobe points of the file are at this phase."),
     MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
