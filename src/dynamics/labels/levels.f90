@@ -11,7 +11,7 @@ module kz_labels_levels
   use kz_labels_precise_carrier, only: precise_carrier_t, make_precise_carrier
   use kz_lanes_map, only: flow_t
   use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: is_sine, pendulum_t
   use kz_lanes_step_table, only: numerics_t
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
@@ -109,19 +109,21 @@ contains
     call make_pairs(pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, error)
   end subroutine make_table
 
-  !> The processed splitting with so many steps that hardly more than rounding is left.
+  !> The processed splitting, or split6 where that does not serve, with so many steps that hardly more than rounding is left.
   subroutine make_fine(levels, pendulum, numerics, fastest)
     type(levels_t), intent(inout) :: levels
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     real(dp), intent(in) :: fastest
     type(numerics_t) :: fine
+    logical :: is_served
     integer :: n
 
+    is_served = pendulum%beta <= MOST_DAMPING .and. is_sine(pendulum) /= 0
     n = FEWEST_FINE_STEPS
     if (numerics%scheme == PROCESSED_ROW) n = max(n, 2*int(0.82_dp*numerics%steps_per_period))
     do
-      fine = numerics_t(merge(PROCESSED_ROW, SPLIT6_ROW, pendulum%beta <= MOST_DAMPING), n, fastest=fastest)
+      fine = numerics_t(merge(PROCESSED_ROW, SPLIT6_ROW, is_served), n, fastest=fastest)
       call make_flow(pendulum, fine, .true., levels%fine)
       call measure_period(levels%fine, levels%probes, levels%fine_error)
       if (levels%fine_error%worst <= FINE_ERROR .or. n >= MOST_FINE_STEPS) return
