@@ -106,6 +106,14 @@ def test_the_frequency_is_swept_in_hz(kapitza, tmp_path):
         assert list(file["sweep/value"][:]) == [1.5, 2] and file["sweep"].attrs["parameter_units"] == "Hz"
 
 
+def test_lone_processes_share_no_folder_of_mpi(tmp_path):
+    """The one that ended first took the folder of the others with it: of runs side by side one in twenty ended in MPI_Init."""
+    (tmp_path / "s.yaml").write_text("pendulum: {k: 0.1, damping: 0.1, m: 0.1}\npotential: {drive_amplitudes: [0.1], theta: {count: 20}}\n")
+    done = subprocess.run([PROGRAM, "run", "s.yaml"], cwd=tmp_path, env=os.environ | {"TMPDIR": "/proc"}, capture_output=True, text=True,
+                          check=False)  # where no folder can be made
+    assert done.returncode == 0, done.stderr
+
+
 def test_a_lone_process_starts_no_daemon(tmp_path):
     """Open MPI's own would be looked for in an empty folder."""
     command = [PROGRAM, "run", SMALL, "-o", tmp_path / "out.h5"]
