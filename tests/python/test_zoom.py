@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 import reference_check
 from conftest import datasets
-from kapitza import BadFile, Result
-from kapitza.explorer.scene import _edges
+from kapitza import Result
 from kapitza.plots.plane import Plane
 
 THETA, VELOCITY = -2.3671728704614576, 17.0
@@ -189,11 +188,3 @@ def test_a_window_about_the_origin_mirrors(kapitza, tmp_path):
         assert np.array_equal(mirror[labels], labels[::-1, ::-1])
         assert np.array_equal(labels, edges["basin/attractor"][:])
         assert np.array_equal(file["basin/theta"][:], -file["basin/theta"][:][::-1])
-
-
-def test_the_explorer_takes_a_window_by_its_middle():
-    """Its numbers are doubles: a window that they cannot tell from a point is refused in words."""
-    assert _edges({"centre": "180 deg", "width": "2", "count": 9}, "s.yaml") == {"min": np.pi - 1, "max": np.pi + 1, "count": 9}
-    assert _edges({"min": 1, "max": 2}, "s.yaml") == {"min": 1, "max": 2}
-    with pytest.raises(BadFile, match="s.yaml: is 1e-20 wide, finer than the explorer can show"):
-        _edges({"centre": "17", "width": "1e-20"}, "s.yaml")

@@ -114,10 +114,9 @@ static void compare(const window *w) {
 static void labels_are_those_of_own_orbits(void **state) {
   (void)state;
   static const window windows[] = {
-      {K01, K01_BOUNDARY, "17", "1e-7", 6},
-      {K01, K01_BOUNDARY, "17", "1e-20", 6},
-      {FIG12, FIG12_BOUNDARY, "1.42", "1e-12", 4},
-      {FIG12, FIG12_BOUNDARY, "1.42", "1e-25", 1},
+      {K01, K01_BOUNDARY, "17", "1e-7", 6},        {K01, K01_BOUNDARY, "17", "1e-20", 6},
+      {FIG12, FIG12_BOUNDARY, "1.42", "1e-12", 4}, {FIG12, FIG12_BOUNDARY, "1.42", "1e-25", 1},
+      {K01, "180 deg", "0", "1e-12", 6},
 
   };
   for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) compare(windows + i);

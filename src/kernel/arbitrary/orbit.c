@@ -103,7 +103,7 @@ static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *
     const int64_t orders = kz_series_expand(&o->series, &o->steps, i, &o->place, bits);
     if (orders == 0) return false;
     if (degree > 0) {
-      tangent = kz_series_expand_tangent(&o->series, &o->steps, &o->place, orders);
+      tangent = kz_series_expand_tangent(&o->series, &o->steps, &o->place);
       if (tangent == 0) return false;
       if (degree > 1) kz_bent_advance(&o->series, &o->steps, tangent, jet);
     }

@@ -52,6 +52,15 @@ static void expand_order(kz_series *series, const kz_steps *steps, int64_t n, in
   kz_number_clear(&damped);
 }
 
+/* A motion at rest has a short series, its neighbours a long one. */
+static int64_t end_series(kz_series *series, int64_t orders) {
+  for (int64_t n = orders + 1; n <= series->orders; n++) {
+    kz_number_of_double(0, series->sine + n);
+    kz_number_of_double(0, series->cosine + n);
+  }
+  return orders;
+}
+
 int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, const kz_place *place, int64_t bits) {
   const int64_t enough = -bits - 4;
   int64_t size[2] = {3, 3};
@@ -64,7 +73,7 @@ int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, co
     size[1] = size[0];
     size[0] = larger(kz_number_exponent(series->speed + n + 1),
                      larger(kz_number_exponent(series->sine + n + 1), kz_number_exponent(series->cosine + n + 1)));
-    if (size[0] < enough && size[1] < enough) return n + 1;
+    if (size[0] < enough && size[1] < enough) return end_series(series, n + 1);
   }
   return 0;
 }
@@ -88,7 +97,7 @@ static void expand_tangent_order(kz_series *series, const kz_steps *steps, int64
   kz_number_clear(&damped);
 }
 
-int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place, int64_t orders) {
+int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place) {
   const int64_t bits = KZ_TANGENT_BITS;
   int64_t whole = INT32_MIN, size[2];
   for (int axis = 0; axis < 2; axis++) {
@@ -97,7 +106,7 @@ int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const
     whole = larger(whole, exponent_of_two(series->angle[axis], series->rate[axis]));
   }
   size[0] = size[1] = whole;
-  for (int64_t n = 0; n < orders; n++) {
+  for (int64_t n = 0; n < series->orders; n++) {
     const int64_t first = larger(0, n - steps->force_orders);
     const int64_t left = bits_left(bits, larger(size[0], size[1]) - whole + 3);
     kz_number_dot(series->gain + n, NULL, false, series->cosine + first, series->force + (n - first), n - first + 1, left);
@@ -108,7 +117,7 @@ int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const
       size[0] = larger(size[0], exponent_of_two(series->angle[axis] + n + 1, series->rate[axis] + n + 1));
     if (larger(size[0], size[1]) < whole - bits) return n + 1;
   }
-  return larger(size[0], size[1]) < whole - bits + 12 ? orders : 0;
+  return 0;
 }
 
 /* The sum of coefficients first .. last, smallest first. */

@@ -32,7 +32,7 @@ typedef struct {
 /* The series of the step that begins at t = 2 pi i / n, from `place`. Returns its last order, 0 where it does not converge. */
 int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, const kz_place *place, int64_t bits);
 /* The tangent's series, after those of the orbit; returns as well. */
-int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place, int64_t orders);
+int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place);
 /* Moves `place` to the end of the step; with its derivatives where tangent_orders > 0. */
 void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t tangent_orders, int64_t bits,
                    kz_place *place);

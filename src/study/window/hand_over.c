@@ -32,10 +32,11 @@ static sizes sizes_of(const kz_jet *jet, double reach) {
   return s;
 }
 
-/* What degrees above the third would add: the third times the larger of the ratios of the degrees before. Near a fold the first is small. */
+/* What degrees above the third would add, about twice: the third times the ratio of a degree to the one before, as the second degree tells it -
+ * near a fold the first one is small - or, about a symmetric centre, which has no second degree, the third. */
 static long double left_out(const sizes *s) {
-  const long double third = s->square > 0 ? s->cube / s->square : 0, second = s->linear > 0 ? s->square / s->linear : 0;
-  return s->cube * fmaxl(third, second);
+  if (!(s->linear > 0)) return s->cube;
+  return 2 * s->cube * fmaxl(s->square / s->linear, sqrtl(s->cube / s->linear));
 }
 
 /* Errors of a start from image n, rad; the first image is the window itself. */

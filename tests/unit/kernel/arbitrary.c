@@ -126,6 +126,21 @@ static void areas_shrink_at_any_scale(void **state) {
   }
 }
 
+/* At rest an orbit has no series, but its neighbours move: as near the equilibrium as beside it. */
+static void neighbours_of_rest_move(void **state) {
+  (void)state;
+  kz_arbitrary *rest = orbit_at(0, 0, 160), *beside = orbit_at(1e-12, 0, 160);
+  kz_jet jet = {.linear = {{1, 0}, {0, 1}}};
+  double theta[2], velocity[2];
+  advance(rest, 2, 160, &jet);
+  advance(beside, 2, 160, NULL);
+  kz_arbitrary_read(beside, theta, velocity);
+  assert_true(fabs(theta[0] - 1e-12 * (double)jet.linear[0][0]) < 1e-27);
+  assert_true(fabs(velocity[0] - 1e-12 * (double)jet.linear[1][0]) < 1e-27);
+  kz_arbitrary_free(rest);
+  kz_arbitrary_free(beside);
+}
+
 /* Centres in decimal text, in degrees, and a share of a width. */
 static void starts_are_read(void **state) {
   (void)state;
@@ -154,11 +169,9 @@ static void mirror_images_stay_mirrored(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(agrees_with_the_quad_reference),
-      cmocka_unit_test(more_digits_agree),
-      cmocka_unit_test(neighbours_follow_the_jet),
-      cmocka_unit_test(areas_shrink_at_any_scale),
-      cmocka_unit_test(starts_are_read),
+      cmocka_unit_test(agrees_with_the_quad_reference), cmocka_unit_test(more_digits_agree),
+      cmocka_unit_test(neighbours_follow_the_jet),      cmocka_unit_test(areas_shrink_at_any_scale),
+      cmocka_unit_test(neighbours_of_rest_move),        cmocka_unit_test(starts_are_read),
       cmocka_unit_test(mirror_images_stay_mirrored),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
