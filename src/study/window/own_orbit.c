@@ -7,7 +7,8 @@
 enum {
   FIRST_BITS = 192, /* of the first try; each further one has twice as many */
   MOST_BITS = 12288,
-  TRY_EVERY = 8 /* periods between two looks whether doubles decide the rest */
+  TRY_EVERY = 8,  /* periods between two looks whether doubles decide the rest, */
+  LOOK_EVERY = 64 /* and whether they end anywhere */
 };
 
 /* rad: the orbit is followed in many digits as long as its error is below this; doubles add as much in a period. */
@@ -56,6 +57,12 @@ static kz_status advance(path *p) {
   return KZ_OK;
 }
 
+/* Whether doubles, without regard to errors, end nowhere known: more digits would not find an attractor that the catalogue lacks. */
+static bool ends_nowhere(const kz_start *start, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
+  kz_dynamics_label(dynamics, KZ_LEVEL_GUESS, KZ_LEVEL_DOUBLE, 1, start, max_periods, decision);
+  return decision->label == 0;
+}
+
 /* The rest of the motion in double precision. */
 static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   const long double unit = unit_of(p) * unit_of(p);
@@ -66,6 +73,8 @@ static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_per
     kz_dynamics_label(dynamics, level, KZ_LEVEL_DOUBLE, 1, &start, max_periods, decision);
     if (decision->label != KZ_DOUBTFUL) return;
   }
+  if (p->periods % LOOK_EVERY == 0 && ends_nowhere(&start, dynamics, max_periods, decision)) return;
+  decision->label = KZ_DOUBTFUL;
 }
 
 /* Until it is decided, or has lost its digits: decision->label is KZ_DOUBTFUL then. */
