@@ -188,3 +188,21 @@ def test_a_window_about_the_origin_mirrors(kapitza, tmp_path):
         assert np.array_equal(mirror[labels], labels[::-1, ::-1])
         assert np.array_equal(labels, edges["basin/attractor"][:])
         assert np.array_equal(file["basin/theta"][:], -file["basin/theta"][:][::-1])
+
+
+@pytest.mark.parametrize("theta, velocity, several", [
+    ("centre: 0.1, width: 1e-20", "centre: 0.2, width: 1e-20", False),  # inside a basin
+    ("centre: 0, width: 1e-100", "centre: 0, width: 1e-100", False),  # at an equilibrium
+    ("centre: 180 deg, width: 1e-30", "centre: 0, width: 1e-30", True),  # on a saddle, its own mirror image
+    (f"centre: {BOUNDARY}, width: 1e-20", "centre: 17, width: 1e-6", True),  # two scales
+    (f"centre: {BOUNDARY}, width: 1e-100", "min: 16.5, max: 17.5", True),
+], ids=["inside", "equilibrium", "saddle", "scales", "edges"])
+def test_windows_of_all_kinds(kapitza, tmp_path, theta, velocity, several):
+    (tmp_path / "x.yaml").write_text(json.dumps({"pendulum": PENDULUM}))
+    window = f"basin={{theta: {{{theta}, count: 12}}, velocity: {{{velocity}, count: 12}}, method: exact, attractors: {{starts: 512}}}}"
+    kapitza("run", "x.yaml", "--set", window, folder=tmp_path)
+    with h5py.File(tmp_path / "x.h5") as file:
+        labels, mirror = file["basin/attractor"][:], file["attractors/mirror"][:]
+        assert (labels >= 0).all() and (len(np.unique(labels)) > 1) == several and file["basin"].attrs["undecided"] == 0
+        if "180" in theta:
+            assert np.array_equal(mirror[labels], labels[::-1, ::-1])

@@ -121,7 +121,8 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_status status = kz_ranks_agree(run->ranks, kz_proof_plan(scene, &proof));
   if (status == KZ_OK) {
-    labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &labelling.search.window);
+    const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
+    labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &motions);
     status = write_window(scene, &labelling, proof, &catalogue, &s, store, summary);
   }
   kz_dynamics_free(labelling.dynamics);

@@ -114,6 +114,15 @@ static double margin(const kz_axis *axis) {
   return kz_axis_is_deep(axis) ? around : 0;
 }
 
+kz_window kz_motions_window(const kz_axis *theta, const kz_axis *velocity) {
+  static const double swift = 2.5; /* rad per drive radian: rotations at twice the drive's rate */
+  kz_window window = kz_window_of(theta, velocity);
+  if (!kz_axis_is_deep(velocity) && !kz_axis_is_deep(theta)) return window;
+  window.velocity_min = fmin(window.velocity_min, -swift);
+  window.velocity_max = fmax(window.velocity_max, swift);
+  return window;
+}
+
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity) {
   return (kz_window){theta->min - margin(theta), theta->max + margin(theta), velocity->min - margin(velocity),
                      velocity->max + margin(velocity)};

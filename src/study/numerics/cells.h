@@ -34,6 +34,8 @@ double kz_cell_size(const kz_basin_plan *plan);
 
 /* Where attractors are looked for: the window; of one that is a point to doubles a neighbourhood. */
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
+/* The same with all velocities at which motions from such a point go on, which tell nothing of it: how fast numerics must be right. */
+kz_window kz_motions_window(const kz_axis *theta, const kz_axis *velocity);
 
 /* Cells of a tile of labels, at most `most`: few where each may take long, so that a stop loses seconds of work. */
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most);

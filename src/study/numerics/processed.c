@@ -38,7 +38,7 @@ double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, i
 
 /* Windows of the scene's studies, at the pendulum numbered `last`. */
 static void add_window(demand *d, const kz_axis *theta, const kz_axis *velocity, int64_t rows) {
-  const kz_window window = kz_window_of(theta, velocity);
+  const kz_window window = kz_motions_window(theta, velocity);
   d->fastest = fmax(d->fastest, kz_fastest_motion(d->pendulum + d->count - 1, &window, rows));
 }
 

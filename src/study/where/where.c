@@ -29,7 +29,9 @@ static void where_allocate(where_job *a) {
 /* The attractors that the window's starts, and then those asked for, end on. */
 static kz_status where_discover(where_job *a) {
   const kz_question *q = &a->question;
-  a->search.max_velocity = kz_dynamics_max_velocity(q->dynamics, &a->search.window);
+  const kz_window motions =
+      q->scene->has_basin ? kz_motions_window(&q->scene->basin.theta, &q->scene->basin.velocity) : a->search.window;
+  a->search.max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
   KZ_TRY(kz_search_window(NULL, q->dynamics, &a->search, a->state, a->found));
   const int64_t searched = kz_dynamics_count(q->dynamics);
   int64_t *reached = kz_calloc((size_t)searched + 1, sizeof *reached);
