@@ -67,6 +67,7 @@ _SCENES = {
     "formula-errors": [_ERRORS],
     "laboratory": [_LABORATORY],
     "manifolds-fig12": [_MANIFOLDS],
+    "proof-fig12": [_PROVED],
     "proof-fig13": [_PROVED],
     "saddles-fig12": [_SADDLES],
     "small": [_BASIN],

@@ -126,7 +126,8 @@ def test_a_pbs_job_is_submitted_again_after_75(tmp_path, status, again):
 def test_the_containers_install_what_the_build_needs():
     """The same Debian packages in both, and those of scripts/setup but for the tests and Python."""
     docker, apptainer = ((ROOT / "containers" / name).read_text().split() for name in ("Dockerfile", "kapitza.def"))
-    needs = [line.split("|")[1].strip() for line in (ROOT / "scripts" / "setup").read_text().splitlines() if line.count("|") == 2]
+    rows = [line.split("|") for line in (ROOT / "cmake" / "packages.txt").read_text().splitlines() if line.count("|") == 6]
+    needs = {row[2].strip() for row in rows if not row[0].startswith("#")}
     needs = {name for name in needs if name and " " not in name and not name.startswith(("python", "netcdf", "libcmocka"))}
     assert len(needs) > 8 and needs <= set(docker) and needs <= set(apptainer)
 
