@@ -21,8 +21,8 @@ static const char *needs_sine(const kz_scene *scene) {
   if (scene->has_chart) return "study chart follows pendulums whose pivot moves up and down as a sine";
   if (scene->has_potential) return "study potential has a closed formula for the sine alone";
   if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM) return "orbit.model has equations for the sine alone";
-  if (scene->has_basin && (kz_axis_is_deep(&scene->basin.theta) || kz_axis_is_deep(&scene->basin.velocity)))
-    return "windows that doubles do not resolve have their orbits for the sine alone; use a wider one";
+  if (scene->has_basin && (scene->basin.theta.centre.text[0] || scene->basin.velocity.centre.text[0]))
+    return "windows by centre and width have their reference orbit for the sine alone; give min and max";
   if (scene->has_basin && scene->basin.undecided == KZ_UNDECIDED_DECIDE)
     return "basin.undecided decide has orbits of any precision for the sine alone; choose flag";
   if (scene->has_basin && scene->basin.proof) return "basin.proof has bounds for the sine alone";

@@ -2,10 +2,12 @@
 
 import json
 import math
+import subprocess
 
 import h5py
 import numpy as np
 import pytest
+from conftest import PROGRAM, ROOT
 
 WINDOW = {"theta": {"count": 24}, "velocity": {"min": -2, "max": 2, "count": 24}}
 PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
@@ -111,3 +113,16 @@ def test_what_a_drive_does_not_allow_is_refused_by_name(kapitza, tmp_path, keys,
     (tmp_path / "rig.yaml").write_text(json.dumps({"pendulum": {**PENDULUM, **keys}, **study}))
     done = kapitza("check", "rig.yaml", folder=tmp_path, status=2)
     assert named in done.stderr, done.stderr
+
+
+def test_frames_and_centred_windows_of_other_drives_are_refused(kapitza, tmp_path):
+    """Their reference orbits know the sine alone: labels would be silently wrong."""
+    tilted = ["--set", "pendulum.tilt=5 deg"]
+    centred = ["--set", 'basin.theta={centre: "1", width: 0.1, count: 4}']
+    small = ROOT / "scenes" / "small.yaml"
+    done = kapitza("check", small, *tilted, *centred, "--set", "basin.method=exact", folder=tmp_path, status=2)
+    assert "give min and max" in done.stderr
+    asked = '{"sequence": 1, "request": "catalogue"}\n{"sequence": 2, "request": "quit"}\n'
+    done = subprocess.run([PROGRAM, "serve", small, *tilted, "--set", "basin.method=exact"], input=asked, capture_output=True,
+                          text=True, timeout=60)
+    assert "as a sine" in done.stdout + done.stderr
