@@ -122,7 +122,10 @@ def test_frames_and_centred_windows_of_other_drives_are_refused(kapitza, tmp_pat
     small = ROOT / "scenes" / "small.yaml"
     done = kapitza("check", small, *tilted, *centred, "--set", "basin.method=exact", folder=tmp_path, status=2)
     assert "give min and max" in done.stderr
-    asked = '{"sequence": 1, "request": "catalogue"}\n{"sequence": 2, "request": "quit"}\n'
-    done = subprocess.run([PROGRAM, "serve", small, *tilted, "--set", "basin.method=exact"], input=asked, capture_output=True,
-                          text=True, timeout=60)
-    assert "as a sine" in done.stdout + done.stderr
+    words = [PROGRAM, "serve", small, *tilted, "--set", "basin.method=exact"]
+    with subprocess.Popen(list(map(str, words)), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as engine:
+        engine.stdin.write('{"sequence": 1, "request": "catalogue"}\n')
+        engine.stdin.flush()
+        answers = [engine.stdout.readline() for _ in range(2)]
+        engine.stdin.close()
+    assert "as a sine" in answers[1]
