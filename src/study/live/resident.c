@@ -58,8 +58,6 @@ static int64_t periods_of(const kz_scene *scene, bool moving) {
 }
 
 kz_status kz_resident_make(const kz_scene *scene, bool moving, kz_resident *resident) {
-  if (!kz_is_sine(&scene->parameters.pendulum)) /* images of windows, folded frames and continued attractors are the sine's */
-    return kz_fail(KZ_REFUSED, "pendulum: frames are of pivots that move up and down as a sine; use kapitza run");
   *resident = (kz_resident){.scene = *scene, .moving = moving, .chosen = scene->parameters.pendulum};
   resident->periods = periods_of(scene, moving);
   resident->scene.title = NULL;
