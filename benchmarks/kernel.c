@@ -84,29 +84,29 @@ static double largest_error(const probes *p, const double *theta, const double *
   return largest;
 }
 
-/* One row of the table for a plan. */
-static bool time_plan(const char *name, double tolerance, const kz_pendulum *pendulum, const kz_numerics *numerics,
+/* One row of the table for a flow. */
+static bool time_flow(const char *name, double tolerance, const kz_pendulum *pendulum, const kz_numerics *numerics,
                       int operations, const probes *p, int n, int periods) {
   double probe_theta[PROBES], probe_velocity[PROBES], best = INFINITY;
   double *theta = malloc((size_t)n * sizeof *theta), *velocity = malloc((size_t)n * sizeof *velocity);
   int64_t *turns = calloc((size_t)(n > PROBES ? n : PROBES), sizeof *turns);
-  kz_plan *plan = kz_plan_create(pendulum, numerics);
-  const bool good = theta && velocity && turns && plan;
+  kz_flow *flow = kz_flow_create(pendulum, numerics);
+  const bool good = theta && velocity && turns && flow;
   if (good) {
     memcpy(probe_theta, p->theta, sizeof probe_theta);
     memcpy(probe_velocity, p->velocity, sizeof probe_velocity);
-    kz_advance(plan, PROBES, 1, probe_theta, probe_velocity, turns);
+    kz_advance(flow, PROBES, 1, probe_theta, probe_velocity, turns);
   }
   for (int repeat = 0; good && repeat < REPEATS; repeat++) {
     spread(n, theta, velocity);
     const double start = now();
-    kz_advance(plan, n, periods, theta, velocity, turns);
+    kz_advance(flow, n, periods, theta, velocity, turns);
     best = fmin(best, now() - start);
   }
   if (good)
     printf("row %s %g %.3f %.3g %d\n", name, tolerance, 1e9 * best / n / periods, largest_error(p, probe_theta, probe_velocity),
            operations);
-  if (plan) kz_plan_free(plan);
+  if (flow) kz_flow_free(flow);
   free(theta);
   free(velocity);
   free(turns);
@@ -123,7 +123,7 @@ static bool time_processed(double tolerance, const kz_pendulum *pendulum, const 
     return true;
   }
   const int operations = numerics.steps_per_period * (numerics.drift_terms + numerics.kick_terms + other_operations);
-  return time_plan("processed", tolerance, pendulum, &numerics, operations, p, n, periods);
+  return time_flow("processed", tolerance, pendulum, &numerics, operations, p, n, periods);
 }
 
 static int motion(double t, const double y[], double rate[], void *parameters) {
@@ -180,7 +180,7 @@ int main(int argc, char **argv) {
   printf("peak %.3f\n", peak());
   for (int i = 0; i < PROBES; i++)
     printf("state %.17g %.17g %.17g %.17g\n", p.theta[i], p.velocity[i], p.theta1[i], p.velocity1[i]);
-  bool good = time_plan("split6-24", 0, &pendulum, &split6, 0, &p, n, periods);
+  bool good = time_flow("split6-24", 0, &pendulum, &split6, 0, &p, n, periods);
   for (size_t i = 0; good && i < sizeof tolerances / sizeof *tolerances; i++)
     good = time_processed(tolerances[i], &pendulum, &p, n, periods) && time_gsl(tolerances[i], &pendulum, &p, periods);
   if (!good) fputs("kernel: error: out of memory, or GSL does not come to the end of a period\n", stderr);

@@ -45,7 +45,7 @@ void kz_dynamics_update(kz_dynamics *dynamics);
 enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
 /* Follows n starts state [n][2] until each is trapped: label [n] = attractor, 0 where it has not settled; periods [n] = first
  * period inside a trapping region, max_periods where none. The states of those that have not settled become where they are then. */
-void kz_dynamics_follow(kz_dynamics *dynamics, int32_t way, int64_t n, int64_t max_periods, double *state, int32_t *label,
+void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
                         int64_t *periods);
 
 /* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) of n_steps steps a period, from start [n][2] in rad and

@@ -1,4 +1,4 @@
-/* kernel: tiles of trajectories of the shaken pendulum through whole drive periods (Fortran; layer 0).
+/* kernel: batches of trajectories of the shaken pendulum through whole drive periods (Fortran; layer 0).
  The equation: model.h.
  *
  * theta in rad from the DOWN position, t in drive radians, velocity in rad per drive radian. A period is 2 pi; every period
@@ -43,22 +43,22 @@ enum { KZ_MOST_PROCESSED_STEPS = 160 };
 kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics,
                              double *error);
 
-/* A plan: pendulum and numerics turned into tables. Opaque; free with kz_plan_free. */
-typedef struct kz_plan kz_plan;
-kz_plan *kz_plan_create(const kz_pendulum *pendulum, const kz_numerics *numerics);
-void kz_plan_free(kz_plan *plan);
+/* A flow: pendulum and numerics turned into the map of one drive period. Opaque; free with kz_flow_free. */
+typedef struct kz_flow kz_flow;
+kz_flow *kz_flow_create(const kz_pendulum *pendulum, const kz_numerics *numerics);
+void kz_flow_free(kz_flow *flow);
 
 /* Advances n states through `periods` whole periods. theta [n] comes back wrapped to [-pi, pi], turns [n] gains the net
  * number of turns (counterclockwise +). Any n. */
-void kz_advance(const kz_plan *plan, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns);
+void kz_advance(const kz_flow *flow, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns);
 
 /* The same with the tangent map: matrix [n][4] = row-major d(theta, velocity)/d(theta0, velocity0) over the periods. */
-void kz_advance_tangent(const kz_plan *plan, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns,
+void kz_advance_tangent(const kz_flow *flow, int64_t n, int64_t periods, double *theta, double *velocity, int64_t *turns,
                         double *matrix);
 
 /* One motion sampled in continuous time: sample s = 0 .. periods * samples_per_period at t = 2 pi s / samples_per_period.
- * theta_out is unwrapped. The plan's steps_per_period must be a multiple of samples_per_period. */
-void kz_sample(const kz_plan *plan, int64_t periods, int64_t samples_per_period, double theta, double velocity,
+ * theta_out is unwrapped. The flow's steps_per_period must be a multiple of samples_per_period. */
+void kz_sample(const kz_flow *flow, int64_t periods, int64_t samples_per_period, double theta, double velocity,
                double *theta_out, double *velocity_out);
 
 /* Models of an orbit: the pendulum itself, and two simpler ones. */
@@ -131,7 +131,7 @@ void kz_reference_read(int64_t n, const kz_reference_state *states, double *thet
 /* ---- pairs ---- */
 
 /* Whole drive periods in pairs of doubles, high + low: some 32 digits, many states at once, for a twentieth of what the
- * reference costs. A plan holds tables of the processed splitting with so many steps that the error of a period (rad, angle and
+ * reference costs. A handle holds tables of the processed splitting with so many steps that the error of a period (rad, angle and
  * velocity together), measured against the reference, is at most `tolerance` for speeds up to `fastest` (rad per drive radian);
  * *error = that measured error. States that are faster, or that no table serves, are moved by the reference's series. Opaque;
  * Free with kz_pairs_free. */
@@ -212,14 +212,15 @@ typedef struct {
  * reach[i] and |dz[i]/dz0[j] - (i == j)| <= jacobian_error[i][j], which begins with 0. */
 typedef enum { KZ_NEW_FRAME, KZ_KEEP_FRAME } kz_enclosure_frame;
 
-/* A plan for sets whose centres are never faster than `fastest` (rad per drive radian) where a step begins; those that are get lost.
+/* Tables for sets whose centres are never faster than `fastest` (rad per drive radian) where a step begins; those that are get lost.
  * KZ_REFUSED, without a message, where that takes more than 4096 steps a period, or the drive is not k - m cos t alone. */
-typedef struct kz_enclosure_plan kz_enclosure_plan;
-kz_status kz_enclosure_plan_create(const kz_pendulum *pendulum, int32_t precision, double fastest, kz_enclosure_plan **plan);
-void kz_enclosure_plan_free(kz_enclosure_plan *plan);
+typedef struct kz_enclosure_tables kz_enclosure_tables;
+kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precision, double fastest,
+                                     kz_enclosure_tables **tables);
+void kz_enclosure_tables_free(kz_enclosure_tables *tables);
 
 /* Advances n sets [n] through one drive period, whole turns left out. A set's result does not depend on its neighbours; some hundred
  * go together at best speed. */
-void kz_enclosures_advance(const kz_enclosure_plan *plan, kz_enclosure_frame frame, int64_t n, kz_enclosure *set);
+void kz_enclosures_advance(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int64_t n, kz_enclosure *set);
 
 #endif

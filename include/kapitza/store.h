@@ -72,8 +72,8 @@ kz_status kz_store_number(kz_store *store, const char *group, const char *name, 
 /* ---- arrays of numbers as HDF5's filters shuffle and deflate pack them; no HDF5 ---- */
 
 /* Bytes that n packed numbers of `item` bytes take at most. */
-size_t kz_pack_room(size_t n, size_t item);
-/* Packs n numbers of `item` bytes, of which neighbours are often equal, into `packed` [kz_pack_room]: how many bytes that took, a function of the numbers alone; 0 where
+size_t kz_pack_bytes(size_t n, size_t item);
+/* Packs n numbers of `item` bytes, of which neighbours are often equal, into `packed` [kz_pack_bytes]: how many bytes that took, a function of the numbers alone; 0 where
  * zlib has no memory. */
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed);
 /* The reverse; false where `packed` [bytes] does not hold n such numbers. */

@@ -3,7 +3,7 @@ module kz_kernel_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
                                          c_f_pointer
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_flow, fine_numerics, sampling_numerics
+  use kz_kernel_flows, only: make_flow, fine_numerics, sampling_numerics
   use kz_lanes_schemes, only: SCHEMES
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
@@ -11,10 +11,10 @@ module kz_kernel_api
   implicit none
   private
 
-  type :: plan_t
+  type :: flows_t
     class(flow_t), allocatable :: fused
     class(flow_t), allocatable :: unfused
-  end type plan_t
+  end type flows_t
 
   type, bind(C) :: scheme_row_t
     character(kind=c_char) :: name(16)
@@ -60,28 +60,28 @@ contains
     end do
   end function c_text
 
-  function plan_create(pendulum, numerics) bind(C, name='kz_plan_create') result(handle)
+  function flow_create(pendulum, numerics) bind(C, name='kz_flow_create') result(handle)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     type(c_ptr) :: handle
-    type(plan_t), pointer :: plan
+    type(flows_t), pointer :: flows
     integer :: status
 
     handle = c_null_ptr
-    allocate (plan, stat=status)
+    allocate (flows, stat=status)
     if (status /= 0) return
-    call make_flow(pendulum, numerics, .true., plan%fused)
-    call make_flow(pendulum, sampling_numerics(pendulum, numerics), .false., plan%unfused)
-    handle = c_loc(plan)
-  end function plan_create
+    call make_flow(pendulum, numerics, .true., flows%fused)
+    call make_flow(pendulum, sampling_numerics(pendulum, numerics), .false., flows%unfused)
+    handle = c_loc(flows)
+  end function flow_create
 
-  subroutine plan_free(handle) bind(C, name='kz_plan_free')
+  subroutine flow_free(handle) bind(C, name='kz_flow_free')
     type(c_ptr), value :: handle
-    type(plan_t), pointer :: plan
+    type(flows_t), pointer :: flows
 
-    call c_f_pointer(handle, plan)
-    if (associated(plan)) deallocate (plan)
-  end subroutine plan_free
+    call c_f_pointer(handle, flows)
+    if (associated(flows)) deallocate (flows)
+  end subroutine flow_free
 
   subroutine advance(handle, n, periods, theta, velocity, turns) bind(C, name='kz_advance')
     type(c_ptr), value :: handle
@@ -90,21 +90,21 @@ contains
     real(c_double), intent(inout) :: theta(n)
     real(c_double), intent(inout) :: velocity(n)
     integer(c_int64_t), intent(inout) :: turns(n)
-    type(plan_t), pointer :: plan
+    type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
     integer(c_int64_t) :: first, period
     integer :: lanes
 
-    call c_f_pointer(handle, plan)
-    allocate (flow, source=plan%fused)
+    call c_f_pointer(handle, flows)
+    allocate (flow, source=flows%fused)
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
       call load(flow, lanes, theta(first:), velocity(first:))
-      call flow%enter(lanes)
+      call flow%to_map(lanes)
       do period = 1, periods
         call flow%advance(lanes)
       end do
-      call flow%leave(lanes)
+      call flow%to_physical(lanes)
       call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
     end do
   end subroutine advance
@@ -117,25 +117,25 @@ contains
     real(c_double), intent(inout) :: velocity(n)
     integer(c_int64_t), intent(inout) :: turns(n)
     real(c_double), intent(out) :: matrix(2, 2, n)
-    type(plan_t), pointer :: plan
+    type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
     real(c_double) :: tangent(2, 2, WIDTH)
     integer(c_int64_t) :: first, period
     integer :: lanes, i
 
-    call c_f_pointer(handle, plan)
-    allocate (flow, source=plan%fused)
+    call c_f_pointer(handle, flows)
+    allocate (flow, source=flows%fused)
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
       call load(flow, lanes, theta(first:), velocity(first:))
       tangent = 0
       tangent(1, 1, :) = 1
       tangent(2, 2, :) = 1
-      call flow%enter(lanes, tangent)
+      call flow%to_map(lanes, tangent)
       do period = 1, periods
         call flow%advance_tangent(lanes, tangent)
       end do
-      call flow%leave(lanes, tangent)
+      call flow%to_physical(lanes, tangent)
       call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
       do i = 1, lanes
         matrix(:, :, first + i - 1) = transpose(tangent(:, :, i))
@@ -178,12 +178,12 @@ contains
     real(c_double), value :: velocity
     real(c_double), intent(out) :: theta_out(0:periods*samples)
     real(c_double), intent(out) :: velocity_out(0:periods*samples)
-    type(plan_t), pointer :: plan
+    type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
     integer(c_int64_t) :: period, first, last, turns
 
-    call c_f_pointer(handle, plan)
-    allocate (flow, source=plan%unfused)
+    call c_f_pointer(handle, flows)
+    allocate (flow, source=flows%unfused)
     call flow%put(1, theta/PI, velocity)
     theta_out(0) = theta
     velocity_out(0) = velocity

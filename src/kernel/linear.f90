@@ -50,7 +50,7 @@ contains
 
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
-      call half_tile(lanes, k(first:), beta(first:), m(first:), half(first:))
+      call half_batch(lanes, k(first:), beta(first:), m(first:), half(first:))
     end do
   end subroutine half_periods
 
@@ -75,7 +75,7 @@ contains
 
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
-      call half_tile(lanes, k(first:), beta(first:), m(first:), half)
+      call half_batch(lanes, k(first:), beta(first:), m(first:), half)
       do i = 1, lanes
         j = first + i - 1
         call classify(half(i), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
@@ -143,8 +143,8 @@ contains
     end if
   end function growth_of
 
-  !> One tile through half a period; its steps suit its hardest lane.
-  subroutine half_tile(lanes, k, beta, m, half)
+  !> One batch through half a period; its steps suit its hardest lane.
+  subroutine half_batch(lanes, k, beta, m, half)
     integer, intent(in) :: lanes
     real(rk), intent(in) :: k(*)
     real(rk), intent(in) :: beta(*)
@@ -169,7 +169,7 @@ contains
     do i = 1, lanes
       half(i) = half_period_t(y%w(i, 1), y%w(i, 2), y%w_dot(i, 1)/h, y%w_dot(i, 2)/h, LIFT_BITS*y%lifts(i))
     end do
-  end subroutine half_tile
+  end subroutine half_batch
 
   !> Taylor coefficients of cos(t + h x) in x.
   pure function cosine_series(t, h) result(series)

@@ -5,7 +5,7 @@ module kz_kernel_processed_choice
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_processed_flow
+  use kz_kernel_flows, only: make_processed_flow
   use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_lanes_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness, is_sine
@@ -126,9 +126,9 @@ contains
       do lane = 1, WIDTH
         call flow%put(lane, probes%start(1, first + lane), probes%start(2, first + lane))
       end do
-      call flow%enter(WIDTH)
+      call flow%to_map(WIDTH)
       call flow%advance(WIDTH)
-      call flow%leave(WIDTH)
+      call flow%to_physical(WIDTH)
       do lane = 1, WIDTH
         distance = hypot(PI*(modulo(flow%u(lane) - probes%image(1, first + lane) + 1, 2.0_c_double) - 1), &
                          flow%v(lane) - probes%image(2, first + lane))

@@ -10,10 +10,10 @@ enum { TAG = 4, END = 5, BUFFERS = 4 };
 static const size_t MESSAGE_MAX = (size_t)1 << 30;
 
 void kz_local_records_add(kz_local_records *pieces, int64_t tile, const void *data, size_t bytes) {
-  if (pieces->n == pieces->room) {
-    const int64_t room = 2 * pieces->room + 16;
-    pieces->list = kz_realloc(pieces->list, (size_t)room * sizeof *pieces->list);
-    pieces->room = room;
+  if (pieces->n == pieces->capacity) {
+    const int64_t capacity = 2 * pieces->capacity + 16;
+    pieces->list = kz_realloc(pieces->list, (size_t)capacity * sizeof *pieces->list);
+    pieces->capacity = capacity;
   }
   void *copy = kz_malloc(bytes + 1);
   pieces->list[pieces->n++] = (kz_local_record){tile, bytes, memcpy(copy, data, bytes)};
@@ -74,7 +74,7 @@ static kz_status send_pieces(mail *m) {
   return status;
 }
 
-/* Rank 0 has room for the next message, or hears how many the next rank has sent. */
+/* Rank 0 has space for the next message, or hears how many the next rank has sent. */
 static kz_status expect(mail *m, int slot) {
   MPI_Request *request = &m->request[slot];
   if (slot < BUFFERS)

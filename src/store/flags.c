@@ -5,7 +5,7 @@
 
 kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings) {
   hid_t folder, dataset = H5I_INVALID_HID, type = H5I_INVALID_HID;
-  int64_t *values = kz_malloc((size_t)n * sizeof *values); /* room for any integer type */
+  int64_t *values = kz_malloc((size_t)n * sizeof *values); /* wide enough for any integer type */
   for (int64_t i = 0; i < n; i++) ((int32_t *)values)[i] = first + (int32_t)i;
   kz_status status = kz_store_group(store, group, &folder);
   if (status == KZ_OK) {

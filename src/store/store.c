@@ -24,10 +24,10 @@ static kz_status create_file(kz_store *store) {
 
 /* Both here and in HDF5 the file is created, never opened: a link of that name must not lead elsewhere. */
 static kz_status try_path(kz_store *store, const char *path) {
-  const size_t room = strlen(path) + sizeof ".part";
+  const size_t size = strlen(path) + sizeof ".part";
   store->path = kz_strdup(path);
-  store->part = kz_malloc(room);
-  snprintf(store->part, room, "%s.part", path);
+  store->part = kz_malloc(size);
+  snprintf(store->part, size, "%s.part", path);
   unlink(store->part); /* of a killed run */
   const int file = open(store->part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) return kz_fail(KZ_REFUSED, "%s: cannot be created: %s", store->part, strerror(errno));

@@ -1,4 +1,4 @@
-/* Packing into given room, and the reverse. */
+/* Packing into a given buffer, and the reverse. */
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -6,7 +6,7 @@
 #include "kapitza/store.h"
 #include "pack.h"
 
-size_t kz_pack_room(size_t n, size_t item) {
+size_t kz_pack_bytes(size_t n, size_t item) {
   return n * item + n * item / 8 + 128; /* more than deflate's own bound */
 }
 
@@ -14,7 +14,7 @@ size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed) {
   void *made;
   size_t bytes;
   if (kz_pack(numbers, item, n, true, &made, &bytes) != KZ_OK) return 0;
-  const bool fits = bytes <= kz_pack_room(n, item);
+  const bool fits = bytes <= kz_pack_bytes(n, item);
   if (fits) memcpy(packed, made, bytes);
   free(made);
   return fits ? bytes : 0;

@@ -16,10 +16,10 @@ static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 24};
 
 static void advance(const kz_pendulum *pendulum, const kz_numerics *numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
-  kz_plan *plan = kz_plan_create(pendulum, numerics);
-  assert_non_null(plan);
-  kz_advance(plan, N, 1, theta, velocity, turns);
-  kz_plan_free(plan);
+  kz_flow *flow = kz_flow_create(pendulum, numerics);
+  assert_non_null(flow);
+  kz_advance(flow, N, 1, theta, velocity, turns);
+  kz_flow_free(flow);
 }
 
 /* N starts: the seam, one step beside it, the rest positions, and between. */
@@ -115,15 +115,15 @@ static void lost_angles_are_not_numbers(void **unused) {
 static void areas_are_conserved(void **unused) {
   (void)unused;
   const kz_pendulum pendulum = {0.01, 0, 0.3};
-  kz_plan *plan = kz_plan_create(&pendulum, &fine);
-  assert_non_null(plan);
+  kz_flow *flow = kz_flow_create(&pendulum, &fine);
+  assert_non_null(flow);
   double theta = 0.4, velocity = 0.1, matrix[4], growth = 0;
   int64_t turns = 0;
   for (int period = 0; period < 100000; period++) {
-    kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
+    kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
     growth += log(matrix[0] * matrix[3] - matrix[1] * matrix[2]);
   }
-  kz_plan_free(plan);
+  kz_flow_free(flow);
   if (!(fabs(growth) < 1e-12)) fail_msg("areas grew by %g", growth);
 }
 

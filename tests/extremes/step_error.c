@@ -26,10 +26,10 @@ static void put_grid(const double *speed, int class, double *theta, double *velo
 
 static void advance(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
   static int64_t turns[N];
-  kz_plan *plan = kz_plan_create(pendulum, &numerics);
-  assert_non_null(plan);
-  kz_advance(plan, N, 1, theta, velocity, turns);
-  kz_plan_free(plan);
+  kz_flow *flow = kz_flow_create(pendulum, &numerics);
+  assert_non_null(flow);
+  kz_advance(flow, N, 1, theta, velocity, turns);
+  kz_flow_free(flow);
 }
 
 /* The largest error of one period on the grid of one class, rad: split6 with many more steps is the reference. */

@@ -2,7 +2,7 @@
 module kz_test_counted
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_lanes_map, only: flow_t, WIDTH
-  use kz_kernel_plan, only: make_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_lanes_schemes, only: SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t

@@ -17,11 +17,11 @@ static void put_starts(double *theta, double *velocity) {
 
 static void fly(const kz_pendulum *pendulum, kz_numerics numerics, double *theta, double *velocity) {
   int64_t turns[N] = {0};
-  kz_plan *plan = kz_plan_create(pendulum, &numerics);
-  assert_non_null(plan);
+  kz_flow *flow = kz_flow_create(pendulum, &numerics);
+  assert_non_null(flow);
   put_starts(theta, velocity);
-  kz_advance(plan, N, 1, theta, velocity, turns);
-  kz_plan_free(plan);
+  kz_advance(flow, N, 1, theta, velocity, turns);
+  kz_flow_free(flow);
 }
 
 static double error_of(const kz_pendulum *pendulum, kz_numerics numerics) {
@@ -61,15 +61,15 @@ static void test_undamped(void **state) {
   const kz_pendulum pendulum = {1.0 / 121, 0, 0.3};
   for (int row = 1; row < kz_scheme_count(); row++) {
     kz_numerics numerics = {.scheme = row, .steps_per_period = 24};
-    kz_plan *plan = kz_plan_create(&pendulum, &numerics);
+    kz_flow *flow = kz_flow_create(&pendulum, &numerics);
     double theta = 3.0, velocity = 0, matrix[4];
     int64_t turns = 0;
-    kz_advance(plan, 1, 100000, &theta, &velocity, &turns);
+    kz_advance(flow, 1, 100000, &theta, &velocity, &turns);
     assert_int_equal(turns, 0);
     assert_true(fabs(fabs(theta) - M_PI) < 0.5);
-    kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
+    kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
     assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - 1) < 1e-12);
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 

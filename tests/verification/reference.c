@@ -84,17 +84,17 @@ static void agrees_with_the_split_scheme(void **unused) {
   (void)unused;
   const kz_pendulum pendulum = Q5_11(0.3);
   const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 192};
-  kz_plan *plan = kz_plan_create(&pendulum, &numerics);
-  assert_non_null(plan);
+  kz_flow *flow = kz_flow_create(&pendulum, &numerics);
+  assert_non_null(flow);
   for (int i = 0; i < 6; i++) {
     double theta = 0.9 * i - 2.2, velocity = 1.1 - 0.5 * i;
     int64_t turns = 0;
     motion end = carried(pendulum, KZ_REFERENCE_STEPS, 1, theta, velocity);
-    kz_advance(plan, 1, 1, &theta, &velocity, &turns);
+    kz_advance(flow, 1, 1, &theta, &velocity, &turns);
     assert_true(between(end.theta, theta) < 1e-12);
     assert_true(fabs(end.velocity - velocity) < 1e-12);
   }
-  kz_plan_free(plan);
+  kz_flow_free(flow);
 }
 
 static void mirror_is_exact(void **unused) {

@@ -63,11 +63,11 @@ static void nonlinear_tangent_map_agrees(void **unused) {
   for (int i = 0; i < 6; i++) {
     kz_pendulum pendulum = {random_between(-0.5, 1.5), random_between(0, 0.4), random_between(-1, 1)};
     kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 128};
-    kz_plan *plan = kz_plan_create(&pendulum, &fine);
+    kz_flow *flow = kz_flow_create(&pendulum, &fine);
     double theta = 0, velocity = 0, matrix[4];
     int64_t turns = 0;
-    kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
-    kz_plan_free(plan);
+    kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
+    kz_flow_free(flow);
     kz_half_period half = half_period(pendulum.k, pendulum.beta, pendulum.m);
     double trace = 2 * exp(-PI * pendulum.beta) * (2 * half.c * half.s_dot - 1);
     assert_true(fabs(trace - (matrix[0] + matrix[3])) < 1e-10 * (1 + fabs(trace)));

@@ -2,11 +2,11 @@
 module kz_api_close_cycle
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_lanes_map, only: flow_t, PI
-  use kz_kernel_plan, only: make_flow
+  use kz_kernel_flows, only: make_flow
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t, close_cycle
-  use kz_maps_states, only: enter_states, leave_states
+  use kz_maps_states, only: states_to_map, states_to_physical
   implicit none
   private
 
@@ -39,12 +39,12 @@ contains
     call make_flow(pendulum, numerics, .true., flow)
     u = theta/PI
     v = velocity
-    call enter_states(flow, u, v)
+    call states_to_map(flow, u, v)
     call close_cycle(flow, pendulum%beta, int(n), u(1), v(1), max_distance, cycle, found, blurred)
     period = 0
     if (.not. found) return
     period = cycle%period
-    call leave_states(flow, cycle%u, cycle%v)
+    call states_to_physical(flow, cycle%u, cycle%v)
     theta = PI*cycle%u(1)
     velocity = cycle%v(1)
     re = real(cycle%multiplier, dp)

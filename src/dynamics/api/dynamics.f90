@@ -1,7 +1,7 @@
 !> The C interface of dynamics: the handle (include/kapitza/dynamics.h).
 module kz_api_dynamics
   use, intrinsic :: iso_c_binding, only: c_int64_t, c_ptr, c_loc
-  use kz_kernel_plan, only: make_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
   use kz_api_handle, only: dynamics_t, of_handle

@@ -1,7 +1,7 @@
 !> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics.h).
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_associated, c_f_pointer, c_int32_t, c_int64_t, c_ptr
-  use kz_maps_states, only: leave_states
+  use kz_maps_states, only: states_to_physical
   use kz_lanes_map, only: map_t
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_labels_label, only: follow
@@ -15,9 +15,9 @@ module kz_api_follow
 
 contains
 
-  subroutine follow_starts(handle, way, n, max_periods, state, label, periods) bind(C, name='kz_dynamics_follow')
+  subroutine follow_starts(handle, stepping, n, max_periods, state, label, periods) bind(C, name='kz_dynamics_follow')
     type(c_ptr), value :: handle
-    integer(c_int32_t), value :: way
+    integer(c_int32_t), value :: stepping
     integer(c_int64_t), value :: n
     integer(c_int64_t), value :: max_periods
     real(dp), intent(inout) :: state(2, n)
@@ -28,11 +28,11 @@ contains
 
     d => of_handle(handle)
     periods = max_periods
-    select case (way)
+    select case (stepping)
     case (DIRECT)
       call follow(d%flow, d%regions, d%attractors, state, label, periods)
     case default
-      allocate (map, source=make_table_map(d%table, int(way), d%search%flow))
+      allocate (map, source=make_table_map(d%table, int(stepping), d%search%flow))
       call follow(map, d%regions, d%attractors, state, label, periods)
     end select
     call leave_open(d, state, label)
@@ -48,7 +48,7 @@ contains
     if (all(label /= 0)) return
     u = pack(state(1, :), label == 0)
     v = pack(state(2, :), label == 0)
-    call leave_states(d%search%flow, u, v)
+    call states_to_physical(d%search%flow, u, v)
     state(1, :) = unpack(u, label == 0, state(1, :))
     state(2, :) = unpack(v, label == 0, state(2, :))
   end subroutine leave_open

@@ -2,7 +2,7 @@
 module kz_api_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_lanes_map, only: flow_t, PI
-  use kz_kernel_plan, only: make_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t
   use kz_saddles_manifold, only: grow_manifold
   implicit none

@@ -5,7 +5,7 @@ module kz_api_map_table
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_api_window, only: window_t, starts
   use kz_maps_map_table, only: make_table, table_row, set_table_rows, inner_top, table_map_t, make_table_map
-  use kz_maps_step_error, only: table_defect
+  use kz_maps_step_error, only: error_of_table
   implicit none
   private
 
@@ -55,7 +55,7 @@ contains
   end subroutine table_set
 
   !> Sampled over the speeds of the window and what one period adds, without the table's margin.
-  function defect(handle, points) bind(C, name='kz_dynamics_table_error') result(largest)
+  function table_error(handle, points) bind(C, name='kz_dynamics_table_error') result(largest)
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: points
     real(dp) :: largest
@@ -70,7 +70,7 @@ contains
     top = inner_top(d%table)
     call starts(window_t(-PI, PI, -top, top), 2_c_int64_t, SAMPLES, state)
     map = make_table_map(d%table, int(points), d%search%flow)
-    largest = table_defect(d%search%flow, map, state)
-  end function defect
+    largest = error_of_table(d%search%flow, map, state)
+  end function table_error
 
 end module kz_api_map_table

@@ -2,7 +2,7 @@
 module kz_api_saddles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_lanes_map, only: flow_t, PI
-  use kz_kernel_plan, only: make_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_lanes_step_table, only: numerics_t
   use kz_api_handle, only: dynamics_t, of_handle

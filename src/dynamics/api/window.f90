@@ -54,9 +54,9 @@ contains
       do i = 1, WIDTH
         call d%search%flow%put(i, 2*real(i, dp)/WIDTH - 1, v)
       end do
-      call d%search%flow%enter(WIDTH)
+      call d%search%flow%to_map(WIDTH)
       call d%search%flow%advance(WIDTH)
-      call d%search%flow%leave(WIDTH)
+      call d%search%flow%to_physical(WIDTH)
       top = max(top, maxval(abs(d%search%flow%v(:WIDTH))))
     end do
   end function max_velocity

@@ -49,7 +49,7 @@ contains
     do lane = 1, WIDTH
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
     end do
-    call search%flow%enter(WIDTH)
+    call search%flow%to_map(WIDTH)
     allocate (visits_of(COVER**2), source=0)
     do period = 1, SETTLE + VISITS
       call search%flow%advance(WIDTH)
@@ -64,7 +64,7 @@ contains
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call set_cover(attractor, visits_of)
-    call search%flow%leave(1)
+    call search%flow%to_physical(1)
     call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
@@ -92,7 +92,7 @@ contains
     real(dp) :: mean, error
 
     call flow%put(1, u, v)
-    call flow%enter(1)
+    call flow%to_map(1)
     call exponent(flow, 1, PARTING_PERIODS, mean, error)
     part = PARTING_PERIODS*mean > log(PARTED)
   end function neighbours_part

@@ -55,7 +55,7 @@ contains
     do lane = 1, size(u)
       call search%flow%put(lane, u(lane), v(lane))
     end do
-    call search%flow%enter(size(u))
+    call search%flow%to_map(size(u))
     orbit_u(:, 0) = search%flow%u(:size(u))
     orbit_v(:, 0) = search%flow%v(:size(u))
     do n = 1, search%max_period

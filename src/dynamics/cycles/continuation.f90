@@ -2,7 +2,7 @@
 module kz_cycles_continuation
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_lanes_map, only: flow_t, PI
-  use kz_kernel_plan, only: make_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, orbit_of
   use kz_cycles_newton, only: eigenvalues, n_periods, solved, minimal_period
@@ -101,7 +101,7 @@ contains
     before = 2*max_distance
     converged = .false.
     do i = 1, NEWTON_STEPS
-      call defect(flow, cycle, x, residual, matrix)
+      call closing_error(flow, cycle, x, residual, matrix)
       step = solved(matrix, residual)
       if (.not. all(abs(step) < huge(1.0_dp))) return
       length = norm2(step)
@@ -116,7 +116,7 @@ contains
   end function solves
 
   !> residual = G(x) - x (rad) and G's derivative, G = F^n, or of symmetric cycles -F^(n/2).
-  subroutine defect(flow, cycle, x, residual, matrix)
+  subroutine closing_error(flow, cycle, x, residual, matrix)
     class(flow_t), intent(inout) :: flow
     type(branch_point_t), intent(in) :: cycle
     real(dp), intent(in) :: x(2)
@@ -127,7 +127,7 @@ contains
     if (cycle%symmetric == 0) return
     residual = [PI*angle_difference(-flow%u(1), x(1)), -flow%v(1) - x(2)]
     matrix = -matrix
-  end subroutine defect
+  end subroutine closing_error
 
   !> Everything about the cycle through x but its period and symmetry, which `point` holds.
   subroutine describe(flow, pendulum, x, point)
@@ -145,7 +145,7 @@ contains
     point%velocity = x(2)
     call orbit_of(flow, n, x, cycle, matrix)
     call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*n)), point%multiplier_re, point%multiplier_im)
-    call defect(flow, point, x, residual, matrix)
+    call closing_error(flow, point, x, residual, matrix)
     call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*map_periods(point))), point%half_re, point%half_im)
     call make_flow(pendulum, fine_numerics(pendulum), .false., sampled)
     call find_features(sampled, pendulum, cycle, x(1), x(2), n)

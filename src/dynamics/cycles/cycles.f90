@@ -3,7 +3,7 @@ module kz_cycles_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_cycles_newton, only: newton, minimal_period, eigenvalues
-  use kz_maps_states, only: angle_difference, enter_states, same_state, rounded
+  use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded
   implicit none
   private
   public :: attractor_t, close_cycle, complete_attractor, orbit_of, enter_points, symmetrise, mirror_image, listed_from_lowest
@@ -121,7 +121,7 @@ contains
 
     attractor%kernel_u = attractor%u
     attractor%kernel_v = attractor%v
-    call enter_states(flow, attractor%kernel_u, attractor%kernel_v)
+    call states_to_map(flow, attractor%kernel_u, attractor%kernel_v)
   end subroutine enter_points
 
   !> A cycle that is its own mirror image, x(1 + n/2) = -x(1), is made so to the bit: x(j + n/2) = -x(j), or exactly down or

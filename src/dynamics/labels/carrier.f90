@@ -3,7 +3,7 @@ module kz_labels_carrier
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_labels_period_error, only: period_error_t, class_of
   use kz_labels_spread, only: add_ellipse
-  use kz_lanes_map, only: flow_t, WIDTH, ROOM, PI
+  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
   private
   public :: orbit_t, carrier_t, plain_carrier_t, make_plain_carrier
@@ -19,21 +19,21 @@ module kz_labels_carrier
 
   type, abstract :: carrier_t
     !> states as regions see them: half-turns, rad per drive radian
-    real(dp) :: u(ROOM) = 0
-    real(dp) :: v(ROOM) = 0
+    real(dp) :: u(CAPACITY) = 0
+    real(dp) :: v(CAPACITY) = 0
     !> of the last period: derivatives of the angle by angle and velocity, of the velocity by both
     real(dp) :: tangent(WIDTH, 4) = 0
     !> what steps and rounding added in it, rad
     real(dp) :: noise(WIDTH) = 0
     !> how far the states may be from where regions see them, rad
-    real(dp) :: seen(ROOM) = 0
+    real(dp) :: region_error(CAPACITY) = 0
   contains
     !> Puts an orbit into a lane; its error grows by what that costs.
     procedure(put_i), deferred :: put
     !> The physical state of a lane.
     procedure(take_i), deferred :: take
     !> Lanes first .. n become visible after they have been put.
-    procedure(enter_i), deferred :: enter
+    procedure(to_map_i), deferred :: to_map
     procedure(move_i), deferred :: move
     !> One period of the lanes 1 .. n.
     procedure(advance_i), deferred :: advance
@@ -54,12 +54,12 @@ module kz_labels_carrier
       type(orbit_t), intent(inout) :: orbit
     end subroutine take_i
 
-    subroutine enter_i(self, first, n)
+    subroutine to_map_i(self, first, n)
       import :: carrier_t
       class(carrier_t), intent(inout) :: self
       integer, intent(in) :: first
       integer, intent(in) :: n
-    end subroutine enter_i
+    end subroutine to_map_i
 
     subroutine move_i(self, from, to)
       import :: carrier_t
@@ -83,7 +83,7 @@ module kz_labels_carrier
   contains
     procedure :: put
     procedure :: take
-    procedure :: enter
+    procedure :: to_map
     procedure :: move
     procedure :: advance
   end type plain_carrier_t
@@ -122,15 +122,15 @@ contains
     orbit%v = [self%v(lane), 0.0_dp]
   end subroutine take
 
-  subroutine enter(self, first, n)
+  subroutine to_map(self, first, n)
     class(plain_carrier_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
 
-    call self%flow%enter(n, first=first)
+    call self%flow%to_map(n, first=first)
     self%u(first:n) = self%flow%u(first:n)
     self%v(first:n) = self%flow%v(first:n)
-  end subroutine enter
+  end subroutine to_map
 
   subroutine move(self, from, to)
     class(plain_carrier_t), intent(inout) :: self

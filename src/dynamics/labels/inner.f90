@@ -4,7 +4,7 @@ module kz_labels_inner
   use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
   use kz_extended_taylor, only: drive_t, advance_period, qp
   use kz_labels_period_error, only: period_error_t, class_of
-  use kz_lanes_map, only: flow_t, WIDTH, ROOM, PI
+  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
   private
   public :: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
@@ -18,7 +18,7 @@ module kz_labels_inner
     procedure(put_i), deferred :: put
     procedure(take_i), deferred :: take
     !> Lanes first .. n have been put.
-    procedure(enter_i), deferred :: enter
+    procedure(to_map_i), deferred :: to_map
     procedure(move_i), deferred :: move
     procedure(advance_i), deferred :: advance
     !> Lanes first .. n in double precision.
@@ -44,12 +44,12 @@ module kz_labels_inner
       real(dp), intent(out) :: v(2)
     end subroutine take_i
 
-    subroutine enter_i(self, first, n)
+    subroutine to_map_i(self, first, n)
       import :: inner_t
       class(inner_t), intent(inout) :: self
       integer, intent(in) :: first
       integer, intent(in) :: n
-    end subroutine enter_i
+    end subroutine to_map_i
 
     subroutine move_i(self, from, to)
       import :: inner_t
@@ -65,12 +65,12 @@ module kz_labels_inner
     end subroutine advance_i
 
     subroutine show_i(self, first, n, u, v)
-      import :: inner_t, dp, ROOM
+      import :: inner_t, dp, CAPACITY
       class(inner_t), intent(inout) :: self
       integer, intent(in) :: first
       integer, intent(in) :: n
-      real(dp), intent(inout) :: u(ROOM)
-      real(dp), intent(inout) :: v(ROOM)
+      real(dp), intent(inout) :: u(CAPACITY)
+      real(dp), intent(inout) :: v(CAPACITY)
     end subroutine show_i
 
     pure function noise_i(self, v) result(noise)
@@ -89,7 +89,7 @@ module kz_labels_inner
   contains
     procedure :: put => fine_put
     procedure :: take => fine_take
-    procedure :: enter => fine_enter
+    procedure :: to_map => fine_to_map
     procedure :: move => fine_move
     procedure :: advance => fine_advance
     procedure :: show => fine_show
@@ -99,12 +99,12 @@ module kz_labels_inner
   !> Pairs of doubles, physical coordinates.
   type, extends(inner_t) :: inner_pairs_t
     type(pairs_t), pointer :: tables => null()
-    real(dp) :: u(ROOM, 2) = 0
-    real(dp) :: v(ROOM, 2) = 0
+    real(dp) :: u(CAPACITY, 2) = 0
+    real(dp) :: v(CAPACITY, 2) = 0
   contains
     procedure :: put => pairs_put
     procedure :: take => pairs_take
-    procedure :: enter => pairs_enter
+    procedure :: to_map => pairs_to_map
     procedure :: move => pairs_move
     procedure :: advance => pairs_advance
     procedure :: show => pairs_show
@@ -114,13 +114,13 @@ module kz_labels_inner
   !> Quad precision, by Taylor series.
   type, extends(inner_t) :: inner_quad_t
     type(drive_t), pointer :: drive => null()
-    real(qp) :: theta(ROOM) = 0    !< rad
-    real(qp) :: velocity(ROOM) = 0 !< rad per drive radian
+    real(qp) :: theta(CAPACITY) = 0    !< rad
+    real(qp) :: velocity(CAPACITY) = 0 !< rad per drive radian
     real(dp) :: error = 0          !< of a period, relative to hypot(pi, v)
   contains
     procedure :: put => quad_put
     procedure :: take => quad_take
-    procedure :: enter => quad_enter
+    procedure :: to_map => quad_to_map
     procedure :: move => quad_move
     procedure :: advance => quad_advance
     procedure :: show => quad_show
@@ -145,18 +145,18 @@ contains
     real(dp), intent(out) :: v(2)
 
     call self%shown%put(lane, self%flow%u(lane), self%flow%v(lane))
-    call self%shown%leave(lane, first=lane)
+    call self%shown%to_physical(lane, first=lane)
     u = [self%shown%u(lane), 0.0_dp]
     v = [self%shown%v(lane), 0.0_dp]
   end subroutine fine_take
 
-  subroutine fine_enter(self, first, n)
+  subroutine fine_to_map(self, first, n)
     class(inner_fine_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
 
-    call self%flow%enter(n, first=first)
-  end subroutine fine_enter
+    call self%flow%to_map(n, first=first)
+  end subroutine fine_to_map
 
   subroutine fine_move(self, from, to)
     class(inner_fine_t), intent(inout) :: self
@@ -177,14 +177,14 @@ contains
     class(inner_fine_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
-    real(dp), intent(inout) :: u(ROOM)
-    real(dp), intent(inout) :: v(ROOM)
+    real(dp), intent(inout) :: u(CAPACITY)
+    real(dp), intent(inout) :: v(CAPACITY)
     integer :: lane
 
     do lane = first, n
       call self%shown%put(lane, self%flow%u(lane), self%flow%v(lane))
     end do
-    call self%shown%leave(n, first=first)
+    call self%shown%to_physical(n, first=first)
     u(first:n) = self%shown%u(first:n)
     v(first:n) = self%shown%v(first:n)
   end subroutine fine_show
@@ -217,13 +217,13 @@ contains
     v = self%v(lane, :)
   end subroutine pairs_take
 
-  subroutine pairs_enter(self, first, n)
+  subroutine pairs_to_map(self, first, n)
     class(inner_pairs_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
 
     if (n >= first) self%u(first:n, 2) = self%u(first:n, 2)
-  end subroutine pairs_enter
+  end subroutine pairs_to_map
 
   subroutine pairs_move(self, from, to)
     class(inner_pairs_t), intent(inout) :: self
@@ -252,8 +252,8 @@ contains
     class(inner_pairs_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
-    real(dp), intent(inout) :: u(ROOM)
-    real(dp), intent(inout) :: v(ROOM)
+    real(dp), intent(inout) :: u(CAPACITY)
+    real(dp), intent(inout) :: v(CAPACITY)
 
     u(first:n) = self%u(first:n, 1)
     v(first:n) = self%v(first:n, 1)
@@ -287,13 +287,13 @@ contains
     v = pair_of(self%velocity(lane))
   end subroutine quad_take
 
-  subroutine quad_enter(self, first, n)
+  subroutine quad_to_map(self, first, n)
     class(inner_quad_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
 
     if (n >= first) self%theta(first:n) = self%theta(first:n)
-  end subroutine quad_enter
+  end subroutine quad_to_map
 
   subroutine quad_move(self, from, to)
     class(inner_quad_t), intent(inout) :: self
@@ -317,8 +317,8 @@ contains
     class(inner_quad_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
-    real(dp), intent(inout) :: u(ROOM)
-    real(dp), intent(inout) :: v(ROOM)
+    real(dp), intent(inout) :: u(CAPACITY)
+    real(dp), intent(inout) :: v(CAPACITY)
 
     u(first:n) = real(self%theta(first:n)/PI_QUAD, dp)
     v(first:n) = real(self%velocity(first:n), dp)

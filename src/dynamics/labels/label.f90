@@ -2,7 +2,7 @@
 !> coordinates of the map many at a time, and wait.
 module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
-  use kz_lanes_map, only: map_t, WIDTH, ROOM
+  use kz_lanes_map, only: map_t, WIDTH, CAPACITY
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
@@ -17,11 +17,11 @@ module kz_labels_label
     integer :: active = 0              !< lanes 1 .. active are advanced
     integer :: waiting = 0             !< starts that wait for a lane:
     integer :: queue(WIDTH)            !< in these, the last first
-    integer(c_int64_t) :: start(ROOM)  !< which start
-    integer(c_int64_t) :: age(ROOM)    !< periods since then
-    integer(c_int64_t) :: most(ROOM)   !< periods that it is followed at most
-    integer :: guest_of(ROOM)          !< chaotic attractor whose cover it is in
-    integer :: stay(ROOM)              !< for so many periods
+    integer(c_int64_t) :: start(CAPACITY)  !< which start
+    integer(c_int64_t) :: age(CAPACITY)    !< periods since then
+    integer(c_int64_t) :: most(CAPACITY)   !< periods that it is followed at most
+    integer :: guest_of(CAPACITY)          !< chaotic attractor whose cover it is in
+    integer :: stay(CAPACITY)              !< for so many periods
   end type lanes_t
 
 contains
@@ -91,7 +91,7 @@ contains
         end do
         lanes%age(WIDTH + 1:) = 0
         lanes%guest_of(WIDTH + 1:) = 0
-        call map%enter(WIDTH + n, first=WIDTH + 1)
+        call map%to_map(WIDTH + n, first=WIDTH + 1)
         call find_regions(regions, attractors, n, map%u(WIDTH + 1:WIDTH + n), map%v(WIDTH + 1:WIDTH + n), found)
         do i = n, 1, -1 ! the first start is to leave the queue first
           if (found(i) == 0 .and. lanes%most(WIDTH + i) > 0) then

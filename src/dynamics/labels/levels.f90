@@ -4,7 +4,7 @@ module kz_labels_levels
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_extended_pairs, only: pairs_t, pair_series_t, make_pairs
   use kz_extended_taylor, only: drive_t, make_drive
-  use kz_kernel_plan, only: make_flow
+  use kz_kernel_flows, only: make_flow
   use kz_labels_carrier, only: carrier_t, plain_carrier_t, make_plain_carrier
   use kz_labels_inner, only: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
   use kz_labels_period_error, only: period_error_t, probes_t, make_probes, measure_period

@@ -7,7 +7,7 @@ module kz_labels_orbits
   use kz_labels_bending, only: measure_bending, SAFETY
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors
-  use kz_lanes_map, only: flow_t, WIDTH, ROOM, PI
+  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -39,14 +39,14 @@ module kz_labels_orbits
     integer :: waiting = 0            !< orbits that wait for a lane:
     integer :: queue(WIDTH)           !< in these, the last first
     real(dp) :: p(WIDTH, 3) = 0       !< errors
-    real(dp) :: coming(3, ROOM) = 0   !< of orbits that wait
-    integer(c_int64_t) :: number(ROOM) = 0
-    integer(c_int64_t) :: age(ROOM) = 0
-    integer :: first(ROOM) = 0        !< trapping region that holds the state alone, 0 = none yet
-    integer(c_int64_t) :: since(ROOM) = 0
-    integer :: guest_of(ROOM) = 0     !< chaotic attractor whose cover it is in
-    integer :: stay(ROOM) = 0         !< for so many periods
-    logical :: doubted(ROOM) = .false.
+    real(dp) :: coming(3, CAPACITY) = 0   !< of orbits that wait
+    integer(c_int64_t) :: number(CAPACITY) = 0
+    integer(c_int64_t) :: age(CAPACITY) = 0
+    integer :: first(CAPACITY) = 0        !< trapping region that holds the state alone, 0 = none yet
+    integer(c_int64_t) :: since(CAPACITY) = 0
+    integer :: guest_of(CAPACITY) = 0     !< chaotic attractor whose cover it is in
+    integer :: stay(CAPACITY) = 0         !< for so many periods
+    logical :: doubted(CAPACITY) = .false.
   end type lanes_t
 
 contains
@@ -146,7 +146,7 @@ contains
           call open_lane(lanes, i, next, orbit(next))
           next = next + 1
         end do
-        call carrier%enter(WIDTH + 1, WIDTH + n)
+        call carrier%to_map(WIDTH + 1, WIDTH + n)
         call find_regions(regions, attractors, n, carrier%u(WIDTH + 1:WIDTH + n), carrier%v(WIDTH + 1:WIDTH + n), found)
         do i = n, 1, -1 ! the first orbit is to leave the queue first
           if (.not. enters(WIDTH + i, found(i))) cycle
@@ -164,7 +164,7 @@ contains
       enters = .true.
       if (region > 0) call note_region(lanes, lane, region, guess)
       if (region > 0 .and. sum(lanes%coming([1, 3], lane)) < TOLERABLE**2) &
-        enters = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%coming(:, lane), carrier%seen(lane), region)
+        enters = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%coming(:, lane), carrier%region_error(lane), region)
       if (.not. enters) call settle(lane, region, .true., lanes%coming(:, lane))
       if (enters .and. lanes%age(lane) >= most) then
         enters = .false.
@@ -192,7 +192,7 @@ contains
         lanes%guest_of(lane) = 0
         call note_region(lanes, lane, region, guess)
         if (.not. lanes%doubted(lane)) &
-          is_open = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%p(lane, :), carrier%seen(lane), region)
+          is_open = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%p(lane, :), carrier%region_error(lane), region)
         if (.not. is_open) call settle(lane, region, .true., lanes%p(lane, :))
       else if (with_covers) then
         call visit(lane, is_open)
@@ -294,28 +294,28 @@ contains
     lanes%doubted(to) = lanes%doubted(from)
   end subroutine move
 
-  !> Does the trapping region that holds (u0, v0) hold the whole ellipse, and `seen` rad beyond?
-  function holds(regions, attractors, u0, v0, p, seen, region) result(inside)
+  !> Does the trapping region that holds (u0, v0) hold the whole ellipse, and `region_error` rad beyond?
+  function holds(regions, attractors, u0, v0, p, region_error, region) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     real(dp), intent(in) :: u0
     real(dp), intent(in) :: v0
     real(dp), intent(in) :: p(3)
-    real(dp), intent(in) :: seen
+    real(dp), intent(in) :: region_error
     integer, intent(in) :: region
     logical :: inside
     real(dp) :: u(RIM), v(RIM), angle, along, across, slant
     integer :: label(RIM), i
 
     along = sqrt(p(1))
-    inside = cell_holds(regions, u0, v0, (SAFETY*along + seen)/PI, SAFETY*sqrt(p(3)) + seen)
+    inside = cell_holds(regions, u0, v0, (SAFETY*along + region_error)/PI, SAFETY*sqrt(p(3)) + region_error)
     if (inside) return
     slant = merge(p(2)/along, 0.0_dp, along > 0)
     across = sqrt(max(0.0_dp, p(3) - slant**2))
     do i = 1, RIM
       angle = 2*PI*i/RIM
-      u(i) = angle_difference(u0 + ((SAFETY*along + seen)*cos(angle))/PI, 0.0_dp)
-      v(i) = v0 + SAFETY*(slant*cos(angle) + across*sin(angle)) + seen*sin(angle)
+      u(i) = angle_difference(u0 + ((SAFETY*along + region_error)*cos(angle))/PI, 0.0_dp)
+      v(i) = v0 + SAFETY*(slant*cos(angle) + across*sin(angle)) + region_error*sin(angle)
     end do
     call find_regions(regions, attractors, RIM, u, v, label)
     inside = all(label == region)

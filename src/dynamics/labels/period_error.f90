@@ -105,7 +105,7 @@ contains
     do lane = 1, WIDTH
       call flow%put(lane, probes%start(1, first + lane - 1), probes%start(2, first + lane - 1))
     end do
-    call flow%enter(WIDTH)
+    call flow%to_map(WIDTH)
   end subroutine put_probes
 
   subroutine measure_noise(flow, probes, first, error)
@@ -119,7 +119,7 @@ contains
 
     call put_probes(flow, probes, first)
     call flow%advance(WIDTH)
-    call flow%leave(WIDTH)
+    call flow%to_physical(WIDTH)
     do lane = 1, WIDTH
       class = (first + lane - 2)/EACH
       du = flow%u(lane) - probes%image(1, first + lane - 1)

@@ -6,7 +6,7 @@ module kz_labels_precise_carrier
   use kz_labels_inner, only: inner_t
   use kz_labels_period_error, only: period_error_t, class_of
   use kz_labels_spread, only: add_ellipse
-  use kz_lanes_map, only: flow_t, WIDTH, ROOM
+  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY
   implicit none
   private
   public :: precise_carrier_t, make_precise_carrier
@@ -19,7 +19,7 @@ module kz_labels_precise_carrier
   contains
     procedure :: put
     procedure :: take
-    procedure :: enter
+    procedure :: to_map
     procedure :: move
     procedure :: advance
   end type precise_carrier_t
@@ -59,29 +59,29 @@ contains
     call self%inner%take(lane, orbit%u, orbit%v)
   end subroutine take
 
-  subroutine enter(self, first, n)
+  subroutine to_map(self, first, n)
     class(precise_carrier_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
 
-    call self%inner%enter(first, n)
+    call self%inner%to_map(first, n)
     call see(self, first, n)
-  end subroutine enter
+  end subroutine to_map
 
   !> Shows lanes first .. n, at most WIDTH, to the regions.
   subroutine see(self, first, n)
     class(precise_carrier_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
-    real(dp) :: u(ROOM), v(ROOM)
+    real(dp) :: u(CAPACITY), v(CAPACITY)
     integer :: lane
 
     call self%inner%show(first, n, u, v)
     do lane = first, n
       call self%flow%put(lane, u(lane), v(lane))
-      self%seen(lane) = self%error%noise(class_of(self%error, v(lane)))
+      self%region_error(lane) = self%error%noise(class_of(self%error, v(lane)))
     end do
-    call self%flow%enter(n, first=first)
+    call self%flow%to_map(n, first=first)
     self%u(first:n) = self%flow%u(first:n)
     self%v(first:n) = self%flow%v(first:n)
   end subroutine see
@@ -95,7 +95,7 @@ contains
     call self%flow%move(from, to)
     self%u(to) = self%u(from)
     self%v(to) = self%v(from)
-    self%seen(to) = self%seen(from)
+    self%region_error(to) = self%region_error(from)
   end subroutine move
 
   subroutine advance(self, n)

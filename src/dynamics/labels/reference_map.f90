@@ -2,8 +2,8 @@
 !> doubles.
 module kz_labels_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_maps_states, only: enter_states
-  use kz_lanes_map, only: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
+  use kz_maps_states, only: states_to_map
+  use kz_lanes_map, only: map_t, flow_t, put_state, move_state, WIDTH, CAPACITY, PI
   use kz_model_pendulum, only: pendulum_t
   use kz_maps_states, only: wrapped
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
@@ -16,8 +16,8 @@ module kz_labels_reference_map
   type, extends(map_t) :: reference_map_t
     private
     type(drive_t) :: drive
-    real(qp) :: theta(ROOM) = 0    !< rad
-    real(qp) :: velocity(ROOM) = 0 !< rad per drive radian
+    real(qp) :: theta(CAPACITY) = 0    !< rad
+    real(qp) :: velocity(CAPACITY) = 0 !< rad per drive radian
     real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
     real(dp), allocatable :: low(:, :)    !< (2, n): what is to be added to them
     integer :: last = 0 !< number of the start that was put last
@@ -26,7 +26,7 @@ module kz_labels_reference_map
     procedure :: put
     procedure :: move
     procedure :: advance
-    procedure :: enter
+    procedure :: to_map
   end type reference_map_t
 
 contains
@@ -70,7 +70,7 @@ contains
     self%velocity(lane) = real(self%start(2, self%last), qp) + self%low(2, self%last)
   end subroutine put
 
-  subroutine enter(self, n, matrix, first)
+  subroutine to_map(self, n, matrix, first)
     class(reference_map_t), intent(inout) :: self
     integer, intent(in) :: n
     real(dp), intent(inout), optional :: matrix(2, 2, WIDTH)
@@ -79,9 +79,9 @@ contains
 
     from = 1
     if (present(first)) from = first
-    call enter_states(self%flow, self%u(from:n), self%v(from:n))
+    call states_to_map(self%flow, self%u(from:n), self%v(from:n))
     if (present(matrix)) return ! the states alone are entered
-  end subroutine enter
+  end subroutine to_map
 
   subroutine move(self, from, to)
     class(reference_map_t), intent(inout) :: self
@@ -103,7 +103,7 @@ contains
     self%turns(:n) = self%turns(:n) + turns(:n)
     self%u(:n) = real(self%theta(:n)/PI_QUAD, dp)
     self%v(:n) = real(self%velocity(:n), dp)
-    call enter_states(self%flow, self%u(:n), self%v(:n))
+    call states_to_map(self%flow, self%u(:n), self%v(:n))
   end subroutine advance
 
 end module kz_labels_reference_map

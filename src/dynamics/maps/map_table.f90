@@ -13,7 +13,7 @@ module kz_maps_map_table
 
   integer, parameter :: GHOSTS = 2
   !> Adding it rounds to an integer.
-  real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
+  real(dp), parameter :: ROUND_TO_INTEGER = 1.5_dp*2.0_dp**52
 
   type :: table_t
     integer :: n_circle = 0   !< nodes on the whole circle of mid-period angles
@@ -42,7 +42,7 @@ module kz_maps_map_table
     class(flow_t), allocatable :: flow !< integrates the periods that begin outside the table
   contains
     procedure :: advance => interpolate
-    procedure :: enter
+    procedure :: to_map
   end type table_map_t
 
 contains
@@ -157,7 +157,7 @@ contains
   end function make_table_map
 
   !> The coordinates of the table are those of the flow that made it.
-  subroutine enter(self, n, matrix, first)
+  subroutine to_map(self, n, matrix, first)
     class(table_map_t), intent(inout) :: self
     integer, intent(in) :: n
     real(dp), intent(inout), optional :: matrix(2, 2, WIDTH)
@@ -169,10 +169,10 @@ contains
     do lane = from, n
       call self%flow%put(lane, self%u(lane), self%v(lane))
     end do
-    call self%flow%enter(n, matrix, from)
+    call self%flow%to_map(n, matrix, from)
     self%u(from:n) = self%flow%u(from:n)
     self%v(from:n) = self%flow%v(from:n)
-  end subroutine enter
+  end subroutine to_map
 
   !> One period of n lanes.
   subroutine interpolate(self, n)
@@ -201,7 +201,7 @@ contains
     highest = self%table%n_velocity - 1 - lowest
     do lane = 1, WIDTH
       w = self%u(lane) + MIDPERIOD*self%v(lane)
-      w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+      w = w - 2*((0.5_dp*w + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
       place%fold(lane) = merge(1.0_dp, -1.0_dp, w > 0 .or. (.not. w < 0 .and. self%v(lane) >= 0))
       if (.not. abs(self%v(lane)) > 0 .and. (.not. abs(w) > 0 .or. abs(w) >= 1)) place%fold(lane) = 0
       x(lane) = abs(w)*per_u
@@ -248,7 +248,7 @@ contains
     end associate
     if (place%n_outside > 0) call integrate(self, place%outside(:place%n_outside), x, y)
     do lane = 1, n
-      w = (0.5_dp*x(lane) + MAGIC) - MAGIC
+      w = (0.5_dp*x(lane) + ROUND_TO_INTEGER) - ROUND_TO_INTEGER
       self%turns(lane) = self%turns(lane) + int(w, c_int64_t)
       self%u(lane) = x(lane) - 2*w
       self%v(lane) = y(lane)

@@ -5,7 +5,7 @@ module kz_maps_states
   use kz_lanes_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: wrapped, half_turns, enter_states, leave_states, angle_difference, separation, same_state, midperiod_angle, rounded, &
+  public :: wrapped, half_turns, states_to_map, states_to_physical, angle_difference, separation, same_state, midperiod_angle, rounded, &
             MIDPERIOD
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
@@ -101,7 +101,7 @@ contains
   end function rounded
 
   !> Physical states become those of the flow's coordinates.
-  subroutine enter_states(flow, u, v)
+  subroutine states_to_map(flow, u, v)
     !> the flow whose coordinates are entered
     class(flow_t), intent(inout) :: flow
     !> angles, half-turns; in and out
@@ -110,10 +110,10 @@ contains
     real(dp), intent(inout) :: v(:)
 
     call change_states(flow, .true., u, v)
-  end subroutine enter_states
+  end subroutine states_to_map
 
   !> And back.
-  subroutine leave_states(flow, u, v)
+  subroutine states_to_physical(flow, u, v)
     !> the flow whose coordinates are left
     class(flow_t), intent(inout) :: flow
     !> angles, half-turns; in and out
@@ -122,7 +122,7 @@ contains
     real(dp), intent(inout) :: v(:)
 
     call change_states(flow, .false., u, v)
-  end subroutine leave_states
+  end subroutine states_to_physical
 
   subroutine change_states(flow, entering, u, v)
     class(flow_t), intent(inout) :: flow
@@ -138,9 +138,9 @@ contains
         call flow%put(lane, u(first + lane - 1), v(first + lane - 1))
       end do
       if (entering) then
-        call flow%enter(n)
+        call flow%to_map(n)
       else
-        call flow%leave(n)
+        call flow%to_physical(n)
       end if
       u(first:last) = flow%u(:n)
       v(first:last) = flow%v(:n)

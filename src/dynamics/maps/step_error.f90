@@ -4,13 +4,13 @@ module kz_maps_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_lanes_map, only: map_t, flow_t, WIDTH, PI
-  use kz_kernel_plan, only: make_flow_and_finer
+  use kz_kernel_flows, only: make_flow_and_finer
   use kz_model_pendulum, only: pendulum_t, stiffness, is_mirrored
   use kz_lanes_step_table, only: numerics_t
   use kz_maps_states, only: separation
   implicit none
   private
-  public :: table_defect
+  public :: error_of_table
 
   !> States of a class of speeds.
   integer, parameter :: STATES = 8*WIDTH
@@ -41,12 +41,12 @@ contains
       do first = 1, STATES, WIDTH
         call put_class(flow, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
         call put_class(finer, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
-        call flow%enter(WIDTH)
-        call finer%enter(WIDTH)
+        call flow%to_map(WIDTH)
+        call finer%to_map(WIDTH)
         call flow%advance(WIDTH)
         call finer%advance(WIDTH)
-        call flow%leave(WIDTH)
-        call finer%leave(WIDTH)
+        call flow%to_physical(WIDTH)
+        call finer%to_physical(WIDTH)
         largest = max(largest, difference(flow, finer, limit))
       end do
       error(c) = merge(SAFETY*largest, largest, largest < huge(largest)/SAFETY)
@@ -99,17 +99,17 @@ contains
   end function is_lost
 
   !> The largest error of one period of the map table among states [2][n*WIDTH] within it, rad.
-  function table_defect(flow, table_map, state) result(defect)
+  function error_of_table(flow, table_map, state) result(table_error)
     !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
     !> the map whose error is measured
     class(map_t), intent(inout) :: table_map
     !> (2, n): half-turns, rad per drive radian
     real(dp), intent(in) :: state(:, :)
-    real(dp) :: defect
+    real(dp) :: table_error
     integer :: first, lane
 
-    defect = 0
+    table_error = 0
     do first = 1, size(state, 2), WIDTH
       do lane = 1, WIDTH
         call flow%put(lane, state(1, first + lane - 1), state(2, first + lane - 1))
@@ -117,8 +117,8 @@ contains
       end do
       call flow%advance(WIDTH)
       call table_map%advance(WIDTH)
-      defect = max(defect, difference(flow, table_map, huge(1.0_dp)/2))
+      table_error = max(table_error, difference(flow, table_map, huge(1.0_dp)/2))
     end do
-  end function table_defect
+  end function error_of_table
 
 end module kz_maps_step_error

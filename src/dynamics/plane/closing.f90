@@ -2,7 +2,7 @@
 module kz_plane_closing
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: WIDTH, PI
-  use kz_split_mixed_tile, only: mixed_tile_t, track_t
+  use kz_split_mixed_batch, only: mixed_batch_t, track_t
   use kz_cycles_newton, only: solved, eigenvalues
   use kz_maps_states, only: angle_difference
   implicit none
@@ -37,9 +37,9 @@ module kz_plane_closing
 contains
 
   !> The cycles near the present states of the lanes 1 .. n; they begin with the longest period.
-  subroutine close_motions(tile, n, period, closed)
+  subroutine close_motions(batch, n, period, closed)
     !> pendulums and states
-    type(mixed_tile_t), intent(inout) :: tile
+    type(mixed_batch_t), intent(inout) :: batch
     !> lanes in use
     integer, intent(in) :: n
     !> periods after which the motions come back, descending
@@ -50,11 +50,11 @@ contains
     real(dp) :: start(2, WIDTH), x(2, WIDTH), step(2)
     integer :: iteration, i
 
-    start(1, :n) = tile%u(:n)
-    start(2, :n) = tile%v(:n)
+    start(1, :n) = batch%u(:n)
+    start(2, :n) = batch%v(:n)
     x(:, :n) = start(:, :n)
     do iteration = 1, STEPS
-      call follow(tile, n, period, x, orbits)
+      call follow(batch, n, period, x, orbits)
       do i = 1, n
         step = solved(orbits%matrix(:, :, i, period(i)), residual(orbits, i, period(i)))
         closed(i)%found = norm2(step) < SHORT
@@ -65,13 +65,13 @@ contains
     do i = 1, n
       closed(i)%distance = norm2([PI*angle_difference(x(1, i), start(1, i)), x(2, i) - start(2, i)])
       closed(i)%found = closed(i)%found .and. closed(i)%distance < FAR
-      if (closed(i)%found) call describe(tile, orbits, i, period(i), closed(i))
+      if (closed(i)%found) call describe(batch, orbits, i, period(i), closed(i))
     end do
   end subroutine close_motions
 
   !> All orbits from x, each through its period.
-  subroutine follow(tile, n, period, x, orbits)
-    type(mixed_tile_t), intent(inout) :: tile
+  subroutine follow(batch, n, period, x, orbits)
+    type(mixed_batch_t), intent(inout) :: batch
     integer, intent(in) :: n
     integer, intent(in) :: period(:)
     real(dp), intent(in) :: x(:, :)
@@ -83,20 +83,20 @@ contains
     allocate (orbits%u(n, 0:period(1)), orbits%v(n, 0:period(1)), orbits%matrix(2, 2, n, period(1)))
     allocate (orbits%track(period(1)), orbits%winding(n, period(1)))
     do i = 1, n
-      call tile%put(i, x(1, i), x(2, i))
+      call batch%put(i, x(1, i), x(2, i))
       matrix(:, :, i) = reshape([1, 0, 0, 1], [2, 2])
     end do
     orbits%u(:, 0) = x(1, :n)
     orbits%v(:, 0) = x(2, :n)
     do t = 1, period(1)
       lanes = count(period(:n) >= t)
-      call tile%advance_tangent(lanes, matrix, track)
-      orbits%u(:lanes, t) = tile%u(:lanes)
-      orbits%v(:lanes, t) = tile%v(:lanes)
+      call batch%advance_tangent(lanes, matrix, track)
+      orbits%u(:lanes, t) = batch%u(:lanes)
+      orbits%v(:lanes, t) = batch%v(:lanes)
       orbits%matrix(:, :, :lanes, t) = matrix(:, :, :lanes)
       orbits%track(t) = track
       do i = 1, lanes
-        orbits%winding(i, t) = int(tile%turns(i)) + nint(0.5_dp*(tile%u(i) - x(1, i)))
+        orbits%winding(i, t) = int(batch%turns(i)) + nint(0.5_dp*(batch%u(i) - x(1, i)))
       end do
     end do
   end subroutine follow
@@ -112,8 +112,8 @@ contains
   end function residual
 
   !> Smallest period, winding, exponent and centre of the closed orbit of lane i.
-  subroutine describe(tile, orbits, i, period, closed)
-    type(mixed_tile_t), intent(in) :: tile
+  subroutine describe(batch, orbits, i, period, closed)
+    type(mixed_batch_t), intent(in) :: batch
     type(orbits_t), intent(in) :: orbits
     integer, intent(in) :: i
     integer, intent(in) :: period
@@ -124,12 +124,12 @@ contains
     do p = 1, period - 1
       if (mod(period, p) == 0 .and. norm2(residual(orbits, i, p)) < BACK) exit
     end do
-    multiplier = eigenvalues(orbits%matrix(:, :, i, p), product(tile%decay(i, :))**(tile%n_steps*p))
+    multiplier = eigenvalues(orbits%matrix(:, :, i, p), product(batch%decay(i, :))**(batch%n_steps*p))
     closed%period = p
     closed%winding = orbits%winding(i, p)
     closed%attracts = abs(multiplier(1)) < 1
     closed%exponent = log(abs(multiplier(1)))/p
-    closed%centre = centre_of(orbits%track(p), i, p*tile%n_steps, closed%winding)
+    closed%centre = centre_of(orbits%track(p), i, p*batch%n_steps, closed%winding)
   end subroutine describe
 
   !> Down or inverted where the motion stays within half a turn of it and its mean within pi/4, as in catalogues.

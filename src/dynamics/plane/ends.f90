@@ -3,7 +3,7 @@
 module kz_plane_ends
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_lanes_map, only: WIDTH, PI
-  use kz_split_mixed_tile, only: mixed_tile_t, track_t, make_mixed_tile
+  use kz_split_mixed_batch, only: mixed_batch_t, track_t, make_mixed_batch
   use kz_model_pendulum, only: pendulum_t
   use kz_plane_closing, only: closed_t, close_motions
   use kz_plane_recurrence, only: past_t, make_past
@@ -52,13 +52,13 @@ contains
     type(motion_t), allocatable, intent(inout) :: motions(:)
     !> their ends
     type(ending_t), intent(inout) :: endings(:)
-    type(mixed_tile_t) :: tile
+    type(mixed_batch_t) :: batch
     type(past_t) :: past
     type(motion_t) :: lane(WIDTH)
     type(motion_t), allocatable :: near(:), tired(:)
     integer :: n, n_waiting
 
-    call make_mixed_tile(n_steps, tile)
+    call make_mixed_batch(n_steps, batch)
     call make_past(max_period, past)
     allocate (near(0), tired(0))
     n = 0
@@ -68,11 +68,11 @@ contains
         n = n + 1
         lane(n) = motions(n_waiting)
         n_waiting = n_waiting - 1
-        call load(tile, n, lane(n))
-        call past%begin(n, tile)
+        call load(batch, n, lane(n))
+        call past%begin(n, batch)
       end do
       if (n == 0 .and. size(near) == 0) exit
-      if (n > 0) call one_period(tile, past, lane, n, near, tired)
+      if (n > 0) call one_period(batch, past, lane, n, near, tired)
       if (size(near) >= WIDTH .or. (n == 0 .and. size(near) > 0)) call settle(n_steps, near, motions, n_waiting, endings)
     end do
     call classify(n_steps, tired, endings)
@@ -80,18 +80,18 @@ contains
     allocate (motions(0))
   end subroutine find_ends
 
-  subroutine load(tile, lane, motion)
-    type(mixed_tile_t), intent(inout) :: tile
+  subroutine load(batch, lane, motion)
+    type(mixed_batch_t), intent(inout) :: batch
     integer, intent(in) :: lane
     type(motion_t), intent(in) :: motion
 
-    call tile%set_pendulum(lane, motion%pendulum)
-    call tile%put(lane, motion%u, motion%v)
+    call batch%set_pendulum(lane, motion%pendulum)
+    call batch%put(lane, motion%u, motion%v)
   end subroutine load
 
   !> Lanes that have come back leave for `near`, those that have gone on for too long for `tired`.
-  subroutine one_period(tile, past, lane, n, near, tired)
-    type(mixed_tile_t), intent(inout) :: tile
+  subroutine one_period(batch, past, lane, n, near, tired)
+    type(mixed_batch_t), intent(inout) :: batch
     type(past_t), intent(inout) :: past
     type(motion_t), intent(inout) :: lane(WIDTH)
     integer, intent(inout) :: n
@@ -100,17 +100,17 @@ contains
     integer :: back(WIDTH), i
     logical :: leaves(WIDTH)
 
-    call tile%advance(n)
+    call batch%advance(n)
     lane(:n)%age = lane(:n)%age + 1
-    call past%find(n, tile, back)
-    call past%note(n, tile)
+    call past%find(n, batch, back)
+    call past%note(n, batch)
     lane(:n)%back = back(:n)
     leaves(:n) = (back(:n) > 0 .and. lane(:n)%age >= lane(:n)%pause) .or. lane(:n)%age >= lane(:n)%longest
     if (.not. any(leaves(:n))) return
     do i = n, 1, -1
       if (.not. leaves(i)) cycle
-      lane(i)%u = tile%u(i)
-      lane(i)%v = tile%v(i)
+      lane(i)%u = batch%u(i)
+      lane(i)%v = batch%v(i)
       if (back(i) > 0) then
         near = [near, lane(i)]
       else
@@ -118,37 +118,37 @@ contains
       end if
       if (i < n) then
         lane(i) = lane(n)
-        call tile%move(n, i)
+        call batch%move(n, i)
         call past%move(n, i)
       end if
       n = n - 1
     end do
   end subroutine one_period
 
-  !> The cycles of up to a tile of motions that have come back; those whose cycle does not attract go on later.
+  !> The cycles of up to a batch of motions that have come back; those whose cycle does not attract go on later.
   subroutine settle(n_steps, near, motions, n_waiting, endings)
     integer, intent(in) :: n_steps
     type(motion_t), allocatable, intent(inout) :: near(:)
     type(motion_t), intent(inout) :: motions(:)
     integer, intent(inout) :: n_waiting
     type(ending_t), intent(inout) :: endings(:)
-    type(mixed_tile_t) :: tile
+    type(mixed_batch_t) :: batch
     type(motion_t) :: lane(WIDTH)
     type(closed_t) :: closed(WIDTH)
     integer :: n, i, j
 
     n = 0
-    call make_mixed_tile(n_steps, tile)
+    call make_mixed_batch(n_steps, batch)
     do j = maxval(near%back), 1, -1
       do i = 1, min(size(near), WIDTH)
         if (near(i)%back /= j) cycle
         n = n + 1
         lane(n) = near(i)
-        call load(tile, n, near(i))
+        call load(batch, n, near(i))
       end do
     end do
     near = near(n + 1:)
-    call close_motions(tile, n, lane(:n)%back, closed)
+    call close_motions(batch, n, lane(:n)%back, closed)
     do i = 1, n
       associate (motion => lane(i))
         if (closed(i)%found .and. closed(i)%attracts) then
@@ -170,18 +170,18 @@ contains
     integer, intent(in) :: n_steps
     type(motion_t), intent(in) :: tired(:)
     type(ending_t), intent(inout) :: endings(:)
-    type(mixed_tile_t) :: tile
+    type(mixed_batch_t) :: batch
     real(dp) :: rate(BLOCKS, WIDTH), mean, error
     integer :: first, n, i
 
     if (size(tired) == 0) return
-    call make_mixed_tile(n_steps, tile)
+    call make_mixed_batch(n_steps, batch)
     do first = 1, size(tired), WIDTH
       n = min(WIDTH, size(tired) - first + 1)
       do i = 1, n
-        call load(tile, i, tired(first + i - 1))
+        call load(batch, i, tired(first + i - 1))
       end do
-      call growth(tile, n, rate)
+      call growth(batch, n, rate)
       do i = 1, n
         mean = sum(rate(:, i))/BLOCKS
         error = sqrt(sum((rate(:, i) - mean)**2)/(BLOCKS*(BLOCKS - 1)))
@@ -194,8 +194,8 @@ contains
   end subroutine classify
 
   !> rate(b, i): how fast neighbours of lane i part in block b, per drive period.
-  subroutine growth(tile, n, rate)
-    type(mixed_tile_t), intent(inout) :: tile
+  subroutine growth(batch, n, rate)
+    type(mixed_batch_t), intent(inout) :: batch
     integer, intent(in) :: n
     real(dp), intent(out) :: rate(BLOCKS, WIDTH)
     type(track_t) :: track
@@ -208,7 +208,7 @@ contains
     rate = 0
     do b = 1, BLOCKS
       do t = 1, BLOCK
-        call tile%advance_tangent(n, matrix, track)
+        call batch%advance_tangent(n, matrix, track)
         do i = 1, n
           size_now = norm2(matrix(:, :, i))
           rate(b, i) = rate(b, i) + log(size_now)/BLOCK

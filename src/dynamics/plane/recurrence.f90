@@ -1,4 +1,4 @@
-!> When a motion comes back to a strobe point of its own: the last points of every lane of a tile.
+!> When a motion comes back to a strobe point of its own: the last points of every lane of a batch.
 module kz_plane_recurrence
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: map_t, WIDTH, PI
@@ -29,7 +29,7 @@ contains
   subroutine make_past(longest, past)
     !> drive periods that it reaches back
     integer, intent(in) :: longest
-    !> of all lanes of a tile
+    !> of all lanes of a batch
     type(past_t), intent(out) :: past
 
     past%longest = longest
@@ -43,7 +43,7 @@ contains
   subroutine begin(self, lane, map)
     class(past_t), intent(inout) :: self
     integer, intent(in) :: lane
-    !> the tile
+    !> the batch
     class(map_t), intent(in) :: map
 
     self%known(lane) = 1
@@ -79,7 +79,7 @@ contains
     integer, intent(in) :: n
     class(map_t), intent(in) :: map
     integer, intent(out) :: periods(WIDTH)
-    real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
+    real(dp), parameter :: ROUND_TO_INTEGER = 1.5_dp*2.0_dp**52
     real(dp) :: du
     integer :: ago, place, i
 
@@ -88,7 +88,7 @@ contains
       place = modulo(self%latest - ago, self%longest) + 1
       do i = 1, n
         du = map%u(i) - self%u(i, place)
-        du = du - 2*((0.5_dp*du + MAGIC) - MAGIC)
+        du = du - 2*((0.5_dp*du + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
         if (PI*abs(du) + abs(map%v(i) - self%v(i, place)) < NEAR .and. self%known(i) >= ago) periods(i) = ago
       end do
     end do

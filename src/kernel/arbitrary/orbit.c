@@ -12,8 +12,8 @@ struct kz_arbitrary {
   int64_t bits; /* the most */
   kz_steps steps;
   kz_series series;
-  kz_number *room; /* of all series */
-  kz_place place;  /* at the beginning of a period */
+  kz_number *workspace; /* of all series */
+  kz_place place;       /* at the beginning of a period */
 };
 
 /* Orders that steps of the first length take where the motion is gentle; steps that take more are halved. */
@@ -28,7 +28,7 @@ static void each_number(kz_arbitrary *o, void (*action)(kz_number *)) {
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) action(all[i]);
 }
 
-static int64_t room_of(const kz_arbitrary *o) {
+static int64_t numbers_of(const kz_arbitrary *o) {
   return (SERIES + 1) * (o->series.orders + 2);
 }
 
@@ -36,7 +36,7 @@ static void share_room(kz_arbitrary *o) {
   kz_series *s = &o->series;
   kz_number **const all[SERIES + 1] = {&s->speed,    &s->sine,     &s->cosine,  &s->force,   &s->gain,
                                        &s->angle[0], &s->angle[1], &s->rate[0], &s->rate[1], &o->steps.scale};
-  for (int i = 0; i <= SERIES; i++) *all[i] = o->room + i * (s->orders + 2);
+  for (int i = 0; i <= SERIES; i++) *all[i] = o->workspace + i * (s->orders + 2);
 }
 
 kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits) {
@@ -44,7 +44,7 @@ kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordina
   o->pendulum = *pendulum;
   o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
   o->series.orders = orders_for(o->bits);
-  o->room = kz_numbers_make(room_of(o));
+  o->workspace = kz_numbers_make(numbers_of(o));
   share_room(o);
   each_number(o, kz_number_init);
   kz_number_of(&start[0], &o->place.theta, o->bits);
@@ -55,7 +55,7 @@ kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordina
 void kz_arbitrary_free(kz_arbitrary *o) {
   if (!o) return;
   each_number(o, kz_number_clear);
-  kz_numbers_free(o->room, room_of(o));
+  kz_numbers_free(o->workspace, numbers_of(o));
   free(o);
 }
 

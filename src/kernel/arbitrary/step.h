@@ -4,14 +4,14 @@
 
 #include "number.h"
 
-/* Bits of the neighbourhood's first degree, and room for the series of its higher ones, which are long doubles. */
+/* Bits of the neighbourhood's first degree, and workspace for the series of its higher ones, which are long doubles. */
 enum { KZ_TANGENT_BITS = 118, KZ_BENT_ORDERS = 120 };
 
 /* Steps of one length. */
 typedef struct {
   int64_t n;            /* steps a period; 0 = none yet */
   kz_number h, damping; /* 2 pi / n, beta h */
-  kz_number *scale;     /* [room] m h^2 h^j / j! */
+  kz_number *scale;     /* [orders] m h^2 h^j / j! */
   kz_number gravity;    /* k h^2 */
   int64_t force_orders; /* the drive's series ends there */
 } kz_steps;

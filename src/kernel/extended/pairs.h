@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* Lanes of a tile (lanes/map.f90). */
+/* Lanes of a batch (lanes/map.f90). */
 enum { KZ_PAIRS_WIDTH = 64 };
 
 /* Angles (half-turns) and velocities (rad per drive radian), each high + low. */

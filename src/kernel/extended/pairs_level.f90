@@ -58,8 +58,8 @@ module kz_extended_pairs_level
     integer :: n_pairs = 0
     real(c_double), allocatable :: row(:, :)
     real(c_double) :: decay(2) = 0
-    type(displacement_t) :: enter
-    type(displacement_t) :: leave
+    type(displacement_t) :: to_kernel
+    type(displacement_t) :: from_kernel
   end type level_t
 
   interface
@@ -143,8 +143,8 @@ contains
     end do
     call set_drift(table%last, level%row(:, n_steps + 1))
     level%decay = pair_of(table%decay)
-    call set_displacement(table%enter, fastest, tolerance, level%enter)
-    call set_displacement(table%leave, fastest, tolerance, level%leave)
+    call set_displacement(table%to_kernel, fastest, tolerance, level%to_kernel)
+    call set_displacement(table%from_kernel, fastest, tolerance, level%from_kernel)
   end subroutine make_level
 
   pure subroutine set_drift(drift, row)
@@ -208,10 +208,10 @@ contains
     !> [n] the net number of turns
     real(c_double), intent(out) :: turns(WIDTH)
 
-    call pairs_displace(level%enter, int(n, c_int64_t), lanes)
+    call pairs_displace(level%to_kernel, int(n, c_int64_t), lanes)
     call pairs_stages(int(level%n_steps, c_int64_t), int(level%n_drift, c_int64_t), int(level%n_kick, c_int64_t), &
                       int(level%n_pairs, c_int64_t), level%row, level%decay, int(n, c_int64_t), lanes, turns)
-    call pairs_displace(level%leave, int(n, c_int64_t), lanes)
+    call pairs_displace(level%from_kernel, int(n, c_int64_t), lanes)
   end subroutine advance_level
 
 end module kz_extended_pairs_level

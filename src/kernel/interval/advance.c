@@ -12,10 +12,11 @@ typedef struct {
   kz_sets sets[KZ_PARTS];
 } group;
 
-kz_status kz_enclosure_plan_create(const kz_pendulum *pendulum, int32_t precision, double fastest, kz_enclosure_plan **plan) {
-  *plan = NULL;
+kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precision, double fastest,
+                                     kz_enclosure_tables **tables) {
+  *tables = NULL;
   if (!kz_is_sine(pendulum)) return KZ_REFUSED;
-  kz_enclosure_plan *made = *plan = kz_calloc(1, sizeof *made + MOST_CLASSES * sizeof *made->classes);
+  kz_enclosure_tables *made = *tables = kz_calloc(1, sizeof *made + MOST_CLASSES * sizeof *made->classes);
   made->precision = precision;
   made->swing = 1.1 * fabs(pendulum->m) + 2 * fabs(pendulum->k) + 0.03;
   for (double speed = fmin(SLOWEST, fastest); made->n_classes < MOST_CLASSES; speed = fmin(speed * FASTER, fastest)) {
@@ -24,14 +25,14 @@ kz_status kz_enclosure_plan_create(const kz_pendulum *pendulum, int32_t precisio
     made->classes[made->n_classes++] = next;
     if (speed >= fastest) return KZ_OK;
   }
-  kz_enclosure_plan_free(made);
-  *plan = NULL;
+  kz_enclosure_tables_free(made);
+  *tables = NULL;
   return KZ_REFUSED;
 }
 
-void kz_enclosure_plan_free(kz_enclosure_plan *plan) {
-  for (int32_t c = 0; plan && c < plan->n_classes; c++) free(plan->classes[c]);
-  free(plan);
+void kz_enclosure_tables_free(kz_enclosure_tables *tables) {
+  for (int32_t c = 0; tables && c < tables->n_classes; c++) free(tables->classes[c]);
+  free(tables);
 }
 
 static void put(const kz_enclosure *set, int lane, kz_sets *x) {
@@ -70,15 +71,15 @@ static bool is_lost(const kz_enclosure *set) {
   return !isfinite(set->reach[0] + set->reach[1]);
 }
 
-static void advance_group(const kz_enclosure_plan *plan, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
+static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
   const bool jacobian = frame == KZ_KEEP_FRAME;
   vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN];
   const int n_cosine = jacobian ? KZ_ORDER_JACOBIAN : KZ_ORDER_TANGENT;
   for (int32_t i = 0; i < speed->n_steps; i++) {
     const kz_constant *torque = &speed->torque[i * speed->order];
     for (int p = 0; p < KZ_PARTS; p++) kz_sets_check(speed, &g->sets[p]);
-    (plan->precision == KZ_ENCLOSE_PAIRS ? kz_centres_step_pairs : kz_centres_step_doubles)(speed, torque, g->sets, n_cosine,
-                                                                                            cosine);
+    (tables->precision == KZ_ENCLOSE_PAIRS ? kz_centres_step_pairs : kz_centres_step_doubles)(speed, torque, g->sets, n_cosine,
+                                                                                              cosine);
     for (int p = 0; p < KZ_PARTS; p++) {
       kz_neighbours_step(speed, i, cosine[p], jacobian, &g->sets[p]);
       if (!jacobian && (i + 1) % speed->frame_steps == 0 && i + 1 < speed->n_steps) kz_sets_renew_frame(&g->sets[p]);
@@ -93,12 +94,12 @@ static void advance_group(const kz_enclosure_plan *plan, const kz_speed_class *s
 
 /* n <= GROUP sets [of]; idle lanes copy the first. A set that is too fast stays as it is, and `of` names it afterwards; returns how many
  * these are. */
-static int advance_some(const kz_enclosure_plan *plan, const kz_speed_class *speed, kz_enclosure_frame frame, int n,
+static int advance_some(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, int n,
                         int32_t *of, kz_enclosure *set) {
   group g = {0};
   int again = 0;
   for (int lane = 0; lane < GROUP; lane++) put(&set[of[lane < n ? lane : 0]], lane % LANES, &g.sets[lane / LANES]);
-  advance_group(plan, speed, frame, &g);
+  advance_group(tables, speed, frame, &g);
   for (int lane = 0; lane < n; lane++) {
     const kz_sets *x = &g.sets[lane / LANES];
     kz_enclosure *to = &set[of[lane]];
@@ -113,21 +114,21 @@ static int advance_some(const kz_enclosure_plan *plan, const kz_speed_class *spe
 }
 
 /* n <= BATCH sets. */
-static void advance_batch(const kz_enclosure_plan *plan, kz_enclosure_frame frame, int32_t n, kz_enclosure *set) {
+static void advance_batch(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int32_t n, kz_enclosure *set) {
   int32_t waiting[BATCH + GROUP], n_waiting = 0;
   int8_t first_class[BATCH];
   for (int32_t i = 0; i < n; i++) {
     int c = 0;
-    while (c + 1 < plan->n_classes && !(fabs(set[i].velocity[0]) + plan->swing <= plan->classes[c]->fastest)) c++;
+    while (c + 1 < tables->n_classes && !(fabs(set[i].velocity[0]) + tables->swing <= tables->classes[c]->fastest)) c++;
     first_class[i] = (int8_t)c;
   }
-  for (int32_t c = 0; c < plan->n_classes; c++) {
+  for (int32_t c = 0; c < tables->n_classes; c++) {
     for (int32_t i = 0; i < n; i++)
       if (first_class[i] == c && !is_lost(&set[i])) waiting[n_waiting++] = i;
     int32_t again = 0;
     for (int32_t i = 0; i < n_waiting; i += GROUP) {
       int32_t *of = waiting + i;
-      const int left = advance_some(plan, plan->classes[c], frame, n_waiting - i < GROUP ? n_waiting - i : GROUP, of, set);
+      const int left = advance_some(tables, tables->classes[c], frame, n_waiting - i < GROUP ? n_waiting - i : GROUP, of, set);
       for (int j = 0; j < left; j++) waiting[again++] = of[j];
     }
     n_waiting = again;
@@ -135,6 +136,6 @@ static void advance_batch(const kz_enclosure_plan *plan, kz_enclosure_frame fram
   for (int32_t i = 0; i < n_waiting; i++) lose(&set[waiting[i]]);
 }
 
-void kz_enclosures_advance(const kz_enclosure_plan *plan, kz_enclosure_frame frame, int64_t n, kz_enclosure *set) {
-  for (int64_t i = 0; i < n; i += BATCH) advance_batch(plan, frame, (int32_t)(n - i < BATCH ? n - i : BATCH), set + i);
+void kz_enclosures_advance(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int64_t n, kz_enclosure *set) {
+  for (int64_t i = 0; i < n; i += BATCH) advance_batch(tables, frame, (int32_t)(n - i < BATCH ? n - i : BATCH), set + i);
 }

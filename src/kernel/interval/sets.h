@@ -43,7 +43,7 @@ typedef struct {
   kz_constant torque[];                /* [n_steps][order] powers of s in h (k - m cos t) */
 } kz_speed_class;
 
-struct kz_enclosure_plan {
+struct kz_enclosure_tables {
   int32_t precision, n_classes;
   double swing; /* rad per drive radian: a class serves centres that are slower by this at the beginning of a period */
   kz_speed_class *classes[];

@@ -1,4 +1,4 @@
-!> A stroboscopic map: one drive period of a tile of trajectories. The kernel extends it for each family of schemes; the map
+!> A stroboscopic map: one drive period of a batch of trajectories. The kernel extends it for each family of schemes; the map
 !> table of the dynamics extends it by interpolation.
 !>
 !> Inside, angles are in half-turns, u = theta/pi: the wrap to [-1, 1] is exact, and the mirror image (-u, -v) of a state goes
@@ -7,21 +7,21 @@ module kz_lanes_map
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   implicit none
   private
-  public :: map_t, flow_t, put_state, move_state, WIDTH, ROOM, PI
+  public :: map_t, flow_t, put_state, move_state, WIDTH, CAPACITY, PI
 
-  !> Trajectories per tile; a multiple of every vector width.
+  !> Trajectories per batch; a multiple of every vector width.
   integer, parameter :: WIDTH = 64
   !> Lanes of a map: those that are advanced, and as many states that wait for a free one.
-  integer, parameter :: ROOM = 2*WIDTH
+  integer, parameter :: CAPACITY = 2*WIDTH
   real(c_double), parameter :: PI = 3.14159265358979323846_c_double
 
   type, abstract :: map_t
     !> angle in half-turns, wrapped to [-1, 1]
-    real(c_double) :: u(ROOM) = 0
+    real(c_double) :: u(CAPACITY) = 0
     !> velocity in rad per drive radian
-    real(c_double) :: v(ROOM) = 0
+    real(c_double) :: v(CAPACITY) = 0
     !> net turns, counterclockwise +
-    integer(c_int64_t) :: turns(ROOM) = 0
+    integer(c_int64_t) :: turns(CAPACITY) = 0
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state
@@ -32,8 +32,8 @@ module kz_lanes_map
     !> Takes the lanes first .. n (first = 1 if left out; at most WIDTH lanes) from physical coordinates (angle, velocity) to those in which the map
     !> advances them, and back. The maps in both coordinates are conjugate: same cycles, multipliers, windings and basins.
     !> matrix(:, :, lane), if present, is multiplied by the derivative of the change; flows alone know it.
-    procedure :: enter => same_coordinates
-    procedure :: leave => same_coordinates
+    procedure :: to_map => same_coordinates
+    procedure :: to_physical => same_coordinates
   end type map_t
 
   !> A map that is integrated: it also knows its derivative and what happens within the period.
@@ -105,7 +105,7 @@ contains
   subroutine put_state(self, lane, u, v)
     !> the map
     class(map_t), intent(inout) :: self
-    !> from 1 to ROOM
+    !> from 1 to CAPACITY
     integer, intent(in) :: lane
     !> angle, half-turns in [-1, 1]
     real(c_double), intent(in) :: u

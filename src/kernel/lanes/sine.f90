@@ -3,12 +3,12 @@ module kz_lanes_sine
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   implicit none
   private
-  public :: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI, VECTOR
+  public :: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI, VECTOR
 
-  !> Vector loops run over the whole tile.
+  !> Vector loops run over the whole batch.
   integer, parameter :: VECTOR = 16
   !> Adding it rounds to an integer whose parity is the lowest bit.
-  real(rk), parameter :: MAGIC = 1.5_rk*2.0_rk**(digits(1.0_rk) - 1)
+  real(rk), parameter :: ROUND_TO_INTEGER = 1.5_rk*2.0_rk**(digits(1.0_rk) - 1)
   integer, parameter :: SIGN_SHIFT = bit_size(0_ik) - 1
   real(rk), parameter :: INVERSE_PI = 0.318309886183790671537767526745028724_rk
 

@@ -4,7 +4,7 @@ module kz_lanes_wrap
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_lanes_map, only: flow_t
-  use kz_lanes_sine, only: MAGIC, VECTOR
+  use kz_lanes_sine, only: ROUND_TO_INTEGER, VECTOR
   implicit none
   private
   public :: wrap, vectors_of, flush_subnormals, restore_control
@@ -35,14 +35,14 @@ contains
     integer, intent(in) :: first
     !> lane
     integer, intent(in) :: last
-    integer(ik), parameter :: NO_TURNS = transfer(MAGIC, 0_ik)
+    integer(ik), parameter :: NO_TURNS = transfer(ROUND_TO_INTEGER, 0_ik)
     real(rk) :: nan, shifted, turn
     integer :: i
 
     nan = ieee_value(nan, ieee_quiet_nan)
     do i = first, last ! over vectors: the turns are read off the bits
-      shifted = 0.5_rk*flow%u(i) + MAGIC
-      turn = shifted - MAGIC
+      shifted = 0.5_rk*flow%u(i) + ROUND_TO_INTEGER
+      turn = shifted - ROUND_TO_INTEGER
       flow%u(i) = merge(flow%u(i) - 2*turn, nan, abs(turn) < MOST_TURNS)
       flow%turns(i) = flow%turns(i) + merge(transfer(shifted, 0_ik) - NO_TURNS, 0_ik, abs(turn) < MOST_TURNS)
     end do

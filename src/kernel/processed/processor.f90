@@ -2,7 +2,7 @@
 module kz_processed_processor
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use kz_lanes_map, only: WIDTH
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
   use kz_processed_tables, only: processor_t, ORDER, HARMONICS
   implicit none
   private
@@ -98,7 +98,7 @@ contains
     integer :: i
 
     do i = 1, n
-      r = abs(u(i) - 2*((0.5_rk*u(i) + MAGIC) - MAGIC)) ! even turns go, 0 <= r <= 1
+      r = abs(u(i) - 2*((0.5_rk*u(i) + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)) ! even turns go, 0 <= r <= 1
       s(i) = sine(u(i))
       c(i) = sine(0.5_rk - r)
     end do

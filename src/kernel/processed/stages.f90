@@ -3,7 +3,7 @@ module kz_processed_stages
   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
   use kz_lanes_map, only: WIDTH, PI
-  use kz_lanes_sine, only: MAGIC
+  use kz_lanes_sine, only: ROUND_TO_INTEGER
   use kz_processed_tables, only: processed_t
   implicit none
   private
@@ -196,7 +196,7 @@ contains
     v = start_v
     do s = 1, size(self%row, 2)
       call drift_tangent(self%row(:self%n_drift, s), n, u, v, c)
-      r = u - 2*((0.5_rk*u + MAGIC) - MAGIC)
+      r = u - 2*((0.5_rk*u + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
       q = r*r
       kick = 0
       slope = 0

@@ -36,15 +36,15 @@ contains
     series%kick_cosine = rounded%kick_cosine
     series%kick_sine = rounded%kick_sine
     series%drift = rounded%drift
-    series%enter = rounded%enter
-    series%leave = rounded%leave
+    series%to_kernel = rounded%to_kernel
+    series%from_kernel = rounded%from_kernel
     series%residual = rounded%residual
     call make_series(real(pendulum%k, rk), real(pendulum%beta, rk), real(pendulum%m, rk), quad_grades, exact)
     series%kick_cosine(:, :, :quad_grades) = exact%kick_cosine(:, :, :quad_grades)
     series%kick_sine(:, :, :quad_grades) = exact%kick_sine(:, :, :quad_grades)
     series%drift(:, :quad_grades) = exact%drift(:, :quad_grades)
-    series%enter(:, :, :quad_grades - 2, :) = exact%enter(:, :, :quad_grades - 2, :)
-    series%leave(:, :, :quad_grades - 2, :) = exact%leave(:, :, :quad_grades - 2, :)
+    series%to_kernel(:, :, :quad_grades - 2, :) = exact%to_kernel(:, :, :quad_grades - 2, :)
+    series%from_kernel(:, :, :quad_grades - 2, :) = exact%from_kernel(:, :, :quad_grades - 2, :)
   end subroutine make_mixed_series
 
   include 'table_procedures.inc'

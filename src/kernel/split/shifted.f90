@@ -2,7 +2,7 @@
 module kz_split_shifted
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use kz_lanes_map, only: WIDTH
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT
   use kz_split_stages, only: steps_t, last_drift
   implicit none
   private

@@ -2,7 +2,7 @@
 module kz_split_stages
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use kz_lanes_map, only: WIDTH
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
   use kz_lanes_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
   private

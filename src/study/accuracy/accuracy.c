@@ -8,11 +8,11 @@
 #include "tradeoff.h"
 
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
-static const double ROOM = 3;
+static const double MARGIN = 3;
 
 /* Cells with reference labels for an accuracy. */
 static int64_t samples_for(double accuracy) {
-  const double n = ROOM * (double)kz_share_sample(1 - accuracy);
+  const double n = MARGIN * (double)kz_share_sample(1 - accuracy);
   return (int64_t)fmax(1000, ceil(n));
 }
 

@@ -54,7 +54,7 @@ static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
     }
     for (int64_t i = 0; i < some; i++)
       kz_cell_state(g->reference->plan, kz_reference_labels_cell(g->reference, first + i), w->state + 2 * i);
-    kz_dynamics_follow(g->dynamics, kz_way(s->method, s->interpolation), some, g->reference->plan->max_periods, w->state,
+    kz_dynamics_follow(g->dynamics, kz_stepping(s->method, s->interpolation), some, g->reference->plan->max_periods, w->state,
                        label + first, w->periods);
   }
   return KZ_OK;

@@ -85,7 +85,7 @@ static double *nan_filled(int64_t n) {
 }
 
 /* Lines of one closed orbit, from its first listed strobe point; those beyond what the samples carry stay NaN. */
-static kz_status lines_of(const kz_entry *entry, const kz_plan *plan, int64_t lines, double *amplitude, double *phase,
+static kz_status lines_of(const kz_entry *entry, const kz_flow *flow, int64_t lines, double *amplitude, double *phase,
                           int32_t *dominant) {
   int64_t n = entry->row.period, samples = n * SAMPLES, most = samples / 2 < lines ? samples / 2 : lines;
   double *theta = kz_malloc((size_t)(samples + 1) * sizeof *theta),
@@ -95,7 +95,7 @@ static kz_status lines_of(const kz_entry *entry, const kz_plan *plan, int64_t li
                             .rotation = (double)entry->row.winding / (double)n,
                             .centre = entry->row.centre == KZ_ABOUT_INVERTED ? M_PI : 0.0,
                             .closed = true};
-  kz_sample(plan, n, SAMPLES, entry->theta[0], entry->velocity[0], theta, velocity);
+  kz_sample(flow, n, SAMPLES, entry->theta[0], entry->velocity[0], theta, velocity);
   const kz_status status = kz_spectrum_lines(&record, theta, most, amplitude, phase);
   *dominant = (int32_t)kz_spectrum_dominant(most, amplitude);
   free(theta);
@@ -103,7 +103,7 @@ static kz_status lines_of(const kz_entry *entry, const kz_plan *plan, int64_t li
   return status;
 }
 
-static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_plan *plan, matrices *x) {
+static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_flow *flow, matrices *x) {
   for (int64_t i = 0; i < catalogue->count; i++) {
     const kz_entry *e = catalogue->entries + i;
     if (e->row.period == 0) continue;
@@ -111,7 +111,7 @@ static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_plan *pla
     memcpy(x->velocity + i * x->phases, e->velocity, (size_t)e->row.period * sizeof(double));
     memcpy(x->re + 2 * i, e->row.multiplier_re, 2 * sizeof(double));
     memcpy(x->im + 2 * i, e->row.multiplier_im, 2 * sizeof(double));
-    KZ_TRY(lines_of(e, plan, x->lines, x->amplitude + i * x->lines, x->phase + i * x->lines, x->dominant + i));
+    KZ_TRY(lines_of(e, flow, x->lines, x->amplitude + i * x->lines, x->phase + i * x->lines, x->dominant + i));
   }
   return KZ_OK;
 }
@@ -130,7 +130,7 @@ static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *
   int64_t n = catalogue->count;
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
-  kz_plan *plan = kz_plan_create(pendulum, &fine);
+  kz_flow *flow = kz_flow_create(pendulum, &fine);
   x->theta = nan_filled(n * x->phases);
   x->velocity = nan_filled(n * x->phases);
   x->re = nan_filled(2 * n);
@@ -138,9 +138,9 @@ static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *
   x->amplitude = nan_filled(n * x->lines);
   x->phase = nan_filled(n * x->lines);
   x->dominant = kz_calloc((size_t)n + 1, sizeof *x->dominant);
-  kz_status status = fill_matrices(catalogue, plan, x);
+  kz_status status = fill_matrices(catalogue, flow, x);
   if (status == KZ_OK) status = write_matrices(x, store);
-  kz_plan_free(plan);
+  kz_flow_free(flow);
   return status;
 }
 

@@ -1,4 +1,4 @@
-/* Rounds of: follow the open starts directly, look for cycles among those that nothing traps yet. What is left at the end is
+/* Rounds of: follow the pending starts directly, look for cycles among those that nothing traps yet. What is left at the end is
  * chaotic, or has not settled. */
 #include "search.h"
 
@@ -22,7 +22,7 @@ enum {
   STRETCH = 1024,      /* periods of a tile at least */
   STRETCHES = 64,      /* of a round, about */
   CHAOS_TRIES = 4,
-  CHAOS_PERIODS = 512 /* to see which open starts a chaotic attractor's cover captures */
+  CHAOS_PERIODS = 512 /* to see which pending starts a chaotic attractor's cover captures */
 };
 
 /* rad: how near an orbit must come back to itself to be tried, and in the last round, where slow spirals remain. */
@@ -30,9 +30,9 @@ static const double CLOSENESS = 0.02, LAST_CLOSENESS = 0.3;
 
 typedef struct {
   kz_dynamics *dynamics;
-  int64_t periods, n, *open; /* open [n]: which starts are followed */
-  double *state;             /* [all] */
-  int32_t *label;            /* [all] */
+  int64_t periods, n, *pending; /* pending [n]: which starts are followed */
+  double *state;                /* [all] */
+  int32_t *label;               /* [all] */
   int64_t all;
 } following;
 
@@ -46,19 +46,19 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   followed *out = record;
   int64_t periods[TILE];
   int64_t first = tile * TILE, n = f->n - first < TILE ? f->n - first : TILE;
-  for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
+  for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
   kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->periods, out->state, out->label, periods);
   return KZ_OK;
 }
 
-/* The starts without label become the open ones. */
-static void list_open(following *f) {
+/* The starts without label become the pending ones. */
+static void list_pending(following *f) {
   f->n = 0;
   for (int64_t i = 0; i < f->all; i++)
-    if (f->label[i] == 0) f->open[f->n++] = i;
+    if (f->label[i] == 0) f->pending[f->n++] = i;
 }
 
-/* Follows the open starts for f->periods; those that are trapped get their label. */
+/* Follows the pending starts for f->periods; those that are trapped get their label. */
 static kz_status follow_stretch(const kz_run *run, following *f) {
   kz_stage stage = {.name = "attractors",
                     .n_tiles = (f->n + TILE - 1) / TILE,
@@ -71,16 +71,16 @@ static kz_status follow_stretch(const kz_run *run, following *f) {
   kz_status status = kz_stage_run(run, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
     const followed *record = records + i / TILE;
-    memcpy(f->state + 2 * f->open[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
-    f->label[f->open[i]] = record->label[i % TILE];
+    memcpy(f->state + 2 * f->pending[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
+    f->label[f->pending[i]] = record->label[i % TILE];
   }
   free(records);
-  if (status == KZ_OK) list_open(f);
+  if (status == KZ_OK) list_pending(f);
   return status;
 }
 
 /* The same for any number of periods, in stretches: what is done is kept, and a stop request is heard. */
-static kz_status follow_open(const kz_run *run, following *f, int64_t periods) {
+static kz_status follow_pending(const kz_run *run, following *f, int64_t periods) {
   const int64_t share = periods / STRETCHES, stretch = share > STRETCH ? share : STRETCH;
   for (int64_t done = 0; done < periods && f->n > 0; done += f->periods) {
     f->periods = periods - done < stretch ? periods - done : stretch;
@@ -109,7 +109,7 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: room. */
+/* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: a buffer. */
 static kz_status seek(const kz_run *run, seeking *s, double *record) {
   const kz_stage stage = {.name = s->n > 0 ? "cycles" : "chaos",
                           .n_tiles = 1,
@@ -124,14 +124,14 @@ static kz_status seek(const kz_run *run, seeking *s, double *record) {
   return KZ_OK;
 }
 
-/* Looks for cycles among the first open starts. */
+/* Looks for cycles among the first pending starts. */
 static kz_status find_cycles(const kz_run *run, const following *f, double closeness) {
   seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
   kz_status status = KZ_OK;
   s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* and behind it a record of the stage */
   for (int64_t first = 0; status == KZ_OK && first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
     s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
-    for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->open[first + i], 2 * sizeof(double));
+    for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
     memset(s.found, 0, (size_t)s.size * sizeof(double));
     while (status == KZ_OK && (int64_t)s.found[0] < s.n) status = seek(run, &s, s.found + s.size);
   }
@@ -139,18 +139,18 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
   return status;
 }
 
-/* What no cycle has taken: chaotic attractors, found one by one from the first open start. */
+/* What no cycle has taken: chaotic attractors, found one by one from the first pending start. */
 static kz_status find_chaos(const kz_run *run, following *f) {
   seeking s = {.dynamics = f->dynamics, .size = kz_dynamics_chaos_size()};
   kz_status status = KZ_OK;
   s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
   for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
-    memcpy(s.state, f->state + 2 * f->open[(attempt * 7) % f->n], 2 * sizeof(double));
+    memcpy(s.state, f->state + 2 * f->pending[(attempt * 7) % f->n], 2 * sizeof(double));
     status = seek(run, &s, s.found + s.size);
     if (status != KZ_OK || kz_dynamics_count(f->dynamics) == known) continue;
     kz_dynamics_update(f->dynamics);
-    status = follow_open(run, f, CHAOS_PERIODS);
+    status = follow_pending(run, f, CHAOS_PERIODS);
   }
   free(s.found);
   return status;
@@ -160,7 +160,7 @@ static kz_status search_discover(const kz_run *run, following *f, int64_t max_pe
   int64_t length = FIRST_LENGTH, done = 0;
   for (;;) {
     kz_dynamics_update(f->dynamics);
-    KZ_TRY(follow_open(run, f, length));
+    KZ_TRY(follow_pending(run, f, length));
     done += length;
     if (f->n == 0) return KZ_OK;
     const int64_t known = kz_dynamics_count(f->dynamics);
@@ -172,26 +172,26 @@ static kz_status search_discover(const kz_run *run, following *f, int64_t max_pe
   return find_chaos(run, f);
 }
 
-/* All starts are open. */
-static void open_all(following *f) {
-  f->open = kz_malloc((size_t)(f->all + 1) * sizeof *f->open);
+/* All starts are pending. */
+static void list_all(following *f) {
+  f->pending = kz_malloc((size_t)(f->all + 1) * sizeof *f->pending);
   memset(f->label, 0, (size_t)f->all * sizeof *f->label);
-  list_open(f);
+  list_pending(f);
 }
 
 kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label) {
   following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
-  open_all(&f);
-  const kz_status status = follow_open(run, &f, periods);
-  free(f.open);
+  list_all(&f);
+  const kz_status status = follow_pending(run, &f, periods);
+  free(f.pending);
   return status;
 }
 
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
   following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
-  open_all(&f);
+  list_all(&f);
   const kz_status status = search_discover(run, &f, max_periods);
-  free(f.open);
+  free(f.pending);
   return status;
 }
 

@@ -11,12 +11,12 @@
 #include "accuracy/accuracy.h"
 #include "boundary.h"
 #include "resilience/resilience.h"
-#include "numerics/step_table.h"
+#include "numerics/table_check.h"
 #include "proof_write.h"
 #include "shocks_write.h"
 
 /* The errors of the numerics behind the labels, and warnings about them. */
-static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_labels *labels, FILE *summary) {
+static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_window_summary *labels, FILE *summary) {
   labels->step_error = kz_basin_warn_steps(scene, summary);
   labels->table_error = NAN;
   if (scene->basin.method != KZ_METHOD_ICM) return;
@@ -43,11 +43,11 @@ static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dy
 static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, const sample *s, FILE *summary) {
   kz_dynamics *dynamics = chunks->labelling->dynamics;
   const bool table = scene->basin.method == KZ_METHOD_ICM;
-  kz_labels labels = {.cells = chunks->labelling->tiles.cells,
-                      .counts = chunks->counts,
-                      .trapped_share = kz_dynamics_trapped_share(dynamics),
-                      .doubt = table ? kz_doubt_count(&scene->basin, s->followed, s->label)
-                                     : kz_doubt_of_all(chunks->counts.doubtful, kz_unique_cells(&scene->basin))};
+  kz_window_summary labels = {.cells = chunks->labelling->tiles.cells,
+                              .counts = chunks->counts,
+                              .trapped_share = kz_dynamics_trapped_share(dynamics),
+                              .doubt = table ? kz_doubt_count(&scene->basin, s->followed, s->label)
+                                             : kz_doubt_of_all(chunks->counts.doubtful, kz_unique_cells(&scene->basin))};
   measure_numerics(scene, dynamics, &labels, summary);
   return kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary);
 }
@@ -62,7 +62,7 @@ kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan) {
 }
 
 /* How far the motions of the catalogue are from the edges of their basins. Collective. */
-static kz_status find_shocks(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue,
+static kz_status find_shocks(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                              kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   int64_t n;
@@ -75,7 +75,7 @@ static kz_status find_shocks(const kz_scene *scene, const kz_labelling *labellin
   return kz_ranks_agree(labelling->run->ranks, status);
 }
 
-static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz_proof *proof, kz_catalogue *catalogue,
+static kz_status write_window(const kz_scene *scene, kz_window_labels *labelling, kz_proof *proof, kz_catalogue *catalogue,
                               sample *s, kz_store *store, FILE *summary) {
   const kz_run *run = labelling->run;
   KZ_TRY(kz_label_window(labelling));
@@ -103,18 +103,18 @@ static kz_status write_window(const kz_scene *scene, kz_labelling *labelling, kz
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
-  kz_labelling labelling = {.plan = plan,
-                            .pendulum = &scene->parameters.pendulum,
-                            .run = run,
-                            .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
-                            .batch = kz_tile_cells(scene, KZ_TILE_CELLS),
-                            .search = {.window = kz_window_of(&plan->theta, &plan->velocity),
-                                       .starts = plan->starts,
-                                       .seed = plan->seed,
-                                       .max_periods = plan->max_periods,
-                                       .cells = plan->theta.count * plan->velocity.count,
-                                       .table_theta = plan->method == KZ_METHOD_ICM ? plan->table_theta : 0,
-                                       .table_velocity = plan->table_velocity}};
+  kz_window_labels labelling = {.plan = plan,
+                                .pendulum = &scene->parameters.pendulum,
+                                .run = run,
+                                .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
+                                .batch = kz_tile_cells(scene, KZ_TILE_CELLS),
+                                .search = {.window = kz_window_of(&plan->theta, &plan->velocity),
+                                           .starts = plan->starts,
+                                           .seed = plan->seed,
+                                           .max_periods = plan->max_periods,
+                                           .cells = plan->theta.count * plan->velocity.count,
+                                           .table_theta = plan->method == KZ_METHOD_ICM ? plan->table_theta : 0,
+                                           .table_velocity = plan->table_velocity}};
   kz_catalogue catalogue = {0};
   kz_proof *proof;
   sample s = {0};
@@ -126,7 +126,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
     status = write_window(scene, &labelling, proof, &catalogue, &s, store, summary);
   }
   kz_dynamics_free(labelling.dynamics);
-  kz_labelling_free(&labelling);
+  kz_window_labels_free(&labelling);
   kz_proof_free(proof);
   kz_catalogue_free(&catalogue);
   free(s.cell);
@@ -138,7 +138,8 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
 /* Without damping areas are conserved and nothing attracts. */
 static kz_status write_undamped(const kz_scene *scene, kz_store *store, FILE *summary) {
   const kz_tiles tiles = kz_tiles_of(scene, KZ_TILE_CELLS);
-  const kz_labels labels = {.cells = tiles.cells, .counts = {.unsettled = tiles.cells}, .step_error = NAN, .table_error = NAN};
+  const kz_window_summary labels = {
+      .cells = tiles.cells, .counts = {.unsettled = tiles.cells}, .step_error = NAN, .table_error = NAN};
   fprintf(summary, "basin: without damping nothing attracts: every cell is labelled -1\n");
   KZ_TRY(kz_basin_declare(scene, &tiles, store));
   KZ_TRY(kz_chunks_write_unsettled(&scene->basin, &tiles, store));

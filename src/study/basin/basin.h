@@ -17,12 +17,12 @@ typedef struct {
   double step_error;    /* rad, the largest of one drive period in a sample */
   kz_doubt doubt;       /* of the labels */
   double table_error;   /* the same of the map table; NaN where labels do not come from it */
-} kz_labels;
+} kz_window_summary;
 
 /* Axes and variables of group /basin, before the cells come. */
 kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store);
 /* Group /attractors, attributes of /basin, and the summary. */
-kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
+kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary);
 
 /* The steps of a basin and their error beside its cells, and a line for each class of speeds that is off by more than

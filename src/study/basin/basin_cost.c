@@ -29,7 +29,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   const double regions = pow((double)kz_regions_cells(cells), 2);
   return (kz_cost){.cells = cells,
                    .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
-                   .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_room(&tiles),
+                   .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_capacity(&tiles),
                    .rank0_bytes = 4e6,
                    .shared_bytes = 0.2 * (double)cells};
 }
@@ -37,8 +37,8 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
 typedef struct {
   const kz_scene *scene;
   kz_dynamics *dynamics;
-  kz_labelling labelling; /* of some cells, by this process alone */
-  int64_t *item;          /* [FEW_CELLS] */
+  kz_window_labels labelling; /* of some cells, by this process alone */
+  int64_t *item;              /* [FEW_CELLS] */
   double seconds;
 } sample;
 
@@ -67,7 +67,7 @@ static kz_status basin_cost_discover(sample *s, kz_catalogue *catalogue) {
 
 /* Without regard to errors. */
 static kz_status measure_followed(sample *s, int64_t n) {
-  kz_labelled *cell = kz_malloc((size_t)n * sizeof *cell);
+  kz_cell_label *cell = kz_malloc((size_t)n * sizeof *cell);
   const double start = kz_processor_clock();
   const kz_status status = kz_label_cells(&s->labelling, 0, s->item, n, cell);
   s->seconds += (kz_processor_clock() - start) / (double)n * (double)kz_unique_cells(&s->scene->basin);
@@ -116,12 +116,12 @@ static kz_status measure_cells(sample *s) {
   const int64_t own = kz_unique_cells(plan), n = own < FEW_CELLS ? own : FEW_CELLS;
   const int64_t blocks = own / BLOCK; /* neighbours settle together, as in a run: cells one by one would take longer */
   for (int64_t i = 0; i < n; i++) s->item[i] = n == own ? i : kz_shuffled(i / BLOCK, blocks, plan->seed) * BLOCK + i % BLOCK;
-  s->labelling = (kz_labelling){.plan = plan,
-                                .dynamics = s->dynamics,
-                                .run = &ALONE,
-                                .work = kz_workspace_make(),
-                                .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS),
-                                .level = KZ_LEVEL_DOUBLE};
+  s->labelling = (kz_window_labels){.plan = plan,
+                                    .dynamics = s->dynamics,
+                                    .run = &ALONE,
+                                    .work = kz_workspace_make(),
+                                    .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS),
+                                    .level = KZ_LEVEL_DOUBLE};
   kz_window_starts_make(plan, &s->scene->parameters.pendulum, s->dynamics, NULL, &s->labelling.starts);
   s->seconds += WRITE_SECONDS * (double)(plan->theta.count * plan->velocity.count);
   const kz_status status = plan->method == KZ_METHOD_EXACT ? measure_exact(s, n) : measure_followed(s, n);

@@ -13,7 +13,7 @@ typedef struct {
 } exponent;
 
 /* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
-static exponent uncertainty(const kz_basin_plan *plan, const kz_labels *labels) {
+static exponent uncertainty(const kz_basin_plan *plan, const kz_window_summary *labels) {
   const double cell = kz_axis_step(&plan->theta);
   double x[KZ_DISTANCES], y[KZ_DISTANCES];
   int64_t n = 0;
@@ -36,7 +36,7 @@ typedef struct {
   exponent exponent;
 } measures;
 
-static measures find_measures(const kz_basin_plan *plan, const kz_labels *labels) {
+static measures find_measures(const kz_basin_plan *plan, const kz_window_summary *labels) {
   measures m = {NAN, NAN, {{.slope = NAN, .slope_stderr = NAN}, NAN, NAN}};
   if (2 * labels->counts.unsettled > labels->cells) return m;
   kz_entropy_of(&labels->counts, &m.entropy, &m.boundary_entropy);
@@ -57,7 +57,7 @@ static void print_measures(const measures *m, int64_t unsettled, FILE *summary) 
   fprintf(summary, "%s\n", unsettled > 0 ? "; unsettled cells are left out" : "");
 }
 
-static kz_status write_measures(const kz_basin_plan *plan, const kz_labels *labels, kz_store *store, FILE *summary) {
+static kz_status write_measures(const kz_basin_plan *plan, const kz_window_summary *labels, kz_store *store, FILE *summary) {
   const measures m = find_measures(plan, labels);
   KZ_TRY(kz_store_real(store, "basin", "trapped_share", labels->trapped_share));
   KZ_TRY(kz_store_real(store, "basin", "step_error", labels->step_error));
@@ -113,7 +113,7 @@ kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_stor
   return kz_chunks_declare(&scene->basin, tiles, store);
 }
 
-kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_labels *labels, kz_store *store,
+kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   const int64_t unsettled = labels->counts.unsettled;

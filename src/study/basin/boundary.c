@@ -117,7 +117,7 @@ kz_status kz_boundary_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, 
   return plan->has_boundary ? kz_stage_measure(&stage, 16, 0.5, seconds) : KZ_OK;
 }
 
-static kz_status count_pairs(const kz_basin_plan *plan, const kz_labelling *labelling, kz_uncertain *uncertain) {
+static kz_status count_pairs(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain) {
   pairing p = {plan, labelling->dynamics};
   const kz_stage stage = stage_of(&p);
   pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
@@ -200,8 +200,8 @@ static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *st
   return KZ_OK;
 }
 
-kz_status kz_boundary_find(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue, kz_store *store,
-                           FILE *summary) {
+kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
+                           kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
   kz_uncertain uncertain[MOST];
   kz_box_counts counts = {0};

@@ -7,8 +7,8 @@
 
 /* The study's key `boundary`: pairs of starts and boxes of cells, into group /boundary and the summary; nothing where it is not asked
  * for. The cells are in the store. Collective. */
-kz_status kz_boundary_find(const kz_scene *scene, const kz_labelling *labelling, const kz_catalogue *catalogue, kz_store *store,
-                           FILE *summary);
+kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
+                           kz_store *store, FILE *summary);
 
 /* What the pairs take, seconds of processor time from some of them, is added to *seconds. */
 kz_status kz_boundary_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds);

@@ -25,9 +25,9 @@ typedef struct {
 } head;
 
 static size_t message_room(int64_t cells) {
-  size_t room = sizeof(head);
-  for (int v = 0; v < VARIABLES; v++) room += kz_pack_room((size_t)cells, items[v]);
-  return 2 * room;
+  size_t buffer = sizeof(head);
+  for (int v = 0; v < VARIABLES; v++) buffer += kz_pack_bytes((size_t)cells, items[v]);
+  return 2 * buffer;
 }
 
 static bool is_circle(const kz_basin_plan *plan) {
@@ -53,7 +53,7 @@ static void count(kz_chunks *c, int64_t tile) {
 }
 
 static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
-  const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
+  const size_t n = (size_t)kz_tile_capacity(&c->labelling->tiles);
   const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence, c->others};
   head h = {.tile = tile};
   char *end = message + *bytes + sizeof h;
@@ -88,11 +88,11 @@ static void count_doubtful(kz_chunks *c, int64_t tile) {
 
 /* The cells of a tile from its own ones: the second half of the tile in the middle mirrors the first. */
 static void fill(kz_chunks *c, int64_t tile) {
-  const kz_labelling *l = c->labelling;
+  const kz_window_labels *l = c->labelling;
   const int64_t n = kz_tile_count(&l->tiles, tile), own = kz_tile_own(&l->tiles, tile);
   for (int64_t i = 0; i < n; i++) {
     const bool mirrored = i >= own;
-    const kz_labelled *cell = &l->cell[mirrored ? n - 1 - i : i];
+    const kz_cell_label *cell = &l->cell[mirrored ? n - 1 - i : i];
     c->ids[i] = id_of(c, cell->label, mirrored);
     c->others[i] = id_of(c, cell->other, mirrored);
     c->periods[i] = cell->periods;
@@ -107,9 +107,9 @@ static void take_proofs(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t first = kz_tile_first(tiles, tile), n = kz_tile_own(tiles, tile);
   for (int64_t i = 0; i < n; i++) {
-    kz_labelled *cell = &c->labelling->cell[i];
+    kz_cell_label *cell = &c->labelling->cell[i];
     if (cell->proof == 0) continue;
-    const bool twice = tiles->own_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells;
+    const bool twice = tiles->unique_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells;
     if (cell->label != cell->proved && cell->evidence != KZ_UNDECIDED) c->counts.refuted += twice ? 2 : 1;
     cell->label = cell->proved;
     cell->other = 0;
@@ -133,7 +133,7 @@ static void mirror(kz_chunks *c, int64_t n) {
 
 /* The labels of the sample's cells that lie in the tile. */
 static void note_sample(kz_chunks *c, int64_t tile) {
-  const kz_labelling *l = c->labelling;
+  const kz_window_labels *l = c->labelling;
   const int64_t first = kz_tile_first(&l->tiles, tile), end = first + kz_tile_own(&l->tiles, tile);
   for (int64_t i = 0; i < c->n_sample; i++)
     if (c->sample[i] >= first && c->sample[i] < end) c->sample_label[i] = l->cell[c->sample[i] - first].label;
@@ -143,7 +143,7 @@ static kz_status make(void *context, const kz_local_record *piece, void *message
   kz_chunks *c = context;
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t image = tiles->n - 1 - piece->tile;
-  KZ_TRY(kz_labels_unpack(c->labelling, piece));
+  KZ_TRY(kz_tile_labels_unpack(c->labelling, piece));
   note_sample(c, piece->tile);
   count_doubtful(c, piece->tile);
   take_proofs(c, piece->tile);
@@ -183,7 +183,7 @@ kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz
 }
 
 static void chunks_allocate(kz_chunks *c) {
-  const size_t n = (size_t)kz_tile_room(&c->labelling->tiles);
+  const size_t n = (size_t)kz_tile_capacity(&c->labelling->tiles);
   c->ids = kz_calloc(n + 1, sizeof *c->ids);
   c->periods = kz_calloc(n + 1, sizeof *c->periods);
   c->evidence = kz_calloc(n + 1, sizeof *c->evidence);
@@ -208,9 +208,9 @@ static kz_status count_rows(kz_chunks *c) {
 }
 
 static kz_status deliver(kz_chunks *c) {
-  kz_labelling *l = c->labelling;
+  kz_window_labels *l = c->labelling;
   const kz_delivery delivery = {
-      .name = "file", .message_bytes = message_room(kz_tile_room(&l->tiles)), .make = make, .take = take, .context = c};
+      .name = "file", .message_bytes = message_room(kz_tile_capacity(&l->tiles)), .make = make, .take = take, .context = c};
   KZ_TRY(kz_local_records_deliver(l->run->ranks, &l->pieces, &delivery));
   KZ_TRY(kz_ranks_sum(l->run->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
   KZ_TRY(kz_ranks_sum(l->run->ranks, c->cells_of, c->catalogue->count));
@@ -232,8 +232,8 @@ kz_status kz_cells_write(kz_chunks *c) {
 }
 
 kz_status kz_chunks_write_unsettled(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store) {
-  const size_t n = (size_t)kz_tile_room(tiles);
-  kz_labelling labelling = {.plan = plan, .tiles = *tiles};
+  const size_t n = (size_t)kz_tile_capacity(tiles);
+  kz_window_labels labelling = {.plan = plan, .tiles = *tiles};
   kz_chunks c = {.labelling = &labelling,
                  .store = store,
                  .ids = kz_malloc(n * sizeof *c.ids),

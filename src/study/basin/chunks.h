@@ -7,7 +7,7 @@
 #include "measures.h"
 
 typedef struct {
-  kz_labelling *labelling;
+  kz_window_labels *labelling;
   kz_catalogue *catalogue; /* fractions are filled in */
   kz_store *store;         /* NULL but on rank 0 */
   int64_t n_sample;

@@ -31,7 +31,7 @@ typedef struct {
   uint8_t proof;    /* KZ_PROVED, KZ_PROVED_IN_PAIRS, 0 = not proved */
   uint8_t proved;   /* where it is proved to end: number of kz_dynamics */
   uint8_t unused;   /* 0 */
-} kz_labelled;
+} kz_cell_label;
 
 typedef struct kz_workspace kz_workspace;
 
@@ -46,23 +46,23 @@ typedef struct {
   int64_t batch;           /* cells that are followed together */
   const kz_run *run;
   kz_workspace *work;      /* of this rank */
-  kz_labelled *cell;       /* [kz_tile_room] a tile, unpacked */
+  kz_cell_label *cell;     /* [kz_tile_capacity] a tile, unpacked */
   kz_local_records pieces; /* tiles of this rank, packed */
   int before_level;        /* that left the cells of the present stage */
   int level;               /* of the present stage, KZ_LEVELS: candidates of what none decides */
-  int16_t wanted;          /* label of the open cells: 0 or KZ_DOUBTFUL */
-  int64_t *before;         /* [own tiles + 1] open cells in the tiles before */
-  int64_t n_open;          /* cells of the present stage that labels open ones again, */
-  const int64_t *open;     /* [n_open] */
+  int16_t wanted;          /* label of the pending cells: 0 or KZ_DOUBTFUL */
+  int64_t *before;         /* [own tiles + 1] pending cells in the tiles before */
+  int64_t n_pending;       /* cells of the present stage that labels pending ones again, */
+  const int64_t *pending;  /* [n_pending] */
   int64_t *reached;        /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
-} kz_labelling;
+} kz_window_labels;
 
 /* Finds the attractors and labels all own cells: `pieces` has the tiles of this rank, `reached` what all ranks found. To be freed in
  * every case. Collective. */
-kz_status kz_label_window(kz_labelling *labelling);
-void kz_labelling_free(kz_labelling *labelling);
+kz_status kz_label_window(kz_window_labels *labelling);
+void kz_window_labels_free(kz_window_labels *labelling);
 
 /* The own cells of a packed tile into labelling->cell. */
-kz_status kz_labels_unpack(kz_labelling *labelling, const kz_local_record *piece);
+kz_status kz_tile_labels_unpack(kz_window_labels *labelling, const kz_local_record *piece);
 
 #endif

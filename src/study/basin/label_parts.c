@@ -7,12 +7,14 @@
 
 #include "kapitza/store.h"
 
-enum { MOST_DECIDED = 100000 }; /* cells of a window whose open ones are decided, each by its own orbit, though nobody asked */
+enum {
+  MOST_DECIDED = 100000
+}; /* cells of a window whose pending ones are decided, each by its own orbit, though nobody asked */
 
 /* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_pack has them. */
 typedef struct {
   uint64_t bytes; /* all */
-  int64_t n_reached, n_open, n_doubtful;
+  int64_t n_reached, n_pending, n_doubtful;
 } head;
 
 struct kz_workspace {
@@ -27,23 +29,23 @@ kz_workspace *kz_workspace_make(void) {
 }
 
 /* By the map table. */
-static void follow_batch(const kz_labelling *l, int64_t n, kz_labelled *out) {
+static void follow_batch(const kz_window_labels *l, int64_t n, kz_cell_label *out) {
   const kz_basin_plan *plan = l->plan;
   kz_workspace *w = l->work;
   for (int64_t i = 0; i < n; i++) kz_cell_state(plan, w->cell[i], w->state + 2 * i);
-  kz_dynamics_follow(l->dynamics, kz_way(plan->method, plan->interpolation), n, plan->max_periods, w->state, w->label,
+  kz_dynamics_follow(l->dynamics, kz_stepping(plan->method, plan->interpolation), n, plan->max_periods, w->state, w->label,
                      w->periods);
   for (int64_t i = 0; i < n; i++)
-    out[i] = (kz_labelled){.periods = (uint32_t)w->periods[i], .label = (int16_t)w->label[i], .evidence = KZ_FOLLOWED};
+    out[i] = (kz_cell_label){.periods = (uint32_t)w->periods[i], .label = (int16_t)w->label[i], .evidence = KZ_FOLLOWED};
 }
 
-kz_labeller kz_cells_labeller(const kz_labelling *l) {
+kz_labeller kz_cells_labeller(const kz_window_labels *l) {
   return kz_window_labeller(&l->starts,
                             l->plan->undecided == KZ_UNDECIDED_DECIDE || (l->images && l->tiles.cells <= MOST_DECIDED));
 }
 
 /* At the present level; by method direct the labels of states alone, and whether their errors change them. */
-static kz_status label_batch(kz_labelling *l, int64_t n, kz_labelled *out) {
+static kz_status label_batch(kz_window_labels *l, int64_t n, kz_cell_label *out) {
   const kz_labeller labeller = kz_cells_labeller(l);
   kz_decision *decision = l->work->decision;
   const bool direct = l->plan->method == KZ_METHOD_DIRECT;
@@ -54,14 +56,14 @@ static kz_status label_batch(kz_labelling *l, int64_t n, kz_labelled *out) {
   else
     KZ_TRY(kz_label_at(&labeller, l->level, l->before_level, n, l->work->cell, decision));
   for (int64_t i = 0; i < n; i++)
-    out[i] = (kz_labelled){.periods = (uint32_t)decision[i].periods,
-                           .label = (int16_t)decision[i].label,
-                           .other = (int16_t)decision[i].other,
-                           .evidence = direct && decision[i].level == KZ_LEVELS ? KZ_LEFT : kz_level_evidence(l->level)};
+    out[i] = (kz_cell_label){.periods = (uint32_t)decision[i].periods,
+                             .label = (int16_t)decision[i].label,
+                             .other = (int16_t)decision[i].other,
+                             .evidence = direct && decision[i].level == KZ_LEVELS ? KZ_LEFT : kz_level_evidence(l->level)};
   return KZ_OK;
 }
 
-kz_status kz_label_cells(kz_labelling *l, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out) {
+kz_status kz_label_cells(kz_window_labels *l, int64_t first, const int64_t *cells, int64_t n, kz_cell_label *out) {
   for (int64_t done = 0; done < n; done += l->batch) {
     const int64_t part = n - done < l->batch ? n - done : l->batch;
     KZ_TRY(kz_ranks_interrupted(l->run->ranks));
@@ -75,7 +77,7 @@ kz_status kz_label_cells(kz_labelling *l, int64_t first, const int64_t *cells, i
 }
 
 /* The attractors among n cells: their numbers, each once. */
-static int64_t list_reached(int64_t n, const kz_labelled *cell, int32_t *number) {
+static int64_t list_reached(int64_t n, const kz_cell_label *cell, int32_t *number) {
   bool seen[INT16_MAX + 1] = {false};
   int64_t count = 0;
   for (int64_t i = 0; i < n; i++) {
@@ -86,18 +88,18 @@ static int64_t list_reached(int64_t n, const kz_labelled *cell, int32_t *number)
   return count;
 }
 
-size_t kz_labels_room(const kz_labelling *l) {
-  const size_t n = (size_t)kz_tile_room(&l->tiles);
-  return sizeof(head) + n * sizeof(int32_t) + kz_pack_room(n, sizeof(kz_labelled));
+size_t kz_tile_labels_bytes(const kz_window_labels *l) {
+  const size_t n = (size_t)kz_tile_capacity(&l->tiles);
+  return sizeof(head) + n * sizeof(int32_t) + kz_pack_bytes(n, sizeof(kz_cell_label));
 }
 
-kz_status kz_labels_pack(const kz_labelling *l, int64_t tile, void *record) {
+kz_status kz_tile_labels_pack(const kz_window_labels *l, int64_t tile, void *record) {
   const int64_t n = kz_tile_own(&l->tiles, tile);
   head *h = record;
   int32_t *number = (int32_t *)(h + 1);
   *h = (head){.n_reached = list_reached(n, l->cell, number)};
   for (int64_t i = 0; i < n; i++) {
-    h->n_open += l->cell[i].label == 0;
+    h->n_pending += l->cell[i].label == 0;
     h->n_doubtful += l->cell[i].label == KZ_DOUBTFUL;
   }
   const size_t bytes = kz_pack_into(l->cell, (size_t)n, sizeof *l->cell, number + h->n_reached);
@@ -105,9 +107,9 @@ kz_status kz_labels_pack(const kz_labelling *l, int64_t tile, void *record) {
   return bytes > 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory to pack a tile of %lld cells", (long long)n);
 }
 
-kz_status kz_labels_replace(const kz_labelling *l, kz_local_record *piece, void *record) {
+kz_status kz_tile_labels_replace(const kz_window_labels *l, kz_local_record *piece, void *record) {
   kz_local_records packed = {0};
-  KZ_TRY(kz_labels_pack(l, piece->tile, record));
+  KZ_TRY(kz_tile_labels_pack(l, piece->tile, record));
   kz_local_records_add(&packed, piece->tile, record, *(uint64_t *)record);
   free(piece->data);
   *piece = packed.list[0];
@@ -115,7 +117,7 @@ kz_status kz_labels_replace(const kz_labelling *l, kz_local_record *piece, void 
   return KZ_OK;
 }
 
-kz_status kz_labels_unpack(kz_labelling *l, const kz_local_record *piece) {
+kz_status kz_tile_labels_unpack(kz_window_labels *l, const kz_local_record *piece) {
   const head *h = piece->data;
   const char *packed = (const char *)(h + 1) + (size_t)h->n_reached * sizeof(int32_t);
   const size_t bytes = piece->bytes - (size_t)(packed - (const char *)piece->data);
@@ -123,12 +125,12 @@ kz_status kz_labels_unpack(kz_labelling *l, const kz_local_record *piece) {
   return kz_fail(KZ_FAILED, "no memory to unpack a tile of %lld cells", (long long)kz_tile_own(&l->tiles, piece->tile));
 }
 
-int64_t kz_labels_open(const kz_local_record *piece, int16_t wanted) {
+int64_t kz_tile_labels_pending(const kz_local_record *piece, int16_t wanted) {
   const head *h = piece->data;
-  return wanted == 0 ? h->n_open : h->n_doubtful;
+  return wanted == 0 ? h->n_pending : h->n_doubtful;
 }
 
-void kz_labels_note_reached(const kz_labelling *l, const kz_local_record *piece) {
+void kz_tile_labels_note_reached(const kz_window_labels *l, const kz_local_record *piece) {
   const head *h = piece->data;
   const int32_t *number = (const int32_t *)(h + 1);
   for (int64_t i = 0; i < h->n_reached; i++) l->reached[number[i]]++;

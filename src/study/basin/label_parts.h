@@ -11,20 +11,20 @@ enum { KZ_BATCH = 16384 }; /* cells that are followed together, at most */
 kz_workspace *kz_workspace_make(void);
 
 /* The labeller of cells: items are their numbers. */
-kz_labeller kz_cells_labeller(const kz_labelling *labelling);
+kz_labeller kz_cells_labeller(const kz_window_labels *labelling);
 /* Labels n cells at the present level: cells [n], or first, first + 1, ... where that is NULL. KZ_STOPPED where a stop is asked. */
-kz_status kz_label_cells(kz_labelling *labelling, int64_t first, const int64_t *cells, int64_t n, kz_labelled *out);
+kz_status kz_label_cells(kz_window_labels *labelling, int64_t first, const int64_t *cells, int64_t n, kz_cell_label *out);
 
 /* Bytes of a packed tile at most. */
-size_t kz_labels_room(const kz_labelling *labelling);
+size_t kz_tile_labels_bytes(const kz_window_labels *labelling);
 /* Packs the own cells of a tile, labelling->cell. */
-kz_status kz_labels_pack(const kz_labelling *labelling, int64_t tile, void *record);
-/* The same into a piece of this rank, in place of what it had; record: room for a packed tile. */
-kz_status kz_labels_replace(const kz_labelling *labelling, kz_local_record *piece, void *record);
+kz_status kz_tile_labels_pack(const kz_window_labels *labelling, int64_t tile, void *record);
+/* The same into a record of this rank, in place of what it had; record: a buffer for a packed tile. */
+kz_status kz_tile_labels_replace(const kz_window_labels *labelling, kz_local_record *piece, void *record);
 /* Cells of a packed tile with the label `wanted`, 0 or KZ_DOUBTFUL. */
-int64_t kz_labels_open(const kz_local_record *piece, int16_t wanted);
+int64_t kz_tile_labels_pending(const kz_local_record *piece, int16_t wanted);
 /* Counts the attractors that it reaches. */
-void kz_labels_note_reached(const kz_labelling *labelling, const kz_local_record *piece);
+void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_local_record *piece);
 
 /* What a level writes into the file as evidence, KZ_LEVELS: of what none decides; and how many cells it takes at a time, where it takes
  * those that another one left. */
@@ -32,13 +32,13 @@ const char *kz_level_name(int level); /* of its stages; the first one's are thos
 uint8_t kz_level_evidence(int level);
 int64_t kz_level_tile(int level);
 /* Labels those that the first level leaves, in stages of round `round`. Collective. */
-kz_status kz_levels_escalate(kz_labelling *labelling, int round);
+kz_status kz_levels_escalate(kz_window_labels *labelling, int round);
 
-/* Counts the cells of all tiles with the label `wanted`, which are open then: labelling->before. Collective. */
-kz_status kz_open_count(kz_labelling *labelling, int16_t wanted);
-/* Numbers of n of the open cells from .. from + of - 1, evenly chosen, in order: cell [n], on every rank. Collective. */
-kz_status kz_open_pick(kz_labelling *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell);
-/* Labels the open cells of all tiles on labelling->level, in stages `name`. Collective. */
-kz_status kz_open_label(kz_labelling *labelling, const char *name);
+/* Counts the cells of all tiles with the label `wanted`, which are pending then: labelling->before. Collective. */
+kz_status kz_pending_count(kz_window_labels *labelling, int16_t wanted);
+/* Numbers of n of the pending cells from .. from + of - 1, evenly chosen, in order: cell [n], on every rank. Collective. */
+kz_status kz_pending_pick(kz_window_labels *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell);
+/* Labels the pending cells of all tiles on labelling->level, in stages `name`. Collective. */
+kz_status kz_pending_label(kz_window_labels *labelling, const char *name);
 
 #endif

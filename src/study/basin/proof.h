@@ -21,7 +21,7 @@ kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_pr
 int64_t kz_proof_periods(const kz_basin_plan *plan);
 /* Follows the starts of all cells into the region, in kept stages, but those that some method labelled with an attractor that is not
  * proved: the fields proof and proved of the labelling's cells. Collective. */
-kz_status kz_prove_cells(kz_labelling *labelling, const kz_proof *proof, const kz_proved *proved);
+kz_status kz_prove_cells(kz_window_labels *labelling, const kz_proof *proof, const kz_proved *proved);
 
 /* Random real starts of the window. */
 typedef struct {
@@ -33,7 +33,7 @@ int64_t kz_proof_sample_starts(const kz_basin_plan *plan);
 kz_status kz_prove_sample(const kz_run *run, const kz_basin_plan *plan, const kz_proof *proof, kz_proof_sample *sample);
 
 /* The three of them, one after the other. Collective. */
-kz_status kz_prove_window(kz_labelling *labelling, kz_proof *proof, kz_proof_sample *sample);
+kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample);
 
 /* What a proof costs: bytes of a rank, seconds of one core. */
 double kz_proof_bytes(const kz_scene *scene);

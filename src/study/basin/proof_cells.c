@@ -11,7 +11,7 @@ enum { MOST_CELLS = 1 << 22, PAIRS_TILE = 256 }; /* of tiles that are taken toge
 
 /* Tiles from .. to - 1, and the stage that works on them. */
 typedef struct {
-  const kz_labelling *labelling;
+  const kz_window_labels *labelling;
   const kz_proof *proof;
   const kz_proved *proved;
   int64_t from, to, first, n; /* tiles; first cell, cells */
@@ -33,12 +33,12 @@ static kz_proof_start start_of(const kz_basin_plan *plan, int64_t cell) {
 }
 
 /* Each rank knows the labels of its own tiles: all then know which cells are wanted. */
-static kz_status find_wanted(kz_labelling *l, part *p) {
+static kz_status find_wanted(kz_window_labels *l, part *p) {
   memset(p->wanted, 0, (size_t)(p->n / 64 + 1) * sizeof *p->wanted);
   for (int64_t i = 0; i < l->pieces.n; i++) {
     const int64_t tile = l->pieces.list[i].tile, before = kz_tile_first(&l->tiles, tile) - p->first;
     if (tile < p->from || tile >= p->to) continue;
-    KZ_TRY(kz_labels_unpack(l, &l->pieces.list[i]));
+    KZ_TRY(kz_tile_labels_unpack(l, &l->pieces.list[i]));
     for (int64_t k = 0; k < kz_tile_own(&l->tiles, tile); k++) {
       const int16_t label = l->cell[k].label;
       if (label <= 0 || (label <= KZ_PROOF_MOST && p->proved->has[label]))
@@ -87,19 +87,19 @@ static void take(part *p, int64_t i, uint8_t number, uint8_t evidence) {
 /* All tiles of the part in doubles; a record has the place of whole tiles. */
 static kz_status prove_in_doubles(const kz_run *run, part *p) {
   const kz_tiles *tiles = &p->labelling->tiles;
-  const size_t room = (size_t)kz_tile_room(tiles);
+  const size_t capacity = (size_t)kz_tile_capacity(tiles);
   kz_stage stage = {.name = "proof in doubles",
                     .n_tiles = p->to - p->from,
-                    .record_bytes = room,
+                    .record_bytes = capacity,
                     .work = follow_tile,
                     .context = p,
                     .keep = true,
                     .everywhere = true};
-  uint8_t *record = kz_malloc((size_t)stage.n_tiles * room);
+  uint8_t *record = kz_malloc((size_t)stage.n_tiles * capacity);
   const kz_status status = kz_stage_run(run, &stage, record);
   p->n_left = 0;
   for (int64_t tile = p->from; status == KZ_OK && tile < p->to; tile++) {
-    const uint8_t *of = record + (size_t)(tile - p->from) * room;
+    const uint8_t *of = record + (size_t)(tile - p->from) * capacity;
     const int64_t before = kz_tile_first(tiles, tile) - p->first;
     for (int64_t k = 0; k < kz_tile_own(tiles, tile); k++) {
       take(p, before + k, of[k], KZ_PROVED);
@@ -126,22 +126,22 @@ static kz_status prove_in_pairs(const kz_run *run, part *p) {
 }
 
 /* Into the tiles of this rank. */
-static kz_status keep(kz_labelling *l, const part *p, void *room) {
+static kz_status keep(kz_window_labels *l, const part *p, void *record) {
   for (int64_t i = 0; i < l->pieces.n; i++) {
     kz_local_record *piece = &l->pieces.list[i];
     if (piece->tile < p->from || piece->tile >= p->to) continue;
     const int64_t before = kz_tile_first(&l->tiles, piece->tile) - p->first;
-    KZ_TRY(kz_labels_unpack(l, piece));
+    KZ_TRY(kz_tile_labels_unpack(l, piece));
     for (int64_t k = 0; k < kz_tile_own(&l->tiles, piece->tile); k++) {
       l->cell[k].proof = p->evidence[before + k];
       l->cell[k].proved = p->number[before + k];
     }
-    KZ_TRY(kz_labels_replace(l, piece, room));
+    KZ_TRY(kz_tile_labels_replace(l, piece, record));
   }
   return KZ_OK;
 }
 
-static kz_status prove_part(kz_labelling *l, part *p) {
+static kz_status prove_part(kz_window_labels *l, part *p) {
   const kz_run *run = l->run;
   memset(p->number, 0, (size_t)p->n);
   memset(p->evidence, 0, (size_t)p->n);
@@ -149,16 +149,16 @@ static kz_status prove_part(kz_labelling *l, part *p) {
   KZ_TRY(kz_ranks_sum(run->ranks, (int64_t *)p->wanted, p->n / 64 + 1));
   KZ_TRY(prove_in_doubles(run, p));
   KZ_TRY(prove_in_pairs(run, p));
-  void *room = kz_malloc(kz_labels_room(l));
-  const kz_status status = keep(l, p, room);
-  free(room);
+  void *record = kz_malloc(kz_tile_labels_bytes(l));
+  const kz_status status = keep(l, p, record);
+  free(record);
   return kz_ranks_agree(run->ranks, status);
 }
 
-kz_status kz_prove_cells(kz_labelling *l, const kz_proof *proof, const kz_proved *proved) {
+kz_status kz_prove_cells(kz_window_labels *l, const kz_proof *proof, const kz_proved *proved) {
   const kz_tiles *tiles = &l->tiles;
-  const int64_t room = kz_tile_room(tiles), at_once = room < MOST_CELLS ? MOST_CELLS / room : 1;
-  const int64_t most = room * (at_once < tiles->own ? at_once : tiles->own);
+  const int64_t capacity = kz_tile_capacity(tiles), at_once = capacity < MOST_CELLS ? MOST_CELLS / capacity : 1;
+  const int64_t most = capacity * (at_once < tiles->own ? at_once : tiles->own);
   part p = {.labelling = l, .proof = proof, .proved = proved};
   if (!proved->any) return KZ_OK;
   p.wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *p.wanted);
@@ -179,7 +179,7 @@ kz_status kz_prove_cells(kz_labelling *l, const kz_proof *proof, const kz_proved
   return status;
 }
 
-kz_status kz_prove_window(kz_labelling *labelling, kz_proof *proof, kz_proof_sample *sample) {
+kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample) {
   kz_proved proved = {.any = false};
   *sample = (kz_proof_sample){.high = 1};
   KZ_TRY(kz_prove_regions(labelling->run, labelling->dynamics, proof, &proved));

@@ -3,20 +3,20 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "numerics/step_table.h"
+#include "numerics/table_check.h"
 #include "label_parts.h"
 #include "window/reference.h"
 
 enum { ROUNDS = 4 };
 
 /* What the starts over the window end on, or `again` unsettled cells, evenly chosen, is found and counted. */
-static kz_status rounds_discover(kz_labelling *l, bool again) {
+static kz_status rounds_discover(kz_window_labels *l, bool again) {
   const kz_basin_plan *plan = l->plan;
   const int64_t all = again ? l->before[l->tiles.own] : 0, n = again && all < plan->starts ? all : plan->starts;
   double *state = kz_malloc((size_t)n * 2 * sizeof *state);
   int32_t *label = kz_malloc((size_t)n * sizeof *label);
   int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
-  kz_status status = again ? kz_open_pick(l, 0, all, n, cell) : KZ_OK;
+  kz_status status = again ? kz_pending_pick(l, 0, all, n, cell) : KZ_OK;
   for (int64_t i = 0, spent; again && status == KZ_OK && i < n; i++)
     kz_window_state(&l->starts, cell[i], state + 2 * i, &spent);
   if (status == KZ_OK)
@@ -32,15 +32,15 @@ static kz_status rounds_discover(kz_labelling *l, bool again) {
 }
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
-  kz_labelling *l = context;
+  kz_window_labels *l = context;
   KZ_TRY(kz_label_cells(l, kz_tile_first(&l->tiles, tile), NULL, kz_tile_own(&l->tiles, tile), l->cell));
-  return kz_labels_pack(l, tile, record);
+  return kz_tile_labels_pack(l, tile, record);
 }
 
-static kz_status label_tiles(kz_labelling *l) {
+static kz_status label_tiles(kz_window_labels *l) {
   kz_stage stage = {.name = "cells 1",
                     .n_tiles = l->tiles.own,
-                    .record_bytes = kz_labels_room(l),
+                    .record_bytes = kz_tile_labels_bytes(l),
                     .work = label_tile,
                     .context = l,
                     .keep = true,
@@ -49,13 +49,13 @@ static kz_status label_tiles(kz_labelling *l) {
 }
 
 /* Before cells are labelled by a table alone. What basin.accuracy chose is chosen by its labels. */
-static kz_status check_table(const kz_labelling *l) {
+static kz_status check_table(const kz_window_labels *l) {
   if (l->plan->method != KZ_METHOD_ICM || !isnan(l->plan->accuracy)) return KZ_OK;
   return kz_steps_check_table(l->plan, kz_dynamics_table_error(l->dynamics, kz_stencil(l->plan->interpolation)));
 }
 
 /* The starts of all cells, after the images of the window where they need them. */
-static kz_status make_starts(kz_labelling *l) {
+static kz_status make_starts(kz_window_labels *l) {
   const kz_basin_plan *plan = l->plan;
   if (kz_plan_is_centred(plan) && plan->method == KZ_METHOD_EXACT) {
     l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
@@ -66,7 +66,7 @@ static kz_status make_starts(kz_labelling *l) {
 }
 
 /* `exact` alone leaves doubtful cells. */
-static kz_status run_rounds(kz_labelling *l) {
+static kz_status run_rounds(kz_window_labels *l) {
   KZ_TRY(rounds_discover(l, false));
   KZ_TRY(make_starts(l));
   KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
@@ -74,40 +74,40 @@ static kz_status run_rounds(kz_labelling *l) {
   KZ_TRY(kz_levels_escalate(l, 1));
   for (int round = 1; round < ROUNDS; round++) {
     char name[32];
-    KZ_TRY(kz_open_count(l, 0));
+    KZ_TRY(kz_pending_count(l, 0));
     if (l->before[l->tiles.own] == 0) return KZ_OK;
     const int64_t known = kz_dynamics_count(l->dynamics);
     KZ_TRY(rounds_discover(l, true));
     if (kz_dynamics_count(l->dynamics) == known) return KZ_OK;
     snprintf(name, sizeof name, "cells %d", round + 1);
-    KZ_TRY(kz_open_label(l, name));
+    KZ_TRY(kz_pending_label(l, name));
     KZ_TRY(kz_levels_escalate(l, round + 1));
   }
   return KZ_OK;
 }
 
-static void rounds_allocate(kz_labelling *l) {
-  const size_t room = (size_t)kz_tile_room(&l->tiles);
+static void rounds_allocate(kz_window_labels *l) {
+  const size_t capacity = (size_t)kz_tile_capacity(&l->tiles);
   l->work = kz_workspace_make();
-  l->cell = kz_calloc(room + 1, sizeof *l->cell);
+  l->cell = kz_calloc(capacity + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
   l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
 }
 
 /* The starts' counts are the same on every rank, those of tiles each rank's own. */
-static kz_status sum_reached(kz_labelling *l) {
+static kz_status sum_reached(kz_window_labels *l) {
   for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
-  for (int64_t i = 0; i < l->pieces.n; i++) kz_labels_note_reached(l, &l->pieces.list[i]);
+  for (int64_t i = 0; i < l->pieces.n; i++) kz_tile_labels_note_reached(l, &l->pieces.list[i]);
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);
 }
 
-kz_status kz_label_window(kz_labelling *l) {
+kz_status kz_label_window(kz_window_labels *l) {
   rounds_allocate(l);
   KZ_TRY(run_rounds(l));
   return sum_reached(l);
 }
 
-void kz_labelling_free(kz_labelling *l) {
+void kz_window_labels_free(kz_window_labels *l) {
   kz_local_records_free(&l->pieces);
   kz_window_starts_free(&l->starts);
   kz_images_free(l->images);

@@ -35,10 +35,10 @@ static void choose(kz_tiles *tiles, int64_t target, int64_t most, bool mirrored)
 
 kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target) {
   const kz_basin_plan *plan = &scene->basin;
-  kz_tiles tiles = {.rows = plan->velocity.count, .columns = plan->theta.count, .own_cells = kz_unique_cells(plan)};
+  kz_tiles tiles = {.rows = plan->velocity.count, .columns = plan->theta.count, .unique_cells = kz_unique_cells(plan)};
   tiles.cells = tiles.rows * tiles.columns;
   const int64_t enough = kz_tile_cells(scene, MOST_CELLS); /* where nothing settles; nearly all do, long before */
-  const bool mirrored = tiles.own_cells < tiles.cells;
+  const bool mirrored = tiles.unique_cells < tiles.cells;
   choose(&tiles, lower(target, enough), lower(64 * enough, MOST_CELLS), mirrored);
   tiles.across = (tiles.columns + tiles.chunk[1] - 1) / tiles.chunk[1];
   tiles.n = tiles.across * ((tiles.rows + tiles.chunk[0] - 1) / tiles.chunk[0]);
@@ -57,9 +57,9 @@ int64_t kz_tile_count(const kz_tiles *tiles, int64_t tile) {
 }
 
 int64_t kz_tile_own(const kz_tiles *tiles, int64_t tile) {
-  return lower(kz_tile_count(tiles, tile), tiles->own_cells - kz_tile_first(tiles, tile));
+  return lower(kz_tile_count(tiles, tile), tiles->unique_cells - kz_tile_first(tiles, tile));
 }
 
-int64_t kz_tile_room(const kz_tiles *tiles) {
+int64_t kz_tile_capacity(const kz_tiles *tiles) {
   return tiles->chunk[0] * tiles->chunk[1];
 }

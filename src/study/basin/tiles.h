@@ -13,7 +13,7 @@ typedef struct {
   int64_t chunk[2];      /* cells of a tile along velocity and theta; the last ones may reach beyond the window */
   int64_t across;        /* tiles along theta */
   int64_t n, own;        /* tiles of the window; of these the first ones are labelled, the others mirror them */
-  int64_t cells, own_cells;
+  int64_t cells, unique_cells;
   bool whole; /* no box and no row lies in two tiles */
 } kz_tiles;
 
@@ -25,6 +25,6 @@ int64_t kz_tile_count(const kz_tiles *tiles, int64_t tile);
 /* How many of these are labelled: all but in the tile in the middle, which mirrors itself. */
 int64_t kz_tile_own(const kz_tiles *tiles, int64_t tile);
 /* Cells of every chunk. */
-int64_t kz_tile_room(const kz_tiles *tiles);
+int64_t kz_tile_capacity(const kz_tiles *tiles);
 
 #endif

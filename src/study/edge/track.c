@@ -15,7 +15,7 @@ enum { HELD = 16 };
 
 typedef struct {
   kz_dynamics *dynamics;
-  kz_plan *map; /* of published values */
+  kz_flow *map; /* of published values */
   int64_t max_periods;
   double side[2][2]; /* rad, rad per drive radian; the first one's end is `own` */
   int32_t own, other;
@@ -155,10 +155,10 @@ kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t ma
     return kz_fail(KZ_REFUSED, "edge.second|edge.first: ends where the other start does; give starts of two basins");
   p.own = end[0];
   p.other = end[1];
-  p.map = kz_plan_create(pendulum, &fine);
+  p.map = kz_flow_create(pendulum, &fine);
   const kz_status status = follow_edge(scene, &p, edge, orbit);
   edge->first_end = p.own;
   edge->second_end = p.other;
-  kz_plan_free(p.map);
+  kz_flow_free(p.map);
   return status;
 }

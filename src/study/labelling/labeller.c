@@ -64,7 +64,7 @@ static int64_t take(int32_t level, int64_t n, int64_t *place, const kz_decision 
   return pending;
 }
 
-/* place [n]: of the pending items; others [2 n]: room for their numbers. */
+/* place [n]: of the pending items; others [2 n]: buffer for their numbers. */
 static kz_status escalate(const kz_labeller *l, int64_t n, const int64_t *item, int64_t *place, int64_t *pending_item,
                           kz_decision *found, kz_decision *decision) {
   int64_t pending = n;

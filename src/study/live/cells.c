@@ -26,12 +26,12 @@ static kz_status decide(const kz_window_starts *starts, int64_t n, const int64_t
   KZ_TRY(kz_label(&labeller, n, number, decision));
   for (int64_t i = 0; i < n; i++) {
     kz_decision *d = decision + i;
-    const bool open = d->label == KZ_DOUBTFUL;
-    if (open) KZ_TRY(kz_label_candidates(&labeller, 1, number + i, d));
+    const bool pending = d->label == KZ_DOUBTFUL;
+    if (pending) KZ_TRY(kz_label_candidates(&labeller, 1, number + i, d));
     cells[number[i]] = (kz_frame_cell){.label = (int16_t)d->label,
-                                       .other = (int16_t)(open ? d->other : 0),
+                                       .other = (int16_t)(pending ? d->other : 0),
                                        .periods = (float)d->periods,
-                                       .state = open ? KZ_CELL_UNDECIDED : KZ_CELL_DECIDED};
+                                       .state = pending ? KZ_CELL_UNDECIDED : KZ_CELL_DECIDED};
   }
   return KZ_OK;
 }

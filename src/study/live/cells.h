@@ -1,11 +1,11 @@
-/* Cells of one frame, followed where they are open. */
+/* Cells of one frame, followed where they are pending. */
 #ifndef KAPITZA_STUDY_LIVE_CELLS_H
 #define KAPITZA_STUDY_LIVE_CELLS_H
 
 #include "resident.h"
 
 /* What is known of a cell. */
-enum { KZ_CELL_OPEN = 0, KZ_CELL_FOLLOWED = 1, KZ_CELL_DECIDED = 2, KZ_CELL_UNDECIDED = 3 };
+enum { KZ_CELL_PENDING = 0, KZ_CELL_FOLLOWED = 1, KZ_CELL_DECIDED = 2, KZ_CELL_UNDECIDED = 3 };
 typedef struct {
   int16_t label; /* number of kz_dynamics, 0 = not settled */
   int16_t other; /* of an undecided cell: the second candidate, 0 = none */

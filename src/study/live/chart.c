@@ -6,7 +6,7 @@
 #include "kapitza/study_live.h"
 #include "levels.h"
 
-enum { OPEN = 254 }; /* in place of a period */
+enum { PENDING = 254 }; /* in place of a period */
 
 typedef struct {
   const kz_scene *scene;
@@ -15,17 +15,17 @@ typedef struct {
   int64_t rows, columns;
   uint8_t *period, *centre;             /* [rows][columns] of all points, */
   uint8_t *shown_period, *shown_centre; /* of a level */
-  int64_t *open;
+  int64_t *pending;
 } drawing;
 
 static void chart_allocate(drawing *d) {
   const size_t n = (size_t)(d->rows * d->columns);
   d->period = kz_malloc(4 * n);
-  d->open = kz_malloc(n * sizeof *d->open);
+  d->pending = kz_malloc(n * sizeof *d->pending);
   d->centre = d->period + n;
   d->shown_period = d->centre + n;
   d->shown_centre = d->shown_period + n;
-  memset(d->period, OPEN, n);
+  memset(d->period, PENDING, n);
 }
 
 static int64_t point_of(const drawing *d, int64_t level, int64_t i, int64_t j) {
@@ -37,22 +37,22 @@ static kz_status follow(drawing *d, int64_t n) {
   for (int64_t done = 0; done < n; done += KZ_CHART_POINTS) {
     const int64_t part = n - done < KZ_CHART_POINTS ? n - done : KZ_CHART_POINTS;
     KZ_TRY(d->pause(d->context));
-    kz_chart_points(d->scene, 0, part, d->open + done, ending);
+    kz_chart_points(d->scene, 0, part, d->pending + done, ending);
     for (int64_t i = 0; i < part; i++) {
-      d->period[d->open[done + i]] = ending[i].period >= 0 ? (uint8_t)ending[i].period : KZ_NO_LABEL;
-      d->centre[d->open[done + i]] = (uint8_t)ending[i].centre;
+      d->period[d->pending[done + i]] = ending[i].period >= 0 ? (uint8_t)ending[i].period : KZ_NO_LABEL;
+      d->centre[d->pending[done + i]] = (uint8_t)ending[i].centre;
     }
   }
   return KZ_OK;
 }
 
-/* Follows what is open of a level, and gathers it. */
+/* Follows what is pending of a level, and gathers it. */
 static kz_status draw(drawing *d, kz_chart_level *level) {
   int64_t n = 0;
   for (int64_t i = 0; i < level->rows; i++)
     for (int64_t j = 0; j < level->columns; j++) {
       const int64_t point = point_of(d, level->level, i, j);
-      if (d->period[point] == OPEN) d->open[n++] = point;
+      if (d->period[point] == PENDING) d->pending[n++] = point;
     }
   KZ_TRY(follow(d, n));
   for (int64_t i = 0; i < level->rows; i++)
@@ -84,6 +84,6 @@ kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_sta
     if (status == KZ_OK) status = show(context, &level);
   }
   free(d.period);
-  free(d.open);
+  free(d.pending);
   return status;
 }

@@ -1,4 +1,4 @@
-/* A frame level by level: cells of a level that are open are followed in tiles, then the level is shown. */
+/* A frame level by level: cells of a level that are pending are followed in tiles, then the level is shown. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +17,8 @@ typedef struct {
   kz_window_starts starts;
   int64_t total, own;  /* cells; the first ones, of which the others are mirror images */
   kz_frame_cell *cell; /* [total] */
-  int64_t *open;       /* [total] numbers of the cells that a level follows */
-  void *room;          /* of a level's planes */
+  int64_t *pending;    /* [total] numbers of the cells that a level follows */
+  void *buffer;        /* of a level's planes */
   bool searched;       /* attractors have been looked for among its cells */
   double begin;
 } making;
@@ -37,19 +37,19 @@ static void frame_allocate(making *m) {
   size_t bytes = 0;
   for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
   m->cell = kz_calloc((size_t)m->total, sizeof *m->cell);
-  m->open = kz_malloc((size_t)m->total * sizeof *m->open);
-  m->room = kz_malloc((size_t)m->total * bytes + sizeof(float));
+  m->pending = kz_malloc((size_t)m->total * sizeof *m->pending);
+  m->buffer = kz_malloc((size_t)m->total * bytes + sizeof(float));
 }
 
-/* Numbers of the open cells of a level, those of the second half as their mirror images. */
-static int64_t list_open(making *m, int64_t level) {
+/* Numbers of the pending cells of a level, those of the second half as their mirror images. */
+static int64_t list_pending(making *m, int64_t level) {
   const int64_t columns = m->scene->basin.theta.count, rows = m->scene->basin.velocity.count;
   int64_t n = 0;
   for (int64_t i = 0; i < kz_level_size(level, rows); i++)
     for (int64_t j = 0; j < kz_level_size(level, columns); j++) {
       const int64_t f = kz_level_place(level, i, rows) * columns + kz_level_place(level, j, columns);
       const int64_t g = f < m->own ? f : m->total - 1 - f;
-      if (m->cell[g].state == KZ_CELL_OPEN) m->open[n++] = g;
+      if (m->cell[g].state == KZ_CELL_PENDING) m->pending[n++] = g;
     }
   return n;
 }
@@ -58,7 +58,7 @@ static kz_status follow(making *m, int64_t n) {
   for (int64_t done = 0; done < n; done += KZ_FRAME_TILE) {
     KZ_TRY(m->frame->pause(m->frame->context));
     const int64_t part = n - done < KZ_FRAME_TILE ? n - done : KZ_FRAME_TILE;
-    KZ_TRY(kz_cells_follow(m->resident, &m->starts, part, m->open + done, m->cell));
+    KZ_TRY(kz_cells_follow(m->resident, &m->starts, part, m->pending + done, m->cell));
   }
   return KZ_OK;
 }
@@ -67,7 +67,7 @@ static kz_status follow(making *m, int64_t n) {
 static int64_t list_unsettled(making *m, int64_t n) {
   int64_t left = 0;
   for (int64_t i = 0; i < n; i++)
-    if (m->cell[m->open[i]].label == 0) m->open[left++] = m->open[i];
+    if (m->cell[m->pending[i]].label == 0) m->pending[left++] = m->pending[i];
   return left;
 }
 
@@ -79,7 +79,7 @@ static kz_status label(making *m, int64_t n) {
   bool born = false;
   if (left == 0 || m->searched || m->resident->moving) return KZ_OK;
   m->searched = true;
-  KZ_TRY(kz_cells_discover(m->resident, &m->starts, left, m->open, &born));
+  KZ_TRY(kz_cells_discover(m->resident, &m->starts, left, m->pending, &born));
   if (!born) return KZ_OK;
   kz_engine_list(m->engine, m->resident);
   return follow(m, left);
@@ -96,7 +96,7 @@ static uint8_t shown_id(const making *m, int32_t number, bool mirrored) {
 }
 
 static uint8_t doubt_of(const kz_frame_cell *cell) {
-  static const uint8_t doubt[] = {[KZ_CELL_OPEN] = KZ_DOUBT_NONE,
+  static const uint8_t doubt[] = {[KZ_CELL_PENDING] = KZ_DOUBT_NONE,
                                   [KZ_CELL_FOLLOWED] = KZ_DOUBT_UNSEEN,
                                   [KZ_CELL_DECIDED] = KZ_DOUBT_NONE,
                                   [KZ_CELL_UNDECIDED] = KZ_DOUBT_OPEN};
@@ -126,7 +126,7 @@ static kz_status show(making *m, int64_t level) {
                                        KZ_PLANE_OTHER};
   for (int p = 0; p < KZ_PLANES; p++) {
     if (!m->frame->plane[order[p]]) continue;
-    plane[order[p]] = (char *)m->room + end;
+    plane[order[p]] = (char *)m->buffer + end;
     shown.plane[order[p]] = plane[order[p]];
     end += (size_t)(shown.rows * shown.columns) * kz_plane_bytes(order[p]);
   }
@@ -142,7 +142,7 @@ static kz_status make(making *m) {
   if (m->resident->dynamics) KZ_TRY(kz_cells_begin(m->resident, &m->scene->basin, m->frame, &m->starts));
   for (int64_t i = 0; i < m->frame->levels->count; i++) {
     const int64_t level = m->frame->levels->values[i];
-    KZ_TRY(label(m, list_open(m, level)));
+    KZ_TRY(label(m, list_pending(m, level)));
     if (m->resident->catalogue.list.count >= KZ_NO_LABEL)
       return kz_fail(KZ_REFUSED,
                      "basin.attractors.max_period: the pendulum has %lld attractors, too many for the bytes of a frame (%d)",
@@ -166,7 +166,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   m.resident->busy = was_busy;
   kz_window_starts_free(&m.starts);
   free(m.cell);
-  free(m.open);
-  free(m.room);
+  free(m.pending);
+  free(m.buffer);
   return status;
 }

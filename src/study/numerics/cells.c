@@ -161,7 +161,7 @@ int32_t kz_stencil(int32_t interpolation) {
 const char *const kz_method_names[] = {KZ_METHOD_WORDS};
 const char *const kz_interpolation_names[] = {KZ_INTERPOLATION_WORDS};
 
-int32_t kz_way(int32_t method, int32_t interpolation) {
+int32_t kz_stepping(int32_t method, int32_t interpolation) {
   return method == KZ_METHOD_ICM ? kz_stencil(interpolation) : KZ_FOLLOW_DIRECT;
 }
 

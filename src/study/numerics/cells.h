@@ -56,6 +56,6 @@ int32_t kz_stencil(int32_t interpolation);
 extern const char *const kz_method_names[], *const kz_interpolation_names[];
 
 /* The way of kz_dynamics_follow that a method (KZ_METHOD_ICM, ...) takes. */
-int32_t kz_way(int32_t method, int32_t interpolation);
+int32_t kz_stepping(int32_t method, int32_t interpolation);
 
 #endif

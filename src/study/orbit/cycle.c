@@ -51,7 +51,7 @@ static kz_status check_linear(const kz_model *model, int64_t period, kz_state st
 }
 
 kz_status kz_cycle_close(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle) {
-  if (!model->plan) return check_linear(model, period, start, cycle);
+  if (!model->flow) return check_linear(model, period, start, cycle);
   if (period == 0) return find(model, start, cycle);
   if (!close_with(model, period, start, cycle))
     return kz_fail(KZ_FAILED,

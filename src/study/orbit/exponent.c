@@ -14,7 +14,7 @@ static const double CONFIDENCE = 5;
 static double growth(const kz_model *model, kz_state *x, double *deviation) {
   double matrix[4];
   int64_t turns = 0;
-  kz_advance_tangent(model->plan, 1, 1, &x->theta, &x->velocity, &turns, matrix);
+  kz_advance_tangent(model->flow, 1, 1, &x->theta, &x->velocity, &turns, matrix);
   const double a = matrix[0] * deviation[0] + matrix[1] * deviation[1];
   const double b = matrix[2] * deviation[0] + matrix[3] * deviation[1];
   const double length = hypot(a, b);

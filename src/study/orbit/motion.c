@@ -17,12 +17,12 @@ void kz_model_make(const kz_scene *scene, kz_model *model) {
   if (inverted) model->origin = M_PI;
   if (model->kind != KZ_PENDULUM) return;
   model->numerics = kz_orbit_numerics(scene);
-  model->plan = kz_plan_create(p, &model->numerics);
+  model->flow = kz_flow_create(p, &model->numerics);
 }
 
 void kz_model_free(kz_model *model) {
-  if (model->plan) kz_plan_free(model->plan);
-  model->plan = NULL;
+  if (model->flow) kz_flow_free(model->flow);
+  model->flow = NULL;
 }
 
 /* Up to CHUNK periods of a simpler model. */
@@ -34,8 +34,8 @@ static void skip_chunk(const kz_model *model, int64_t periods, kz_state *state) 
 
 void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state) {
   int64_t turns = 0;
-  if (model->plan) kz_advance(model->plan, 1, periods, &state->theta, &state->velocity, &turns);
-  for (int64_t done = 0; !model->plan && done < periods; done += CHUNK)
+  if (model->flow) kz_advance(model->flow, 1, periods, &state->theta, &state->velocity, &turns);
+  for (int64_t done = 0; !model->flow && done < periods; done += CHUNK)
     skip_chunk(model, periods - done < CHUNK ? periods - done : CHUNK, state);
 }
 
@@ -52,8 +52,8 @@ static kz_status check_range(const kz_motion *motion) {
 kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_motion *motion) {
   size_t n = (size_t)(periods * model->samples) + 1;
   *motion = (kz_motion){periods, model->samples, kz_malloc(n * sizeof(double)), kz_malloc(n * sizeof(double))};
-  if (model->plan) {
-    kz_sample(model->plan, periods, model->samples, start.theta, start.velocity, motion->theta, motion->velocity);
+  if (model->flow) {
+    kz_sample(model->flow, periods, model->samples, start.theta, start.velocity, motion->theta, motion->velocity);
   } else {
     kz_sample_model(model->kind, &model->pendulum, periods, model->samples, start.theta - model->origin, start.velocity,
                     motion->theta, motion->velocity);

@@ -10,8 +10,8 @@ typedef struct {
   int32_t kind;
   kz_pendulum pendulum; /* of the model: signs turned about the inverted position */
   double origin;        /* rad: the angle that the model counts from, 0 or pi */
-  kz_plan *plan;        /* of the pendulum itself; NULL for the other models */
-  kz_numerics numerics; /* of the plan; a closed orbit is computed in double at least */
+  kz_flow *flow;        /* of the pendulum itself; NULL for the other models */
+  kz_numerics numerics; /* of the flow; a closed orbit is computed in double at least */
   int64_t samples;      /* per period, of every record; a multiple of the scene's */
 } kz_model;
 

@@ -127,13 +127,13 @@ static kz_status follow(kz_orbit *orbit) {
   int64_t periods = given(orbit->plan->periods, closed ? orbit->cycle.period : OPEN_PERIODS);
   if (periods < orbit->cycle.period) periods = orbit->cycle.period;
   KZ_TRY(kz_model_record(&orbit->model, periods, orbit->cycle.state, &orbit->motion));
-  if (orbit->model.plan)
+  if (orbit->model.flow)
     kz_exponent_along(&orbit->model, periods, orbit->cycle.state, &orbit->lyapunov, &orbit->lyapunov_error);
-  if (orbit->model.plan && closed) {
+  if (orbit->model.flow && closed) {
     orbit->lyapunov = log(hypot(orbit->cycle.re[0], orbit->cycle.im[0])) / (double)orbit->cycle.period;
     orbit->lyapunov_error = 0;
   }
-  if (orbit->model.plan && !closed) KZ_TRY(look_ahead(orbit, &orbit->model));
+  if (orbit->model.flow && !closed) KZ_TRY(look_ahead(orbit, &orbit->model));
   return kz_orbit_features_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->features);
 }
 

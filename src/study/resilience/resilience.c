@@ -16,9 +16,9 @@ typedef struct {
 
 kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n) {
   const int64_t known = kz_dynamics_count(dynamics);
-  int64_t room = 0, count = 0;
-  for (int64_t id = 0; id < catalogue->count; id++) room += catalogue->entries[id].row.period;
-  kz_resilience *point = kz_calloc((size_t)room + 1, sizeof *point);
+  int64_t capacity = 0, count = 0;
+  for (int64_t id = 0; id < catalogue->count; id++) capacity += catalogue->entries[id].row.period;
+  kz_resilience *point = kz_calloc((size_t)capacity + 1, sizeof *point);
   for (int64_t id = 0; id < catalogue->count; id++) {
     const kz_entry *entry = catalogue->entries + id;
     int64_t number = 1;
@@ -75,12 +75,12 @@ static void mirror(const int32_t *mirrored, const kz_resilience *found, kz_resil
 /* mirrored [count + 1]: the number of each attractor's mirror image, to be freed. */
 static int32_t *mirrors_of(const kz_dynamics *dynamics) {
   const int64_t n = kz_dynamics_count(dynamics);
-  const size_t room = (size_t)kz_dynamics_packed_size(dynamics);
+  const size_t capacity = (size_t)kz_dynamics_packed_size(dynamics);
   int32_t *mirrored = kz_calloc((size_t)n + 1, sizeof *mirrored);
-  double *points = kz_malloc(2 * room * sizeof *points);
+  double *points = kz_malloc(2 * capacity * sizeof *points);
   for (int64_t number = 1; number <= n; number++) {
     kz_attractor row;
-    kz_dynamics_attractor(dynamics, number, &row, points, points + room);
+    kz_dynamics_attractor(dynamics, number, &row, points, points + capacity);
     mirrored[number] = row.mirror;
   }
   free(points);

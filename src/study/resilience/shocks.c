@@ -21,13 +21,13 @@ static const double NARROW = 1e-13, CLOSED = 1e-6;
 /* Share of the way to a boundary along a line that is looked at most closely: the size is known to RIM / (MOST / 2) of it, 5e-6. */
 static const double RIM = 1.0 / 16;
 
-/* Room for one batch of starts. */
+/* Workspace of one batch of starts. */
 typedef struct {
   const kz_shock_problem *problem;
   double *start;    /* [MOST][2] */
   int32_t *end;     /* [MOST] */
   int64_t *periods; /* [MOST] */
-} room;
+} workspace;
 
 /* Rays from the motion: unit vectors of the norm, and where along each another end lies between near and far. */
 typedef struct {
@@ -35,28 +35,28 @@ typedef struct {
   int32_t end;
 } ray;
 
-static void open_room(const kz_shock_problem *problem, room *r) {
-  *r = (room){problem, kz_malloc(2 * MOST * sizeof(double)), kz_malloc(MOST * sizeof(int32_t)),
-              kz_malloc(MOST * sizeof(int64_t))};
+static void make_workspace(const kz_shock_problem *problem, workspace *r) {
+  *r = (workspace){problem, kz_malloc(2 * MOST * sizeof(double)), kz_malloc(MOST * sizeof(int32_t)),
+                   kz_malloc(MOST * sizeof(int64_t))};
 }
 
-static void close_room(room *r) {
+static void free_workspace(workspace *r) {
   free(r->start);
   free(r->end);
   free(r->periods);
 }
 
-static void put(room *r, int64_t i, const double direction[2], double distance) {
+static void put(workspace *r, int64_t i, const double direction[2], double distance) {
   for (int c = 0; c < 2; c++) r->start[2 * i + c] = r->problem->from[c] + distance * direction[c];
 }
 
-static void follow(room *r, int64_t n) {
+static void follow(workspace *r, int64_t n) {
   r->problem->ends(r->problem->context, n, r->start, r->end, r->periods);
 }
 
 /* Narrows the bracket of each of n rays to its first change on `points` inner points; false for a ray whose bracket shows none. The
  * far end of a bracket counts as another end only where `sure`. */
-static void narrow(room *r, int n, ray *rays, int points, bool sure, bool *crossed) {
+static void narrow(workspace *r, int n, ray *rays, int points, bool sure, bool *crossed) {
   for (int i = 0; i < n; i++)
     for (int j = 1; j <= points; j++)
       put(r, (int64_t)i * points + j - 1, rays[i].direction, rays[i].near + (rays[i].far - rays[i].near) * j / (points + sure));
@@ -76,7 +76,7 @@ static void narrow(room *r, int n, ray *rays, int points, bool sure, bool *cross
 }
 
 /* Bisects the brackets of rays that cross. */
-static void bisect(room *r, int n, ray *rays) {
+static void bisect(workspace *r, int n, ray *rays) {
   bool crossed[2 * FAN + 1];
   bool open = true;
   for (int round = 0; open && round < PASSES; round++) {
@@ -88,7 +88,7 @@ static void bisect(room *r, int n, ray *rays) {
 
 /* The nearest change along a direction and its opposite between `near` and *far on `points` points of each: it becomes *far. False where
  * none shows. */
-static bool nearest_of_line(room *r, const double direction[2], double near, int points, double *far, kz_shock *shock) {
+static bool nearest_of_line(workspace *r, const double direction[2], double near, int points, double *far, kz_shock *shock) {
   ray rays[2] = {{{direction[0], direction[1]}, near, *far, -1}, {{-direction[0], -direction[1]}, near, *far, -1}};
   bool crossed[2];
   narrow(r, 2, rays, points, false, crossed);
@@ -104,7 +104,7 @@ static bool nearest_of_line(room *r, const double direction[2], double near, int
 
 /* The smallest shock along a direction and its opposite, up to `farthest`. Each one that is found bounds the next search, of LINE points on
  * each side; where it finds none, the last RIM of the way is looked at on MOST / 2 points, because tongues along a boundary are thin. */
-static kz_shock along_line(room *r, double theta, double velocity, double farthest) {
+static kz_shock along_line(workspace *r, double theta, double velocity, double farthest) {
   const double direction[2] = {theta, velocity};
   kz_shock shock = {NAN, NAN, NAN, -1};
   double far = farthest;
@@ -120,7 +120,7 @@ static ray ray_at(const kz_shock_problem *problem, double angle, double near, do
 }
 
 /* The nearest point of the rings between two radii with another end: its distance, and its angle. None: infinite. */
-static double nearest_of_rings(room *r, double inner, double outer, double *angle) {
+static double nearest_of_rings(workspace *r, double inner, double outer, double *angle) {
   const double width = (outer - inner) / RINGS;
   for (int i = 0; i < RAYS; i++)
     for (int ring = 0; ring < RINGS; ring++) {
@@ -141,7 +141,7 @@ static double nearest_of_rings(room *r, double inner, double outer, double *angl
 }
 
 /* The distance of the boundary near a ray that crosses it, minimised by ever narrower fans of rays. */
-static kz_shock slide(room *r, double angle, double width, double far) {
+static kz_shock slide(workspace *r, double angle, double width, double far) {
   kz_shock best = {.size = INFINITY, .end = -1};
   for (double reach = 0.1; width > CLOSED; width /= FAN / 4.0, reach = fmax(reach / 8, 1e-9)) {
     ray rays[2 * FAN + 1];
@@ -172,7 +172,7 @@ static kz_shock slide(room *r, double angle, double width, double far) {
 
 /* Discs about the motion, each as large as the nearest boundary that the one before has shown; where a disc shows none, its outermost
  * ring is looked at more closely, because the tongues of other basins that lie along a boundary are thin. */
-static kz_shock in_disc(room *r, const kz_shock *first) {
+static kz_shock in_disc(workspace *r, const kz_shock *first) {
   kz_shock best = *first;
   for (int pass = 0; pass < PASSES; pass++) {
     double angle = 0;
@@ -194,8 +194,8 @@ static kz_shock in_norm(const kz_shock *shock, double scale) {
 }
 
 void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
-  room r;
-  open_room(problem, &r);
+  workspace r;
+  make_workspace(problem, &r);
   shock[0] = along_line(&r, 1, 0, M_PI);
   shock[1] = along_line(&r, 0, 1, problem->farthest);
   const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
@@ -206,14 +206,14 @@ void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
     if (near.size < shock[2].size) shock[2] = near;
     shock[2] = in_disc(&r, shock + 2);
   }
-  close_room(&r);
+  free_workspace(&r);
 }
 
 void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
   static const double GOLDEN = 0.61803398874989484820;
-  room r;
+  workspace r;
   double time = 0;
-  open_room(problem, &r);
+  make_workspace(problem, &r);
   *harmless = (kz_harmless){.shocks = SPREAD};
   for (int i = 0; i < SPREAD; i++)
     put(&r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
@@ -224,5 +224,5 @@ void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmles
     time += (double)r.periods[i];
   }
   harmless->return_time = harmless->harmless > 0 ? time / (double)harmless->harmless : NAN;
-  close_room(&r);
+  free_workspace(&r);
 }

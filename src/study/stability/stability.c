@@ -186,7 +186,7 @@ static kz_chart begin(const kz_scene *scene, bool here) {
 static void measure_packing(kz_chart *chart, double *seconds) {
   const int64_t tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS);
   chart_record *record = kz_calloc(1, sizeof *record);
-  uint8_t *packed = kz_malloc(kz_pack_room(POINTS, sizeof(double)));
+  uint8_t *packed = kz_malloc(kz_pack_bytes(POINTS, sizeof(double)));
   chart_tile(chart, tiles / 2, record);
   const double start = kz_processor_clock();
   kz_pack_into(record->log_multiplier, POINTS, sizeof(double), packed);

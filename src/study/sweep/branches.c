@@ -31,10 +31,10 @@ void kz_sweep_branches_free(kz_sweep_branches *branches) {
 }
 
 static void add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value) {
-  if (branches->n_nodes == branches->room) {
-    const int64_t room = 2 * branches->room + 64;
-    branches->nodes = kz_realloc(branches->nodes, (size_t)room * sizeof *branches->nodes);
-    branches->room = room;
+  if (branches->n_nodes == branches->capacity) {
+    const int64_t capacity = 2 * branches->capacity + 64;
+    branches->nodes = kz_realloc(branches->nodes, (size_t)capacity * sizeof *branches->nodes);
+    branches->capacity = capacity;
   }
   branches->nodes[branches->n_nodes++] = (kz_sweep_node){.entry = *entry,
                                                          .value = value,

@@ -54,8 +54,8 @@ static void end(searching *s) {
 
 typedef struct {
   searching *s;
-  int64_t n, *open; /* [n] cells that have not settled */
-  int64_t tile;     /* cells of a tile */
+  int64_t n, *pending; /* [n] cells that have not settled */
+  int64_t tile;        /* cells of a tile */
 } labelling;
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
@@ -64,21 +64,21 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   double state[2 * CHUNK];
   int64_t periods[CHUNK];
   const int64_t first = tile * l->tile, n = l->n - first < l->tile ? l->n - first : l->tile;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(basin, l->open[first + i], state + 2 * i);
-  kz_dynamics_follow(l->s->dynamics, kz_way(basin->method, basin->interpolation), n, basin->max_periods, state, record,
+  for (int64_t i = 0; i < n; i++) kz_cell_state(basin, l->pending[first + i], state + 2 * i);
+  kz_dynamics_follow(l->s->dynamics, kz_stepping(basin->method, basin->interpolation), n, basin->max_periods, state, record,
                      periods);
   return KZ_OK;
 }
 
-/* The cells that have not settled, into l->open. */
-static void list_open(labelling *l) {
+/* The cells that have not settled, into l->pending. */
+static void list_pending(labelling *l) {
   l->n = 0;
   for (int64_t i = 0; i < l->s->n_cells; i++)
-    if (l->s->cell[i] == 0) l->open[l->n++] = i;
+    if (l->s->cell[i] == 0) l->pending[l->n++] = i;
 }
 
-/* Labels the open cells on every rank. */
-static kz_status label_open(labelling *l) {
+/* Labels the pending cells on every rank. */
+static kz_status label_pending(labelling *l) {
   const kz_stage stage = {.name = "sweep cells",
                           .n_tiles = (l->n + l->tile - 1) / l->tile,
                           .record_bytes = (size_t)l->tile * sizeof(int32_t),
@@ -88,38 +88,38 @@ static kz_status label_open(labelling *l) {
                           .everywhere = true};
   int32_t *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   kz_status status = kz_stage_run(l->s->run, &stage, label);
-  for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->open[i]] = label[i];
+  for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->pending[i]] = label[i];
   free(label);
-  if (status == KZ_OK) list_open(l);
+  if (status == KZ_OK) list_pending(l);
   return status;
 }
 
 /* Labels the grid; cells that end nowhere known are searched and labelled once more. */
 static kz_status label_rounds(labelling *l) {
   searching *s = l->s;
-  list_open(l);
+  list_pending(l);
   for (int round = 0;; round++) {
     const int64_t known = kz_dynamics_count(s->dynamics);
-    KZ_TRY(label_open(l));
+    KZ_TRY(label_pending(l));
     if (round == ROUNDS - 1 || l->n == 0) return KZ_OK;
     const int64_t n = l->n < s->n_starts ? l->n : s->n_starts;
-    for (int64_t i = 0; i < n; i++) kz_cell_state(&s->scene->basin, l->open[i], s->state + 2 * i);
+    for (int64_t i = 0; i < n; i++) kz_cell_state(&s->scene->basin, l->pending[i], s->state + 2 * i);
     KZ_TRY(kz_discover(s->run, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
     if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
   }
 }
 
 static kz_status label_grid(searching *s) {
-  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .open = kz_malloc((size_t)s->n_cells * sizeof *l.open)};
+  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .pending = kz_malloc((size_t)s->n_cells * sizeof *l.pending)};
   kz_status status = label_rounds(&l);
-  free(l.open);
+  free(l.pending);
   return status;
 }
 
 /* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
 static int64_t count_hits(const searching *s) {
   kz_attractor row;
-  double *points = s->state; /* room for strobe points: at least CHUNK pairs */
+  double *points = s->state; /* holds strobe points: at least CHUNK pairs */
   const int64_t total = s->scene->basin.theta.count * s->scene->basin.velocity.count;
   for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->label[i]]++;
   if (s->n_cells == 0) return s->n_starts;

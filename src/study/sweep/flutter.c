@@ -204,12 +204,12 @@ typedef struct {
   double exponent, exponent_error; /* of the nearer half; its difference from that of all */
 } power_law;
 
-/* x, y [n] points; room [2 n]. */
-static power_law fit(int64_t n, const double *x, const double *y, double *room) {
+/* x, y [n] points; workspace [2 n]. */
+static power_law fit(int64_t n, const double *x, const double *y, double *workspace) {
   double farthest = 0;
   for (int64_t i = 0; i < n; i++) farthest = fmax(farthest, fabs(x[i]));
-  const double half = exponent(n, x, y, farthest / 2, room, room + n);
-  return (power_law){kz_fit_line(n, x, y), half, fabs(half - exponent(n, x, y, farthest, room, room + n))};
+  const double half = exponent(n, x, y, farthest / 2, workspace, workspace + n);
+  return (power_law){kz_fit_line(n, x, y), half, fabs(half - exponent(n, x, y, farthest, workspace, workspace + n))};
 }
 
 static kz_status write_fit(const flutter_job *f, kz_store *store, FILE *summary) {

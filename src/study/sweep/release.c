@@ -22,17 +22,17 @@ static const double LOCATED = 1e-9;
 kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays) {
   const double enough = pendulum->beta > 0 ? SHRUNK / (M_PI * pendulum->beta) : LONGEST;
   const int64_t periods = (int64_t)fmin(fmax(ceil(enough), SHORTEST), LONGEST);
-  kz_plan *plan = kz_plan_create(pendulum, numerics);
+  kz_flow *flow = kz_flow_create(pendulum, numerics);
   double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_calloc((size_t)n, sizeof *velocity);
   int64_t *turns = kz_calloc((size_t)n, sizeof *turns), *number = kz_malloc((size_t)n * sizeof *number), left = n;
-  const bool ready = plan && theta && velocity && turns && number;
+  const bool ready = flow && theta && velocity && turns && number;
   for (int64_t i = 0; ready && i < n; i++) {
     theta[i] = M_PI - angle[i];
     number[i] = i;
     stays[i] = 1;
   }
   for (int64_t period = 0; ready && period < periods && left > 0; period++) {
-    kz_advance(plan, left, 1, theta, velocity, turns);
+    kz_advance(flow, left, 1, theta, velocity, turns);
     int64_t kept = 0;
     for (int64_t i = 0; i < left; i++) {
       if (fabs(theta[i] + 2 * M_PI * (double)turns[i] - M_PI) >= M_PI) {
@@ -46,7 +46,7 @@ kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, i
     }
     left = kept;
   }
-  if (plan) kz_plan_free(plan);
+  if (flow) kz_flow_free(flow);
   free(theta);
   free(velocity);
   free(turns);

@@ -34,7 +34,7 @@ static int64_t value_at(const kz_sweep_plan *plan, int64_t walk, int64_t step) {
 }
 
 /* out: [samples] angles, then velocities. */
-static void record_value(const walking *w, const kz_plan *map, bool pushed, strobe_state *state, double *out) {
+static void record_value(const walking *w, const kz_flow *map, bool pushed, strobe_state *state, double *out) {
   int64_t turns = 0;
   if (pushed) state->theta += PUSH;
   kz_advance(map, 1, w->skip, &state->theta, &state->velocity, &turns);
@@ -54,9 +54,9 @@ static kz_status strobe_tile(void *context, int64_t tile, void *record) {
   for (int64_t i = 0; i < w->values && w->first + i < plan->values.count; i++, out += 2 * w->samples) {
     kz_pendulum pendulum;
     if (!kz_sweep_pendulum(w->scene, kz_sweep_value(plan, value_at(plan, tile, w->first + i)), &pendulum)) continue;
-    kz_plan *map = kz_plan_create(&pendulum, &w->scene->numerics);
+    kz_flow *map = kz_flow_create(&pendulum, &w->scene->numerics);
     record_value(w, map, i > 0 || w->pushed, &state, out);
-    kz_plan_free(map);
+    kz_flow_free(map);
   }
   *(strobe_state *)record = state;
   return KZ_OK;

@@ -97,7 +97,7 @@ typedef struct {
 } kz_sweep_node;
 
 typedef struct {
-  int64_t n_nodes, room;
+  int64_t n_nodes, capacity;
   kz_sweep_node *nodes;
   int64_t n_branches, *first_node; /* [n_branches] in the order of the file */
 } kz_sweep_branches;

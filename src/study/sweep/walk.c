@@ -87,10 +87,10 @@ static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) 
   double theta = M_PI, velocity = 0, matrix[4];
   int64_t turns = 0;
   kz_numerics_fine(pendulum, &fine);
-  kz_plan *plan = kz_plan_create(pendulum, &fine);
-  if (!plan) return false;
-  kz_advance_tangent(plan, 1, 1, &theta, &velocity, &turns, matrix);
-  kz_plan_free(plan);
+  kz_flow *flow = kz_flow_create(pendulum, &fine);
+  if (!flow) return false;
+  kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
+  kz_flow_free(flow);
   const double half = (matrix[0] + matrix[3]) / 2, root = half * half - exp(-2 * M_PI * pendulum->beta);
   if (root < 0) return false;
   const double leaving = half - sqrt(root), length = hypot(matrix[1], leaving - matrix[0]);

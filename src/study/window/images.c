@@ -38,12 +38,12 @@ static int64_t bits_for(long double size) {
 }
 
 kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
-  enum { ROOM = 64 };
+  enum { FIRST_CAPACITY = 64 };
   kz_images *images = kz_calloc(1, sizeof *images);
   images->holders = 1;
   images->pendulum = *pendulum;
-  images->room = ROOM;
-  kz_image *first = images->image = kz_calloc(ROOM, sizeof *images->image);
+  images->capacity = FIRST_CAPACITY;
+  kz_image *first = images->image = kz_calloc(FIRST_CAPACITY, sizeof *images->image);
   take_axis(theta, &images->centre[0], &images->width[0]);
   take_axis(velocity, &images->centre[1], &images->width[1]);
   for (int i = 0; i < 2; i++) first->jet.linear[i][i] = images->width[i];
@@ -79,9 +79,9 @@ static bool is_trapped(const kz_image *image, kz_dynamics *dynamics) {
 }
 
 static void make_room(kz_images *images, int64_t n) {
-  if (n < images->room) return;
-  images->room = 2 * images->room > n + 1 ? 2 * images->room : n + 1;
-  images->image = kz_realloc(images->image, (size_t)images->room * sizeof *images->image);
+  if (n < images->capacity) return;
+  images->capacity = 2 * images->capacity > n + 1 ? 2 * images->capacity : n + 1;
+  images->image = kz_realloc(images->image, (size_t)images->capacity * sizeof *images->image);
 }
 
 void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {

@@ -24,7 +24,7 @@ typedef struct {
   __float128 width[2];
   int64_t bits; /* of the orbit in its first periods */
   int64_t n;    /* image [0 .. n] */
-  int64_t room;
+  int64_t capacity;
   kz_image *image;
   bool finished; /* no later image serves: the window has become wide, or is trapped as a whole */
   kz_arbitrary *orbit;

@@ -62,9 +62,9 @@ static kz_proof *region_of_rotations(void) {
   return proof;
 }
 
-static int end_of(const kz_plan *plan, double theta, double velocity) {
+static int end_of(const kz_flow *flow, double theta, double velocity) {
   int64_t turns = 0;
-  kz_advance(plan, 1, PERIODS, &theta, &velocity, &turns);
+  kz_advance(flow, 1, PERIODS, &theta, &velocity, &turns);
   return fabs(velocity - VELOCITY) < 1e-3 ? ROTATION : fabs(velocity + VELOCITY) < 1e-3 ? OPPOSITE : 0;
 }
 
@@ -86,18 +86,18 @@ static void starts_end_where_they_are_said_to(void **state) {
   kz_numerics numerics = {.scheme = kz_scheme_find("processed")};
   double error;
   assert_int_equal(kz_numerics_choose(&pendulum, 1e-9, 2.5, &numerics, &error), KZ_OK);
-  kz_plan *plan = kz_plan_create(&pendulum, &numerics);
+  kz_flow *flow = kz_flow_create(&pendulum, &numerics);
   int proved = 0, missed = 0;
   for (int i = 0; i < N; i++) {
     const bool is_proved = number[i] == ROTATION || number[i] == OPPOSITE;
-    const int end = end_of(plan, start[i].theta[0], start[i].velocity[0]);
+    const int end = end_of(flow, start[i].theta[0], start[i].velocity[0]);
     assert_true(!is_proved || number[i] == end);
     assert_int_equal(image_number[N - 1 - i], is_proved ? 3 - number[i] : number[i]);
     proved += is_proved;
     missed += !is_proved && end > 0;
   }
   assert_true(proved > 0.3 * N && missed < 0.01 * N);
-  kz_plan_free(plan);
+  kz_flow_free(flow);
   kz_proof_free(proof);
 }
 

@@ -66,9 +66,9 @@ static void the_equation_is_integrated(void **unused) {
     kz_reference_state states[N];
     put_starts(theta, velocity, turns);
     memcpy(x, theta, sizeof x), memcpy(v, velocity, sizeof v);
-    kz_plan *plan = kz_plan_create(&p, &fine);
-    kz_advance(plan, N, 1, x, v, turns);
-    kz_plan_free(plan);
+    kz_flow *flow = kz_flow_create(&p, &fine);
+    kz_advance(flow, N, 1, x, v, turns);
+    kz_flow_free(flow);
     kz_reference_start(N, theta, velocity, NULL, states);
     kz_reference_advance(&p, KZ_REFERENCE_STEPS, N, 1, states);
     kz_reference_read(N, states, y, w, turns);
@@ -90,10 +90,10 @@ static void symmetry_is_told(void **unused) {
     int64_t turns[N];
     put_starts(x, v, turns);
     for (int i = 0; i < N; i++) y[i] = -x[i], w[i] = -v[i];
-    kz_plan *plan = kz_plan_create(&p, &numerics);
-    kz_advance(plan, N, 3, x, v, turns);
-    kz_advance(plan, N, 3, y, w, turns);
-    kz_plan_free(plan);
+    kz_flow *flow = kz_flow_create(&p, &numerics);
+    kz_advance(flow, N, 3, x, v, turns);
+    kz_advance(flow, N, 3, y, w, turns);
+    kz_flow_free(flow);
     int mirrored = 0;
     for (int i = 0; i < N; i++) mirrored += x[i] == -y[i] && v[i] == -w[i];
     assert_true(kz_is_mirrored(&p) ? mirrored == N : mirrored == 0);
@@ -107,12 +107,12 @@ static void the_tangent_is_the_derivative(void **unused) {
   for (int which = 0; which < DRIVES; which++) {
     const kz_pendulum p = drive(which);
     const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
-    kz_plan *plan = kz_plan_create(&p, &numerics);
+    kz_flow *flow = kz_flow_create(&p, &numerics);
     double theta = 0.7, velocity = -0.3, matrix[4], x[2] = {0.7 + h, 0.7 - h}, v[2] = {-0.3, -0.3};
     int64_t turns[2] = {0};
-    kz_advance_tangent(plan, 1, 1, &theta, &velocity, turns, matrix);
-    kz_advance(plan, 2, 1, x, v, turns);
-    kz_plan_free(plan);
+    kz_advance_tangent(flow, 1, 1, &theta, &velocity, turns, matrix);
+    kz_advance(flow, 2, 1, x, v, turns);
+    kz_flow_free(flow);
     assert_true(fabs((x[0] - x[1]) / (2 * h) - matrix[0]) < 1e-7 && fabs((v[0] - v[1]) / (2 * h) - matrix[2]) < 1e-7);
     assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - exp(-2 * M_PI * p.beta)) < 1e-12);
   }

@@ -70,7 +70,7 @@ static void place_sets(double fastest, double half, kz_enclosure begin[SETS]) {
 }
 
 /* The farthest of starts at the corners, on the edges and in the middle, over periods and sets. */
-static double farthest_place(const kz_pendulum *pendulum, const kz_enclosure_plan *plan, double half, double fastest,
+static double farthest_place(const kz_pendulum *pendulum, const kz_enclosure_tables *plan, double half, double fastest,
                              int *kept) {
   kz_enclosure begin[SETS], set[SETS];
   double farthest = 0;
@@ -88,10 +88,10 @@ static double farthest_place(const kz_pendulum *pendulum, const kz_enclosure_pla
   return farthest;
 }
 
-static kz_enclosure_plan *plan_for(const kz_pendulum *pendulum, int32_t precision, double fastest) {
-  kz_enclosure_plan *plan;
+static kz_enclosure_tables *plan_for(const kz_pendulum *pendulum, int32_t precision, double fastest) {
+  kz_enclosure_tables *plan;
   const double most = fastest + 3 * (fabs(pendulum->k) + fabs(pendulum->m));
-  assert_int_equal(kz_enclosure_plan_create(pendulum, precision, most, &plan), KZ_OK);
+  assert_int_equal(kz_enclosure_tables_create(pendulum, precision, most, &plan), KZ_OK);
   return plan;
 }
 
@@ -104,9 +104,9 @@ static void points_hold_the_motion(void **state) {
     for (int32_t precision = 0; precision < 2; precision++) {
       const kz_pendulum pendulum = some_pendulum(draw);
       const double fastest = draw == 3 ? 15 : 3;
-      kz_enclosure_plan *plan = plan_for(&pendulum, precision, fastest);
+      kz_enclosure_tables *plan = plan_for(&pendulum, precision, fastest);
       farthest[precision] = fmax(farthest[precision], farthest_place(&pendulum, plan, 0, fastest, &kept));
-      kz_enclosure_plan_free(plan);
+      kz_enclosure_tables_free(plan);
     }
   assert_true(farthest[0] < 1 && farthest[1] < 1 && kept > 0.9 * 2 * DRAWS * SETS * (PERIODS - 1));
 }
@@ -118,15 +118,15 @@ static void boxes_hold_the_motion(void **state) {
   int kept = 0;
   for (int draw = 0; draw < DRAWS; draw++) {
     const kz_pendulum pendulum = some_pendulum(draw);
-    kz_enclosure_plan *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 3);
+    kz_enclosure_tables *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 3);
     farthest = fmax(farthest, farthest_place(&pendulum, plan, draw % 3 ? 2e-3 : 3e-2, 3, &kept));
-    kz_enclosure_plan_free(plan);
+    kz_enclosure_tables_free(plan);
   }
   assert_true(farthest < 1 && farthest > 0.5 && kept > 0.3 * DRAWS * SETS * (PERIODS - 1));
 }
 
 /* The largest share of the growth of a set that a start at a corner takes, over a period; *bent: the same of the difference of two corners. */
-static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_plan *plan, double half, double *bent) {
+static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_tables *plan, double half, double *bent) {
   static const double corner[2][2] = {{1, 1}, {-1, 1}};
   kz_enclosure begin[SETS], set[SETS];
   double largest = 0;
@@ -153,7 +153,7 @@ static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_pl
 static void bounds_cut_by_ten_do_not_hold(void **state) {
   (void)state;
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
-  kz_enclosure_plan *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 2);
+  kz_enclosure_tables *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 2);
   double bent;
   srand(3);
   for (double half = 1e-2; half > 1e-14; half *= 1e-5)
@@ -162,7 +162,7 @@ static void bounds_cut_by_ten_do_not_hold(void **state) {
     for (int i = 0; i < 2; i++) plan->classes[c]->nonlinear[i] /= 10;
   srand(3);
   assert_true(share_of_growth(&pendulum, plan, 1e-2, &bent) > 1 && bent > 1);
-  kz_enclosure_plan_free(plan);
+  kz_enclosure_tables_free(plan);
 }
 
 /* Angles anywhere, and next to multiples of pi/2, up to a hundred turns away. */

@@ -32,11 +32,11 @@ static void true_period(const kz_pendulum *pendulum, int64_t n, double *theta, d
   kz_reference_read(n, states, theta, velocity, turns);
 }
 
-static kz_plan *plan_of(int scheme, int steps) {
+static kz_flow *flow_of(int scheme, int steps) {
   kz_numerics numerics = {.scheme = scheme, .steps_per_period = steps};
-  kz_plan *plan = kz_plan_create(&PENDULUM, &numerics);
-  assert_non_null(plan);
-  return plan;
+  kz_flow *flow = kz_flow_create(&PENDULUM, &numerics);
+  assert_non_null(flow);
+  return flow;
 }
 
 /* sin(pi u) within 2 units in the last place over the wrapped range and beyond. */
@@ -62,18 +62,18 @@ static void test_mirror(void **state) {
     double a[N], va[N], b[N], vb[N];
     int64_t ta[N], tb[N];
     const int n = N;
-    kz_plan *plan = plan_of(scheme, 16);
+    kz_flow *flow = flow_of(scheme, 16);
     starts(a, va, ta);
     memcpy(tb, ta, sizeof tb);
     for (int i = 0; i < n; i++) b[i] = -a[i], vb[i] = -va[i];
-    kz_advance(plan, n, 5, a, va, ta);
-    kz_advance(plan, n, 5, b, vb, tb);
+    kz_advance(flow, n, 5, a, va, ta);
+    kz_advance(flow, n, 5, b, vb, tb);
     for (int i = 0; i < n; i++) {
       assert_true(a[i] == -b[i] && va[i] == -vb[i]);
       assert_int_equal(ta[i], -tb[i]);
       assert_true(fabs(a[i]) <= M_PI);
     }
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -83,17 +83,17 @@ static void test_lanes(void **state) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double a[N], va[N];
     int64_t ta[N];
-    kz_plan *plan = plan_of(scheme, 24);
+    kz_flow *flow = flow_of(scheme, 24);
     starts(a, va, ta);
-    kz_advance(plan, N, 7, a, va, ta);
+    kz_advance(flow, N, 7, a, va, ta);
     for (int i = 0; i < N; i += 9) {
       double b[N], vb[N];
       int64_t tb[N];
       starts(b, vb, tb);
-      kz_advance(plan, 1, 7, b + i, vb + i, tb + i);
+      kz_advance(flow, 1, 7, b + i, vb + i, tb + i);
       assert_true(a[i] == b[i] && va[i] == vb[i] && ta[i] == tb[i]);
     }
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -103,18 +103,18 @@ static void test_tangent_lanes(void **state) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double a[N], va[N], matrix[N][4], b[N], vb[N], alone[4];
     int64_t ta[N], tb[N];
-    kz_plan *plan = plan_of(scheme, 24);
+    kz_flow *flow = flow_of(scheme, 24);
     starts(a, va, ta);
     starts(b, vb, tb);
-    kz_advance_tangent(plan, N, 7, a, va, ta, matrix[0]);
-    kz_advance(plan, N, 7, b, vb, tb);
+    kz_advance_tangent(flow, N, 7, a, va, ta, matrix[0]);
+    kz_advance(flow, N, 7, b, vb, tb);
     for (int i = 0; i < N; i++) assert_true(a[i] == b[i] && va[i] == vb[i] && ta[i] == tb[i]);
     starts(b, vb, tb);
     for (int i = 0; i < N; i += 9) {
-      kz_advance_tangent(plan, 1, 7, b + i, vb + i, tb + i, alone);
+      kz_advance_tangent(flow, 1, 7, b + i, vb + i, tb + i, alone);
       assert_memory_equal(alone, matrix[i], sizeof alone);
     }
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -126,16 +126,16 @@ static void test_determinant(void **state) {
     double theta[N], velocity[N], matrix[N][4];
     int64_t turns[N];
     const int n = N;
-    kz_plan *plan = plan_of(scheme, scheme == 0 ? 400 : 24);
+    kz_flow *flow = flow_of(scheme, scheme == 0 ? 400 : 24);
     starts(theta, velocity, turns);
-    kz_advance_tangent(plan, n, 1, theta, velocity, turns, matrix[0]);
+    kz_advance_tangent(flow, n, 1, theta, velocity, turns, matrix[0]);
     for (int i = 0; i < n; i++) {
       double determinant = matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2];
       double scale = fabs(matrix[i][0] * matrix[i][3]) + fabs(matrix[i][1] * matrix[i][2]);
       double error = fabs(determinant - exp(-2 * M_PI * PENDULUM.beta));
       assert_true(error <= 400 * EPSILON * scale + (scheme == 0 ? 1e-9 : scheme == kz_scheme_find("processed") ? 1e-8 : 0));
     }
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -147,11 +147,11 @@ static void test_exact_determinant(void **state) {
   for (int steps = 96; steps <= 160; steps += 32) {
     double theta[2] = {0, M_PI}, velocity[2] = {0, 0}, matrix[2][4];
     int64_t turns[2] = {0};
-    kz_plan *plan = plan_of(kz_scheme_find("processed"), steps);
-    kz_advance_tangent(plan, 2, 1, theta, velocity, turns, matrix[0]);
+    kz_flow *flow = flow_of(kz_scheme_find("processed"), steps);
+    kz_advance_tangent(flow, 2, 1, theta, velocity, turns, matrix[0]);
     for (int i = 0; i < 2; i++)
       assert_true(fabs(matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2] - exp(-2 * M_PI * PENDULUM.beta)) < 3e-15);
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -161,12 +161,12 @@ static void test_rest(void **state) {
   const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.3}, {0, 0, 0.46}, {-1, 0.1, 0.6}, {5, 0.1, 0.5}, {0.01, 0.5, 3}};
   for (int i = 0; i < 5; i++) {
     const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40};
-    kz_plan *plan = kz_plan_create(&pendulums[i], &numerics);
+    kz_flow *flow = kz_flow_create(&pendulums[i], &numerics);
     double theta[2] = {M_PI, -M_PI}, velocity[2] = {0, 0};
     int64_t turns[2] = {0};
-    kz_advance(plan, 2, 1000, theta, velocity, turns);
+    kz_advance(flow, 2, 1000, theta, velocity, turns);
     for (int j = 0; j < 2; j++) assert_true(fabs(theta[j]) == M_PI && velocity[j] == 0);
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -189,18 +189,18 @@ static void test_choice(void **state) {
     int64_t ta[N], tb[N];
     assert_int_equal(kz_numerics_choose(&cases[c].pendulum, cases[c].tolerance, cases[c].fastest, &numerics, &error), KZ_OK);
     assert_true(error <= cases[c].tolerance);
-    kz_plan *plan = kz_plan_create(&cases[c].pendulum, &numerics);
+    kz_flow *flow = kz_flow_create(&cases[c].pendulum, &numerics);
     const int n = 40;
     for (int i = 0; i < n; i++) {
       a[i] = fmod(2.399963 * i, 2 * M_PI) - M_PI;
       va[i] = cases[c].fastest * (fmod(0.7548776662 * (i + 1), 2) - 1) * (i % 10 == 0 ? 1.5 : 1); /* some are too fast */
       b[i] = a[i], vb[i] = va[i], ta[i] = tb[i] = 0;
     }
-    kz_advance(plan, n, 1, a, va, ta);
+    kz_advance(flow, n, 1, a, va, ta);
     true_period(&cases[c].pendulum, n, b, vb, tb);
     for (int i = 0; i < n; i++)
       assert_true(hypot(remainder(a[i] - b[i], 2 * M_PI), va[i] - vb[i]) <= fmax(error, i % 10 == 0 ? 1e-8 : 0));
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
   const kz_pendulum strong = {100, 0.1, 1}, overdamped = {0.1, 5, 0.5};
   kz_numerics numerics = {0};
@@ -213,17 +213,17 @@ static void test_tangent(void **state) {
   (void)state;
   const double h = 1e-5;
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
-    kz_plan *plan = plan_of(scheme, 24);
+    kz_flow *flow = flow_of(scheme, 24);
     double theta = 0.7, velocity = -0.3, matrix[4], x[4] = {0.7 + h, 0.7 - h, 0.7, 0.7},
            v[4] = {-0.3, -0.3, -0.3 + h, -0.3 - h};
     int64_t turn = 0, turns[4] = {0};
-    kz_advance_tangent(plan, 1, 2, &theta, &velocity, &turn, matrix);
-    kz_advance(plan, 4, 2, x, v, turns);
+    kz_advance_tangent(flow, 1, 2, &theta, &velocity, &turn, matrix);
+    kz_advance(flow, 4, 2, x, v, turns);
     assert_true(fabs((x[0] - x[1]) / (2 * h) - matrix[0]) < 1e-6);
     assert_true(fabs((x[2] - x[3]) / (2 * h) - matrix[1]) < 1e-6);
     assert_true(fabs((v[0] - v[1]) / (2 * h) - matrix[2]) < 1e-6);
     assert_true(fabs((v[2] - v[3]) / (2 * h) - matrix[3]) < 1e-6);
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -231,16 +231,16 @@ static void test_tangent(void **state) {
 static void test_sample(void **state) {
   (void)state;
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
-    kz_plan *plan = plan_of(scheme, 48);
+    kz_flow *flow = flow_of(scheme, 48);
     double theta = 3.0, velocity = 1.1, series[10 * 24 + 1], speeds[10 * 24 + 1];
     int64_t turns = 0;
-    kz_sample(plan, 10, 24, theta, velocity, series, speeds);
-    kz_advance(plan, 1, 10, &theta, &velocity, &turns);
+    kz_sample(flow, 10, 24, theta, velocity, series, speeds);
+    kz_advance(flow, 1, 10, &theta, &velocity, &turns);
     assert_true(fabs(series[240] - (theta + 2 * M_PI * (double)turns)) < 1e-11);
     assert_true(fabs(speeds[240] - velocity) < 1e-12);
     assert_true(turns > 0);
     for (int i = 0; i < 240; i++) assert_true(fabs(series[i + 1] - series[i]) < 0.8);
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 
@@ -257,19 +257,19 @@ static void test_subnormals(void **state) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double theta[] = {M_PI, M_PI}, velocity[] = {4 * DBL_MIN, -4 * DBL_MIN}, matrix[8], series[3], speeds[3];
     int64_t turns[2] = {0};
-    kz_plan *plan = plan_of(scheme, 24);
-    kz_sample(plan, 2, 1, theta[0], velocity[0] / 8, series, speeds);
+    kz_flow *flow = flow_of(scheme, 24);
+    kz_sample(flow, 2, 1, theta[0], velocity[0] / 8, series, speeds);
     assert_true(speeds[1] == 0 && speeds[2] == 0);
     for (int period = 0; period < 40; period++) {
       if (period % 2)
-        kz_advance(plan, 2, 1, theta, velocity, turns);
+        kz_advance(flow, 2, 1, theta, velocity, turns);
       else
-        kz_advance_tangent(plan, 2, 1, theta, velocity, turns, matrix);
+        kz_advance_tangent(flow, 2, 1, theta, velocity, turns, matrix);
       assert_true(theta[0] == M_PI && velocity[0] == -velocity[1]);
       assert_true(velocity[0] == 0 || velocity[0] >= DBL_MIN);
       assert_true(has_subnormals());
     }
-    kz_plan_free(plan);
+    kz_flow_free(flow);
   }
 }
 

@@ -25,12 +25,12 @@ static void check(int64_t theta, int64_t velocity, double min, int64_t max_perio
   for (int64_t i = 0; i < t.n; i++) {
     assert_int_equal(kz_tile_first(&t, i), next);
     next += kz_tile_count(&t, i);
-    assert_in_range(kz_tile_count(&t, i), 1, kz_tile_room(&t));
+    assert_in_range(kz_tile_count(&t, i), 1, kz_tile_capacity(&t));
     if (t.own < t.n) assert_int_equal(kz_tile_count(&t, i), kz_tile_count(&t, t.n - 1 - i));
     if (i < t.own) own += kz_tile_own(&t, i);
   }
   assert_int_equal(next, theta * velocity);
-  assert_int_equal(own, t.own_cells);
+  assert_int_equal(own, t.unique_cells);
 }
 
 static void tiles_cover_the_window(void **state) {
@@ -51,7 +51,7 @@ static void large_grids_are_addressed(void **state) {
   (void)state;
   const kz_scene scene = scene_of(100000, 100000, -2, 2000);
   const kz_tiles t = kz_tiles_of(&scene, 4096);
-  assert_true(t.whole && t.own == t.n / 2 && kz_tile_room(&t) <= 1 << 19);
+  assert_true(t.whole && t.own == t.n / 2 && kz_tile_capacity(&t) <= 1 << 19);
   assert_true(kz_tile_first(&t, t.n - 1) + kz_tile_count(&t, t.n - 1) == INT64_C(10000000000));
   check(100000, 100000, -2, 2000);
 }

@@ -209,7 +209,7 @@ contains
 
     call flow%put(1, attractor%u(j), attractor%v(j))
     tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
-    call flow%enter(1, tangent)
+    call flow%to_map(1, tangent)
     matrix = tangent(:, :, 1)
   end function change
 

@@ -10,7 +10,7 @@ module kz_grown_places
   !> Cells in a word of bits.
   integer, parameter, public :: WORD = bit_size(0_int32)
   !> Adding it rounds to an integer.
-  real(dp), parameter :: MAGIC = 1.5_dp*2.0_dp**52
+  real(dp), parameter :: ROUND_TO_INTEGER = 1.5_dp*2.0_dp**52
 
 contains
 
@@ -51,7 +51,7 @@ contains
     else
       do i = 1, n
         w = u(i) + MIDPERIOD*v(i)
-        w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+        w = w - 2*((0.5_dp*w + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
         y = (side(w, v(i))*v(i) + top)*per_v
         c = aint(abs(w)*per_u)
         c = merge(c, columns - 1, c < columns) + columns*aint(y)
@@ -100,7 +100,7 @@ contains
     real(dp) :: w
 
     w = u + MIDPERIOD*v
-    w = w - 2*((0.5_dp*w + MAGIC) - MAGIC)
+    w = w - 2*((0.5_dp*w + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
   end function wrapped_midperiod_angle
 
   !> 1 where (u, v) lies in the half that is stored, -1 where its mirror image does.

@@ -50,7 +50,7 @@ void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *la
       w.periods[w.n] = 0;
       w.cell[w.n++] = next;
     }
-    kz_enclosures_advance(proof->plan[KZ_ENCLOSE_DOUBLES], KZ_NEW_FRAME, w.n, w.set);
+    kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_NEW_FRAME, w.n, w.set);
     for (int i = w.n - 1; i >= 0; i--) {
       bool over;
       label[w.cell[i]] = look(proof, &w, i, &over);

@@ -27,7 +27,7 @@ static bool find_half_widths(const kz_proof *proof, const kz_proof_cycle *cycle,
       half[i] = off[i] + fabs(set->matrix[i][0]) * set->reach[0] + fabs(set->matrix[i][1]) * set->reach[1] + ROUNDING;
     theta[j] = half[0];
     velocity[j] = half[1];
-    kz_enclosures_advance(proof->plan[KZ_ENCLOSE_DOUBLES], KZ_KEEP_FRAME, 1, set);
+    kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_KEEP_FRAME, 1, set);
     if (!isfinite(set->reach[0])) return false;
   }
   return true;

@@ -15,7 +15,7 @@ static const double CENTRE_ROUNDING = 4e-15; /* of the difference of two centres
 
 static void advance(const kz_proof *proof, int64_t periods, kz_enclosure *set) {
   for (int64_t i = 0; i < periods && isfinite(set->reach[0]); i++)
-    kz_enclosures_advance(proof->plan[KZ_ENCLOSE_DOUBLES], KZ_KEEP_FRAME, 1, set);
+    kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_KEEP_FRAME, 1, set);
 }
 
 /* Real and imaginary part of the eigenvector (J01, mu - J00) of a complex mu. */
@@ -100,7 +100,7 @@ kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, doubl
 
 kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity) {
   kz_proof_ellipse ellipse = kz_proof_find_trap(proof, period, theta, velocity);
-  if (ellipse.radius > 0) kz_proof_grow_rings(proof->plan[KZ_ENCLOSE_DOUBLES], (double[]){theta, velocity}, &ellipse);
+  if (ellipse.radius > 0) kz_proof_grow_rings(proof->tables[KZ_ENCLOSE_DOUBLES], (double[]){theta, velocity}, &ellipse);
   return ellipse;
 }
 

@@ -14,13 +14,13 @@ kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t 
   made->beta = pendulum->beta;
   made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
   const double most = fmax(top, fastest) + 1.5 * kz_stiffness(pendulum);
-  KZ_TRY(kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_DOUBLES, most, &made->plan[KZ_ENCLOSE_DOUBLES]));
-  return kz_enclosure_plan_create(pendulum, KZ_ENCLOSE_PAIRS, most, &made->plan[KZ_ENCLOSE_PAIRS]);
+  KZ_TRY(kz_enclosure_tables_create(pendulum, KZ_ENCLOSE_DOUBLES, most, &made->tables[KZ_ENCLOSE_DOUBLES]));
+  return kz_enclosure_tables_create(pendulum, KZ_ENCLOSE_PAIRS, most, &made->tables[KZ_ENCLOSE_PAIRS]);
 }
 
 void kz_proof_free(kz_proof *proof) {
   if (!proof) return;
-  for (int p = 0; p < 2; p++) kz_enclosure_plan_free(proof->plan[p]);
+  for (int p = 0; p < 2; p++) kz_enclosure_tables_free(proof->tables[p]);
   free(proof->label);
   free(proof);
 }

@@ -53,7 +53,7 @@ void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const 
   p->start = start;
   p->number = number;
   for (begin(proof, p); p->under_way > 0; begin(proof, p)) {
-    kz_enclosures_advance(proof->plan[precision], KZ_NEW_FRAME, p->under_way, p->set);
+    kz_enclosures_advance(proof->tables[precision], KZ_NEW_FRAME, p->under_way, p->set);
     for (int32_t i = p->under_way - 1; i >= 0; i--) {
       if (!look(proof, p, i, most_periods)) continue;
       p->under_way--;

@@ -14,8 +14,8 @@ typedef struct {
 } kz_proof_part;
 
 struct kz_proof {
-  kz_enclosure_plan *plan[2]; /* KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS */
-  int64_t columns, rows;      /* even */
+  kz_enclosure_tables *tables[2]; /* KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS */
+  int64_t columns, rows;          /* even */
   double beta;
   double top;     /* rad per drive radian: rows go from -top to top */
   uint8_t *label; /* [rows][columns]: attractor, 0 = open; closed cells */
@@ -49,7 +49,7 @@ bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], c
 /* An ellipse that the map of `period` drive periods carries into itself and contracts; radius 0: none was found. */
 kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, double theta, double velocity);
 /* An ellipse grows: every start in it is proved to reach it as it was. */
-void kz_proof_grow_rings(const kz_enclosure_plan *plan, const double centre[2], kz_proof_ellipse *ellipse);
+void kz_proof_grow_rings(const kz_enclosure_tables *tables, const double centre[2], kz_proof_ellipse *ellipse);
 
 /* z with M z = x. */
 static inline void kz_proof_solve(const double M[2][2], const double x[2], double z[2]) {

@@ -22,12 +22,13 @@ static kz_enclosure sector(const double centre[2], const double M[2][2], double 
 }
 
 /* Do BATCH sectors from `first` on of the ring around an ellipse all reach it? */
-static bool sectors_reach(const kz_enclosure_plan *plan, const double centre[2], const kz_proof_ellipse *ellipse, int first) {
+static bool sectors_reach(const kz_enclosure_tables *tables, const double centre[2], const kz_proof_ellipse *ellipse,
+                          int first) {
   kz_enclosure set[BATCH];
   int left = BATCH;
   for (int i = 0; i < BATCH; i++) set[i] = sector(centre, ellipse->axes, ellipse->radius, first + i);
   for (int period = 0; period < MOST_PERIODS && left > 0; period++) {
-    kz_enclosures_advance(plan, KZ_NEW_FRAME, left, set);
+    kz_enclosures_advance(tables, KZ_NEW_FRAME, left, set);
     for (int i = left - 1; i >= 0; i--) {
       if (!isfinite(set[i].reach[0])) return false;
       if (kz_ellipse_holds(ellipse, centre, &set[i])) set[i] = set[--left];
@@ -36,8 +37,8 @@ static bool sectors_reach(const kz_enclosure_plan *plan, const double centre[2],
   return left == 0;
 }
 
-void kz_proof_grow_rings(const kz_enclosure_plan *plan, const double centre[2], kz_proof_ellipse *ellipse) {
+void kz_proof_grow_rings(const kz_enclosure_tables *tables, const double centre[2], kz_proof_ellipse *ellipse) {
   for (; ellipse->radius < LARGEST; ellipse->radius *= 1 + WIDTH)
     for (int first = 0; first < SECTORS; first += BATCH)
-      if (!sectors_reach(plan, centre, ellipse, first)) return;
+      if (!sectors_reach(tables, centre, ellipse, first)) return;
 }

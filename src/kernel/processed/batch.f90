@@ -1,9 +1,9 @@
 !> Lanes moved by the processed splitting: states are kernel coordinates, P of the physical ones. Lanes too fast for the tables keep
 !> physical coordinates, and another flow advances them; a state that is put faster than `fastest` is taken for physical.
-module kz_processed_tile
+module kz_processed_batch
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_lanes_map, only: flow_t, put_state, move_state, WIDTH, ROOM
+  use kz_lanes_map, only: flow_t, put_state, move_state, WIDTH, CAPACITY
   use kz_lanes_sine, only: INVERSE_PI
   use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
   use kz_processed_processor, only: displacement_t, make_displacement, change_coordinates, change_derivative
@@ -11,14 +11,14 @@ module kz_processed_tile
   use kz_processed_tables, only: processed_t
   implicit none
   private
-  public :: make_processed_tile
+  public :: make_processed_batch
 
-  type, extends(flow_t) :: processed_tile_t
+  type, extends(flow_t) :: processed_batch_t
     type(stages_t) :: stages
     type(displacement_t) :: to_kernel
-    type(displacement_t) :: to_physical
+    type(displacement_t) :: from_kernel
     real(rk) :: fastest                  !< rad per drive radian, that the tables serve
-    logical :: physical(ROOM) = .false.  !< lanes that are faster
+    logical :: physical(CAPACITY) = .false.  !< lanes that are faster
     class(flow_t), allocatable :: fallback
   contains
     procedure :: put => processed_put
@@ -27,14 +27,14 @@ module kz_processed_tile
     procedure :: advance_tangent => processed_tangent
     procedure :: advance_linear => processed_linear
     procedure :: sample => processed_sample
-    procedure :: enter => processed_enter
-    procedure :: leave => processed_leave
-  end type processed_tile_t
+    procedure :: to_map => processed_to_map
+    procedure :: to_physical => processed_to_physical
+  end type processed_batch_t
 
 contains
 
-  !> A tile with the tables of one period. Lanes faster than `fastest` are left to `fallback`.
-  subroutine make_processed_tile(table, fastest, fallback, flow)
+  !> A batch with the tables of one period. Lanes faster than `fastest` are left to `fallback`.
+  subroutine make_processed_batch(table, fastest, fallback, flow)
     !> in quad precision
     type(processed_t), intent(in) :: table
     !> rad per drive radian
@@ -43,19 +43,19 @@ contains
     class(flow_t), allocatable, intent(inout) :: fallback
     !> the map of one drive period
     class(flow_t), allocatable, intent(out) :: flow
-    type(processed_tile_t), allocatable :: tile
+    type(processed_batch_t), allocatable :: batch
 
-    allocate (tile)
-    call make_stages(table, tile%stages)
-    tile%to_kernel = make_displacement(table%enter)
-    tile%to_physical = make_displacement(table%leave)
-    tile%fastest = fastest
-    call move_alloc(fallback, tile%fallback)
-    call move_alloc(tile, flow)
-  end subroutine make_processed_tile
+    allocate (batch)
+    call make_stages(table, batch%stages)
+    batch%to_kernel = make_displacement(table%to_kernel)
+    batch%from_kernel = make_displacement(table%from_kernel)
+    batch%fastest = fastest
+    call move_alloc(fallback, batch%fallback)
+    call move_alloc(batch, flow)
+  end subroutine make_processed_batch
 
   subroutine processed_advance(self, n)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk) :: u(WIDTH), v(WIDTH)
 
@@ -67,7 +67,7 @@ contains
 
   !> The same, and the tangent map in kernel coordinates, in single precision. Numbers below the normal ones are slow.
   subroutine processed_linear(self, n, tangent)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: tangent(WIDTH, 4)
     real(rk) :: u(WIDTH), v(WIDTH)
@@ -84,7 +84,7 @@ contains
 
   !> The tangent map of lanes that another flow advances.
   subroutine linear_fall_back(self, n, tangent)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: tangent(WIDTH, 4)
     real(rk) :: one(WIDTH, 4)
@@ -100,7 +100,7 @@ contains
 
   !> The images of n lanes that the tables have advanced.
   subroutine take_images(self, n, u, v)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
     real(rk), intent(inout) :: v(WIDTH)
@@ -117,7 +117,7 @@ contains
 
   !> Lanes in physical coordinates take another flow's image.
   subroutine fall_back(self, n, u, v)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
     real(rk), intent(inout) :: v(WIDTH)
@@ -140,7 +140,7 @@ contains
 
   !> Lanes that have become too fast for the tables go to physical coordinates, those that are no longer so come back.
   subroutine change_fast_lanes(self, n, u, v)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
     real(rk), intent(inout) :: v(WIDTH)
@@ -150,7 +150,7 @@ contains
     do i = 1, n
       fast = abs(v(i)) > self%fastest
       if (fast .eqv. self%physical(i)) cycle
-      if (fast) call change_coordinates(self%to_physical, 1, u(i:i), v(i:i))
+      if (fast) call change_coordinates(self%from_kernel, 1, u(i:i), v(i:i))
       if (.not. fast) call change_coordinates(self%to_kernel, 1, u(i:i), v(i:i))
       self%physical(i) = fast
     end do
@@ -158,7 +158,7 @@ contains
 
   !> One period with the tangent map in kernel coordinates: the derivative of the very arithmetic, of determinant exp(-2 pi beta).
   subroutine processed_tangent(self, n, matrix)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: matrix(2, 2, WIDTH)
     real(rk) :: c(WIDTH, 2, 2)
@@ -181,7 +181,7 @@ contains
 
   !> The tangent map of lanes that another flow advances.
   subroutine tangent_fall_back(self, n, matrix, c)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(in) :: matrix(2, 2, WIDTH)
     real(rk), intent(inout) :: c(WIDTH, 2, 2)
@@ -198,7 +198,7 @@ contains
   end subroutine tangent_fall_back
 
   subroutine processed_put(self, lane, u, v)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane
     real(rk), intent(in) :: u
     real(rk), intent(in) :: v
@@ -208,7 +208,7 @@ contains
   end subroutine processed_put
 
   subroutine processed_move(self, from, to)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: from
     integer, intent(in) :: to
 
@@ -216,8 +216,8 @@ contains
     self%physical(to) = self%physical(from)
   end subroutine processed_move
 
-  subroutine processed_enter(self, n, matrix, first)
-    class(processed_tile_t), intent(inout) :: self
+  subroutine processed_to_map(self, n, matrix, first)
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
     integer, intent(in), optional :: first
@@ -227,10 +227,10 @@ contains
     if (present(first)) from = first
     self%physical(from:n) = .not. abs(self%v(from:n)) <= self%fastest
     call change_lanes(self, self%to_kernel, from, n, matrix)
-  end subroutine processed_enter
+  end subroutine processed_to_map
 
-  subroutine processed_leave(self, n, matrix, first)
-    class(processed_tile_t), intent(inout) :: self
+  subroutine processed_to_physical(self, n, matrix, first)
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
     integer, intent(in), optional :: first
@@ -238,13 +238,13 @@ contains
 
     from = 1
     if (present(first)) from = first
-    call change_lanes(self, self%to_physical, from, n, matrix)
+    call change_lanes(self, self%from_kernel, from, n, matrix)
     self%physical(from:n) = .true.
-  end subroutine processed_leave
+  end subroutine processed_to_physical
 
   !> The lanes from .. n (at most WIDTH) that are not in physical coordinates for good.
   subroutine change_lanes(self, displacement, from, n, matrix)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     type(displacement_t), intent(in) :: displacement
     integer, intent(in) :: from
     integer, intent(in) :: n
@@ -269,7 +269,7 @@ contains
 
   !> matrix(:, :, lane) = derivative of the change, in rad, times what it was.
   subroutine change_tangents(self, displacement, from, n, matrix)
-    class(processed_tile_t), intent(in) :: self
+    class(processed_batch_t), intent(in) :: self
     type(displacement_t), intent(in) :: displacement
     integer, intent(in) :: from
     integer, intent(in) :: n
@@ -284,17 +284,17 @@ contains
 
   !> Within a period the fallback shows the motion.
   subroutine processed_sample(self, n, u, v)
-    class(processed_tile_t), intent(inout) :: self
+    class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(out) :: u(n)
     real(rk), intent(out) :: v(n)
 
-    call self%leave(1)
+    call self%to_physical(1)
     call self%fallback%put(1, self%u(1), self%v(1))
     call self%fallback%sample(n, u, v)
     self%u(1) = u(n)
     self%v(1) = v(n)
-    call self%enter(1)
+    call self%to_map(1)
   end subroutine processed_sample
 
-end module kz_processed_tile
+end module kz_processed_batch

@@ -1,4 +1,4 @@
-#include "step_table.h"
+#include "table_check.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,24 +8,24 @@
 
 enum { MOST_NODES = 10000 }; /* an axis, that are advised: 2.5 GB */
 
-kz_status kz_steps_check_table(const kz_basin_plan *plan, double defect) {
+kz_status kz_steps_check_table(const kz_basin_plan *plan, double table_error) {
   const double cell = kz_cell_size(plan);
-  if (!(defect > cell)) return KZ_OK;
+  if (!(table_error > cell)) return KZ_OK;
   const int64_t most = plan->table_theta > plan->table_velocity ? plan->table_theta : plan->table_velocity;
-  const double nodes = (double)most * pow(defect / cell, 1.0 / kz_stencil(plan->interpolation));
+  const double nodes = (double)most * pow(table_error / cell, 1.0 / kz_stencil(plan->interpolation));
   char more[64] = "";
   if (nodes <= MOST_NODES) snprintf(more, sizeof more, ", or some %.0f nodes an axis", 100 * ceil(nodes / 100));
   return kz_fail(
       KZ_REFUSED,
       "basin.icm|basin.method: one drive period of the map table is off by %.2g rad, where a cell is %.2g wide: method "
       "direct%s",
-      defect, cell, more);
+      table_error, cell, more);
 }
 
-void kz_steps_warn_table(const kz_basin_plan *plan, double defect, FILE *summary) {
-  if (defect <= kz_steps_tolerance(plan)) return;
+void kz_steps_warn_table(const kz_basin_plan *plan, double table_error, FILE *summary) {
+  if (table_error <= kz_steps_tolerance(plan)) return;
   fprintf(summary,
           "warning: one drive period of the map table is off by %.2g rad (%.2g of a cell); more nodes (basin.icm), a higher "
           "interpolation, or method direct\n",
-          defect, defect / kz_cell_size(plan));
+          table_error, table_error / kz_cell_size(plan));
 }

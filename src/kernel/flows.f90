@@ -1,5 +1,5 @@
 !> From a pendulum and its numerics to a map of one drive period.
-module kz_kernel_plan
+module kz_kernel_flows
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_lanes_map, only: flow_t
   use kz_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
@@ -7,8 +7,8 @@ module kz_kernel_plan
   use kz_lanes_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_lanes_step_table, only: numerics_t, period_t, make_period
-  use kz_processed_tile, only: make_processed_tile
-  use kz_split_tile, only: make_tile
+  use kz_processed_batch, only: make_processed_batch
+  use kz_split_batch, only: make_batch
   implicit none
   private
   public :: make_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
@@ -66,7 +66,7 @@ contains
       return
     end if
     call make_period(pendulum, numerics, fused, period)
-    call make_tile(period, flow)
+    call make_batch(period, flow)
   end subroutine make_flow
 
   !> The map of one drive period, and the same with twice the steps, and all terms: their difference is the error of a period.
@@ -127,7 +127,7 @@ contains
       call make_flow(pendulum, fine, .false., fallback)
     end if
     call make_processed(pendulum, series, int(numerics%steps_per_period), drifts, kicks, fit, table)
-    call make_processed_tile(table, fastest, fallback, flow)
+    call make_processed_batch(table, fastest, fallback, flow)
   end subroutine make_processed_flow
 
-end module kz_kernel_plan
+end module kz_kernel_flows

@@ -1,5 +1,5 @@
 !> Lanes moved by a split scheme or Runge-Kutta.
-module kz_split_tile
+module kz_split_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use kz_lanes_map, only: flow_t, WIDTH
   use kz_lanes_step_table, only: period_t
@@ -8,33 +8,33 @@ module kz_split_tile
   use kz_split_stages, only: steps_t, make_steps, split_stages, last_drift, rk4_steps, split_tangent, rk4_tangent
   implicit none
   private
-  public :: make_tile
+  public :: make_batch
 
-  type, extends(flow_t) :: tile_t
+  type, extends(flow_t) :: batch_t
     type(steps_t) :: steps
   contains
     procedure :: advance
     procedure :: advance_tangent
     procedure :: sample
-  end type tile_t
+  end type batch_t
 
 contains
 
-  !> A tile with the tables of one period.
-  subroutine make_tile(period, flow)
+  !> A batch with the tables of one period.
+  subroutine make_batch(period, flow)
     !> drifts and kicks of one period
     type(period_t), intent(in) :: period
     !> the map of that period
     class(flow_t), allocatable, intent(out) :: flow
-    type(tile_t), allocatable :: tile
+    type(batch_t), allocatable :: batch
 
-    allocate (tile)
-    call make_steps(period, tile%steps)
-    call move_alloc(tile, flow)
-  end subroutine make_tile
+    allocate (batch)
+    call make_steps(period, batch%steps)
+    call move_alloc(batch, flow)
+  end subroutine make_batch
 
   subroutine advance(self, n)
-    class(tile_t), intent(inout) :: self
+    class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
     integer(c_int64_t) :: control
     integer :: lanes
@@ -70,7 +70,7 @@ contains
   !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was. The states
   !> move as in `advance`. A single lane goes alone.
   subroutine advance_tangent(self, n, matrix)
-    class(tile_t), intent(inout) :: self
+    class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(c_double), intent(inout) :: matrix(2, 2, WIDTH)
     real(c_double) :: c(WIDTH, 2, 2)
@@ -100,7 +100,7 @@ contains
 
   !> Lane 1 through one period, shown at every (n_steps/n)-th step end; u(n) is not yet wrapped. Needs steps that are not fused.
   subroutine sample(self, n, u, v)
-    class(tile_t), intent(inout) :: self
+    class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(c_double), intent(out) :: u(n)
     real(c_double), intent(out) :: v(n)
@@ -124,4 +124,4 @@ contains
     call restore_control(control)
   end subroutine sample
 
-end module kz_split_tile
+end module kz_split_batch

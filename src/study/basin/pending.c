@@ -1,32 +1,34 @@
-/* Open cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time. */
+/* Pending cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "label_parts.h"
 
-enum { MOST_OPEN = 1 << 20 }; /* cells that a rank lists at a time; more than a tile has */
+enum { MOST_PENDING = 1 << 20 }; /* cells that a rank lists at a time; more than a tile has */
 
-static int64_t tile_size(const kz_labelling *l) {
+static int64_t tile_size(const kz_window_labels *l) {
   const int64_t most = kz_level_tile(l->level);
   return l->batch < most ? l->batch : most;
 }
 
-kz_status kz_open_count(kz_labelling *l, int16_t wanted) {
+kz_status kz_pending_count(kz_window_labels *l, int16_t wanted) {
   l->wanted = wanted;
   int64_t *before = memset(l->before, 0, (size_t)(l->tiles.own + 1) * sizeof *before);
-  for (int64_t i = 0; i < l->pieces.n; i++) before[l->pieces.list[i].tile + 1] = kz_labels_open(&l->pieces.list[i], wanted);
+  for (int64_t i = 0; i < l->pieces.n; i++)
+    before[l->pieces.list[i].tile + 1] = kz_tile_labels_pending(&l->pieces.list[i], wanted);
   KZ_TRY(kz_ranks_sum(l->run->ranks, before, l->tiles.own + 1));
   for (int64_t tile = 0; tile < l->tiles.own; tile++) before[tile + 1] += before[tile];
   return KZ_OK;
 }
 
 /* Those of the wanted cells that lie in one tile. */
-static kz_status pick_from(kz_labelling *l, const kz_local_record *piece, int64_t from, int64_t of, int64_t n, int64_t *cell) {
+static kz_status pick_from(kz_window_labels *l, const kz_local_record *piece, int64_t from, int64_t of, int64_t n,
+                           int64_t *cell) {
   int64_t number = l->before[piece->tile], i = number > from ? ((number - from) * n + of - 1) / of : 0;
   const int64_t end = l->before[piece->tile + 1], first = kz_tile_first(&l->tiles, piece->tile);
   if (i >= n || from + i * of / n >= end || end == number) return KZ_OK;
-  KZ_TRY(kz_labels_unpack(l, piece));
+  KZ_TRY(kz_tile_labels_unpack(l, piece));
   for (int64_t k = 0; i < n && number < end; k++) {
     if (l->cell[k].label != l->wanted) continue;
     if (from + i * of / n == number) cell[i++] = first + k;
@@ -35,7 +37,7 @@ static kz_status pick_from(kz_labelling *l, const kz_local_record *piece, int64_
   return KZ_OK;
 }
 
-kz_status kz_open_pick(kz_labelling *l, int64_t from, int64_t of, int64_t n, int64_t *cell) {
+kz_status kz_pending_pick(kz_window_labels *l, int64_t from, int64_t of, int64_t n, int64_t *cell) {
   kz_status status = KZ_OK;
   memset(cell, 0, (size_t)n * sizeof *cell);
   for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++) status = pick_from(l, &l->pieces.list[i], from, of, n, cell);
@@ -43,38 +45,38 @@ kz_status kz_open_pick(kz_labelling *l, int64_t from, int64_t of, int64_t n, int
   return kz_ranks_sum(l->run->ranks, cell, n);
 }
 
-static kz_status label_open(void *context, int64_t tile, void *record) {
-  kz_labelling *l = context;
-  const int64_t size = tile_size(l), first = tile * size, left = l->n_open - first;
-  return kz_label_cells(l, 0, l->open + first, left < size ? left : size, record);
+static kz_status label_pending(void *context, int64_t tile, void *record) {
+  kz_window_labels *l = context;
+  const int64_t size = tile_size(l), first = tile * size, left = l->n_pending - first;
+  return kz_label_cells(l, 0, l->pending + first, left < size ? left : size, record);
 }
 
-/* The new labels of the listed cells, of which the first is open cell `from`, replace those of a tile of this rank. */
-static kz_status merge(kz_labelling *l, kz_local_record *piece, int64_t from, const kz_labelled *found, void *record) {
+/* The new labels of the listed cells, of which the first is pending cell `from`, replace those of a tile of this rank. */
+static kz_status merge(kz_window_labels *l, kz_local_record *piece, int64_t from, const kz_cell_label *found, void *record) {
   int64_t number = l->before[piece->tile] - from;
   const int64_t end = l->before[piece->tile + 1] - from;
-  if (number < 0 || number == end || end > l->n_open) return KZ_OK;
-  KZ_TRY(kz_labels_unpack(l, piece));
+  if (number < 0 || number == end || end > l->n_pending) return KZ_OK;
+  KZ_TRY(kz_tile_labels_unpack(l, piece));
   for (int64_t k = 0; number < end; k++)
     if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
-  return kz_labels_replace(l, piece, record);
+  return kz_tile_labels_replace(l, piece, record);
 }
 
-/* The open cells of tiles from .. to - 1. */
-static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, int64_t to, int64_t *open) {
+/* The pending cells of tiles from .. to - 1. */
+static kz_status label_tiles(kz_window_labels *l, const char *name, int64_t from, int64_t to, int64_t *pending) {
   const int64_t size = tile_size(l);
-  l->open = open;
-  l->n_open = l->before[to] - l->before[from];
+  l->pending = pending;
+  l->n_pending = l->before[to] - l->before[from];
   kz_stage stage = {.name = name,
-                    .n_tiles = (l->n_open + size - 1) / size,
-                    .record_bytes = (size_t)size * sizeof(kz_labelled),
-                    .work = label_open,
+                    .n_tiles = (l->n_pending + size - 1) / size,
+                    .record_bytes = (size_t)size * sizeof(kz_cell_label),
+                    .work = label_pending,
                     .context = l,
                     .keep = true,
                     .everywhere = true};
-  KZ_TRY(kz_open_pick(l, l->before[from], l->n_open, l->n_open, open));
-  kz_labelled *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  void *record = kz_malloc(kz_labels_room(l));
+  KZ_TRY(kz_pending_pick(l, l->before[from], l->n_pending, l->n_pending, pending));
+  kz_cell_label *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  void *record = kz_malloc(kz_tile_labels_bytes(l));
   kz_status status = kz_stage_run(l->run, &stage, found);
   for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++)
     status = merge(l, &l->pieces.list[i], l->before[from], found, record);
@@ -83,30 +85,30 @@ static kz_status label_tiles(kz_labelling *l, const char *name, int64_t from, in
   return kz_ranks_agree(l->run->ranks, status);
 }
 
-kz_status kz_open_label(kz_labelling *l, const char *name) {
+kz_status kz_pending_label(kz_window_labels *l, const char *name) {
   const int64_t *before = l->before, all = before[l->tiles.own];
-  const int64_t most = all < MOST_OPEN ? all : MOST_OPEN;
-  int64_t *open = kz_malloc((size_t)most * sizeof *open + 1);
+  const int64_t most = all < MOST_PENDING ? all : MOST_PENDING;
+  int64_t *pending = kz_malloc((size_t)most * sizeof *pending + 1);
   kz_status status = KZ_OK;
   for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {
     for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
-    if (before[to] > before[from]) status = label_tiles(l, name, from, to, open);
+    if (before[to] > before[from]) status = label_tiles(l, name, from, to, pending);
   }
-  l->open = NULL;
-  free(open);
+  l->pending = NULL;
+  free(pending);
   return status;
 }
 
-kz_status kz_levels_escalate(kz_labelling *l, int round) {
+kz_status kz_levels_escalate(kz_window_labels *l, int round) {
   const kz_labeller labeller = kz_cells_labeller(l);
   char name[32];
   while (l->level < KZ_LEVELS) {
-    KZ_TRY(kz_open_count(l, KZ_DOUBTFUL));
+    KZ_TRY(kz_pending_count(l, KZ_DOUBTFUL));
     if (l->before[l->tiles.own] == 0) break;
     l->before_level = l->level;
     l->level = kz_level_after(&labeller, l->level, l->before[l->tiles.own]);
     snprintf(name, sizeof name, "%s %d", kz_level_name(l->level), round);
-    KZ_TRY(kz_open_label(l, name));
+    KZ_TRY(kz_pending_label(l, name));
   }
   l->level = l->before_level = KZ_LEVEL_DOUBLE;
   return KZ_OK;

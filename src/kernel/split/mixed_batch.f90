@@ -1,22 +1,22 @@
-!> A tile of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
+!> A batch of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
 !> each lane stand in tables; its kicks are k and m times those of all.
-module kz_split_mixed_tile
+module kz_split_mixed_batch
   use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_lanes_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, MAGIC, SIGN_SHIFT, INVERSE_PI, VECTOR
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI, VECTOR
   use kz_model_pendulum, only: pendulum_t
   implicit none
   private
-  public :: mixed_tile_t, track_t, make_mixed_tile
+  public :: mixed_batch_t, track_t, make_mixed_batch
 
   !> Kicks of a step, each after a drift; a drift more ends it.
   integer, parameter :: KICKS = SCHEMES(SPLIT6_ROW + 1)%kicks, DRIFTS = KICKS + 1
   !> An angle of so many turns has no fraction left: the state is lost.
   real(rk), parameter :: MOST_TURNS = 1e15_rk
 
-  type, extends(map_t) :: mixed_tile_t
+  type, extends(map_t) :: mixed_batch_t
     integer :: n_steps = 0
     real(rk) :: time(DRIFTS) = 0               !< of the drifts of a step, drive radians
     real(rk) :: weight(KICKS) = 0              !< of a kick: of k
@@ -30,7 +30,7 @@ module kz_split_mixed_tile
     procedure :: move
     procedure :: advance
     procedure :: advance_tangent
-  end type mixed_tile_t
+  end type mixed_batch_t
 
   !> Angles at the ends of the steps, unwrapped, half-turns.
   type :: track_t
@@ -41,34 +41,34 @@ module kz_split_mixed_tile
 
 contains
 
-  !> A tile without pendulums yet.
-  subroutine make_mixed_tile(n_steps, tile)
+  !> A batch without pendulums yet.
+  subroutine make_mixed_batch(n_steps, batch)
     !> steps of split6 in a drive period
     integer, intent(in) :: n_steps
     !> its tables that all pendulums share
-    type(mixed_tile_t), intent(out) :: tile
+    type(mixed_batch_t), intent(out) :: batch
     type(stage_t) :: stages(2*KICKS + 1)
     real(rk) :: clock, step
     integer :: i, s
 
     stages = scheme_stages(SCHEMES(SPLIT6_ROW + 1))
     step = 2*PI/n_steps
-    tile%n_steps = n_steps
-    tile%time = step*real(stages(1::2)%share, rk)
-    tile%weight = step*real(stages(2::2)%share, rk)
-    allocate (tile%swing(KICKS, n_steps))
+    batch%n_steps = n_steps
+    batch%time = step*real(stages(1::2)%share, rk)
+    batch%weight = step*real(stages(2::2)%share, rk)
+    allocate (batch%swing(KICKS, n_steps))
     do i = 1, n_steps
       clock = i - 1
       do s = 1, KICKS
         clock = clock + real(stages(2*s - 1)%share, rk)
-        tile%swing(s, i) = tile%weight(s)*cos(2*PI*(clock/n_steps))
+        batch%swing(s, i) = batch%weight(s)*cos(2*PI*(clock/n_steps))
       end do
     end do
-  end subroutine make_mixed_tile
+  end subroutine make_mixed_batch
 
   !> Gives a lane its pendulum.
   subroutine set_pendulum(self, lane, pendulum)
-    class(mixed_tile_t), intent(inout) :: self
+    class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
@@ -83,7 +83,7 @@ contains
   end subroutine set_pendulum
 
   subroutine move(self, from, to)
-    class(mixed_tile_t), intent(inout) :: self
+    class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: from
     integer, intent(in) :: to
 
@@ -95,7 +95,7 @@ contains
   end subroutine move
 
   subroutine advance(self, n)
-    class(mixed_tile_t), intent(inout) :: self
+    class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     integer :: lanes, i
 
@@ -107,7 +107,7 @@ contains
   end subroutine advance
 
   subroutine one_step(self, step, n, u, v)
-    class(mixed_tile_t), intent(in) :: self
+    class(mixed_batch_t), intent(in) :: self
     integer, intent(in) :: step
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
@@ -130,7 +130,7 @@ contains
   !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was; the angles on the
   !> way join `track`.
   subroutine advance_tangent(self, n, matrix, track)
-    class(mixed_tile_t), intent(inout) :: self
+    class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: matrix(2, 2, WIDTH)
     type(track_t), intent(inout) :: track
@@ -157,7 +157,7 @@ contains
 
   !> A step, and its derivative c(i, :, j): column j of the tangent map of lane i.
   subroutine tangent_step(self, step, n, u, v, c)
-    class(mixed_tile_t), intent(in) :: self
+    class(mixed_batch_t), intent(in) :: self
     integer, intent(in) :: step
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
@@ -192,13 +192,13 @@ contains
 
   !> Brings the angles back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
   subroutine wrap(self, n)
-    class(mixed_tile_t), intent(inout) :: self
+    class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk) :: turn
     integer :: i
 
     do i = 1, n
-      turn = (0.5_rk*self%u(i) + MAGIC) - MAGIC
+      turn = (0.5_rk*self%u(i) + ROUND_TO_INTEGER) - ROUND_TO_INTEGER
       self%u(i) = self%u(i) - 2*turn
       if (abs(turn) < MOST_TURNS) then
         self%turns(i) = self%turns(i) + int(turn, ik)
@@ -210,4 +210,4 @@ contains
 
   include 'lanes/sine.inc'
 
-end module kz_split_mixed_tile
+end module kz_split_mixed_batch
