@@ -48,16 +48,15 @@ class Engine:
         return f"<kapitza.Engine of {self.ready.get('title') or 'a scene'}: {state}>"
 
     def close(self) -> None:
-        """Ends the program."""
-        if self._process.stdin and not self._process.stdin.closed:
-            self._process.stdin.close()
+        """Ends the program, which goes when nobody reads its answers any more."""
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe and not pipe.closed:
+                pipe.close()
         try:
             self._process.wait(5)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
-        if self._process.stdout:
-            self._process.stdout.close()
 
     def frame(self, window: tuple[Any, Any, Any, Any] | Mapping[str, Any] | None = None, shape: tuple[int, int] = (250, 400),
               pendulum: Mapping[str, Any] | None = None, quality: str = "exact") -> np.ndarray:

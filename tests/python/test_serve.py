@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -167,11 +168,20 @@ def test_a_scene_that_is_wrong_ends_it(tmp_path):
     assert done.returncode == 2 and done.stdout == "" and "pendulum.m: is missing" in done.stderr
 
 
+def test_the_end_of_the_input_ends_no_request():
+    """The last line, of two frames of different views, has no newline."""
+    frame = {"request": "frame", "rows": 60, "columns": 60, "quality": "moving"}
+    lines = [json.dumps({**frame, "sequence": i, "view": str(i)}) for i in (1, 2)]
+    done = subprocess.run([PROGRAM, "serve", FIG12], input="\n".join(lines).encode(), capture_output=True, timeout=60, check=True)
+    headers = [json.loads(line) for line in re.findall(rb'^.*({"answer": "frame".*})$', done.stdout, re.MULTILINE)]
+    assert [(header["sequence"], header["final"]) for header in headers] == [(1, True), (2, True)]
+
+
 def test_it_ends_with_its_parent():
     """Amid a frame of many seconds."""
     script = f"""
 import subprocess, time
-server = subprocess.Popen([{str(PROGRAM)!r}, "serve", {str(FIG12)!r}], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL)
+server = subprocess.Popen([{str(PROGRAM)!r}, "serve", {str(FIG12)!r}], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 server.stdin.write(b'{{"request": "frame", "rows": 4000, "columns": 4000}}\\n')
 server.stdin.flush()
 print(server.pid, flush=True)

@@ -48,6 +48,14 @@ static bool is_too_long(kz_inbox *inbox) {
   return begins;
 }
 
+/* What stands after the last newline, once the input has ended; NULL where nothing does. */
+static const char *last_line(kz_inbox *inbox, size_t *length) {
+  const char *line = inbox->bytes + inbox->first;
+  *length = inbox->filled - inbox->first;
+  inbox->first = inbox->filled;
+  return *length > 0 && !inbox->skips ? line : NULL;
+}
+
 const char *kz_inbox_line(kz_inbox *inbox, bool waits, size_t *length, kz_status *status) {
   char *end;
   *status = KZ_OK;
@@ -57,7 +65,8 @@ const char *kz_inbox_line(kz_inbox *inbox, bool waits, size_t *length, kz_status
         *status = kz_fail(KZ_REFUSED, "request: has more than %d bytes", KZ_LINE_MOST);
         return NULL;
       }
-      if (inbox->ended || !fill(inbox, waits)) return NULL;
+      if (inbox->ended) return last_line(inbox, length);
+      if (!fill(inbox, waits) && !inbox->ended) return NULL;
     }
     const char *line = inbox->bytes + inbox->first;
     *length = (size_t)(end - line);

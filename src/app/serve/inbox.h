@@ -18,8 +18,8 @@ enum { KZ_LINE_MOST = 65536 };
 void kz_inbox_open(kz_inbox *inbox);
 void kz_inbox_close(kz_inbox *inbox);
 
-/* The next whole line, without its end, valid until the next call; NULL where there is none: `waits` = only at the end of input. A line that is
- * too long is refused: *status. */
+/* The next line, without its end, valid until the next call; NULL where there is none: `waits` = only at the end of input. The last
+ * line needs no newline. A line that is too long is refused: *status. */
 const char *kz_inbox_line(kz_inbox *inbox, bool waits, size_t *length, kz_status *status);
 
 #endif

@@ -67,16 +67,13 @@ static kz_status take(server *s, kz_request *request) {
   return status;
 }
 
-/* Reads the requests that are there; `waits`: at least one, or the end. */
+/* Takes the requests that are there; `waits`: at least one, or the end of the input. */
 static kz_status listen(server *s, bool waits) {
   kz_status status = KZ_OK, wrong;
   size_t length;
   do {
     const char *line = kz_inbox_line(&s->inbox, waits, &length, &wrong);
-    if (!line && wrong == KZ_OK) {
-      s->quits = s->quits || s->inbox.ended;
-      return KZ_OK;
-    }
+    if (!line && wrong == KZ_OK) return KZ_OK;
     kz_request *request = NULL;
     if (line) wrong = kz_request_read(s->tree.root, line, length, &request);
     if (wrong == KZ_OK) {
@@ -115,7 +112,8 @@ static kz_status draw_next(server *s) {
 static kz_status answer_all(server *s) {
   while (!s->quits) {
     KZ_TRY(listen(s, false));
-    if (s->waiting == NULL && !s->quits) {
+    if (!s->waiting && s->inbox.ended) return KZ_OK;
+    if (!s->waiting && !s->quits) {
       kz_engine_rest(s->drawing.engine);
       KZ_TRY(listen(s, true));
     }
@@ -146,7 +144,7 @@ kz_status kz_app_serve(const kz_options *options) {
   if (strcmp(options->scene, "-") == 0)
     return kz_fail(KZ_REFUSED, "serve: -: standard input is for requests; give the name of a scene file");
   signal(SIGPIPE, SIG_IGN); /* whoever asks may leave at any time */
-  KZ_TRY(kz_input_watch());
+  KZ_TRY(kz_output_watch());
   kz_inbox_open(&s.inbox);
   kz_drawing_open(&s.drawing);
   kz_status status = greet(&s, options);

@@ -8,16 +8,16 @@
 
 enum { GRACE = 1 /* seconds in which the program ends by itself */ };
 
-/* A pipe without a writer says so without being asked. */
+/* A pipe without a reader says so without being asked; a file never does. */
 static void *watch(void *unused) {
-  struct pollfd input = {.fd = STDIN_FILENO};
+  struct pollfd output = {.fd = STDOUT_FILENO};
   (void)unused;
-  while (poll(&input, 1, -1) < 0 && errno == EINTR) continue;
+  while (poll(&output, 1, -1) < 0 && errno == EINTR) continue;
   sleep(GRACE);
   _exit(0);
 }
 
-kz_status kz_input_watch(void) {
+kz_status kz_output_watch(void) {
   pthread_t thread;
   const int error = pthread_create(&thread, NULL, watch, NULL);
   if (error) return kz_fail(KZ_FAILED, "serve: no thread can be started: %s", strerror(error));
