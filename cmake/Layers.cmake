@@ -18,6 +18,19 @@ function(kapitza_layer name)
     target_link_libraries(kapitza_${name} PUBLIC kapitza_${layer})
   endforeach()
   target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} m)
+  kapitza_includes(${name})
+endfunction()
+
+# Fortran files with parts (*.inc) are compiled again when one of the layer's parts changes: ninja does not see these includes.
+function(kapitza_includes name)
+  file(GLOB_RECURSE parts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.inc)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/${name}/*.f90)
+  foreach(source ${sources})
+    file(STRINGS ${source} includes REGEX "^ *include '")
+    if(includes)
+      set_property(SOURCE ${source} APPEND PROPERTY OBJECT_DEPENDS "${parts}")
+    endif()
+  endforeach()
 endfunction()
 
 # The program: only its entry (the instruction-set check) is compiled for plain x86-64.
