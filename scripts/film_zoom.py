@@ -4,7 +4,7 @@
     build/kapitza where SCENE THETA VELOCITY THETA VELOCITY --boundary 120     # finds a point
     .venv/bin/python scripts/film_zoom.py SCENE THETA VELOCITY --to 1e-100 -o zoom.mp4
 
-One reference orbit serves all frames (docs/accuracy.md, deep zooms). MP4 by ffmpeg where it is there; a name that ends in .gif, or a
+One reference orbit serves all frames (docs/validation/accuracy.md). MP4 by ffmpeg where it is there; a name that ends in .gif, or a
 machine without ffmpeg, gives an animated GIF. Cells are labelled as in the explorer's moving frames: a few in a
 thousand may be wrong.
 """

@@ -18,7 +18,7 @@ RESULTS = ROOT / "results"
 def parse_arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("pattern", nargs="?", help="names of the figures, as a shell pattern (default: all, and the numbers)")
-    parser.add_argument("--numbers", action="store_true", help="no figure: only the numbers of the papers, docs/results.md")
+    parser.add_argument("--numbers", action="store_true", help="no figure: only the numbers of the papers, docs/validation/results.md")
     parser.add_argument("--ranks", type=int, default=int(os.environ.get("RANKS", os.cpu_count())))
     parser.add_argument("--list", action="store_true", help="print the table and run nothing")
     arguments = parser.parse_args()
@@ -52,10 +52,10 @@ def draw_figures(arguments):
 
 
 def write_numbers():
-    """docs/results.md; status 1 and a line for each number that failed."""
+    """docs/validation/results.md; status 1 and a line for each number that failed."""
     found = find_numbers(lambda words: print("reproduce:", words, flush=True))
-    failed = write_page(found, ROOT / "docs" / "results.md")
-    print(f"reproduce: docs/results.md has {sum(len(numbers) for _, numbers in found)} numbers, {len(failed)} failed")
+    failed = write_page(found, ROOT / "docs" / "validation" / "results.md")
+    print(f"reproduce: docs/validation/results.md has {sum(len(numbers) for _, numbers in found)} numbers, {len(failed)} failed")
     for number in failed:
         print(f"reproduce: FAILED: {number.place}: {number.quantity}: ours {number.ours:.12g}, paper {number.printed or '-'}, "
               f"reference {'-' if number.reference is None else format(number.reference, '.12g')}", file=sys.stderr)

@@ -72,7 +72,7 @@ int64_t kz_turning_points(int64_t n, double step, const double *theta, const dou
 
 enum { KZ_NAME_LENGTH = 48 };
 
-/* The name of an attractor from its period (0 = chaotic), winding and centre, into text [KZ_NAME_LENGTH]; docs/orbits.md has
+/* The name of an attractor from its period (0 = chaotic), winding and centre, into text [KZ_NAME_LENGTH]; docs/explanation/orbits.md has
  * the table. */
 void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text);
 
@@ -138,7 +138,7 @@ kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double lon
 /* Transition curves of the (damped) Mathieu equation and the effective potential (GSL).
  *
  * u'' + beta u' + (k - m cos t) u = 0; k of any sign (negative about the inverted state), curves as m >= 0 over k. BSG =
- * Blackburn et al. 1992, BUT = Butikov 2018; equations as corrected in docs/theory.md. Nothing here is collective. */
+ * Blackburn et al. 1992, BUT = Butikov 2018; equations as corrected in docs/explanation/theory.md. Nothing here is collective. */
 
 /* ---- curves ---- */
 

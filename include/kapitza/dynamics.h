@@ -226,7 +226,7 @@ double kz_dynamics_table_error(kz_dynamics *dynamics, int32_t points);
 
 /* ---- proof ---- */
 
-/* Where starts are proved to end, under the true flow (the enclosures of kernel.h; docs/proof.md). A region: ellipses that are proved
+/* Where starts are proved to end, under the true flow (the enclosures of kernel.h; docs/explanation/proof.md). A region: ellipses that are proved
  * to contract onto a cycle, and a grid of closed cells over the whole circle and velocities from -top to top, whose second half mirrors
  * the first. Cells join by induction: they are proved to reach ellipses, or cells that have joined. Single starts are proved where
  * their set reaches the region. Numbers of attractors are 1 .. KZ_PROOF_MOST; nothing here is collective. */

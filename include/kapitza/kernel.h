@@ -195,7 +195,7 @@ kz_status kz_arbitrary_restore(kz_arbitrary *orbit, const char *text);
 
 /* ---- enclosures ---- */
 
-/* Sets of states that are proved to hold the true motion: no error of a scheme, no rounding is left out (docs/proof.md). Taylor
+/* Sets of states that are proved to hold the true motion: no error of a scheme, no rounding is left out (docs/explanation/proof.md). Taylor
  * polynomials of order 22 in doubles, of order 40 in pairs of doubles. Parameters are the doubles given. */
 enum { KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS };
 

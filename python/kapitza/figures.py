@@ -1,6 +1,6 @@
 """Which figure comes from which scene drawn how: the one table behind scripts/reproduce.
 
-A row is a scene, named after the paper and its figure (docs/theory.md), and its figures: (suffix of the name, kind, options).
+A row is a scene, named after the paper and its figure (docs/explanation/theory.md), and its figures: (suffix of the name, kind, options).
 """
 
 _Row = tuple[str, str, list[str]]

@@ -18,7 +18,7 @@ const kz_command kz_commands[] = {
      "open the basins of a scene or result in the browser, to be zoomed and dragged"},
     {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
      "answer requests for frames, orbits and ends of starts, JSON lines on standard input, until its end"},
-    {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/scene.md)"},
+    {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/reference/scene.md)"},
 };
 const int kz_command_count = sizeof kz_commands / sizeof kz_commands[0];
 const kz_command kz_program = {"", TOP, " COMMAND", 0, 0, NULL, "basins of attraction of the pendulum with a shaken pivot"};

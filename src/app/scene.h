@@ -1,6 +1,6 @@
 /* scene: from the YAML text of a user to kz_scene and back (C; layer 4).
  *
- * ONE table, kz_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/scene.md
+ * ONE table, kz_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/reference/scene.md
  * all come from its rows: a new key is a new row. */
 #ifndef KAPITZA_APP_SCENE_H
 #define KAPITZA_APP_SCENE_H
@@ -169,7 +169,7 @@ void kz_scene_free(kz_scene *scene);
 kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets);
 /* YAML with every default; reading it gives the same scene. `flat` = one "path: value" a line instead. */
 void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out);
-/* The scene reference (docs/scene.md). */
+/* The scene reference (docs/reference/scene.md). */
 void kz_scene_reference(const kz_key *keys, FILE *out);
 
 /* The same as a JSON schema. Rules between keys of different mappings are the program's own (`check`). */

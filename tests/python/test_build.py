@@ -66,7 +66,7 @@ def installed(tmp_path_factory):
 def test_an_installation_is_whole(installed, tmp_path):
     for path in ("bin/kapitza", "share/man/man1/kapitza.1", "share/bash-completion/completions/kapitza", "share/kapitza/kapitza.sbatch",
                  "share/zsh/site-functions/_kapitza", "share/fish/vendor_completions.d/kapitza.fish", "share/doc/kapitza/README.md",
-                 "share/doc/kapitza/docs/user.md", "share/doc/kapitza/docs/figures/blackburn-fig12.png"):
+                 "share/doc/kapitza/docs/reference/commands.md", "share/doc/kapitza/docs/figures/blackburn-fig12.png"):
         assert (installed / path).stat().st_size > 0, path
     scenes = sorted(path.name for path in (ROOT / "scenes").glob("*.yaml"))
     assert sorted(path.name for path in (installed / "share/kapitza/scenes").iterdir()) == scenes

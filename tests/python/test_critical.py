@@ -1,4 +1,4 @@
-"""Near a bifurcation and on a basin's boundary: the right label or none, never a wrong one (docs/extremes.md)."""
+"""Near a bifurcation and on a basin's boundary: the right label or none, never a wrong one (docs/validation/extremes.md)."""
 
 import math
 

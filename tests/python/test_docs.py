@@ -8,7 +8,8 @@ import pytest
 from conftest import ROOT
 
 DOCS = ROOT / "docs"
-PAGES = sorted(DOCS.rglob("*.md"))
+PAGES = [DOCS / "index.md", *sorted(DOCS.glob("*/*.md"))]
+OLD_NAMES = sorted(set(DOCS.glob("*.md")) - {DOCS / "index.md"})  # pages that have moved
 
 
 def name_of(page):
@@ -34,6 +35,13 @@ def test_links_lead_to_files(page):
     assert not [link for link in links if not (page.parent / link).exists()]
 
 
+@pytest.mark.parametrize("page", OLD_NAMES, ids=lambda path: path.name)
+def test_an_old_name_leads_to_the_new_page(page):
+    """Under the same title."""
+    title, link = re.fullmatch(r"---\norphan: true\n---\n\n(# .+)\n\nThis page has moved to \[.+\]\((.+)\)\.\n", page.read_text()).groups()
+    assert (DOCS / link).read_text().startswith(title + "\n")
+
+
 def test_the_site_is_made_without_a_warning(tmp_path):
     for module in ("sphinx", "myst_parser", "furo", "sphinx_copybutton"):
         pytest.importorskip(module, reason="scripts/requirements-docs.txt is not installed: the site is not made")
@@ -41,4 +49,4 @@ def test_the_site_is_made_without_a_warning(tmp_path):
     done = subprocess.run([*command, "-d", tmp_path / "doctrees"], capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stderr) == (0, "")
     pages = [(tmp_path / "site" / f"{name_of(path)}.html").read_text() for path in PAGES]
-    assert all("<h1>" in page for page in pages) and "tutorial.html" in pages[PAGES.index(DOCS / "index.md")]
+    assert all("<h1>" in page for page in pages) and "tutorials/how-hard.html" in pages[PAGES.index(DOCS / "index.md")]

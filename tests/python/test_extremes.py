@@ -1,4 +1,4 @@
-"""Numbers at the extremes: right, or refused with the way out, never silently wrong (docs/extremes.md)."""
+"""Numbers at the extremes: right, or refused with the way out, never silently wrong (docs/validation/extremes.md)."""
 
 import math
 

@@ -39,14 +39,14 @@ def test_the_list_shows_the_table():
 
 
 def test_the_gallery_names_every_figure_of_the_papers():
-    gallery = (ROOT / "docs" / "gallery.md").read_text()
+    gallery = (ROOT / "docs" / "reference" / "gallery.md").read_text()
     scenes = [path.stem for path in (ROOT / "scenes").glob("b*-fig*.yaml")]
     assert len(scenes) > 30 and not [name for name in scenes if f"`{name}`" not in gallery]
 
 
 def test_the_commands_of_the_gallery_are_valid(kapitza):
     """Each is checked, not run: its keys, its values, its steps."""
-    commands = re.findall(r"^\| .* \| `(scenes/.*)` \|$", (ROOT / "docs" / "gallery.md").read_text(), re.MULTILINE)
+    commands = re.findall(r"^\| .* \| `(scenes/.*)` \|$", (ROOT / "docs" / "reference" / "gallery.md").read_text(), re.MULTILINE)
     assert len(commands) > 12
     for command in commands:
         kapitza("check", *shlex.split(command))
@@ -69,7 +69,7 @@ def test_a_part_of_the_papers_numbers(kapitza):
     with Runs(PROGRAM) as runs:
         numbers = [number for part in (butikov.zones, butikov.subharmonic_orbits) for number in part(runs, known)]
     assert len(numbers) > 100 and {number.agreement for number in numbers} == {"right", "approximation", "erratum"}
-    page = (ROOT / "docs" / "results.md").read_text()
+    page = (ROOT / "docs" / "validation" / "results.md").read_text()
     assert all(f"| {number.place} | {number.quantity} |" in page for number in numbers)
     assert page.count("\n| ") > 900 and "FAILED |" not in page
 

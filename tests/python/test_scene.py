@@ -124,7 +124,7 @@ def test_every_scene_of_the_repository_is_valid(tmp_path, name):
 def test_reference_of_the_keys_is_current(tmp_path):
     status, out, _ = program(tmp_path, "keys")
     assert status == 0
-    assert out.decode() == (ROOT / "docs" / "scene.md").read_text(), "build/kapitza keys > docs/scene.md"
+    assert out.decode() == (ROOT / "docs" / "reference" / "scene.md").read_text(), "build/kapitza keys > docs/reference/scene.md"
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["run", "--help"], ["check", "--help"], ["keys", "--help"]])

@@ -63,7 +63,7 @@ def test_angles_may_be_in_degrees(text, good, validator, tmp_path):
 
 
 def test_it_knows_every_key_with_its_default(validator):
-    """Against docs/scene.md, which is written from the same table."""
+    """Against docs/reference/scene.md, which is written from the same table."""
     def keys(mapping, path=""):
         for name, item in mapping["properties"].items():
             if "properties" in item:
@@ -71,7 +71,8 @@ def test_it_knows_every_key_with_its_default(validator):
             else:
                 yield path + name, item.get("default")
 
-    rows = [line.strip("| \n").split(" | ") for line in (ROOT / "docs" / "scene.md").read_text().splitlines() if line.startswith("| `")]
+    lines = (ROOT / "docs" / "reference" / "scene.md").read_text().splitlines()
+    rows = [line.strip("| \n").split(" | ") for line in lines if line.startswith("| `")]
     documented = {row[0].strip("`"): row[2] for row in rows if not row[1].startswith("a mapping")}
     known = dict(keys(validator.schema["allOf"][0]))
     assert known.keys() == documented.keys()

@@ -281,7 +281,7 @@ def test_public_procedures_and_their_arguments_have_a_sentence():
 
 
 def test_the_guide_names_files_that_exist():
-    guide = (ROOT / "docs" / "developer.md").read_text()
+    guide = (ROOT / "docs" / "develop" / "developer.md").read_text()
     rows = re.findall(r"^\| ([^|]+) \| ([^|]+) \|$", guide.split("| to add | touch |")[1].split("\n## ")[0], re.MULTILINE)[1:]
     assert {word for name, _ in rows for word in name.split()} >= {
         "scheme", "study", "key", "variable", "measure", "level", "drive", "interpolation", "plot",

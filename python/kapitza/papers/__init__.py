@@ -1,1 +1,1 @@
-"""Every number of the two papers, found anew by the program: docs/results.md (`scripts/reproduce`)."""
+"""Every number of the two papers, found anew by the program: docs/validation/results.md (`scripts/reproduce`)."""

@@ -64,7 +64,7 @@ def boundaries(runs, known):
 
 
 def potential(runs, known):
-    """(11), (12), Fig. 5: the effective potential; the values at one angle by quadrature (docs/stability.md)."""
+    """(11), (12), Fig. 5: the effective potential; the values at one angle by quadrature (docs/explanation/stability.md)."""
     pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
     values, _ = runs({"pendulum": pendulum, "potential": {"drive_amplitudes": [0.13, 0.3], "theta": {"count": 20001}}}, "potential")
     from scipy.interpolate import CubicSpline

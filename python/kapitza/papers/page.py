@@ -1,4 +1,4 @@
-"""docs/results.md, and what is said on the terminal."""
+"""docs/validation/results.md, and what is said on the terminal."""
 
 import json
 from pathlib import Path
@@ -23,7 +23,7 @@ do not edit.
 - **FAILED**: ours is neither, or an erratum no longer explains the difference.
 
 References are values by other methods, with 10 to 16 digits (`tests/literature/reference.json`); how they were found is said in
-[theory.md](theory.md).
+[theory.md](../explanation/theory.md).
 """
 
 

@@ -45,7 +45,7 @@ module kz_lanes_schemes
               0.143761127168358_qp, 0.328567693746804_qp], &
              BLANES_MOAN//'SRKN, 14 stages, order 6'), &
     scheme_t('processed', 14, 1, 40, PROCESSED, 0, 0, O, O, &
-             'one modified kick a step between two changes of coordinates (docs/theory.md)')]
+             'one modified kick a step between two changes of coordinates (docs/explanation/theory.md)')]
 
   !> Rows by name, counted from 0 as numerics_t%scheme: the one that published values rest on, and the fastest.
   integer, public, parameter :: SPLIT6_ROW = findloc(SCHEMES%name, 'split6', 1) - 1

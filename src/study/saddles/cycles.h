@@ -40,7 +40,7 @@ typedef struct {
   kz_index_sum *entries;
 } kz_index_sums;
 
-/* Sums for every period up to max_period and every winding that a known cycle has; to be freed. docs/theory.md has the theorem. */
+/* Sums for every period up to max_period and every winding that a known cycle has; to be freed. docs/explanation/theory.md has the theorem. */
 void kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums);
 
 #endif

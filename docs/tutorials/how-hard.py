@@ -3,7 +3,7 @@
 
 Run it in the folder of the sources, after scripts/setup; it writes push.yaml and push.h5 there:
 
-    .venv/bin/python docs/tutorial.py
+    .venv/bin/python docs/tutorials/how-hard.py
 
 It goes from a scene to an answered question: a run, the basins, a look at the file, and single starts for the last digits.
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import xarray
 
-KAPITZA = Path(__file__).resolve().parents[1] / "build" / "kapitza"
+KAPITZA = Path(__file__).resolve().parents[2] / "build" / "kapitza"
 
 # 1. The scene. A pendulum shaken eleven times as fast as it swings, with an amplitude of 0.3 of its length, stands upside down.
 #    A push gives it a velocity and no angle, so the window of starts is a narrow one about theta = pi (180 degrees), and as wide
