@@ -6,17 +6,15 @@ module kz_processed_batch
   use kz_lanes_map, only: flow_t, put_state, move_state, WIDTH, CAPACITY
   use kz_lanes_sine, only: INVERSE_PI
   use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
-  use kz_processed_processor, only: displacement_t, make_displacement, change_coordinates, change_derivative
+  use kz_processed_processor, only: change_coordinates, change_derivative
   use kz_processed_stages, only: stages_t, make_stages, advance_stages, linear_stages, tangent_stages
-  use kz_processed_tables, only: processed_t
+  use kz_processed_tables, only: processed_t, processor_t
   implicit none
   private
   public :: make_processed_batch
 
   type, extends(flow_t) :: processed_batch_t
     type(stages_t) :: stages
-    type(displacement_t) :: to_kernel
-    type(displacement_t) :: from_kernel
     real(rk) :: fastest                  !< rad per drive radian, that the tables serve
     logical :: physical(CAPACITY) = .false.  !< lanes that are faster
     class(flow_t), allocatable :: fallback
@@ -35,7 +33,7 @@ contains
 
   !> A batch with the tables of one period. Lanes faster than `fastest` are left to `fallback`.
   subroutine make_processed_batch(table, fastest, fallback, flow)
-    !> in quad precision
+    !> its tables
     type(processed_t), intent(in) :: table
     !> rad per drive radian
     real(rk), intent(in) :: fastest
@@ -47,8 +45,6 @@ contains
 
     allocate (batch)
     call make_stages(table, batch%stages)
-    batch%to_kernel = make_displacement(table%to_kernel)
-    batch%from_kernel = make_displacement(table%from_kernel)
     batch%fastest = fastest
     call move_alloc(fallback, batch%fallback)
     call move_alloc(batch, flow)
@@ -150,8 +146,8 @@ contains
     do i = 1, n
       fast = abs(v(i)) > self%fastest
       if (fast .eqv. self%physical(i)) cycle
-      if (fast) call change_coordinates(self%from_kernel, 1, u(i:i), v(i:i))
-      if (.not. fast) call change_coordinates(self%to_kernel, 1, u(i:i), v(i:i))
+      if (fast) call change_coordinates(self%stages%table%from_kernel, 1, u(i:i), v(i:i))
+      if (.not. fast) call change_coordinates(self%stages%table%to_kernel, 1, u(i:i), v(i:i))
       self%physical(i) = fast
     end do
   end subroutine change_fast_lanes
@@ -226,7 +222,7 @@ contains
     from = 1
     if (present(first)) from = first
     self%physical(from:n) = .not. abs(self%v(from:n)) <= self%fastest
-    call change_lanes(self, self%to_kernel, from, n, matrix)
+    call change_lanes(self, self%stages%table%to_kernel, from, n, matrix)
   end subroutine processed_to_map
 
   subroutine processed_to_physical(self, n, matrix, first)
@@ -238,14 +234,14 @@ contains
 
     from = 1
     if (present(first)) from = first
-    call change_lanes(self, self%from_kernel, from, n, matrix)
+    call change_lanes(self, self%stages%table%from_kernel, from, n, matrix)
     self%physical(from:n) = .true.
   end subroutine processed_to_physical
 
   !> The lanes from .. n (at most WIDTH) that are not in physical coordinates for good.
-  subroutine change_lanes(self, displacement, from, n, matrix)
+  subroutine change_lanes(self, processor, from, n, matrix)
     class(processed_batch_t), intent(inout) :: self
-    type(displacement_t), intent(in) :: displacement
+    type(processor_t), intent(in) :: processor
     integer, intent(in) :: from
     integer, intent(in) :: n
     real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
@@ -254,11 +250,11 @@ contains
     integer :: lanes, i
 
     control = flush_subnormals()
-    if (present(matrix)) call change_tangents(self, displacement, from, n, matrix)
+    if (present(matrix)) call change_tangents(self, processor, from, n, matrix)
     lanes = n - from + 1
     u(:lanes) = self%u(from:n)
     v(:lanes) = self%v(from:n)
-    call change_coordinates(displacement, lanes, u, v)
+    call change_coordinates(processor, lanes, u, v)
     do i = 1, lanes
       self%u(from - 1 + i) = merge(self%u(from - 1 + i), u(i), self%physical(from - 1 + i))
       self%v(from - 1 + i) = merge(self%v(from - 1 + i), v(i), self%physical(from - 1 + i))
@@ -268,9 +264,9 @@ contains
   end subroutine change_lanes
 
   !> matrix(:, :, lane) = derivative of the change, in rad, times what it was.
-  subroutine change_tangents(self, displacement, from, n, matrix)
+  subroutine change_tangents(self, processor, from, n, matrix)
     class(processed_batch_t), intent(in) :: self
-    type(displacement_t), intent(in) :: displacement
+    type(processor_t), intent(in) :: processor
     integer, intent(in) :: from
     integer, intent(in) :: n
     real(rk), intent(inout) :: matrix(2, 2, WIDTH)
@@ -278,7 +274,7 @@ contains
 
     do lane = from, n
       if (self%physical(lane)) cycle
-      matrix(:, :, lane) = matmul(change_derivative(displacement, self%u(lane), self%v(lane)), matrix(:, :, lane))
+      matrix(:, :, lane) = matmul(change_derivative(processor, self%u(lane), self%v(lane)), matrix(:, :, lane))
     end do
   end subroutine change_tangents
 

@@ -6,29 +6,14 @@ module kz_processed_processor
   use kz_processed_tables, only: processor_t, ORDER, HARMONICS
   implicit none
   private
-  public :: displacement_t, make_displacement, change_coordinates, change_derivative, sine
-
-  !> processor_t in double precision.
-  type :: displacement_t
-    real(rk) :: theta(0:HARMONICS, 0:ORDER)
-    real(rk) :: velocity(0:HARMONICS, 0:ORDER)
-  end type displacement_t
+  public :: change_coordinates, change_derivative, sine
 
 contains
 
-  !> A processor, rounded.
-  pure function make_displacement(processor) result(displacement)
-    !> in quad precision
-    type(processor_t), intent(in) :: processor
-    type(displacement_t) :: displacement
-
-    displacement = displacement_t(real(processor%theta, rk), real(processor%velocity, rk))
-  end function make_displacement
-
-  !> (u, v) + displacement(u, v) of n states, at most WIDTH.
-  subroutine change_coordinates(displacement, n, u, v)
+  !> (u, v) + processor(u, v) of n states, at most WIDTH.
+  subroutine change_coordinates(processor, n, u, v)
     !> the change
-    type(displacement_t), intent(in) :: displacement
+    type(processor_t), intent(in) :: processor
     !> states
     integer, intent(in) :: n
     !> half-turns
@@ -48,8 +33,8 @@ contains
       cosine_j(i) = 1
     end do
     do j = 0, HARMONICS
-      call add_harmonic(displacement%theta(j, :), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_u)
-      call add_harmonic(displacement%velocity(j, :), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_v)
+      call add_harmonic(processor%theta(j, :), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_u)
+      call add_harmonic(processor%velocity(j, :), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_v)
       do i = 1, n
         former = sine_j(i)
         sine_j(i) = former*cosine_1(i) + cosine_j(i)*sine_1(i)
@@ -104,10 +89,10 @@ contains
     end do
   end subroutine sine_and_cosine
 
-  !> The derivative of (u, v) + displacement(u, v) by (theta, v), angles in rad.
-  function change_derivative(displacement, u, v) result(derivative)
+  !> The derivative of (u, v) + processor(u, v) by (theta, v), angles in rad.
+  function change_derivative(processor, u, v) result(derivative)
     !> the change
-    type(displacement_t), intent(in) :: displacement
+    type(processor_t), intent(in) :: processor
     !> half-turns
     real(rk), intent(in) :: u
     !> rad per drive radian
@@ -121,8 +106,8 @@ contains
     by_v = 0
     do j = 0, HARMONICS
       call sine_and_cosine(1, [j*u], s, c)
-      theta = slopes(displacement%theta(j, :), j, s(1), c(1), v)
-      velocity = slopes(displacement%velocity(j, :), j, s(1), c(1), v)
+      theta = slopes(processor%theta(j, :), j, s(1), c(1), v)
+      velocity = slopes(processor%velocity(j, :), j, s(1), c(1), v)
       by_u = by_u + [theta(1), velocity(1)]
       by_v = by_v + [theta(2), velocity(2)]
     end do

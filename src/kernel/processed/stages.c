@@ -59,13 +59,15 @@ static inline __attribute__((always_inline)) void block(int n_drift, int n_kick,
   switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
 #endif
 
-#define KEEP false, 0
-void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
-                        double *v){RUN}
-#undef KEEP
-
+void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v,
+                        float *squares) {
+  if (squares) {
 #define KEEP true, squares + i
-void kz_processed_kicks_kept(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
-                             double *v, float *squares) {
-  RUN
+    RUN
+#undef KEEP
+  } else {
+#define KEEP false, 0
+    RUN
+#undef KEEP
+  }
 }

@@ -12,32 +12,16 @@ module kz_processed_stages
   !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
   integer, parameter :: TERMS = 5
 
-  !> The rows of processed_t.
+  !> The tables of a period, and what its tangents take.
   type :: stages_t
-    integer :: n_drift
-    integer :: n_kick
-    real(rk), allocatable :: row(:, :)
-    real(rk), allocatable :: last(:)
-    real(rk) :: decay
+    type(processed_t) :: table
     real(c_float), allocatable :: slope(:, :)   !< (1 + TERMS, steps): a drift, and the slope of a kick
     real(c_float), allocatable :: squares(:, :) !< (WIDTH, steps): of the reduced angles of the last period
   end type stages_t
 
   interface
-    !> The stages of a period for the lanes 1 .. n, or some more (stages.c).
-    subroutine run_stages(n_drift, n_kick, n_stages, row, n, u, v) bind(C, name='kz_processed_kicks')
-      import :: c_double, c_int32_t, c_int64_t, WIDTH
-      integer(c_int32_t), value :: n_drift
-      integer(c_int32_t), value :: n_kick
-      integer(c_int64_t), value :: n_stages
-      real(c_double), intent(in) :: row(*)
-      integer(c_int64_t), value :: n
-      real(c_double), intent(inout) :: u(WIDTH)
-      real(c_double), intent(inout) :: v(WIDTH)
-    end subroutine run_stages
-
-    !> The same, and the squares of the reduced angles.
-    subroutine run_stages_kept(n_drift, n_kick, n_stages, row, n, u, v, squares) bind(C, name='kz_processed_kicks_kept')
+    !> The stages of a period for the lanes 1 .. n, or some more; the squares of the reduced angles, if asked (stages.c).
+    subroutine run_stages(n_drift, n_kick, n_stages, row, n, u, v, squares) bind(C, name='kz_processed_kicks')
       import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
       integer(c_int32_t), value :: n_drift
       integer(c_int32_t), value :: n_kick
@@ -46,8 +30,8 @@ module kz_processed_stages
       integer(c_int64_t), value :: n
       real(c_double), intent(inout) :: u(WIDTH)
       real(c_double), intent(inout) :: v(WIDTH)
-      real(c_float), intent(out) :: squares(WIDTH, *)
-    end subroutine run_stages_kept
+      real(c_float), intent(out), optional :: squares(WIDTH, *)
+    end subroutine run_stages
 
     !> The derivative from them (tangents.c).
     subroutine run_tangents(n_stages, row, last, decay, squares, n, c) bind(C, name='kz_processed_tangents')
@@ -64,26 +48,19 @@ module kz_processed_stages
 
 contains
 
-  !> The tables of one period, rounded.
+  !> The stages of a period.
   subroutine make_stages(table, stages)
-    !> in quad precision
+    !> its tables
     type(processed_t), intent(in) :: table
-    !> in double precision
+    !> the stages
     type(stages_t), intent(out) :: stages
     integer :: i
 
-    stages%n_drift = table%n_drift
-    stages%n_kick = table%n_kick
-    allocate (stages%row(size(table%row, 1), size(table%row, 2)))
-    do i = 1, size(table%row, 2) ! by columns: many steps would fill the stack
-      stages%row(:, i) = real(table%row(:, i), rk)
-    end do
-    allocate (stages%last, source=real(table%last, rk))
-    stages%decay = real(table%decay, rk)
-    allocate (stages%slope(1 + TERMS, size(table%row, 2)), stages%squares(WIDTH, size(table%row, 2)))
-    do i = 1, size(table%row, 2)
-      stages%slope(1, i) = real(stages%row(1, i), c_float)
-      stages%slope(2:, i) = real(slope_of(stages%row(stages%n_drift + 1:, i)), c_float)
+    stages%table = table
+    allocate (stages%slope(1 + TERMS, table%n_steps), stages%squares(WIDTH, table%n_steps))
+    do i = 1, table%n_steps
+      stages%slope(1, i) = real(table%row(1, i), c_float)
+      stages%slope(2:, i) = real(slope_of(table%row(table%n_drift + 1:, i)), c_float)
     end do
   end subroutine make_stages
 
@@ -129,11 +106,10 @@ contains
     real(c_float) :: c(WIDTH, 4)
     integer(c_int64_t) :: steps
 
-    steps = size(self%row, 2, c_int64_t)
-    call run_stages_kept(int(self%n_drift, c_int32_t), int(self%n_kick, c_int32_t), steps, self%row, int(n, c_int64_t), u, v, &
-                         self%squares)
-    call finish_period(self, n, u, v)
-    call run_tangents(steps, self%slope, real(self%last(1), c_float), real(self%decay, c_float), self%squares, int(n, c_int64_t), c)
+    steps = self%table%n_steps
+    call move_stages(self%table, n, u, v, self%squares)
+    call run_tangents(steps, self%slope, real(self%table%last(1), c_float), real(self%table%decay, c_float), self%squares, &
+                      int(n, c_int64_t), c)
     tangent(:n, 1) = c(:n, 1)
     tangent(:n, 2) = PI*c(:n, 2)
     tangent(:n, 3) = (1/PI)*c(:n, 3)
@@ -151,31 +127,32 @@ contains
     !> rad per drive radian
     real(rk), intent(inout) :: v(WIDTH)
 
-    call run_stages(int(self%n_drift, c_int32_t), int(self%n_kick, c_int32_t), size(self%row, 2, c_int64_t), self%row, &
-                    int(n, c_int64_t), u, v)
-    call finish_period(self, n, u, v)
+    call move_stages(self%table, n, u, v)
   end subroutine advance_stages
 
-  !> The last drift, and the velocity itself again.
-  subroutine finish_period(self, n, u, v)
-    type(stages_t), intent(in) :: self
+  !> The stages, the last drift, and the velocity itself again.
+  subroutine move_stages(table, n, u, v, squares)
+    type(processed_t), intent(in) :: table
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
     real(rk), intent(inout) :: v(WIDTH)
+    real(c_float), intent(out), optional :: squares(WIDTH, *)
     real(rk) :: step(WIDTH)
     integer :: i, j
 
-    step(:n) = self%last(self%n_drift)
-    do j = self%n_drift - 1, 1, -1
+    call run_stages(int(table%n_drift, c_int32_t), int(table%n_kick, c_int32_t), int(table%n_steps, c_int64_t), table%row, &
+                    int(n, c_int64_t), u, v, squares)
+    step(:n) = table%last(table%n_drift)
+    do j = table%n_drift - 1, 1, -1
       do i = 1, n
-        step(i) = step(i)*v(i)**2 + self%last(j)
+        step(i) = step(i)*v(i)**2 + table%last(j)
       end do
     end do
     do i = 1, n
       u(i) = u(i) + v(i)*step(i)
-      v(i) = self%decay*v(i)
+      v(i) = table%decay*v(i)
     end do
-  end subroutine finish_period
+  end subroutine move_stages
 
   !> The derivative along the stages from the lanes' present states; c(i, :, j): column j, angles in half-turns.
   subroutine tangent_stages(self, n, start_u, start_v, c)
@@ -194,23 +171,23 @@ contains
 
     u = start_u
     v = start_v
-    do s = 1, size(self%row, 2)
-      call drift_tangent(self%row(:self%n_drift, s), n, u, v, c)
+    do s = 1, self%table%n_steps
+      call drift_tangent(self%table%row(:self%table%n_drift, s), n, u, v, c)
       r = u - 2*((0.5_rk*u + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
       q = r*r
       kick = 0
       slope = 0
-      do j = self%n_drift + self%n_kick, self%n_drift + 1, -1
+      do j = self%table%n_drift + self%table%n_kick, self%table%n_drift + 1, -1
         slope = slope*q + kick
-        kick = kick*q + self%row(j, s)
+        kick = kick*q + self%table%row(j, s)
       end do
       v = v - (r - r*q)*kick
       slope = (1 - 3*q)*kick + 2*q*(1 - q)*slope
       c(:n, 2, 1) = c(:n, 2, 1) - slope*c(:n, 1, 1)
       c(:n, 2, 2) = c(:n, 2, 2) - slope*c(:n, 1, 2)
     end do
-    call drift_tangent(self%last, n, u, v, c)
-    c(:n, 2, :) = self%decay*c(:n, 2, :)
+    call drift_tangent(self%table%last, n, u, v, c)
+    c(:n, 2, :) = self%table%decay*c(:n, 2, :)
   end subroutine tangent_stages
 
   !> u += v (d(1) + d(2) v**2 + ..) and its derivative.

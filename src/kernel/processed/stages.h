@@ -5,12 +5,10 @@
 #include <stdint.h>
 
 /* All drifts and kicks of a period, in whole blocks of lanes: u (half-turns) and v (velocity times exp(beta t)) have 64 lanes,
- * of which n and some more move. row [n_stages][n_drift + n_kick]: the coefficients of a drift and a kick. */
-void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v);
-
-/* The same, and squares [n_stages][64]: of the reduced angles at the kicks, from which tangents.c finds the derivative. */
-void kz_processed_kicks_kept(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
-                             double *v, float *squares);
+ * of which n and some more move. row [n_stages][n_drift + n_kick]: the coefficients of a drift and a kick. squares
+ * [n_stages][64], or NULL: of the reduced angles at the kicks, from which tangents.c finds the derivative. */
+void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v,
+                        float *squares);
 
 /* The derivative of a period in single precision. row [n_stages][1 + 5]: a drift, and the slope of a kick as a polynomial of the square;
  * last: a drift more. c [4][64]: d(u, v)/d(u0, v0), row by row. */

@@ -4,8 +4,7 @@ module kz_split_batch
   use kz_lanes_map, only: flow_t, WIDTH
   use kz_lanes_step_table, only: period_t
   use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
-  use kz_split_shifted, only: shifted_stages, shifted_tangent
-  use kz_split_stages, only: steps_t, make_steps, split_stages, last_drift, rk4_steps, split_tangent, rk4_tangent
+  use kz_split_stages, only: steps_t, make_steps, advance_steps, advance_tangents
   implicit none
   private
   public :: make_batch
@@ -41,31 +40,10 @@ contains
 
     control = flush_subnormals()
     lanes = min(vectors_of(n), WIDTH)
-    if (self%steps%split) then
-      call stages(self%steps, 1, size(self%steps%kick), lanes, self%u, self%v)
-      call last_drift(self%steps, lanes, self%u, self%v)
-    else
-      call rk4_steps(self%steps, 1, self%steps%n_steps, lanes, self%u, self%v)
-    end if
+    call advance_steps(self%steps, 1, self%steps%n_steps, lanes, self%u, self%v)
     call wrap(self, 1, lanes)
     call restore_control(control)
   end subroutine advance
-
-  !> Stages first .. last of a split scheme, by the symmetry of the pendulum.
-  subroutine stages(steps, first, last, n, u, v)
-    type(steps_t), intent(in) :: steps
-    integer, intent(in) :: first
-    integer, intent(in) :: last
-    integer, intent(in) :: n
-    real(c_double), intent(inout) :: u(WIDTH)
-    real(c_double), intent(inout) :: v(WIDTH)
-
-    if (steps%mirrored) then
-      call split_stages(steps, first, last, n, u, v)
-    else
-      call shifted_stages(steps, first, last, n, u, v)
-    end if
-  end subroutine stages
 
   !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was. The states
   !> move as in `advance`. A single lane goes alone.
@@ -84,13 +62,7 @@ contains
       c(i, :, :) = matrix(:, :, i)
     end do
     c(n + 1:lanes, :, :) = 0
-    if (self%steps%split .and. .not. self%steps%mirrored) then
-      call shifted_tangent(self%steps, lanes, self%u, self%v, c)
-    else if (self%steps%split) then
-      call split_tangent(self%steps, lanes, self%u, self%v, c)
-    else
-      call rk4_tangent(self%steps, lanes, self%u, self%v, c)
-    end if
+    call advance_tangents(self%steps, lanes, self%u, self%v, c)
     call wrap(self, 1, lanes)
     do i = 1, n
       matrix(:, :, i) = c(i, :, :)
@@ -105,18 +77,12 @@ contains
     real(c_double), intent(out) :: u(n)
     real(c_double), intent(out) :: v(n)
     integer(c_int64_t) :: control
-    integer :: i, stride, first
+    integer :: i, stride
 
     control = flush_subnormals()
     stride = self%steps%n_steps/n
-    first = 1
     do i = 1, n
-      if (self%steps%split) then
-        call stages(self%steps, first, self%steps%step_end(i*stride), 1, self%u, self%v)
-        first = self%steps%step_end(i*stride) + 1
-      else
-        call rk4_steps(self%steps, (i - 1)*stride + 1, i*stride, 1, self%u, self%v)
-      end if
+      call advance_steps(self%steps, (i - 1)*stride + 1, i*stride, 1, self%u, self%v)
       u(i) = self%u(1)
       v(i) = self%v(1)
     end do

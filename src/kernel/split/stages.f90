@@ -6,7 +6,7 @@ module kz_split_stages
   use kz_lanes_step_table, only: period_t, INVERSE_PI_QUAD
   implicit none
   private
-  public :: steps_t, make_steps, split_stages, last_drift, rk4_steps, split_tangent, rk4_tangent
+  public :: steps_t, make_steps, advance_steps, advance_tangents
 
   !> period_t in double precision.
   type :: steps_t
@@ -18,7 +18,7 @@ module kz_split_stages
     real(rk), allocatable :: decay(:)
     real(rk), allocatable :: kick(:)
     logical :: mirrored
-    real(rk), allocatable :: shift(:)    !< half-turns; where the pendulum is not mirrored (shifted.f90)
+    real(rk), allocatable :: shift(:)    !< half-turns; where the pendulum is not mirrored
     real(rk), allocatable :: push(:)
     real(rk) :: beta
     real(rk) :: step
@@ -50,90 +50,109 @@ contains
     allocate (steps%decay, source=real(period%decay, rk))
   end subroutine make_steps
 
-  !> Stages of a split scheme.
-  subroutine split_stages(self, first, last, n, u, v)
+  !> Steps of a period. The drift that ends a period belongs to its last step.
+  subroutine advance_steps(self, from, to, n, u, v)
     !> tables of a period
     type(steps_t), intent(in) :: self
-    !> stage or step, from 1
-    integer, intent(in) :: first
-    !> stage or step
-    integer, intent(in) :: last
+    !> step, from 1
+    integer, intent(in) :: from
+    !> step
+    integer, intent(in) :: to
     !> lanes
     integer, intent(in) :: n
     !> half-turns
     real(rk), intent(inout) :: u(WIDTH)
     !> rad per drive radian
     real(rk), intent(inout) :: v(WIDTH)
-    real(rk) :: drift, decay, kick
-    integer :: s, i
+    integer :: first
 
-    do s = first, last
-      drift = self%drift_u(s)
-      decay = self%decay(s)
-      kick = self%kick(s)
-      do i = 1, n
-        u(i) = u(i) + drift*v(i)
-        v(i) = decay*v(i) - kick*sine(u(i))
+    if (.not. self%split) then
+      call runge_kutta(from, to)
+      return
+    end if
+    first = 1
+    if (from > 1) first = self%step_end(from - 1) + 1
+    if (self%mirrored) then
+      call kicks(first, self%step_end(to))
+    else
+      call shifted_kicks(first, self%step_end(to))
+    end if
+    if (to == self%n_steps) call last_drift
+  contains
+    subroutine kicks(first, last)
+      integer, intent(in) :: first
+      integer, intent(in) :: last
+      real(rk) :: drift, decay, kick
+      integer :: s, i
+
+      do s = first, last
+        drift = self%drift_u(s)
+        decay = self%decay(s)
+        kick = self%kick(s)
+        do i = 1, n
+          u(i) = u(i) + drift*v(i)
+          v(i) = decay*v(i) - kick*sine(u(i))
+        end do
       end do
-    end do
-  end subroutine split_stages
+    end subroutine kicks
 
-  !> The drift after the last stage.
-  subroutine last_drift(self, n, u, v)
-    !> tables of a period
-    type(steps_t), intent(in) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(WIDTH)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(WIDTH)
-    integer :: s
+    !> Where the pendulum is not mirrored.
+    subroutine shifted_kicks(first, last)
+      integer, intent(in) :: first
+      integer, intent(in) :: last
+      real(rk) :: drift, decay, kick, shift, push
+      integer :: s, i
 
-    s = size(self%drift)
-    u(:n) = u(:n) + self%drift_u(s)*v(:n)
-    v(:n) = self%decay(s)*v(:n)
-  end subroutine last_drift
-
-  !> Steps of Runge-Kutta.
-  subroutine rk4_steps(self, first, last, n, u, v)
-    !> tables of a period
-    type(steps_t), intent(in) :: self
-    !> stage or step, from 1
-    integer, intent(in) :: first
-    !> stage or step
-    integer, intent(in) :: last
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(WIDTH)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(WIDTH)
-    real(rk) :: h, half, f0, f1, f2, a1, a2, a3, a4, v2, v3, v4
-    integer :: s, i
-
-    h = self%step
-    half = 0.5_rk*h
-    do s = first, last
-      f0 = self%kick(2*s - 1)
-      f1 = self%kick(2*s)
-      f2 = self%kick(2*s + 1)
-      do i = 1, n
-        a1 = -self%beta*v(i) - f0*sine(u(i))
-        v2 = v(i) + half*a1
-        a2 = -self%beta*v2 - f1*sine(u(i) + half*INVERSE_PI*v(i))
-        v3 = v(i) + half*a2
-        a3 = -self%beta*v3 - f1*sine(u(i) + half*INVERSE_PI*v2)
-        v4 = v(i) + h*a3
-        a4 = -self%beta*v4 - f2*sine(u(i) + h*INVERSE_PI*v3)
-        u(i) = u(i) + h*INVERSE_PI/6*(v(i) + 2*v2 + 2*v3 + v4)
-        v(i) = v(i) + h/6*(a1 + 2*a2 + 2*a3 + a4)
+      do s = first, last
+        drift = self%drift_u(s)
+        decay = self%decay(s)
+        kick = self%kick(s)
+        shift = self%shift(s)
+        push = self%push(s)
+        do i = 1, n
+          u(i) = u(i) + drift*v(i)
+          v(i) = decay*v(i) - kick*sine(u(i) - shift) + push
+        end do
       end do
-    end do
-  end subroutine rk4_steps
+    end subroutine shifted_kicks
 
-  !> Stages and last drift, and their derivatives c(i, :, j): column j of the tangent map of lane i.
-  subroutine split_tangent(self, n, u, v, c)
+    subroutine last_drift
+      integer :: s
+
+      s = size(self%drift)
+      u(:n) = u(:n) + self%drift_u(s)*v(:n)
+      v(:n) = self%decay(s)*v(:n)
+    end subroutine last_drift
+
+    subroutine runge_kutta(first, last)
+      integer, intent(in) :: first
+      integer, intent(in) :: last
+      real(rk) :: h, half, f0, f1, f2, a1, a2, a3, a4, v2, v3, v4
+      integer :: s, i
+
+      h = self%step
+      half = 0.5_rk*h
+      do s = first, last
+        f0 = self%kick(2*s - 1)
+        f1 = self%kick(2*s)
+        f2 = self%kick(2*s + 1)
+        do i = 1, n
+          a1 = -self%beta*v(i) - f0*sine(u(i))
+          v2 = v(i) + half*a1
+          a2 = -self%beta*v2 - f1*sine(u(i) + half*INVERSE_PI*v(i))
+          v3 = v(i) + half*a2
+          a3 = -self%beta*v3 - f1*sine(u(i) + half*INVERSE_PI*v2)
+          v4 = v(i) + h*a3
+          a4 = -self%beta*v4 - f2*sine(u(i) + h*INVERSE_PI*v3)
+          u(i) = u(i) + h*INVERSE_PI/6*(v(i) + 2*v2 + 2*v3 + v4)
+          v(i) = v(i) + h/6*(a1 + 2*a2 + 2*a3 + a4)
+        end do
+      end do
+    end subroutine runge_kutta
+  end subroutine advance_steps
+
+  !> A period, and the derivative of the scheme itself: c(i, :, j), column j of the tangent map of lane i.
+  subroutine advance_tangents(self, n, u, v, c)
     !> tables of a period
     type(steps_t), intent(in) :: self
     !> lanes
@@ -144,48 +163,61 @@ contains
     real(rk), intent(inout) :: v(WIDTH)
     !> c(i, :, j): column j of the tangent map of lane i
     real(rk), intent(inout) :: c(WIDTH, 2, 2)
-    real(rk) :: drift, drift_u, decay, kick, slope
-    integer :: s, i
+    integer :: s
 
-    do s = 1, size(self%kick)
+    if (self%split) then
+      do s = 1, size(self%kick)
+        call kick_tangents(s)
+      end do
+      s = size(self%drift)
+      u(:n) = u(:n) + self%drift_u(s)*v(:n)
+      v(:n) = self%decay(s)*v(:n)
+      c(:n, 1, :) = c(:n, 1, :) + self%drift(s)*c(:n, 2, :)
+      c(:n, 2, :) = self%decay(s)*c(:n, 2, :)
+    else
+      do s = 1, self%n_steps
+        call rk4_tangents(s)
+      end do
+    end if
+  contains
+    subroutine kick_tangents(s)
+      integer, intent(in) :: s
+      real(rk) :: drift, drift_u, decay, kick, slope(WIDTH)
+      integer :: i
+
       drift = self%drift(s)
       drift_u = self%drift_u(s)
       decay = self%decay(s)
       kick = self%kick(s)
+      if (self%mirrored) then
+        do i = 1, n
+          u(i) = u(i) + drift_u*v(i)
+          v(i) = decay*v(i) - kick*sine(u(i))
+          slope(i) = kick*sine(u(i) + 0.5_rk)
+        end do
+      else
+        do i = 1, n
+          u(i) = u(i) + drift_u*v(i)
+          v(i) = decay*v(i) - kick*sine(u(i) - self%shift(s)) + self%push(s)
+          slope(i) = kick*sine(u(i) - self%shift(s) + 0.5_rk)
+        end do
+      end if
       do i = 1, n
-        u(i) = u(i) + drift_u*v(i)
-        v(i) = decay*v(i) - kick*sine(u(i))
-        slope = kick*sine(u(i) + 0.5_rk)
         c(i, 1, 1) = c(i, 1, 1) + drift*c(i, 2, 1)
         c(i, 1, 2) = c(i, 1, 2) + drift*c(i, 2, 2)
-        c(i, 2, 1) = decay*c(i, 2, 1) - slope*c(i, 1, 1)
-        c(i, 2, 2) = decay*c(i, 2, 2) - slope*c(i, 1, 2)
+        c(i, 2, 1) = decay*c(i, 2, 1) - slope(i)*c(i, 1, 1)
+        c(i, 2, 2) = decay*c(i, 2, 2) - slope(i)*c(i, 1, 2)
       end do
-    end do
-    call last_drift(self, n, u, v)
-    s = size(self%drift)
-    c(:n, 1, :) = c(:n, 1, :) + self%drift(s)*c(:n, 2, :)
-    c(:n, 2, :) = self%decay(s)*c(:n, 2, :)
-  end subroutine split_tangent
+    end subroutine kick_tangents
 
-  !> The derivative of the scheme itself, seen from the states before each step.
-  subroutine rk4_tangent(self, n, u, v, c)
-    !> tables of a period
-    type(steps_t), intent(in) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(WIDTH)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(WIDTH)
-    !> c(i, :, j): column j of the tangent map of lane i
-    real(rk), intent(inout) :: c(WIDTH, 2, 2)
-    real(rk) :: half, half_u, f0, f1, f2, v2, v3, slope(WIDTH, 4)
-    integer :: s, i, j
+    !> A step of Runge-Kutta, seen from the states before it.
+    subroutine rk4_tangents(s)
+      integer, intent(in) :: s
+      real(rk) :: half, half_u, f0, f1, f2, v2, v3, slope(WIDTH, 4)
+      integer :: i, j
 
-    half = 0.5_rk*self%step
-    half_u = half*INVERSE_PI
-    do s = 1, self%n_steps
+      half = 0.5_rk*self%step
+      half_u = half*INVERSE_PI
       f0 = self%kick(2*s - 1)
       f1 = self%kick(2*s)
       f2 = self%kick(2*s + 1)
@@ -200,9 +232,9 @@ contains
       do j = 1, 2
         call rk4_column(n, self%step, self%beta, slope, c(:, 1, j), c(:, 2, j))
       end do
-      call rk4_steps(self, s, s, n, u, v)
-    end do
-  end subroutine rk4_tangent
+      call advance_steps(self, s, s, n, u, v)
+    end subroutine rk4_tangents
+  end subroutine advance_tangents
 
   !> A step of x' = y, y' = -beta y - slope x of each lane, with the slope of each stage.
   pure subroutine rk4_column(n, h, beta, slope, x, y)
