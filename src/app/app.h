@@ -76,8 +76,9 @@ typedef struct {
 kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts);
 void kz_starts_free(kz_starts *starts);
 
-/* "theta": .., "velocity": .., and where that start ends, as members of a JSON object, to standard output. */
-void kz_ending_print(const kz_coordinate start[2], const kz_ending *ending);
+/* "theta": .., "velocity": .., and where that start ends, as members of a JSON object, to standard output; in SI too, unless `omega`, rad/s of the
+ * pivot, is NaN. */
+void kz_ending_print(const kz_coordinate start[2], const kz_ending *ending, double omega);
 
 /* KZ_REFUSED where ranks were given other words behind the program's name than rank 0. Collective. */
 kz_status kz_options_agree(const kz_options *options, kz_ranks *ranks);

@@ -45,11 +45,11 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   }
 }
 
-static void print_list(const char *name, int n, const double *values) {
+static void print_list(const char *name, int n, const double *values, double unit) {
   printf(", \"%s\": [", name);
   for (int i = 0; i < n; i++) {
     if (i > 0) fputs(", ", stdout);
-    print_number(values[i]);
+    print_number(values[i] * unit);
   }
   putchar(']');
 }
@@ -59,7 +59,19 @@ static void print_word(const char *name, const char *value) {
   printf(", \"%s\": %s%s%s", name, quote, value[0] ? value : "null", quote);
 }
 
-void kz_ending_print(const kz_coordinate start[2], const kz_ending *e) {
+/* What an SI scene adds: rad/s and seconds. */
+static void print_si(const kz_coordinate start[2], const kz_ending *e, double omega) {
+  fputs(", \"velocity_rad_per_s\": ", stdout);
+  print_number(start[1].high * omega);
+  fputs(", \"settling_seconds\": ", stdout);
+  if (e->attractor < 0)
+    fputs("null", stdout);
+  else
+    print_number((double)e->settling_time * 2 * M_PI / omega);
+  print_list("strobe_velocity_rad_per_s", e->period, e->strobe_velocity, omega);
+}
+
+void kz_ending_print(const kz_coordinate start[2], const kz_ending *e, double omega) {
   fputs("\"theta\": ", stdout);
   print_number(start[0].high);
   fputs(", \"velocity\": ", stdout);
@@ -71,8 +83,8 @@ void kz_ending_print(const kz_coordinate start[2], const kz_ending *e) {
     printf(", \"name\": \"%s\", \"period\": %d, \"winding\": %d, \"settling_time\": %lld", e->name, (int)e->period,
            (int)e->winding, (long long)e->settling_time);
   printf(", \"decided\": %s", e->precision ? "true" : "false");
-  print_list("strobe_theta", e->period, e->strobe_theta);
-  print_list("strobe_velocity", e->period, e->strobe_velocity);
+  print_list("strobe_theta", e->period, e->strobe_theta, 1);
+  print_list("strobe_velocity", e->period, e->strobe_velocity, 1);
   print_word("precision", e->precision ? e->precision : "");
   fputs(", \"error\": ", stdout);
   if (isnan(e->error))
@@ -81,16 +93,17 @@ void kz_ending_print(const kz_coordinate start[2], const kz_ending *e) {
     print_number(e->error);
   printf(", \"other_attractor\": %d", (int)e->other);
   print_word("other_name", e->other_name);
+  if (!isnan(omega)) print_si(start, e, omega);
 }
 
-static void print_json(const kz_coordinate start[2], const kz_ending *e) {
+static void print_json(const kz_coordinate start[2], const kz_ending *e, double omega) {
   putchar('{');
-  kz_ending_print(start, e);
+  kz_ending_print(start, e, omega);
   puts("}");
 }
 
 /* The first strobe point stands for the orbit; what there is not stays empty. */
-static void print_csv(const kz_coordinate start[2], const kz_ending *e) {
+static void print_csv(const kz_coordinate start[2], const kz_ending *e, double omega) {
   print_number(start[0].high);
   putchar(',');
   print_number(start[1].high);
@@ -105,21 +118,32 @@ static void print_csv(const kz_coordinate start[2], const kz_ending *e) {
   if (e->period > 0) print_number(e->strobe_velocity[0]);
   printf(",%s,", e->precision ? e->precision : "");
   if (!isnan(e->error)) print_number(e->error);
-  printf(",%d,%s\n", (int)e->other, e->other_name);
+  printf(",%d,%s", (int)e->other, e->other_name);
+  if (!isnan(omega)) {
+    putchar(',');
+    print_number(start[1].high * omega);
+    putchar(',');
+    if (e->attractor >= 0) print_number((double)e->settling_time * 2 * M_PI / omega);
+    putchar(',');
+    if (e->period > 0) print_number(e->strobe_velocity[0] * omega);
+  }
+  putchar('\n');
 }
 
 static void print_endings(const kz_options *options, const kz_starts *starts, const kz_ending *endings) {
   const bool table = options->n_operands == 2;
+  const double omega = starts->pivot_frequency;
   if (table && !options->json)
-    puts(
+    printf(
         "theta,velocity,attractor,name,period,winding,settling_time,decided,strobe_theta,strobe_velocity,"
-        "precision,error,other_attractor,other_name");
+        "precision,error,other_attractor,other_name%s\n",
+        isnan(omega) ? "" : ",velocity_rad_per_s,settling_seconds,strobe_velocity_rad_per_s");
   for (int64_t i = 0; i < starts->n; i++) {
     const kz_coordinate *start = starts->start[i];
     if (options->json || table)
-      (options->json ? print_json : print_csv)(start, endings + i);
+      (options->json ? print_json : print_csv)(start, endings + i, omega);
     else
-      print_person(start, endings + i, starts->pivot_frequency);
+      print_person(start, endings + i, omega);
   }
 }
 

@@ -5,7 +5,8 @@ import re
 import kapitza
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, plot
+from kapitza.plots import compare
 
 SCENE = ROOT / "scenes" / "laboratory.yaml"
 OMEGA = 2 * np.pi * 50
@@ -51,6 +52,24 @@ def test_starts_in_laboratory_units(kapitza):
     assert re.search(r"settling time   (\d+) drive periods \(([\d.]+) s\)", said)
     own = kapitza("where", ROOT / "scenes" / "small.yaml", "3 pi/4", "1 rad/s", status=2).stderr
     assert "the scene is not in SI units" in own
+
+
+def test_tables_of_starts_are_in_si_too():
+    table = kapitza.where(SCENE, ["175 deg", 0.1], "3 rad/s")
+    assert table["velocity_rad_per_s"].values == pytest.approx(3, rel=1e-12)
+    assert np.allclose(table["settling_seconds"], table["settling_time"].astype(float) / 50)
+    assert table["strobe_velocity_rad_per_s"][0] == pytest.approx(OMEGA * np.array(table["strobe_velocity"][0]))
+
+
+def test_reports_and_comparisons_are_in_si(tmp_path):
+    few = {"basin.theta.count": 8, "basin.velocity.count": 8, "basin.attractors.starts": 64}
+    for name, amplitude in (("one", "8 mm"), ("other", "9 mm")):
+        kapitza.run(SCENE, tmp_path / f"{name}.h5", set=few | {"pendulum.amplitude": amplitude}, progress=False)
+    assert plot("report", tmp_path / "one.h5", "-o", tmp_path / "one.html").returncode == 0
+    assert "period / s" in (tmp_path / "one.html").read_text()
+    arguments = compare.parse_arguments([str(tmp_path / "one.h5"), str(tmp_path / "other.h5"), "--si"])
+    panels = compare.draw(kapitza.Result(tmp_path / "one.h5"), arguments).axes
+    assert panels[0].get_ylabel() == "velocity dθ/dt (rad/s)"
 
 
 def test_sweeps_take_units():

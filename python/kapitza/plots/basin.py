@@ -21,7 +21,7 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.page import lay_out
-from kapitza.plots.plane import Plane, label_axes
+from kapitza.plots.plane import VELOCITY_LABEL, Plane, label_axes
 from kapitza.plots.skeleton import mark_manifolds, mark_saddles
 from kapitza.plots.units import add_si, pivot_frequency, show_in
 from kapitza.result import BadFile, Result
@@ -199,12 +199,12 @@ def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors:
 
 
 def show_in_si(figure: Figure, omega: float) -> None:
-    """Velocities in rad/s, and the bar of settling times in seconds; `omega`: the drive's angular frequency, rad/s."""
-    axes, *bars = [figure.axes[0], *figure.axes[0].child_axes]
-    if axes.get_ylabel() == "velocity dθ/d(ωt) (rad per drive radian)":  # a deep window's axis counts widths
-        show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)")
-    for bar in bars:
-        show_in(bar.yaxis, 2 * np.pi / omega, "time until trapped, plus one drive period (s)")
+    """Velocities in rad/s, and bars of settling times in seconds; `omega`: the drive's angular frequency, rad/s."""
+    for axes in figure.axes:
+        if axes.get_ylabel() == VELOCITY_LABEL:  # a deep window's axis counts widths
+            show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)")
+        for bar in axes.child_axes:
+            show_in(bar.yaxis, 2 * np.pi / omega, "time until trapped, plus one drive period (s)")
 
 
 def main(words: list[str]) -> None:

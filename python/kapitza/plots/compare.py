@@ -13,10 +13,11 @@ from matplotlib.figure import Figure
 
 from kapitza import style
 from kapitza.compare import Comparison
-from kapitza.plots.basin import basin_entries, draw_basins, write_legend
+from kapitza.plots.basin import basin_entries, draw_basins, show_in_si, write_legend
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, title_text, write_picture
 from kapitza.plots.page import Page, current, drawing, lay_out
 from kapitza.plots.plane import Plane, label_axes
+from kapitza.plots.units import add_si, pivot_frequency
 from kapitza.result import BadFile, Result
 
 DIFFERENT = style.INK
@@ -27,6 +28,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("other", help="result file with the other basin")
     parser.add_argument("--centre", choices=["down", "inverted"], default="down",
                         help="state in the middle of a whole circle (default: down)")
+    add_si(parser, "velocities in rad/s")
     return parsed(parser, words)
 
 
@@ -90,9 +92,12 @@ def comparison_figure(comparison: Comparison, width: float | None = None, centre
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page of the two files."""
     try:
-        return comparison_panels(result.compare(arguments.other), arguments.centre)
+        figure = comparison_panels(result.compare(arguments.other), arguments.centre)
     except ValueError as error:
         raise BadFile(f"{result.path}, {arguments.other}: {error}") from error
+    if arguments.si:
+        show_in_si(figure, pivot_frequency(result))
+    return figure
 
 
 def main(words: list[str]) -> None:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from kapitza import style
 
 DEEP = 1e-9  # width of a window whose axis no tick label could tell from its centre
+VELOCITY_LABEL = "velocity dθ/d(ωt) (rad per drive radian)"
 
 
 class Plane:
@@ -114,6 +115,6 @@ def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
     if "velocity" in plane.widths:
         axes.set_ylabel(f"velocity dθ/d(ωt) less the centre's (units of {plane.widths['velocity']})")
     else:
-        axes.set_ylabel("velocity dθ/d(ωt) (rad per drive radian)")
+        axes.set_ylabel(VELOCITY_LABEL)
     axes.tick_params(direction="out", length=3)
     return axes

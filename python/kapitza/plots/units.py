@@ -40,9 +40,14 @@ def add_si(parser: argparse.ArgumentParser, what: str) -> None:
     parser.add_argument("--si", action="store_true", help=f"{what}, of a scene in SI units")
 
 
+def in_si(result: Result) -> bool:
+    """Whether the scene of a result is in SI units."""
+    value = result.pendulum.get("pivot_frequency")
+    return isinstance(value, float) and value > 0
+
+
 def pivot_frequency(result: Result) -> float:
     """The drive's angular frequency in rad/s; BadFile where the scene was not in SI units."""
-    value = result.pendulum.get("pivot_frequency")
-    if not isinstance(value, float) or not value > 0:
+    if not in_si(result):
         raise BadFile(f"{result.path}: has no pivot_frequency, because its scene is not in SI units; leave out --si")
-    return value
+    return float(result.pendulum["pivot_frequency"])

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from kapitza import style
+from kapitza.plots.units import in_si, pivot_frequency
 from kapitza.report.pictures import pictures
 from kapitza.result import Result
 
@@ -66,6 +67,9 @@ def _attractors(result: Result) -> str:
         return ""
     table = result.group("attractors")
     known = [column for column in COLUMNS if column[1] in table or (column[1] is None and "multiplier_re" in table)]
+    if in_si(result):
+        second = 2 * np.pi / pivot_frequency(result)
+        known.insert(1, ("period / s", "period", lambda value: f"{value * second:.4g}" if value > 0 else "-"))
     rows = []
     for index, (name, colour) in enumerate(zip(table["name"].values, style.colours(table), strict=True)):
         cells = [f'<span class="patch" style="background:{colour}"></span>{index} {_text(style.name_text(name))}']

@@ -161,10 +161,10 @@ kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_l
   return send();
 }
 
-kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending) {
+kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending, double omega) {
   begin("where", sequence, true);
   fputs(", ", stdout);
-  kz_ending_print(start, ending);
+  kz_ending_print(start, ending, omega);
   end(0);
   return send();
 }

@@ -8,7 +8,7 @@
 kz_status kz_answer_ready(const kz_scene *scene);
 kz_status kz_answer_catalogue(int64_t sequence, bool final, const kz_live_catalogue *catalogue);
 kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_level *level);
-kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending);
+kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending, double omega);
 /* theta, velocity [samples] */
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity);
 kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *level);

@@ -17,7 +17,8 @@ static kz_status answer_where(kz_drawing *d, const kz_request *request) {
   const kz_coordinate start[1][2] = {{kz_decimal_coordinate(&request->theta), kz_decimal_coordinate(&request->velocity)}};
   kz_ending ending;
   kz_status status = kz_engine_where(d->engine, &request->scene, 1, start, &ending);
-  if (status == KZ_OK) status = kz_answer_where(request->sequence, start[0], &ending);
+  if (status == KZ_OK)
+    status = kz_answer_where(request->sequence, start[0], &ending, request->scene.parameters.pivot_frequency);
   kz_where_free(1, &ending);
   return status;
 }
