@@ -111,8 +111,8 @@ def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | 
 
     Both take numbers, or texts such as "175 deg", "pi/2" and, of a scene in SI units, "3 rad/s"; up to 100,000 starts.
     Columns: theta, velocity, attractor (-1: not settled), name, period (0: chaotic), winding, settling_time (drive periods), decided,
-    strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor, other_name; missing where there is none. Of a scene in SI units also
-    velocity_rad_per_s, settling_seconds, strobe_velocity_rad_per_s.
+    strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor, other_name; missing where there is none. Of a
+    scene in SI units also velocity_rad_per_s, settling_seconds, strobe_velocity_rad_per_s.
     """
     asked = Scene(scene, set)
     angles, velocities = (np.ravel(values) for values in np.broadcast_arrays(_starts(theta), _starts(velocity)))
