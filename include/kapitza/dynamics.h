@@ -64,17 +64,19 @@ typedef struct {
 } kz_start;
 
 /* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
- * more steps, an error of some 3e-15 a period; pairs of doubles, 1e-20 and 1e-28; quad precision, by Taylor series. Beyond them: as many
- * digits as it takes. */
+ * more steps, an error of some 3e-15 a period; pairs of doubles, 1e-16, 1e-20, 1e-24 and 1e-28; quad precision, by Taylor series. Beyond them:
+ * as many digits as it takes. */
 enum {
   KZ_LEVEL_GUESS = -1, /* KZ_LEVEL_DOUBLE, but doubtful orbits are followed on: their labels are those of the states alone */
   KZ_LEVEL_DOUBLE = 0,
   KZ_LEVEL_FINE = 1,
-  KZ_LEVEL_PAIRS_20 = 2,
-  KZ_LEVEL_PAIRS_28 = 3,
-  KZ_LEVEL_QUAD = 4,
-  KZ_LEVEL_ARBITRARY = 5,
-  KZ_LEVELS = 6
+  KZ_LEVEL_PAIRS_16 = 2,
+  KZ_LEVEL_PAIRS_20 = 3,
+  KZ_LEVEL_PAIRS_24 = 4,
+  KZ_LEVEL_PAIRS_28 = 5,
+  KZ_LEVEL_QUAD = 6,
+  KZ_LEVEL_ARBITRARY = 7,
+  KZ_LEVELS = 8
 };
 /* The label of an orbit whose error outgrows what a label bears. Any other label, 0 too, is decided: the errors do not change it. */
 enum { KZ_DOUBTFUL = -1 };

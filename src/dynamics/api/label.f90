@@ -5,8 +5,7 @@ module kz_api_label
   use kz_extended_pairs, only: pair_of
   use kz_extended_taylor, only: qp
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_levels, only: prepare_level, make_carrier, noise_of, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_PAIRS_20, LEVEL_PAIRS_28, &
-                              LEVEL_QUAD
+  use kz_labels_levels, only: prepare_level, make_carrier, noise_of, LEVEL_DOUBLE
   use kz_labels_orbits, only: ending_t, follow_orbits, DOUBTFUL, PENDING
   use kz_lanes_map, only: PI
   use kz_maps_states, only: wrapped
@@ -14,9 +13,9 @@ module kz_api_label
   private
 
   !> Of dynamics.h: the scene's numerics, where doubtful orbits are followed on; no level.
-  integer, parameter :: LEVEL_GUESS = -1, NONE = 6
+  integer, parameter :: LEVEL_GUESS = -1, NONE = 8
   !> An orbit is followed at the next cheaper level once its error is so many times what that adds in a period.
-  real(dp), parameter :: RATIO = 5
+  real(dp), parameter :: RATIO = 30
   real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
 
   !> kz_start and kz_decision of dynamics.h.

@@ -19,14 +19,15 @@ module kz_labels_levels
   public :: levels_t, make_carrier, prepare_level, noise_of
 
   !> Levels of dynamics.h.
-  integer, parameter, public :: LEVEL_DOUBLE = 0, LEVEL_FINE = 1, LEVEL_PAIRS_20 = 2, LEVEL_PAIRS_28 = 3, LEVEL_QUAD = 4
+  integer, parameter, public :: LEVEL_DOUBLE = 0
+  integer, parameter :: LEVEL_FINE = 1, LEVEL_PAIRS_16 = 2, LEVEL_PAIRS_28 = 5, LEVEL_QUAD = 6
   !> rad: of a period in double precision with more steps; with most steps of all.
   real(dp), parameter :: FINE_ERROR = 1e-14_dp
   integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320
   !> rad: below it the error of a period is that of rounding.
   real(dp), parameter :: ROUNDED = 1e-13_dp
   !> rad: of a period in pairs of doubles.
-  real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_20:LEVEL_PAIRS_28) = [1e-20_dp, 1e-28_dp]
+  real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 1e-28_dp]
   !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
   real(dp), parameter :: QUAD_ERROR = 1e-31_dp
   !> Steps a period of the series.
@@ -37,7 +38,7 @@ module kz_labels_levels
     type(period_error_t) :: error               !< of the scene's map
     class(flow_t), allocatable :: fine          !< double precision with more steps
     type(period_error_t) :: fine_error
-    type(pairs_t) :: pairs(LEVEL_PAIRS_20:LEVEL_PAIRS_28)
+    type(pairs_t) :: pairs(LEVEL_PAIRS_16:LEVEL_PAIRS_28)
     type(pair_series_t) :: pair_series          !< of them all
     type(drive_t), allocatable :: drive
   end type levels_t
@@ -70,7 +71,7 @@ contains
     select case (level)
     case (LEVEL_FINE)
       if (.not. allocated(levels%fine)) call make_fine(levels, pendulum, numerics, fastest)
-    case (LEVEL_PAIRS_20, LEVEL_PAIRS_28)
+    case (LEVEL_PAIRS_16:LEVEL_PAIRS_28)
       if (.not. allocated(levels%pairs(level)%level)) call make_table(levels, level, pendulum, numerics, fastest)
     case (LEVEL_QUAD)
       if (.not. allocated(levels%drive)) then
@@ -96,7 +97,7 @@ contains
     steps = 0
     error = levels%error%worst
     if (numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = ceiling(1.25_dp*numerics%steps_per_period)
-    if (level > LEVEL_PAIRS_20) then
+    if (level > LEVEL_PAIRS_16) then
       associate (coarser => levels%pairs(level - 1))
         if (allocated(coarser%level)) then
           if (size(coarser%level) > 0) then

@@ -18,8 +18,6 @@ module kz_extended_pairs
 
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = acos(-1.0_qp)
-  !> Grades of the series that count enough to need more than double precision.
-  integer, parameter :: QUAD_GRADES = 8
   !> Numbers of steps are multiples of STRIDE. With more steps the Taylor series cost no more.
   integer, parameter :: STRIDE = 8, FEWEST_STEPS = 48, MOST_STEPS = 960
   !> The speeds of the first table, and how much faster those of the next are.
@@ -79,7 +77,7 @@ contains
       call ieee_set_halting_mode(ieee_usual, .false.)
       if (.not. allocated(shared%series)) then
         allocate (shared%series)
-        call make_mixed_series(pendulum, QUAD_GRADES, shared%series)
+        call make_mixed_series(pendulum, shared%series)
       end if
       if (like_steps > 0) levels(0)%n_steps = expected_steps(like_steps, like_error, tolerance)
       do while (n < MOST_LEVELS .and. levels(n)%fastest < fastest)

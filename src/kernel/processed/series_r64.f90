@@ -6,6 +6,8 @@ module kz_processed_series_r64
   private
   public :: series_t, make_series, ORDER, HARMONICS
 
+  integer, parameter :: ORDER = 14
+
   include 'series.inc'
 
 end module kz_processed_series_r64

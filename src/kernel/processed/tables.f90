@@ -22,7 +22,7 @@ contains
     !> what does not depend on the number of steps
     type(series_t), intent(out) :: series
 
-    call make_series(pendulum%k, pendulum%beta, pendulum%m, ORDER, series)
+    call make_series(pendulum%k, pendulum%beta, pendulum%m, series)
   end subroutine make_processed_series
 
 end module kz_processed_tables

@@ -4,8 +4,8 @@ module kz_processed_tables_r128
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use kz_model_pendulum, only: pendulum_t, exact_stiffness
   use kz_processed_harmonics, only: harmonic_polynomials
-  use kz_processed_series_r64, only: series_r64_t => series_t, make_series_r64 => make_series
-  use kz_processed_series_r128, only: series_t, make_series, ORDER, HARMONICS
+  use kz_processed_series_r64, only: series_r64_t => series_t, make_series_r64 => make_series, ORDER, HARMONICS
+  use kz_processed_series_r128, only: series_r128_t => series_t, make_series_r128 => make_series, EXACT => ORDER
   implicit none
   private
   public :: series_t, processed_t, processor_t, make_mixed_series, make_processed, ORDER, HARMONICS
@@ -15,36 +15,37 @@ module kz_processed_tables_r128
 
   real(rk), parameter :: PI = 3.14159265358979323846264338327950288_rk
 
+  include 'series_type.inc'
+
   include 'table_types.inc'
 
 contains
 
-  !> The series of a pendulum: grades up to `quad_grades` in quad precision (all of them: a second), those beyond in double, right to
-  !> 1e-15 of the force itself. Grade q of a step h counts h**q, so little precision is enough for high ones.
-  subroutine make_mixed_series(pendulum, quad_grades, series)
+  !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
+  !> step h counts h**q, so little precision is enough for high ones.
+  subroutine make_mixed_series(pendulum, series)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
-    !> even, at most ORDER
-    integer, intent(in) :: quad_grades
     !> what does not depend on the number of steps
     type(series_t), intent(out) :: series
+    integer, parameter :: HALF = EXACT/2
     type(series_r64_t), allocatable :: rounded
-    type(series_t), allocatable :: exact
+    type(series_r128_t), allocatable :: leading
 
-    allocate (rounded, exact)
-    call make_series_r64(pendulum%k, pendulum%beta, pendulum%m, ORDER, rounded)
-    series%kick_cosine = rounded%kick_cosine
-    series%kick_sine = rounded%kick_sine
-    series%drift = rounded%drift
-    series%to_kernel = rounded%to_kernel
-    series%from_kernel = rounded%from_kernel
+    allocate (rounded, leading)
+    call make_series_r64(pendulum%k, pendulum%beta, pendulum%m, rounded)
+    call make_series_r128(real(pendulum%k, rk), real(pendulum%beta, rk), real(pendulum%m, rk), leading)
+    series%kick_cosine(:, :, EXACT + 1:) = rounded%kick_cosine(:, :, EXACT + 1:)
+    series%kick_sine(:, :, EXACT + 1:) = rounded%kick_sine(:, :, EXACT + 1:)
+    series%drift(:, EXACT + 1:) = rounded%drift(:, EXACT + 1:)
+    series%to_kernel(:, :, EXACT - 1:, :) = rounded%to_kernel(:, :, EXACT - 1:, :)
+    series%from_kernel(:, :, EXACT - 1:, :) = rounded%from_kernel(:, :, EXACT - 1:, :)
     series%residual = rounded%residual
-    call make_series(real(pendulum%k, rk), real(pendulum%beta, rk), real(pendulum%m, rk), quad_grades, exact)
-    series%kick_cosine(:, :, :quad_grades) = exact%kick_cosine(:, :, :quad_grades)
-    series%kick_sine(:, :, :quad_grades) = exact%kick_sine(:, :, :quad_grades)
-    series%drift(:, :quad_grades) = exact%drift(:, :quad_grades)
-    series%to_kernel(:, :, :quad_grades - 2, :) = exact%to_kernel(:, :, :quad_grades - 2, :)
-    series%from_kernel(:, :, :quad_grades - 2, :) = exact%from_kernel(:, :, :quad_grades - 2, :)
+    series%kick_cosine(:HALF, :HALF, :EXACT) = leading%kick_cosine
+    series%kick_sine(:HALF, :HALF, :EXACT) = leading%kick_sine
+    series%drift(:EXACT, :EXACT) = leading%drift
+    series%to_kernel(:HALF, :EXACT, :EXACT - 2, :) = leading%to_kernel(:, :, :EXACT - 2, :)
+    series%from_kernel(:HALF, :EXACT, :EXACT - 2, :) = leading%from_kernel(:, :, :EXACT - 2, :)
   end subroutine make_mixed_series
 
   include 'table_procedures.inc'

@@ -5,7 +5,7 @@
 
 enum {
   BATCH = 16384, /* starts that are followed together */
-  FEW = 300      /* are followed in quad precision for less than the tables of the pairs of doubles take */
+  FEW = 24       /* are followed in quad precision for less than the tables of the pairs of doubles take */
 };
 
 kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start) {

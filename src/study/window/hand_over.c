@@ -6,7 +6,9 @@
 /* rad: what the arithmetic of a level adds in a period, or less. */
 static const long double level_error[] = {[KZ_LEVEL_DOUBLE] = 1e-16L,
                                           [KZ_LEVEL_FINE] = 1e-16L,
+                                          [KZ_LEVEL_PAIRS_16] = 1e-17L,
                                           [KZ_LEVEL_PAIRS_20] = 1e-21L,
+                                          [KZ_LEVEL_PAIRS_24] = 1e-25L,
                                           [KZ_LEVEL_PAIRS_28] = 1e-29L,
                                           [KZ_LEVEL_QUAD] = 1e-32L};
 /* rad: images that are wider are bent too much for any estimate of the fourth degree. */
@@ -65,7 +67,7 @@ kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reac
   const kz_image *image = images->image + n;
   const sizes s = sizes_of(&image->jet, reach);
   kz_hand_over h = {
-      .image = image, .periods = n, .in_quads = n == 0 || level >= KZ_LEVEL_PAIRS_20, .error = (double)error_of(images, n, &s)};
+      .image = image, .periods = n, .in_quads = n == 0 || level >= KZ_LEVEL_PAIRS_16, .error = (double)error_of(images, n, &s)};
   for (int axis = 0; axis < 2; axis++) {
     for (int i = 0; i < 2; i++) h.linear[axis][i] = (double)image->jet.linear[axis][i];
     for (int i = 0; i < KZ_BENT; i++) h.bent[axis][i] = (double)image->jet.bent[axis][i];
