@@ -31,14 +31,13 @@ void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_loc
 const char *kz_level_name(int level); /* of its stages; the first one's are those of all cells */
 uint8_t kz_level_evidence(int level);
 int64_t kz_level_tile(int level);
-/* Labels those that the first level leaves, in stages of round `round`. Collective. */
-kz_status kz_levels_escalate(kz_window_labels *labelling, int round);
 
 /* Counts the cells of all tiles with the label `wanted`, which are pending then: labelling->before. Collective. */
 kz_status kz_pending_count(kz_window_labels *labelling, int16_t wanted);
 /* Numbers of n of the pending cells from .. from + of - 1, evenly chosen, in order: cell [n], on every rank. Collective. */
 kz_status kz_pending_pick(kz_window_labels *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell);
-/* Labels the pending cells of all tiles on labelling->level, in stages `name`. Collective. */
-kz_status kz_pending_label(kz_window_labels *labelling, const char *name);
+/* Labels the pending cells of all tiles from a level on, until each is decided or no level decides it, in stages of round `round`.
+ * Collective. */
+kz_status kz_pending_label(kz_window_labels *labelling, int level, int round);
 
 #endif

@@ -1,4 +1,4 @@
-/* Pending cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time. */
+/* Pending cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time, level by level. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,65 +51,92 @@ static kz_status label_pending(void *context, int64_t tile, void *record) {
   return kz_label_cells(l, 0, l->pending + first, left < size ? left : size, record);
 }
 
+/* The cells that a level is asked about, and their places among those that are labelled together. */
+typedef struct {
+  int64_t n, *cell, *place;
+} asked;
+
+/* One level: its labels go to found, and those cells stay that it leaves doubtful. */
+static kz_status ask_level(kz_window_labels *l, int round, asked *a, kz_cell_label *found) {
+  const int64_t size = tile_size(l);
+  char name[32];
+  snprintf(name, sizeof name, "%s %d", kz_level_name(l->level), round);
+  l->pending = a->cell;
+  l->n_pending = a->n;
+  const kz_stage stage = {.name = name,
+                          .n_tiles = (a->n + size - 1) / size,
+                          .record_bytes = (size_t)size * sizeof(kz_cell_label),
+                          .work = label_pending,
+                          .context = l,
+                          .keep = true,
+                          .everywhere = true};
+  kz_cell_label *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  const kz_status status = kz_stage_run(l->run, &stage, label);
+  int64_t left = 0;
+  for (int64_t i = 0; i < a->n && status == KZ_OK; i++) {
+    found[a->place[i]] = label[i];
+    if (label[i].label != KZ_DOUBTFUL) continue;
+    a->cell[left] = a->cell[i];
+    a->place[left++] = a->place[i];
+  }
+  a->n = left;
+  free(label);
+  return status;
+}
+
+/* From a level on, until each of n cells is decided, or none decides: found [n]. */
+static kz_status climb(kz_window_labels *l, int level, int round, int64_t n, int64_t *cell, kz_cell_label *found) {
+  const kz_labeller labeller = kz_cells_labeller(l);
+  asked a = {n, cell, kz_malloc((size_t)n * sizeof *a.place + 1)};
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i < n; i++) a.place[i] = i;
+  l->before_level = KZ_LEVEL_DOUBLE;
+  for (l->level = level; a.n > 0 && status == KZ_OK;) {
+    status = ask_level(l, round, &a, found);
+    if (l->level == KZ_LEVELS) break;
+    l->before_level = l->level;
+    l->level = kz_level_after(&labeller, l->level, a.n);
+  }
+  l->level = l->before_level = KZ_LEVEL_DOUBLE;
+  l->pending = NULL;
+  free(a.place);
+  return status;
+}
+
 /* The new labels of the listed cells, of which the first is pending cell `from`, replace those of a tile of this rank. */
-static kz_status merge(kz_window_labels *l, kz_local_record *piece, int64_t from, const kz_cell_label *found, void *record) {
+static kz_status merge(kz_window_labels *l, kz_local_record *piece, int64_t from, int64_t n, const kz_cell_label *found,
+                       void *record) {
   int64_t number = l->before[piece->tile] - from;
   const int64_t end = l->before[piece->tile + 1] - from;
-  if (number < 0 || number == end || end > l->n_pending) return KZ_OK;
+  if (number < 0 || number == end || end > n) return KZ_OK;
   KZ_TRY(kz_tile_labels_unpack(l, piece));
   for (int64_t k = 0; number < end; k++)
     if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
   return kz_tile_labels_replace(l, piece, record);
 }
 
-/* The pending cells of tiles from .. to - 1. */
-static kz_status label_tiles(kz_window_labels *l, const char *name, int64_t from, int64_t to, int64_t *pending) {
-  const int64_t size = tile_size(l);
-  l->pending = pending;
-  l->n_pending = l->before[to] - l->before[from];
-  kz_stage stage = {.name = name,
-                    .n_tiles = (l->n_pending + size - 1) / size,
-                    .record_bytes = (size_t)size * sizeof(kz_cell_label),
-                    .work = label_pending,
-                    .context = l,
-                    .keep = true,
-                    .everywhere = true};
-  KZ_TRY(kz_pending_pick(l, l->before[from], l->n_pending, l->n_pending, pending));
-  kz_cell_label *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+/* The n pending cells from `from` on, which are those of whole tiles. */
+static kz_status label_tiles(kz_window_labels *l, int level, int round, int64_t from, int64_t n, int64_t *cell) {
+  KZ_TRY(kz_pending_pick(l, from, n, n, cell));
+  kz_cell_label *found = kz_malloc((size_t)n * sizeof *found);
   void *record = kz_malloc(kz_tile_labels_bytes(l));
-  kz_status status = kz_stage_run(l->run, &stage, found);
+  kz_status status = climb(l, level, round, n, cell, found);
   for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++)
-    status = merge(l, &l->pieces.list[i], l->before[from], found, record);
+    status = merge(l, &l->pieces.list[i], from, n, found, record);
   free(found);
   free(record);
   return kz_ranks_agree(l->run->ranks, status);
 }
 
-kz_status kz_pending_label(kz_window_labels *l, const char *name) {
+kz_status kz_pending_label(kz_window_labels *l, int level, int round) {
   const int64_t *before = l->before, all = before[l->tiles.own];
   const int64_t most = all < MOST_PENDING ? all : MOST_PENDING;
-  int64_t *pending = kz_malloc((size_t)most * sizeof *pending + 1);
+  int64_t *cell = kz_malloc((size_t)most * sizeof *cell + 1);
   kz_status status = KZ_OK;
   for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {
     for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
-    if (before[to] > before[from]) status = label_tiles(l, name, from, to, pending);
+    if (before[to] > before[from]) status = label_tiles(l, level, round, before[from], before[to] - before[from], cell);
   }
-  l->pending = NULL;
-  free(pending);
+  free(cell);
   return status;
-}
-
-kz_status kz_levels_escalate(kz_window_labels *l, int round) {
-  const kz_labeller labeller = kz_cells_labeller(l);
-  char name[32];
-  while (l->level < KZ_LEVELS) {
-    KZ_TRY(kz_pending_count(l, KZ_DOUBTFUL));
-    if (l->before[l->tiles.own] == 0) break;
-    l->before_level = l->level;
-    l->level = kz_level_after(&labeller, l->level, l->before[l->tiles.own]);
-    snprintf(name, sizeof name, "%s %d", kz_level_name(l->level), round);
-    KZ_TRY(kz_pending_label(l, name));
-  }
-  l->level = l->before_level = KZ_LEVEL_DOUBLE;
-  return KZ_OK;
 }

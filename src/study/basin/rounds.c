@@ -1,6 +1,5 @@
 /* Rounds of discovery and labelling: cells that ended nowhere known feed another one. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "numerics/table_check.h"
@@ -71,17 +70,15 @@ static kz_status run_rounds(kz_window_labels *l) {
   KZ_TRY(make_starts(l));
   KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
-  KZ_TRY(kz_levels_escalate(l, 1));
+  KZ_TRY(kz_pending_count(l, KZ_DOUBTFUL));
+  KZ_TRY(kz_pending_label(l, KZ_LEVEL_FINE, 1));
   for (int round = 1; round < ROUNDS; round++) {
-    char name[32];
     KZ_TRY(kz_pending_count(l, 0));
     if (l->before[l->tiles.own] == 0) return KZ_OK;
     const int64_t known = kz_dynamics_count(l->dynamics);
     KZ_TRY(rounds_discover(l, true));
     if (kz_dynamics_count(l->dynamics) == known) return KZ_OK;
-    snprintf(name, sizeof name, "cells %d", round + 1);
-    KZ_TRY(kz_pending_label(l, name));
-    KZ_TRY(kz_levels_escalate(l, round + 1));
+    KZ_TRY(kz_pending_label(l, KZ_LEVEL_DOUBLE, round + 1));
   }
   return KZ_OK;
 }
