@@ -64,7 +64,7 @@ typedef struct {
 } kz_start;
 
 /* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
- * more steps, an error of some 3e-15 a period; pairs of doubles, 1e-16, 1e-20, 1e-24 and 1e-28; quad precision, by Taylor series. Beyond them:
+ * more steps, an error of some 3e-15 a period; pairs of doubles, 1e-16, 1e-20, 1e-24 and 3e-29; quad precision, by Taylor series. Beyond them:
  * as many digits as it takes. */
 enum {
   KZ_LEVEL_GUESS = -1, /* KZ_LEVEL_DOUBLE, but doubtful orbits are followed on: their labels are those of the states alone */

@@ -27,7 +27,7 @@ module kz_labels_levels
   !> rad: below it the error of a period is that of rounding.
   real(dp), parameter :: ROUNDED = 1e-13_dp
   !> rad: of a period in pairs of doubles.
-  real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 1e-28_dp]
+  real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 3e-29_dp]
   !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
   real(dp), parameter :: QUAD_ERROR = 1e-31_dp
   !> Steps a period of the series.

@@ -19,7 +19,7 @@ module kz_extended_pairs
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = acos(-1.0_qp)
   !> Numbers of steps are multiples of STRIDE. With more steps the Taylor series cost no more.
-  integer, parameter :: STRIDE = 8, FEWEST_STEPS = 48, MOST_STEPS = 960
+  integer, parameter :: STRIDE = 8, FEWEST_STEPS = 48, MOST_STEPS = 1920
   !> The speeds of the first table, and how much faster those of the next are.
   real(c_double), parameter :: SLOWEST = 2.5_c_double, RATIO = 2
   integer, parameter :: MOST_LEVELS = 8
@@ -30,8 +30,6 @@ module kz_extended_pairs
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
   real(c_double), parameter :: ROUNDING = 4e-31_c_double
-  !> Coefficients of a kick, least of all.
-  integer, parameter :: FEWEST_KICKS = 8
 
   type :: pairs_t
     !> the error of a period, rad: the largest of all tables
@@ -110,8 +108,8 @@ contains
     n = min(MOST_PAIR_KICKS, ceiling(7 - 0.39_c_double*log10(tolerance)))
   end function expected_kicks
 
-  !> The steps that are expected, if the measured error is at most the tolerance for speeds beyond those of the slower level. Else the
-  !> fewest whose error is, and then the fewest coefficients of a kick.
+  !> The steps that are expected, and more of them, by the order of the splitting, until the measured error is at most the tolerance for speeds
+  !> beyond those of the slower level.
   subroutine choose_level(pendulum, series, drive, tolerance, slower, level)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
@@ -120,38 +118,23 @@ contains
     type(level_t), intent(in) :: slower
     type(level_t), intent(out) :: level
     real(qp) :: start(2, N_PROBES), image(2, N_PROBES)
-    real(c_double) :: factor, fastest
-    type(level_t) :: candidate
-    integer :: n, fewest
+    real(c_double) :: fastest, former
+    integer :: n, kicks
 
     fastest = max(SLOWEST, RATIO*slower%fastest)
     call make_probes(drive, slower%fastest, fastest, start, image)
     n = slower%n_steps ! twice the speed needs some 1.5 times the steps
     if (slower%fastest > 0) n = STRIDE*int(1.5_c_double*slower%n_steps/STRIDE)
     n = max(FEWEST_STEPS, n)
-    if (n <= MOST_STEPS) then
-      call make_level(pendulum, series, n, expected_kicks(tolerance), fastest, tolerance, level)
+    kicks = expected_kicks(tolerance)
+    level%error = huge(level%error)
+    do while (n <= MOST_STEPS)
+      former = level%error
+      call make_level(pendulum, series, n, kicks, fastest, tolerance, level)
       level%error = measure(level, start, image)
-      if (level%error <= tolerance) return
-    end if
-    if (slower%fastest > 0) n = max(FEWEST_STEPS, STRIDE*int(1.25_c_double*slower%n_steps/STRIDE))
-    do
-      call make_level(pendulum, series, n, MOST_PAIR_KICKS, fastest, tolerance, level)
-      level%error = measure(level, start, image)
-      if (level%error <= tolerance) exit
-      factor = min(4.0_c_double, (min(level%error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER))
-      n = max(n + STRIDE, STRIDE*int(n*factor/STRIDE))
-      if (n > MOST_STEPS) return
-    end do
-    fewest = FEWEST_KICKS
-    do while (fewest < level%n_kick)
-      call make_level(pendulum, series, n, (fewest + level%n_kick)/2, fastest, tolerance, candidate)
-      candidate%error = measure(candidate, start, image)
-      if (candidate%error <= tolerance) then
-        level = candidate
-      else
-        fewest = candidate%n_kick + 1
-      end if
+      if (level%error <= tolerance .or. (n > FEWEST_STEPS .and. level%error > former)) return
+      n = max(n + STRIDE, expected_steps(n, min(level%error, 4.0_c_double**ORDER*tolerance), tolerance))
+      kicks = min(MOST_PAIR_KICKS, kicks + 1)
     end do
   end subroutine choose_level
 

@@ -15,10 +15,11 @@ typedef struct {
 
 /* The stages of one period and the wrap of the angles to [-1, 1]; turns [n]: the net number of turns. row [n_stages + 1][n_row]: of
  * each stage, the drift's coefficients (high and low of the first, n_drift - 1 doubles) and the kick's (n_pairs high and low, n_kick -
- * n_pairs doubles), those of high powers being too small for more; of the last row the drift alone. decay [2]: what is left of the
- * velocity that the stages carry. */
-void kz_pairs_stages(int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row, const double *decay,
-                     int64_t n, kz_pair_lanes *lanes, double *turns);
+ * n_pairs doubles), those of high powers being too small for more; of the last row the drift alone. ordered
+ * [n_stages]: whether the modulus of every coefficient of a kick that is a pair is at least the sum of those after it. decay [2]: what
+ * is left of the velocity that the stages carry. */
+void kz_pairs_stages(int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row,
+                     const int8_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns);
 
 /* Half the order of the series: harmonics and powers of a displacement; terms of the sine. */
 enum { KZ_HALF_ORDER = 7, KZ_SINE_TERMS = 15 };

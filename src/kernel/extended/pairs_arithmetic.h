@@ -100,6 +100,13 @@ OPERATION pair horner(pair x, pair y, const double *c) {
   return (pair){s.high, fused(x.low, y.high, rest + (s.low + c[1]))};
 }
 
+/* The same where |c| >= |x y|. */
+OPERATION pair ordered_horner(pair x, pair y, const double *c) {
+  const vector p = x.high * y.high, rest = fused(x.high, y.low, fused(x.high, y.high, -p));
+  const pair s = quick_sum(same(c[0]), p);
+  return (pair){s.high, fused(x.low, y.high, rest + (s.low + c[1]))};
+}
+
 /* c[0] + c[1] x + .. of pairs c [n][2]; of those from n_pairs on, which are small, only the high parts. The parts of the result may
  * overlap by some bits. */
 OPERATION pair polynomial(int64_t n, int64_t n_pairs, const double *c, pair x) {

@@ -1,6 +1,6 @@
 !> One drive period in pairs of doubles (some 32 digits): the tables of the processed splitting for one range of speeds.
 module kz_extended_pairs_level
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: WIDTH
   use kz_processed_tables_r128, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
@@ -57,6 +57,7 @@ module kz_extended_pairs_level
     integer :: n_kick = 0
     integer :: n_pairs = 0
     real(c_double), allocatable :: row(:, :)
+    integer(c_int8_t), allocatable :: ordered(:) !< (n_steps): pairs.h
     real(c_double) :: decay(2) = 0
     type(displacement_t) :: to_kernel
     type(displacement_t) :: from_kernel
@@ -64,13 +65,14 @@ module kz_extended_pairs_level
 
   interface
     !> pairs.h
-    subroutine pairs_stages(n_stages, n_drift, n_kick, n_pairs, row, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
-      import :: c_double, c_int64_t, pair_lanes_t, WIDTH
+    subroutine pairs_stages(n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
+      import :: c_double, c_int8_t, c_int64_t, pair_lanes_t, WIDTH
       integer(c_int64_t), value :: n_stages
       integer(c_int64_t), value :: n_drift
       integer(c_int64_t), value :: n_kick
       integer(c_int64_t), value :: n_pairs
       real(c_double), intent(in) :: row(*)
+      integer(c_int8_t), intent(in) :: ordered(*)
       real(c_double), intent(in) :: decay(2)
       integer(c_int64_t), value :: n
       type(pair_lanes_t), intent(inout) :: lanes
@@ -132,13 +134,14 @@ contains
     level%n_kick = n_kick
     n = table%n_drift
     level%n_pairs = min(n_kick - 1, number_of_pairs([(n_steps*maxval(abs(table%row(n + j, :))), j=1, n_kick)], tolerance))
-    allocate (level%row(n + 1 + n_kick + level%n_pairs, n_steps + 1))
+    allocate (level%row(n + 1 + n_kick + level%n_pairs, n_steps + 1), level%ordered(n_steps))
     level%row = 0
     do s = 1, n_steps
       call set_drift(table%row(:n, s), level%row(:, s))
       do j = 1, level%n_pairs
         level%row(n + 2*j:n + 2*j + 1, s) = pair_of(table%row(n + j, s))
       end do
+      level%ordered(s) = merge(1_c_int8_t, 0_c_int8_t, all([(is_ordered(table%row(n + j:, s)), j=1, level%n_pairs)]))
       level%row(n + 2*level%n_pairs + 2:, s) = real(table%row(n + level%n_pairs + 1:, s), c_double)
     end do
     call set_drift(table%last, level%row(:, n_steps + 1))
@@ -146,6 +149,13 @@ contains
     call set_displacement(table%to_kernel, fastest, tolerance, level%to_kernel)
     call set_displacement(table%from_kernel, fastest, tolerance, level%from_kernel)
   end subroutine make_level
+
+  !> Is the first coefficient at least as large as the others together, with a margin for their rounding?
+  pure logical function is_ordered(c)
+    real(qp), intent(in) :: c(:)
+
+    is_ordered = abs(real(c(1), c_double)) >= 1.0001_c_double*sum(abs(real(c(2:), c_double)))
+  end function is_ordered
 
   pure subroutine set_drift(drift, row)
     real(qp), intent(in) :: drift(:)
@@ -210,7 +220,7 @@ contains
 
     call pairs_displace(level%to_kernel, int(n, c_int64_t), lanes)
     call pairs_stages(int(level%n_steps, c_int64_t), int(level%n_drift, c_int64_t), int(level%n_kick, c_int64_t), &
-                      int(level%n_pairs, c_int64_t), level%row, level%decay, int(n, c_int64_t), lanes, turns)
+                      int(level%n_pairs, c_int64_t), level%row, level%ordered, level%decay, int(n, c_int64_t), lanes, turns)
     call pairs_displace(level%from_kernel, int(n, c_int64_t), lanes)
   end subroutine advance_level
 

@@ -14,11 +14,12 @@ module kz_extended_taylor
   !> How often steps may be halved.
   integer, parameter :: FINEST = 24
 
-  !> A pendulum with the drive's series at the start of every unhalved step of a period.
+  !> A pendulum with the drive's series at the start of every step of a period, unhalved and halved once.
   type :: drive_t
     type(pendulum_t) :: pendulum
     integer :: n_steps
     type(force_t), allocatable :: force(:)
+    type(force_t), allocatable :: halved(:) !< of steps half as long
   end type drive_t
 
 contains
@@ -35,9 +36,12 @@ contains
 
     drive%pendulum = pendulum
     drive%n_steps = n_steps
-    allocate (drive%force(n_steps))
+    allocate (drive%force(n_steps), drive%halved(2*n_steps))
     do i = 1, n_steps
       drive%force(i) = force_of_step(pendulum, (i - 1)*TWO_PI/n_steps, TWO_PI/n_steps)
+    end do
+    do i = 1, 2*n_steps
+      drive%halved(i) = force_of_step(pendulum, (i - 1)*(TWO_PI/n_steps/2), TWO_PI/n_steps/2)
     end do
   end subroutine make_drive
 
@@ -143,6 +147,8 @@ contains
     do i = 1, drive%n_steps*2**halvings
       if (halvings == 0) then
         force = drive%force(i)
+      else if (halvings == 1) then
+        force = drive%halved(i)
       else
         force = force_of_step(drive%pendulum, (i - 1)*h, h)
       end if
