@@ -19,7 +19,7 @@ typedef struct {
  * [n_stages]: whether the modulus of every coefficient of a kick that is a pair is at least the sum of those after it. decay [2]: what
  * is left of the velocity that the stages carry. */
 void kz_pairs_stages(int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row,
-                     const int8_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns);
+                     const int32_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns);
 
 /* Half the order of the series: harmonics and powers of a displacement; terms of the sine. */
 enum { KZ_HALF_ORDER = 7, KZ_SINE_TERMS = 15 };

@@ -1,6 +1,6 @@
 !> One drive period in pairs of doubles (some 32 digits): the tables of the processed splitting for one range of speeds.
 module kz_extended_pairs_level
-  use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: WIDTH
   use kz_processed_tables_r128, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
@@ -57,7 +57,7 @@ module kz_extended_pairs_level
     integer :: n_kick = 0
     integer :: n_pairs = 0
     real(c_double), allocatable :: row(:, :)
-    integer(c_int8_t), allocatable :: ordered(:) !< (n_steps): pairs.h
+    integer(c_int32_t), allocatable :: ordered(:) !< (n_steps): pairs.h
     real(c_double) :: decay(2) = 0
     type(displacement_t) :: to_kernel
     type(displacement_t) :: from_kernel
@@ -66,13 +66,13 @@ module kz_extended_pairs_level
   interface
     !> pairs.h
     subroutine pairs_stages(n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
-      import :: c_double, c_int8_t, c_int64_t, pair_lanes_t, WIDTH
+      import :: c_double, c_int32_t, c_int64_t, pair_lanes_t, WIDTH
       integer(c_int64_t), value :: n_stages
       integer(c_int64_t), value :: n_drift
       integer(c_int64_t), value :: n_kick
       integer(c_int64_t), value :: n_pairs
       real(c_double), intent(in) :: row(*)
-      integer(c_int8_t), intent(in) :: ordered(*)
+      integer(c_int32_t), intent(in) :: ordered(*)
       real(c_double), intent(in) :: decay(2)
       integer(c_int64_t), value :: n
       type(pair_lanes_t), intent(inout) :: lanes
@@ -141,7 +141,7 @@ contains
       do j = 1, level%n_pairs
         level%row(n + 2*j:n + 2*j + 1, s) = pair_of(table%row(n + j, s))
       end do
-      level%ordered(s) = merge(1_c_int8_t, 0_c_int8_t, all([(is_ordered(table%row(n + j:, s)), j=1, level%n_pairs)]))
+      level%ordered(s) = merge(1_c_int32_t, 0_c_int32_t, all([(is_ordered(table%row(n + j:, s)), j=1, level%n_pairs)]))
       level%row(n + 2*level%n_pairs + 2:, s) = real(table%row(n + level%n_pairs + 1:, s), c_double)
     end do
     call set_drift(table%last, level%row(:, n_steps + 1))

@@ -50,8 +50,8 @@ static void save(const pair *x, double *high, double *low) {
   EACH *(vector *)(low + i * LANES) = x[i].low;
 }
 
-void kz_pairs_stages(int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row, const int8_t *ordered,
-                     const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns) {
+void kz_pairs_stages(int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row,
+                     const int32_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns) {
   const shape size = {n_drift, n_kick, n_pairs};
   const int64_t n_row = n_drift + 1 + n_kick + n_pairs;
   for (int64_t first = 0; first < n; first += CHAINS * LANES) {

@@ -121,8 +121,7 @@ static kz_status label_tiles(kz_window_labels *l, int level, int round, int64_t 
   kz_cell_label *found = kz_malloc((size_t)n * sizeof *found);
   void *record = kz_malloc(kz_tile_labels_bytes(l));
   kz_status status = climb(l, level, round, n, cell, found);
-  for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++)
-    status = merge(l, &l->pieces.list[i], from, n, found, record);
+  for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++) status = merge(l, &l->pieces.list[i], from, n, found, record);
   free(found);
   free(record);
   return kz_ranks_agree(l->run->ranks, status);

@@ -45,15 +45,9 @@ void kz_question_free(kz_question *q) {
 
 /* Names of the levels of precision. */
 static const char *const precision_names[] = {
-    [KZ_LEVEL_DOUBLE] = "double",
-    [KZ_LEVEL_FINE] = "double",
-    [KZ_LEVEL_PAIRS_16] = "pairs",
-    [KZ_LEVEL_PAIRS_20] = "pairs",
-    [KZ_LEVEL_PAIRS_24] = "pairs",
-    [KZ_LEVEL_PAIRS_28] = "pairs",
-    [KZ_LEVEL_QUAD] = "quad",
-    [KZ_LEVEL_ARBITRARY] = "arbitrary",
-    [KZ_LEVELS] = NULL,
+    [KZ_LEVEL_DOUBLE] = "double",  [KZ_LEVEL_FINE] = "double",         [KZ_LEVEL_PAIRS_16] = "pairs",
+    [KZ_LEVEL_PAIRS_20] = "pairs", [KZ_LEVEL_PAIRS_24] = "pairs",      [KZ_LEVEL_PAIRS_28] = "pairs",
+    [KZ_LEVEL_QUAD] = "quad",      [KZ_LEVEL_ARBITRARY] = "arbitrary", [KZ_LEVELS] = NULL,
 };
 
 static void describe_orbit(const kz_entry *entry, kz_ending *ending) {
