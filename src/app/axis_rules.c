@@ -73,8 +73,8 @@ void kz_theta_rules(kz_reading *reading, kz_axis *theta, const char *path) {
   }
   kz_axis_rules(reading, theta, path);
   if (theta->max - theta->min > 2.0 * M_PI)
-    kz_complain(reading, max_node, max, "%s makes the window %s rad wide; it must be at most 2 pi",
-                kz_shortest(theta->max).text, kz_shortest(theta->max - theta->min).text);
+    kz_complain(reading, max_node, max, "%s makes the window %s rad wide; it must be at most 2 pi (degrees are written %s deg)",
+                kz_shortest(theta->max).text, kz_shortest(theta->max - theta->min).text, kz_shortest(theta->max).text);
 }
 
 void kz_ends_rules(kz_reading *reading, const kz_axis *axis, const char *path) {

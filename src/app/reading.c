@@ -165,15 +165,30 @@ static bool needs_no_pendulum(const kz_reading *reading) {
   return kz_tree_child(reading->root, "stability") != NULL;
 }
 
-static void check_missing(kz_reading *reading, const kz_key *key) {
-  char parent[256], accepted[700];
+static bool is_missing(const kz_reading *reading, const kz_key *key) {
+  char parent[256];
   const kz_node *mapping = holder(reading, key, parent, sizeof parent);
-  if (!mapping || key->fallback || kz_tree_find(reading->root, key->path)) return;
-  if (strcmp(key->path, "pendulum") == 0 && needs_no_pendulum(reading)) return;
+  if (!mapping || key->fallback || kz_tree_find(reading->root, key->path)) return false;
+  if (strcmp(key->path, "pendulum") == 0 && needs_no_pendulum(reading)) return false;
   const kz_key *chooser = key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
-  if (chooser && !strpbrk(chooser->form, key->form)) return;
-  kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
-  kz_complain(reading, NULL, key->path, "is missing; it must be %s", accepted);
+  return !chooser || strpbrk(chooser->form, key->form);
+}
+
+/* One complaint: about the first missing key, with the names of the others. */
+static void check_missing(kz_reading *reading) {
+  char accepted[700], others[512] = "";
+  const kz_key *first = NULL;
+  for (const kz_key *key = reading->keys; key->path; key++) {
+    if (!is_missing(reading, key)) continue;
+    const size_t used = strlen(others);
+    if (first)
+      snprintf(others + used, sizeof others - used, "%s%s", used ? ", " : "; also missing: ", key->path);
+    else
+      first = key;
+  }
+  if (!first) return;
+  kz_key_accepts(reading->keys, first, accepted, sizeof accepted);
+  kz_complain(reading, NULL, first->path, "is missing; it must be %s%s", accepted, others);
 }
 
 /* A key beside the number that answers it. */
@@ -224,10 +239,8 @@ kz_status kz_reading_keys(kz_reading *reading) {
     return KZ_OK;
   }
   read_mapping(reading, reading->root, "");
-  for (const kz_key *key = reading->keys; key->path; key++) {
-    check_missing(reading, key);
-    check_chosen(reading, key);
-  }
+  check_missing(reading);
+  for (const kz_key *key = reading->keys; key->path; key++) check_chosen(reading, key);
   check_studies(reading);
   return KZ_OK;
 }

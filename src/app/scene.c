@@ -37,7 +37,7 @@ static bool is_result(const char *text, size_t length) {
 static const char *not_a_scene(const char *text, size_t length, FILE *file) {
   if (ferror(file)) return strerror(errno);
   if (is_result(text, length))
-    return "is a result, not a scene; kapitza-plot draws it, and its attribute `scene` holds the scene";
+    return "is a result, not a scene; kapitza view shows it, kapitza-plot draws it, its attribute `scene` holds the scene";
   return length > MAX_BYTES ? "has more than 1000000 bytes, too many for a scene" : NULL;
 }
 

@@ -11,12 +11,19 @@ static void print_number(double value) {
   fputs(text, stdout);
 }
 
+static const char *words_of(const char *precision) {
+  if (strcmp(precision, "pairs") == 0) return "pairs of doubles";
+  if (strcmp(precision, "arbitrary") == 0) return "as many digits as needed";
+  return strcmp(precision, "double") == 0 ? "double precision" : "quad precision";
+}
+
 static void print_decision(const kz_ending *e) {
   if (e->precision)
-    printf("decided         yes, in %s", strcmp(e->precision, "pairs") == 0 ? "pairs of doubles" : e->precision);
+    printf("decided         yes, in %s", words_of(e->precision));
   else
-    printf("decided         no: quad precision does not tell %s from %s", e->name, e->other_name[0] ? e->other_name : "others");
-  if (!isnan(e->error)) printf(": off by at most %.2g rad where it is trapped", e->error);
+    printf("decided         no: the start ends on %s or on %s, and quad precision cannot tell which", e->name,
+           e->other_name[0] ? e->other_name : "another attractor");
+  if (!isnan(e->error)) printf(" (error at most %.2g rad when the trapping region holds the orbit)", e->error);
   putchar('\n');
 }
 
@@ -26,7 +33,7 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   printf("theta = %.10g (%.6g deg), velocity = %.10g", start[0].high, start[0].high * 180 / M_PI, start[1].high);
   si ? printf(" (%.6g rad/s)\n", start[1].high * omega) : puts("");
   if (e->attractor < 0) {
-    puts("ends on         nothing known: it has not settled");
+    puts("ends on         no known attractor: it has not settled");
     return;
   }
   printf("ends on         %s (attractor %d)\n", e->name, (int)e->attractor);

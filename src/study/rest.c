@@ -94,13 +94,16 @@ static drive_words words_of(const kz_parameters *p) {
 
 static void print_position(const char *name, const rest *r, const drive_words *words, FILE *out) {
   const double low = r->low * words->scale, high = r->high * words->scale;
-  fprintf(out, "%s is %s", name, r->stable ? "stable" : "unstable");
-  if (isnan(low) && isnan(high)) return;
-  fprintf(out, r->stable ? " (%s" : " (stable at %s", words->name);
+  fprintf(out, "Rest %s: %s", name, r->stable ? "stable" : "unstable");
+  if (isnan(low) && isnan(high)) {
+    fputs(".", out);
+    return;
+  }
+  fprintf(out, r->stable ? " (for %s" : " (stable for %s", words->name);
   if (!isnan(low)) fprintf(out, " from %.4g%s", low, words->unit);
   if (!isnan(high)) fprintf(out, isnan(low) ? " up to %.4g%s" : " to %.4g%s", high, words->unit);
   if (!isnan(low) && isnan(high)) fputs(" up", out);
-  fputc(')', out);
+  fputs(").", out);
 }
 
 void kz_rest_print(const kz_parameters *parameters, FILE *out) {
@@ -109,9 +112,8 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out) {
   const double most = 4 * fmax(fmax(fabs(p->m), sqrt(2 * fabs(p->k))), 0.25);
   const drive_words words = words_of(parameters);
   const rest down = look(p->k, p->beta, p->m, most), inverted = look(-p->k, p->beta, p->m, most);
-  fputs("at rest: ", out);
-  print_position("down", &down, &words, out);
-  fputs("; ", out);
-  print_position("inverted", &inverted, &words, out);
+  print_position("hanging down", &down, &words, out);
+  fputc(' ', out);
+  print_position("upside down", &inverted, &words, out);
   fputc('\n', out);
 }

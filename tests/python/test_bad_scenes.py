@@ -157,7 +157,7 @@ SCENES = {
     "no velocity": ("pendulum: {k: 0, damping: 0.1, m: 0.5}\nbasin: {}\n", "2:8", "basin.velocity: is missing"),
     "no pendulum": (BASIN, "1:1", "pendulum: is missing"),
     "no study": ("pendulum: {k: 0, damping: 0.1, m: 0.5}\n", "1:1", "basin"),
-    "no parameters": ("pendulum: {}\n" + BASIN, "1:11", "pendulum.drive_frequency: is missing"),
+    "no parameters": ("pendulum: {}\n" + BASIN, "1:11", "also missing: pendulum.drive_amplitude"),
     "half of form a": ("pendulum: {drive_frequency: 11}\n" + BASIN, "1:11", "pendulum.drive_amplitude: is missing"),
     "half of form b": ("pendulum: {k: 0, m: 0.5}\n" + BASIN, "1:11", "pendulum.damping: is missing"),
     "half of form c": ("pendulum: {mass: 1, radius: 1}\n" + BASIN, "1:11",

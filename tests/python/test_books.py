@@ -7,7 +7,9 @@ import subprocess
 import pytest
 from conftest import ROOT
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs" / "howto").glob("*.md")), *sorted((ROOT / "docs" / "tutorials").glob("*.md"))]
+ELSEWHERE = {"cluster", "how-hard"}  # run by test_cluster.py, test_tutorial.py
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
+PAGES = [page for page in PAGES if page.stem not in ELSEWHERE]
 
 
 def blocks(page):
@@ -32,3 +34,12 @@ def test_the_commands_of_a_page_work(clone, page):
         words = ["bash", "-euc", text] if language == "bash" else [ROOT / ".venv" / "bin" / "python", "-c", text]
         done = subprocess.run(list(map(str, words)), cwd=clone, env=settings, capture_output=True, text=True, timeout=200)
         assert done.returncode == 0, text + done.stdout + done.stderr
+
+
+MESSAGES = re.findall(r"^\$ (kapitza .+)\n(.+)$", (ROOT / "docs" / "reference" / "messages.md").read_text(), re.MULTILINE)
+
+
+@pytest.mark.parametrize(("command", "message"), MESSAGES)
+def test_the_program_says_what_the_page_of_messages_shows(clone, command, message):
+    done = subprocess.run(["bash", "-c", f"build/{command}"], cwd=clone, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", message + "\n")

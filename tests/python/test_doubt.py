@@ -33,7 +33,7 @@ def test_shares_are_stored_told_and_warned_of(kapitza, tmp_path):
     assert shares["doubtful_share_high"] - shares["doubtful_share_low"] < 0.02
     assert 0.0003 < shares["differing_share"] < 0.003, "errors of a coarse map table"
     assert f"{100 * shares['doubtful_share']:.3g} % of the labels are doubtful" in summary
-    assert "warning: more than 5 % of the labels are doubtful" in summary and "labelled otherwise than by integration" in summary
+    assert "warning: more than 5 % of the labels are doubtful" in summary and "differ from the label by integration" in summary
 
 
 def test_sample_depends_on_the_scene_alone(kapitza, tmp_path):

@@ -53,7 +53,7 @@ def test_what_is_left_is_flagged_with_two_candidates(exact):
     basin = cells(folder / "s.h5")
     undecided = basin["evidence"] == UNDECIDED
     assert 0 < np.count_nonzero(undecided) == basin["undecided"] < 0.1 * undecided.size
-    assert f"{basin['undecided']} cells are undecided" in done.stdout
+    assert f"{basin['undecided']} cells are undecided (evidence 3)" in done.stdout
     assert np.array_equal(undecided, basin["other_attractor"] >= 0)
     assert np.all(basin["other_attractor"][undecided] != basin["attractor"][undecided])
     doubtful = np.count_nonzero(basin["evidence"] >= UNDECIDED) / undecided.size

@@ -1,4 +1,4 @@
-"""Numbers at the extremes: right, or refused with the way out, never silently wrong (docs/validation/extremes.md)."""
+"""Numbers at the limits: accurate, or refused with advice, never silently wrong (docs/validation/extremes.md)."""
 
 import math
 
@@ -185,7 +185,7 @@ def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
                                      "icm: {theta: 32, velocity: 32}, attractors: {starts: 16}}\n"
                                      "tradeoff: {samples: 64, settings: [direct-8, direct-96]}\n")
     done = kapitza("run", "x.yaml", folder=tmp_path)
-    assert "warning: steps that do not carry the motions of this window: direct-8\n" in done.stdout
+    assert "warning: these settings have too few steps for the speeds of this window: direct-8\n" in done.stdout
     with h5py.File(tmp_path / "x.h5") as file:
         wrong = dict(zip(file["tradeoff/label"].asstr()[:], file["tradeoff/wrong"][:], strict=True))
     assert wrong["direct-8"] > 0.2 > wrong["direct-96"]
@@ -193,7 +193,7 @@ def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
 
 def test_no_damping_is_no_attractor(model):
     labels, names, text, attributes = model(pendulum(beta=0.0))
-    assert (labels == -1).all() and names == [] and "without damping nothing attracts" in text
+    assert (labels == -1).all() and names == [] and "without damping there are no attractors" in text
     assert math.isnan(attributes["step_error"])
 
 

@@ -13,7 +13,7 @@ OMEGA = 2 * np.pi * 50
 
 
 def rest(text):
-    return next(line for line in text.splitlines() if line.startswith("at rest: "))
+    return next(line for line in text.splitlines() if line.startswith("Rest hanging down: "))
 
 
 def test_it_is_the_pendulum_that_it_says():
@@ -27,9 +27,9 @@ def test_it_is_the_pendulum_that_it_says():
 
 
 @pytest.mark.parametrize(("amplitude", "words"), [
-    ("8 mm", "inverted is stable (amplitude from 6.306 mm to 90.9"),
-    ("3 mm", "inverted is unstable (stable at amplitude from 6.306 mm to 90.9"),
-    ("120 mm", "down is unstable (stable at amplitude"),
+    ("8 mm", "upside down: stable (for amplitude from 6.306 mm to 90.9"),
+    ("3 mm", "upside down: unstable (stable for amplitude from 6.306 mm to 90.9"),
+    ("120 mm", "hanging down: unstable (stable for amplitude"),
 ])
 def test_the_first_line_says_what_stands(amplitude, words):
     """6.306 mm: near A = l sqrt(2 k), the classical threshold A omega > sqrt(2 g l), which Q raises a little."""
@@ -41,7 +41,7 @@ def test_the_first_line_says_what_stands(amplitude, words):
 def test_a_run_begins_with_that_line(tmp_path):
     few = {"basin.theta.count": 8, "basin.velocity.count": 8, "basin.attractors.starts": 64}
     result = kapitza.run(SCENE, set=few, progress=False)
-    assert result.summary.startswith("at rest: down is stable (amplitude up to")
+    assert result.summary.startswith("Rest hanging down: stable (for amplitude up to")
     assert result.pendulum["length"] == 0.2 and result.pendulum["pivot_amplitude"] == 0.008
     assert result.pendulum["pivot_frequency"] == pytest.approx(OMEGA) and result.pendulum["quality_factor"] == 20
 

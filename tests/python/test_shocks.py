@@ -122,7 +122,7 @@ def test_the_edge_is_a_listed_saddle(fig11):
     assert multipliers[0] > 1 > multipliers[1] > 0 and edge.attrs["exponent"] == pytest.approx(np.log(multipliers[0]))
     last = np.array([edge["theta"].values[-1], edge["velocity"].values[-1]])
     assert np.hypot(wrapped(last[0] - edge["strobe_theta"].values[0]), last[1] - edge["strobe_velocity"].values[0]) < 1e-3
-    assert "edge between inverted and" in summary
+    assert "Edge between inverted and" in summary
 
 
 def test_starts_that_end_alike_have_no_edge(kapitza, tmp_path):

@@ -60,7 +60,7 @@ def test_json_holds_the_whole_orbit():
     words = where(SMALL, "2.5", "-.7", *QUICK).stdout
     assert f"{answer['name']} (attractor {answer['attractor']})" in words and f"{answer['settling_time']} drive periods" in words
     assert answer["decided"] and (answer["precision"], answer["other_attractor"], answer["other_name"]) == ("double", -1, None)
-    assert f"yes, in double: off by at most {answer['error']:.2g} rad" in words
+    assert f"yes, in double precision (error at most {answer['error']:.2g} rad when" in words
 
 
 def test_all_digits_of_a_start_count():

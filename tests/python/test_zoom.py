@@ -31,7 +31,7 @@ def scene(folder, half, count, method, pendulum=PENDULUM, centre=(THETA, VELOCIT
 def test_labels_of_a_zoom_are_right(kapitza, tmp_path, method):
     """With the scheme's own 24 steps, off by 500 cells a period, 55 % of these labels are wrong."""
     done = kapitza("run", scene(tmp_path, 1e-7, 30, method), "--set", "basin.icm={theta: 500, velocity: 500}", folder=tmp_path)
-    assert "192 steps a drive period (its own number is 24)" in done.stdout and "warning: at speeds" not in done.stdout
+    assert "192 steps per drive period (its default is 24)" in done.stdout and "warning: at speeds" not in done.stdout
     comparison, _ = reference_check.check_file(tmp_path / "zoom.h5", 200, 1, 2, 4000)
     assert comparison["wrong"] <= 12 and comparison["unsettled"] == 0
     with h5py.File(tmp_path / "zoom.h5") as file:
@@ -72,7 +72,7 @@ def test_steps_that_are_given_and_too_few_are_refused(kapitza, tmp_path, command
 def test_steps_between_are_warned_of(kapitza, tmp_path):
     path = scene(tmp_path, 1e-5, 10, "direct", numerics={"steps_per_period": 48})
     done = kapitza("run", path, folder=tmp_path)
-    assert "warning: at speeds from 8.5 to 17 one drive period is off by up to" in done.stdout and "96 steps or more" in done.stdout
+    assert "warning: at speeds from 8.5 to 17 the error of one drive period is up to" in done.stdout and "96 steps or more" in done.stdout
 
 
 @pytest.mark.parametrize("half, pendulum, centre", [(1e-10, SMALL, (0.7, 1.42)), (1e-12, PENDULUM, (THETA, VELOCITY))])
@@ -86,7 +86,7 @@ def test_unsettled_cells_are_no_basin(kapitza, tmp_path):
     """They are left out of the measures, and that is said; where they are most cells, so are the measures."""
     grid = "basin={theta: {count: 100}, velocity: {min: -2, max: 2, count: 100}, method: direct, icm: {theta: 250, velocity: 250}}"
     (tmp_path / "x.yaml").write_text(json.dumps({"pendulum": SMALL}))
-    for damping, said, finite in ((5, "; unsettled cells are left out", True), (5000, "are left out: most cells are unsettled", False)):
+    for damping, said, finite in ((5, "Both leave unsettled cells out.", True), (5000, "because most cells did not settle", False)):
         done = kapitza("run", "x.yaml", "--set", grid, "--set", f"basin.max_periods={8 if damping > 5 else 100}",
                        "--set", f"pendulum.quality_factor={damping}", "--set", f"basin.attractors.starts={8 if damping > 5 else 256}",
                        "--force", folder=tmp_path)

@@ -72,18 +72,19 @@ static kz_status escalate(walk *w, const kz_run *run, double accuracy, kz_choice
 
 static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
   if (choice->setting == kz_setting_exact) {
-    fprintf(summary, "accuracy %.10g: exact: every label is decided or flagged", accuracy);
-    fprintf(summary, "; of the %lld other settings tried none meets it on %lld cells", (long long)choice->tried,
+    fprintf(summary, "accuracy %.10g: method exact is taken, which decides or flags every label", accuracy);
+    fprintf(summary, ". None of the %lld other settings is accurate enough on %lld sampled cells", (long long)choice->tried,
             (long long)choice->samples);
-    fprintf(summary, "\n");
+    fprintf(summary, ".\n");
     return;
   }
   const kz_share wrong = kz_share_of(choice->wrong, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
-  fprintf(summary,
-          "accuracy %.10g: %s, the cheapest of %lld settings tried that meets it: %lld of %lld cells wrong, at most %.3f %% "
-          "(95 %%); the last place of the start alone flips %.3f %%\n",
-          accuracy, choice->setting->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
-          100 * wrong.high, 100 * flips.share);
+  fprintf(
+      summary,
+      "accuracy %.10g: %s is the cheapest of %lld settings that is accurate enough: %lld of %lld sampled cells are wrong, at "
+      "most %.3f %% of all (95 %%). Rounding of the start alone changes %.3f %%.\n",
+      accuracy, choice->setting->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
+      100 * wrong.high, 100 * flips.share);
 }
 
 static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {

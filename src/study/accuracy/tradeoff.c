@@ -144,6 +144,6 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
 
 kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta > 0) return run_damped(scene, run, store, summary);
-  if (summary) fprintf(summary, "tradeoff: without damping nothing attracts, and no label can be wrong\n");
+  if (summary) fprintf(summary, "tradeoff: without damping there are no attractors, so there are no labels to compare.\n");
   return KZ_OK;
 }

@@ -72,14 +72,14 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
 static void tell_undecided(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   for (int64_t i = 0; i < trade->count; i++)
     if (trade->settings[i]->method == KZ_METHOD_EXACT)
-      fprintf(summary, "%s leaves %lld of %lld cells undecided, which count as neither right nor wrong\n",
+      fprintf(summary, "%s leaves %lld of %lld cells undecided; these count neither as right nor as wrong.\n",
               trade->settings[i]->label, (long long)trade->measured[i].undecided, (long long)reference->samples);
 }
 
 /* Names the settings whose labels are random here. */
 static void warn(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   const double fastest = kz_axis_fastest(&reference->plan->velocity);
-  const char *before = "warning: steps that do not carry the motions of this window: ";
+  const char *before = "warning: these settings have too few steps for the speeds of this window: ";
   for (int64_t i = 0; i < trade->count; i++) {
     if (kz_steps_carry(&reference->pendulum, trade->numerics + i, fastest)) continue;
     fprintf(summary, "%s%s", before, trade->settings[i]->label);

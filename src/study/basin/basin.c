@@ -140,7 +140,7 @@ static kz_status write_undamped(const kz_scene *scene, kz_store *store, FILE *su
   const kz_tiles tiles = kz_tiles_of(scene, KZ_TILE_CELLS);
   const kz_window_summary labels = {
       .cells = tiles.cells, .counts = {.unsettled = tiles.cells}, .step_error = NAN, .table_error = NAN};
-  fprintf(summary, "basin: without damping nothing attracts: every cell is labelled -1\n");
+  fprintf(summary, "basin: without damping there are no attractors, so every cell is labelled -1.\n");
   KZ_TRY(kz_basin_declare(scene, &tiles, store));
   KZ_TRY(kz_chunks_write_unsettled(&scene->basin, &tiles, store));
   return kz_basin_write(scene, &(kz_catalogue){0}, &labels, store, summary);

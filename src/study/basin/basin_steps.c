@@ -11,11 +11,12 @@ static void print_numerics(const kz_scene *scene, FILE *summary) {
   const kz_numerics *numerics = &scene->numerics;
   kz_scheme scheme;
   kz_scheme_row(numerics->scheme, &scheme);
-  fprintf(summary, "%s, %d steps a drive period", scheme.name, (int)numerics->steps_per_period);
+  fprintf(summary, "Integrator: %s%s, %d steps per drive period", scheme.name,
+          kz_is_processed(numerics->scheme) ? " splitting" : "", (int)numerics->steps_per_period);
   if (kz_is_processed(scene->asked.scheme) && !kz_is_processed(numerics->scheme) && isnan(scene->basin.accuracy))
-    fprintf(summary, " (processed does not reach numerics.tolerance = %g here)", scene->asked.tolerance);
+    fprintf(summary, " (processed does not reach numerics.tolerance = %g for this pendulum)", scene->asked.tolerance);
   else if (!kz_is_processed(numerics->scheme) && numerics->steps_per_period != scheme.default_steps)
-    fprintf(summary, " (its own number is %d)", (int)scheme.default_steps);
+    fprintf(summary, " (its default is %d)", (int)scheme.default_steps);
 }
 
 /* Pairs that are nearer than doubles can tell need labels in more precision. */
@@ -48,7 +49,7 @@ double kz_basin_warn_steps(const kz_scene *scene, FILE *summary) {
   const kz_speed_errors classes = kz_motions_errors(&motions);
   const double worst = kz_worst_error(&classes);
   print_numerics(scene, summary);
-  fprintf(summary, ": a period is off by at most %.2g rad, %.2g of a cell\n", worst, worst / motions.cell);
+  fprintf(summary, " (error per period <= %.2g rad, %.2g of a cell).\n", worst, worst / motions.cell);
   kz_motions_warn(&motions, &classes, summary);
   return worst;
 }

@@ -47,14 +47,14 @@ static measures find_measures(const kz_basin_plan *plan, const kz_window_summary
 static void print_measures(const measures *m, int64_t unsettled, FILE *summary) {
   const exponent *e = &m->exponent;
   if (isnan(m->entropy)) {
-    fprintf(summary, "basin entropy and uncertainty exponent are left out: most cells are unsettled\n");
+    fprintf(summary, "Basin entropy and uncertainty exponent are not computed, because most cells did not settle.\n");
     return;
   }
-  fprintf(summary, "basin entropy %.4f, at the boundaries %.4f", m->entropy, m->boundary_entropy);
+  fprintf(summary, "Basin entropy: %.4f, at the boundaries %.4f", m->entropy, m->boundary_entropy);
   if (!isnan(e->line.slope))
-    fprintf(summary, "; uncertainty exponent %.3f +- %.3f (of the line alone) over distances from %.3g to %.3g rad",
+    fprintf(summary, ". Uncertainty exponent: %.3f +- %.3f (standard error of the fit), for distances from %.3g to %.3g rad",
             e->line.slope, e->line.slope_stderr, e->nearest, e->farthest);
-  fprintf(summary, "%s\n", unsettled > 0 ? "; unsettled cells are left out" : "");
+  fprintf(summary, ".%s\n", unsettled > 0 ? " Both leave unsettled cells out." : "");
 }
 
 static kz_status write_measures(const kz_basin_plan *plan, const kz_window_summary *labels, kz_store *store, FILE *summary) {
@@ -113,23 +113,37 @@ kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_stor
   return kz_chunks_declare(&scene->basin, tiles, store);
 }
 
+static void print_settled(const kz_scene *scene, const kz_window_summary *labels, bool attracts, FILE *summary) {
+  const long long unsettled = labels->counts.unsettled, cells = labels->cells, periods = scene->basin.max_periods;
+  if (unsettled == 0)
+    fprintf(summary, "All %lld cells settled within %lld drive periods.\n", cells, periods);
+  else
+    fprintf(summary, "%lld of %lld cells did not settle within %lld drive periods.\n", unsettled, cells, periods);
+  if (unsettled > 0 && attracts)
+    fprintf(summary,
+            "Here a motion takes some %.0f periods to come e times closer to its attractor: a larger basin.max_periods or "
+            "basin.attractors.max_period may settle more cells.\n",
+            1 / (M_PI * scene->parameters.pendulum.beta));
+}
+
+static void print_decided(const kz_basin_plan *plan, const kz_window_summary *labels, FILE *summary) {
+  const long long undecided = labels->counts.undecided;
+  if (undecided == 0)
+    fputs("All cells are decided.\n", summary);
+  else
+    fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided,
+            plan->undecided == KZ_UNDECIDED_DECIDE ? "the largest number of digits that was tried does not tell where they end."
+                                                   : "their orbits need more than quad precision; basin.undecided: decide "
+                                                     "follows them further.");
+}
+
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary) {
   const kz_basin_plan *plan = &scene->basin;
-  const int64_t unsettled = labels->counts.unsettled;
   kz_catalogue_print(catalogue, true, summary);
-  fprintf(summary, "%lld of %lld cells did not settle within %lld periods", (long long)unsettled, (long long)labels->cells,
-          (long long)plan->max_periods);
-  if (unsettled > 0 && catalogue->count > 0)
-    fprintf(summary,
-            "; motions here shrink e-fold in some %.0f: basin.max_periods, or basin.attractors.max_period, may be too small",
-            1 / (M_PI * scene->parameters.pendulum.beta));
-  fprintf(summary, "\n");
+  print_settled(scene, labels, catalogue->count > 0, summary);
   if (plan->method == KZ_METHOD_EXACT) {
-    fprintf(summary, "%lld cells are undecided: %s\n", (long long)labels->counts.undecided,
-            plan->undecided == KZ_UNDECIDED_DECIDE
-                ? "no number of digits that was tried tells where they end"
-                : "quad precision does not tell where they end; basin.undecided decide does");
+    print_decided(plan, labels, summary);
     KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.undecided));
   }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));

@@ -39,16 +39,20 @@ static kz_status read_times(const kz_basin_plan *plan, kz_store *store, double *
 static void print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
   if (life->open == 0) return;
   if (life->ended >= ENOUGH)
-    fprintf(summary, "transients: after %.0f periods motions last %.4g periods more on the average (95 %%: %.4g to %.4g)",
+    fprintf(summary,
+            "Transients: a motion that has not settled after %.0f periods takes %.4g more on average (95 %% interval: %.4g to "
+            "%.4g).",
             life->from, life->mean, life->low, life->high);
   else
     fprintf(summary,
-            "transients: %lld motions have not settled and %lld of their kind have: they last %.3g periods or more (95 %%)",
+            "Transients: %lld motions have not settled and %lld have, so their mean time is at least %.3g periods (95 %%).",
             (long long)life->open, (long long)life->ended, life->low);
   if (life->mean < (double)max_periods / 5)
-    fprintf(summary, "; the %lld that are open are more than that leaves, and may never settle", (long long)life->open);
+    fprintf(summary, " The %lld that have not settled are more than this mean explains: they may never settle.",
+            (long long)life->open);
   else
-    fprintf(summary, "; the %lld that are open may be chaotic transients: a larger max_periods tells", (long long)life->open);
+    fprintf(summary, " The %lld that have not settled may be chaotic transients: try a larger basin.max_periods.",
+            (long long)life->open);
   fprintf(summary, "\n");
 }
 

@@ -49,25 +49,26 @@ static kz_status write_attractors(const kz_catalogue *catalogue, const kz_proof 
 }
 
 static void print_labels(const kz_counts *counts, int64_t cells, FILE *summary) {
-  fprintf(summary, "%.6g %% of the labels are proved, those of %lld cells in pairs of doubles; %lld cells are not proved\n",
+  fprintf(summary, "%.6g %% of the labels are proved, those of %lld cells in pairs of doubles. %lld labels are not proved.\n",
           100 * (double)counts->proved / (double)cells, (long long)counts->proved_in_pairs,
           (long long)(cells - counts->proved));
   if (counts->refuted > 0)
     fprintf(summary,
-            "warning: %lld of the proved cells had another label, or none: it is refuted and replaced; the numerics are too "
-            "coarse, or "
-            "basin.max_periods is too small\n",
+            "warning: the proof gives %lld cells another label than the method did; their labels are replaced. The numerics "
+            "are too "
+            "coarse, or basin.max_periods is too small.\n",
             (long long)counts->refuted);
 }
 
 static void print_sample(const kz_proof_sample *sample, FILE *summary) {
   if (sample->starts == 0)
-    fprintf(summary, "no attractor is proved, so no label can be\n");
+    fprintf(summary, "No attractor is proved, so no label is.\n");
   else
-    fprintf(summary,
-            "of %lld random real starts of the window %lld are not proved: less than %.2g of its area ends elsewhere (%.0f %% "
-            "confidence)\n",
-            (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
+    fprintf(
+        summary,
+        "Of %lld random real starts of the window %lld are not proved. So at most %.2g of the window's area ends on another "
+        "attractor than the proved ones (%.0f %% confidence).\n",
+        (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
 }
 
 kz_status kz_proof_write(const kz_proof *proof, const kz_catalogue *catalogue, int64_t cells, const kz_counts *counts,

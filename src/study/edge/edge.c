@@ -102,12 +102,17 @@ static kz_status publish(const edge_job *e, const kz_edge *edge, const double *o
   KZ_TRY(kz_store_text(store, "edge", "second_end", second));
   KZ_TRY(saddle_of(edge, store, &saddle));
   KZ_TRY(kz_store_integer(store, "edge", "saddle", saddle));
-  fprintf(summary, "edge between %s and %s: ", first, second);
+  fprintf(summary, "Edge between %s and %s: ", first, second);
   if (edge->period > 0)
-    fprintf(summary, "%s of period %d at %.10g, %.10g, multipliers %.10g and %.3g, after %" PRId64 " periods\n", full,
-            edge->period, edge->theta[0], edge->velocity[0], edge->multiplier_re[0], edge->multiplier_re[1], edge->n_periods);
+    fprintf(summary,
+            "%s of period %d at theta = %.10g, velocity = %.10g, with multipliers %.10g and %.3g, found after %" PRId64
+            " periods.\n",
+            full, edge->period, edge->theta[0], edge->velocity[0], edge->multiplier_re[0], edge->multiplier_re[1],
+            edge->n_periods);
   else
-    fprintf(summary, "no cycle of up to %" PRId64 " periods in %" PRId64 "; sides part by %.4g per period: %s\n",
+    fprintf(summary,
+            "no cycle of at most %" PRId64 " periods was found in %" PRId64
+            " periods; the distance of the two sides grows by exp(%.4g) per period: %s.\n",
             e->scene->edge.max_period, edge->n_periods, edge->exponent,
             edge->exponent > 0 ? "a chaotic saddle, or a long cycle" : "not settled");
   return KZ_OK;

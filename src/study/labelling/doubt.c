@@ -78,23 +78,25 @@ kz_doubt kz_doubt_of_all(int64_t doubtful, int64_t n) {
 static void tell(const kz_doubt *doubt, int32_t method, FILE *summary) {
   const kz_share *share = &doubt->doubtful, *other = &doubt->differing;
   if (method == KZ_METHOD_EXACT) {
-    fprintf(summary, "%.3g %% of the cells are doubtful by the scene's own numerics: followed again in more precision\n",
+    fprintf(summary,
+            "%.3g %% of the cells were doubtful at the first precision level and were followed again with more digits.\n",
             100 * share->share);
     return;
   }
   if (method == KZ_METHOD_DIRECT)
-    fprintf(summary, "%.3g %% of the labels are doubtful: steps and rounding may change them (evidence 9)\n",
+    fprintf(summary, "%.3g %% of the labels are doubtful (evidence 9): the error of the orbit may change them.\n",
             100 * share->share);
   if (method == KZ_METHOD_ICM)
     fprintf(summary,
-            "%.3g %% of the labels are doubtful (95 %%: %.3g to %.3g %%): steps and rounding may change them; %lld cells "
-            "integrated\n",
+            "%.3g %% of the labels are doubtful (95 %% interval: %.3g to %.3g %%): the error of the orbit may change them. "
+            "This is from "
+            "%lld cells that were integrated.\n",
             100 * share->share, 100 * share->low, 100 * share->high, (long long)doubt->cells);
   if (method == KZ_METHOD_ICM)
-    fprintf(summary, "%.3g %% more (95 %%: %.3g to %.3g %%) are labelled otherwise than by integration\n", 100 * other->share,
-            100 * other->low, 100 * other->high);
+    fprintf(summary, "%.3g %% more (95 %% interval: %.3g to %.3g %%) differ from the label by integration.\n",
+            100 * other->share, 100 * other->low, 100 * other->high);
   if (share->share > MANY)
-    fprintf(summary, "warning: more than %g %% of the labels are doubtful; basin.method exact decides nearly all of them\n",
+    fprintf(summary, "warning: more than %g %% of the labels are doubtful; basin.method: exact decides nearly all of them\n",
             100 * MANY);
 }
 

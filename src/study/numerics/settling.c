@@ -42,19 +42,19 @@ static void warn(const char *key, double beta, int64_t max_periods, FILE *out) {
   const double mean = kz_settling_mean(beta);
   const int64_t enough = kz_settling_periods(beta);
   if ((double)max_periods >= mean / 2) return;
-  fprintf(out, "warning: %s: hardly anything settles within %lld drive periods: with damping %g it takes some %.2g; ", key,
+  fprintf(out, "warning: %s: few motions settle within %lld drive periods: with damping %g they need some %.2g; ", key,
           (long long)max_periods, beta, mean);
   if ((double)enough >= mean)
-    fprintf(out, "%lld, or leave it out\n", (long long)enough);
+    fprintf(out, "give %lld, or leave it out\n", (long long)enough);
   else
-    fprintf(out, "more damping\n");
+    fprintf(out, "give more damping\n");
 }
 
 void kz_settling_warn(const kz_scene *scene, FILE *out) {
   const double beta = weakest_damping(scene);
   if (!(beta > 0) && (scene->has_basin || scene->has_attractors))
     fputs(
-        "warning: pendulum: has no damping: no motion attracts others, and no start gets a label; give damping, or ask for "
+        "warning: pendulum: has no damping, so there are no attractors and no start gets a label; give damping, or ask for "
         "orbit or saddles\n",
         out);
   if (!(beta > 0)) return;

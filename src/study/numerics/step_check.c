@@ -81,10 +81,10 @@ void kz_motions_warn(const kz_motions *m, const kz_speed_errors *classes, FILE *
   char help[160];
   for (int c = 0; c < KZ_SPEED_CLASSES; c++)
     if (classes->error[c] > m->warn_above)
-      fprintf(summary, "warning: %sat speeds from %.3g to %.3g one drive period is off by up to %.2g rad\n", m->where,
+      fprintf(summary, "warning: %sat speeds from %.3g to %.3g the error of one drive period is up to %.2g rad\n", m->where,
               classes->speed[c], classes->speed[c + 1], classes->error[c]);
   if (kz_worst_error(classes) <= m->warn_above) return;
   advice(m, sizeof help, help);
-  fprintf(summary, "warning: to get below %.2g rad per period at every speed: numerics.steps_per_period: %s\n", m->warn_above,
-          help);
+  fprintf(summary, "warning: for an error below %.2g rad per period at every speed: numerics.steps_per_period: %s\n",
+          m->warn_above, help);
 }

@@ -92,11 +92,11 @@ static void print_open(const kz_orbit *orbit, FILE *summary) {
   fprintf(summary, "orbit: %sopen record of %" PRId64 " period%s", p->chaotic ? "chaotic, " : "", orbit->motion.periods,
           orbit->motion.periods > 1 ? "s" : "");
   if (p->period > 0)
-    fprintf(summary, "; its lines tell n = %" PRId64 " (%s)", p->period, p->name);
+    fprintf(summary, "; its spectrum has period %" PRId64 " (%s)", p->period, p->name);
   else if (!p->chaotic)
-    fprintf(summary, "; its lines tell no period");
+    fprintf(summary, "; its spectrum shows no period");
   if (orbit->settles_on[0] && strcmp(orbit->settles_on, p->name) != 0)
-    fprintf(summary, "; it settles on %s", orbit->settles_on);
+    fprintf(summary, "; it settles on: %s", orbit->settles_on);
 }
 
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {

@@ -185,7 +185,7 @@ static void print_table(const writing *w, FILE *summary) {
   const kz_sweep_branches *b = w->branches;
   const bool shares = kz_sweep_measures(&w->scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
   if (b->n_branches == 0) {
-    fprintf(summary, "no attractor at any value (without damping nothing attracts)\n");
+    fprintf(summary, "no attractor at any value (without damping there are none)\n");
     return;
   }
   fprintf(summary, "branch  name                   from           begins by          to             ends by%s\n",
