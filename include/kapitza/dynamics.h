@@ -149,9 +149,10 @@ typedef struct {
 } kz_attractor;
 
 int64_t kz_dynamics_count(const kz_dynamics *dynamics);
-/* Attractor number = 1 ..; theta, velocity [period]: strobe points from the lowest velocity, theta in [-pi, pi). */
-void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t number, kz_attractor *attractor, double *theta,
-                           double *velocity);
+/* Attractor number = 1 .. */
+void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t number, kz_attractor *attractor);
+/* Its strobe points theta, velocity [period] from the lowest velocity, theta in [-pi, pi); none of a chaotic one. */
+void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number, double *theta, double *velocity);
 /* number [count]: the attractors in the order of the file. */
 void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);
 

@@ -10,7 +10,7 @@ module kz_kernel_processed_choice
   use kz_lanes_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness, is_sine
   use kz_lanes_step_table, only: numerics_t
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, PI_QUAD
   implicit none
   private
 
@@ -89,7 +89,6 @@ contains
     !> steps of the series, which halves them where they are too few
     integer, parameter :: STEPS = 16
     type(drive_t) :: drive
-    real(real128), parameter :: PI_QUAD = acos(-1.0_real128)
     real(real128) :: theta(N_PROBES), velocity(N_PROBES)
     integer(c_int64_t) :: turns(N_PROBES)
     integer :: i

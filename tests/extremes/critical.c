@@ -86,7 +86,8 @@ static void a_flip_is_never_mistaken(void **unused) {
     for (int64_t a = 1; a <= kz_dynamics_count(d); a++) {
       kz_attractor row;
       double theta[MOST], velocity[MOST];
-      kz_dynamics_attractor(d, a, &row, theta, velocity);
+      kz_dynamics_attractor(d, a, &row);
+      kz_dynamics_strobe(d, a, theta, velocity);
       if (row.period == 1) inverted++;
       if (row.period == 1 && distance > 0) fail_msg("inverted attracts at epsilon_c + %g", distance);
       if (row.period > 1 && distance < 0) fail_msg("a cycle of amplitude %g at epsilon_c - %g", row.amplitude, -distance);
@@ -112,7 +113,8 @@ static void mirror_images_are_two(void **unused) {
     kz_attractor row[2];
     double theta[2][MOST], velocity[2][MOST];
     for (int a = 0; a < count; a++) {
-      kz_dynamics_attractor(d, a + 1, &row[a], theta[a], velocity[a]);
+      kz_dynamics_attractor(d, a + 1, &row[a]);
+      kz_dynamics_strobe(d, a + 1, theta[a], velocity[a]);
       assert_int_equal(row[a].period, 1);
       assert_int_equal(row[a].mirror, 2 - a);
     }
@@ -150,7 +152,8 @@ static void attractors_close_together_are_told_apart(void **unused) {
       double theta[MOST], velocity[MOST];
       if (apart > 4e-7) assert_int_equal(label[i] > 0, i != STATES / 2); /* nearer ones may stay unsettled */
       if (label[i] == 0) continue;
-      kz_dynamics_attractor(d, label[i], &row, theta, velocity);
+      kz_dynamics_attractor(d, label[i], &row);
+      kz_dynamics_strobe(d, label[i], theta, velocity);
       if (!(velocity[0] * (i - STATES / 2) > 0)) fail_msg("apart %g: start %d goes to %g", apart, i, velocity[0]);
     }
     kz_dynamics_free(d);

@@ -298,3 +298,19 @@ def test_the_guide_names_files_that_exist():
     assert {path.name for path in (SOURCES / "dynamics").iterdir()} <= {folder.split("/")[2] for folder in folders if folder.count("/") > 1}
     assert {path.name for layer in ("study", "dynamics") for path in (SOURCES / layer).iterdir() if path.is_dir()} <= set(
         re.findall(r"\w+", drawn))
+
+
+# ---- constants that C and Fortran both need ----
+
+# (Fortran file, its name, C file, its name)
+SHARED = [("kernel/lanes/map.f90", "WIDTH", "src/kernel/lanes/lanes.h", "KZ_LANES"),
+          ("kernel/extended/taylor.f90", "TAYLOR_STEPS", "include/kapitza/kernel.h", "KZ_REFERENCE_STEPS"),
+          ("kernel/processed/stages.f90", "TERMS", "src/kernel/processed/tangents.c", "TERMS"),
+          ("model/pendulum.f90", "MOST_HARMONICS", "include/kapitza/model.h", "KZ_HARMONICS")]
+
+
+@pytest.mark.parametrize("fortran, name, c, name_in_c", SHARED)
+def test_constants_are_the_same_in_c_and_fortran(fortran, name, c, name_in_c):
+    there = re.search(rf"parameter.*:: .*\b{name} = (\d+)", (SOURCES / fortran).read_text())
+    here = re.search(rf"enum \{{[^}}]*\b{name_in_c} = (\d+)", (ROOT / c).read_text())
+    assert there and here and there[1] == here[1]

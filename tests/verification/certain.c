@@ -31,7 +31,8 @@ static int32_t circle_at(const kz_dynamics *d, double theta, double velocity) {
   double points[2][MOST_POINTS];
   kz_attractor row;
   for (int32_t a = 1; a <= kz_dynamics_count(d); a++) {
-    kz_dynamics_attractor(d, a, &row, points[0], points[1]);
+    kz_dynamics_attractor(d, a, &row);
+    kz_dynamics_strobe(d, a, points[0], points[1]);
     for (int i = 0; i < row.period; i++)
       if (hypot(wrapped(theta - points[0][i]), velocity - points[1][i]) < 1e-3) return a;
   }

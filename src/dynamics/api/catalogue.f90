@@ -88,25 +88,33 @@ contains
     n = size(d%attractors)
   end function attractor_count
 
-  subroutine attractor_row(handle, number, row, theta, velocity) bind(C, name='kz_dynamics_attractor')
+  subroutine attractor_row(handle, number, row) bind(C, name='kz_dynamics_attractor')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: number
     type(attractor_row_t), intent(out) :: row
-    real(dp), intent(inout) :: theta(*)
-    real(dp), intent(inout) :: velocity(*)
     type(dynamics_t), pointer :: d
-    integer :: n
 
     d => of_handle(handle)
     associate (a => d%attractors(number))
       row = attractor_row_t(a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, a%mean_velocity, &
                             a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
-      n = a%period
-      if (n == 0) return ! a chaotic attractor has no strobe points
-      theta(:n) = half_open(a%u)
-      velocity(:n) = a%v + 0.0_dp
     end associate
   end subroutine attractor_row
+
+  subroutine attractor_points(handle, number, theta, velocity) bind(C, name='kz_dynamics_strobe')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: number
+    real(dp), intent(inout) :: theta(*)
+    real(dp), intent(inout) :: velocity(*)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    associate (a => d%attractors(number))
+      if (a%period == 0) return
+      theta(:a%period) = half_open(a%u)
+      velocity(:a%period) = a%v + 0.0_dp
+    end associate
+  end subroutine attractor_points
 
   !> Half-turns to rad in [-pi, pi), never -0.
   elemental function half_open(u) result(theta)

@@ -3,9 +3,9 @@ module kz_api_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_extended_pairs, only: pair_of
-  use kz_extended_taylor, only: qp
+  use kz_extended_taylor, only: qp, PI_QUAD
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_levels, only: prepare_level, make_carrier, noise_of, LEVEL_DOUBLE
+  use kz_labels_levels, only: prepare_level, carrier_of, noise_of, LEVEL_DOUBLE
   use kz_labels_orbits, only: ending_t, follow_orbits, DOUBTFUL, PENDING
   use kz_lanes_map, only: PI
   use kz_maps_states, only: wrapped
@@ -16,7 +16,6 @@ module kz_api_label
   integer, parameter :: LEVEL_GUESS = -1, NONE = 8
   !> An orbit is followed at the next cheaper level once its error is so many times what that adds in a period.
   real(dp), parameter :: RATIO = 30
-  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
 
   !> kz_start and kz_decision of dynamics.h.
   type, bind(C) :: start_t
@@ -90,7 +89,7 @@ contains
     integer(c_int64_t), intent(in) :: most
     type(orbit_t), intent(inout) :: orbit(:)
     type(ending_t), intent(out) :: ending(:)
-    class(carrier_t), allocatable :: carrier
+    type(carrier_t) :: carrier
     type(orbit_t), allocatable :: some(:)
     type(ending_t), allocatable :: found(:)
     integer, allocatable :: place(:)
@@ -108,7 +107,7 @@ contains
         handover = RATIO*noise_of(d%levels, next)
       end if
       if (.not. any(ending%label == PENDING)) return
-      call make_carrier(d%levels, now, d%flow, carrier)
+      call carrier_of(d%levels, now, d%flow, carrier)
       if (.not. allocated(place)) then
         call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, orbit, ending)
       else

@@ -1,12 +1,14 @@
-!> What carries orbits and all that their errors need through a period. Regions see the states in the coordinates of the scene's map.
+!> What carries orbits and all that their errors need through a period: the scene's map alone, or more precision beside it. Then the tangent
+!> map is still that of the scene's map, which is enough for an error. Regions see the states in the coordinates of that map.
 module kz_labels_carrier
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_labels_inner, only: inner_t
   use kz_labels_period_error, only: period_error_t, class_of
   use kz_labels_spread, only: add_ellipse
   use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
   private
-  public :: orbit_t, carrier_t, plain_carrier_t, make_plain_carrier
+  public :: orbit_t, carrier_t, make_carrier
 
   !> An orbit at the end of a period.
   type :: orbit_t
@@ -17,7 +19,7 @@ module kz_labels_carrier
     integer(c_int64_t) :: age = 0 !< periods since it was released
   end type orbit_t
 
-  type, abstract :: carrier_t
+  type :: carrier_t
     !> states as regions see them: half-turns, rad per drive radian
     real(dp) :: u(CAPACITY) = 0
     real(dp) :: v(CAPACITY) = 0
@@ -27,130 +29,129 @@ module kz_labels_carrier
     real(dp) :: noise(WIDTH) = 0
     !> how far the states may be from where regions see them, rad
     real(dp) :: region_error(CAPACITY) = 0
+    class(flow_t), allocatable, private :: flow   !< the scene's map; between periods its lanes hold what regions see
+    type(period_error_t), private :: error        !< of that map
+    class(inner_t), allocatable, private :: inner !< more precision; not allocated: the map carries the orbits itself
   contains
     !> Puts an orbit into a lane; its error grows by what that costs.
-    procedure(put_i), deferred :: put
-    !> The physical state of a lane.
-    procedure(take_i), deferred :: take
-    !> Lanes first .. n become visible after they have been put.
-    procedure(to_map_i), deferred :: to_map
-    procedure(move_i), deferred :: move
-    !> One period of the lanes 1 .. n.
-    procedure(advance_i), deferred :: advance
-  end type carrier_t
-
-  abstract interface
-    subroutine put_i(self, lane, orbit)
-      import :: carrier_t, orbit_t
-      class(carrier_t), intent(inout) :: self
-      integer, intent(in) :: lane
-      type(orbit_t), intent(inout) :: orbit
-    end subroutine put_i
-
-    subroutine take_i(self, lane, orbit)
-      import :: carrier_t, orbit_t
-      class(carrier_t), intent(inout) :: self
-      integer, intent(in) :: lane
-      type(orbit_t), intent(inout) :: orbit
-    end subroutine take_i
-
-    subroutine to_map_i(self, first, n)
-      import :: carrier_t
-      class(carrier_t), intent(inout) :: self
-      integer, intent(in) :: first
-      integer, intent(in) :: n
-    end subroutine to_map_i
-
-    subroutine move_i(self, from, to)
-      import :: carrier_t
-      class(carrier_t), intent(inout) :: self
-      integer, intent(in) :: from
-      integer, intent(in) :: to
-    end subroutine move_i
-
-    subroutine advance_i(self, n)
-      import :: carrier_t
-      class(carrier_t), intent(inout) :: self
-      integer, intent(in) :: n
-    end subroutine advance_i
-  end interface
-
-  !> The scene's map alone.
-  type, extends(carrier_t) :: plain_carrier_t
-    private
-    class(flow_t), allocatable :: flow
-    type(period_error_t) :: error
-  contains
     procedure :: put
+    !> The physical state of a lane.
     procedure :: take
+    !> Lanes first .. n become visible after they have been put.
     procedure :: to_map
     procedure :: move
+    !> One period of the lanes 1 .. n.
     procedure :: advance
-  end type plain_carrier_t
+  end type carrier_t
 
 contains
 
-  !> Carries orbits by the scene's map.
-  subroutine make_plain_carrier(flow, error, carrier)
+  !> Carries orbits by the scene's map, or in the precision of `inner`.
+  subroutine make_carrier(flow, error, inner, carrier)
     !> the map of one drive period
     class(flow_t), intent(in) :: flow
     !> its errors
     type(period_error_t), intent(in) :: error
+    !> it is taken over; not allocated: by the map
+    class(inner_t), allocatable, intent(inout) :: inner
     !> the carrier
-    type(plain_carrier_t), intent(out) :: carrier
+    type(carrier_t), intent(out) :: carrier
 
     allocate (carrier%flow, source=flow)
     carrier%error = error
-  end subroutine make_plain_carrier
+    if (allocated(inner)) call move_alloc(inner, carrier%inner)
+  end subroutine make_carrier
 
-  !> What the state has below the last place of its doubles is left out.
+  !> The map leaves out what the state has below the last place of its doubles.
   subroutine put(self, lane, orbit)
-    class(plain_carrier_t), intent(inout) :: self
+    class(carrier_t), intent(inout) :: self
     integer, intent(in) :: lane
     type(orbit_t), intent(inout) :: orbit
+    real(dp) :: noise
 
-    call self%flow%put(lane, orbit%u(1), orbit%v(1))
-    call add_ellipse(orbit%lost + self%error%noise(class_of(self%error, orbit%v(1))) + PI*abs(orbit%u(2)) + abs(orbit%v(2)), orbit%p)
+    if (allocated(self%inner)) then
+      call self%inner%put(lane, orbit%u, orbit%v)
+      noise = self%inner%noise(orbit%v(1))
+    else
+      call self%flow%put(lane, orbit%u(1), orbit%v(1))
+      noise = self%error%noise(class_of(self%error, orbit%v(1))) + PI*abs(orbit%u(2)) + abs(orbit%v(2))
+    end if
+    call add_ellipse(orbit%lost + noise, orbit%p)
   end subroutine put
 
   subroutine take(self, lane, orbit)
-    class(plain_carrier_t), intent(inout) :: self
+    class(carrier_t), intent(inout) :: self
     integer, intent(in) :: lane
     type(orbit_t), intent(inout) :: orbit
 
-    orbit%u = [self%u(lane), 0.0_dp]
-    orbit%v = [self%v(lane), 0.0_dp]
+    if (allocated(self%inner)) then
+      call self%inner%take(lane, orbit%u, orbit%v)
+    else
+      orbit%u = [self%u(lane), 0.0_dp]
+      orbit%v = [self%v(lane), 0.0_dp]
+    end if
   end subroutine take
 
   subroutine to_map(self, first, n)
-    class(plain_carrier_t), intent(inout) :: self
+    class(carrier_t), intent(inout) :: self
     integer, intent(in) :: first
     integer, intent(in) :: n
 
-    call self%flow%to_map(n, first=first)
+    if (allocated(self%inner)) then
+      call self%inner%to_map(first, n)
+      call show(self, first, n)
+    else
+      call self%flow%to_map(n, first=first)
+    end if
     self%u(first:n) = self%flow%u(first:n)
     self%v(first:n) = self%flow%v(first:n)
   end subroutine to_map
 
+  !> Puts lanes first .. n, at most WIDTH, of the inner states into the map.
+  subroutine show(self, first, n)
+    class(carrier_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+    real(dp) :: u(CAPACITY), v(CAPACITY)
+    integer :: lane
+
+    call self%inner%show(first, n, u, v)
+    do lane = first, n
+      call self%flow%put(lane, u(lane), v(lane))
+      self%region_error(lane) = self%error%noise(class_of(self%error, v(lane)))
+    end do
+    call self%flow%to_map(n, first=first)
+  end subroutine show
+
   subroutine move(self, from, to)
-    class(plain_carrier_t), intent(inout) :: self
+    class(carrier_t), intent(inout) :: self
     integer, intent(in) :: from
     integer, intent(in) :: to
 
+    if (allocated(self%inner)) call self%inner%move(from, to)
     call self%flow%move(from, to)
     self%u(to) = self%u(from)
     self%v(to) = self%v(from)
+    self%region_error(to) = self%region_error(from)
   end subroutine move
 
   subroutine advance(self, n)
-    class(plain_carrier_t), intent(inout) :: self
+    class(carrier_t), intent(inout) :: self
     integer, intent(in) :: n
     integer :: lane
 
     do lane = 1, n
-      self%noise(lane) = self%error%noise(class_of(self%error, self%v(lane)))
+      if (allocated(self%inner)) then
+        self%noise(lane) = self%inner%noise(self%v(lane))
+      else
+        self%noise(lane) = self%error%noise(class_of(self%error, self%v(lane)))
+      end if
     end do
     call self%flow%advance_linear(n, self%tangent)
+    if (allocated(self%inner)) then
+      call self%inner%advance(n)
+      call show(self, 1, n)
+    end if
     self%u(:n) = self%flow%u(:n)
     self%v(:n) = self%flow%v(:n)
   end subroutine advance

@@ -2,14 +2,12 @@
 module kz_labels_inner
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
-  use kz_extended_taylor, only: drive_t, advance_period, qp
+  use kz_extended_taylor, only: drive_t, advance_period, qp, PI_QUAD
   use kz_labels_period_error, only: period_error_t, class_of
   use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
   private
   public :: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
-
-  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
 
   !> States of lanes in a precision of their own.
   type, abstract :: inner_t
@@ -18,11 +16,11 @@ module kz_labels_inner
     procedure(put_i), deferred :: put
     procedure(take_i), deferred :: take
     !> Lanes first .. n have been put.
-    procedure(to_map_i), deferred :: to_map
+    procedure :: to_map => in_any_coordinates
     procedure(move_i), deferred :: move
     procedure(advance_i), deferred :: advance
     !> Lanes first .. n in double precision.
-    procedure(show_i), deferred :: show
+    procedure :: show => show_high_parts
     !> What a period adds to the error of a state of speed v, rad.
     procedure(noise_i), deferred :: noise
   end type inner_t
@@ -44,13 +42,6 @@ module kz_labels_inner
       real(dp), intent(out) :: v(2)
     end subroutine take_i
 
-    subroutine to_map_i(self, first, n)
-      import :: inner_t
-      class(inner_t), intent(inout) :: self
-      integer, intent(in) :: first
-      integer, intent(in) :: n
-    end subroutine to_map_i
-
     subroutine move_i(self, from, to)
       import :: inner_t
       class(inner_t), intent(inout) :: self
@@ -63,15 +54,6 @@ module kz_labels_inner
       class(inner_t), intent(inout) :: self
       integer, intent(in) :: n
     end subroutine advance_i
-
-    subroutine show_i(self, first, n, u, v)
-      import :: inner_t, dp, CAPACITY
-      class(inner_t), intent(inout) :: self
-      integer, intent(in) :: first
-      integer, intent(in) :: n
-      real(dp), intent(inout) :: u(CAPACITY)
-      real(dp), intent(inout) :: v(CAPACITY)
-    end subroutine show_i
 
     pure function noise_i(self, v) result(noise)
       import :: inner_t, dp
@@ -104,10 +86,8 @@ module kz_labels_inner
   contains
     procedure :: put => pairs_put
     procedure :: take => pairs_take
-    procedure :: to_map => pairs_to_map
     procedure :: move => pairs_move
     procedure :: advance => pairs_advance
-    procedure :: show => pairs_show
     procedure :: noise => pairs_noise
   end type inner_pairs_t
 
@@ -120,14 +100,37 @@ module kz_labels_inner
   contains
     procedure :: put => quad_put
     procedure :: take => quad_take
-    procedure :: to_map => quad_to_map
     procedure :: move => quad_move
     procedure :: advance => quad_advance
-    procedure :: show => quad_show
     procedure :: noise => quad_noise
   end type inner_quad_t
 
 contains
+
+  subroutine in_any_coordinates(self, first, n)
+    class(inner_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+
+    associate (unused => self, unused_first => first, unused_last => n)
+    end associate
+  end subroutine in_any_coordinates
+
+  subroutine show_high_parts(self, first, n, u, v)
+    class(inner_t), intent(inout) :: self
+    integer, intent(in) :: first
+    integer, intent(in) :: n
+    real(dp), intent(inout) :: u(CAPACITY)
+    real(dp), intent(inout) :: v(CAPACITY)
+    real(dp) :: angle(2), speed(2)
+    integer :: lane
+
+    do lane = first, n
+      call self%take(lane, angle, speed)
+      u(lane) = angle(1)
+      v(lane) = speed(1)
+    end do
+  end subroutine show_high_parts
 
   subroutine fine_put(self, lane, u, v)
     class(inner_fine_t), intent(inout) :: self
@@ -217,14 +220,6 @@ contains
     v = self%v(lane, :)
   end subroutine pairs_take
 
-  subroutine pairs_to_map(self, first, n)
-    class(inner_pairs_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
-
-    if (n >= first) self%u(first:n, 2) = self%u(first:n, 2)
-  end subroutine pairs_to_map
-
   subroutine pairs_move(self, from, to)
     class(inner_pairs_t), intent(inout) :: self
     integer, intent(in) :: from
@@ -247,17 +242,6 @@ contains
     self%u(:n, :) = lanes%u(:n, :)
     self%v(:n, :) = lanes%v(:n, :)
   end subroutine pairs_advance
-
-  subroutine pairs_show(self, first, n, u, v)
-    class(inner_pairs_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
-    real(dp), intent(inout) :: u(CAPACITY)
-    real(dp), intent(inout) :: v(CAPACITY)
-
-    u(first:n) = self%u(first:n, 1)
-    v(first:n) = self%v(first:n, 1)
-  end subroutine pairs_show
 
   pure function pairs_noise(self, v) result(noise)
     class(inner_pairs_t), intent(in) :: self
@@ -287,14 +271,6 @@ contains
     v = pair_of(self%velocity(lane))
   end subroutine quad_take
 
-  subroutine quad_to_map(self, first, n)
-    class(inner_quad_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
-
-    if (n >= first) self%theta(first:n) = self%theta(first:n)
-  end subroutine quad_to_map
-
   subroutine quad_move(self, from, to)
     class(inner_quad_t), intent(inout) :: self
     integer, intent(in) :: from
@@ -312,17 +288,6 @@ contains
     turns = 0
     call advance_period(self%drive, self%theta(:n), self%velocity(:n), turns(:n))
   end subroutine quad_advance
-
-  subroutine quad_show(self, first, n, u, v)
-    class(inner_quad_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
-    real(dp), intent(inout) :: u(CAPACITY)
-    real(dp), intent(inout) :: v(CAPACITY)
-
-    u(first:n) = real(self%theta(first:n)/PI_QUAD, dp)
-    v(first:n) = real(self%velocity(first:n), dp)
-  end subroutine quad_show
 
   pure function quad_noise(self, v) result(noise)
     class(inner_quad_t), intent(in) :: self

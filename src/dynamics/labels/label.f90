@@ -3,25 +3,17 @@
 module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_lanes_map, only: map_t, WIDTH, CAPACITY
+  use kz_labels_lanes, only: queued_lanes_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
   public :: follow
 
-  !> An orbit belongs to a chaotic attractor once it has stayed in its cover for so many periods.
-  integer, parameter :: STAY = 64
-
   !> What the lanes of the map carry.
-  type :: lanes_t
-    integer :: active = 0              !< lanes 1 .. active are advanced
-    integer :: waiting = 0             !< starts that wait for a lane:
-    integer :: queue(WIDTH)            !< in these, the last first
+  type, extends(queued_lanes_t) :: lanes_t
     integer(c_int64_t) :: start(CAPACITY)  !< which start
-    integer(c_int64_t) :: age(CAPACITY)    !< periods since then
     integer(c_int64_t) :: most(CAPACITY)   !< periods that it is followed at most
-    integer :: guest_of(CAPACITY)          !< chaotic attractor whose cover it is in
-    integer :: stay(CAPACITY)              !< for so many periods
   end type lanes_t
 
 contains
@@ -65,16 +57,11 @@ contains
     !> A start that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.
     subroutine occupy(lane)
       integer, intent(in) :: lane
+      integer :: from
 
       if (lanes%waiting == 0) call let_in
-      if (lanes%waiting > 0) then
-        lanes%active = max(lanes%active, lane)
-        call move(map, lanes, lanes%queue(lanes%waiting), lane)
-        lanes%waiting = lanes%waiting - 1
-      else if (lane <= lanes%active) then
-        if (lane < lanes%active) call move(map, lanes, lanes%active, lane)
-        lanes%active = lanes%active - 1
-      end if
+      call lanes%next(lane, from)
+      if (from > 0) call move(map, lanes, from, lane)
     end subroutine occupy
 
     !> Puts the next starts into the lanes behind the first WIDTH. Those that lie inside a trapping region leave at once.
@@ -86,7 +73,7 @@ contains
         do i = WIDTH + 1, WIDTH + n
           lanes%start(i) = next
           lanes%most(i) = periods(next)
-          call map%put(i, state(1, next), state(2, next))
+          call map%put_start(i, next, state(1, next), state(2, next))
           next = next + 1
         end do
         lanes%age(WIDTH + 1:) = 0
@@ -95,8 +82,7 @@ contains
         call find_regions(regions, attractors, n, map%u(WIDTH + 1:WIDTH + n), map%v(WIDTH + 1:WIDTH + n), found)
         do i = n, 1, -1 ! the first start is to leave the queue first
           if (found(i) == 0 .and. lanes%most(WIDTH + i) > 0) then
-            lanes%waiting = lanes%waiting + 1
-            lanes%queue(lanes%waiting) = WIDTH + i
+            call lanes%wait(WIDTH + i)
           else
             call settle(WIDTH + i, found(i))
           end if
@@ -122,11 +108,9 @@ contains
     integer, intent(in) :: to
 
     call map%move(from, to)
+    call lanes%copy(from, to)
     lanes%start(to) = lanes%start(from)
-    lanes%age(to) = lanes%age(from)
     lanes%most(to) = lanes%most(from)
-    lanes%guest_of(to) = lanes%guest_of(from)
-    lanes%stay(to) = lanes%stay(from)
   end subroutine move
 
   !> What chaotic attractors make of the regions in which the lanes are.
@@ -135,31 +119,17 @@ contains
     type(regions_t), intent(in) :: regions
     type(lanes_t), intent(inout) :: lanes
     integer, intent(inout) :: region(WIDTH)
-    integer :: lane
+    integer :: lane, host
 
     if (size(regions%covered) == 0) return
     do lane = 1, lanes%active
       if (region(lane) > 0) then
         lanes%guest_of(lane) = 0
       else
-        call visit(lanes, lane, chaos_region(regions, map%u(lane), map%v(lane)), region(lane))
+        host = chaos_region(regions, map%u(lane), map%v(lane))
+        if (lanes%is_captured(lane, host)) region(lane) = host
       end if
     end do
   end subroutine visit_covers
-
-  !> An orbit that has stayed in a cover for STAY periods counts as captured from the period in which it entered.
-  subroutine visit(lanes, lane, host, region)
-    type(lanes_t), intent(inout) :: lanes
-    integer, intent(in) :: lane
-    !> the chaotic attractor whose cover it is in, or 0
-    integer, intent(in) :: host
-    integer, intent(inout) :: region
-
-    lanes%stay(lane) = merge(lanes%stay(lane) + 1, 1, host == lanes%guest_of(lane))
-    lanes%guest_of(lane) = host
-    if (host == 0 .or. lanes%stay(lane) < STAY) return
-    region = host
-    lanes%age(lane) = lanes%age(lane) - STAY + 1
-  end subroutine visit
 
 end module kz_labels_label

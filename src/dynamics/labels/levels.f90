@@ -3,12 +3,11 @@ module kz_labels_levels
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_extended_pairs, only: pairs_t, pair_series_t, make_pairs
-  use kz_extended_taylor, only: drive_t, make_drive
+  use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   use kz_kernel_flows, only: make_flow
-  use kz_labels_carrier, only: carrier_t, plain_carrier_t, make_plain_carrier
+  use kz_labels_carrier, only: carrier_t, make_carrier
   use kz_labels_inner, only: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
   use kz_labels_period_error, only: period_error_t, probes_t, make_probes, measure_period
-  use kz_labels_precise_carrier, only: precise_carrier_t, make_precise_carrier
   use kz_lanes_map, only: flow_t
   use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
   use kz_model_pendulum, only: is_sine, pendulum_t
@@ -16,7 +15,7 @@ module kz_labels_levels
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
   private
-  public :: levels_t, make_carrier, prepare_level, noise_of
+  public :: levels_t, carrier_of, prepare_level, noise_of
 
   !> Levels of dynamics.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
@@ -30,8 +29,6 @@ module kz_labels_levels
   real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 3e-29_dp]
   !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
   real(dp), parameter :: QUAD_ERROR = 1e-31_dp
-  !> Steps a period of the series.
-  integer, parameter :: QUAD_STEPS = 18
 
   type :: levels_t
     type(probes_t), allocatable :: probes
@@ -76,7 +73,7 @@ contains
     case (LEVEL_QUAD)
       if (.not. allocated(levels%drive)) then
         allocate (levels%drive)
-        call make_drive(levels%drive, pendulum, QUAD_STEPS)
+        call make_drive(levels%drive, pendulum, TAYLOR_STEPS)
       end if
     end select
     call ieee_set_flag(ieee_usual, .false.)
@@ -151,7 +148,7 @@ contains
   end function noise_of
 
   !> What carries orbits at a level that has been prepared.
-  subroutine make_carrier(levels, level, flow, carrier)
+  subroutine carrier_of(levels, level, flow, carrier)
     !> of a pendulum
     type(levels_t), target, intent(in) :: levels
     !> LEVEL_DOUBLE ..
@@ -159,22 +156,12 @@ contains
     !> the scene's map
     class(flow_t), intent(in) :: flow
     !> the carrier
-    class(carrier_t), allocatable, intent(out) :: carrier
-    type(plain_carrier_t), allocatable :: plain
-    type(precise_carrier_t), allocatable :: precise
+    type(carrier_t), intent(out) :: carrier
     class(inner_t), allocatable :: inner
 
-    if (level == LEVEL_DOUBLE) then
-      allocate (plain)
-      call make_plain_carrier(flow, levels%error, plain)
-      call move_alloc(plain, carrier)
-      return
-    end if
-    call make_inner(levels, level, inner)
-    allocate (precise)
-    call make_precise_carrier(inner, flow, levels%error, precise)
-    call move_alloc(precise, carrier)
-  end subroutine make_carrier
+    if (level /= LEVEL_DOUBLE) call make_inner(levels, level, inner)
+    call make_carrier(flow, levels%error, inner, carrier)
+  end subroutine carrier_of
 
   subroutine make_inner(levels, level, inner)
     type(levels_t), target, intent(in) :: levels

@@ -5,6 +5,7 @@ module kz_labels_orbits
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_bending, only: measure_bending, SAFETY
+  use kz_labels_lanes, only: queued_lanes_t
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors
   use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
@@ -22,9 +23,6 @@ module kz_labels_orbits
   real(dp), parameter :: LINEAR = 1e-4_dp
   !> Points of an ellipse's rim that a trapping region must hold.
   integer, parameter :: RIM = 8
-  !> An orbit belongs to a chaotic attractor once it has stayed in its cover for so many periods.
-  integer, parameter :: STAY = 64
-
   !> Where an orbit ends.
   type :: ending_t
     integer(c_int32_t) :: label = PENDING !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
@@ -34,18 +32,12 @@ module kz_labels_orbits
   end type ending_t
 
   !> What lanes carry besides their states.
-  type :: lanes_t
-    integer :: active = 0             !< lanes 1 .. active are advanced
-    integer :: waiting = 0            !< orbits that wait for a lane:
-    integer :: queue(WIDTH)           !< in these, the last first
-    real(dp) :: p(WIDTH, 3) = 0       !< errors
-    real(dp) :: coming(3, CAPACITY) = 0   !< of orbits that wait
+  type, extends(queued_lanes_t) :: lanes_t
+    real(dp) :: p(WIDTH, 3) = 0         !< errors
+    real(dp) :: coming(3, CAPACITY) = 0 !< of orbits that wait
     integer(c_int64_t) :: number(CAPACITY) = 0
-    integer(c_int64_t) :: age(CAPACITY) = 0
-    integer :: first(CAPACITY) = 0        !< trapping region that holds the state alone, 0 = none yet
+    integer :: first(CAPACITY) = 0      !< trapping region that holds the state alone, 0 = none yet
     integer(c_int64_t) :: since(CAPACITY) = 0
-    integer :: guest_of(CAPACITY) = 0     !< chaotic attractor whose cover it is in
-    integer :: stay(CAPACITY) = 0         !< for so many periods
     logical :: doubted(CAPACITY) = .false.
   end type lanes_t
 
@@ -55,7 +47,7 @@ contains
   !> that is below TOLERABLE.
   subroutine follow_orbits(carrier, flow, regions, attractors, most, handover, guess, orbit, ending)
     !> what moves the orbits by one period
-    class(carrier_t), intent(inout) :: carrier
+    type(carrier_t), intent(inout) :: carrier
     !> the scene's map
     class(flow_t), intent(in) :: flow
     !> the trapping regions
@@ -121,18 +113,17 @@ contains
     !> An orbit that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.
     subroutine occupy(lane)
       integer, intent(in) :: lane
+      integer :: from
 
       if (lanes%waiting == 0) call let_in
-      if (lanes%waiting > 0) then
-        lanes%active = max(lanes%active, lane)
-        lanes%p(lane, :) = lanes%coming(:, lanes%queue(lanes%waiting))
-        call move(carrier, lanes, lanes%queue(lanes%waiting), lane)
-        lanes%waiting = lanes%waiting - 1
-      else if (lane <= lanes%active) then
-        lanes%p(lane, :) = lanes%p(lanes%active, :)
-        if (lane < lanes%active) call move(carrier, lanes, lanes%active, lane)
-        lanes%active = lanes%active - 1
+      call lanes%next(lane, from)
+      if (from == 0) return
+      if (from > WIDTH) then
+        lanes%p(lane, :) = lanes%coming(:, from)
+      else
+        lanes%p(lane, :) = lanes%p(from, :)
       end if
+      call move(carrier, lanes, from, lane)
     end subroutine occupy
 
     !> Puts the next orbits into the lanes behind the first WIDTH. Those that are done leave at once.
@@ -149,28 +140,26 @@ contains
         call carrier%to_map(WIDTH + 1, WIDTH + n)
         call find_regions(regions, attractors, n, carrier%u(WIDTH + 1:WIDTH + n), carrier%v(WIDTH + 1:WIDTH + n), found)
         do i = n, 1, -1 ! the first orbit is to leave the queue first
-          if (.not. enters(WIDTH + i, found(i))) cycle
-          lanes%waiting = lanes%waiting + 1
-          lanes%queue(lanes%waiting) = WIDTH + i
+          if (is_followed(WIDTH + i, found(i))) call lanes%wait(WIDTH + i)
         end do
       end do
     end subroutine let_in
 
     !> Is an orbit to be followed that has just been put? Not where it is trapped at once.
-    logical function enters(lane, region)
+    logical function is_followed(lane, region)
       integer, intent(in) :: lane
       integer, intent(in) :: region
 
-      enters = .true.
+      is_followed = .true.
       if (region > 0) call note_region(lanes, lane, region, guess)
       if (region > 0 .and. sum(lanes%coming([1, 3], lane)) < TOLERABLE**2) &
-        enters = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%coming(:, lane), carrier%region_error(lane), region)
-      if (.not. enters) call settle(lane, region, .true., lanes%coming(:, lane))
-      if (enters .and. lanes%age(lane) >= most) then
-        enters = .false.
+        is_followed = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%coming(:, lane), carrier%region_error(lane), region)
+      if (.not. is_followed) call settle(lane, region, .true., lanes%coming(:, lane))
+      if (is_followed .and. lanes%age(lane) >= most) then
+        is_followed = .false.
         call settle(lane, merge(lanes%first(lane), merge(DOUBTFUL, 0, region > 0), guess), .false., lanes%coming(:, lane))
       end if
-    end function enters
+    end function is_followed
 
     !> Is the orbit to be followed on? Else its ending is noted.
     logical function is_open(lane, region, trace)
@@ -178,6 +167,7 @@ contains
       integer, intent(in) :: region
       real(dp), intent(in) :: trace
       logical :: late
+      integer :: host
 
       is_open = .true.
       late = lanes%age(lane) >= most
@@ -195,7 +185,9 @@ contains
           is_open = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%p(lane, :), carrier%region_error(lane), region)
         if (.not. is_open) call settle(lane, region, .true., lanes%p(lane, :))
       else if (with_covers) then
-        call visit(lane, is_open)
+        host = chaos_region(regions, carrier%u(lane), carrier%v(lane))
+        is_open = .not. lanes%is_captured(lane, host)
+        if (.not. is_open) call settle(lane, host, .true., lanes%p(lane, :))
       end if
       if (.not. is_open) return
       if (lanes%doubted(lane) .and. lanes%guest_of(lane) == 0 .and. (.not. guess .or. lanes%first(lane) > 0)) then
@@ -208,21 +200,6 @@ contains
       end if
       is_open = .false.
     end function is_open
-
-    !> An orbit that has stayed in a cover for STAY periods counts as captured from the period in which it entered.
-    subroutine visit(lane, is_open)
-      integer, intent(in) :: lane
-      logical, intent(inout) :: is_open
-      integer :: host
-
-      host = chaos_region(regions, carrier%u(lane), carrier%v(lane))
-      lanes%stay(lane) = merge(lanes%stay(lane) + 1, 1, host == lanes%guest_of(lane))
-      lanes%guest_of(lane) = host
-      if (host == 0 .or. lanes%stay(lane) < STAY) return
-      is_open = .false.
-      lanes%age(lane) = lanes%age(lane) - STAY + 1
-      call settle(lane, host, .true., lanes%p(lane, :))
-    end subroutine visit
 
     !> The orbit leaves as it is.
     subroutine pass_on(lane)
@@ -279,18 +256,16 @@ contains
   end subroutine note_region
 
   subroutine move(carrier, lanes, from, to)
-    class(carrier_t), intent(inout) :: carrier
+    type(carrier_t), intent(inout) :: carrier
     type(lanes_t), intent(inout) :: lanes
     integer, intent(in) :: from
     integer, intent(in) :: to
 
     call carrier%move(from, to)
+    call lanes%copy(from, to)
     lanes%number(to) = lanes%number(from)
-    lanes%age(to) = lanes%age(from)
     lanes%first(to) = lanes%first(from)
     lanes%since(to) = lanes%since(from)
-    lanes%guest_of(to) = lanes%guest_of(from)
-    lanes%stay(to) = lanes%stay(from)
     lanes%doubted(to) = lanes%doubted(from)
   end subroutine move
 

@@ -2,7 +2,7 @@
 !> true images are known.
 module kz_labels_period_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD, TAYLOR_STEPS
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t
   implicit none
@@ -14,9 +14,6 @@ module kz_labels_period_error
   integer, parameter :: EACH = 32, N_PROBES = CLASSES*EACH
   !> How much more than the largest value of its probes is assumed for a class.
   real(dp), parameter :: MARGIN = 1.5_dp
-  !> Steps a period of the Taylor series (kernel.h).
-  integer, parameter :: TAYLOR_STEPS = 18
-  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
 
   !> States up to a speed and their images.
   type :: probes_t

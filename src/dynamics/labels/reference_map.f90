@@ -6,12 +6,10 @@ module kz_labels_reference_map
   use kz_lanes_map, only: map_t, flow_t, put_state, move_state, WIDTH, CAPACITY, PI
   use kz_model_pendulum, only: pendulum_t
   use kz_maps_states, only: wrapped
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD
   implicit none
   private
   public :: reference_map_t, make_reference_map
-
-  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
 
   type, extends(map_t) :: reference_map_t
     private
@@ -20,10 +18,9 @@ module kz_labels_reference_map
     real(qp) :: velocity(CAPACITY) = 0 !< rad per drive radian
     real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
     real(dp), allocatable :: low(:, :)    !< (2, n): what is to be added to them
-    integer :: last = 0 !< number of the start that was put last
     class(flow_t), allocatable :: flow !< in whose coordinates the trapping regions see the states
   contains
-    procedure :: put
+    procedure :: put_start
     procedure :: move
     procedure :: advance
     procedure :: to_map
@@ -31,7 +28,7 @@ module kz_labels_reference_map
 
 contains
 
-  !> A map of starts given in rad: they are put in their order, each by its half-turns u, and moved as exact numbers.
+  !> A map of starts given in rad: they are put by their numbers and half-turns u, and moved as exact numbers.
   subroutine make_reference_map(map, pendulum, n_steps, flow, start, u, low)
     !> the map
     type(reference_map_t), intent(out) :: map
@@ -57,18 +54,17 @@ contains
     allocate (map%flow, source=flow)
   end subroutine make_reference_map
 
-  !> Puts the next start, which is (u, v) in double precision.
-  subroutine put(self, lane, u, v)
+  subroutine put_start(self, lane, number, u, v)
     class(reference_map_t), intent(inout) :: self
     integer, intent(in) :: lane
+    integer(c_int64_t), intent(in) :: number
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
 
-    self%last = self%last + 1
     call put_state(self, lane, u, v)
-    self%theta(lane) = real(self%start(1, self%last), qp) + self%low(1, self%last)
-    self%velocity(lane) = real(self%start(2, self%last), qp) + self%low(2, self%last)
-  end subroutine put
+    self%theta(lane) = real(self%start(1, number), qp) + self%low(1, number)
+    self%velocity(lane) = real(self%start(2, number), qp) + self%low(2, number)
+  end subroutine put_start
 
   subroutine to_map(self, n, matrix, first)
     class(reference_map_t), intent(inout) :: self

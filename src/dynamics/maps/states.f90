@@ -1,7 +1,7 @@
 !> States of the stroboscopic map, (half-turns, rad per drive radian): their distance, and when two count as one.
 module kz_maps_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use, intrinsic :: iso_fortran_env, only: qp => real128
+  use kz_extended_taylor, only: qp, PI_QUAD
   use kz_lanes_map, only: flow_t, WIDTH, PI
   implicit none
   private
@@ -10,7 +10,6 @@ module kz_maps_states
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
-  real(qp), parameter :: PI_QUAD = acos(-1.0_qp)
   !> Half-turns of a free flight of unit velocity from the strobe to mid-period. (Loops over vectors take it: a function of another
   !> file would be called state by state.)
   real(dp), parameter :: MIDPERIOD = 1

@@ -11,20 +11,17 @@ module kz_extended_pairs
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
   use kz_model_pendulum, only: pendulum_t, is_sine
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, PI => PI_QUAD, TAYLOR_STEPS
   implicit none
   private
   public :: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs, pair_of, quad_of
 
   integer, parameter :: qp = real128
-  real(qp), parameter :: PI = acos(-1.0_qp)
   !> Numbers of steps are multiples of STRIDE. With more steps the Taylor series cost no more.
   integer, parameter :: STRIDE = 8, FEWEST_STEPS = 48, MOST_STEPS = 1920
   !> The speeds of the first table, and how much faster those of the next are.
   real(c_double), parameter :: SLOWEST = 2.5_c_double, RATIO = 2
   integer, parameter :: MOST_LEVELS = 8
-  !> Steps a period of the Taylor series (kernel.h).
-  integer, parameter :: TAYLOR_STEPS = 18
   !> Probes of each table: states with its speeds, both ends included; how much more than their largest error is assumed; and what
   !> the rounding of a period is.
   integer, parameter :: N_PROBES = 2*WIDTH

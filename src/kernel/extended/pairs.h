@@ -4,13 +4,12 @@
 
 #include <stdint.h>
 
-/* Lanes of a batch (lanes/map.f90). */
-enum { KZ_PAIRS_WIDTH = 64 };
+#include "lanes/lanes.h"
 
 /* Angles (half-turns) and velocities (rad per drive radian), each high + low. */
 typedef struct {
-  double u[2][KZ_PAIRS_WIDTH];
-  double v[2][KZ_PAIRS_WIDTH];
+  double u[2][KZ_LANES];
+  double v[2][KZ_LANES];
 } kz_pair_lanes;
 
 /* The stages of one period and the wrap of the angles to [-1, 1]; turns [n]: the net number of turns. row [n_stages + 1][n_row]: of

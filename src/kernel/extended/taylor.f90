@@ -10,7 +10,10 @@ module kz_extended_taylor
   public :: drive_t, make_drive, advance_period, qp
 
   integer, parameter :: qp = real128
-  real(qp), parameter :: TWO_PI = 2*acos(-1.0_qp)
+  !> Steps a period with which every period is right to some 1e-32: KZ_REFERENCE_STEPS of kernel.h.
+  integer, parameter, public :: TAYLOR_STEPS = 18
+  real(qp), parameter, public :: PI_QUAD = acos(-1.0_qp)
+  real(qp), parameter :: TWO_PI = 2*PI_QUAD
   !> How often steps may be halved.
   integer, parameter :: FINEST = 24
 

@@ -25,6 +25,8 @@ module kz_lanes_map
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state
+    !> Puts start number `number`, which is (u, v) in double precision.
+    procedure :: put_start
     !> Copies lane `from` over lane `to`.
     procedure :: move => move_state
     !> Advances the lanes 1 .. n (or all) by one period.
@@ -116,6 +118,19 @@ contains
     self%v(lane) = v
     self%turns(lane) = 0
   end subroutine put_state
+
+  !> The states of a map are doubles: which start it is does not matter.
+  subroutine put_start(self, lane, number, u, v)
+    class(map_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    integer(c_int64_t), intent(in) :: number
+    real(c_double), intent(in) :: u
+    real(c_double), intent(in) :: v
+
+    associate (unused => number)
+    end associate
+    call self%put(lane, u, v)
+  end subroutine put_start
 
   !> Copies the state of a lane to another one.
   subroutine move_state(self, from, to)

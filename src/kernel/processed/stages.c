@@ -10,8 +10,8 @@ enum { VECTOR_BYTES = 64 };
 #else
 enum { VECTOR_BYTES = 32 };
 #endif
-/* Lanes of a batch (lanes/map.f90), of a vector, and vectors at once. */
-enum { WIDTH = 64, LANES = VECTOR_BYTES / 8, CHAINS = 8 };
+/* Lanes of a vector, and vectors at once. */
+enum { LANES = VECTOR_BYTES / 8, CHAINS = 8 };
 #define EACH _Pragma("GCC unroll 8") for (int i = 0; i < CHAINS; i++)
 static const double round_to_even = 0x3p52; /* adding it rounds to an even integer */
 
@@ -19,7 +19,7 @@ typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(d
 
 typedef float narrow __attribute__((vector_size(VECTOR_BYTES / 2), aligned(sizeof(float)), may_alias));
 
-/* keep: into kept go the squares of the reduced angles at each kick, WIDTH a stage. */
+/* keep: into kept go the squares of the reduced angles at each kick, KZ_LANES a stage. */
 static inline __attribute__((always_inline)) void block(int n_drift, int n_kick, int64_t n_stages, const double *restrict row,
                                                         vector *u, vector *v, bool keep, float *restrict kept) {
   vector a[CHAINS], b[CHAINS], r[CHAINS], q[CHAINS], p[CHAINS];
@@ -34,7 +34,7 @@ static inline __attribute__((always_inline)) void block(int n_drift, int n_kick,
     EACH q[i] = r[i] * r[i];
     if (keep) {
       EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(q[i], narrow);
-      kept += WIDTH;
+      kept += KZ_LANES;
     }
     EACH p[i] = row[n_drift + n_kick - 1] * q[i] + row[n_drift + n_kick - 2];
     for (int j = n_kick - 3; j >= 0; j--) EACH p[i] = p[i] * q[i] + row[n_drift + j];

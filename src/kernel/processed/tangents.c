@@ -7,8 +7,8 @@ enum { VECTOR_BYTES = 64, CHAINS = 4 };
 #else
 enum { VECTOR_BYTES = 32, CHAINS = 2 };
 #endif
-/* Lanes of a batch (lanes/map.f90), of a vector, and coefficients of a slope (stages.f90). */
-enum { WIDTH = 64, LANES = VECTOR_BYTES / 4, TERMS = 5 };
+/* Lanes of a vector, and coefficients of a slope (stages.f90). */
+enum { LANES = VECTOR_BYTES / 4, TERMS = 5 };
 #define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
 
 typedef float vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(float)), may_alias));
@@ -24,7 +24,7 @@ void kz_processed_tangents(int64_t n_stages, const float *row, float last, float
     vector uu[CHAINS], uv[CHAINS], vu[CHAINS], vv[CHAINS], p[CHAINS];
     EACH uu[i] = vv[i] = 1 + (vector){0};
     EACH uv[i] = vu[i] = (vector){0};
-    for (int64_t s = 0; s < n_stages; s++, r += 1 + TERMS, q += WIDTH) {
+    for (int64_t s = 0; s < n_stages; s++, r += 1 + TERMS, q += KZ_LANES) {
       EACH uu[i] += r[0] * vu[i];
       EACH uv[i] += r[0] * vv[i];
       EACH p[i] = r[TERMS] + (vector){0};
@@ -37,8 +37,8 @@ void kz_processed_tangents(int64_t n_stages, const float *row, float last, float
     EACH vu[i] *= decay;
     EACH vv[i] *= decay;
     store(c + first, uu);
-    store(c + WIDTH + first, uv);
-    store(c + 2 * WIDTH + first, vu);
-    store(c + 3 * WIDTH + first, vv);
+    store(c + KZ_LANES + first, uv);
+    store(c + 2 * KZ_LANES + first, vu);
+    store(c + 3 * KZ_LANES + first, vv);
   }
 }

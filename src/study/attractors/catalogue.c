@@ -17,10 +17,10 @@ void kz_catalogue_free(kz_catalogue *catalogue) {
 }
 
 static void fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
-  size_t most = (size_t)kz_dynamics_packed_size(dynamics);
-  entry->theta = kz_calloc(most, sizeof(double));
-  entry->velocity = kz_calloc(most, sizeof(double));
-  kz_dynamics_attractor(dynamics, number, &entry->row, entry->theta, entry->velocity);
+  kz_dynamics_attractor(dynamics, number, &entry->row);
+  entry->theta = kz_calloc((size_t)entry->row.period + 1, sizeof(double));
+  entry->velocity = kz_calloc((size_t)entry->row.period + 1, sizeof(double));
+  kz_dynamics_strobe(dynamics, number, entry->theta, entry->velocity);
   kz_orbit_name(entry->row.period, entry->row.winding, entry->row.centre, entry->name);
   if (entry->row.centre > 1) entry->row.amplitude = NAN;
 }

@@ -72,12 +72,12 @@ static kz_status find_seed(void *context, int64_t tile, void *record) {
   const job *j = context;
   seed *s = record;
   kz_attractor attractor;
-  const size_t most = (size_t)kz_dynamics_packed_size(j->dynamics);
-  double *point = kz_calloc(2 * most, sizeof *point);
-  kz_dynamics_attractor(j->dynamics, tile + 1, &attractor, point, point + most);
+  kz_dynamics_attractor(j->dynamics, tile + 1, &attractor);
+  double *point = kz_calloc(2 * (size_t)attractor.period + 2, sizeof *point);
+  kz_dynamics_strobe(j->dynamics, tile + 1, point, point + attractor.period + 1);
   s->mirror = attractor.mirror;
   s->theta = point[0];
-  s->velocity = point[most];
+  s->velocity = point[attractor.period + 1];
   free(point);
   if (attractor.period > 0 && attractor.mirror >= tile + 1 && attractor.mirror <= KZ_PROOF_MOST)
     s->ellipse = kz_proof_find_ellipse(j->proof, attractor.period, s->theta, s->velocity);

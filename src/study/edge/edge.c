@@ -39,15 +39,12 @@ static kz_status edge_tile(void *context, int64_t tile, void *record) {
 }
 
 static void name_of(const edge_job *e, int32_t number, char name[KZ_NAME_LENGTH]) {
-  const size_t capacity = (size_t)kz_dynamics_packed_size(e->dynamics);
-  double *points = kz_malloc(2 * capacity * sizeof *points);
   kz_attractor row;
   snprintf(name, KZ_NAME_LENGTH, "not settled");
   if (number > 0) {
-    kz_dynamics_attractor(e->dynamics, number, &row, points, points + capacity);
+    kz_dynamics_attractor(e->dynamics, number, &row);
     kz_orbit_name(row.period, row.winding, row.centre, name);
   }
-  free(points);
 }
 
 /* The id in the group saddles, -1 = not there. */

@@ -9,13 +9,9 @@
 enum { SHRUNK = 30, LEAST_PERIODS = 2000, MOST_STEPS = 1000000, LONGEST_CYCLE = 48 };
 
 static void name_attractor(const kz_dynamics *dynamics, int64_t number, char *name) {
-  const size_t most = (size_t)kz_dynamics_packed_size(dynamics);
-  double *theta = kz_calloc(most, sizeof *theta), *velocity = kz_calloc(most, sizeof *velocity);
   kz_attractor row;
-  kz_dynamics_attractor(dynamics, number, &row, theta, velocity);
+  kz_dynamics_attractor(dynamics, number, &row);
   kz_orbit_name(row.period, row.winding, row.centre, name);
-  free(theta);
-  free(velocity);
 }
 
 kz_status kz_settles_on(const kz_model *model, kz_state state, double fastest, char *name) {

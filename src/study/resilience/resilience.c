@@ -75,15 +75,12 @@ static void mirror(const int32_t *mirrored, const kz_resilience *found, kz_resil
 /* mirrored [count + 1]: the number of each attractor's mirror image, to be freed. */
 static int32_t *mirrors_of(const kz_dynamics *dynamics) {
   const int64_t n = kz_dynamics_count(dynamics);
-  const size_t capacity = (size_t)kz_dynamics_packed_size(dynamics);
   int32_t *mirrored = kz_calloc((size_t)n + 1, sizeof *mirrored);
-  double *points = kz_malloc(2 * capacity * sizeof *points);
   for (int64_t number = 1; number <= n; number++) {
     kz_attractor row;
-    kz_dynamics_attractor(dynamics, number, &row, points, points + capacity);
+    kz_dynamics_attractor(dynamics, number, &row);
     mirrored[number] = row.mirror;
   }
-  free(points);
   return mirrored;
 }
 

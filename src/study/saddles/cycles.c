@@ -7,7 +7,8 @@
 
 static void fill(const kz_dynamics *dynamics, int64_t number, kz_listed_cycle *entry) {
   char name[KZ_NAME_LENGTH];
-  kz_dynamics_attractor(dynamics, number, &entry->row, entry->theta, entry->velocity);
+  kz_dynamics_attractor(dynamics, number, &entry->row);
+  kz_dynamics_strobe(dynamics, number, entry->theta, entry->velocity);
   entry->unstable = hypot(entry->row.multiplier_re[0], entry->row.multiplier_im[0]) > 1;
   kz_orbit_name(entry->row.period, entry->row.winding, entry->row.centre, name);
   snprintf(entry->name, sizeof entry->name, "%s%.*s", entry->unstable ? "unstable " : "", KZ_NAME_LENGTH - 10, name);

@@ -119,14 +119,13 @@ static kz_status label_grid(searching *s) {
 /* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
 static int64_t count_hits(const searching *s) {
   kz_attractor row;
-  double *points = s->state; /* holds strobe points: at least CHUNK pairs */
   const int64_t total = s->scene->basin.theta.count * s->scene->basin.velocity.count;
   for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->label[i]]++;
   if (s->n_cells == 0) return s->n_starts;
   for (int64_t i = 0; i < s->n_cells; i++) {
     s->hits[s->cell[i]]++;
     if (total - 1 - i < s->n_cells || s->cell[i] == 0) continue;
-    kz_dynamics_attractor(s->dynamics, s->cell[i], &row, points, points + CHUNK);
+    kz_dynamics_attractor(s->dynamics, s->cell[i], &row);
     s->hits[row.mirror]++;
   }
   return total;
@@ -135,7 +134,8 @@ static int64_t count_hits(const searching *s) {
 static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirror) {
   kz_attractor row;
   double *theta = s->state, *velocity = s->state + CHUNK;
-  kz_dynamics_attractor(s->dynamics, number, &row, theta, velocity);
+  kz_dynamics_attractor(s->dynamics, number, &row);
+  kz_dynamics_strobe(s->dynamics, number, theta, velocity);
   *mirror = row.mirror;
   kz_sweep_entry entry = {.hits = s->hits[number],
                           .shock = {NAN, NAN, NAN},

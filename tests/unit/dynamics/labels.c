@@ -31,7 +31,8 @@ static void test_mirrored_labels(void **state) {
       kz_attractor row;
       double theta[12], velocity[12];
       assert_true(a[i] > 0);
-      kz_dynamics_attractor(d, a[i], &row, theta, velocity);
+      kz_dynamics_attractor(d, a[i], &row);
+      kz_dynamics_strobe(d, a[i], theta, velocity);
       assert_int_equal(b[i], row.mirror);
       assert_int_equal(pa[i], pb[i]);
     }
@@ -76,8 +77,10 @@ static void test_processed(void **state) {
       kz_attractor row, same;
       double theta[2][12], velocity[2][12];
       rank[order[i]] = order_reference[i];
-      kz_dynamics_attractor(d, order[i], &row, theta[0], velocity[0]);
-      kz_dynamics_attractor(reference, order_reference[i], &same, theta[1], velocity[1]);
+      kz_dynamics_attractor(d, order[i], &row);
+      kz_dynamics_strobe(d, order[i], theta[0], velocity[0]);
+      kz_dynamics_attractor(reference, order_reference[i], &same);
+      kz_dynamics_strobe(reference, order_reference[i], theta[1], velocity[1]);
       assert_int_equal(row.period, same.period);
       for (int j = 0; j < row.period; j++) assert_true(fabs(velocity[0][j] - velocity[1][j]) < 1e-12);
       /* the product of the multipliers is the contraction of areas */
@@ -101,7 +104,8 @@ static void test_processed(void **state) {
       unlike_cells += cells[i] != label[i];
       assert_true(label[i] > 0 || mirrored[i] == 0); /* on an attractor that the search has missed */
       if (label[i] == 0) continue;
-      kz_dynamics_attractor(d, label[i], &row, theta, velocity);
+      kz_dynamics_attractor(d, label[i], &row);
+      kz_dynamics_strobe(d, label[i], theta, velocity);
       assert_int_equal(mirrored[i], row.mirror);
     }
     print_message("m = %g: %d of %d labels unlike split6 with 96 steps, %d with grown regions\n", cases[c].m, unlike, N,
