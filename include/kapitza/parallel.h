@@ -1,6 +1,6 @@
 /* parallel: who works on which tile; progress, stop requests, checkpoints (MPI; layer 2).
  *
- * One mechanism: a stage is n_tiles independent pieces of work, each giving one record of fixed size. Ranks draw tiles in
+ * One mechanism: a stage is n_tiles independent pieces of work, each giving one record of fixed size. Ranks take tiles in
  * batches from rank 0. The result depends on the tiles alone, never on who did them. */
 #ifndef KAPITZA_PARALLEL_H
 #define KAPITZA_PARALLEL_H
@@ -126,8 +126,8 @@ typedef struct {
   int64_t n, capacity;
   kz_local_record *list; /* [n], in no order */
 } kz_local_records;
-void kz_local_records_add(kz_local_records *pieces, int64_t tile, const void *data, size_t bytes);
-void kz_local_records_free(kz_local_records *pieces);
+void kz_local_records_add(kz_local_records *records, int64_t tile, const void *data, size_t bytes);
+void kz_local_records_free(kz_local_records *records);
 
 /* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, of kz_ranks only
  * kz_ranks_interrupted. */
@@ -169,6 +169,6 @@ typedef struct {
   void *context;
 } kz_delivery;
 /* Delivers the pieces of all ranks. KZ_STOPPED as kz_stage_run. Collective. */
-kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *pieces, const kz_delivery *delivery);
+kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *records, const kz_delivery *delivery);
 
 #endif

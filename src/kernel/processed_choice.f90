@@ -64,7 +64,7 @@ contains
       call fit_terms(pendulum, series, probes, tolerance, numerics, error)
       status = OK
     else
-      call climb(pendulum, series, probes, tolerance, numerics, error)
+      call compare_terms(pendulum, series, probes, tolerance, numerics, error)
       if (error <= tolerance) status = OK
     end if
     call ieee_set_flag(ieee_usual, .false.)
@@ -140,7 +140,7 @@ contains
 
   !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, tells
   !> how many steps the method needs at least.
-  subroutine climb(pendulum, series, probes, tolerance, numerics, error)
+  subroutine compare_terms(pendulum, series, probes, tolerance, numerics, error)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
     type(probes_t), intent(in) :: probes
@@ -168,7 +168,7 @@ contains
         error = candidate_error
       end do
     end do
-  end subroutine climb
+  end subroutine compare_terms
 
   !> How many steps of a candidate cost less than what is chosen.
   pure function cheaper_steps(chosen, candidate) result(steps)

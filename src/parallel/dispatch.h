@@ -1,10 +1,10 @@
-/* Tiles are drawn by plain messages: rank 0 gives them away in batches, from a thread of its own, so that it answers amid its
+/* Tiles are given away by plain messages: rank 0 grants some at a time, from a thread of its own, so that it answers amid its
  * own tiles.
  *
  *   rank -> 0   ask: seconds it takes for a tile; whether it still works, is idle, or cannot go on
  *   0 -> rank   tiles first .. first + n - 1; whether asking again makes sense
  *
- * A rank begins with the tile of its own number, unasked, and asks for the next batch before the last tile of the present one. */
+ * A rank begins with the tile of its own number, unasked, and asks for the next tiles before the last tile of the present one. */
 #ifndef KAPITZA_PARALLEL_DISPATCH_H
 #define KAPITZA_PARALLEL_DISPATCH_H
 
@@ -16,34 +16,34 @@
 typedef struct {
   int64_t first, n; /* tiles */
   int64_t more;     /* 0: there are no others */
-} kz_batch;
+} kz_grant;
 
 typedef struct {
   kz_ranks *ranks;
   int64_t n_done;
   double busy;        /* s, between a tile and the next request for one */
   double handed;      /* s, kz_clock: when the present tile was handed out; 0 = there is none */
-  kz_batch batch;     /* in hand */
-  kz_batch granted;   /* the answer to a request that is under way */
+  kz_grant grant;     /* in hand */
+  kz_grant next;      /* the answer to a request that is under way */
   MPI_Request answer; /* MPI_REQUEST_NULL: none is awaited */
   /* rank 0 alone; under ranks->mutex while the thread runs */
   kz_schedule schedule;
-  int asking;  /* ranks that will ask once more */
-  bool halted; /* nobody gets any more */
+  int will_ask; /* ranks that will ask once more */
+  bool halted;  /* nobody gets any more */
   bool threaded;
   pthread_t thread;
   int mpi_error; /* of the thread, MPI_SUCCESS */
 } kz_dispatch;
 
 /* Prepares for `n_tiles` tiles; no messages. To be ended on every rank, whatever it returns. */
-void kz_dispatch_prepare(kz_dispatch *draw, kz_ranks *ranks, int64_t n_tiles);
+void kz_dispatch_prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles);
 /* Rank 0 answers from here on; no rank but through kz_dispatch may use MPI before kz_dispatch_end. */
-void kz_dispatch_begin(kz_dispatch *draw);
+void kz_dispatch_begin(kz_dispatch *dispatch);
 /* The next tile of this rank; -1 where none is left, or a rank has halted. */
-kz_status kz_dispatch_next(kz_dispatch *draw, int64_t *tile);
+kz_status kz_dispatch_next(kz_dispatch *dispatch, int64_t *tile);
 /* This rank cannot go on, and no other gets more than it has. */
-kz_status kz_dispatch_halt(kz_dispatch *draw);
+kz_status kz_dispatch_halt(kz_dispatch *dispatch);
 /* Rank 0 waits until all others know that nothing is left. */
-kz_status kz_dispatch_end(kz_dispatch *draw);
+kz_status kz_dispatch_end(kz_dispatch *dispatch);
 
 #endif

@@ -9,26 +9,26 @@
 enum { TAG = 4, END = 5, BUFFERS = 4 };
 static const size_t MESSAGE_MAX = (size_t)1 << 30;
 
-void kz_local_records_add(kz_local_records *pieces, int64_t tile, const void *data, size_t bytes) {
-  if (pieces->n == pieces->capacity) {
-    const int64_t capacity = 2 * pieces->capacity + 16;
-    pieces->list = kz_realloc(pieces->list, (size_t)capacity * sizeof *pieces->list);
-    pieces->capacity = capacity;
+void kz_local_records_add(kz_local_records *records, int64_t tile, const void *data, size_t bytes) {
+  if (records->n == records->capacity) {
+    const int64_t capacity = 2 * records->capacity + 16;
+    records->list = kz_realloc(records->list, (size_t)capacity * sizeof *records->list);
+    records->capacity = capacity;
   }
   void *copy = kz_malloc(bytes + 1);
-  pieces->list[pieces->n++] = (kz_local_record){tile, bytes, memcpy(copy, data, bytes)};
+  records->list[records->n++] = (kz_local_record){tile, bytes, memcpy(copy, data, bytes)};
 }
 
-void kz_local_records_free(kz_local_records *pieces) {
-  for (int64_t i = 0; i < pieces->n; i++) free(pieces->list[i].data);
-  free(pieces->list);
-  *pieces = (kz_local_records){0};
+void kz_local_records_free(kz_local_records *records) {
+  for (int64_t i = 0; i < records->n; i++) free(records->list[i].data);
+  free(records->list);
+  *records = (kz_local_records){0};
 }
 
 typedef struct {
   kz_ranks *ranks;
   const kz_delivery *delivery;
-  const kz_local_records *pieces;
+  const kz_local_records *records;
   char *buffer[BUFFERS + 1];        /* [message_bytes]; the last one is for rank 0's own */
   MPI_Request request[BUFFERS + 1]; /* messages on their way, rank 0: and the end of a rank's; MPI_REQUEST_NULL: none */
   int64_t sent;                     /* by the rank that has ended; rank 0 */
@@ -42,8 +42,8 @@ typedef struct {
 
 static kz_status make(mail *m, int64_t i, char *buffer, size_t *bytes) {
   const kz_stopwatch watch = kz_stopwatch_start();
-  const kz_status status = m->delivery->make(m->delivery->context, &m->pieces->list[i], buffer, bytes);
-  kz_work_note(&m->making, m->pieces->list[i].tile, &watch);
+  const kz_status status = m->delivery->make(m->delivery->context, &m->records->list[i], buffer, bytes);
+  kz_work_note(&m->making, m->records->list[i].tile, &watch);
   return status;
 }
 
@@ -59,7 +59,7 @@ static kz_status take(mail *m, const char *buffer, size_t bytes) {
 static kz_status send_pieces(mail *m) {
   kz_status status = KZ_OK;
   int64_t i = 0;
-  for (; i < m->pieces->n; i++) {
+  for (; i < m->records->n; i++) {
     const int slot = (int)(i % BUFFERS);
     size_t bytes = 0;
     int all;
@@ -123,12 +123,12 @@ static kz_status receive_rest(mail *m, kz_status *status) {
   return KZ_OK;
 }
 
-/* Rank 0 takes what has come between two pieces of its own. */
+/* Rank 0 takes what has come between two records of its own. */
 static kz_status take_pieces(mail *m) {
   kz_status status = KZ_OK;
   const bool alone = m->ranks->size == 1;
   for (int slot = 0; !alone && slot <= BUFFERS; slot++) KZ_TRY(expect(m, slot));
-  for (int64_t i = 0; i < m->pieces->n && status == KZ_OK; i++) {
+  for (int64_t i = 0; i < m->records->n && status == KZ_OK; i++) {
     size_t bytes = 0;
     if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
     status = make(m, i, m->buffer[BUFFERS], &bytes);
@@ -165,10 +165,10 @@ static kz_status deliver(mail *m, int64_t total) {
   return status;
 }
 
-kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *pieces, const kz_delivery *delivery) {
-  mail m = {.ranks = ranks, .delivery = delivery, .pieces = pieces};
+kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *records, const kz_delivery *delivery) {
+  mail m = {.ranks = ranks, .delivery = delivery, .records = records};
   for (int i = 0; i <= BUFFERS; i++) m.request[i] = MPI_REQUEST_NULL;
-  int64_t total = pieces->n;
+  int64_t total = records->n;
   kz_status status = kz_ranks_agree(ranks, local_records_allocate(&m));
   if (status == KZ_OK) status = kz_ranks_sum(ranks, &total, 1);
   if (status == KZ_OK) status = deliver(&m, total);

@@ -25,7 +25,7 @@ typedef struct {
   int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
   kz_record_buffer buffered;
   void *buffer; /* of the delivery, rank 0; of a record among pieces */
-  kz_dispatch draw;
+  kz_dispatch dispatch;
   kz_work work;
   kz_meter meter;
 } stage_run;
@@ -107,7 +107,7 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
 static kz_status do_tiles(stage_run *run) {
   for (;;) {
     int64_t drawn;
-    KZ_TRY(kz_dispatch_next(&run->draw, &drawn));
+    KZ_TRY(kz_dispatch_next(&run->dispatch, &drawn));
     if (drawn < 0) return KZ_OK;
     kz_meter_show(&run->meter, run->stage->n_tiles - run->n_left + drawn);
     const int64_t tile = run->left ? run->left[drawn] : drawn;
@@ -116,7 +116,7 @@ static kz_status do_tiles(stage_run *run) {
     if (status == KZ_OK) status = do_tile(run, tile);
     kz_work_note(&run->work, tile, &watch);
     if (status != KZ_OK) {
-      KZ_TRY(kz_dispatch_halt(&run->draw));
+      KZ_TRY(kz_dispatch_halt(&run->dispatch));
       return status;
     }
   }
@@ -146,10 +146,10 @@ static kz_status work_collectively(stage_run *run) {
 }
 
 static kz_status dispatch_tiles(stage_run *run) {
-  kz_dispatch_prepare(&run->draw, run->ranks, run->n_left);
-  kz_dispatch_begin(&run->draw);
+  kz_dispatch_prepare(&run->dispatch, run->ranks, run->n_left);
+  kz_dispatch_begin(&run->dispatch);
   const kz_status status = do_tiles(run);
-  const kz_status ended = kz_dispatch_end(&run->draw);
+  const kz_status ended = kz_dispatch_end(&run->dispatch);
   return kz_ranks_agree(run->ranks, status == KZ_OK ? ended : status);
 }
 

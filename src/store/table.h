@@ -23,6 +23,8 @@ typedef struct {
 #define PERIODS "1|drive periods"
 #define RATE "1|1 per drive period"
 #define NONE "1"
+/* Meanings that several have. */
+#define CENTRES "down", "inverted", "rotating", "none"
 
 /* The part of the table for the groups attractors and basin. */
 extern const kz_variable kz_basin_variables[];
