@@ -83,7 +83,8 @@ def _interrupted(status: int, path: Path, named: bool) -> str:
 
 @dataclass(frozen=True)
 class Check:
-    """What a scene would model: `scene` with every default, `studies`, `cells`, `seconds` on one core; `text`: the program's page."""
+    """What a scene would model: `scene` with every default, `studies`, `cells`, `seconds` on one core (a lower bound where the
+    page says "more than"); `text`: the program's page."""
 
     scene: str
     studies: list[str]
@@ -100,7 +101,7 @@ def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
     asked = Scene(scene, set)
     text = ask(["check", asked.path, *asked.sets], asked)
     facts = {name: value for name, value in re.findall(r"^(studies|cells|estimated time) +(.*)$", text, re.MULTILINE)}
-    number, unit = facts["estimated time"].split()[:2]
+    number, unit = facts["estimated time"].removeprefix("more than ").split()[:2]
     seconds = float(number) * {"s": 1, "min": 60, "h": 3600}[unit]
     return Check(text.split("\n\n")[1] + "\n", facts["studies"].split(), int(facts["cells"]), seconds, text)
 

@@ -106,6 +106,14 @@ double kz_memory_limit(const char *groups, const char *mount);
 /* "12.3 MB" in text [32]. */
 void kz_cost_print_bytes(double bytes, char *text);
 
+/* s of processor time on one core that a run of the scene would take, by samples of its work, which may take 15 s themselves; where they
+ * take longer, a lower bound. */
+typedef struct {
+  double seconds;
+  bool is_whole; /* false: a lower bound */
+} kz_estimate;
+kz_status kz_estimate_time(const kz_scene *scene, kz_estimate *estimate);
+
 /* A scene as text in memory (kz_scene_write), and what a resumed run must share. NULL without memory; the caller frees. */
 char *kz_scene_resolved(const kz_scene *scene);
 char *kz_scene_fingerprint(const kz_scene *scene);

@@ -37,20 +37,7 @@ static void print_duration(double seconds) {
     printf("%.3g h", seconds / 3600.0);
 }
 
-/* Seconds of processor time on one core. A run reads the scene as this process has just done, starts MPI and writes a file. */
-static kz_status measure_studies(const kz_scene *scene, double *seconds) {
-  static const double starting = 0.06;
-  *seconds = starting + kz_processor_clock();
-  for (int i = 0; i < kz_study_count; i++) {
-    double some = 0;
-    if (!kz_studies[i].wanted(scene)) continue;
-    KZ_TRY(kz_studies[i].measure(scene, &some));
-    *seconds += some;
-  }
-  return KZ_OK;
-}
-
-static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, double seconds) {
+static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, const kz_estimate *estimate) {
   char disk[32], memory[32], first[32], shared[32];
   const kz_cost cost = kz_cost_of(scene);
   kz_cost_print_bytes(cost.disk_bytes, disk);
@@ -68,7 +55,8 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
       "\ncells            %lld\ndisk             %s\nmemory per rank  %s, on the first %s more, %s divided by the number of "
       "ranks\nestimated time   ",
       (long long)cost.cells, disk, memory, first, shared);
-  print_duration(seconds);
+  if (!estimate->is_whole) fputs("more than ", stdout);
+  print_duration(estimate->seconds);
   puts(" on one core, divided by the number of ranks");
 }
 
@@ -76,11 +64,11 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   char *resolved = kz_scene_resolved(scene);
   const kz_cost cost = kz_cost_of(scene);
   kz_status status = resolved ? kz_cost_check(&cost, NULL) : kz_fail(KZ_FAILED, "out of memory");
-  double seconds = 0;
+  kz_estimate estimate;
   if (status == KZ_OK) status = kz_studies_check(scene);
-  if (status == KZ_OK) status = measure_studies(scene, &seconds);
+  if (status == KZ_OK) status = kz_estimate_time(scene, &estimate);
   if (status == KZ_OK) {
-    print_check(options, scene, resolved, seconds);
+    print_check(options, scene, resolved, &estimate);
     kz_warnings_print(scene, stdout);
   }
   free(resolved);

@@ -8,6 +8,9 @@
 
 enum { POINTS = 4000, HALVINGS = 40 };
 
+/* |k| + |m| up to which the answer takes less than a second. */
+static const double STIFFEST = 1e5;
+
 /* The interval of drives m about `at` in which the position keeps its answer, or the next one in which it is stable. */
 typedef struct {
   bool stable;      /* at the scene's drive */
@@ -109,6 +112,10 @@ static void print_position(const char *name, const rest *r, const drive_words *w
 void kz_rest_print(const kz_parameters *parameters, FILE *out) {
   const kz_pendulum *p = &parameters->pendulum;
   if (isnan(p->k)) return;
+  if (kz_stiffness(p) > STIFFEST) {
+    fprintf(out, "at rest: not looked at, for |k| + |m| is above %g\n", STIFFEST);
+    return;
+  }
   const double most = 4 * fmax(fmax(fabs(p->m), sqrt(2 * fabs(p->k))), 0.25);
   const drive_words words = words_of(parameters);
   const rest down = look(p->k, p->beta, p->m, most), inverted = look(-p->k, p->beta, p->m, most);

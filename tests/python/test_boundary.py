@@ -69,7 +69,7 @@ def test_distances_below_the_last_place_of_a_double(kapitza, tmp_path):
     assert np.all((low < known)[apart] & (known < high)[apart])
     assert group["slope_low"].values[-2] < 1 < group["slope_high"].values[-2]
     (tmp_path / "s.yaml").write_text(json.dumps(scene(0.15)))
-    done = kapitza("check", "s.yaml", "--set", "basin.boundary.decades=11", folder=tmp_path, status=2)
+    done = kapitza("check", "s.yaml", "--set", "basin.method=direct", "--set", "basin.boundary.decades=11", folder=tmp_path, status=2)
     assert "basin.boundary.decades: 11 go down to 1e-13 rad" in done.stderr
 
 

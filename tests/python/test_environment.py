@@ -20,7 +20,7 @@ def run(words, folder, **more):
     return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, timeout=120, **more)
 
 
-@pytest.mark.parametrize("method", ["icm", "direct"])
+@pytest.mark.parametrize("method", ["icm", "exact"])
 def test_a_small_stack_is_enough(tmp_path, method):
     words = [PROGRAM, "run", SMALL, *FEW, "--set", f"basin.method={method}"]
     done = run(["bash", "-c", 'ulimit -s 512; exec "$@"', "limited", *words], tmp_path)
@@ -38,6 +38,24 @@ def test_few_descriptors_end_a_rank_with_a_word(tmp_path):
     words = ["mpirun", "-n", "2", "bash", "-c", 'ulimit -n 18; exec "$@"', "limited", PROGRAM, "run", SMALL, *FEW]
     done = run(words, tmp_path)
     assert done.returncode == 2 and "Too many open files" in done.stderr and not list(tmp_path.iterdir()), done.stderr
+
+
+# Of such a pendulum's motions no number of steps is enough, which takes seconds to find out.
+STIFF = [PROGRAM, "run", SMALL, "--set", "pendulum.drive_amplitude=9e6"]
+
+
+def test_the_time_limit_is_heard_before_modelling(tmp_path):
+    done = run([*STIFF, "--time-limit", "0.5"], tmp_path)
+    assert done.returncode == 75 and "time limit" in done.stderr and not list(tmp_path.iterdir()), done.stderr
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGUSR1"])
+def test_signals_are_heard_before_modelling(tmp_path, name):
+    process = subprocess.Popen(STIFF, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+    time.sleep(0.5)
+    process.send_signal(getattr(signal, name))
+    _, message = process.communicate(timeout=60)
+    assert process.returncode == 75 and name in message and not list(tmp_path.iterdir()), message
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGUSR1"])

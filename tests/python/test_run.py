@@ -80,7 +80,7 @@ def test_a_stop_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path):
 def test_check_predicts_what_run_would_do(kapitza, tmp_path):
     done = kapitza("check", SMALL, folder=tmp_path)
     assert not list(tmp_path.iterdir())
-    rows = dict(re.split(r"\s{2,}", line, maxsplit=1) for line in done.stdout.split("\n\n")[-1].strip().splitlines())
+    rows = dict(re.findall(r"^(.+?)\s{2,}(.+)$", done.stdout, re.MULTILINE))
     assert rows["studies"] == "basin" and rows["cells"] == "10000"
     assert "MB" in rows["memory per rank"] and "on one core" in rows["estimated time"]
 

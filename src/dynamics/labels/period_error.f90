@@ -4,22 +4,26 @@ module kz_labels_period_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD, TAYLOR_STEPS
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, stiffness
   implicit none
   private
   public :: period_error_t, probes_t, make_probes, measure_period, class_of
 
-  !> Classes of speed, and probes of each.
+  !> Classes of speed.
   integer, parameter, public :: CLASSES = 16
-  integer, parameter :: EACH = 32, N_PROBES = CLASSES*EACH
-  !> How much more than the largest value of its probes is assumed for a class.
-  real(dp), parameter :: MARGIN = 1.5_dp
+  !> Probes of a class, and how much more than the largest of their errors is assumed for it: of a common pendulum, and of one whose true
+  !> images take seconds.
+  integer, parameter :: EACH = 32, EACH_COSTLY = 4
+  real(dp), parameter :: MARGIN = 1.5_dp, MARGIN_COSTLY = 3
+  !> rad per drive radian: motions that change so fast are costly.
+  real(dp), parameter :: COSTLY = 60
 
   !> States up to a speed and their images.
   type :: probes_t
     real(dp) :: fastest = 0
-    real(dp) :: start(2, N_PROBES) = 0  !< half-turns, rad per drive radian
-    real(qp) :: image(2, N_PROBES) = 0  !< the same
+    integer :: each = EACH                !< of a class
+    real(dp), allocatable :: start(:, :)  !< [2, CLASSES*each]: half-turns, rad per drive radian
+    real(qp), allocatable :: image(:, :)  !< the same
   end type probes_t
 
   type :: period_error_t
@@ -39,18 +43,21 @@ contains
     !> their starts and images
     type(probes_t), intent(out) :: probes
     real(dp), parameter :: GOLDEN = 0.61803398874989484820_dp
-    real(qp) :: theta(N_PROBES), velocity(N_PROBES)
-    integer(c_int64_t) :: turns(N_PROBES)
+    real(qp), allocatable :: theta(:), velocity(:)
+    integer(c_int64_t), allocatable :: turns(:)
     type(drive_t) :: drive
-    integer :: i
+    integer :: n, i
 
     probes%fastest = fastest
-    do i = 1, N_PROBES
-      probes%start(:, i) = [2*modulo(i*GOLDEN, 1.0_dp) - 1, fastest*(i - 0.5_dp)/N_PROBES]
+    if (max(fastest, sqrt(stiffness(pendulum))) > COSTLY) probes%each = EACH_COSTLY
+    n = CLASSES*probes%each
+    allocate (probes%start(2, n), probes%image(2, n))
+    do i = 1, n
+      probes%start(:, i) = [2*modulo(i*GOLDEN, 1.0_dp) - 1, fastest*(i - 0.5_dp)/n]
     end do
     theta = PI_QUAD*probes%start(1, :)
     velocity = probes%start(2, :)
-    turns = 0
+    allocate (turns(n), source=0_c_int64_t)
     call make_drive(drive, pendulum, TAYLOR_STEPS)
     call advance_period(drive, theta, velocity, turns)
     probes%image(1, :) = theta/PI_QUAD
@@ -83,11 +90,11 @@ contains
     allocate (moved, source=flow)
     error%per_speed = CLASSES/probes%fastest
     error%noise(:CLASSES - 1) = 0
-    do first = 1, N_PROBES, WIDTH
+    do first = 1, size(probes%start, 2), WIDTH
       call measure_noise(moved, probes, first, error)
     end do
     do class = 0, CLASSES - 1
-      error%noise(class) = MARGIN*error%noise(class) &
+      error%noise(class) = merge(MARGIN, MARGIN_COSTLY, probes%each == EACH)*error%noise(class) &
                            + 2*epsilon(1.0_dp)*hypot(PI, probes%fastest*(class + 1)/CLASSES)
     end do
     error%worst = maxval(error%noise(:CLASSES - 1))
@@ -118,7 +125,7 @@ contains
     call flow%advance(WIDTH)
     call flow%to_physical(WIDTH)
     do lane = 1, WIDTH
-      class = (first + lane - 2)/EACH
+      class = (first + lane - 2)/probes%each
       du = flow%u(lane) - probes%image(1, first + lane - 1)
       dv = flow%v(lane) - probes%image(2, first + lane - 1)
       distance = hypot(PI*real(du - 2*anint(du/2), dp), real(dv, dp))

@@ -6,19 +6,22 @@
 #include <string.h>
 
 enum {
-  LINE = 2048,   /* points on each side of a line */
-  RINGS = 96,    /* of a disc */
-  RAYS = 256,    /* of a disc */
-  FAN = 24,      /* rays on each side of the best one */
-  PIECES = 32,   /* of a bracket, each round */
-  BRACKETS = 4,  /* nearest parts of a boundary that are followed */
-  PASSES = 12,   /* most grids of a search */
+  LINE = 2048,  /* points on each side of a line */
+  RINGS = 96,   /* of a disc */
+  RAYS = 256,   /* of a disc */
+  FAN = 24,     /* rays on each side of the best one */
+  PIECES = 32,  /* of a bracket, each round */
+  BRACKETS = 4, /* nearest parts of a boundary that are followed */
+  PASSES = 12,  /* most grids of a search */
+  FINDS = 48,   /* most boundaries along a line, each nearer than the one before */
+  RIMS = 4,
   SPREAD = 4096, /* shocks of a size */
   MOST = RINGS * RAYS
 };
 /* A bracket is narrow enough, and a fan, where it is so small a part of the distance. */
 static const double NARROW = 1e-13, CLOSED = 1e-6;
-/* Share of the way to a boundary along a line that is looked at most closely: the size is known to RIM / (MOST / 2) of it, 5e-6. */
+/* Tongues of other basins lie the closer to a boundary the thinner they are: the last RIM of the way is looked at more closely, the last
+ * RIM of that again, RIMS times. */
 static const double RIM = 1.0 / 16;
 
 /* Workspace of one batch of starts. */
@@ -102,15 +105,23 @@ static bool nearest_of_line(workspace *r, const double direction[2], double near
   return true;
 }
 
+/* A change nearer than the one at *far, on MOST / 2 points of each side of the last RIM of the way, then of ever shorter ends of it. */
+static bool nearest_of_rims(workspace *r, const double direction[2], double *far, kz_shock *shock) {
+  double rim = RIM;
+  for (int i = 0; i < RIMS; i++, rim *= RIM)
+    if (nearest_of_line(r, direction, *far * (1 - rim), MOST / 2, far, shock)) return true;
+  return false;
+}
+
 /* The smallest shock along a direction and its opposite, up to `farthest`. Each one that is found bounds the next search, of LINE points on
- * each side; where it finds none, the last RIM of the way is looked at on MOST / 2 points, because tongues along a boundary are thin. */
+ * each side; where it finds none, of the rims. */
 static kz_shock along_line(workspace *r, double theta, double velocity, double farthest) {
   const double direction[2] = {theta, velocity};
   kz_shock shock = {NAN, NAN, NAN, -1};
   double far = farthest;
-  for (int pass = 0; pass < PASSES; pass++)
+  for (int find = 0; find < FINDS; find++)
     if (!nearest_of_line(r, direction, 0, LINE, &far, &shock) &&
-        (isnan(shock.size) || !nearest_of_line(r, direction, far * (1 - RIM), MOST / 2, &far, &shock)))
+        (isnan(shock.size) || !nearest_of_rims(r, direction, &far, &shock)))
       break;
   return shock;
 }
