@@ -1,16 +1,16 @@
 !> The cheapest processed splitting that carries a pendulum: the error of one period is measured against quad-precision Taylor
 !> series, never estimated.
 module kz_kernel_processed_choice
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
-  use, intrinsic :: iso_fortran_env, only: real128
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_processed_flow
   use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_lanes_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness, is_sine
   use kz_lanes_step_table, only: numerics_t
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, PI_QUAD
+  use kz_extended_probes, only: probes_t, make_probes
+  use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   implicit none
   private
 
@@ -29,12 +29,6 @@ module kz_kernel_processed_choice
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
 
-  !> Starts and true ends of the probes.
-  type :: probes_t
-    real(c_double) :: start(2, N_PROBES) !< half-turns, rad per drive radian
-    real(c_double) :: image(2, N_PROBES)
-  end type probes_t
-
 contains
 
   !> kz_numerics_choose of kernel.h.
@@ -48,6 +42,8 @@ contains
     logical :: halting(size(ieee_usual))
     type(series_t), allocatable :: series
     type(probes_t) :: probes
+    type(drive_t) :: drive
+    integer :: i
 
     status = REFUSED
     error = huge(error)
@@ -57,7 +53,8 @@ contains
     call ieee_set_halting_mode(ieee_usual, .false.)
     allocate (series)
     call make_processed_series(pendulum, series)
-    call make_probes(pendulum, fastest, probes)
+    call make_drive(drive, pendulum, TAYLOR_STEPS)
+    call make_probes(drive, [(fastest*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], probes)
     numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest
     if (numerics%steps_per_period > 0) then
@@ -81,30 +78,6 @@ contains
     out = .not. (STEP*fastest <= LONGEST_TURN .and. STEP*sqrt(stiffness(pendulum)) <= LONGEST_SWING)
   end function out_of_reach
 
-  subroutine make_probes(pendulum, fastest, probes)
-    type(pendulum_t), intent(in) :: pendulum
-    real(c_double), intent(in) :: fastest
-    type(probes_t), intent(out) :: probes
-    real(c_double), parameter :: GOLDEN = 0.61803398874989484820_c_double
-    !> steps of the series, which halves them where they are too few
-    integer, parameter :: STEPS = 16
-    type(drive_t) :: drive
-    real(real128) :: theta(N_PROBES), velocity(N_PROBES)
-    integer(c_int64_t) :: turns(N_PROBES)
-    integer :: i
-
-    do i = 1, N_PROBES
-      probes%start(:, i) = [2*modulo(i*GOLDEN, 1.0_c_double) - 1, fastest*(i - 1)/(N_PROBES - 1)]
-    end do
-    theta = probes%start(1, :)*PI_QUAD
-    velocity = probes%start(2, :)
-    turns = 0
-    call make_drive(drive, pendulum, STEPS)
-    call advance_period(drive, theta, velocity, turns)
-    probes%image(1, :) = real(theta/PI_QUAD, c_double)
-    probes%image(2, :) = real(velocity, c_double)
-  end subroutine make_probes
-
   !> The largest error of one period, rad.
   function measure(pendulum, series, probes, numerics) result(error)
     type(pendulum_t), intent(in) :: pendulum
@@ -123,14 +96,14 @@ contains
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
       do lane = 1, WIDTH
-        call flow%put(lane, probes%start(1, first + lane), probes%start(2, first + lane))
+        call flow%put(lane, real(probes%start(1, first + lane), c_double), real(probes%start(2, first + lane), c_double))
       end do
       call flow%to_map(WIDTH)
       call flow%advance(WIDTH)
       call flow%to_physical(WIDTH)
       do lane = 1, WIDTH
-        distance = hypot(PI*(modulo(flow%u(lane) - probes%image(1, first + lane) + 1, 2.0_c_double) - 1), &
-                         flow%v(lane) - probes%image(2, first + lane))
+        distance = hypot(PI*(modulo(flow%u(lane) - real(probes%image(1, first + lane), c_double) + 1, 2.0_c_double) - 1), &
+                         flow%v(lane) - real(probes%image(2, first + lane), c_double))
         if (.not. distance <= error) error = distance ! NaN too
       end do
     end do
@@ -153,7 +126,7 @@ contains
 
     numerics%drift_terms = MOST_DRIFTS
     numerics%kick_terms = MOST_KICKS
-    call climb_steps(pendulum, series, probes, tolerance, FEWEST_STEPS, MOST_STEPS, numerics, error)
+    call find_steps(pendulum, series, probes, tolerance, FEWEST_STEPS, MOST_STEPS, numerics, error)
     if (error > tolerance) return
     fewest = numerics%steps_per_period
     candidate = numerics
@@ -162,7 +135,7 @@ contains
         candidate%drift_terms = drifts
         candidate%kick_terms = kicks
         if (cheaper_steps(numerics, candidate) < fewest) cycle
-        call climb_steps(pendulum, series, probes, tolerance, fewest, cheaper_steps(numerics, candidate), candidate, candidate_error)
+        call find_steps(pendulum, series, probes, tolerance, fewest, cheaper_steps(numerics, candidate), candidate, candidate_error)
         if (candidate_error > tolerance) exit
         numerics = candidate
         error = candidate_error
@@ -188,7 +161,7 @@ contains
 
   !> The fewest steps that reach the tolerance, found from the order; more than `most`, or where more steps no longer help: the
   !> error comes back as above the tolerance.
-  subroutine climb_steps(pendulum, series, probes, tolerance, fewest, most, numerics, error)
+  subroutine find_steps(pendulum, series, probes, tolerance, fewest, most, numerics, error)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
     type(probes_t), intent(in) :: probes
@@ -211,7 +184,7 @@ contains
       factor = min(2.0_c_double, max(1.0_c_double, (min(error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER)))
       n = max(n + STRIDE, STRIDE*int(n*factor/STRIDE))
     end do
-  end subroutine climb_steps
+  end subroutine find_steps
 
   !> A given number of steps: as few terms as cost no accuracy that the tolerance asks for, or that the steps have.
   subroutine fit_terms(pendulum, series, probes, tolerance, numerics, error)

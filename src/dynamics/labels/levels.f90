@@ -7,7 +7,7 @@ module kz_labels_levels
   use kz_kernel_flows, only: make_flow
   use kz_labels_carrier, only: carrier_t, make_carrier
   use kz_labels_inner, only: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
-  use kz_labels_period_error, only: period_error_t, probes_t, make_probes, measure_period
+  use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
   use kz_lanes_map, only: flow_t
   use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
   use kz_model_pendulum, only: is_sine, pendulum_t
@@ -31,7 +31,7 @@ module kz_labels_levels
   real(dp), parameter :: QUAD_ERROR = 1e-31_dp
 
   type :: levels_t
-    type(probes_t), allocatable :: probes
+    type(speed_probes_t), allocatable :: probes
     type(period_error_t) :: error               !< of the scene's map
     class(flow_t), allocatable :: fine          !< double precision with more steps
     type(period_error_t) :: fine_error
@@ -62,7 +62,7 @@ contains
     call ieee_set_halting_mode(ieee_usual, .false.)
     if (.not. allocated(levels%probes)) then
       allocate (levels%probes)
-      call make_probes(pendulum, fastest, levels%probes)
+      call make_speed_probes(pendulum, fastest, levels%probes)
       call measure_period(flow, levels%probes, levels%error)
     end if
     select case (level)

@@ -1,13 +1,14 @@
 !> The noise of a map: what steps and rounding add to the error of an orbit in one period, by classes of speed, measured on probes whose
 !> true images are known.
 module kz_labels_period_error
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD, TAYLOR_STEPS
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_extended_probes, only: probes_t, make_probes
+  use kz_extended_taylor, only: drive_t, make_drive, qp, TAYLOR_STEPS
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t, stiffness
   implicit none
   private
-  public :: period_error_t, probes_t, make_probes, measure_period, class_of
+  public :: period_error_t, speed_probes_t, make_speed_probes, measure_period, class_of
 
   !> Classes of speed.
   integer, parameter, public :: CLASSES = 16
@@ -19,12 +20,10 @@ module kz_labels_period_error
   real(dp), parameter :: COSTLY = 60
 
   !> States up to a speed and their images.
-  type :: probes_t
+  type, extends(probes_t) :: speed_probes_t
     real(dp) :: fastest = 0
-    integer :: each = EACH                !< of a class
-    real(dp), allocatable :: start(:, :)  !< [2, CLASSES*each]: half-turns, rad per drive radian
-    real(qp), allocatable :: image(:, :)  !< the same
-  end type probes_t
+    integer :: each = EACH !< of a class
+  end type speed_probes_t
 
   type :: period_error_t
     real(dp) :: per_speed = 0
@@ -35,34 +34,22 @@ module kz_labels_period_error
 contains
 
   !> Probes of a pendulum up to a speed, spread evenly over the circle and over the speeds.
-  subroutine make_probes(pendulum, fastest, probes)
+  subroutine make_speed_probes(pendulum, fastest, probes)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> rad per drive radian
     real(dp), intent(in) :: fastest
     !> their starts and images
-    type(probes_t), intent(out) :: probes
-    real(dp), parameter :: GOLDEN = 0.61803398874989484820_dp
-    real(qp), allocatable :: theta(:), velocity(:)
-    integer(c_int64_t), allocatable :: turns(:)
+    type(speed_probes_t), intent(out) :: probes
     type(drive_t) :: drive
     integer :: n, i
 
     probes%fastest = fastest
     if (max(fastest, sqrt(stiffness(pendulum))) > COSTLY) probes%each = EACH_COSTLY
     n = CLASSES*probes%each
-    allocate (probes%start(2, n), probes%image(2, n))
-    do i = 1, n
-      probes%start(:, i) = [2*modulo(i*GOLDEN, 1.0_dp) - 1, fastest*(i - 0.5_dp)/n]
-    end do
-    theta = PI_QUAD*probes%start(1, :)
-    velocity = probes%start(2, :)
-    allocate (turns(n), source=0_c_int64_t)
     call make_drive(drive, pendulum, TAYLOR_STEPS)
-    call advance_period(drive, theta, velocity, turns)
-    probes%image(1, :) = theta/PI_QUAD
-    probes%image(2, :) = velocity
-  end subroutine make_probes
+    call make_probes(drive, [(fastest*(i - 0.5_dp)/n, i=1, n)], probes%probes_t)
+  end subroutine make_speed_probes
 
   !> The class of a speed.
   elemental function class_of(error, v) result(class)
@@ -81,7 +68,7 @@ contains
     !> the map of one drive period
     class(flow_t), intent(in) :: flow
     !> of its pendulum
-    type(probes_t), intent(in) :: probes
+    type(speed_probes_t), intent(in) :: probes
     !> by classes of speed
     type(period_error_t), intent(out) :: error
     class(flow_t), allocatable :: moved
@@ -102,19 +89,19 @@ contains
 
   subroutine put_probes(flow, probes, first)
     class(flow_t), intent(inout) :: flow
-    type(probes_t), intent(in) :: probes
+    type(speed_probes_t), intent(in) :: probes
     integer, intent(in) :: first
     integer :: lane
 
     do lane = 1, WIDTH
-      call flow%put(lane, probes%start(1, first + lane - 1), probes%start(2, first + lane - 1))
+      call flow%put(lane, real(probes%start(1, first + lane - 1), dp), real(probes%start(2, first + lane - 1), dp))
     end do
     call flow%to_map(WIDTH)
   end subroutine put_probes
 
   subroutine measure_noise(flow, probes, first, error)
     class(flow_t), intent(inout) :: flow
-    type(probes_t), intent(in) :: probes
+    type(speed_probes_t), intent(in) :: probes
     integer, intent(in) :: first
     type(period_error_t), intent(inout) :: error
     real(qp) :: du, dv

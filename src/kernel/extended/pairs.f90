@@ -11,6 +11,7 @@ module kz_extended_pairs
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
   use kz_model_pendulum, only: pendulum_t, is_sine
+  use kz_extended_probes, only: probes_t, make_probes
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, PI => PI_QUAD, TAYLOR_STEPS
   implicit none
   private
@@ -114,12 +115,12 @@ contains
     real(c_double), intent(in) :: tolerance
     type(level_t), intent(in) :: slower
     type(level_t), intent(out) :: level
-    real(qp) :: start(2, N_PROBES), image(2, N_PROBES)
+    type(probes_t) :: probes
     real(c_double) :: fastest, former
-    integer :: n, kicks
+    integer :: n, kicks, i
 
     fastest = max(SLOWEST, RATIO*slower%fastest)
-    call make_probes(drive, slower%fastest, fastest, start, image)
+    call make_probes(drive, [(slower%fastest + (fastest - slower%fastest)*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], probes)
     n = slower%n_steps ! twice the speed needs some 1.5 times the steps
     if (slower%fastest > 0) n = STRIDE*int(1.5_c_double*slower%n_steps/STRIDE)
     n = max(FEWEST_STEPS, n)
@@ -128,40 +129,17 @@ contains
     do while (n <= MOST_STEPS)
       former = level%error
       call make_level(pendulum, series, n, kicks, fastest, tolerance, level)
-      level%error = measure(level, start, image)
+      level%error = measure(level, probes)
       if (level%error <= tolerance .or. (n > FEWEST_STEPS .and. level%error > former)) return
       n = max(n + STRIDE, expected_steps(n, min(level%error, 4.0_c_double**ORDER*tolerance), tolerance))
       kicks = min(MOST_PAIR_KICKS, kicks + 1)
     end do
   end subroutine choose_level
 
-  subroutine make_probes(drive, slowest_speed, fastest, start, image)
-    type(drive_t), intent(in) :: drive
-    real(c_double), intent(in) :: slowest_speed
-    real(c_double), intent(in) :: fastest
-    real(qp), intent(out) :: start(2, N_PROBES)
-    real(qp), intent(out) :: image(2, N_PROBES)
-    real(c_double), parameter :: GOLDEN = 0.61803398874989484820_c_double
-    real(qp) :: theta(N_PROBES), velocity(N_PROBES)
-    integer(c_int64_t) :: turns(N_PROBES)
-    integer :: i
-
-    do i = 1, N_PROBES
-      start(:, i) = [2*modulo(i*GOLDEN, 1.0_c_double) - 1, slowest_speed + (fastest - slowest_speed)*(i - 1)/(N_PROBES - 1)]
-    end do
-    theta = PI*start(1, :)
-    velocity = start(2, :)
-    turns = 0
-    call advance_period(drive, theta, velocity, turns)
-    image(1, :) = theta/PI
-    image(2, :) = velocity
-  end subroutine make_probes
-
   !> The largest error of one period, rad.
-  function measure(level, start, image) result(error)
+  function measure(level, probes) result(error)
     type(level_t), intent(in) :: level
-    real(qp), intent(in) :: start(2, N_PROBES)
-    real(qp), intent(in) :: image(2, N_PROBES)
+    type(probes_t), intent(in) :: probes
     real(c_double) :: error, distance, turns(WIDTH)
     real(qp) :: u
     type(pair_lanes_t) :: lanes
@@ -170,13 +148,13 @@ contains
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
       do lane = 1, WIDTH
-        lanes%u(lane, :) = pair_of(start(1, first + lane))
-        lanes%v(lane, :) = pair_of(start(2, first + lane))
+        lanes%u(lane, :) = pair_of(probes%start(1, first + lane))
+        lanes%v(lane, :) = pair_of(probes%start(2, first + lane))
       end do
       call advance_level(level, WIDTH, lanes, turns)
       do lane = 1, WIDTH
-        u = quad_of(lanes%u(lane, :)) - image(1, first + lane)
-        distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - image(2, first + lane)), c_double)
+        u = quad_of(lanes%u(lane, :)) - probes%image(1, first + lane)
+        distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - probes%image(2, first + lane)), c_double)
         if (.not. distance <= error) error = distance ! NaN too
       end do
     end do
