@@ -9,6 +9,7 @@ import random
 import shutil
 import subprocess
 import sys
+import tarfile
 
 import h5py
 import numpy as np
@@ -58,12 +59,31 @@ print(matplotlib.get_backend())
 """
 
 
-def test_what_pip_installs(made_file, tmp_path):
-    """The package without the program: results lazily, no backend of its own, and the command draws what the script draws."""
+@pytest.fixture(scope="module")
+def sdist(tmp_path_factory):
+    """The sources as pip would get them, in one archive."""
+    folder = tmp_path_factory.mktemp("sdist")
+    make = f"from scikit_build_core.build import build_sdist; print(build_sdist({str(folder)!r}))"
+    done = python("-c", make, cwd=ROOT)
+    assert done.returncode == 0, done.stderr
+    return folder / done.stdout.split()[-1]
+
+
+def test_the_sdist_has_all_that_a_build_needs(sdist):
+    """Every file under version control but those of the repository itself."""
+    parts = "CMakeLists.txt cmake include src python web scenes LICENSE README.md".split()
+    tracked = subprocess.run(["git", "ls-files", *parts], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    with tarfile.open(sdist) as archive:
+        held = {name.split("/", 1)[-1] for name in archive.getnames()}
+    assert len(tracked) > 300 and not set(tracked) - held
+
+
+def test_what_pip_installs(sdist, made_file, tmp_path):
+    """The package of the sdist without the program: results lazily, no backend of its own, and the command draws what the script draws."""
     place = tmp_path / "place"
     install = ["install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-build-isolation", "--no-deps",
                "-C", "wheel.cmake=false", "--target", place]
-    done = python("-m", "pip", *install, ROOT)
+    done = python("-m", "pip", *install, sdist)
     assert done.returncode == 0, done.stderr
     alone = os.environ | {"PYTHONPATH": str(place), "MPLBACKEND": "svg"}
     done = python("-c", USE, place, cwd=tmp_path, env=alone)
@@ -73,6 +93,12 @@ def test_what_pip_installs(made_file, tmp_path):
     assert (done.returncode, done.stdout, done.stderr) == (0, "one.png\n", "")
     assert plot("basin", made_file, "-o", tmp_path / "other.png", "--dpi", 40).returncode == 0
     assert (tmp_path / "one.png").read_bytes() == (tmp_path / "other.png").read_bytes()
+
+
+@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="builds the program anew, minutes: KAPITZA_EXTENSIVE=1")
+def test_a_fresh_environment_builds_and_runs_an_example():
+    done = subprocess.run([ROOT / "scripts" / "test_install"], capture_output=True, text=True, timeout=580)
+    assert done.returncode == 0 and "rotation +1/1" in done.stdout and done.stdout.endswith("small.png\n"), done.stderr
 
 
 @pytest.mark.parametrize("words, status", [([], 2), (["portrait", "FILE"], 2), (["--help"], 0)])

@@ -66,7 +66,7 @@ def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | N
         if bands.sum(axis=1).min() < 1 - NAMED:
             entries.append(Patch(facecolor="white", edgecolor=style.FAINT, lw=0.5, label="not settled"))
         if bands[:, -1].any():
-            entries.append(Patch(color=style.FAINT, label=f"{len(small)} smaller ones, together ≤ {style.share_text(bands[:, -1].max())}"))
+            entries.append(Patch(color=style.FAINT, label=f"{len(small)} smaller ones (≤ {style.share_text(bands[:, -1].max())})"))
         entries += [*_entries(sweep, colours, named[::-1]), *bars]
         axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize="small", labelspacing=0.35)
     return axes

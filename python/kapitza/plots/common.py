@@ -34,10 +34,10 @@ def resolution(text: str) -> int:
     return int(text)
 
 
-def parsed(parser: argparse.ArgumentParser, words: list[str]) -> argparse.Namespace:
-    """The arguments, with the picture's name."""
+def parsed(parser: argparse.ArgumentParser, words: list[str], ending: str = "") -> argparse.Namespace:
+    """The arguments, with the picture's name: that of the file, with `ending`, where none is given."""
     arguments = parser.parse_args(words)
-    arguments.output = arguments.output or Path(f"{Path(arguments.file).stem or 'picture'}.png")
+    arguments.output = arguments.output or Path(f"{Path(arguments.file).stem or 'picture'}{ending}.png")
     if arguments.output.suffix.lower() not in FORMATS:
         parser.error(f"{arguments.output}: the name must end in {', '.join(FORMATS)}")
     return arguments

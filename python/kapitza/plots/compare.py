@@ -29,7 +29,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--centre", choices=["down", "inverted"], default="down",
                         help="state in the middle of a whole circle (default: down)")
     add_si(parser, "velocities in rad/s")
-    return parsed(parser, words)
+    return parsed(parser, words, "-compare")  # FILE.png is the basin itself
 
 
 def matched_colours(comparison: Comparison) -> tuple[list[str], list[str]]:

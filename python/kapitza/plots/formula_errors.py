@@ -23,15 +23,15 @@ def errors_of(chart: xarray.Dataset) -> dict[tuple[str, str], np.ndarray]:
 
 
 def draw_error_rows(axes: Axes, chart: xarray.Dataset, *, colours: str = MAP, legend: bool = True) -> Axes:
-    """A row of colours over k for each formula; `legend`: the formulas' names beside the rows."""
-    errors = errors_of(chart)
-    axes.pcolormesh(chart["k"].values, np.arange(len(errors)), np.array(list(errors.values())), cmap=colours, norm=LogNorm(1e-8, 1),
-                    shading="nearest", rasterized=True)
-    axes.set_yticks(range(len(errors)), [error_label(*pair) if legend else "" for pair in errors],
-                    fontsize="x-small" if current().narrow else "medium")
-    axes.set_yticks(np.arange(len(errors) + 1) - 0.5, minor=True)
-    axes.grid(axis="y", which="minor", color="white", linewidth=3)
-    axes.tick_params(which="both", length=0, axis="y")
+    """A bar of colours over k for each formula; `legend`: above it, what it stands for."""
+    errors, k = errors_of(chart), chart["k"].values
+    rows = np.full((2 * len(errors), len(k)), np.nan)
+    rows[1::2] = list(errors.values())  # the empty rows between are for words
+    axes.pcolormesh(k, np.arange(len(rows)) / 2, rows, cmap=colours, norm=LogNorm(1e-8, 1), shading="nearest", rasterized=True)
+    for row, pair in enumerate(errors if legend else ()):
+        axes.text(0.01, row, error_label(*pair), transform=axes.get_yaxis_transform(), va="center",
+                  fontsize="x-small" if current().narrow else "small")
+    axes.set_yticks([])
     axes.invert_yaxis()
     axes.set_xlabel(K_LABEL)
     return axes
@@ -48,7 +48,7 @@ def draw_error_curves(axes: Axes, chart: xarray.Dataset, *, colours: str = MAP, 
         axes.add_collection(lines)
     axes.set(xlim=k[[0, -1]], ylim=chart["m"].values[[0, -1]], xlabel=K_LABEL, ylabel=M_LABEL)
     if legend:
-        axes.figure.colorbar(axes.collections[-1], ax=axes, label="relative error of m by the formula", extend="both", pad=0.01)
+        axes.figure.colorbar(axes.collections[-1], ax=axes, label="relative error of m", extend="both", pad=0.01)
     return axes
 
 
@@ -57,7 +57,7 @@ def error_figure(chart: xarray.Dataset) -> Figure:
     if not errors_of(chart):
         raise BadFile("this view needs formulas beside their exact curves")
     narrow = current().narrow
-    figure = new_figure(6.4, 14) if narrow else new_figure(12.5, 5.4)
+    figure = new_figure(6.4, 14) if narrow else new_figure(12.5, 6.4)
     left, right = figure.subplots(2, 1, height_ratios=[2, 1]) if narrow else figure.subplots(1, 2, width_ratios=[3, 2])
     draw_error_rows(left, chart)
     draw_error_curves(right, chart)
@@ -65,8 +65,7 @@ def error_figure(chart: xarray.Dataset) -> Figure:
 
 
 def error_label(name: str, exact: str) -> str:
-    """Butikov Eq. 21: order 6: which formula stands for which curve."""
-    branch = ", upper" if exact.endswith("_upper") else ""
-    number = label(name).split(", ")[-1] if "subharmonic" in name else label(name)
-    number = LABELS.get(name.removesuffix("_upper"), number)
-    return f"{number}: {label(exact).split(':')[0].replace('subharmonic of order', 'order')}{branch}"
+    """What a formula says, and whose it is: inverted stands above it (Butikov Eq. 3)."""
+    curve = label(exact).removesuffix("_upper").split(": ")[-1] + (", upper" if exact.endswith("_upper") else "")
+    formula = label(name).split(", ", 1)[-1] if "subharmonic" in name else LABELS.get(name.removesuffix("_upper"), label(name))
+    return f"{curve} ({formula})"

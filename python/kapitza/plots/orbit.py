@@ -22,6 +22,7 @@ from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, w
 from kapitza.plots.orbit_panels import draw_path, draw_phase, draw_spectrum
 from kapitza.plots.orbit_record import TURN, Orbit
 from kapitza.plots.orbit_time import draw_time
+from kapitza.plots.page import current
 from kapitza.plots.units import add_si, pivot_frequency, show_in
 from kapitza.result import Result
 
@@ -50,7 +51,10 @@ def periods(text: str) -> float:
 
 
 def lay_out(panels: Sequence[str]) -> tuple[Figure, dict[str, Axes]]:
-    """The time graph over the whole width, the others beneath it side by side."""
+    """The time graph over the whole width, the others beneath it side by side; on a narrow page one above the other."""
+    if current().narrow:
+        figure = new_figure(6.4, 4.4 * len(panels))
+        return figure, figure.subplot_mosaic([[name] for name in panels])
     below = [name for name in panels if name != "time"]
     rows: list[Any] = [["time"] * max(1, len(below))] if "time" in panels else []
     rows += [below] if below else []

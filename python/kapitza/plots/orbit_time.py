@@ -8,6 +8,7 @@ from matplotlib.ticker import MaxNLocator
 
 from kapitza import style
 from kapitza.plots.orbit_record import ROUNDING, TURN, Orbit
+from kapitza.plots.page import current
 
 HARMONICS = ["#d1602f", "#12806a", "#8a5fb8", "#b08a1e"]  # the strongest lines, in this order
 
@@ -60,7 +61,7 @@ def hide_rounding(axes: Axes, **spans: float) -> None:
 def write_legend(axes: Axes) -> Axes:
     """Above the panel, where it hides nothing."""
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=7, fontsize="small", handlelength=1.4,
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.985), ncols=2 if current().narrow else 7, fontsize="small", handlelength=1.4,
                     columnspacing=1.2)
     return axes
 

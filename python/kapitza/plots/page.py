@@ -214,7 +214,7 @@ def _broken(figure: Figure, text: Text, parts: list[str], joint: str) -> str:
     for part in parts:
         longer = joint.join([*lines[-1:], part])
         text.set_text(longer)
-        if lines and text.get_window_extent().width < 0.98 * figure.bbox.width:
+        if lines and text.get_window_extent().width < 0.95 * figure.bbox.width:
             lines[-1] = longer
         else:
             lines.append(part)

@@ -17,7 +17,7 @@ from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, w
 from kapitza.result import Result
 
 COLOURS = ["#6b747e", "#2f6db3", "#12806a", "#c2452f", "#5b2a7a", "#b08a1e"]  # of the drive amplitudes, in turn
-FORMULAS = (("blackburn", (0, (4, 2)), "Eq. (11)"), ("simple", (0, (1, 1.5)), "Eq. (12)"))  # name, dashes, label
+FORMULAS = (("blackburn", (0, (4, 2)), "Blackburn Eq. 11"), ("simple", (0, (1, 1.5)), "leading order (Eq. 12)"))  # name, dashes, label
 
 
 def full_circle(theta: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -38,7 +38,7 @@ def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str]
             top = np.interp(rim, theta, exact)
             axes.plot([rim, 2 * np.pi - rim], [top, top], "o", markersize=4, color=colour)
     if legend:
-        axes.plot([], [], color=style.INK, linestyle="-", linewidth=1, label="exact, Eq. (10)")
+        axes.plot([], [], color=style.INK, linestyle="-", linewidth=1, label="exact")
         for _, dash, text in FORMULAS:
             axes.plot([], [], color=style.INK, linestyle=dash, linewidth=1, label=text)
         axes.plot([], [], "o", markersize=4, color=style.INK, label="rim of the well")

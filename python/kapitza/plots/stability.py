@@ -21,6 +21,7 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.curves import K_LABEL, M_LABEL, curve_names, draw_curves, exact_of, is_branch, whole_curve
 from kapitza.plots.formula_errors import error_figure
+from kapitza.plots.page import current
 from kapitza.result import BadFile, Result
 
 STABLE = "#e4e9ee"
@@ -68,7 +69,8 @@ def draw_growth(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = (
     for values, cmap, text in ((growth, colours[0], "growth: ln |multiplier| per period"), (angle, colours[1], "Floquet angle / 2π")):
         image = axes.pcolormesh(chart["k"], chart["m"], values, cmap=cmap, shading="nearest", rasterized=True, vmin=0)
         if legend:
-            axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, pad=0.01)
+            place = {"location": "bottom", "pad": 0.02} if current().narrow else {"pad": 0.01}
+            axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, **place)
     for name in curve_names(chart):
         if exact_of(name) is None and not is_branch(chart, name):
             axes.plot(*whole_curve(chart, name), color=style.INK, linewidth=0.7)

@@ -22,6 +22,7 @@ from kapitza import style
 from kapitza.plots.branches import branch_colours, draw_lives, draw_shares, named_branches, parameter_text
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.flutter import SQUARE_LABEL, draw_amplitude, draw_square, draw_zone
+from kapitza.plots.page import current
 from kapitza.plots.units import show_in
 from kapitza.result import BadFile, Result
 
@@ -52,9 +53,9 @@ def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str,
     axes.plot(value, np.degrees(sweep["release_angle"].values), color=colours[3], lw=1.1, label="first gap")
     if legend:
         handles = [*axes.get_legend_handles_labels()[0], Patch(color=colours[0], label="releases that stay")]
-        axes.legend(handles=handles, loc="upper right")
+        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     top = np.nanmax(np.degrees(sweep["release_angle_largest"].values))
-    axes.set(xlabel=parameter_text(sweep), ylabel="release angle from inverted / degrees", ylim=(0, min(180, 1.35 * top)))
+    axes.set(xlabel=parameter_text(sweep), ylabel="release angle from inverted (deg)", ylim=(0, min(180, 1.35 * top)))
     return axes
 
 
@@ -85,7 +86,7 @@ def fractions_figure(sweep: xarray.Dataset) -> Figure:
 
 def branches_figure(sweep: xarray.Dataset) -> Figure:
     """The life of every branch, named."""
-    figure = new_figure(8.6, 1.6 + 0.16 * sweep.sizes["branch"])
+    figure = new_figure(6.4 if current().narrow else 8.6, 1.6 + (0.18 if current().narrow else 0.16) * sweep.sizes["branch"])
     draw_lives(figure.subplots(), sweep, names=True)
     return figure
 
@@ -106,7 +107,7 @@ def zone_figure(sweep: xarray.Dataset) -> Figure:
 
 
 def releases_figure(sweep: xarray.Dataset) -> Figure:
-    figure = new_figure(8, 4.8)
+    figure = new_figure(10, 4.8)
     draw_releases(figure.subplots(), sweep)
     return figure
 
