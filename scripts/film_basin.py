@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A film of basins along one key of a scene: a run and a picture for every value, and an MP4 where ffmpeg is there.
+"""A film of basins along one key of a scene, with a legend: a run and a picture for every value, and an MP4; a GIF where the name says
+so, or ffmpeg is not installed.
 
     .venv/bin/python scripts/film_basin.py scenes/small.yaml pendulum.drive_amplitude 0.12 0.58 --count 116
     .venv/bin/python scripts/film_basin.py scenes/blackburn-fig12.yaml pendulum.drive_amplitude 0.12 0.58 --ranks 2
@@ -10,17 +11,19 @@ says which film it is: scene, key, values, resolution and program.
 
 import argparse
 import os
-import shutil
-import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
-from kapitza import BadFile  # noqa: E402
+from kapitza import BadFile, run  # noqa: E402
+from kapitza.films import film_picture, heading, write_film  # noqa: E402
+from kapitza.program import ask  # noqa: E402
+from kapitza.scene import Scene  # noqa: E402
 from kapitza.script import run_script  # noqa: E402
 
 
@@ -32,6 +35,8 @@ def parse_arguments():
     parser.add_argument("last", type=float)
     parser.add_argument("--count", type=int, default=100, help="frames, both ends included (default: 100)")
     parser.add_argument("--folder", type=Path, default=Path("film"), help="where the frames go (default: film)")
+    parser.add_argument("-o", "--output", type=Path, help="NAME.mp4 or NAME.gif (default: film.mp4 in the folder)")
+    parser.add_argument("--centre", choices=["down", "inverted"], default="inverted", help="state in the middle (default: inverted)")
     parser.add_argument("--ranks", type=int, default=int(os.environ.get("RANKS", os.cpu_count())))
     parser.add_argument("--rate", type=int, default=12, help="frames per second (default: 12)")
     parser.add_argument("--dpi", type=int, default=150)
@@ -41,18 +46,10 @@ def parse_arguments():
     return arguments
 
 
-def step(command):
-    """Runs one command; its failure ends the script with its status."""
-    status = subprocess.run(list(map(str, command)), stdout=subprocess.DEVNULL).returncode
-    if status:
-        sys.exit(status)
-
-
 def description(arguments, values):
     """All that the frames depend on, as text."""
-    version = subprocess.run([ROOT / "build" / "kapitza", "--version"], capture_output=True, text=True).stdout
-    settings = f"{arguments.key} = {', '.join(repr(float(value)) for value in values)}\n{arguments.dpi} dots per inch\n"
-    return f"{settings}\n{version}\n{arguments.scene.read_text()}"
+    settings = f"{arguments.key} = {', '.join(map(repr, values))}\n{arguments.dpi} dots per inch, {arguments.centre} in the middle\n"
+    return f"{settings}\n{ask(['--version'], Scene(arguments.scene))}\n{arguments.scene.read_text()}"
 
 
 def claim_folder(folder, film):
@@ -80,38 +77,21 @@ def whole(path):
 
 def make_frame(arguments, value, picture):
     """Models one value and draws it."""
-    result = picture.with_suffix(".h5")
-    step(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", arguments.ranks, ROOT / "build" / "kapitza", "run",
-          arguments.scene, "--set", f"{arguments.key}={float(value)!r}", "-o", result, "--force", "--progress", "never"])
+    result = run(arguments.scene, set={arguments.key: value}, ranks=arguments.ranks, progress=False)
     with whole(picture) as part:
-        step([sys.executable, ROOT / "scripts" / "plot_basin.py", result, "--centre", "inverted", "--no-legend",
-              "--dpi", arguments.dpi, "-o", part])
-    result.unlink()
-
-
-def make_film(arguments):
-    """The frames as an MP4, each fitted into one size."""
-    if not shutil.which("ffmpeg"):
-        print(f"frames in {arguments.folder}; ffmpeg is not installed, so there is no film")
-        return
-    film = arguments.folder / "film.mp4"
-    fit = "scale=1280:960:force_original_aspect_ratio=decrease,pad=1280:960:-1:-1:white,format=yuv420p"
-    with whole(film) as part:
-        step(["ffmpeg", "-y", "-loglevel", "error", "-framerate", arguments.rate, "-i", arguments.folder / "frame-%04d.png",
-              "-vf", fit, part])
-    print(film)
+        film_picture(result, heading(arguments.key, value), centre=arguments.centre, dpi=arguments.dpi).save(part, "PNG")
 
 
 def main():
     arguments = parse_arguments()
-    values = np.linspace(arguments.first, arguments.last, arguments.count)
+    values = [float(value) for value in np.linspace(arguments.first, arguments.last, arguments.count)]
     claim_folder(arguments.folder, description(arguments, values))
-    for index, value in enumerate(values):
-        picture = arguments.folder / f"frame-{index:04d}.png"
+    pictures = [arguments.folder / f"frame-{index:04d}.png" for index in range(arguments.count)]
+    for picture, value in zip(pictures, values, strict=True):
         if not picture.exists():
             make_frame(arguments, value, picture)
             print(f"{picture}: {arguments.key} = {value:.6g}", flush=True)
-    make_film(arguments)
+    print(write_film(arguments.output or arguments.folder / "film.mp4", map(Image.open, pictures), arguments.rate))
 
 
 if __name__ == "__main__":

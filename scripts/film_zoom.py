@@ -10,8 +10,6 @@ thousand may be wrong.
 """
 
 import argparse
-import shutil
-import subprocess
 import sys
 from pathlib import Path
 
@@ -21,7 +19,8 @@ from PIL import Image, ImageDraw
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
-from kapitza import BadFile, Engine, style  # noqa: E402
+from kapitza import Engine, style  # noqa: E402
+from kapitza.films import write_film  # noqa: E402
 from kapitza.script import run_script  # noqa: E402
 
 UNSETTLED = (255, 255, 255)
@@ -75,34 +74,9 @@ def frames(arguments):
             yield picture(engine, labels, decades)
 
 
-def write_mp4(arguments, pictures, path):
-    command = ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{arguments.columns}x{arguments.rows}",
-               "-framerate", str(arguments.rate), "-i", "-", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-f", "mp4", path]
-    process = subprocess.Popen(command, stdin=subprocess.PIPE)
-    try:
-        for image in pictures:
-            process.stdin.write(image.tobytes())
-        process.stdin.close()
-    except BrokenPipeError:
-        pass
-    if process.wait():
-        raise BadFile(f"{path}: ffmpeg could not write it")
-
-
-def write_gif(arguments, pictures, path):
-    first, *rest = (image.quantize(64) for image in pictures)
-    first.save(path, format="GIF", save_all=True, append_images=rest, duration=1000 // arguments.rate, loop=0)
-
-
 def main():
     arguments = parse_arguments()
-    path = arguments.output
-    gif = path.suffix == ".gif" or not shutil.which("ffmpeg")
-    path = path.with_suffix(".gif") if gif else path
-    part = path.with_name(f"part-{path.name}")
-    (write_gif if gif else write_mp4)(arguments, frames(arguments), part)
-    part.replace(path)
-    print(path)
+    print(write_film(arguments.output, frames(arguments), arguments.rate))
 
 
 if __name__ == "__main__":

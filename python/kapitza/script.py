@@ -6,15 +6,20 @@ import sys
 import tempfile
 from collections.abc import Callable
 
+from kapitza.program import RunError, SceneError
 from kapitza.result import BadFile
 
 
 def run_script(main: Callable[[], None]) -> None:
-    """Calls main() and ends the script: one line and status 1 for a file that cannot be used, or a picture that cannot be written."""
+    """Calls main() and ends the script: one line and status 1 for a file that cannot be used, or a picture that cannot be written; 2 for
+    a scene that is refused."""
     try:
         main()
         sys.stdout.flush()
-    except (BadFile, OSError, MemoryError) as error:
+    except SceneError as error:
+        print(f"error: {error}", file=sys.stderr)
+        sys.exit(2)
+    except (BadFile, RunError, OSError, MemoryError) as error:
         print(f"error: {_words(error)}", file=sys.stderr)
         if isinstance(error, BrokenPipeError | OSError):
             _forget_stdout()

@@ -1,39 +1,37 @@
-"""film_basin.py: a film goes on with its own whole frames, and with nobody else's."""
+"""Films: one goes on with its own whole frames, and with nobody else's; pictures of one size, MP4 and GIF."""
 
+import shutil
 import subprocess
 import sys
 
 import film_basin
+import kapitza
 import numpy as np
 import pytest
-from conftest import ROOT, plot, run_script
+from conftest import ROOT, run_script
+from kapitza import films
 from PIL import Image, ImageSequence
 
-SCENE = (ROOT / "scenes" / "small.yaml").read_text()
-COUNTS = ("basin.theta.count", "basin.velocity.count")
+SCENE = """
+pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}
+basin: {theta: {count: 20}, velocity: {min: -2, max: 2, count: 20}, attractors: {starts: 256}}
+"""
 
 
 @pytest.fixture
 def film(tmp_path, monkeypatch):
-    """film(first, last) makes a film of two frames of a coarse scene in the folder "film", without ffmpeg."""
+    """film(first, last) makes a film of two frames of a coarse scene in the folder "film", without ffmpeg: a GIF."""
     scene = tmp_path / "scene.yaml"
     scene.write_text(SCENE)
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(film_basin.shutil, "which", lambda name: None)
+    monkeypatch.setattr(films.shutil, "which", lambda name: None)
     drawn = []
 
-    def step(command):
-        command = list(map(str, command))
-        if "run" in command:
-            command[command.index("--set"):command.index("--set")] = [word for key in COUNTS for word in ("--set", f"{key}=20")]
-            run_command(command)
-        else:
-            drawn.append(command[-1])
-            done = plot("basin", *command[2:])  # as the script does, in this process
-            assert done.returncode == 0, done.stderr
+    def count(*arguments, **more):
+        drawn.append(arguments)
+        return kapitza.run(*arguments, **more)
 
-    run_command = film_basin.step
-    monkeypatch.setattr(film_basin, "step", step)
+    monkeypatch.setattr(film_basin, "run", count)
 
     def call(first, last, *options):
         drawn.clear()
@@ -48,7 +46,9 @@ def test_a_film_goes_on_and_another_one_is_refused(film, tmp_path):
     done, drawn = film(0.15, 0.16)
     assert (done.returncode, drawn) == (0, 2), done.stderr
     frames = {path.name: path.read_bytes() for path in (tmp_path / "film").glob("frame-*")}
-    assert set(frames) == {"frame-0000.png", "frame-0001.png"}
+    assert set(frames) == {"frame-0000.png", "frame-0001.png"} and done.stdout.endswith("film.gif\n")
+    with Image.open(tmp_path / "film" / "film.gif") as gif, Image.open(tmp_path / "film" / "frame-0000.png") as frame:
+        assert (gif.n_frames, gif.size) == (2, frame.size)
     (tmp_path / "film" / "frame-0001.png").unlink()
     (tmp_path / "film" / "part-frame-0001.png").write_bytes(b"cut short by a kill")
     done, drawn = film(0.15, 0.16)
@@ -68,6 +68,26 @@ def test_frames_without_a_record_are_another_film(film, tmp_path):
     done, drawn = film(0.15, 0.16)
     assert (done.returncode, drawn) == (1, 0) and "another film" in done.stderr
     assert (tmp_path / "film" / "frame-0000.png").read_bytes() == b"a holiday"
+
+
+def test_films_from_python_have_a_legend_that_stays(tmp_path):
+    """The same kinds in the same order in every picture, with shares that are those of the labels."""
+    assert kapitza.film(SCENE, "pendulum.drive_amplitude", [0.15, 0.3], tmp_path / "two.gif").name == "two.gif"
+    legends = [films.kind_entries(kapitza.run(SCENE, set={"pendulum.drive_amplitude": value}, progress=False))
+               for value in (0.15, 0.3)]
+    assert [[entry[:2] for entry in entries] for entries in legends] == [[entry[:2] for entry in legends[0]]] * 2
+    assert [sum(entry[2] for entry in entries) for entries in legends] == pytest.approx([1, 1])
+    assert legends[0] != legends[1]
+
+
+@pytest.mark.skipif(not shutil.which("ffmpeg"), reason="ffmpeg is not installed")
+def test_an_mp4_of_odd_pictures(tmp_path):
+    pictures = [Image.new("RGB", (41, 31), colour) for colour in ("red", "blue", "green")]
+    path = films.write_film(tmp_path / "odd.mp4", pictures, 5)
+    assert path.read_bytes()[4:8] == b"ftyp"
+    assert [entry.name for entry in tmp_path.iterdir()] == ["odd.mp4"]
+    with pytest.raises(kapitza.BadFile, match="needs a picture"):
+        films.write_film(tmp_path / "none.gif", [], 5)
 
 
 def test_a_film_that_falls_into_a_boundary(tmp_path):
