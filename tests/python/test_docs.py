@@ -1,6 +1,7 @@
 """The pages in docs/: each is in the index, links lead somewhere, and the site is made of them without a warning."""
 
 import re
+import shutil
 import subprocess
 import sys
 
@@ -42,11 +43,26 @@ def test_an_old_name_leads_to_the_new_page(page):
     assert (DOCS / link).read_text().startswith(title + "\n")
 
 
-def test_the_site_is_made_without_a_warning(tmp_path):
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """The folder of the site, made without a warning."""
     for module in ("sphinx", "myst_parser", "furo", "sphinx_copybutton"):
         pytest.importorskip(module, reason="scripts/requirements-docs.txt is not installed: the site is not made")
-    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", tmp_path / "site"]
-    done = subprocess.run([*command, "-d", tmp_path / "doctrees"], capture_output=True, text=True, timeout=300)
+    folder = tmp_path_factory.mktemp("docs")
+    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", folder / "site"]
+    done = subprocess.run([*command, "-d", folder / "doctrees"], capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stderr) == (0, "")
-    pages = [(tmp_path / "site" / f"{name_of(path)}.html").read_text() for path in PAGES]
+    return folder / "site"
+
+
+def test_the_site_has_every_page(site):
+    pages = [(site / f"{name_of(path)}.html").read_text() for path in PAGES]
     assert all("<h1>" in page for page in pages) and "tutorials/how-hard.html" in pages[PAGES.index(DOCS / "index.md")]
+    assert "kapitza.Result.labels" in (site / "reference" / "api.html").read_text()
+
+
+@pytest.mark.skipif(not shutil.which("chromedriver"), reason="needs chromium and chromium-driver")
+def test_no_page_is_wider_than_a_phone(site):
+    command = [sys.executable, ROOT / "tests" / "tools" / "phone_pages.py", site]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0 and done.stdout.endswith(" pages, 0 too wide\n"), done.stdout + done.stderr
