@@ -188,6 +188,9 @@ kz_status kz_arbitrary_advance(kz_arbitrary *orbit, int64_t bits, int degree, kz
 /* The state as pairs of doubles, high + low: rad in [-pi, pi], rad per drive radian; whole turns are left out. */
 void kz_arbitrary_read(const kz_arbitrary *orbit, double theta[2], double velocity[2]);
 
+/* The same in quad precision. */
+void kz_arbitrary_read_quads(const kz_arbitrary *orbit, __float128 state[2]);
+
 /* The state as text [kz_arbitrary_size], exactly. A checkpoint keeps it. KZ_FAILED where the text is not one. */
 size_t kz_arbitrary_size(const kz_arbitrary *orbit);
 void kz_arbitrary_write(const kz_arbitrary *orbit, char *text);
@@ -196,12 +199,12 @@ kz_status kz_arbitrary_restore(kz_arbitrary *orbit, const char *text);
 /* ---- enclosures ---- */
 
 /* Sets of states that are proved to hold the true motion: no error of a scheme, no rounding is left out (docs/explanation/proof.md). Taylor
- * polynomials of order 22 in doubles, of order 40 in pairs of doubles. Parameters are the doubles given. */
-enum { KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS };
+ * polynomials of order 22 in doubles, of order 40 in pairs of doubles and in quad precision. Parameters are the doubles given. */
+enum { KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS, KZ_ENCLOSE_QUADS, KZ_ENCLOSURES };
 
 /* All states centre + matrix z with |z[i]| <= reach[i]. A set that has been lost has reach INFINITY. */
 typedef struct {
-  double theta[2], velocity[2]; /* of the centre, high + low: rad, rad per drive radian */
+  double theta[3], velocity[3]; /* of the centre, sums of three: rad, rad per drive radian */
   double matrix[2][2];          /* rows: theta, velocity */
   double reach[2];
   double jacobian_error[2][2];

@@ -1,8 +1,14 @@
 """basin.proof: proved labels are marked and are the proved ones, whoever worked on them; what cannot be proved is not."""
 
+import json
+import signal
+import subprocess
+import time
+
 import h5py
 import numpy as np
-from conftest import datasets
+import pytest
+from conftest import PROGRAM, datasets
 
 # One attractor, and a saddle whose stable manifold no cell's centre meets.
 SCENE = """\
@@ -62,12 +68,12 @@ def test_labels_that_the_proof_refutes_are_replaced_and_counted(kapitza, tmp_pat
 def test_a_wrong_list_of_attractors_leaves_basins_unproved(kapitza, tmp_path):
     """Without the cycles of 2 and 6 periods nothing is proved about starts that end on them, and everything about the others."""
     (tmp_path / "s.yaml").write_text(FIG12)
-    kapitza("run", "s.yaml", folder=tmp_path)
+    kapitza("run", "s.yaml", "--set", "basin.proof=false", folder=tmp_path)
     kapitza("run", "s.yaml", "-o", "few.h5", "--set", "basin.attractors.max_period=1", folder=tmp_path)
-    cells, attributes, attractors = read(tmp_path / "s.h5")
+    cells, _, attractors = read(tmp_path / "s.h5")
     few, wrong, _ = read(tmp_path / "few.h5")
     long = np.isin(cells["attractor"], np.flatnonzero(attractors["period"] > 1))
-    assert attributes["proved_share"] == 1 and long.any()
+    assert long.any() and not long.all()
     assert np.array_equal(np.isin(few["evidence"], [PROVED, IN_PAIRS]), ~long)
     assert wrong["proved_share"] == np.mean(~long) and wrong["other_share_high"] > np.mean(long)
 
@@ -78,3 +84,38 @@ def test_windows_that_are_too_fast_for_a_proof_are_refused(kapitza, tmp_path):
         done = kapitza(command, "s.yaml", "--set", "numerics.scheme=split6", folder=tmp_path, status=2)
         assert "basin.proof: speeds of 5e+03 rad per drive radian are too fast for a proof" in done.stderr
     assert not (tmp_path / "s.h5").exists()
+
+
+@pytest.mark.parametrize("change, said", [
+    ("basin.theta={centre: 1, width: 1e-27, count: 40}", "basin.proof: cells below 1e-28 are too small for a proof"),
+    ("pendulum.torque=0.01", "pendulum.torque: basin.proof has bounds for the sine alone"),
+    ("pendulum.harmonics=[{order: 2, amplitude: 0.1}]", "pendulum.harmonics: basin.proof has bounds for the sine alone"),
+], ids=["deep", "torque", "harmonics"])
+def test_what_cannot_be_proved_is_refused(kapitza, tmp_path, change, said):
+    (tmp_path / "s.yaml").write_text(SCENE)
+    for command in ("run", "check"):
+        assert said in kapitza(command, "s.yaml", "--set", change, folder=tmp_path, status=2).stderr
+    assert not (tmp_path / "s.h5").exists()
+
+
+def stop_after(stage, ranks, folder):
+    """kapitza run, resumed and asked to stop when a stage has ended; it does before the run's end."""
+    log = folder / "log.jsonl"
+    log.unlink(missing_ok=True)
+    process = subprocess.Popen(["mpirun", "-n", str(ranks), PROGRAM, "run", "s.yaml", "--resume", "--log", log.name], cwd=folder, text=True,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    while process.poll() is None and f'"stage": "{stage}"' not in (log.read_text() if log.exists() else ""):
+        time.sleep(0.005)
+    process.send_signal(signal.SIGUSR1)
+    assert "stopped by SIGUSR1" in process.communicate()[1] and process.returncode == 75
+    return [json.loads(line)["stage"] for line in log.read_text().splitlines() if '"event": "stage"' in line]
+
+
+def test_a_proof_goes_on_where_it_was_stopped(kapitza, tmp_path):
+    """In the region, and among the cells, each time on other ranks."""
+    (tmp_path / "s.yaml").write_text(SCENE)
+    kapitza("run", "s.yaml", "-o", "undisturbed.h5", folder=tmp_path)
+    for stage, ranks in (("proof region 1", 1), ("proof in doubles", 2)):
+        assert stop_after(stage, ranks, tmp_path)[-1].startswith("proof")
+    kapitza("run", "s.yaml", "--resume", folder=tmp_path)
+    assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "undisturbed.h5")

@@ -27,7 +27,7 @@ from kapitza.plots.units import add_si, pivot_frequency, show_in
 from kapitza.result import BadFile, Result
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#8c1d18", "#e58a2b", "#e8c34a", "#3f8f5b", "#c9b8dd", "#5a3d7a",
-                    "#d8b8b5", "#2b2b2b"]
+                    "#d8b8b5", "#2b2b2b", "#c2447e"]
 PAGE_WIDTH, PLANE_WIDTH, TITLES = 7.6, 5.3, 0.9  # inches, nearly the same in every figure
 
 

@@ -181,6 +181,11 @@ void kz_arbitrary_read(const kz_arbitrary *o, double theta[2], double velocity[2
   read_pair(&o->place.velocity, velocity);
 }
 
+void kz_arbitrary_read_quads(const kz_arbitrary *o, __float128 state[2]) {
+  state[0] = kz_number_quad(&o->place.theta);
+  state[1] = kz_number_quad(&o->place.velocity);
+}
+
 size_t kz_arbitrary_size(const kz_arbitrary *o) {
   enum { REST = 128 }; /* exponents, signs, blanks */
   return 2 * ((size_t)(o->bits + 64) / 4 + REST);

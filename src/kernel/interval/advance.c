@@ -31,7 +31,7 @@ kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precis
 }
 
 void kz_enclosure_tables_free(kz_enclosure_tables *tables) {
-  for (int32_t c = 0; tables && c < tables->n_classes; c++) free(tables->classes[c]);
+  for (int32_t c = 0; tables && c < tables->n_classes; c++) kz_speed_class_free(tables->classes[c]);
   free(tables);
 }
 
@@ -40,6 +40,8 @@ static void put(const kz_enclosure *set, int lane, kz_sets *x) {
   x->theta.low[lane] = set->theta[1];
   x->velocity.high[lane] = set->velocity[0];
   x->velocity.low[lane] = set->velocity[1];
+  x->theta_rest[lane] = set->theta[2];
+  x->velocity_rest[lane] = set->velocity[2];
   for (int i = 0; i < 2; i++) {
     x->reach[i][lane] = set->reach[i];
     for (int j = 0; j < 2; j++) {
@@ -54,6 +56,8 @@ static void get(const kz_sets *x, int lane, kz_enclosure *set) {
   set->theta[1] = x->theta.low[lane];
   set->velocity[0] = x->velocity.high[lane];
   set->velocity[1] = x->velocity.low[lane];
+  set->theta[2] = x->theta_rest[lane];
+  set->velocity[2] = x->velocity_rest[lane];
   for (int i = 0; i < 2; i++) {
     set->reach[i] = x->reach[i][lane];
     for (int j = 0; j < 2; j++) {
@@ -71,15 +75,27 @@ static bool is_lost(const kz_enclosure *set) {
   return !isfinite(set->reach[0] + set->reach[1]);
 }
 
+/* The step of the centres, and what takes whole turns out of them. */
+typedef struct {
+  void (*step)(const kz_speed_class *, int32_t, kz_sets *, int, vector (*)[KZ_ORDER_JACOBIAN]);
+  void (*wrap)(kz_sets *);
+} arithmetic;
+static const arithmetic arithmetics[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},
+                                                      [KZ_ENCLOSE_PAIRS] = {kz_centres_step_pairs, kz_sets_wrap},
+                                                      [KZ_ENCLOSE_QUADS] = {kz_centres_step_quads, kz_sets_wrap_quads}};
+
 static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
   const bool jacobian = frame == KZ_KEEP_FRAME;
   vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN];
+  const arithmetic *centres = &arithmetics[tables->precision];
   const int n_cosine = jacobian ? KZ_ORDER_JACOBIAN : KZ_ORDER_TANGENT;
+  for (int p = 0; p < KZ_PARTS && tables->precision != KZ_ENCLOSE_QUADS; p++) {
+    kz_sets_check(speed, &g->sets[p]);
+    kz_sets_drop_rest(&g->sets[p]);
+  }
   for (int32_t i = 0; i < speed->n_steps; i++) {
-    const kz_constant *torque = &speed->torque[i * speed->order];
     for (int p = 0; p < KZ_PARTS; p++) kz_sets_check(speed, &g->sets[p]);
-    (tables->precision == KZ_ENCLOSE_PAIRS ? kz_centres_step_pairs : kz_centres_step_doubles)(speed, torque, g->sets, n_cosine,
-                                                                                              cosine);
+    centres->step(speed, i, g->sets, n_cosine, cosine);
     for (int p = 0; p < KZ_PARTS; p++) {
       kz_neighbours_step(speed, i, cosine[p], jacobian, &g->sets[p]);
       if (!jacobian && (i + 1) % speed->frame_steps == 0 && i + 1 < speed->n_steps) kz_sets_renew_frame(&g->sets[p]);
@@ -87,18 +103,19 @@ static void advance_group(const kz_enclosure_tables *tables, const kz_speed_clas
   }
   for (int p = 0; p < KZ_PARTS; p++) {
     kz_sets_check(speed, &g->sets[p]);
-    kz_sets_wrap(&g->sets[p]);
+    centres->wrap(&g->sets[p]);
     if (!jacobian) kz_sets_renew_frame(&g->sets[p]);
   }
 }
 
-/* n <= GROUP sets [of]; idle lanes copy the first. A set that is too fast stays as it is, and `of` names it afterwards; returns how many
- * these are. */
+/* n <= GROUP sets [of]; idle lanes copy the first, and are lost. A set that is too fast stays as it is, and `of` names it afterwards; returns
+ * how many these are. */
 static int advance_some(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, int n,
                         int32_t *of, kz_enclosure *set) {
   group g = {0};
   int again = 0;
   for (int lane = 0; lane < GROUP; lane++) put(&set[of[lane < n ? lane : 0]], lane % LANES, &g.sets[lane / LANES]);
+  for (int lane = n; lane < GROUP; lane++) g.sets[lane / LANES].lost[lane % LANES] = -1;
   advance_group(tables, speed, frame, &g);
   for (int lane = 0; lane < n; lane++) {
     const kz_sets *x = &g.sets[lane / LANES];

@@ -60,8 +60,9 @@ OPERATION void finish(const kz_speed_class *speed, vector v[P][KZ_PARTS], int p,
   x->velocity = sum(x->velocity.high, faster + x->velocity.low);
 }
 
-void kz_centres_step_doubles(const kz_speed_class *speed, const kz_constant *torque, kz_sets *sets, int n,
+void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets *sets, int n,
                              vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]) {
+  const kz_constant *torque = &speed->torque[step * speed->order];
   _Alignas(VECTOR_BYTES) vector v[P][KZ_PARTS], S[P][KZ_PARTS], C[P][KZ_PARTS];
   for (int p = 0; p < KZ_PARTS; p++) {
     v[0][p] = sets[p].velocity.high;

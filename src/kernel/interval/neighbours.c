@@ -32,6 +32,7 @@ static void lose(mask lost, kz_sets *x) {
     if (!lost[lane]) continue;
     x->lost[lane] = -1;
     x->theta.high[lane] = x->theta.low[lane] = x->velocity.high[lane] = x->velocity.low[lane] = 0;
+    x->theta_rest[lane] = x->velocity_rest[lane] = 0;
     for (int i = 0; i < 2; i++) {
       x->reach[i][lane] = 0;
       for (int j = 0; j < 2; j++) {
@@ -112,15 +113,25 @@ void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector 
   }
 }
 
+void kz_sets_widen(const vector p[2], kz_sets *x) {
+  vector gain[2];
+  solve(x, KZ_LARGER / least_determinant(x), p, gain);
+  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
+}
+
+void kz_sets_drop_rest(kz_sets *x) {
+  const vector p[2] = {size_of(x->theta_rest), size_of(x->velocity_rest)};
+  x->theta_rest = x->velocity_rest = same(0);
+  kz_sets_widen(p, x);
+}
+
 /* (B7) The angle is off by at most 2^-99 + turns 2^-105. */
 void kz_sets_wrap(kz_sets *x) {
   static const double turn[3] = KZ_TWO_PI;
   const vector turns = nearest_integer(x->theta.high * (1 / turn[0]));
   x->theta = less_multiple(x->theta, turns, turn);
   const vector p[2] = {0x1p-99 + 0x1p-105 * size_of(turns), same(0)};
-  vector gain[2];
-  solve(x, KZ_LARGER / least_determinant(x), p, gain);
-  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
+  kz_sets_widen(p, x);
 }
 
 /* Of A z = Q (Q^-1 A z), Q a rotation but for rounding, which the slack covers. */

@@ -8,13 +8,14 @@
 #include "kapitza/kernel.h"
 #include "extended/pairs_arithmetic.h"
 
-/* Orders of the Taylor polynomials: of the centre in doubles and in pairs, of the tangent map - where its rest is small beside the set, and
+/* Orders of the Taylor polynomials: of the centre in doubles, and in pairs or quads, of the tangent map - where its rest is small beside the set, and
  * where the frame is kept. KZ_PARTS vectors go together, so that
  * a processor has enough to do while it waits for sums. */
 enum { KZ_ORDER_DOUBLES = 22, KZ_ORDER_PAIRS = 40, KZ_ORDER_TANGENT = 8, KZ_ORDER_JACOBIAN = 20, KZ_PARTS = 2 };
 
-/* Of a centre in pairs: so many coefficients are pairs. The others, below 1e-18 of the velocity, are doubles. */
-enum { KZ_COEFFICIENTS_PAIRS = 25 };
+/* Of a centre in pairs: so many coefficients are pairs. The others, below 1e-18 of the velocity, are doubles. Of one in quads so many are
+ * quads, and the others as before. */
+enum { KZ_COEFFICIENTS_PAIRS = 25, KZ_COEFFICIENTS_QUADS = 6 };
 
 /* Relative: far above the rounding of the few operations on positive numbers that a bound is made of. */
 #define KZ_LARGER (1 + 0x1p-40)
@@ -23,6 +24,11 @@ enum { KZ_COEFFICIENTS_PAIRS = 25 };
 typedef struct {
   double high, low;
 } kz_constant;
+
+/* Constants of a step in quad precision: h beta, h, powers of s in h (k - m cos t). */
+typedef struct {
+  __float128 damping, step, (*torque)[KZ_COEFFICIENTS_QUADS]; /* [n_steps] */
+} kz_quad_constants;
 
 /* A step of 2 pi / n_steps for centres that are at most `fastest` at its beginning. Time s in steps: 0 .. 1. */
 typedef struct {
@@ -40,6 +46,7 @@ typedef struct {
   kz_constant damping;                 /* h beta */
   kz_constant step[KZ_ORDER_PAIRS];    /* h / (n + 1) */
   kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
+  kz_quad_constants quads;             /* of a class in quads */
   kz_constant torque[];                /* [n_steps][order] powers of s in h (k - m cos t) */
 } kz_speed_class;
 
@@ -49,9 +56,10 @@ struct kz_enclosure_tables {
   kz_speed_class *classes[];
 };
 
-/* LANES sets. */
+/* LANES sets. A centre is the sum of a pair and a rest, which is 0 but in quads. */
 typedef struct {
   pair theta, velocity;
+  vector theta_rest, velocity_rest;
   vector most_sine; /* upper bound of |sin theta| of the centre on the present step */
   vector matrix[2][2], reach[2], jacobian_error[2][2];
   mask too_fast, lost;
@@ -59,21 +67,31 @@ typedef struct {
 
 /* Before a step: sets that are too fast for the class, too large or without area are lost. */
 void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);
-/* A step of the centres of KZ_PARTS vectors; cosine: the first n coefficients of cos theta along them, in doubles. */
-void kz_centres_step_doubles(const kz_speed_class *speed, const kz_constant *torque, kz_sets *sets, int n,
+/* Step i of the centres of KZ_PARTS vectors; cosine: the first n coefficients of cos theta along them, in doubles. In quads lost sets stay. */
+void kz_centres_step_doubles(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
                              vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
-void kz_centres_step_pairs(const kz_speed_class *speed, const kz_constant *torque, kz_sets *sets, int n,
+void kz_centres_step_pairs(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
+                           vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
+void kz_centres_step_quads(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
                            vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
 /* The same step of the sets around the centres; `jacobian`: their jacobian_error too. */
 void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector cosine[KZ_ORDER_JACOBIAN], bool jacobian,
                         kz_sets *sets);
-/* Takes whole turns out of the centres. */
+/* The centres are off by at most p: the sets become wider. */
+void kz_sets_widen(const vector p[2], kz_sets *sets);
+/* The rest of a centre becomes a part of its error. */
+void kz_sets_drop_rest(kz_sets *sets);
+/* Takes whole turns out of the centres: of pairs, or of quads. */
 void kz_sets_wrap(kz_sets *sets);
+void kz_sets_wrap_quads(kz_sets *sets);
 /* Sets become rectangles with the longer side of the former set first. */
 void kz_sets_renew_frame(kz_sets *sets);
 
 /* A class of the given precision, for centres up to `fastest`; NULL where it takes too many steps. */
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest);
+void kz_speed_class_free(kz_speed_class *speed);
+/* Makes the constants in quads of a class with its steps; to be freed with it. */
+void kz_quad_constants_make(const kz_pendulum *pendulum, kz_speed_class *speed);
 
 /* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs. */
 void kz_enclosure_sine_doubles(int64_t n, const double *theta, double *sine, double *cosine);

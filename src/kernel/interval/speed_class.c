@@ -11,7 +11,9 @@ typedef long double real;
 
 enum { MOST_STEPS = 4096, P = KZ_ORDER_PAIRS, MOST = KZ_ORDER_JACOBIAN };
 static const real CAUTION = 1 + 1e-9L; /* far above the rounding of the bounds and in the C library's functions */
-static const real U = 0x1p-53L;
+static const real U = 0x1p-53L, U_QUAD = 0x1p-113L;
+/* In units of U_QUAD: of constants in quads, which are products of 2 pi, cosines and powers of h (2^-108, 19 and 36 units). */
+static const real QUAD_CONSTANTS = 96;
 static const real TINY = 1e-280L; /* products below the range of doubles */
 
 void kz_interval_constants(double k, double beta, double m, int32_t n_steps, int32_t order, double *damping, double *step,
@@ -21,7 +23,7 @@ void kz_interval_constants(double k, double beta, double m, int32_t n_steps, int
 typedef struct {
   const kz_pendulum *pendulum;
   int n_majorants, order;
-  bool pairs;
+  bool pairs, quads; /* quads: with the first coefficients in quads, else as pairs */
   real h;
   real torque[P];                        /* sizes of the torque's powers of s */
   real velocity[P], sine[P];             /* sizes of coefficients; of the cosine's too */
@@ -29,13 +31,19 @@ typedef struct {
   kz_majorant majorant[KZ_MAJORANTS];
 } bounds;
 
-/* Is coefficient n a pair? */
+/* Is coefficient n a quad? */
+static bool is_quad(const bounds *b, int n) {
+  return b->quads && n < KZ_COEFFICIENTS_QUADS;
+}
+
+/* Is it a pair? */
 static bool is_pair(const bounds *b, int n) {
   return b->pairs && n < KZ_COEFFICIENTS_PAIRS;
 }
 
 /* Relative: of a sum of products for coefficient n, one factor of which is a constant or computed, times a constant. */
 static real sum_error(const bounds *b, int n, int products) {
+  if (is_quad(b, n)) return (products + 4) * U_QUAD * 1.01L;
   return is_pair(b, n) ? (real)(products + 4) * (products + 4) * U * U * 1.01L : (products + 4) * U * 1.01L;
 }
 
@@ -57,16 +65,21 @@ static void set_sizes(bounds *b) {
   }
 }
 
+/* Relative: of the factors of coefficient n that were rounded, to pairs or, where high parts are multiplied, to doubles. The damping's, 1 / n
+ * and h / n: in sum_error, but in quads here too. */
+static real factor_error(const bounds *b, int n) {
+  if (is_quad(b, n)) return QUAD_CONSTANTS * U_QUAD;
+  return is_pair(b, n) ? (b->quads ? 4 : 2) * U * U : 2 * U * (1 + U);
+}
+
 /* (B2) The recurrences of the step, on errors. */
 static void set_errors(bounds *b, double fastest) {
   b->velocity[0] = fastest;
   b->sine[0] = 1;
   b->velocity_error[0] = b->pairs ? 0 : U * fastest;
-  b->sine_error[0] = b->pairs ? 48 * U * U : 8 * U;
+  b->sine_error[0] = b->quads ? 0x1p-108L : b->pairs ? 48 * U * U : 8 * U;
   for (int n = 0; n + 1 < b->order; n++) {
-    /* constant: relative, of factors that were rounded to pairs or, where high parts are multiplied, to doubles; the damping's, 1 / n and
-     * h / n: in sum_error */
-    const real damping = b->h * b->pendulum->beta * CAUTION, constant = is_pair(b, n + 1) ? 2 * U * U : 2 * U * (1 + U);
+    const real damping = b->h * b->pendulum->beta * CAUTION, constant = factor_error(b, n + 1);
     const real summed = sum_error(b, n + 1, n + 2) + constant;
     real v = damping * (b->velocity_error[n] + summed * (b->velocity[n] + b->velocity_error[n])), s = 0;
     for (int i = 0; i <= n; i++) {
@@ -84,11 +97,16 @@ static void set_errors(bounds *b, double fastest) {
 static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed) {
   const real h = b->h, farthest = 4 + 2 * (real)M_PI * fastest * CAUTION; /* theta before whole turns are taken out */
   real velocity = 0, theta = 0, sum = 0, product = 0, sums = 0, products = 0, rest = HUGE_VALL;
-  real small_sum = 0, small_product = 0;
+  real small_sum = 0, small_product = 0, quad_sum = 0, quad_product = h * fastest;
   for (int n = b->order - 1; n >= 1; n--) {
     const real size = b->velocity[n] + b->velocity_error[n];
     velocity += b->velocity_error[n];
     theta += b->velocity_error[n] * h / (n + 1);
+    if (is_quad(b, n)) {
+      quad_sum += size;
+      quad_product += size * h / (n + 1);
+      continue;
+    }
     sums += sum += size;
     products += product += size * h / (n + 1);
     if (n != KZ_COEFFICIENTS_PAIRS) continue;
@@ -98,6 +116,13 @@ static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed)
   if (b->pairs) { /* those of the coefficients that are doubles are summed in doubles */
     velocity += (b->order + 2) * U * 1.01L * small_sum;
     theta += (b->order + 4) * U * 1.01L * small_product;
+  }
+  if (b->quads) {
+    const int sums_of_quads = KZ_COEFFICIENTS_QUADS + 2;
+    velocity += 3.1L * U * U * sums + U_QUAD * 1.01L * (sums_of_quads * (quad_sum + sum) + fastest + quad_sum + sum);
+    theta += 3.1L * U * U * products + 8 * U * U * product +
+             U_QUAD * 1.01L * ((sums_of_quads + 6) * (quad_product + product) + farthest);
+  } else if (b->pairs) {
     velocity += 3.1L * U * U * (sums + fastest + sum);
     theta += 3.1L * U * U * (products + product + h * fastest + farthest) + 8 * U * U * (product + h * fastest);
   } else {
@@ -181,7 +206,7 @@ static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
 
 /* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
 static int32_t choose_steps(const bounds *b) {
-  const real wished = b->pairs ? 1e-31L : 1e-16L;
+  const real wished = b->quads ? 1e-34L : b->pairs ? 1e-31L : 1e-16L;
   real longest = 0;
   for (int i = 0; i < b->n_majorants; i++)
     longest = fmaxl(longest, b->majorant[i].r * powl(wished / b->majorant[i].w, 1.0L / b->order));
@@ -207,6 +232,7 @@ static kz_speed_class *create(bounds *b, double fastest) {
   made->frame_steps = steps_of_frame(b->pendulum, n_steps);
   kz_interval_constants(b->pendulum->k, b->pendulum->beta, b->pendulum->m, n_steps, b->order, &made->damping.high,
                         &made->step->high, &made->inverse->high, &made->torque->high);
+  if (b->quads) kz_quad_constants_make(b->pendulum, made);
   b->h = 2 * (real)M_PI / n_steps * CAUTION;
   set_sizes(b);
   set_errors(b, fastest);
@@ -220,9 +246,16 @@ static kz_speed_class *create(bounds *b, double fastest) {
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest) {
   bounds *b = kz_calloc(1, sizeof *b);
   b->pendulum = pendulum;
-  b->pairs = precision == KZ_ENCLOSE_PAIRS;
+  b->quads = precision == KZ_ENCLOSE_QUADS;
+  b->pairs = b->quads || precision == KZ_ENCLOSE_PAIRS;
   b->order = b->pairs ? KZ_ORDER_PAIRS : KZ_ORDER_DOUBLES;
   kz_speed_class *speed = create(b, fastest);
   free(b);
   return speed;
+}
+
+void kz_speed_class_free(kz_speed_class *speed) {
+  if (!speed) return;
+  free(speed->quads.torque);
+  free(speed);
 }

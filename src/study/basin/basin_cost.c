@@ -150,12 +150,13 @@ static kz_status measure_parts(sample *s) {
   if (status == KZ_OK) status = measure_cells(s);
   if (status == KZ_OK) status = kz_boundary_measure(&s->scene->basin, s->dynamics, &s->seconds);
   if (status == KZ_OK) status = measure_shocks(s, &catalogue);
+  if (status == KZ_OK) status = kz_proof_measure(s->scene, s->dynamics, &s->seconds);
   kz_catalogue_free(&catalogue);
   return status;
 }
 
 static kz_status measure_damped(const kz_scene *scene, double *seconds) {
-  sample s = {.scene = scene, .item = kz_malloc(FEW_CELLS * sizeof *s.item), .seconds = kz_proof_seconds(scene)};
+  sample s = {.scene = scene, .item = kz_malloc(FEW_CELLS * sizeof *s.item)};
   s.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->basin.max_period);
   const kz_status status = measure_parts(&s);
   kz_dynamics_free(s.dynamics);

@@ -40,8 +40,9 @@ static void count(kz_chunks *c, int64_t tile) {
   const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
   for (int64_t i = 0; i < n; i++) {
     c->counts.undecided += c->evidence[i] == KZ_UNDECIDED;
-    c->counts.proved += c->evidence[i] == KZ_PROVED || c->evidence[i] == KZ_PROVED_IN_PAIRS;
     c->counts.proved_in_pairs += c->evidence[i] == KZ_PROVED_IN_PAIRS;
+    c->counts.proved_in_quads += c->evidence[i] == KZ_PROVED_IN_QUADS;
+    c->counts.proved += c->evidence[i] == KZ_PROVED || c->evidence[i] >= KZ_PROVED_IN_PAIRS;
     if (c->ids[i] < 0)
       c->counts.unsettled++;
     else

@@ -7,7 +7,7 @@
 #include "window/starts.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: not decided by the scene's own numerics, but
- * for KZ_PROVED, which is of basin.proof, whatever the method; no tile has it. KZ_LEFT: of method direct, which leaves it so. */
+ * for KZ_PROVED and the like, which are of basin.proof, whatever the method; no tile has them. KZ_LEFT: of method direct, which leaves it so. */
 enum {
   KZ_UNSETTLED = 0,
   KZ_INSIDE = 1,
@@ -19,7 +19,8 @@ enum {
   KZ_IN_FINE = 7,
   KZ_IN_ARBITRARY = 8,
   KZ_LEFT = 9,
-  KZ_PROVED_IN_PAIRS = 10
+  KZ_PROVED_IN_PAIRS = 10,
+  KZ_PROVED_IN_QUADS = 11
 };
 
 /* A cell. */
@@ -28,7 +29,7 @@ typedef struct {
   int16_t label;    /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL until a level decides it */
   int16_t other;    /* of an undecided cell: the second candidate, 0 = none */
   uint8_t evidence; /* from KZ_FOLLOWED on */
-  uint8_t proof;    /* KZ_PROVED, KZ_PROVED_IN_PAIRS, 0 = not proved */
+  uint8_t proof;    /* KZ_PROVED, ..._IN_PAIRS, ..._IN_QUADS, 0 = not proved */
   uint8_t proved;   /* where it is proved to end: number of kz_dynamics */
   uint8_t unused;   /* 0 */
 } kz_cell_label;

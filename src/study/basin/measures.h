@@ -12,7 +12,8 @@ enum { KZ_DISTANCES = 8, KZ_BOX_CELLS = KZ_BOX * KZ_BOX };
 
 /* Numbers of int64_t alone, so that kz_ranks_sum adds them. */
 typedef struct {
-  int64_t proved, proved_in_pairs, refuted;                /* cells; of the proved ones: in pairs; with another label before */
+  int64_t proved, refuted;                                 /* cells; of these: with another label before */
+  int64_t proved_in_pairs, proved_in_quads;                /* of the proved ones */
   int64_t unsettled, undecided, doubtful;                  /* cells; doubtful: own ones */
   int64_t boxes[KZ_BOX_CELLS + 1];                         /* with so many settled cells */
   int64_t parts[KZ_BOX_CELLS + 1][KZ_BOX_CELLS + 1];       /* of these boxes: attractors that have so many of their cells */

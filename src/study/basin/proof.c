@@ -10,7 +10,6 @@
 
 enum { COLUMNS = 250, MOST_ROWS = 8000 };
 static const double ROWS = 116;       /* a rad per drive radian */
-static const double SECONDS = 3e-5;   /* a cell or a start: measured at Fig. 12 and 13 */
 static const double SMALLEST = 1e-28; /* rad, rad per drive radian: of a cell, well above the rounding of its centre */
 static const double LOWEST = 1.5,
                     HIGHEST = 3; /* rad per drive radian: as far reaches the grid at least, at most; attractors are slow */
@@ -27,11 +26,6 @@ static int64_t rows_of(const kz_scene *scene) {
 
 double kz_proof_bytes(const kz_scene *scene) {
   return scene->basin.proof ? 2 * (double)rows_of(scene) * COLUMNS + 2e6 : 0;
-}
-
-double kz_proof_seconds(const kz_scene *scene) {
-  const double cells = (double)kz_unique_cells(&scene->basin) + (double)kz_proof_sample_starts(&scene->basin);
-  return scene->basin.proof ? SECONDS * (cells + (double)rows_of(scene) / 2 * COLUMNS) : 0;
 }
 
 kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {

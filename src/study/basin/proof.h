@@ -35,8 +35,11 @@ kz_status kz_prove_sample(const kz_run *run, const kz_basin_plan *plan, const kz
 /* The three of them, one after the other. Collective. */
 kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample);
 
-/* What a proof costs: bytes of a rank, seconds of one core. */
+/* The start of a cell. */
+kz_proof_start kz_proof_cell_start(const kz_basin_plan *plan, int64_t cell);
+
+/* What a proof costs: bytes of a rank; seconds of one core, with the known attractors, are added to *seconds. */
 double kz_proof_bytes(const kz_scene *scene);
-double kz_proof_seconds(const kz_scene *scene);
+kz_status kz_proof_measure(const kz_scene *scene, const kz_dynamics *dynamics, double *seconds);
 
 #endif

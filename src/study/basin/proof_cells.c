@@ -1,5 +1,5 @@
 /* Labels that are proved: the start of each cell is followed into the region, in doubles and, where its set grows too large, in pairs of
- * doubles. Tiles are taken some at a time, so that what all ranks know of them stays small. */
+ * doubles and at last in quad precision. Tiles are taken some at a time, so that what all ranks know of them stays small. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,17 @@
 #include "label_parts.h"
 #include "proof.h"
 
-enum { MOST_CELLS = 1 << 22, PAIRS_TILE = 256 }; /* of tiles that are taken together; of a tile of those in pairs */
+enum { MOST_CELLS = 1 << 22 }; /* of tiles that are taken together */
+
+/* What takes the cells that a coarser precision leaves. */
+typedef struct {
+  const char *stage;
+  int32_t precision;
+  int64_t tile; /* cells that it takes at a time */
+  uint8_t evidence;
+} finer_stage;
+static const finer_stage finer_ones[] = {{"proof in pairs", KZ_ENCLOSE_PAIRS, 1024, KZ_PROVED_IN_PAIRS},
+                                         {"proof in quads", KZ_ENCLOSE_QUADS, 32, KZ_PROVED_IN_QUADS}};
 
 /* Tiles from .. to - 1, and the stage that works on them. */
 typedef struct {
@@ -17,14 +27,15 @@ typedef struct {
   int64_t from, to, first, n; /* tiles; first cell, cells */
   uint64_t *wanted;           /* [n] bits */
   uint8_t *number, *evidence; /* [n] */
-  int64_t n_left, *left;      /* cells that doubles leave */
+  const finer_stage *finer;   /* of the present stage */
+  int64_t n_left, *left;      /* cells that coarser precisions leave */
 } part;
 
 static bool is_wanted(const part *p, int64_t i) {
   return p->wanted[i / 64] >> (i % 64) & 1;
 }
 
-static kz_proof_start start_of(const kz_basin_plan *plan, int64_t cell) {
+kz_proof_start kz_proof_cell_start(const kz_basin_plan *plan, int64_t cell) {
   kz_proof_start start;
   const double theta = kz_axis_place(&plan->theta, cell % plan->theta.count, start.theta);
   const double velocity = kz_axis_place(&plan->velocity, cell / plan->theta.count, start.velocity);
@@ -51,7 +62,7 @@ static kz_status find_wanted(kz_window_labels *l, part *p) {
 /* Follows n wanted cells; number [n]. */
 static void follow(const part *p, int32_t precision, int64_t n, const int64_t *cell, uint8_t *number) {
   kz_proof_start *start = kz_malloc((size_t)n * sizeof *start + 1);
-  for (int64_t i = 0; i < n; i++) start[i] = start_of(p->labelling->plan, cell[i]);
+  for (int64_t i = 0; i < n; i++) start[i] = kz_proof_cell_start(p->labelling->plan, cell[i]);
   kz_proof_follow(p->proof, precision, n, start, kz_proof_periods(p->labelling->plan), number);
   free(start);
 }
@@ -73,8 +84,8 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
 
 static kz_status follow_left(void *context, int64_t tile, void *record) {
   const part *p = context;
-  const int64_t first = tile * PAIRS_TILE, n = p->n_left - first < PAIRS_TILE ? p->n_left - first : PAIRS_TILE;
-  follow(p, KZ_ENCLOSE_PAIRS, n, p->left + first, record);
+  const int64_t most = p->finer->tile, first = tile * most, n = p->n_left - first < most ? p->n_left - first : most;
+  follow(p, p->finer->precision, n, p->left + first, record);
   return KZ_OK;
 }
 
@@ -110,17 +121,23 @@ static kz_status prove_in_doubles(const kz_run *run, part *p) {
   return status;
 }
 
-static kz_status prove_in_pairs(const kz_run *run, part *p) {
-  kz_stage stage = {.name = "proof in pairs",
-                    .n_tiles = (p->n_left + PAIRS_TILE - 1) / PAIRS_TILE,
-                    .record_bytes = PAIRS_TILE,
-                    .work = follow_left,
-                    .context = p,
-                    .keep = true,
-                    .everywhere = true};
-  uint8_t *record = kz_malloc((size_t)stage.n_tiles * PAIRS_TILE + 1);
+static kz_status prove_left(const kz_run *run, const finer_stage *finer, part *p) {
+  const kz_stage stage = {.name = finer->stage,
+                          .n_tiles = (p->n_left + finer->tile - 1) / finer->tile,
+                          .record_bytes = (size_t)finer->tile,
+                          .work = follow_left,
+                          .context = p,
+                          .keep = true,
+                          .everywhere = true};
+  p->finer = finer;
+  uint8_t *record = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   const kz_status status = kz_stage_run(run, &stage, record);
-  for (int64_t i = 0; status == KZ_OK && i < p->n_left; i++) take(p, p->left[i] - p->first, record[i], KZ_PROVED_IN_PAIRS);
+  int64_t n_left = 0;
+  for (int64_t i = 0; status == KZ_OK && i < p->n_left; i++) {
+    take(p, p->left[i] - p->first, record[i], finer->evidence);
+    if (record[i] == 0) p->left[n_left++] = p->left[i];
+  }
+  p->n_left = n_left;
   free(record);
   return status;
 }
@@ -148,7 +165,7 @@ static kz_status prove_part(kz_window_labels *l, part *p) {
   KZ_TRY(kz_ranks_agree(run->ranks, find_wanted(l, p)));
   KZ_TRY(kz_ranks_sum(run->ranks, (int64_t *)p->wanted, p->n / 64 + 1));
   KZ_TRY(prove_in_doubles(run, p));
-  KZ_TRY(prove_in_pairs(run, p));
+  for (size_t i = 0; i < sizeof finer_ones / sizeof *finer_ones; i++) KZ_TRY(prove_left(run, &finer_ones[i], p));
   void *record = kz_malloc(kz_tile_labels_bytes(l));
   const kz_status status = keep(l, p, record);
   free(record);

@@ -6,7 +6,7 @@
 #include "numerics/cells.h"
 #include "proof.h"
 
-enum { MOST_STARTS = 50000, TILE = 2048, PERIODS = 2000 };
+enum { MOST_STARTS = 50000, TILE = 4096, PERIODS = 2000 };
 
 typedef struct {
   const kz_basin_plan *plan;

@@ -32,7 +32,20 @@ static kz_enclosure set_at(double theta, double velocity, double half) {
   return (kz_enclosure){.theta = {theta}, .velocity = {velocity}, .matrix = {{1, 0}, {0, 1}}, .reach = {half, half}};
 }
 
-/* z, in the coordinates of a set, of a start after some periods in quad precision. */
+/* z of a state in the coordinates of a set. */
+static void place_of(const quad end[2], const kz_enclosure *set, double z[2]) {
+  const quad turn = 2 * 3.14159265358979323846264338327950288419716939937510582Q;
+  quad x = end[0] - set->theta[0] - set->theta[1] - set->theta[2];
+  const quad v = end[1] - set->velocity[0] - set->velocity[1] - set->velocity[2];
+  if (x > 3) x -= turn;
+  if (x < -3) x += turn;
+  const double (*A)[2] = set->matrix;
+  const quad det = (quad)A[0][0] * A[1][1] - (quad)A[0][1] * A[1][0];
+  z[0] = (double)((A[1][1] * x - A[0][1] * v) / det);
+  z[1] = (double)((A[0][0] * v - A[1][0] * x) / det);
+}
+
+/* Of a start after some periods in quad precision. */
 static void true_place(const kz_pendulum *pendulum, const quad start[2], int64_t periods, const kz_enclosure *set,
                        double z[2]) {
   kz_reference_state state = {.turns = 0};
@@ -40,15 +53,7 @@ static void true_place(const kz_pendulum *pendulum, const quad start[2], int64_t
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, 1, periods, &state);
   quad end[2];
   memcpy(end, state.quads, sizeof end);
-  const quad turn = 2 * 3.14159265358979323846264338327950288419716939937510582Q;
-  quad x = end[0] - set->theta[0] - set->theta[1];
-  const quad v = end[1] - set->velocity[0] - set->velocity[1];
-  if (x > 3) x -= turn;
-  if (x < -3) x += turn;
-  const double (*A)[2] = set->matrix;
-  const quad det = (quad)A[0][0] * A[1][1] - (quad)A[0][1] * A[1][0];
-  z[0] = (double)((A[1][1] * x - A[0][1] * v) / det);
-  z[1] = (double)((A[0][0] * v - A[1][0] * x) / det);
+  place_of(end, set, z);
 }
 
 /* |z| / reach of a start at y of the set's beginning, in units of its half sides: above 1, it lies outside. */
@@ -109,6 +114,50 @@ static void points_hold_the_motion(void **state) {
       kz_enclosure_tables_free(plan);
     }
   assert_true(farthest[0] < 1 && farthest[1] < 1 && kept > 0.9 * 2 * DRAWS * SETS * (PERIODS - 1));
+}
+
+/* Sets of one point in quads, against an orbit in 200 bits: the largest |z| / reach; *narrower: the largest reach, of that in pairs. */
+static double farthest_in_quads(const kz_pendulum *pendulum, double fastest, double *narrower) {
+  kz_enclosure_tables *plan = plan_for(pendulum, KZ_ENCLOSE_QUADS, fastest),
+                      *pairs = plan_for(pendulum, KZ_ENCLOSE_PAIRS, fastest);
+  kz_enclosure set[SETS], coarse[SETS];
+  kz_arbitrary *orbit[SETS];
+  double farthest = 0, z[2];
+  place_sets(fastest, 0, set);
+  memcpy(coarse, set, sizeof set);
+  for (int i = 0; i < SETS; i++) {
+    const kz_coordinate start[2] = {{.high = set[i].theta[0]}, {.high = set[i].velocity[0]}};
+    orbit[i] = kz_arbitrary_create(pendulum, start, 200);
+  }
+  for (int period = 0; period < PERIODS; period++) {
+    kz_enclosures_advance(plan, KZ_NEW_FRAME, SETS, set);
+    kz_enclosures_advance(pairs, KZ_NEW_FRAME, SETS, coarse);
+    for (int i = 0; i < SETS; i++) {
+      quad end[2];
+      assert_int_equal(kz_arbitrary_advance(orbit[i], 200, 0, NULL), KZ_OK);
+      kz_arbitrary_read_quads(orbit[i], end);
+      place_of(end, &set[i], z);
+      farthest = fmax(farthest, fmax(fabs(z[0]) / set[i].reach[0], fabs(z[1]) / set[i].reach[1]));
+      *narrower = fmax(*narrower, (set[i].reach[0] + set[i].reach[1]) / (coarse[i].reach[0] + coarse[i].reach[1]));
+    }
+  }
+  for (int i = 0; i < SETS; i++) kz_arbitrary_free(orbit[i]);
+  kz_enclosure_tables_free(plan);
+  kz_enclosure_tables_free(pairs);
+  return farthest;
+}
+
+static void points_in_quads_hold_the_motion(void **state) {
+  (void)state;
+  if (kz_arbitrary_bits() < 200) skip();
+  srand(6);
+  double farthest = 0, narrower = 0;
+  for (int draw = 0; draw < DRAWS; draw += 2) {
+    const kz_pendulum pendulum = some_pendulum(draw);
+    farthest = fmax(farthest, farthest_in_quads(&pendulum, draw == 4 ? 15 : 3, &narrower));
+  }
+  if (getenv("KZ_SHOW")) print_message("quads: %g of the bound, at most %g of pairs\n", farthest, narrower);
+  assert_true(farthest < 1 && farthest > 1e-3 && narrower < 0.05);
 }
 
 static void boxes_hold_the_motion(void **state) {
@@ -243,10 +292,24 @@ static void sums_of_products_are_as_good_as_their_bound(void **state) {
   assert_true(worst < 1 && worst > 0.1);
 }
 
+/* The series are those of the sine drive. */
+static void other_drives_are_refused(void **state) {
+  (void)state;
+  kz_enclosure_tables *tables;
+  const kz_pendulum pushed = {.k = 0.1, .beta = 0.1, .m = 0.4, .torque = 0.01, .unmirrored = 1};
+  for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++) {
+    assert_int_equal(kz_enclosure_tables_create(&pushed, precision, 3, &tables), KZ_REFUSED);
+    assert_null(tables);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sines_are_as_good_as_their_bounds),
                                      cmocka_unit_test(sums_of_products_are_as_good_as_their_bound),
-                                     cmocka_unit_test(points_hold_the_motion), cmocka_unit_test(boxes_hold_the_motion),
-                                     cmocka_unit_test(bounds_cut_by_ten_do_not_hold)};
+                                     cmocka_unit_test(points_hold_the_motion),
+                                     cmocka_unit_test(points_in_quads_hold_the_motion),
+                                     cmocka_unit_test(boxes_hold_the_motion),
+                                     cmocka_unit_test(bounds_cut_by_ten_do_not_hold),
+                                     cmocka_unit_test(other_drives_are_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

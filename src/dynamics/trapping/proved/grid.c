@@ -14,13 +14,14 @@ kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t 
   made->beta = pendulum->beta;
   made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
   const double most = fmax(top, fastest) + 1.5 * kz_stiffness(pendulum);
-  KZ_TRY(kz_enclosure_tables_create(pendulum, KZ_ENCLOSE_DOUBLES, most, &made->tables[KZ_ENCLOSE_DOUBLES]));
-  return kz_enclosure_tables_create(pendulum, KZ_ENCLOSE_PAIRS, most, &made->tables[KZ_ENCLOSE_PAIRS]);
+  for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++)
+    KZ_TRY(kz_enclosure_tables_create(pendulum, precision, most, &made->tables[precision]));
+  return KZ_OK;
 }
 
 void kz_proof_free(kz_proof *proof) {
   if (!proof) return;
-  for (int p = 0; p < 2; p++) kz_enclosure_tables_free(proof->tables[p]);
+  for (int p = 0; p < KZ_ENCLOSURES; p++) kz_enclosure_tables_free(proof->tables[p]);
   free(proof->label);
   free(proof);
 }

@@ -14,8 +14,8 @@ typedef struct {
 } kz_proof_part;
 
 struct kz_proof {
-  kz_enclosure_tables *tables[2]; /* KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS */
-  int64_t columns, rows;          /* even */
+  kz_enclosure_tables *tables[KZ_ENCLOSURES];
+  int64_t columns, rows; /* even */
   double beta;
   double top;     /* rad per drive radian: rows go from -top to top */
   uint8_t *label; /* [rows][columns]: attractor, 0 = open; closed cells */
