@@ -62,7 +62,7 @@ def test_labels_that_the_proof_refutes_are_replaced_and_counted(kapitza, tmp_pat
     refuted = np.count_nonzero(without["attractor"] == -1)
     assert refuted > 0 and attributes["refuted"] == refuted and not cells["attractor"].any()
     assert "proved_share" not in bare and not np.isin(without["evidence"], [PROVED, IN_PAIRS]).any()
-    assert f"warning: {refuted} of the proved cells had another label, or none" in done.stdout
+    assert f"warning: the proof gives {refuted} cells another label" in done.stdout
 
 
 def test_a_wrong_list_of_attractors_leaves_basins_unproved(kapitza, tmp_path):
