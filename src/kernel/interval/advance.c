@@ -80,14 +80,14 @@ typedef struct {
   void (*step)(const kz_speed_class *, int32_t, kz_sets *, int, vector (*)[KZ_ORDER_JACOBIAN]);
   void (*wrap)(kz_sets *);
 } arithmetic;
-static const arithmetic arithmetics[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},
-                                                      [KZ_ENCLOSE_PAIRS] = {kz_centres_step_pairs, kz_sets_wrap},
-                                                      [KZ_ENCLOSE_QUADS] = {kz_centres_step_quads, kz_sets_wrap_quads}};
+static const arithmetic arithmetic_of[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},
+                                                        [KZ_ENCLOSE_PAIRS] = {kz_centres_step_pairs, kz_sets_wrap},
+                                                        [KZ_ENCLOSE_QUADS] = {kz_centres_step_quads, kz_sets_wrap_quads}};
 
 static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
   const bool jacobian = frame == KZ_KEEP_FRAME;
   vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN];
-  const arithmetic *centres = &arithmetics[tables->precision];
+  const arithmetic *centres = &arithmetic_of[tables->precision];
   const int n_cosine = jacobian ? KZ_ORDER_JACOBIAN : KZ_ORDER_TANGENT;
   for (int p = 0; p < KZ_PARTS && tables->precision != KZ_ENCLOSE_QUADS; p++) {
     kz_sets_check(speed, &g->sets[p]);
