@@ -56,8 +56,8 @@ OPTIONS = {
     "basin.attractors.seed": st.integers(0, 2**53),
     "numerics.scheme": st.sampled_from(["rk4", "split6", "processed"]),
     "numerics.steps_per_period": st.integers(200, 2000),  # enough for every pendulum below; errors of more take seconds to measure
-    "pendulum.quality_factor": st.floats(1e-3, 1e8),
-    "pendulum": st.fixed_dictionaries({"k": st.floats(-1, 1), "damping": st.floats(0, 2), "m": st.floats(-1, 1)}),
+    "pendulum.quality_factor": st.floats(1e-3, 50),  # the time that others take needs long samples
+    "pendulum": st.fixed_dictionaries({"k": st.floats(-1, 1), "damping": st.just(0) | st.floats(0.05, 2), "m": st.floats(-1, 1)}),
 }
 ONE_OPTION = st.sampled_from(sorted(OPTIONS)).flatmap(lambda path: OPTIONS[path].map(lambda value: (path, value)))
 
@@ -117,8 +117,9 @@ def test_whole_circle_is_the_default(tmp_path):
 
 @pytest.mark.parametrize("name", sorted(path.name for path in (ROOT / "scenes").glob("*.yaml")))
 def test_every_scene_of_the_repository_is_valid(tmp_path, name):
-    status, _, err = program(tmp_path, "check", ROOT / "scenes" / name)
-    assert status == 0, err
+    """By the checks that come before modelling, which a time limit ends."""
+    status, _, err = program(tmp_path, "run", ROOT / "scenes" / name, "--time-limit", "1e-6")
+    assert status == 0 or (status == 75 and "time limit" in err), err  # some are done at once
 
 
 def test_reference_of_the_keys_is_current(tmp_path):
