@@ -103,7 +103,7 @@ void kz_linear_floquet(int64_t n, const double *k, const double *beta, const dou
 /* ---- reference ---- */
 
 /* Whole drive periods in quad precision. States in real128, moved by Taylor series of order 56
- * whose steps follow the motion; independent of the schemes of kernel.h. Labels are compared with it: its error is some 1e-32 a
+ * whose steps follow the motion; independent of the schemes above. Labels are compared with it: its error is some 1e-32 a
  * period, that of double precision 1e-16. */
 
 /* Steps a period that cost least; any other number gives the same motion to some 1e-32 a period. */

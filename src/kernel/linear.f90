@@ -1,7 +1,7 @@
 !> Mathieu's damped equation u'' + beta u' + (k - m cos t) u = 0 over a period, a lane per point (k, beta, m).
 !>
 !> u = exp(-beta t/2) w removes the damping; w'' + (kappa - m cos t) w = 0, kappa = k - beta**2/4, is integrated over half a
-!> period by Taylor series about the middle of each step. See include/kapitza/linear.h.
+!> period by Taylor series about the middle of each step. See include/kapitza/kernel.h.
 module kz_kernel_linear
   use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64

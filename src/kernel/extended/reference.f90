@@ -1,4 +1,4 @@
-!> The C interface of the quad-precision reference: include/kapitza/reference.h. Quads stay inside, doubles come out.
+!> The C interface of the quad-precision reference: include/kapitza/kernel.h. Quads stay inside, doubles come out.
 module kz_extended_reference
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
   use kz_model_pendulum, only: pendulum_t
