@@ -113,6 +113,27 @@ def test_the_wheel_zooms_by_distance_not_by_events(page):
     assert one["theta"]["min"] + 0.3 * width == pytest.approx(-np.pi + 0.3 * TURN, abs=0.005)
 
 
+def test_two_fingers_zoom_about_the_place_between_them(page):
+    """Touches of the browser itself: from 80 to 160 px apart is a zoom of 2."""
+    left, top, wide, high = page.run("(() => { const box = explorer.basins.panes[0].over.getBoundingClientRect(); "
+                                     "return [box.left, box.top, box.width, box.height]; })()")
+    before = page.window()["theta"]
+    for kind, apart in (("touchStart", 40), ("touchMove", 50), ("touchMove", 80), ("touchEnd", None)):
+        points = [{"x": left + wide / 2 + side * apart, "y": top + high / 2, "id": max(side, 0)} for side in (-1, 1)] if apart else []
+        page.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+    after = page.window()["theta"]
+    assert after["max"] - after["min"] == pytest.approx((before["max"] - before["min"]) / 2, rel=1e-6)
+
+
+def test_axes_in_degrees_and_si(page):
+    """Of a pivot at 50 Hz: a velocity of 0.01 rad per drive radian is pi rad/s."""
+    page.choose("units", "degrees")
+    assert wait_for(lambda: "units=degrees" in page.run("location.hash"))
+    words = page.module("plane.js", "[its.axesOf('degrees', null).theta.words, its.axesOf('si', 100 * Math.PI).velocity.words]")
+    assert "degrees" in words[0] and "rad/s" in words[1]
+    assert page.module("plane.js", "0.01 * its.axesOf('si', 100 * Math.PI).velocity.factor(1).toNumber()") == pytest.approx(np.pi)
+
+
 def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page):
     page.driver.execute_script("explorer.basins.panes[0].pursue = () => {}")  # no new frame: the old one is moved
     before = np.array(page.pixels())
