@@ -247,7 +247,7 @@ void kz_proof_free(kz_proof *proof);
 typedef struct {
   double radius, axes[2][2];
 } kz_proof_ellipse;
-/* Does the map of `period` drive periods carry the ellipse into itself and contract it? Then all its starts end on one cycle. */
+/* Whether the map of `period` drive periods carries the ellipse into itself and contracts it: then all its starts end on one cycle. */
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse);
 /* The largest ellipse around a strobe point (rad, rad per drive radian) whose starts are proved to end on one cycle of that period. */
 kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity);

@@ -141,7 +141,7 @@ typedef struct {
   void *context;
   bool keep; /* records go to the checkpoint as they finish, and are not done again on resume */
   kz_local_records
-      *pieces;     /* not NULL: a record begins with a uint64_t, the bytes that it uses of record_bytes (a multiple of 8); it is
+      *local;      /* not NULL: a record begins with a uint64_t, the bytes that it uses of record_bytes (a multiple of 8); it is
                         added here, on the rank that made it or, from a checkpoint, on any, and `records` is NULL */
   bool everywhere; /* all ranks receive all records; else only rank 0 */
   bool
@@ -152,14 +152,14 @@ typedef struct {
 /* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless
  * everywhere). The first failing rank stops the others, and all return its status. Collective. KZ_STOPPED: a signal or the
  * time limit came before the last tile was begun; finished kept records are on disk. Kept stages must come in the same
- * order in every run. `run` NULL, or without ranks: this process alone does all tiles in order and keeps nothing; not for pieces. */
+ * order in every run. `run` NULL, or without ranks: this process alone does all tiles in order and keeps nothing; not for local records. */
 kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
 
 /* What all tiles of a stage would take, seconds of processor time, from some that this process does alone and throws away: at most `most`,
  * spread over the stage, and no more of them once they took `enough` seconds. Added to *seconds. Not collective. */
 kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, double *seconds);
 
-/* What becomes of pieces: each rank makes a message of each of its own, rank 0 takes all messages, in no order. Both may return
+/* What becomes of local records: each rank makes a message of each of its own, rank 0 takes all messages, in no order. Both may return
  * KZ_FAILED; `make` fills message [message_bytes, at most 1 GiB] and says how many bytes it used, more than 0. */
 typedef struct {
   const char *name; /* for the progress line */
@@ -168,7 +168,7 @@ typedef struct {
   kz_status (*take)(void *context, const void *message, size_t bytes);
   void *context;
 } kz_delivery;
-/* Delivers the pieces of all ranks. KZ_STOPPED as kz_stage_run. Collective. */
+/* Delivers the local records of all ranks. KZ_STOPPED as kz_stage_run. Collective. */
 kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *records, const kz_delivery *delivery);
 
 #endif

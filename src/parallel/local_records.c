@@ -56,7 +56,7 @@ static kz_status take(mail *m, const char *buffer, size_t bytes) {
 
 /* Messages are made while those before are on their way: without a look at these a transport that needs both ranks would not move
  * them on. */
-static kz_status send_pieces(mail *m) {
+static kz_status send_records(mail *m) {
   kz_status status = KZ_OK;
   int64_t i = 0;
   for (; i < m->records->n; i++) {
@@ -124,7 +124,7 @@ static kz_status receive_rest(mail *m, kz_status *status) {
 }
 
 /* Rank 0 takes what has come between two records of its own. */
-static kz_status take_pieces(mail *m) {
+static kz_status take_records(mail *m) {
   kz_status status = KZ_OK;
   const bool alone = m->ranks->size == 1;
   for (int slot = 0; !alone && slot <= BUFFERS; slot++) KZ_TRY(expect(m, slot));
@@ -155,7 +155,7 @@ static kz_status deliver(mail *m, int64_t total) {
   kz_work_begin(&m->taking, ranks, m->taking_name);
   const kz_stopwatch watch = kz_stopwatch_start();
   kz_meter_begin(&m->meter, ranks, m->delivery->name, total, 0);
-  kz_status status = kz_ranks_agree(ranks, ranks->rank == 0 ? take_pieces(m) : send_pieces(m));
+  kz_status status = kz_ranks_agree(ranks, ranks->rank == 0 ? take_records(m) : send_records(m));
   kz_work_end(&m->making);
   kz_work_end(&m->taking);
   m->making.busy += m->taking.busy;

@@ -67,7 +67,7 @@ kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage
   *section = (kz_section){.slots = checkpoint->end + KZ_PAGE,
                           .seed = head.checksum,
                           .record_bytes = stage->record_bytes,
-                          .varying = stage->pieces != NULL};
+                          .varying = stage->local != NULL};
   section->stride = kz_whole_pages((int64_t)(sizeof(kz_slot_head) + stage->record_bytes));
   section->end = section->slots + stage->n_tiles * section->stride;
   *known = kz_bytes_read(checkpoint->file, &found, sizeof found, checkpoint->end) == sizeof found &&

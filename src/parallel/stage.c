@@ -24,7 +24,7 @@ typedef struct {
   int64_t n_left;
   int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
   kz_record_buffer buffered;
-  void *buffer; /* of the delivery, rank 0; of a record among pieces */
+  void *buffer; /* of the delivery, rank 0; of a local record */
   kz_dispatch dispatch;
   kz_work work;
   kz_meter meter;
@@ -35,7 +35,7 @@ static kz_status check(const stage_run *run) {
   if (stage->n_tiles < 0 || stage->n_tiles > TILES_MAX || stage->record_bytes > KZ_RECORD_MAX)
     return kz_fail(KZ_FAILED, "stage %s: %lld tiles of %zu bytes are too many", stage->name, (long long)stage->n_tiles,
                    stage->record_bytes);
-  if (!run->records && !stage->pieces && stage->n_tiles > 0 && (run->ranks->rank == 0 || stage->everywhere))
+  if (!run->records && !stage->local && stage->n_tiles > 0 && (run->ranks->rank == 0 || stage->everywhere))
     return kz_fail(KZ_FAILED, "stage %s: no room for the records", stage->name);
   return KZ_OK;
 }
@@ -45,7 +45,7 @@ static kz_status prepare(stage_run *run) {
   kz_ranks *ranks = run->ranks;
   kz_record_buffer_begin(&run->buffered, run->stage->record_bytes);
   const size_t message = ranks->rank == 0 && ranks->size > 1 ? kz_record_buffer_message_bytes(&run->buffered) : 0;
-  const size_t bytes = run->stage->pieces ? run->stage->record_bytes : message;
+  const size_t bytes = run->stage->local ? run->stage->record_bytes : message;
   if (bytes > 0) run->buffer = kz_malloc(bytes);
   return KZ_OK;
 }
@@ -58,12 +58,12 @@ static void recall_records(stage_run *run, int64_t *done) {
 }
 
 /* Pieces found in the checkpoint are dealt out to the ranks. */
-static void recall_pieces(stage_run *run, int64_t *done) {
+static void recall_local(stage_run *run, int64_t *done) {
   const kz_ranks *ranks = run->ranks;
   for (int64_t tile = ranks->rank; tile < run->stage->n_tiles; tile += ranks->size) {
     if (!kz_section_recall(run->checkpoint, &run->section, tile, run->buffer)) continue;
     done[tile] = 1;
-    kz_local_records_add(run->stage->pieces, tile, run->buffer, kz_section_used(&run->section, run->buffer));
+    kz_local_records_add(run->stage->local, tile, run->buffer, kz_section_used(&run->section, run->buffer));
   }
 }
 
@@ -77,8 +77,8 @@ static kz_status recall(stage_run *run) {
   KZ_TRY(kz_ranks_broadcast(ranks, &run->section, sizeof run->section));
   KZ_TRY(kz_ranks_broadcast(ranks, &known, sizeof known));
   run->left = kz_calloc((size_t)n_tiles + 1, sizeof *run->left);
-  if (known && run->stage->pieces)
-    recall_pieces(run, run->left);
+  if (known && run->stage->local)
+    recall_local(run, run->left);
   else if (known)
     recall_records(run, run->left);
   KZ_TRY(kz_ranks_sum(ranks, run->left, n_tiles));
@@ -92,14 +92,14 @@ static kz_status recall(stage_run *run) {
 static kz_status do_tile(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   void *record;
-  if (stage->pieces)
+  if (stage->local)
     record = memset(run->buffer, 0, stage->record_bytes);
   else if (run->ranks->rank == 0)
     record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   else
     record = kz_record_buffer_add(&run->buffered, tile);
   KZ_TRY(stage->work(stage->context, tile, record));
-  if (stage->pieces) kz_local_records_add(stage->pieces, tile, record, *(uint64_t *)record);
+  if (stage->local) kz_local_records_add(stage->local, tile, record, *(uint64_t *)record);
   return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
 }
 
@@ -155,7 +155,7 @@ static kz_status dispatch_tiles(stage_run *run) {
 
 static kz_status deliver(stage_run *run) {
   const kz_stage *stage = run->stage;
-  if (stage->pieces) return KZ_OK;
+  if (stage->local) return KZ_OK;
   KZ_TRY(kz_record_buffer_deliver(&run->buffered, run->ranks, run->buffer, run->records));
   if (!stage->everywhere) return KZ_OK;
   return kz_ranks_broadcast(run->ranks, run->records, (size_t)stage->n_tiles * stage->record_bytes);

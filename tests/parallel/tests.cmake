@@ -1,7 +1,7 @@
 foreach(ranks 1 2 3 5)
   kapitza_test(stage LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
   kapitza_test(checkpoint LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
-  kapitza_test(pieces LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
+  kapitza_test(local_records LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
   kapitza_test(stop LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
 endforeach()
 kapitza_test(schedule LABEL parallel LAYER parallel)

@@ -124,7 +124,7 @@ contains
     allocate (batch(0))
   end subroutine join_batch
 
-  !> Is a cycle the same as one of the last of a catalogue? Those with as many periods and as large a speed come together.
+  !> Whether a cycle is the same as one of the last of a catalogue: those with as many periods and as large a speed come together.
   pure function is_known(attractors, cycle) result(known)
     type(attractor_t), intent(in) :: attractors(:)
     type(attractor_t), intent(in) :: cycle

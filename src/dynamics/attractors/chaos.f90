@@ -83,7 +83,7 @@ contains
     end subroutine visit
   end subroutine find_chaos
 
-  !> Do neighbours of the orbit from (u, v) part?
+  !> Whether neighbours of the orbit from (u, v) part.
   function neighbours_part(flow, u, v) result(part)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: u

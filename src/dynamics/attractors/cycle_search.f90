@@ -114,7 +114,7 @@ contains
     end subroutine try
   end subroutine try_recurrences
 
-  !> Would a cycle of n periods near (u, v) repel? Recurrences on a chaotic set lead to such cycles without end: their map, once
+  !> Whether a cycle of n periods near (u, v) would repel. Recurrences on a chaotic set lead to such cycles without end: their map, once
   !> with the scene's steps, costs hundreds of times less than Newton's method with fine ones.
   function repels(search, n, u, v)
     type(search_t), intent(inout) :: search
@@ -141,7 +141,7 @@ contains
     n = 1
   end function first_of_the_closest
 
-  !> Is a cycle of this period through any of these states among the attractors?
+  !> Whether a cycle of this period through any of these states is among the attractors.
   pure function known(attractors, period, u, v)
     !> the catalogue
     type(attractor_t), intent(in) :: attractors(:)

@@ -145,7 +145,7 @@ contains
       end do
     end subroutine let_in
 
-    !> Is an orbit to be followed that has just been put? Not where it is trapped at once.
+    !> Whether an orbit that has just been put is to be followed: not where it is trapped at once.
     logical function is_followed(lane, region)
       integer, intent(in) :: lane
       integer, intent(in) :: region
@@ -161,7 +161,7 @@ contains
       end if
     end function is_followed
 
-    !> Is the orbit to be followed on? Else its ending is noted.
+    !> Whether the orbit is to be followed on; if not, its ending is noted.
     logical function is_open(lane, region, trace)
       integer, intent(in) :: lane
       integer, intent(in) :: region
@@ -269,7 +269,7 @@ contains
     lanes%doubted(to) = lanes%doubted(from)
   end subroutine move
 
-  !> Does the trapping region that holds (u0, v0) hold the whole ellipse, and `region_error` rad beyond?
+  !> Whether the trapping region that holds (u0, v0) holds the whole ellipse, and `region_error` rad beyond.
   function holds(regions, attractors, u0, v0, p, region_error, region) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)

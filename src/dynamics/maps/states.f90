@@ -62,7 +62,7 @@ contains
     d = hypot(PI*angle_difference(u1, u2), v1 - v2)
   end function separation
 
-  !> Are (u1, v1) and (u2, v2) one state?
+  !> Whether (u1, v1) and (u2, v2) count as one state.
   elemental function same_state(u1, v1, u2, v2) result(one)
     !> half-turns
     real(dp), intent(in) :: u1

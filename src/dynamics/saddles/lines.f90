@@ -115,7 +115,7 @@ contains
     end do
   end subroutine follow
 
-  !> Is an image of the piece too long to tell whether it passes near the piece?
+  !> Whether an image of the piece is too long to tell whether it passes near the piece.
   pure function is_long(a, b) result(long)
     !> orbits of the ends
     real(dp), intent(in) :: a(:, 0:)
@@ -185,7 +185,7 @@ contains
     found(3:2 + 2*period, n_found) = reshape(x(:, :period), [2*period])
   end subroutine close_orbit
 
-  !> Which states (half-turns, rad per drive radian) lie in the window?
+  !> The states (half-turns, rad per drive radian) that lie in the window.
   pure function inside(window, u, v)
     real(dp), intent(in) :: window(4)
     real(dp), intent(in) :: u(:)

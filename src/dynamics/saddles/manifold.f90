@@ -147,7 +147,7 @@ contains
     end do
   end subroutine refine
 
-  !> Which pieces are too long, or bend too much against a neighbour? Pieces outside the largest speed never are.
+  !> The pieces that are too long, or bend too much against a neighbour. Pieces outside the largest speed never do.
   pure function to_halve(arc, spacing, fastest) result(halve)
     type(arc_t), intent(in) :: arc
     real(dp), intent(in) :: spacing

@@ -150,7 +150,7 @@ contains
     call set_displacement(table%from_kernel, fastest, tolerance, level%from_kernel)
   end subroutine make_level
 
-  !> Is the first coefficient at least as large as the others together, with a margin for their rounding?
+  !> Whether the first coefficient is at least as large as the others together, with a margin for their rounding.
   pure logical function is_ordered(c)
     real(qp), intent(in) :: c(:)
 

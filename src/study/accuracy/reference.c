@@ -133,7 +133,7 @@ static void follow(const reference_job *h, int32_t steps, int64_t n, const doubl
   kz_dynamics_follow_reference(h->dynamics, steps, n, h->reference->plan->max_periods, start, NULL, label, periods);
 }
 
-/* Does every ASKED-th cell come out the same with another number of steps? */
+/* Whether every ASKED-th cell comes out the same with another number of steps. */
 static void compare_steps(const reference_job *h, int64_t first, int64_t n, const double *start, kz_reference_label *labels) {
   double asked[2 * TILE];
   int32_t label[TILE];

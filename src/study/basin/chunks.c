@@ -212,7 +212,7 @@ static kz_status deliver(kz_chunks *c) {
   kz_window_labels *l = c->labelling;
   const kz_delivery delivery = {
       .name = "file", .message_bytes = message_room(kz_tile_capacity(&l->tiles)), .make = make, .take = take, .context = c};
-  KZ_TRY(kz_local_records_deliver(l->run->ranks, &l->pieces, &delivery));
+  KZ_TRY(kz_local_records_deliver(l->run->ranks, &l->records, &delivery));
   KZ_TRY(kz_ranks_sum(l->run->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
   KZ_TRY(kz_ranks_sum(l->run->ranks, c->cells_of, c->catalogue->count));
   KZ_TRY(kz_ranks_sum(l->run->ranks, c->sample_label, c->n_sample));

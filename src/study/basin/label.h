@@ -46,24 +46,24 @@ typedef struct {
   kz_window_starts starts; /* of all cells */
   int64_t batch;           /* cells that are followed together */
   const kz_run *run;
-  kz_workspace *work;      /* of this rank */
-  kz_cell_label *cell;     /* [kz_tile_capacity] a tile, unpacked */
-  kz_local_records pieces; /* tiles of this rank, packed */
-  int before_level;        /* that left the cells of the present stage */
-  int level;               /* of the present stage, KZ_LEVELS: candidates of what none decides */
-  int16_t wanted;          /* label of the pending cells: 0 or KZ_DOUBTFUL */
-  int64_t *before;         /* [own tiles + 1] pending cells in the tiles before */
-  int64_t n_pending;       /* cells of the present stage that labels pending ones again, */
-  const int64_t *pending;  /* [n_pending] */
-  int64_t *reached;        /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
+  kz_workspace *work;       /* of this rank */
+  kz_cell_label *cell;      /* [kz_tile_capacity] a tile, unpacked */
+  kz_local_records records; /* tiles of this rank, packed */
+  int before_level;         /* that left the cells of the present stage */
+  int level;                /* of the present stage, KZ_LEVELS: candidates of what none decides */
+  int16_t wanted;           /* label of the pending cells: 0 or KZ_DOUBTFUL */
+  int64_t *before;          /* [own tiles + 1] pending cells in the tiles before */
+  int64_t n_pending;        /* cells of the present stage that labels pending ones again, */
+  const int64_t *pending;   /* [n_pending] */
+  int64_t *reached;         /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
 } kz_window_labels;
 
-/* Finds the attractors and labels all own cells: `pieces` has the tiles of this rank, `reached` what all ranks found. To be freed in
+/* Finds the attractors and labels all own cells: `records` has the tiles of this rank, `reached` what all ranks found. To be freed in
  * every case. Collective. */
 kz_status kz_label_window(kz_window_labels *labelling);
 void kz_window_labels_free(kz_window_labels *labelling);
 
 /* The own cells of a packed tile into labelling->cell. */
-kz_status kz_tile_labels_unpack(kz_window_labels *labelling, const kz_local_record *piece);
+kz_status kz_tile_labels_unpack(kz_window_labels *labelling, const kz_local_record *kept);
 
 #endif

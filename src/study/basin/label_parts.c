@@ -107,31 +107,32 @@ kz_status kz_tile_labels_pack(const kz_window_labels *l, int64_t tile, void *rec
   return bytes > 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory to pack a tile of %lld cells", (long long)n);
 }
 
-kz_status kz_tile_labels_replace(const kz_window_labels *l, kz_local_record *piece, void *record) {
+kz_status kz_tile_labels_replace(const kz_window_labels *l, kz_local_record *kept, void *record) {
   kz_local_records packed = {0};
-  KZ_TRY(kz_tile_labels_pack(l, piece->tile, record));
-  kz_local_records_add(&packed, piece->tile, record, *(uint64_t *)record);
-  free(piece->data);
-  *piece = packed.list[0];
+  KZ_TRY(kz_tile_labels_pack(l, kept->tile, record));
+  kz_local_records_add(&packed, kept->tile, record, *(uint64_t *)record);
+  free(kept->data);
+  *kept = packed.list[0];
   free(packed.list);
   return KZ_OK;
 }
 
-kz_status kz_tile_labels_unpack(kz_window_labels *l, const kz_local_record *piece) {
-  const head *h = piece->data;
+kz_status kz_tile_labels_unpack(kz_window_labels *l, const kz_local_record *kept) {
+  const head *h = kept->data;
   const char *packed = (const char *)(h + 1) + (size_t)h->n_reached * sizeof(int32_t);
-  const size_t bytes = piece->bytes - (size_t)(packed - (const char *)piece->data);
-  if (kz_unpack(packed, bytes, (size_t)kz_tile_own(&l->tiles, piece->tile), sizeof *l->cell, l->cell)) return KZ_OK;
-  return kz_fail(KZ_FAILED, "no memory to unpack a tile of %lld cells", (long long)kz_tile_own(&l->tiles, piece->tile));
+  const size_t bytes = kept->bytes - (size_t)(packed - (const char *)kept->data);
+  if (kz_unpack(packed, bytes, (size_t)kz_tile_own(&l->tiles, kept->tile), sizeof *l->cell, l->cell)) return KZ_OK;
+  return kz_fail(KZ_FAILED, "a packed tile of %lld cells is damaged, or memory ran out",
+                 (long long)kz_tile_own(&l->tiles, kept->tile));
 }
 
-int64_t kz_tile_labels_pending(const kz_local_record *piece, int16_t wanted) {
-  const head *h = piece->data;
+int64_t kz_tile_labels_pending(const kz_local_record *kept, int16_t wanted) {
+  const head *h = kept->data;
   return wanted == 0 ? h->n_pending : h->n_doubtful;
 }
 
-void kz_tile_labels_note_reached(const kz_window_labels *l, const kz_local_record *piece) {
-  const head *h = piece->data;
+void kz_tile_labels_note_reached(const kz_window_labels *l, const kz_local_record *kept) {
+  const head *h = kept->data;
   const int32_t *number = (const int32_t *)(h + 1);
   for (int64_t i = 0; i < h->n_reached; i++) l->reached[number[i]]++;
 }

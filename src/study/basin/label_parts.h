@@ -20,11 +20,11 @@ size_t kz_tile_labels_bytes(const kz_window_labels *labelling);
 /* Packs the own cells of a tile, labelling->cell. */
 kz_status kz_tile_labels_pack(const kz_window_labels *labelling, int64_t tile, void *record);
 /* The same into a record of this rank, in place of what it had; record: a buffer for a packed tile. */
-kz_status kz_tile_labels_replace(const kz_window_labels *labelling, kz_local_record *piece, void *record);
+kz_status kz_tile_labels_replace(const kz_window_labels *labelling, kz_local_record *kept, void *record);
 /* Cells of a packed tile with the label `wanted`, 0 or KZ_DOUBTFUL. */
-int64_t kz_tile_labels_pending(const kz_local_record *piece, int16_t wanted);
+int64_t kz_tile_labels_pending(const kz_local_record *kept, int16_t wanted);
 /* Counts the attractors that it reaches. */
-void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_local_record *piece);
+void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_local_record *kept);
 
 /* What a level writes into the file as evidence, KZ_LEVELS: of what none decides; and how many cells it takes at a time, where it takes
  * those that another one left. */

@@ -15,20 +15,20 @@ static int64_t tile_size(const kz_window_labels *l) {
 kz_status kz_pending_count(kz_window_labels *l, int16_t wanted) {
   l->wanted = wanted;
   int64_t *before = memset(l->before, 0, (size_t)(l->tiles.own + 1) * sizeof *before);
-  for (int64_t i = 0; i < l->pieces.n; i++)
-    before[l->pieces.list[i].tile + 1] = kz_tile_labels_pending(&l->pieces.list[i], wanted);
+  for (int64_t i = 0; i < l->records.n; i++)
+    before[l->records.list[i].tile + 1] = kz_tile_labels_pending(&l->records.list[i], wanted);
   KZ_TRY(kz_ranks_sum(l->run->ranks, before, l->tiles.own + 1));
   for (int64_t tile = 0; tile < l->tiles.own; tile++) before[tile + 1] += before[tile];
   return KZ_OK;
 }
 
 /* Those of the wanted cells that lie in one tile. */
-static kz_status pick_from(kz_window_labels *l, const kz_local_record *piece, int64_t from, int64_t of, int64_t n,
+static kz_status pick_from(kz_window_labels *l, const kz_local_record *packed, int64_t from, int64_t of, int64_t n,
                            int64_t *cell) {
-  int64_t number = l->before[piece->tile], i = number > from ? ((number - from) * n + of - 1) / of : 0;
-  const int64_t end = l->before[piece->tile + 1], first = kz_tile_first(&l->tiles, piece->tile);
+  int64_t number = l->before[packed->tile], i = number > from ? ((number - from) * n + of - 1) / of : 0;
+  const int64_t end = l->before[packed->tile + 1], first = kz_tile_first(&l->tiles, packed->tile);
   if (i >= n || from + i * of / n >= end || end == number) return KZ_OK;
-  KZ_TRY(kz_tile_labels_unpack(l, piece));
+  KZ_TRY(kz_tile_labels_unpack(l, packed));
   for (int64_t k = 0; i < n && number < end; k++) {
     if (l->cell[k].label != l->wanted) continue;
     if (from + i * of / n == number) cell[i++] = first + k;
@@ -40,7 +40,7 @@ static kz_status pick_from(kz_window_labels *l, const kz_local_record *piece, in
 kz_status kz_pending_pick(kz_window_labels *l, int64_t from, int64_t of, int64_t n, int64_t *cell) {
   kz_status status = KZ_OK;
   memset(cell, 0, (size_t)n * sizeof *cell);
-  for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++) status = pick_from(l, &l->pieces.list[i], from, of, n, cell);
+  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = pick_from(l, &l->records.list[i], from, of, n, cell);
   KZ_TRY(kz_ranks_agree(l->run->ranks, status));
   return kz_ranks_sum(l->run->ranks, cell, n);
 }
@@ -104,15 +104,15 @@ static kz_status climb(kz_window_labels *l, int level, int round, int64_t n, int
 }
 
 /* The new labels of the listed cells, of which the first is pending cell `from`, replace those of a tile of this rank. */
-static kz_status merge(kz_window_labels *l, kz_local_record *piece, int64_t from, int64_t n, const kz_cell_label *found,
+static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t from, int64_t n, const kz_cell_label *found,
                        void *record) {
-  int64_t number = l->before[piece->tile] - from;
-  const int64_t end = l->before[piece->tile + 1] - from;
+  int64_t number = l->before[packed->tile] - from;
+  const int64_t end = l->before[packed->tile + 1] - from;
   if (number < 0 || number == end || end > n) return KZ_OK;
-  KZ_TRY(kz_tile_labels_unpack(l, piece));
+  KZ_TRY(kz_tile_labels_unpack(l, packed));
   for (int64_t k = 0; number < end; k++)
     if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
-  return kz_tile_labels_replace(l, piece, record);
+  return kz_tile_labels_replace(l, packed, record);
 }
 
 /* The n pending cells from `from` on, which are those of whole tiles. */
@@ -121,7 +121,7 @@ static kz_status label_tiles(kz_window_labels *l, int level, int round, int64_t 
   kz_cell_label *found = kz_malloc((size_t)n * sizeof *found);
   void *record = kz_malloc(kz_tile_labels_bytes(l));
   kz_status status = climb(l, level, round, n, cell, found);
-  for (int64_t i = 0; i < l->pieces.n && status == KZ_OK; i++) status = merge(l, &l->pieces.list[i], from, n, found, record);
+  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found, record);
   free(found);
   free(record);
   return kz_ranks_agree(l->run->ranks, status);

@@ -46,10 +46,10 @@ kz_proof_start kz_proof_cell_start(const kz_basin_plan *plan, int64_t cell) {
 /* Each rank knows the labels of its own tiles: all then know which cells are wanted. */
 static kz_status find_wanted(kz_window_labels *l, part *p) {
   memset(p->wanted, 0, (size_t)(p->n / 64 + 1) * sizeof *p->wanted);
-  for (int64_t i = 0; i < l->pieces.n; i++) {
-    const int64_t tile = l->pieces.list[i].tile, before = kz_tile_first(&l->tiles, tile) - p->first;
+  for (int64_t i = 0; i < l->records.n; i++) {
+    const int64_t tile = l->records.list[i].tile, before = kz_tile_first(&l->tiles, tile) - p->first;
     if (tile < p->from || tile >= p->to) continue;
-    KZ_TRY(kz_tile_labels_unpack(l, &l->pieces.list[i]));
+    KZ_TRY(kz_tile_labels_unpack(l, &l->records.list[i]));
     for (int64_t k = 0; k < kz_tile_own(&l->tiles, tile); k++) {
       const int16_t label = l->cell[k].label;
       if (label <= 0 || (label <= KZ_PROOF_MOST && p->proved->has[label]))
@@ -144,16 +144,16 @@ static kz_status prove_left(const kz_run *run, const finer_stage *finer, part *p
 
 /* Into the tiles of this rank. */
 static kz_status keep(kz_window_labels *l, const part *p, void *record) {
-  for (int64_t i = 0; i < l->pieces.n; i++) {
-    kz_local_record *piece = &l->pieces.list[i];
-    if (piece->tile < p->from || piece->tile >= p->to) continue;
-    const int64_t before = kz_tile_first(&l->tiles, piece->tile) - p->first;
-    KZ_TRY(kz_tile_labels_unpack(l, piece));
-    for (int64_t k = 0; k < kz_tile_own(&l->tiles, piece->tile); k++) {
+  for (int64_t i = 0; i < l->records.n; i++) {
+    kz_local_record *packed = &l->records.list[i];
+    if (packed->tile < p->from || packed->tile >= p->to) continue;
+    const int64_t before = kz_tile_first(&l->tiles, packed->tile) - p->first;
+    KZ_TRY(kz_tile_labels_unpack(l, packed));
+    for (int64_t k = 0; k < kz_tile_own(&l->tiles, packed->tile); k++) {
       l->cell[k].proof = p->evidence[before + k];
       l->cell[k].proved = p->number[before + k];
     }
-    KZ_TRY(kz_tile_labels_replace(l, piece, record));
+    KZ_TRY(kz_tile_labels_replace(l, packed, record));
   }
   return KZ_OK;
 }

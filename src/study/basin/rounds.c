@@ -43,7 +43,7 @@ static kz_status label_tiles(kz_window_labels *l) {
                     .work = label_tile,
                     .context = l,
                     .keep = true,
-                    .pieces = &l->pieces};
+                    .local = &l->records};
   return kz_stage_run(l->run, &stage, NULL);
 }
 
@@ -94,7 +94,7 @@ static void rounds_allocate(kz_window_labels *l) {
 /* The starts' counts are the same on every rank, those of tiles each rank's own. */
 static kz_status sum_reached(kz_window_labels *l) {
   for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
-  for (int64_t i = 0; i < l->pieces.n; i++) kz_tile_labels_note_reached(l, &l->pieces.list[i]);
+  for (int64_t i = 0; i < l->records.n; i++) kz_tile_labels_note_reached(l, &l->records.list[i]);
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);
 }
 
@@ -105,7 +105,7 @@ kz_status kz_label_window(kz_window_labels *l) {
 }
 
 void kz_window_labels_free(kz_window_labels *l) {
-  kz_local_records_free(&l->pieces);
+  kz_local_records_free(&l->records);
   kz_window_starts_free(&l->starts);
   kz_images_free(l->images);
   free(l->work);

@@ -30,7 +30,7 @@ typedef struct {
 kz_status kz_resident_make(const kz_scene *scene, bool moving, kz_resident *resident);
 void kz_resident_free(kz_resident *resident);
 
-/* Can a moving one be carried to the scene's pendulum? How far it is from it, a relative number; INFINITY: no. */
+/* How far the scene's pendulum is from that of a moving one, a relative number; INFINITY: too far to be carried there. */
 double kz_resident_distance(const kz_resident *resident, const kz_scene *scene);
 /* Carries it there: attractors continued, trapping regions of up to some pendulums before. */
 void kz_resident_move(kz_resident *resident, const kz_scene *scene);
@@ -38,7 +38,7 @@ void kz_resident_move(kz_resident *resident, const kz_scene *scene);
 /* Looks for attractors that its strays are on, and forgets these. Returns whether some have joined. */
 bool kz_resident_discover(kz_resident *resident);
 
-/* Does it serve a frame of the scene? */
+/* Whether it serves a frame of the scene. */
 bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, bool moving);
 
 /* The catalogue once more, after attractors have joined; `version` is the new one's. Tracks come from `before` (NULL: none) where an attractor is the same

@@ -5,7 +5,7 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* Is that row of the kernel's table the processed splitting? */
+/* Whether that row of the kernel's table is the processed splitting. */
 bool kz_is_processed(int32_t scheme);
 
 /* rad per drive radian: what one drive period makes of the starts of a window at most, with a margin; of a map table with `rows`

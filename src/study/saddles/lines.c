@@ -146,7 +146,7 @@ kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *nam
                           .work = search_tile,
                           .context = (kz_lines *)lines,
                           .keep = true,
-                          .pieces = &pieces};
+                          .local = &pieces};
   collection all = {lines->plan, found};
   const kz_delivery delivery = {
       .name = "saddles: cycles", .message_bytes = stage.record_bytes, .make = make, .take = take, .context = &all};

@@ -25,7 +25,7 @@ contains
     end do
   end function aged_regions
 
-  !> Have all neighbours of a cell its attractor?
+  !> Whether all neighbours of a cell have its attractor.
   pure function is_surrounded(regions, i, l) result(surrounded)
     type(regions_t), intent(in) :: regions
     integer, intent(in) :: i

@@ -41,7 +41,7 @@ contains
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
   end subroutine find_ellipses
 
-  !> Does the trapping ellipse of strobe point j hold (u, v)?
+  !> Whether the trapping ellipse of strobe point j holds (u, v).
   pure function in_ellipse(attractor, j, u, v) result(inside)
     !> the attractor
     type(attractor_t), intent(in) :: attractor
@@ -155,7 +155,7 @@ contains
     end do
   end function refined
 
-  !> Are WIDTH points of the ring all carried inside it, by half of what the multiplier promises or by 5 %?
+  !> Whether WIDTH points of the ring are all carried inside it, by half of what the multiplier says or by 5 %.
   function carried_inside(flow, attractor, j, basis, inverse, radius) result(inside)
     class(flow_t), intent(inout) :: flow
     type(attractor_t), intent(in) :: attractor

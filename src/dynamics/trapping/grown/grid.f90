@@ -174,7 +174,7 @@ contains
     end do
   end subroutine draw
 
-  !> Are all four corners of a cell in the ellipse?
+  !> Whether all four corners of a cell lie in the ellipse.
   pure function within(form, du, dv) result(inside)
     real(dp), intent(in) :: form(3)
     real(dp), intent(in) :: du(2)
@@ -247,7 +247,7 @@ contains
     if (a > 0 .and. fold < 0) a = regions%mirror(a)
   end function find_region
 
-  !> Does one trapped cell hold all states within (du, dv) of (u, v)?
+  !> Whether one trapped cell holds all states within (du, dv) of (u, v).
   pure function cell_holds(regions, u, v, du, dv) result(inside)
     !> the trapping regions
     type(regions_t), intent(in) :: regions

@@ -133,7 +133,7 @@ contains
     a = 0
   end function ellipse_around
 
-  !> Are four corners with their slack, and so their hull, or its mirror image, in the ellipse of strobe point j?
+  !> Whether four corners with their slack, and so their hull, or its mirror image, lie in the ellipse of strobe point j.
   pure function holds(regions, attractor, j, x, y, slack_x, slack_y, mirrored) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractor
@@ -252,7 +252,7 @@ contains
     if (label == 0) blocker = stored(circle, column, int(y))
   end subroutine corner
 
-  !> Have n cells all the label a?
+  !> Whether n cells all have the label a.
   pure function one_label(n, label, a) result(all_have)
     integer, intent(in) :: n
     integer(int8), intent(in) :: label(n)

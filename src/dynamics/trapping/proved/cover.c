@@ -44,7 +44,7 @@ static uint8_t label_of(const kz_proof *proof, int64_t row, int64_t column) {
   return proof->label[row * n + ((column % n) + n) % n];
 }
 
-/* Have the cells `from` .. `to` of a row, around the circle, all the label? */
+/* Whether the cells `from` .. `to` of a row, around the circle, all have the label. */
 static bool row_has(const kz_proof *proof, int64_t row, int64_t from, int64_t to, uint8_t label) {
   for (int64_t i = from; i <= to; i++)
     if (label_of(proof, row, i) != label) return false;

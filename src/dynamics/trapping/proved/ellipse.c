@@ -1,8 +1,8 @@
 /* The first trapping region of an attractor: an ellipse around a strobe point that the n-period map F carries into itself and contracts.
  *
  * In the eigenbasis M of the monodromy, E = centre + r M (unit disc), the enclosure of F gives for y in the disc
- *   r^-1 M^-1 (F - centre) = d + B z(y),  |z[i] - y[i]| <= reach[i] - 1,  |dz/dy - 1| <= bend.
- * |d| + |B| + |B (reach - 1)| < 1: F(E) lies inside E. |B| + |B bend| < 1: F contracts E in this norm, for E is convex. So E holds
+ *   r^-1 M^-1 (F - centre) = d + B z(y),  |z[i] - y[i]| <= reach[i] - 1,  |dz/dy - 1| <= jacobian_error.
+ * |d| + |B| + |B (reach - 1)| < 1: F(E) lies inside E. |B| + |B jacobian_error| < 1: F contracts E in this norm, for E is convex. So E holds
  * exactly one fixed point of F, and every start in E ends on its cycle (Banach). */
 #include <math.h>
 
@@ -83,9 +83,9 @@ bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double 
     B[1][j] = z[1];
   }
   const double norm = spectral_norm(B), moved = length_of(B, set.reach[0] - 1, set.reach[1] - 1);
-  const double bent = hypot(length_of(B, set.jacobian_error[0][0], set.jacobian_error[1][0]),
-                            length_of(B, set.jacobian_error[0][1], set.jacobian_error[1][1]));
-  return hypot(d[0], d[1]) + rounded + norm + moved < most && norm + bent < most;
+  const double varied = hypot(length_of(B, set.jacobian_error[0][0], set.jacobian_error[1][0]),
+                              length_of(B, set.jacobian_error[0][1], set.jacobian_error[1][1]));
+  return hypot(d[0], d[1]) + rounded + norm + moved < most && norm + varied < most;
 }
 
 kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, double theta, double velocity) {

@@ -43,7 +43,7 @@ bool kz_proof_within(const kz_proof *proof, const kz_parallelogram *image);
 uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *image);
 /* The attractor of the region that holds a set, 0 where it does not. */
 uint8_t kz_proof_holds(const kz_proof *proof, const kz_enclosure *set);
-/* Is a set inside an ellipse? */
+/* Whether a set lies inside an ellipse. */
 bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], const kz_enclosure *set);
 
 /* An ellipse that the map of `period` drive periods carries into itself and contracts; radius 0: none was found. */

@@ -21,7 +21,7 @@ static kz_enclosure sector(const double centre[2], const double M[2][2], double 
                         .reach = {1, 1}};
 }
 
-/* Do BATCH sectors from `first` on of the ring around an ellipse all reach it? */
+/* Whether BATCH sectors from `first` on of the ring around an ellipse all reach it. */
 static bool sectors_reach(const kz_enclosure_tables *tables, const double centre[2], const kz_proof_ellipse *ellipse,
                           int first) {
   kz_enclosure set[BATCH];

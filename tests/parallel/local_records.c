@@ -28,9 +28,9 @@ static kz_status fill(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_status run(job *j, kz_local_records *pieces) {
+static kz_status run(job *j, kz_local_records *records) {
   const kz_stage stage = {
-      .name = "pieces", .n_tiles = N_TILES, .record_bytes = MOST, .work = fill, .context = j, .keep = true, .pieces = pieces};
+      .name = "records", .n_tiles = N_TILES, .record_bytes = MOST, .work = fill, .context = j, .keep = true, .local = records};
   return run_stage(&stage, NULL);
 }
 
@@ -64,9 +64,9 @@ static kz_status take(void *context, const void *message, size_t bytes) {
   return KZ_OK;
 }
 
-static kz_status deliver(job *j, const kz_local_records *pieces) {
+static kz_status deliver(job *j, const kz_local_records *records) {
   const kz_delivery delivery = {.name = "mail", .message_bytes = MOST + 64, .make = make, .take = take, .context = j};
-  return kz_local_records_deliver(ranks, pieces, &delivery);
+  return kz_local_records_deliver(ranks, records, &delivery);
 }
 
 static bool has_all(const job *j) {
@@ -75,7 +75,7 @@ static bool has_all(const job *j) {
   return true;
 }
 
-static void open_pieces(bool resume) {
+static void open_records(bool resume) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "a: 1\n", .resume = resume, .force = !resume};
   assert_all(open_checkpoint(&plan) == KZ_OK);
 }
@@ -88,22 +88,22 @@ static int64_t sum(int64_t mine) {
 static void each_piece_comes_once(void **state) {
   (void)state;
   job j = {.failing = -1};
-  kz_local_records pieces = {0};
-  assert_all(run(&j, &pieces) == KZ_OK && sum(pieces.n) == N_TILES);
-  assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
-  kz_local_records_free(&pieces);
+  kz_local_records records = {0};
+  assert_all(run(&j, &records) == KZ_OK && sum(records.n) == N_TILES);
+  assert_all(deliver(&j, &records) == KZ_OK && has_all(&j));
+  kz_local_records_free(&records);
 }
 
 static void a_failure_on_the_way_reaches_all(void **state) {
   (void)state;
   job j = {.failing = -1};
-  kz_local_records pieces = {0};
-  assert_all(run(&j, &pieces) == KZ_OK);
+  kz_local_records records = {0};
+  assert_all(run(&j, &records) == KZ_OK);
   j.failing = N_TILES / 2;
-  assert_all(deliver(&j, &pieces) == KZ_FAILED);
+  assert_all(deliver(&j, &records) == KZ_FAILED);
   j = (job){.failing = -1};
-  assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
-  kz_local_records_free(&pieces);
+  assert_all(deliver(&j, &records) == KZ_OK && has_all(&j));
+  kz_local_records_free(&records);
 }
 
 static void spoil(int64_t tile) {
@@ -113,31 +113,31 @@ static void spoil(int64_t tile) {
   close(file);
 }
 
-static void finished_pieces_are_found_again(void **state) {
+static void finished_records_are_found_again(void **state) {
   (void)state;
   job j = {.failing = 45};
-  kz_local_records pieces = {0};
-  open_pieces(false);
-  assert_all(run(&j, &pieces) == KZ_FAILED);
+  kz_local_records records = {0};
+  open_records(false);
+  assert_all(run(&j, &records) == KZ_FAILED);
   assert_all(close_checkpoint(false) == KZ_OK);
-  kz_local_records_free(&pieces);
+  kz_local_records_free(&records);
   const int64_t done = sum(j.done);
   spoil(7);
   struct stat facts;
   assert_all(stat(path, &facts) == 0 && facts.st_blocks * 512 < (N_TILES + 4) * 2 * PAGE && facts.st_size > 10 * MOST);
-  open_pieces(true);
+  open_records(true);
   j = (job){.failing = -1};
-  assert_all(run(&j, &pieces) == KZ_OK && sum(j.done) == N_TILES - done + 1 && sum(pieces.n) == N_TILES);
-  assert_all(deliver(&j, &pieces) == KZ_OK && has_all(&j));
+  assert_all(run(&j, &records) == KZ_OK && sum(j.done) == N_TILES - done + 1 && sum(records.n) == N_TILES);
+  assert_all(deliver(&j, &records) == KZ_OK && has_all(&j));
   assert_all(close_checkpoint(true) == KZ_OK);
-  kz_local_records_free(&pieces);
+  kz_local_records_free(&records);
 }
 
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(each_piece_comes_once),
       cmocka_unit_test(a_failure_on_the_way_reaches_all),
-      cmocka_unit_test(finished_pieces_are_found_again),
+      cmocka_unit_test(finished_records_are_found_again),
   };
   return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
 }
