@@ -126,6 +126,15 @@ def test_the_edge_is_a_listed_saddle(fig11):
     assert "Edge between inverted and" in summary
 
 
+def test_an_edge_where_basins_are_fractal(kapitza, tmp_path):
+    """At epsilon = 0.46 starts 1e-10 rad from a boundary are among those that direct integration gets wrong: by its labels the edge came to
+    no cycle in 2000 periods."""
+    attractors = {"velocity": {"min": -2, "max": 2}, "starts": 256}
+    edge = run(kapitza, tmp_path, {"pendulum": {**FIG11, "drive_amplitude": 0.46}, "attractors": attractors,
+                                   "edge": {**EDGE, "periods": 400}}, ranks=None)[0].group("edge")
+    assert edge.attrs["period"] == 4 and edge.attrs["multiplier_1_re"] > 1 > abs(edge.attrs["multiplier_2_re"])
+
+
 def test_starts_that_end_alike_have_no_edge(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": FIG11, "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 256},
                                                  "edge": {**EDGE, "second": {"theta": 3.11, "velocity": 0}}}))

@@ -4,6 +4,7 @@
     tests/tools/doubt_coverage.py                              20 pendulums
     tests/tools/doubt_coverage.py --pendulums 40 --seed 2 --ranks 2
     tests/tools/doubt_coverage.py --first 14 --samples 400     the last six of them, in less time
+    tests/tools/doubt_coverage.py --hard --pendulums 40        weak and strong damping and drive, no gravity, fast starts, boundaries 1e-8 wide
 
 For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which compares the same scheme and steps on
 random cells of the same window by quad precision. A share is understated where the wrong share of the cells of the trade-off is above
@@ -12,6 +13,8 @@ or a label.
 """
 
 import argparse
+import json
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -22,9 +25,48 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests" / "tools")]
 
 from kapitza.script import run_script  # noqa: E402
-from reference_coverage import Kapitza, lively_scene  # noqa: E402
+from reference_coverage import FAMILIES, PROGRAM, Kapitza, draw, lively_scene  # noqa: E402
 
 SETTING = "processed-1e-12"  # what direct takes by default
+HARD = [
+    *FAMILIES,
+    {"k": (-0.1, -0.005, "linear"), "damping": (0.03, 0.3, "log"), "m": (0.3, 1.5, "log")},
+    {"k": (0, 0, "linear"), "damping": (0.01, 0.2, "log"), "m": (0.1, 1, "log")},
+    {"k": (0.05, 0.3, "linear"), "damping": (0.1, 0.5, "log"), "m": (2, 10, "log")},
+]
+WINDOWS = ["slow", "fast", "boundary"]
+LOOK = 60  # cells an axis of the first look
+WIDTH = 1e-8
+
+
+def boundary_window(scene, basin):
+    """A window about a point where the basins of two neighbouring cells meet."""
+    label = basin["attractor"].values
+    row, column = np.argwhere((label[:, 1:] != label[:, :-1]) & (label[:, 1:] >= 0) & (label[:, :-1] >= 0))[0]
+    pair = [str(basin[name].values[i]) for place in (column, column + 1) for name, i in (("theta", place), ("velocity", row))]
+    done = subprocess.run([PROGRAM, "where", "-", *pair, "--boundary", "12", "--json"], input=json.dumps(scene), capture_output=True,
+                          text=True, check=True)
+    centre = json.loads(done.stdout.splitlines()[-1])
+    return {name: {"min": float(centre[name]) - WIDTH / 2, "max": float(centre[name]) + WIDTH / 2} for name in ("theta", "velocity")}
+
+
+def hard_scene(kapitza, random, number, cells):
+    """The first random scene of a kind whose cells take more than a period to settle, and have more than one end."""
+    kind, window = HARD[number % len(HARD)], WINDOWS[number // len(HARD) % len(WINDOWS)]
+    while True:
+        slowest = draw(random, 5, 12, "linear") if window == "fast" else -draw(random, 1, 3, "linear")
+        velocity = {"min": slowest, "max": slowest + draw(random, 2, 3, "linear"), "count": LOOK}
+        scene = {"pendulum": {key: draw(random, *span) for key, span in kind.items()},
+                 "basin": {"theta": {"count": LOOK}, "velocity": velocity}}
+        basin = kapitza(scene).group("basin")
+        label = basin["attractor"].values
+        if basin["settling_time"].values.mean() <= 1 or not np.any(label[:, 1:] != label[:, :-1]):
+            continue
+        if window == "boundary":
+            scene["basin"] |= boundary_window(scene, basin)
+        for axis in ("theta", "velocity"):
+            scene["basin"][axis]["count"] = cells
+        return scene
 
 
 def compare(kapitza, scene, samples):
@@ -49,13 +91,15 @@ def main():
     parser.add_argument("--samples", type=int, default=4000, help="cells that are compared")
     parser.add_argument("--cells", type=int, default=300, help="of the window, an axis")
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--hard", action="store_true", help="pendulums and windows that are hard to label")
     arguments = parser.parse_args()
     print("pendulum, window; % doubtful, its interval; % wrong, its interval (! = understated); exact: % wrong, % undecided")
     low = mistaken = 0
     with tempfile.TemporaryDirectory() as folder:
         kapitza = Kapitza(folder, arguments.ranks)
         for number in range(arguments.first, arguments.pendulums):
-            scene = lively_scene(kapitza, np.random.default_rng([arguments.seed, number]), number, arguments.cells)
+            make = hard_scene if arguments.hard else lively_scene
+            scene = make(kapitza, np.random.default_rng([arguments.seed, number]), number, arguments.cells)
             stated, wrong, exact = compare(kapitza, scene, arguments.samples)
             low += understates(stated, wrong)
             mistaken += exact[0] > 0

@@ -38,7 +38,7 @@ static void bisect(pair *p) {
     const double step[2] = {wrapped(p->side[1][0] - p->side[0][0]) / PIECES, (p->side[1][1] - p->side[0][1]) / PIECES};
     for (int j = 1; j < PIECES; j++)
       for (int c = 0; c < 2; c++) point[j - 1][c] = p->side[0][c] + j * step[c];
-    kz_follow_starts(p->dynamics, p->max_periods, PIECES - 1, point[0], end, periods);
+    kz_decide_starts(p->dynamics, p->max_periods, PIECES - 1, point[0], end, periods);
     int first = 0;
     while (first < PIECES - 1 && end[first] == p->own) first++;
     if (first < PIECES - 1) {
@@ -150,7 +150,7 @@ kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t ma
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
   *edge = (kz_edge){.exponent = NAN};
-  kz_follow_starts(dynamics, max_periods, 2, p.side[0], end, periods);
+  kz_decide_starts(dynamics, max_periods, 2, p.side[0], end, periods);
   if (end[0] == end[1])
     return kz_fail(KZ_REFUSED, "edge.second|edge.first: ends where the other start does; give starts of two basins");
   p.own = end[0];
