@@ -4,7 +4,7 @@
     tests/tools/doubt_coverage.py                              20 pendulums
     tests/tools/doubt_coverage.py --pendulums 40 --seed 2 --ranks 2
     tests/tools/doubt_coverage.py --first 14 --samples 400     the last six of them, in less time
-    tests/tools/doubt_coverage.py --hard --pendulums 40        weak and strong damping and drive, no gravity, fast starts, boundaries 1e-8 wide
+    tests/tools/doubt_coverage.py --hard --pendulums 14        strong damping, strong drive, no gravity, fast starts, boundaries 1e-8 wide
 
 For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which compares the same scheme and steps on
 random cells of the same window by quad precision. A share is understated where the wrong share of the cells of the trade-off is above
