@@ -22,7 +22,8 @@ const pane = explorer.basins.panes[0];
 const picture = () => { const now = performance.now(); times.push(now - last); last = now; if (!over) requestAnimationFrame(picture); };
 const step = STEP;
 requestAnimationFrame(picture);
-const hand = setInterval(() => { if (step(count++)) { clearInterval(hand); setTimeout(() => { over = true; done(times); }, 500); } }, EVERY);
+const rest = () => { clearInterval(hand); setTimeout(() => { over = true; done(times); }, 500); };
+const hand = setInterval(() => { if (step(count++)) rest(); }, EVERY);
 """
 WHEEL = """() => {
   const box = pane.over.getBoundingClientRect(), [left, top] = pane.plane.placeOf(0.37, 0.42);
@@ -62,13 +63,14 @@ def main():
     parser.add_argument("--size", default="1280,829", help="of the window, px (default: 1280,829)")
     parser.add_argument("--json", action="store_true", help="figures for other programs")
     options = parser.parse_args()
-    rows = [{"name": name, "pictures": len(times), "pictures_per_second": 1e3 * len(times) / sum(times), "median_ms": statistics.median(times),
-             "slowest_ms": max(times)} for name, times in measure(options.size).items()]
+    rows = [{"name": name, "pictures": len(times), "pictures_per_second": 1e3 * len(times) / sum(times),
+             "median_ms": statistics.median(times), "slowest_ms": max(times)} for name, times in measure(options.size).items()]
     if options.json:
         print(json.dumps(rows, indent=1))
         return
     for row in rows:
-        print(f"{row['name']:24}{row['pictures_per_second']:7.1f} pictures/s, median {row['median_ms']:.0f} ms, slowest {row['slowest_ms']:.0f} ms")
+        print(f"{row['name']:24}{row['pictures_per_second']:7.1f} pictures/s, median {row['median_ms']:.0f} ms, "
+              f"slowest {row['slowest_ms']:.0f} ms")
 
 
 if __name__ == "__main__":
