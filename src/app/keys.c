@@ -101,12 +101,12 @@ const kz_key kz_keys[] = {
     ROW("numerics", KZ_KEY_MAPPING, "", KZ_NO_FIELD, "How one drive period is integrated.", .unit = "",
         .former = "precision=basin.method exact"),
     ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
-        "Integrator; processed: one kick a step, the fastest by far, and split6 where it does not reach the tolerance; the "
-        "split ones are exact in the damping; rk4 is the classical one.",
+        "Integrator. processed: one kick a step, the fastest; the program takes split6 if it does not reach the tolerance; "
+        "split schemes are exact in the damping; rk4: classical Runge-Kutta.",
         .unit = "", .words_from = scheme_words, .former = "split4=split6|split6-11=split6", CHOSEN),
     COUNT("numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
-          "Whole steps of the scheme in a drive period; auto: as many as tolerance and speeds need (processed), or the "
-          "scheme's own number, or as many as small cells need (others).",
+          "Steps of the scheme in a drive period. auto: as many as the tolerance and the speeds need (processed); the default "
+          "of the scheme, or more for small cells (others).",
           .words = "auto", CHOSEN),
     ROW("numerics.tolerance", KZ_KEY_REAL, "1e-12", AT(asked.tolerance),
         "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "
@@ -132,36 +132,34 @@ const kz_key kz_keys[] = {
     DECIMAL("basin.velocity.width", "rad per drive radian", 1e-300, 2e9, NULL, basin.velocity.width, "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", basin.velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "exact", basin.method,
-         "exact: every cell is integrated with its error, again in more precision where that decides nothing, and flagged in "
-         "evidence where nothing does; direct: doubtful labels stay as they are, and evidence tells them; icm: interpolated "
-         "cell "
-         "mapping, the method of the papers. A sweep integrates its cells directly.",
+         "exact: the error of each orbit decides its label; undecided cells are followed again in more precision, and flagged "
+         "in evidence if quad precision does not decide them; direct: double precision alone, doubtful labels are marked in "
+         "evidence; icm: interpolated cell mapping, the method of the papers. A sweep uses direct.",
          .former = "hybrid=direct", CHOSEN),
     WORD("basin.undecided", KZ_JOINED(KZ_UNDECIDED_WORDS), "flag", basin.undecided,
-         "What quad precision leaves open, by method exact: flagged with its two candidates, or decided by its own orbit in as "
-         "many "
-         "digits as it takes, some 0.1 to 0.4 s a cell."),
+         "Cells that quad precision does not decide, by method exact. flag: flagged with two candidates; decide: followed in "
+         "as many digits as needed, some 0.1 to 0.4 s a cell."),
     MAPPING("basin.icm", "", KZ_NO_FIELD, "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", basin.table_theta, "Nodes along theta.", CHOSEN),
     INTEGER("basin.icm.velocity", 8, 1e5, "1000", basin.table_velocity, "Nodes along the velocity.", CHOSEN),
     ROW("basin.icm.interpolation", KZ_KEY_WORD, "quintic", AT(basin.interpolation), "Interpolation between the nodes.",
         .unit = "", .words = KZ_JOINED(KZ_INTERPOLATION_WORDS), .former = "cubic=quintic", CHOSEN),
-    INTEGER("basin.max_periods", 1, 4e9, "", basin.max_periods,
-            "Drive periods after which a cell counts as not settled; left out: what the damping needs, 2000 at least."),
+    INTEGER(
+        "basin.max_periods", 1, 4e9, "", basin.max_periods,
+        "Drive periods after which a cell counts as not settled; left out: the number that the damping needs, at least 2000."),
     REAL("basin.start_phase", "rad", -1e6, 1e6, "", parameters.start_phase,
          "Phase of the drive at which the pendulum is released; all strobe points of the file are at this phase."),
     MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
-    INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period that is looked for."),
+    INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period of the search."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", basin.seed, "Chooses the starts."),
     BOOLEAN(
         "basin.proof", "false", basin.proof,
         "Prove the labels under the differential equation itself: `evidence` marks those that are proved, `proved_share` is "
         "their share, `other_share_high` bounds the area that ends elsewhere. Some ten times the time of the cells."),
     REAL("basin.accuracy", "", 0.5, 0.999999, "", basin.accuracy,
-         "Share of right labels: instead of method, icm and numerics, which the program then chooses, the cheapest that a "
-         "sample "
-         "followed in quad precision shows to be as right (95 % bound); what no setting reaches: method exact."),
+         "Share of right labels, instead of method, icm and numerics: the program takes the cheapest setting whose labels "
+         "agree with a sample in quad precision to this share (95 % bound), or method exact if there is none."),
 
     MAPPING("basin.boundary", "", AT(basin.has_boundary),
             "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that share "
@@ -169,19 +167,20 @@ const kz_key kz_keys[] = {
     INTEGER("basin.boundary.pairs", 100, 1e8, "50000", basin.boundary.pairs,
             "Starts of the window, each with a partner at 1e-2, 1e-3, ... rad."),
     INTEGER("basin.boundary.decades", 2, KZ_BOUNDARY_MOST_DECADES, "10", basin.boundary.decades,
-            "Decades of these distances: 10 go down to 1e-12 rad; more take basin.method exact, since doubles do not tell such "
-            "starts apart."),
+            "Decades of these distances: 10 go down to 1e-12 rad; more need basin.method exact, because doubles cannot "
+            "distinguish such starts."),
     MAPPING("basin.shocks", "", AT(basin.has_shocks),
             "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
     REAL("basin.shocks.scale", "rad per drive radian", 1e-6, 1e6, "1", basin.shocks.scale,
          "Change of the velocity that counts as much as 1 rad; the size of a shock is hypot(dtheta, dv/scale)."),
     ROW("basin.shocks.sizes", KZ_KEY_REALS, "[0.1, 0.3, 1]", AT(basin.shocks.sizes),
-        "Sizes up to which the share of harmless shocks is told, ascending.", .unit = "rad", .low = KZ_ABOVE_ZERO, .high = 1e3),
+        "Sizes for which the share of harmless shocks is computed, ascending.", .unit = "rad", .low = KZ_ABOVE_ZERO,
+        .high = 1e3),
 
     MAPPING("tradeoff", "", AT(has_tradeoff),
             "Study: time and wrong labels of many settings on the basin's window, compared with quad precision."),
     INTEGER("tradeoff.samples", 10, 1e6, "4000", tradeoff.samples, "Random cells that are compared."),
-    WORDS("tradeoff.settings", kz_tradeoff_words, "", tradeoff.settings, "What is compared; left out: all of them."),
+    WORDS("tradeoff.settings", kz_tradeoff_words, "", tradeoff.settings, "Settings that are compared; left out: all."),
 
     MAPPING("attractors", "", AT(has_attractors), "Study: the attractors of a window of starts, without a grid."),
     MAPPING("attractors.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
@@ -193,7 +192,7 @@ const kz_key kz_keys[] = {
     REAL("attractors.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, attractors.velocity.max,
          "Upper edge of the window."),
     INTEGER("attractors.starts", 1, 1e8, "8192", attractors.starts, "Starts of the search."),
-    INTEGER("attractors.max_period", 1, 512, "48", attractors.max_period, "Longest period that is looked for."),
+    INTEGER("attractors.max_period", 1, 512, "48", attractors.max_period, "Longest period of the search."),
     INTEGER("attractors.seed", 0, 9007199254740992.0, "1", attractors.seed, "Chooses the starts."),
 
     MAPPING("saddles", "", AT(has_saddles),
@@ -215,16 +214,15 @@ const kz_key kz_keys[] = {
     REAL("manifolds.length", "rad", KZ_ABOVE_ZERO, 1e5, "20", manifolds.length,
          "Length of each branch: rad and rad per drive radian together, below max_speed."),
     REAL("manifolds.spacing", "rad", 1e-6, 1, "0.02", manifolds.spacing,
-         "Farthest that neighbouring points may be apart; where a manifold bends by over 0.3 rad they are up to 32 times "
-         "nearer."),
+         "Largest distance of neighbouring points; up to 32 times smaller where a manifold bends by over 0.3 rad."),
     REAL("manifolds.max_speed", "rad per drive radian", KZ_ABOVE_ZERO, 1e3, "2", manifolds.max_speed,
          "Parts at larger speeds are left out."),
 
     MAPPING("edge", "", AT(has_edge), "Study: the saddle on the edge between the basins of two starts, by edge tracking."),
     EDGE_START(first, "A start; the edge of its basin is followed."),
     EDGE_START(second, "A start that ends elsewhere."),
-    INTEGER("edge.periods", 1, 1e6, "2000", edge.periods, "Drive periods that the edge is followed at most."),
-    INTEGER("edge.max_period", 1, KZ_EDGE_MOST_PERIOD, "16", edge.max_period, "Longest period of a cycle that is told."),
+    INTEGER("edge.periods", 1, 1e6, "2000", edge.periods, "Most drive periods for which the edge is followed."),
+    INTEGER("edge.max_period", 1, KZ_EDGE_MOST_PERIOD, "16", edge.max_period, "Longest period of a cycle that is recognised."),
 
     MAPPING("orbit", "", AT(has_orbit), "Study: one motion, its strobe points, turning points and spectrum."),
     MAPPING("orbit.start", "", KZ_NO_FIELD, "Where it starts, at t = 0; this or an attractor."),
@@ -280,7 +278,7 @@ const kz_key kz_keys[] = {
     INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Values, both ends included."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(sweep.measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
-        "of the starts; lifetime: how long motions take that have not settled soon; resilience: smallest shocks that leave the "
+        "of the starts; lifetime: mean settling time of long transients; resilience: smallest shocks that leave the "
         "basins; flutter_amplitude: of the period-2 cycle about "
         "inverted; flutter_zone: how far flutter reaches when "
         "m is raised; release_angle: from rest; strobe: a bifurcation diagram.",
@@ -294,7 +292,7 @@ const kz_key kz_keys[] = {
     REAL("sweep.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "2", sweep.velocity.max,
          "Upper edge of the window."),
     INTEGER("sweep.starts", 1, 1e7, "2048", sweep.starts, "Starts of the search at each value."),
-    INTEGER("sweep.max_period", 1, 512, "48", sweep.max_period, "Longest period that is looked for."),
+    INTEGER("sweep.max_period", 1, 512, "48", sweep.max_period, "Longest period of the search."),
     INTEGER("sweep.seed", 0, 9007199254740992.0, "1", sweep.seed, "Chooses the starts."),
     MAPPING("sweep.start", "", KZ_NO_FIELD, "Where both walks of strobe start."),
     REAL("sweep.start.theta", "rad", -1e6, 1e6, "3.1", sweep.start_theta, "Angle from down."),
@@ -309,11 +307,13 @@ const kz_key kz_keys[] = {
     CHART_AXIS(y, "The key up the picture."),
     MAPPING("chart.start", NULL, KZ_NO_FIELD, "Starts, at t = 0; each has a chart of its own."),
     ROW("chart.start.theta", KZ_KEY_REALS, NULL, AT(chart.theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),
-    ROW("chart.start.velocity", KZ_KEY_REALS, "[0]", AT(chart.velocity), "Velocities; one serves all angles.",
+    ROW("chart.start.velocity", KZ_KEY_REALS, "[0]", AT(chart.velocity), "Velocities: one for each angle, or one for all.",
         .unit = "rad per drive radian", .low = -1e3, .high = 1e3),
-    INTEGER("chart.max_period", 1, KZ_CHART_MOST_PERIOD, "16", chart.max_period, "Longest period of a cycle that is told."),
+    INTEGER("chart.max_period", 1, KZ_CHART_MOST_PERIOD, "16", chart.max_period,
+            "Longest period of a cycle that is recognised."),
     INTEGER("chart.max_periods", 1, 1e8, "", chart.max_periods,
-            "Drive periods after which a motion counts as not settled; left out: what the damping needs, 2000 at least."),
+            "Drive periods after which a motion counts as not settled; left out: the number that the damping needs, at least "
+            "2000."),
 
     {.path = NULL},
 };

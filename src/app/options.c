@@ -10,14 +10,15 @@ enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64 
 
 const kz_command kz_commands[] = {
     {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
-    {"check", CHECK, " SCENE", 1, 1, kz_app_check, "validate SCENE and print what would be modelled; runs nothing"},
+    {"check", CHECK, " SCENE", 1, 1, kz_app_check,
+     "check SCENE and print what would be modelled, with time, memory and disk; models nothing"},
     {"where", WHERE, " SCENE THETA VELOCITY", 2, 5, kz_app_where,
-     "say where a start ends: THETA in rad from down, VELOCITY in rad per drive radian, of any digits; - in their place: a CSV "
-     "of starts on standard input; with --boundary two starts"},
+     "say where a start ends: THETA in rad from down, VELOCITY in rad per drive radian, of any digits; - instead: starts as "
+     "CSV on standard input; two starts with --boundary"},
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view,
      "open the basins of a scene or result in the browser, to be zoomed and dragged"},
     {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
-     "answer requests for frames, orbits and ends of starts, JSON lines on standard input, until its end"},
+     "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts"},
     {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/reference/scene.md)"},
 };
 const int kz_command_count = sizeof kz_commands / sizeof kz_commands[0];
@@ -143,7 +144,7 @@ const kz_option kz_option_rows[] = {
     {"output", 'o', "FILE", RUN, set_output, "the result; default: base name of SCENE + .h5 in the current folder", NULL},
     {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE | VIEW | SERVE, add_set,
      "override or create a key; VALUE is YAML flow text; the last one wins", NULL},
-    {"resume", 257, NULL, RUN, set_resume, "go on from FILE.checkpoint where there is one", NULL},
+    {"resume", 257, NULL, RUN, set_resume, "continue from FILE.checkpoint if it exists", NULL},
     {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint", NULL},
     {"time-limit", 259, "T", RUN, set_time_limit, "stop after T seconds (30m, 1.5h), all finished work saved, exit 75", NULL},
     {"progress", 260, "WHEN", RUN, set_progress, "auto, always or never", "auto|always|never"},
