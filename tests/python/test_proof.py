@@ -1,6 +1,7 @@
 """basin.proof: proved labels are marked and are the proved ones, whoever worked on them; what cannot be proved is not."""
 
 import json
+import os
 import signal
 import subprocess
 import time
@@ -8,6 +9,7 @@ import time
 import h5py
 import numpy as np
 import pytest
+import reference_check
 from conftest import PROGRAM, datasets
 
 # One attractor, and a saddle whose stable manifold no cell's centre meets.
@@ -119,3 +121,28 @@ def test_a_proof_goes_on_where_it_was_stopped(kapitza, tmp_path):
         assert stop_after(stage, ranks, tmp_path)[-1].startswith("proof")
     kapitza("run", "s.yaml", "--resume", folder=tmp_path)
     assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "undisturbed.h5")
+
+
+PENDULUMS = {
+    "Fig. 12": "{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
+    "Fig. 13": "{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.46}",
+    "Fig. 15": "{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.52}",
+    "fast": "{k: 0.1, damping: 0.1, m: 0.4}",
+    "gravity upward": "{k: -0.05, damping: 0.05, m: 0.5}",
+    "no gravity": "{k: 0, damping: 0.05, m: 0.4}",
+    "strong damping": "{k: 0.05, damping: 0.9, m: 0.4}",
+    "weak damping": "{k: 0.00826, damping: 0.004, m: 0.3}",
+}
+
+
+@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
+@pytest.mark.parametrize("name", PENDULUMS)
+def test_quad_precision_contradicts_no_proof(kapitza, tmp_path, name):
+    """4000 proved labels in doubles and pairs; what only quads prove is beyond it."""
+    (tmp_path / "s.yaml").write_text(f"pendulum: {PENDULUMS[name]}\nbasin:\n  theta: {{count: 64}}\n"
+                                     "  velocity: {min: -2, max: 2, count: 64}\n  proof: true\n  attractors: {starts: 1024}\n")
+    kapitza("run", "s.yaml", folder=tmp_path)
+    cells, _, _ = read(tmp_path / "s.h5")
+    _, (_, _, labels, true_labels) = reference_check.check_file(tmp_path / "s.h5", 4096, 1, 2, 4000)
+    proved = np.isin(cells["evidence"], [PROVED, IN_PAIRS])[reference_check.sample_cells(cells["evidence"].shape, 4096, 1)]
+    assert np.array_equal(labels[proved], true_labels[proved]) and proved.sum() > 3000

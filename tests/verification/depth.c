@@ -19,6 +19,9 @@
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
 #define FIG12 "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"
 #define K01_BOUNDARY "-2.36717282205514094284618936441679792892500699963420629501343"
+#define K01_DEEP                                                       \
+  "-2.367172822054595206197195965469343352456262073417327939174161857" \
+  "7113814226078200050029132746710242054545163052171"
 #define FIG12_BOUNDARY "-0.264011425069458192092654683104843683"
 
 typedef struct {
@@ -119,7 +122,9 @@ static void labels_are_those_of_own_orbits(void **state) {
       {K01, "180 deg", "0", "1e-12", 6},
 
   };
+  static const window deep[] = {{K01, K01_DEEP, "17", "1e-50", 0}, {K01, K01_DEEP, "17", "1e-100", 0}};
   for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) compare(windows + i);
+  for (size_t i = 0; getenv("KAPITZA_EXTENSIVE") && i < sizeof deep / sizeof *deep; i++) compare(deep + i);
 }
 
 int main(void) {

@@ -111,18 +111,42 @@ static kz_status measure_exact(sample *s, int64_t n) {
   return KZ_OK;
 }
 
+/* The reference orbit of a deep window, or its first seconds; *images: NULL where none is needed, or not all of them are made. */
+static kz_status measure_reference(sample *s, kz_images **images) {
+  static const double enough = 3; /* s */
+  const kz_basin_plan *plan = &s->scene->basin;
+  *images = NULL;
+  if (!kz_plan_is_centred(plan) || plan->method != KZ_METHOD_EXACT) return KZ_OK;
+  kz_images *made = kz_images_create(&s->scene->parameters.pendulum, &plan->theta, &plan->velocity);
+  kz_status status = KZ_OK;
+  double spent = 0, last = 0;
+  for (double start = kz_processor_clock(); status == KZ_OK && !made->finished && spent < enough; spent += last) {
+    status = kz_images_follow(made, s->dynamics, 1, plan->max_periods);
+    last = kz_processor_clock() - start - spent;
+  }
+  s->seconds += spent + (made->finished ? 0 : last * kz_images_left(made));
+  if (status == KZ_OK && made->finished) *images = kz_images_hold(made);
+  kz_images_free(made);
+  return status;
+}
+
 static kz_status measure_cells(sample *s) {
+  kz_images *images;
   const kz_basin_plan *plan = &s->scene->basin;
   const int64_t own = kz_unique_cells(plan), n = own < FEW_CELLS ? own : FEW_CELLS;
   const int64_t blocks = own / BLOCK; /* neighbours settle together, as in a run: cells one by one would take longer */
   for (int64_t i = 0; i < n; i++) s->item[i] = n == own ? i : kz_shuffled(i / BLOCK, blocks, plan->seed) * BLOCK + i % BLOCK;
+  KZ_TRY(measure_reference(s, &images));
   s->labelling = (kz_window_labels){.plan = plan,
                                     .dynamics = s->dynamics,
+                                    .tiles = kz_tiles_of(s->scene, KZ_TILE_CELLS),
+                                    .images = images,
                                     .run = &ALONE,
                                     .work = kz_workspace_make(),
                                     .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS),
                                     .level = KZ_LEVEL_DOUBLE};
-  kz_window_starts_make(plan, &s->scene->parameters.pendulum, s->dynamics, NULL, &s->labelling.starts);
+  kz_window_starts_make(plan, &s->scene->parameters.pendulum, s->dynamics, images, &s->labelling.starts);
+  kz_images_free(images);
   s->seconds += WRITE_SECONDS * (double)(plan->theta.count * plan->velocity.count);
   const kz_status status = plan->method == KZ_METHOD_EXACT ? measure_exact(s, n) : measure_followed(s, n);
   kz_window_starts_free(&s->labelling.starts);

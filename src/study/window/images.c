@@ -114,6 +114,13 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
   return KZ_OK;
 }
 
+double kz_images_left(const kz_images *images) {
+  const long double first = size_of(&images->image->jet), now = size_of(&images->image[images->n].jet);
+  const double growth = (double)log2l(now / first) / (double)images->n, share = (double)KZ_FEWEST_BITS / (double)bits_for(now);
+  if (images->finished || !(growth > 0) || !(now < widest)) return 0;
+  return (double)log2l(widest / now) / growth * (1 + share + share * share) / 3;
+}
+
 bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity,
                      kz_view *view) {
   static const double narrowest = 0.1, farthest = 16; /* shares of the images' width, and of the window's */

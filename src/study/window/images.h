@@ -40,6 +40,10 @@ void kz_images_free(kz_images *images);
  * trapping region holds all of it. */
 kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods);
 
+/* What is left to follow, in periods that take as long as the last one: the image grows as it did, and the time falls as the square of the
+ * bits. An estimate. */
+double kz_images_left(const kz_images *images);
+
 /* Takes n images that follow image `before` from elsewhere, in the place of those that are here. */
 void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished);
 
