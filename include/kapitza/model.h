@@ -50,6 +50,18 @@ int32_t kz_is_sine(const kz_pendulum *pendulum);
 /* Highest harmonic of the drive, at least 1. */
 int32_t kz_highest_harmonic(const kz_pendulum *pendulum);
 
+/* Bounds for enclosures, up to rounding in extended precision. sizes [n]: of the Taylor coefficients of h (a(t) sin - b(t) cos) over a
+ * step h in units of it, whatever its beginning; the largest of these forces for times with |Im t| <= r; and during step i of length h
+ * from t = 0 on. */
+void kz_force_sizes(const kz_pendulum *pendulum, long double h, int32_t n, long double *sizes);
+long double kz_force_majorant(const kz_pendulum *pendulum, long double r);
+long double kz_force_largest(const kz_pendulum *pendulum, int32_t i, long double h);
+
+/* The slow motion where the drive is fast (BSG Eq. 10): theta'' + beta theta' + pull sin theta = 0 with
+ * pull = k + m^2/2 cos theta u/(u^2 + beta^2), u = 1 - k cos theta. The fraction, and the pull, at cos theta. */
+double kz_slow_fraction(double k, double beta, double cosine);
+double kz_slow_pull(double k, double beta, double m, double cosine);
+
 /* The same pendulum where t = 0 is at the phase `phase` (rad) of the drive. */
 void kz_pendulum_shift(const kz_pendulum *pendulum, double phase, kz_pendulum *shifted);
 

@@ -3,9 +3,9 @@
 #include <math.h>
 
 #include "kapitza/analysis.h"
+#include "kapitza/model.h"
 
-/* The slow equation BSG (10) is theta'' + beta theta' = -k sin(theta) - (m^2/2) sin(theta) cos(theta) u/(u^2 + beta^2),
- * u = 1 - k cos(theta). With d(theta)/d(energy) = k sin + ... its energy is
+/* The energy of the slow equation (model.h), the integral of pull sin(theta), is, with u = 1 - k cos(theta),
  * k (1 - cos) + m^2/(2 k^2) (G(u) - G(1 - k)), G(u) = ln(u^2 + beta^2)/2 - u + beta atan(u/beta). */
 static double primitive(double u, double beta) {
   return 0.5 * log(u * u + beta * beta) - u + (beta > 0 ? beta * atan2(u, beta) : 0);
@@ -15,13 +15,9 @@ typedef struct {
   double k, beta;
 } slow;
 
-static double bracket(double cosine, const slow *s) {
-  double u = 1 - s->k * cosine;
-  return u / (u * u + s->beta * s->beta);
-}
-
 static double integrand(double cosine, void *context) {
-  return cosine * bracket(cosine, context);
+  const slow *s = context;
+  return cosine * kz_slow_fraction(s->k, s->beta, cosine);
 }
 
 /* The same integral without the cancellation by k^2; exact to rounding for |k| <= 0.1. */
@@ -48,25 +44,15 @@ void kz_potential_energy(double k, double beta, double m, double theta, kz_energ
   else
     drive = fabs(k) <= 0.1 ? by_quadrature(&s, cosine) : by_closed_form(&s, cosine);
   energy->exact = lift + m * m * drive;
-  energy->blackburn = lift + 0.25 * m * m * sine * sine * bracket(cosine, &s);
+  energy->blackburn = lift + 0.25 * m * m * sine * sine * kz_slow_fraction(k, beta, cosine);
   energy->simple = lift + 0.25 * m * m * sine * sine;
 }
 
-typedef struct {
-  slow s;
-  double m;
-} hill_top;
-
-/* d(energy)/d(theta)/sin(theta) of the exact potential over cos(theta). */
-static double pull(double cosine, const hill_top *top) {
-  return top->s.k + 0.5 * top->m * top->m * cosine * bracket(cosine, &top->s);
-}
-
-/* The lowest cosine at which pull changes its sign, 1 where it does nowhere. pull (u^2 + beta^2) is a quadratic in the cosine,
+/* The lowest cosine at which kz_slow_pull changes its sign, 1 where it does nowhere. pull (u^2 + beta^2) is a quadratic in the cosine,
  * here divided by max(1, k^2) so that nothing overflows. */
-static double first_balance(const hill_top *top) {
-  const double k = top->s.k, beta = top->s.beta, unit = fmax(1, fabs(k));
-  const double share = k / unit, drive = 0.5 * (top->m / unit) * (top->m / unit);
+static double first_balance(double k, double beta, double m) {
+  const double unit = fmax(1, fabs(k));
+  const double share = k / unit, drive = 0.5 * (m / unit) * (m / unit);
   double first = 1, second = 1;
   gsl_poly_solve_quadratic(k * (share * share - drive), drive - 2 * share * share, share * (1 + beta * beta) / unit, &first,
                            &second);
@@ -75,8 +61,7 @@ static double first_balance(const hill_top *top) {
 }
 
 void kz_potential_rim(double k, double beta, double m, kz_rim *rim) {
-  hill_top top = {{k, beta}, m};
-  rim->stable_inverted = pull(-1, &top) < 0;
-  rim->exact = rim->stable_inverted ? acos(first_balance(&top)) : NAN;
+  rim->stable_inverted = kz_slow_pull(k, beta, m, -1) < 0;
+  rim->exact = rim->stable_inverted ? acos(first_balance(k, beta, m)) : NAN;
   rim->simple = m * m > 2 * k ? acos(fmin(1, -2 * k / (m * m))) : NAN;
 }

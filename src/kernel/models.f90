@@ -21,6 +21,18 @@ module kz_kernel_models
     real(c_double), allocatable :: kick(:)
   end type model_t
 
+  interface
+    !> model.h
+    pure function slow_pull(k, beta, m, cosine) bind(C, name='kz_slow_pull') result(pull)
+      import :: c_double
+      real(c_double), value :: k
+      real(c_double), value :: beta
+      real(c_double), value :: m
+      real(c_double), value :: cosine
+      real(c_double) :: pull
+    end function slow_pull
+  end interface
+
 contains
 
   subroutine sample_model(code, pendulum, periods, samples, theta, velocity, theta_out, velocity_out) &
@@ -107,17 +119,8 @@ contains
     real(c_double) :: force
 
     force = theta
-    if (model%code == EFFECTIVE) force = potential_slope(model%pendulum, theta)
+    if (model%code == EFFECTIVE) &
+      force = sin(theta)*slow_pull(model%pendulum%k, model%pendulum%beta, model%pendulum%m, cos(theta))
   end function restoring
-
-  !> dE/dtheta of the potential of BSG Eq. (10), in units of I omega^2, with its whole dependence on k and beta.
-  pure function potential_slope(pendulum, theta) result(slope)
-    type(pendulum_t), intent(in) :: pendulum
-    real(c_double), intent(in) :: theta
-    real(c_double) :: slope, u
-
-    u = 1 - pendulum%k*cos(theta)
-    slope = sin(theta)*(pendulum%k + 0.5_c_double*pendulum%m**2*cos(theta)*u/(u**2 + pendulum%beta**2))
-  end function potential_slope
 
 end module kz_kernel_models

@@ -2,14 +2,14 @@
 !> a = k - m cos t - sum_j (vertical(1, j) cos j t + vertical(2, j) sin j t), b = sum_j (horizontal(1, j) cos j t + horizontal(2, j) sin j t):
 !> include/kapitza/model.h. Integrators take a and b, their series in time, their symmetry and bounds from here.
 module kz_model_pendulum
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
-  use, intrinsic :: iso_fortran_env, only: real128
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_long_double
+  use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
   public :: pendulum_t, stiffness, exact_stiffness, is_mirrored, is_sine, highest_harmonic, acceleration, force_at, force_series, &
-            MOST_HARMONICS
+            force_of_parameters, sine_force, MOST_HARMONICS
 
-  integer, parameter :: qp = real128
+  integer, parameter :: qp = real128, ld = c_long_double
   !> KZ_HARMONICS of model.h.
   integer, parameter :: MOST_HARMONICS = 16
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
@@ -25,7 +25,39 @@ module kz_model_pendulum
     integer(c_int32_t) :: unmirrored = 0
   end type pendulum_t
 
+  !> a(t) of the drive m cos t alone, from the cosine.
+  interface sine_force
+    module procedure sine_force_r64, sine_force_r128
+  end interface sine_force
+
 contains
+
+  elemental function sine_force_r64(k, m, cosine) result(force)
+    real(real64), intent(in) :: k
+    real(real64), intent(in) :: m
+    real(real64), intent(in) :: cosine
+    real(real64) :: force
+
+    force = k - m*cosine
+  end function sine_force_r64
+
+  elemental function sine_force_r128(k, m, cosine) result(force)
+    real(real128), intent(in) :: k
+    real(real128), intent(in) :: m
+    real(real128), intent(in) :: cosine
+    real(real128) :: force
+
+    force = k - m*cosine
+  end function sine_force_r128
+
+  !> The derivatives of a(t) by k and by m at t = 2 pi * turn: a = k a_k + m a_m where the drive is m cos t alone.
+  pure function force_of_parameters(turn) result(parts)
+    !> drive periods
+    real(c_double), intent(in) :: turn
+    real(c_double) :: parts(2)
+
+    parts = [1.0_c_double, -cos(2*real(PI, c_double)*turn)]
+  end function force_of_parameters
 
   !> A bound of |a(t)| + |b(t)| + |torque|.
   pure function stiffness(pendulum) bind(C, name='kz_stiffness') result(bound)
@@ -122,14 +154,16 @@ contains
     if (pendulum%unmirrored /= 0) rate = rate + pendulum%torque
   end function acceleration
 
-  !> Scaled Taylor coefficients of h**2 a(t) and h**2 b(t) about t0, in (t - t0)/h, orders 0, 1, ..
-  pure subroutine force_series(pendulum, t0, h, a, b)
+  !> Taylor coefficients of factor*a(t) and factor*b(t) about t0, in (t - t0)/h, orders 0, 1, ..
+  pure subroutine force_series(pendulum, t0, h, factor, a, b)
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum
     !> drive time, rad
     real(qp), intent(in) :: t0
     !> step, rad
     real(qp), intent(in) :: h
+    !> h**2 in a scaled equation
+    real(qp), intent(in) :: factor
     !> of sin theta
     real(qp), intent(out) :: a(0:)
     !> of -cos theta
@@ -138,12 +172,12 @@ contains
 
     a = 0
     b = 0
-    call add_harmonic(1, -h*h*pendulum%m, 0.0_qp, t0, h, a)
+    call add_harmonic(1, -factor*pendulum%m, 0.0_qp, t0, h, a)
     do j = 1, pendulum%harmonics
-      call add_harmonic(j, -h*h*pendulum%vertical(1, j), -h*h*pendulum%vertical(2, j), t0, h, a)
-      call add_harmonic(j, h*h*pendulum%horizontal(1, j), h*h*pendulum%horizontal(2, j), t0, h, b)
+      call add_harmonic(j, -factor*pendulum%vertical(1, j), -factor*pendulum%vertical(2, j), t0, h, a)
+      call add_harmonic(j, factor*pendulum%horizontal(1, j), factor*pendulum%horizontal(2, j), t0, h, b)
     end do
-    a(0) = a(0) + h*h*pendulum%k
+    a(0) = a(0) + factor*pendulum%k
   end subroutine force_series
 
   !> series += coefficients of cosine*cos(j t) + sine*sin(j t).
@@ -167,6 +201,69 @@ contains
       scale = scale*(j*h)/(n + 1)
     end do
   end subroutine add_harmonic
+
+  !> kz_force_sizes of model.h.
+  subroutine force_sizes(pendulum, h, n, sizes) bind(C, name='kz_force_sizes')
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_long_double), value :: h
+    integer(c_int32_t), value :: n
+    real(c_long_double), intent(out) :: sizes(0:n - 1)
+    real(ld) :: size
+    integer :: i, j
+
+    size = abs(real(pendulum%m, ld))*h
+    do i = 0, n - 1
+      sizes(i) = size
+      size = size*(h/(i + 1))
+    end do
+    do j = 1, pendulum%harmonics
+      size = amplitude(pendulum, j)*h
+      do i = 0, n - 1
+        sizes(i) = sizes(i) + size
+        size = size*(j*h/(i + 1))
+      end do
+    end do
+    sizes(0) = sizes(0) + h*abs(real(pendulum%k, ld)) + h*abs(real(pendulum%torque, ld))
+  end subroutine force_sizes
+
+  !> kz_force_majorant of model.h.
+  pure function force_majorant(pendulum, r) bind(C, name='kz_force_majorant') result(bound)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_long_double), value :: r
+    real(c_long_double) :: bound
+    integer :: j
+
+    bound = abs(real(pendulum%k, ld)) + abs(real(pendulum%m, ld))*cosh(r)
+    do j = 1, pendulum%harmonics
+      bound = bound + amplitude(pendulum, j)*cosh(j*r)
+    end do
+    bound = bound + abs(real(pendulum%torque, ld))
+  end function force_majorant
+
+  !> kz_force_largest of model.h: beside its chord a function is by at most h**2/8 times its largest second derivative.
+  pure function force_largest(pendulum, i, h) bind(C, name='kz_force_largest') result(bound)
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int32_t), value :: i
+    real(c_long_double), value :: h
+    real(c_long_double) :: bound
+    integer :: j
+
+    bound = max(abs(pendulum%k - pendulum%m*cos(i*h)), abs(pendulum%k - pendulum%m*cos((i + 1)*h))) + abs(real(pendulum%m, ld))*h*h/8
+    do j = 1, pendulum%harmonics
+      bound = bound + amplitude(pendulum, j)
+    end do
+    bound = bound + abs(real(pendulum%torque, ld))
+  end function force_largest
+
+  !> A bound of what harmonic j adds to |a(t)| + |b(t)|.
+  pure function amplitude(pendulum, j) result(bound)
+    type(pendulum_t), intent(in) :: pendulum
+    integer, intent(in) :: j
+    real(ld) :: bound
+
+    bound = hypot(real(pendulum%vertical(1, j), ld), real(pendulum%vertical(2, j), ld)) &
+            + hypot(real(pendulum%horizontal(1, j), ld), real(pendulum%horizontal(2, j), ld))
+  end function amplitude
 
   !> kz_pendulum_shift of model.h: cos j(t + phase) by cosine and sine; m stays, and harmonic 1 makes up for it.
   subroutine shift(pendulum, phase, shifted) bind(C, name='kz_pendulum_shift')

@@ -113,7 +113,7 @@ KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "si
 
 
 def without_comments(text):
-    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
+    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL).replace("long double", "long_double")  # as gfortran writes it
 
 
 def declared(text):

@@ -59,33 +59,6 @@ void kz_arbitrary_free(kz_arbitrary *o) {
   free(o);
 }
 
-/* Steps of a period's n-th part, made for all bits that the orbit keeps. */
-static void make_steps(kz_arbitrary *o, int64_t n) {
-  kz_steps *steps = &o->steps;
-  const int64_t bits = o->bits + 32;
-  kz_number value;
-  if (steps->n == n) return;
-  kz_number_init(&value);
-  steps->n = n;
-  kz_number_two_pi(&steps->h, bits);
-  kz_number_divide_by(&steps->h, &steps->h, n, bits);
-  kz_number_of_double(o->pendulum.beta, &value);
-  kz_number_multiply(&steps->damping, &steps->h, &value, bits);
-  kz_number_of_double(o->pendulum.m, &value);
-  kz_number_multiply(&value, &value, &steps->h, bits);
-  kz_number_multiply(steps->scale, &value, &steps->h, bits);
-  kz_number_of_double(o->pendulum.k, &value);
-  kz_number_multiply(&value, &value, &steps->h, bits);
-  kz_number_multiply(&steps->gravity, &value, &steps->h, bits);
-  steps->force_orders = 0;
-  for (int64_t j = 0; j < o->series.orders && kz_number_exponent(steps->scale + j) > -bits; j++) {
-    kz_number_multiply(steps->scale + j + 1, steps->scale + j, &steps->h, bits);
-    kz_number_divide_by(steps->scale + j + 1, steps->scale + j + 1, j + 1, bits);
-    steps->force_orders = j + 1;
-  }
-  kz_number_clear(&value);
-}
-
 static void copy_place(const kz_place *from, kz_place *to) {
   kz_number_set(&to->theta, &from->theta);
   kz_number_set(&to->velocity, &from->velocity);
@@ -149,7 +122,7 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
   set_tangent(&o->place, degree > 0 ? jet : NULL);
   copy_place(&o->place, &before);
   for (int64_t halvings = 0; !done && halvings <= HALVINGS; halvings++) {
-    make_steps(o, (int64_t)FEWEST_STEPS << halvings);
+    kz_steps_make(&o->steps, &o->pendulum, o->series.orders, o->bits + 32, (int64_t)FEWEST_STEPS << halvings);
     copy_place(&before, &o->place);
     if (degree > 0) bent = *jet;
     done = advance_in_steps(o, fine, degree, &bent);

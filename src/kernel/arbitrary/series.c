@@ -9,6 +9,30 @@ static int64_t larger(int64_t a, int64_t b) {
   return a > b ? a : b;
 }
 
+void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders, int64_t bits, int64_t n) {
+  kz_number value;
+  if (steps->n == n) return;
+  kz_number_init(&value);
+  steps->n = n;
+  kz_number_two_pi(&steps->h, bits);
+  kz_number_divide_by(&steps->h, &steps->h, n, bits);
+  kz_number_of_double(pendulum->beta, &value);
+  kz_number_multiply(&steps->damping, &steps->h, &value, bits);
+  kz_number_of_double(pendulum->m, &value);
+  kz_number_multiply(&value, &value, &steps->h, bits);
+  kz_number_multiply(steps->scale, &value, &steps->h, bits);
+  kz_number_of_double(pendulum->k, &value);
+  kz_number_multiply(&value, &value, &steps->h, bits);
+  kz_number_multiply(&steps->gravity, &value, &steps->h, bits);
+  steps->force_orders = 0;
+  for (int64_t j = 0; j < orders && kz_number_exponent(steps->scale + j) > -bits; j++) {
+    kz_number_multiply(steps->scale + j + 1, steps->scale + j, &steps->h, bits);
+    kz_number_divide_by(steps->scale + j + 1, steps->scale + j + 1, j + 1, bits);
+    steps->force_orders = j + 1;
+  }
+  kz_number_clear(&value);
+}
+
 /* The drive's series from t = 2 pi i / n on: derivatives of the cosine follow each other in a circle of four. */
 static void expand_force(kz_series *series, const kz_steps *steps, int64_t i, int64_t bits) {
   kz_number circle[4];

@@ -29,6 +29,8 @@ typedef struct {
   kz_number angle[2], rate[2]; /* derivatives of theta and v by x and y */
 } kz_place;
 
+/* Steps of a period's n-th part. */
+void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders, int64_t bits, int64_t n);
 /* The series of the step that begins at t = 2 pi i / n, from `place`. Returns its last order, 0 where it does not converge. */
 int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, const kz_place *place, int64_t bits);
 /* The tangent's series, after those of the orbit; returns as well. */

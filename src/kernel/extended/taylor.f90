@@ -56,7 +56,7 @@ contains
     type(force_t) :: force
     real(qp) :: along(0:LAST - 1), across(0:LAST - 1)
 
-    call force_series(pendulum, t0, h, along, across)
+    call force_series(pendulum, t0, h, h*h, along, across)
     force%along = round_series(along)
     force%has_across = pendulum%unmirrored /= 0
     if (.not. force%has_across) return

@@ -1,7 +1,7 @@
 /* For complex time t + z, |z| <= R, the motion from a real state is compared with the solution of
- *   w' = beta w + (|k| + |m| cosh r) cosh y,  y' = w,  y(0) = 0,  w(0) = fastest
- * along the ray r = |z|: |theta'| <= w(r), |Im theta| <= y(r), since |cos(t + z)| <= cosh r and |sin theta|, |cos theta| <= cosh y.
- * Its neighbours likewise with (|k| + |m| cosh r) cosh(y) a. */
+ *   w' = beta w + a(r) cosh y,  y' = w,  y(0) = 0,  w(0) = fastest
+ * along the ray r = |z|: |theta'| <= w(r), |Im theta| <= y(r), since kz_force_majorant a(r) bounds the force and |sin theta|, |cos theta| <= cosh y.
+ * Its neighbours likewise with a(r) cosh(y) times their distance. */
 #include "majorant.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ static const long double CAUTION = 1e-9L; /* relative, far above the rounding he
 
 /* An Euler step with the slopes at its end, found by repetition and then checked: all of them grow. */
 static bool march(const kz_pendulum *p, long double dr, kz_majorant *at) {
-  const long double r = at->r + dr, torque = fabs(p->k) + fabs(p->m) * coshl(r);
+  const long double r = at->r + dr, torque = kz_force_majorant(p, r);
   kz_majorant to = *at;
   to.r = r;
   bool holds = false;

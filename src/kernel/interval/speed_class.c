@@ -16,7 +16,7 @@ static const real U = 0x1p-53L, U_QUAD = 0x1p-113L;
 static const real QUAD_CONSTANTS = 96;
 static const real TINY = 1e-280L; /* products below the range of doubles */
 
-void kz_interval_constants(double k, double beta, double m, int32_t n_steps, int32_t order, double *damping, double *step,
+void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t order, double *damping, double *step,
                            double *inverse, double *torque);
 
 /* What a step is bounded by. */
@@ -48,10 +48,9 @@ static real sum_error(const bounds *b, int n, int products) {
 }
 
 static void set_sizes(bounds *b) {
-  real factor = fabsl(b->pendulum->m) * b->h;
+  kz_force_sizes(b->pendulum, b->h, b->order, b->torque);
   for (int n = 0; n < b->order; n++) {
-    b->torque[n] = (factor + (n == 0 ? b->h * fabs(b->pendulum->k) : 0)) * CAUTION;
-    factor *= b->h / (n + 1);
+    b->torque[n] *= CAUTION;
     b->velocity[n] = b->sine[n] = HUGE_VALL;
   }
   for (int i = 0; i < b->n_majorants; i++) {
@@ -188,7 +187,7 @@ static void bound_tangent(const bounds *b, int T, double tangent_error[2][2]) {
   }
 }
 
-/* (B5), (B6) Neighbours against y'' = beta y' + Q y, Q >= |k - m cos t|, whose solutions grow as exp(rate t) at most. */
+/* (B5), (B6) Neighbours against y'' = beta y' + Q y, Q >= |a(t)|, whose solutions grow as exp(rate t) at most. */
 static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
   const real stiffness = kz_stiffness(b->pendulum) * CAUTION, beta = b->pendulum->beta, h = b->h;
   const real rate = (beta + sqrtl(beta * beta + 4 * stiffness)) / 2, growth = expl(rate * h) * CAUTION;
@@ -197,11 +196,8 @@ static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
   speed->nonlinear[0] = (double)(h * h / 2 * growth * CAUTION);
   speed->nonlinear[1] = (double)(h * growth * CAUTION);
   speed->turn = (double)(stiffness * h * h / 2 * CAUTION);
-  for (int32_t i = 0; i < speed->n_steps; i++) { /* beside the chord by at most |m| h^2 / 8 */
-    const real from = fabsl(b->pendulum->k - b->pendulum->m * cosl(i * h)),
-               to = fabsl(b->pendulum->k - b->pendulum->m * cosl((i + 1) * h));
-    speed->most_torque[i] = (double)(fmaxl(from, to) + fabsl(b->pendulum->m) * h * h / 8 + stiffness * 1e-6L);
-  }
+  for (int32_t i = 0; i < speed->n_steps; i++)
+    speed->most_torque[i] = (double)(kz_force_largest(b->pendulum, i, h) + stiffness * 1e-6L);
 }
 
 /* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
@@ -230,8 +226,8 @@ static kz_speed_class *create(bounds *b, double fastest) {
   made->order = b->order;
   made->fastest = fastest;
   made->frame_steps = steps_of_frame(b->pendulum, n_steps);
-  kz_interval_constants(b->pendulum->k, b->pendulum->beta, b->pendulum->m, n_steps, b->order, &made->damping.high,
-                        &made->step->high, &made->inverse->high, &made->torque->high);
+  kz_interval_constants(b->pendulum, n_steps, b->order, &made->damping.high, &made->step->high, &made->inverse->high,
+                        &made->torque->high);
   if (b->quads) kz_quad_constants_make(b->pendulum, made);
   b->h = 2 * (real)M_PI / n_steps * CAUTION;
   set_sizes(b);

@@ -1,12 +1,12 @@
 !> A batch of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
-!> each lane stand in tables; its kicks are k and m times those of all.
+!> each lane stand in tables; its kicks are k and m times those of all, since the force is linear in both.
 module kz_split_mixed_batch
   use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_lanes_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
   use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI, VECTOR
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, force_of_parameters
   implicit none
   private
   public :: mixed_batch_t, track_t, make_mixed_batch
@@ -19,8 +19,7 @@ module kz_split_mixed_batch
   type, extends(map_t) :: mixed_batch_t
     integer :: n_steps = 0
     real(rk) :: time(DRIFTS) = 0               !< of the drifts of a step, drive radians
-    real(rk) :: weight(KICKS) = 0              !< of a kick: of k
-    real(rk), allocatable :: swing(:, :)       !< and of m: kick, step
+    real(rk), allocatable :: weight(:, :, :)   !< of a kick: of k and of m; kick, step
     real(rk) :: k(WIDTH) = 0
     real(rk) :: m(WIDTH) = 0
     real(rk) :: drift(WIDTH, DRIFTS) = 0       !< half-turns per unit of velocity
@@ -55,13 +54,12 @@ contains
     step = 2*PI/n_steps
     batch%n_steps = n_steps
     batch%time = step*real(stages(1::2)%share, rk)
-    batch%weight = step*real(stages(2::2)%share, rk)
-    allocate (batch%swing(KICKS, n_steps))
+    allocate (batch%weight(2, KICKS, n_steps))
     do i = 1, n_steps
       clock = i - 1
       do s = 1, KICKS
         clock = clock + real(stages(2*s - 1)%share, rk)
-        batch%swing(s, i) = batch%weight(s)*cos(2*PI*(clock/n_steps))
+        batch%weight(:, s, i) = step*real(stages(2*s)%share, rk)*force_of_parameters(clock/n_steps)
       end do
     end do
   end subroutine make_mixed_batch
@@ -112,15 +110,15 @@ contains
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
     real(rk), intent(inout) :: v(WIDTH)
-    real(rk) :: weight, swing
+    real(rk) :: of_k, of_m
     integer :: s, i
 
     do s = 1, KICKS
-      weight = self%weight(s)
-      swing = self%swing(s, step)
+      of_k = self%weight(1, s, step)
+      of_m = self%weight(2, s, step)
       do i = 1, n
         u(i) = u(i) + self%drift(i, s)*v(i)
-        v(i) = self%decay(i, s)*v(i) - (weight*self%k(i) - swing*self%m(i))*sine(u(i))
+        v(i) = self%decay(i, s)*v(i) - (of_k*self%k(i) + of_m*self%m(i))*sine(u(i))
       end do
     end do
     u(:n) = u(:n) + self%drift(:n, DRIFTS)*v(:n)
@@ -163,16 +161,16 @@ contains
     real(rk), intent(inout) :: u(WIDTH)
     real(rk), intent(inout) :: v(WIDTH)
     real(rk), intent(inout) :: c(WIDTH, 2, 2)
-    real(rk) :: weight, swing, kick, drift, decay
+    real(rk) :: of_k, of_m, kick, drift, decay
     integer :: s, i
 
     do s = 1, KICKS
-      weight = self%weight(s)
-      swing = self%swing(s, step)
+      of_k = self%weight(1, s, step)
+      of_m = self%weight(2, s, step)
       do i = 1, n
         drift = PI*self%drift(i, s)
         decay = self%decay(i, s)
-        kick = weight*self%k(i) - swing*self%m(i)
+        kick = of_k*self%k(i) + of_m*self%m(i)
         u(i) = u(i) + self%drift(i, s)*v(i)
         v(i) = decay*v(i) - kick*sine(u(i))
         kick = kick*sine(u(i) + 0.5_rk)
