@@ -95,6 +95,13 @@ typedef struct {
 void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int64_t n, const kz_start *start,
                        int64_t max_periods, kz_decision *decision);
 
+/* How starts are released from now on. Its errors are measured when they are first needed, so after the trapping regions are made. */
+void kz_dynamics_set_release(kz_dynamics *dynamics, const kz_release *release);
+/* Takes n starts from their release to the strobe after which the drive has its final form, as a level needs them, with their errors; an
+ * orbit whose error grows beyond 1e-4 rad comes back with a large one, so that no level decides it. Without a release that takes time they
+ * stay. */
+void kz_dynamics_release(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);
+
 /* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
  * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from
  * found[1] on what kz_dynamics_adopt takes: the cycle and its mirror image, or nothing. The catalogue itself stays as it is. */

@@ -62,7 +62,17 @@ long double kz_force_largest(const kz_pendulum *pendulum, int32_t i, long double
 double kz_slow_fraction(double k, double beta, double cosine);
 double kz_slow_pull(double k, double beta, double m, double cosine);
 
-/* The same pendulum where t = 0 is at the phase `phase` (rad) of the drive. */
-void kz_pendulum_shift(const kz_pendulum *pendulum, double phase, kz_pendulum *shifted);
+/* How motions begin. They are released at t = phase; until t = 2 pi periods damping and drive come, linearly in time or smoothly, from other
+ * values to those of the pendulum. */
+typedef struct {
+  double phase;   /* rad, from 0 to below 2 pi */
+  double periods; /* of the ramp, drive periods; 0 = none */
+  double damping; /* beta at t = 0 */
+  double drive;   /* all that drives the pendulum at t = 0, in units of what does after the ramp */
+  int32_t smooth; /* 1: as a cubic that begins and ends without a kink */
+} kz_release;
+
+/* Strobes (t = 2 pi, 4 pi, ..) up to the one after which the drive has its final form; 0 where it has from the beginning. */
+int64_t kz_release_strobes(const kz_release *release);
 
 #endif

@@ -175,27 +175,35 @@ typedef struct {
   int64_t max_period, max_periods; /* max_periods unset: INT64_MIN */
 } kz_chart_plan;
 
+/* What a ramp changes, and how. */
+enum { KZ_RAMP_DAMPING = 0, KZ_RAMP_DRIVE = 1 };
+enum { KZ_RAMP_LINEAR = 0, KZ_RAMP_SMOOTH = 1 };
+
 /* The pendulum mapping as written, in one of three forms; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
   double k, damping, m;                                                              /* b: k, beta, m */
   double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
-  double length;                /* c: m, of a point mass, instead of radius and inertia */
-  double frequency;             /* c: Hz, instead of pivot_frequency */
-  double amplitude;             /* c: m, instead of pivot_amplitude */
-  double decay_time;            /* c: s, 2 I/b, instead of friction or quality_factor */
-  double tilt, ellipse, torque; /* rad; short axis over long axis; in units of I omega^2 */
-  int32_t waveform;             /* KZ_SINE, ... */
-  kz_harmonics harmonics;       /* further ones */
+  double length;                  /* c: m, of a point mass, instead of radius and inertia */
+  double frequency;               /* c: Hz, instead of pivot_frequency */
+  double amplitude;               /* c: m, instead of pivot_amplitude */
+  double decay_time;              /* c: s, 2 I/b, instead of friction or quality_factor */
+  double tilt, ellipse, torque;   /* rad; short axis over long axis; in units of I omega^2 */
+  double start_phase;             /* of the scene's basin: rad, of the drive when the pendulum is released */
+  double ramp_from, ramp_periods; /* in the units of its key; drive periods */
+  int32_t ramp_key, ramp_shape;   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
+  int32_t waveform;               /* KZ_SINE, ... */
+  kz_harmonics harmonics;         /* further ones */
 } kz_pendulum_keys;
 
 /* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */
 typedef struct {
   kz_pendulum_keys written;
   kz_pendulum pendulum;
+  bool has_ramp;
   double quality_factor, drive_frequency, drive_amplitude;
   double pivot_frequency; /* rad s-1; NaN without SI */
-  double start_phase;     /* rad, of the drive at t = 0; NaN = 0 */
+  kz_release release;     /* how motions of a basin begin */
 } kz_parameters;
 
 /* m s-2; CGPM 1901. */
@@ -209,8 +217,9 @@ kz_status kz_parameters_resolve(kz_parameters *parameters);
 #define KZ_MOST_STIFFNESS 1e7
 #define KZ_MOST_SPEED 1e4
 
-/* The drive that the keys describe beyond k, beta and m, which `pendulum` has: the rest of it. */
+/* The drive that the keys describe beyond k, beta and m, which `pendulum` has: the rest of it. And how motions begin. */
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
+void kz_release_resolve(const kz_parameters *parameters, kz_release *release);
 
 /* The numerics mapping as written. */
 typedef struct {
@@ -268,7 +277,7 @@ typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
-enum { KZ_SWEEP_PARAMETERS = 20 };
+enum { KZ_SWEEP_PARAMETERS = 22 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, and what a sweep can measure, joined by '|'. */
 const char *kz_sweep_words(void);
@@ -284,6 +293,10 @@ bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, cons
 
 /* The same with the swept key at `value`. */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
+/* How motions begin then. */
+kz_release kz_sweep_release_at(const kz_scene *scene, double value);
+/* Whether a key changes the beginning of motions alone. */
+bool kz_sweep_is_of_release(int32_t parameter);
 
 /* What a study would cost. */
 typedef struct {

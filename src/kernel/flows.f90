@@ -6,12 +6,13 @@ module kz_kernel_flows
                                  MOST_DRIFTS, MOST_KICKS
   use kz_lanes_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_model_release, only: stretch_t
   use kz_lanes_step_table, only: numerics_t, period_t, make_period
   use kz_processed_batch, only: make_processed_batch
   use kz_split_batch, only: make_batch
   implicit none
   private
-  public :: make_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
+  public :: make_flow, make_stretch_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
 
   !> What published values are computed with, whatever the scene says: split6, 96 steps.
   type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96)
@@ -68,6 +69,24 @@ contains
     call make_period(pendulum, numerics, fused, period)
     call make_batch(period, flow)
   end subroutine make_flow
+
+  !> The map of a stretch, by fine steps of split6.
+  subroutine make_stretch_flow(pendulum, stretch, flow)
+    !> as it is after a ramp
+    type(pendulum_t), intent(in) :: pendulum
+    !> a part of a drive period
+    type(stretch_t), intent(in) :: stretch
+    !> from its beginning to its end
+    class(flow_t), allocatable, intent(out) :: flow
+    type(numerics_t) :: numerics
+    type(period_t) :: period
+
+    numerics = fine_numerics(pendulum)
+    numerics%steps_per_period = ceiling(numerics%steps_per_period*real(stretch%span, c_double) &
+                                        *sqrt(max(1.0_c_double, abs(stretch%release%drive))))
+    call make_period(pendulum, numerics, .true., period, stretch)
+    call make_batch(period, flow)
+  end subroutine make_stretch_flow
 
   !> The map of one drive period, and the same with twice the steps, and all terms: their difference is the error of a period.
   subroutine make_flow_and_finer(pendulum, numerics, flow, finer)

@@ -265,31 +265,4 @@ contains
             + hypot(real(pendulum%horizontal(1, j), ld), real(pendulum%horizontal(2, j), ld))
   end function amplitude
 
-  !> kz_pendulum_shift of model.h: cos j(t + phase) by cosine and sine; m stays, and harmonic 1 makes up for it.
-  subroutine shift(pendulum, phase, shifted) bind(C, name='kz_pendulum_shift')
-    type(pendulum_t), intent(in) :: pendulum
-    real(c_double), value :: phase
-    type(pendulum_t), intent(out) :: shifted
-    integer :: j
-
-    shifted = pendulum
-    if (.not. abs(phase) > 0) return
-    shifted%harmonics = highest_harmonic(pendulum)
-    do j = 1, shifted%harmonics
-      shifted%vertical(:, j) = turned(pendulum%vertical(:, j), j*real(phase, qp))
-      shifted%horizontal(:, j) = turned(pendulum%horizontal(:, j), j*real(phase, qp))
-    end do
-    shifted%vertical(:, 1) = shifted%vertical(:, 1) + turned([pendulum%m, 0.0_c_double], real(phase, qp)) - [pendulum%m, 0.0_c_double]
-  end subroutine shift
-
-  !> Amplitudes of cos and sin after a shift by an angle.
-  pure function turned(amplitude, angle) result(now)
-    real(c_double), intent(in) :: amplitude(2)
-    real(qp), intent(in) :: angle
-    real(c_double) :: now(2)
-
-    now(1) = real(amplitude(1)*cos(angle) + amplitude(2)*sin(angle), c_double)
-    now(2) = real(amplitude(2)*cos(angle) - amplitude(1)*sin(angle), c_double)
-  end function turned
-
 end module kz_model_pendulum

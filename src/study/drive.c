@@ -60,8 +60,22 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
   }
   if (has(written->torque)) p->torque = written->torque;
   p->unmirrored = plane || has(written->torque);
-  if (has(parameters->start_phase)) {
-    const kz_pendulum before = *p;
-    kz_pendulum_shift(&before, parameters->start_phase, p);
-  }
+}
+
+/* A ramp of the drive is in units of m, which it ends at. */
+static void resolve_ramp(const kz_parameters *parameters, kz_release *release) {
+  const kz_pendulum_keys *written = &parameters->written;
+  release->periods = written->ramp_periods;
+  release->smooth = written->ramp_shape == KZ_RAMP_SMOOTH;
+  if (written->ramp_key == KZ_RAMP_DAMPING)
+    release->damping = written->ramp_from;
+  else
+    release->drive = written->ramp_from / parameters->pendulum.m;
+}
+
+void kz_release_resolve(const kz_parameters *parameters, kz_release *release) {
+  const double phase = fmod(parameters->written.start_phase, 2 * M_PI);
+  *release = (kz_release){.damping = parameters->pendulum.beta, .drive = 1};
+  if (has(parameters->written.start_phase)) release->phase = phase < 0 ? phase + 2 * M_PI : phase;
+  if (parameters->has_ramp && has(parameters->written.ramp_periods)) resolve_ramp(parameters, release);
 }

@@ -5,6 +5,41 @@
 #include "kapitza/study.h"
 #include "sweep/sweep.h"
 
+/* What a release that takes time, by a phase or a ramp, does not go with; NULL = nothing. */
+static const char *needs_no_release(const kz_scene *scene) {
+  const kz_basin_plan *plan = &scene->basin;
+  if (!scene->has_basin) return "is of the cells of study basin, which the scene has not";
+  if (plan->method == KZ_METHOD_ICM) return "basin.method icm interpolates from strobe to strobe; choose exact or direct";
+  if (!isnan(plan->accuracy)) return "basin.accuracy compares with starts at a strobe; leave one of them out";
+  if (plan->proof) return "basin.proof has bounds of whole drive periods; leave one of them out";
+  if (plan->undecided == KZ_UNDECIDED_DECIDE) return "basin.undecided decide has orbits from a strobe on; choose flag";
+  if (plan->has_boundary) return "basin.boundary has pairs of starts at a strobe; leave one of them out";
+  if (plan->theta.centre.text[0] || plan->velocity.centre.text[0])
+    return "windows by centre and width have a reference orbit from a strobe on; give min and max";
+  if (scene->has_tradeoff) return "study tradeoff compares with starts at a strobe; leave one of them out";
+  return NULL;
+}
+
+/* What is wrong with a ramp; NULL = nothing. */
+static const char *wrong_ramp(const kz_parameters *parameters) {
+  const kz_pendulum_keys *written = &parameters->written;
+  if (written->ramp_key == KZ_RAMP_DAMPING && written->ramp_from < 0) return "from: a damping is not below 0";
+  if (written->ramp_key == KZ_RAMP_DRIVE && !(fabs(parameters->pendulum.m) > 0))
+    return "key: a drive of amplitude 0 has nothing to be in proportion to; choose damping";
+  return NULL;
+}
+
+/* A sweep over a ramp: its values differ in their cells alone. */
+static const char *needs_cells(const kz_scene *scene) {
+  if (scene->has_chart &&
+      (kz_sweep_is_of_release(scene->chart.x.parameter) || kz_sweep_is_of_release(scene->chart.y.parameter)))
+    return "study chart follows starts without a ramp; name another parameter";
+  if (!scene->has_sweep || !kz_sweep_is_of_release(scene->sweep.parameter)) return NULL;
+  if (scene->has_basin && scene->sweep.measure.count == 1 && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS))
+    return NULL;
+  return "a sweep over it has one measure, basin_fractions, on the cells of study basin";
+}
+
 /* The keys that make the drive what it is, as a message begins. */
 static const char *keys_of(const kz_scene *scene) {
   const kz_pendulum_keys *written = &scene->parameters.written;
@@ -12,8 +47,7 @@ static const char *keys_of(const kz_scene *scene) {
   if (!isnan(written->ellipse)) return "pendulum.ellipse";
   if (!isnan(written->torque)) return "pendulum.torque";
   if (written->harmonics.count > 0) return "pendulum.harmonics";
-  if (written->waveform > KZ_SINE) return "pendulum.waveform";
-  return "basin.start_phase";
+  return "pendulum.waveform";
 }
 
 /* The first study or method that needs the sine; NULL = none. */
@@ -40,9 +74,19 @@ static const char *needs_mirror(const kz_scene *scene) {
   return NULL;
 }
 
+static kz_status check_release(const kz_scene *scene) {
+  const bool ramp = scene->parameters.has_ramp;
+  const char *wrong = ramp ? wrong_ramp(&scene->parameters) : NULL;
+  if (wrong) return kz_fail(KZ_REFUSED, "pendulum.ramp.%s", wrong);
+  const char *why = needs_cells(scene);
+  if (!why && kz_release_strobes(&scene->parameters.release) > 0) why = needs_no_release(scene);
+  return why ? kz_fail(KZ_REFUSED, "%s: %s", ramp ? "pendulum.ramp" : "basin.start_phase", why) : KZ_OK;
+}
+
 kz_status kz_drive_check(const kz_scene *scene) {
   const kz_pendulum *p = &scene->parameters.pendulum;
   const char *why = kz_is_sine(p) ? NULL : needs_sine(scene);
   if (!why && !kz_is_mirrored(p)) why = needs_mirror(scene);
-  return why ? kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), why) : KZ_OK;
+  if (why) return kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), why);
+  return check_release(scene);
 }

@@ -66,6 +66,7 @@ kz_status kz_parameters_resolve(kz_parameters *parameters) {
                    p.m);
   kz_drive_resolve(parameters, &p);
   parameters->pendulum = p;
+  kz_release_resolve(parameters, &parameters->release);
   fill_defined(parameters);
   return KZ_OK;
 }

@@ -5,6 +5,7 @@ import math
 import subprocess
 
 import h5py
+import kapitza as kapitza_package
 import numpy as np
 import pytest
 from conftest import PROGRAM, ROOT
@@ -25,7 +26,7 @@ RIGS = {
 }
 
 
-def period(force, state, phase=0.0, steps=500):
+def period(force, state, phase=0.0, steps=1500):
     """One drive period from the phase `phase`, by Runge and Kutta."""
     def slope(t, x):
         a, b, torque = force(t)
@@ -62,7 +63,7 @@ def test_published_cycles_obey_the_equation(rig):
         for j in range(n):
             theta, velocity = period(force, points[j])
             expected = points[(j + 1) % n]
-            assert abs(math.remainder(theta - expected[0], 2 * math.pi)) < 1e-7 and abs(velocity - expected[1]) < 1e-7
+            assert abs(math.remainder(theta - expected[0], 2 * math.pi)) < 1e-9 and abs(velocity - expected[1]) < 1e-9
 
 
 def test_attractors_have_mirror_images_where_the_pendulum_is_mirrored(rig):
@@ -84,21 +85,84 @@ def test_labels_are_those_of_fine_steps(rig, kapitza, tmp_path):
              "basin": {**WINDOW, "attractors": {"starts": 256}}}
     fine = run(kapitza, tmp_path, scene)
     names = [np.append(f["attractors/name"].asstr()[:], "")[f["basin/attractor"][:]] for f in (file, fine)]
-    decided = file["basin/evidence"][:] < 3
-    assert decided.mean() > 0.5 and (names[0] == names[1])[decided].mean() > 0.995
+    decided = (file["basin/evidence"][:] != 3) & (fine["basin/evidence"][:] != 9)
+    assert decided.mean() > 0.8 and (names[0] == names[1])[decided].all()
 
 
-def test_a_whole_turn_of_the_phase_changes_nothing(kapitza, tmp_path):
-    scene = {"pendulum": PENDULUM, "numerics": {"scheme": "split6"}, "basin": {**WINDOW, "attractors": {"starts": 256}}}
+LINEAR = {"key": "damping", "from": 0.06, "periods": 2.5}
+SMOOTH = {"key": "drive_amplitude", "from": 0.1, "periods": 3, "shape": "smooth"}
+
+
+def released(theta, velocity, phase, ramp, steps=1000):
+    """States at the strobe after which the drive has its final form, by Runge and Kutta."""
+    length = ramp["periods"] if ramp else 0
+
+    def slope(t, x):
+        s = min(1.0, t / (2 * math.pi * length)) if length else 1.0
+        rest = 1 - (s * s * (3 - 2 * s) if ramp and ramp.get("shape") == "smooth" else s)
+        beta = BETA + ((ramp["from"] - BETA) * rest if ramp and ramp["key"] == "damping" else 0)
+        m = M + ((ramp["from"] - M) * rest if ramp and ramp["key"] == "drive_amplitude" else 0)
+        return np.array([x[1], -beta * x[1] - (K - m * np.cos(t)) * np.sin(x[0])])
+    ends = sorted({2 * math.pi * n for n in range(1, max(1, math.ceil(length)) + 1)} | ({2 * math.pi * length} - {0.0}))
+    t, x = phase, np.array([theta, velocity])
+    for end in ends:
+        h = (end - t) / steps
+        for i in range(steps):
+            at = t + i * h
+            one = slope(at, x)
+            two = slope(at + h / 2, x + h / 2 * one)
+            three = slope(at + h / 2, x + h / 2 * two)
+            x = x + h / 6 * (one + 2 * two + 2 * three + slope(at + h, x + h * three))
+        t = end
+    return x
+
+
+@pytest.mark.parametrize("phase, ramp", [(math.pi / 2, None), (0, LINEAR), (1.0, SMOOTH)])
+def test_released_cells_end_where_an_integration_up_to_the_strobe_leads(kapitza, tmp_path, phase, ramp):
+    pendulum = {**PENDULUM, **({"ramp": ramp} if ramp else {})}
+    scene = {"pendulum": pendulum, "basin": {**WINDOW, "start_phase": phase, "attractors": {"starts": 256}}}
+    file = run(kapitza, tmp_path, scene)
+    theta, velocity = np.meshgrid(file["basin/theta"][::3], file["basin/velocity"][::3])
+    x = released(theta.ravel(), velocity.ravel(), phase, ramp)
+    there = kapitza_package.where({"pendulum": PENDULUM, "basin": {**WINDOW, "attractors": {"starts": 256}}}, x[0], x[1])
+    names = np.append(file["attractors/name"].asstr()[:], "")[file["basin/attractor"][::3, ::3]].ravel()
+    settling = file["basin/settling_time"][::3, ::3].ravel()
+    assert (names == there["name"].to_numpy()).mean() > 0.98  # doubles of the integration above may cross a boundary
+    late = settling - there["settling_time"].to_numpy(dtype=float)
+    assert (late == (math.ceil(ramp["periods"]) if ramp else 1)).mean() > 0.9
+
+
+def test_releases_are_the_same_for_any_number_of_ranks_and_mirrored(kapitza, tmp_path):
+    scene = {"pendulum": {**PENDULUM, "ramp": SMOOTH}, "basin": {**WINDOW, "start_phase": 1, "attractors": {"starts": 256}}}
+    alone = run(kapitza, tmp_path, scene)
+    labels, mirror = alone["basin/attractor"][:], alone["attractors/mirror"][:]
+    assert (labels == np.append(mirror, -1)[labels[::-1, ::-1]]).mean() > 0.99
+    (tmp_path / "rig.yaml").write_text(json.dumps(scene))
+    kapitza("run", "rig.yaml", "-o", "two.h5", folder=tmp_path, ranks=2)
+    with h5py.File(tmp_path / "two.h5") as two:
+        for name in ("attractor", "settling_time", "evidence"):
+            assert (two["basin"][name][:] == alone["basin"][name][:]).all()
+
+
+def test_a_whole_turn_of_the_phase_and_a_ramp_of_no_length_change_nothing(kapitza, tmp_path):
+    scene = {"pendulum": PENDULUM, "basin": {**WINDOW, "attractors": {"starts": 256}}}
     plain = run(kapitza, tmp_path, scene)["basin/attractor"][:]
-    turned = run(kapitza, tmp_path, scene, "--set", "basin.start_phase=360 deg")["basin/attractor"][:]
-    quarter = run(kapitza, tmp_path, scene, "--set", "basin.start_phase=90 deg")
-    assert (plain == turned).mean() > 0.98 and (plain == quarter["basin/attractor"][:]).mean() < 0.98
-    found = quarter["attractors"]
-    for i in np.flatnonzero(found["period"][:] == 1):
-        x = found["strobe_theta"][i, 0], found["strobe_velocity"][i, 0]
-        theta, velocity = period(RIGS["sine"][1], x, math.pi / 2)
-        assert abs(math.remainder(theta - x[0], 2 * math.pi)) < 1e-7 and abs(velocity - x[1]) < 1e-7
+    for option in ("basin.start_phase=360 deg", "pendulum.ramp={key: damping, from: 0, periods: 0}"):
+        assert (plain == run(kapitza, tmp_path, scene, "--set", option)["basin/attractor"][:]).all()
+
+
+def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
+    """Its first value is the basin without a ramp; a damping that comes down from four times its value leaves fewer rotations."""
+    ramp = {"key": "damping", "from": 4 * BETA, "periods": 0}
+    sweep = {"parameter": "ramp.periods", "min": 0, "max": 20, "count": 2, "measure": ["basin_fractions"], "starts": 256}
+    basin = {**WINDOW, "method": "direct", "attractors": {"starts": 256}}
+    file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, "ramp": ramp}, "basin": basin, "sweep": sweep})
+    share, names = file["sweep/fraction"][:], file["sweep/branch_name"].asstr()[:]
+    share = share if share.shape[0] == len(names) else share.T
+    whole = dict(zip(file["attractors/name"].asstr()[:], file["attractors/fraction"][:], strict=True))
+    assert all(abs(whole[name] - share[i, 0]) < 1e-12 for i, name in enumerate(names))
+    rotating = [name.startswith("rotation") for name in names]
+    assert np.nansum(share[rotating, 1]) < 0.8 * np.nansum(share[rotating, 0])
 
 
 @pytest.mark.parametrize("keys, study, named", [
@@ -106,6 +170,12 @@ def test_a_whole_turn_of_the_phase_changes_nothing(kapitza, tmp_path):
     ({"tilt": 0.1}, {"basin": WINDOW, "numerics": {"scheme": "rk4"}}, "pendulum.tilt: numerics.scheme rk4"),
     ({"waveform": "square"}, {"basin": {**WINDOW, "method": "exact", "proof": True}}, "pendulum.waveform: basin.proof"),
     ({"torque": 0.1}, {"potential": {"drive_amplitudes": [0.3]}}, "pendulum.torque: study potential"),
+    ({"ramp": LINEAR}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.ramp: basin.method icm"),
+    ({"ramp": LINEAR}, {"basin": {**WINDOW, "proof": True}}, "pendulum.ramp: basin.proof"),
+    ({"ramp": LINEAR}, {"attractors": {"velocity": {"min": -1, "max": 1}}}, "pendulum.ramp: is of the cells"),
+    ({"ramp": {**LINEAR, "from": -1}}, {"basin": WINDOW}, "pendulum.ramp.from"),
+    ({"ramp": {**LINEAR, "key": "k"}}, {"basin": WINDOW}, "pendulum.ramp.key"),
+    ({}, {"basin": {**WINDOW, "start_phase": 1, "boundary": {}}}, "basin.start_phase: basin.boundary"),
     ({"harmonics": [{"order": 17, "amplitude": 1}]}, {"basin": WINDOW}, "pendulum.harmonics"),
     ({"harmonics": [{"order": 2, "height": 1}]}, {"basin": WINDOW}, "none of order, amplitude, phase"),
 ])

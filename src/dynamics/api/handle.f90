@@ -8,6 +8,8 @@ module kz_api_handle
   use kz_grown_grid, only: regions_t
   use kz_attractors_cycle_search, only: search_t
   use kz_labels_levels, only: levels_t
+  use kz_labels_released, only: released_t
+  use kz_model_release, only: release_t
   use kz_maps_map_table, only: table_t
   implicit none
   private
@@ -21,6 +23,8 @@ module kz_api_handle
     type(regions_t) :: regions
     type(table_t) :: table
     type(levels_t) :: levels           !< what labels with errors need, once it is needed
+    type(release_t), allocatable :: release   !< of starts whose drive has not its final form at once
+    type(released_t), allocatable :: released !< what carries them, once it is needed
     type(images_t), allocatable :: images(:) !< of the cells of regions that grow
   end type dynamics_t
 

@@ -11,6 +11,7 @@ module kz_api_label
   use kz_maps_states, only: wrapped
   implicit none
   private
+  public :: start_t, orbit_of
 
   !> Of dynamics.h: the scene's numerics, where doubtful orbits are followed on; no level.
   integer, parameter :: LEVEL_GUESS = -1, NONE = 8
@@ -61,7 +62,9 @@ contains
 
   !> A start is known to the last place of its double; where it is to be followed `precisely`, to that of the pair.
   pure function orbit_of(start, precisely) result(orbit)
+    !> rad, rad per drive radian
     type(start_t), intent(in) :: start
+    !> to all digits of its pairs, else to those of doubles
     logical, intent(in) :: precisely
     type(orbit_t) :: orbit
     real(qp) :: u

@@ -19,7 +19,7 @@ module kz_labels_levels
 
   !> Levels of dynamics.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
-  integer, parameter :: LEVEL_FINE = 1, LEVEL_PAIRS_16 = 2, LEVEL_PAIRS_28 = 5, LEVEL_QUAD = 6
+  integer, parameter, public :: LEVEL_FINE = 1, LEVEL_PAIRS_16 = 2, LEVEL_PAIRS_28 = 5, LEVEL_QUAD = 6
   !> rad: of a period in double precision with more steps; with most steps of all.
   real(dp), parameter :: FINE_ERROR = 1e-14_dp
   integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320

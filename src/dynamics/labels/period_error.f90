@@ -6,6 +6,7 @@ module kz_labels_period_error
   use kz_extended_taylor, only: drive_t, make_drive, qp, TAYLOR_STEPS
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_model_release, only: stretch_t, whole_period
   implicit none
   private
   public :: period_error_t, speed_probes_t, make_speed_probes, measure_period, class_of
@@ -33,21 +34,26 @@ module kz_labels_period_error
 
 contains
 
-  !> Probes of a pendulum up to a speed, spread evenly over the circle and over the speeds.
-  subroutine make_speed_probes(pendulum, fastest, probes)
+  !> Probes of a pendulum up to a speed, spread evenly over the circle and over the speeds, and their images after a period or a stretch.
+  subroutine make_speed_probes(pendulum, fastest, probes, stretch)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> rad per drive radian
     real(dp), intent(in) :: fastest
     !> their starts and images
     type(speed_probes_t), intent(out) :: probes
+    !> left out: a whole period
+    type(stretch_t), intent(in), optional :: stretch
+    type(stretch_t) :: followed
     type(drive_t) :: drive
     integer :: n, i
 
+    followed = whole_period()
+    if (present(stretch)) followed = stretch
     probes%fastest = fastest
     if (max(fastest, sqrt(stiffness(pendulum))) > COSTLY) probes%each = EACH_COSTLY
     n = CLASSES*probes%each
-    call make_drive(drive, pendulum, TAYLOR_STEPS)
+    call make_drive(drive, pendulum, TAYLOR_STEPS, followed)
     call make_probes(drive, [(fastest*(i - 0.5_dp)/n, i=1, n)], probes%probes_t)
   end subroutine make_speed_probes
 

@@ -27,6 +27,8 @@ module kz_extended_series
   real(dp), parameter :: INVERSE_HIGH(LAST + 1) = real(INVERSE, dp)
   real(dp), parameter :: INVERSE_LOW(LAST + 1) = real(INVERSE - real(INVERSE_HIGH, qp), dp)
 
+  !> Highest power of time in a changing damping.
+  integer, parameter :: RAMP = 3
   real(dp), parameter :: ONES(LAST) = 1
   real(dp), parameter :: NOUGHTS(LAST) = 0
 
@@ -50,6 +52,9 @@ module kz_extended_series
     type(shared_t) :: across !< g: times cos theta
     real(qp) :: torque = 0   !< h^2 torque
     logical :: has_across    !< whether there are g and torque
+    logical :: has_ramp = .false. !< whether the damping changes:
+    type(shared_t) :: damping !< beta h, order by order up to RAMP
+    real(qp) :: constant_damping = 0 !< its order 0
   end type force_t
 
   type :: series_t
@@ -151,6 +156,7 @@ contains
       end do
     end do
     if (force%has_across) call add_across(n, force, c, w_high, w_low)
+    if (force%has_ramp) call add_ramp(n, force, w, w_high, w_low)
     call set_order(w, n + 1, -w_high, -w_low)
     call set_order(s, n + 1, s_high, s_low)
     call set_order(c, n + 1, -c_high, -c_low)
@@ -174,6 +180,21 @@ contains
     high = real(force%torque, dp)
     call add_product(-high, -real(force%torque - high, dp), -upper_half(high), 1.0_dp, 0.0_dp, 1.0_dp, sum_high, sum_low)
   end subroutine add_across
+
+  !> sum += what the change of the damping adds.
+  pure subroutine add_ramp(n, force, w, sum_high, sum_low)
+    integer, intent(in) :: n
+    type(force_t), intent(in) :: force
+    type(coefficients_t), intent(in) :: w
+    real(dp), intent(inout) :: sum_high(LANES)
+    real(dp), intent(inout) :: sum_low(LANES)
+    integer :: i
+
+    do i = 1, min(n, RAMP)
+      call add_product(force%damping%high(i), force%damping%low(i), force%damping%top(i), &
+                       w%high(:, n - i), w%low(:, n - i), w%top(:, n - i), sum_high, sum_low)
+    end do
+  end subroutine add_ramp
 
   !> x_n = (high + low) / n.
   pure subroutine set_order(x, n, high, low)
@@ -219,6 +240,7 @@ contains
         of_w = of_w + force%across%high(i)*c(:, n - i)
       end do
     end if
+    if (force%has_ramp) of_w = of_w + matmul(w(:, n - 1:n - RAMP:-1), force%damping%high(1:RAMP))
     w(:, n + 1) = -of_w/(n + 1)
     s(:, n + 1) = of_s/(n + 1)
     c(:, n + 1) = -of_c/(n + 1)

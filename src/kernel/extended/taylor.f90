@@ -4,6 +4,7 @@ module kz_extended_taylor
   use, intrinsic :: iso_fortran_env, only: real128, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_model_pendulum, only: pendulum_t, force_series
+  use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
   use kz_extended_series, only: LANES, LAST, force_t, series_t, round_series, begin_series, expand, sums, converged
   implicit none
   private
@@ -21,50 +22,98 @@ module kz_extended_taylor
   type :: drive_t
     type(pendulum_t) :: pendulum
     integer :: n_steps
+    type(stretch_t) :: stretch
     type(force_t), allocatable :: force(:)
     type(force_t), allocatable :: halved(:) !< of steps half as long
   end type drive_t
 
 contains
 
-  !> The drive of a pendulum for n_steps steps a period.
-  pure subroutine make_drive(drive, pendulum, n_steps)
+  !> The drive of a pendulum for n_steps steps a period, or in a stretch of it.
+  pure subroutine make_drive(drive, pendulum, n_steps, stretch)
     !> the series of the drive for each step
     type(drive_t), intent(out) :: drive
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum
     !> Steps a period where the motion is gentle.
     integer, intent(in) :: n_steps
+    !> left out: a whole period
+    type(stretch_t), intent(in), optional :: stretch
     integer :: i
 
+    drive%stretch = whole_period()
+    if (present(stretch)) drive%stretch = stretch
     drive%pendulum = pendulum
     drive%n_steps = n_steps
     allocate (drive%force(n_steps), drive%halved(2*n_steps))
     do i = 1, n_steps
-      drive%force(i) = force_of_step(pendulum, (i - 1)*TWO_PI/n_steps, TWO_PI/n_steps)
+      drive%force(i) = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*(TWO_PI*drive%stretch%span)/n_steps, step_of(drive, 0))
     end do
     do i = 1, 2*n_steps
-      drive%halved(i) = force_of_step(pendulum, (i - 1)*(TWO_PI/n_steps/2), TWO_PI/n_steps/2)
+      drive%halved(i) = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*step_of(drive, 1), step_of(drive, 1))
     end do
   end subroutine make_drive
 
+  !> rad, after a number of halvings.
+  pure function step_of(drive, halvings) result(h)
+    type(drive_t), intent(in) :: drive
+    integer, intent(in) :: halvings
+    real(qp) :: h
+
+    h = TWO_PI*drive%stretch%span/drive%n_steps/2**halvings
+  end function step_of
+
   !> The force over a step h from t0, rad.
-  pure function force_of_step(pendulum, t0, h) result(force)
-    type(pendulum_t), intent(in) :: pendulum
+  pure function force_of_step(drive, t0, h) result(force)
+    type(drive_t), intent(in) :: drive
     real(qp), intent(in) :: t0
     real(qp), intent(in) :: h
     type(force_t) :: force
     real(qp) :: along(0:LAST - 1), across(0:LAST - 1)
 
-    call force_series(pendulum, t0, h, h*h, along, across)
+    call force_series(drive%pendulum, t0, h, h*h, along, across)
+    if (drive%stretch%changes) call put_on_ramp(drive, t0/TWO_PI, h, along, across, force)
     force%along = round_series(along)
-    force%has_across = pendulum%unmirrored /= 0
+    force%has_across = drive%pendulum%unmirrored /= 0
     if (.not. force%has_across) return
     force%across = round_series(-across)
-    force%torque = h*h*pendulum%torque
+    force%torque = h*h*drive%pendulum%torque
   end function force_of_step
 
-  !> One whole drive period from t = 0. A state that no step is fine enough for becomes NaN.
+  !> The damping and the drive as they are on the ramp.
+  pure subroutine put_on_ramp(drive, turn, h, along, across, force)
+    type(drive_t), intent(in) :: drive
+    real(qp), intent(in) :: turn
+    real(qp), intent(in) :: h
+    real(qp), intent(inout) :: along(0:)
+    real(qp), intent(inout) :: across(0:)
+    type(force_t), intent(inout) :: force
+    real(qp) :: scale(0:CUBIC), damping(0:LAST - 1)
+
+    scale = drive_series(drive%stretch, turn, h/TWO_PI)
+    along(0) = along(0) - h*h*drive%pendulum%k
+    call multiply(scale, along)
+    along(0) = along(0) + h*h*drive%pendulum%k
+    call multiply(scale, across)
+    damping = 0
+    damping(:CUBIC) = h*damping_series(drive%stretch, drive%pendulum, turn, h/TWO_PI)
+    force%damping = round_series(damping)
+    force%constant_damping = damping(0)
+    force%has_ramp = .true.
+  end subroutine put_on_ramp
+
+  !> series = series * polynomial.
+  pure subroutine multiply(polynomial, series)
+    real(qp), intent(in) :: polynomial(0:CUBIC)
+    real(qp), intent(inout) :: series(0:)
+    integer :: n, i
+
+    do n = ubound(series, 1), 0, -1
+      series(n) = sum([(polynomial(i)*series(n - i), i=0, min(n, CUBIC))])
+    end do
+  end subroutine multiply
+
+  !> One whole drive period from t = 0, or the stretch. A state that no step is fine enough for becomes NaN.
   pure subroutine advance_period(drive, theta, velocity, turns)
     !> what make_drive gave
     type(drive_t), intent(in) :: drive
@@ -144,7 +193,7 @@ contains
     real(qp) :: h
     integer :: i
 
-    h = TWO_PI/drive%n_steps/2**halvings
+    h = step_of(drive, halvings)
     s = sin(theta)
     c = cos(theta)
     do i = 1, drive%n_steps*2**halvings
@@ -153,10 +202,10 @@ contains
       else if (halvings == 1) then
         force = drive%halved(i)
       else
-        force = force_of_step(drive%pendulum, (i - 1)*h, h)
+        force = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*h, h)
       end if
       call begin_series(series, velocity*h, s, c)
-      call expand(series, force, drive%pendulum%beta*h)
+      call expand(series, force, merge(force%constant_damping, drive%pendulum%beta*h, force%has_ramp))
       carried = carried .and. converged(series)
       if (.not. any(carried)) exit
       call sums(series, of_theta, of_w, of_s, of_c)

@@ -3,6 +3,7 @@ module kz_lanes_step_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_model_pendulum, only: pendulum_t, force_at
+  use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
   use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
   implicit none
   private
@@ -42,9 +43,9 @@ module kz_lanes_step_table
 
 contains
 
-  !> The tables of one period. `fused` merges neighbouring entries of neighbouring steps; without it every step is complete in
+  !> The tables of one period, or of a stretch of it. `fused` merges neighbouring entries of neighbouring steps; without it every step is complete in
   !> itself.
-  subroutine make_period(pendulum, numerics, fused, period)
+  subroutine make_period(pendulum, numerics, fused, period, stretch)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> scheme, steps a period
@@ -53,37 +54,44 @@ contains
     logical, intent(in) :: fused
     !> drifts and kicks of one period
     type(period_t), intent(out) :: period
+    !> whose drive may be on a ramp; left out: a whole period
+    type(stretch_t), intent(in), optional :: stretch
+    type(stretch_t) :: part
 
+    part = whole_period()
+    if (present(stretch)) part = stretch
     period%n_steps = numerics%steps_per_period
     period%beta = real(pendulum%beta, qp)
-    period%step = 2*PI/period%n_steps
+    period%step = 2*PI*part%span/period%n_steps
     period%mirrored = pendulum%unmirrored == 0
     period%split = SCHEMES(numerics%scheme + 1)%form /= RUNGE_KUTTA
     if (period%split) then
-      call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), fused)
+      call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), fused, part)
     else
-      call rk4_tables(period, pendulum)
+      call rk4_tables(period, pendulum, part)
     end if
   end subroutine make_period
 
-  subroutine rk4_tables(period, pendulum)
+  subroutine rk4_tables(period, pendulum, part)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
+    type(stretch_t), intent(in) :: part
     integer :: i
 
     call allocate_kicks(period, 2*period%n_steps + 1)
     do i = 0, 2*period%n_steps
-      call set_kick(period, pendulum, i + 1, 1.0_qp, real(i, qp)/(2*period%n_steps))
+      call set_kick(period, pendulum, part, i + 1, 1.0_qp, part%begin + part%span*(real(i, qp)/(2*period%n_steps)))
     end do
   end subroutine rk4_tables
 
   !> Walks through all entries of all steps. Fused: the last drift of a step is one with the first of the next; else every step is
   !> complete in itself.
-  subroutine split_tables(period, pendulum, stages, fused)
+  subroutine split_tables(period, pendulum, stages, fused, part)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stage_t), intent(in) :: stages(:)
     logical, intent(in) :: fused
+    type(stretch_t), intent(in) :: part
     real(qp) :: shift, clock
     integer :: n, i, s
 
@@ -100,9 +108,9 @@ contains
           clock = clock + stages(s)%share
           cycle
         end if
-        call append(stages(s)%share*period%step, (i + clock)/period%n_steps)
+        call append(stages(s)%share*period%step, part%begin + part%span*((i + clock)/period%n_steps))
       end do
-      if (.not. fused .and. shift > 0) call append(0.0_qp, 0.0_qp)
+      if (.not. fused .and. shift > 0) call append(0.0_qp, part%begin)
       period%step_end(i + 1) = n
     end do
     period%kick = period%kick(:n)
@@ -111,7 +119,11 @@ contains
       period%push = period%push(:n)
     end if
     period%drift = [period%drift(:n), shift]*period%step
-    call damp(period)
+    if (part%changes) then
+      call damp_along(period, pendulum, part)
+    else
+      call damp(period)
+    end if
   contains
     subroutine append(weight, turn)
       real(qp), intent(in) :: weight
@@ -119,7 +131,7 @@ contains
 
       n = n + 1
       period%drift(n) = shift
-      call set_kick(period, pendulum, n, weight, turn)
+      call set_kick(period, pendulum, part, n, weight, turn)
       shift = 0
     end subroutine append
   end subroutine split_tables
@@ -146,6 +158,32 @@ contains
     end do
   end subroutine damp
 
+  !> The same on a ramp of the damping: exp(-B(t)), B the integral of beta, and the integral of that, by series in time.
+  subroutine damp_along(period, pendulum, part)
+    type(period_t), intent(inout) :: period
+    type(pendulum_t), intent(in) :: pendulum
+    type(stretch_t), intent(in) :: part
+    integer, parameter :: TERMS = 48
+    real(qp) :: rate(0:CUBIC), left(0:TERMS), time, turn
+    integer :: i, n, last
+
+    allocate (period%decay(size(period%drift)))
+    turn = part%begin
+    do i = 1, size(period%drift)
+      time = period%drift(i)
+      rate = time*damping_series(part, pendulum, turn, time/(2*PI))
+      left(0) = 1
+      do n = 0, TERMS - 1
+        left(n + 1) = -sum(rate(:min(n, CUBIC))*left(n:max(0, n - CUBIC):-1))/(n + 1)
+        if (n > CUBIC .and. maxval(abs(left(n - CUBIC + 1:n + 1))) < epsilon(time)**2) exit
+      end do
+      last = min(n + 1, TERMS)
+      period%decay(i) = sum(left(:last))
+      period%drift(i) = time*sum([(left(n)/(n + 1), n=0, last)])
+      turn = turn + time/(2*PI)
+    end do
+  end subroutine damp_along
+
   !> (1 - exp(-x))/x without cancellation.
   pure function mean_decay(x) result(mean)
     real(qp), intent(in) :: x
@@ -171,15 +209,21 @@ contains
   end subroutine allocate_kicks
 
   !> Kick n: the force at t = 2 pi * turn times a weight.
-  pure subroutine set_kick(period, pendulum, n, weight, turn)
+  pure subroutine set_kick(period, pendulum, part, n, weight, turn)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
+    type(stretch_t), intent(in) :: part
     integer, intent(in) :: n
     real(qp), intent(in) :: weight
     real(qp), intent(in) :: turn
-    real(qp) :: a, b
+    real(qp) :: a, b, drive(0:CUBIC)
 
     call force_at(pendulum, turn, a, b)
+    if (part%changes) then
+      drive = drive_series(part, turn, 0.0_qp)
+      a = pendulum%k + drive(0)*(a - pendulum%k)
+      b = drive(0)*b
+    end if
     period%kick(n) = weight*a
     if (period%mirrored) return
     period%kick(n) = weight*hypot(a, b)

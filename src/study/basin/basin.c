@@ -119,6 +119,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_proof *proof;
   sample s = {0};
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
+  kz_dynamics_set_release(labelling.dynamics, &scene->parameters.release);
   kz_status status = kz_ranks_agree(run->ranks, kz_proof_plan(scene, &proof));
   if (status == KZ_OK) {
     const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);

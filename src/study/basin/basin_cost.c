@@ -182,6 +182,7 @@ static kz_status measure_parts(sample *s) {
 static kz_status measure_damped(const kz_scene *scene, double *seconds) {
   sample s = {.scene = scene, .item = kz_malloc(FEW_CELLS * sizeof *s.item)};
   s.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->basin.max_period);
+  kz_dynamics_set_release(s.dynamics, &scene->parameters.release);
   const kz_status status = measure_parts(&s);
   kz_dynamics_free(s.dynamics);
   free(s.item);

@@ -2,11 +2,27 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "labelling/starts.h"
 #include "numerics/table_check.h"
 #include "label_parts.h"
 #include "window/reference.h"
 
-enum { ROUNDS = 4 };
+enum {
+  ROUNDS = 4,
+  RELEASED = 1024 /* starts at a time */
+};
+
+/* The states of n cells where labels begin to follow them. */
+static kz_status states_of(const kz_window_labels *l, int64_t n, const int64_t *cell, double *state) {
+  const kz_labeller labeller = kz_cells_labeller(l);
+  kz_start start[RELEASED];
+  for (int64_t done = 0; done < n; done += RELEASED) {
+    const int64_t part = n - done < RELEASED ? n - done : RELEASED;
+    for (int64_t i = 0; i < part; i++) KZ_TRY(labeller.start(labeller.context, cell[done + i], KZ_LEVEL_DOUBLE, start + i));
+    kz_released_states(l->dynamics, part, start, state + 2 * done);
+  }
+  return KZ_OK;
+}
 
 /* What the starts over the window end on, or `again` unsettled cells, evenly chosen, is found and counted. */
 static kz_status rounds_discover(kz_window_labels *l, bool again) {
@@ -16,8 +32,7 @@ static kz_status rounds_discover(kz_window_labels *l, bool again) {
   int32_t *label = kz_malloc((size_t)n * sizeof *label);
   int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
   kz_status status = again ? kz_pending_pick(l, 0, all, n, cell) : KZ_OK;
-  for (int64_t i = 0, spent; again && status == KZ_OK && i < n; i++)
-    kz_window_state(&l->starts, cell[i], state + 2 * i, &spent);
+  if (again && status == KZ_OK) status = states_of(l, n, cell, state);
   if (status == KZ_OK)
     status = again ? kz_discover(l->run, l->dynamics, plan->max_periods, n, state, label)
                    : kz_search_window(l->run, l->dynamics, &l->search, state, label);

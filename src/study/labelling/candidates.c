@@ -5,6 +5,7 @@
 
 #include "numerics/cells.h"
 #include "labeller.h"
+#include "starts.h"
 
 enum { BATCH = 64 };
 
@@ -40,12 +41,10 @@ static kz_status find_some(const kz_labeller *l, int64_t n, const int64_t *item,
   double state[2 * BATCH] = {0}, end[2 * BATCH];
   int32_t label[BATCH];
   int64_t periods[BATCH];
-  for (int64_t i = 0; i < n; i++) {
-    kz_start start;
-    KZ_TRY(l->start(l->context, item[i], KZ_LEVEL_DOUBLE, &start));
-    kz_start_state(start.theta[0], start.velocity[0], state + 2 * i);
-    decision[i] = (kz_decision){.level = KZ_LEVELS, .error = NAN, .periods = start.periods};
-  }
+  kz_start start[BATCH];
+  for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item[i], KZ_LEVEL_DOUBLE, start + i));
+  kz_released_states(l->dynamics, n, start, state);
+  for (int64_t i = 0; i < n; i++) decision[i] = (kz_decision){.level = KZ_LEVELS, .error = NAN, .periods = start[i].periods};
   memcpy(end, state, sizeof state);
   kz_dynamics_follow(l->dynamics, KZ_FOLLOW_DIRECT, n, l->max_periods, end, label, periods);
   for (int64_t i = 0; i < n; i++) {

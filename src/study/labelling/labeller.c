@@ -31,6 +31,7 @@ static kz_status decide_each(const kz_labeller *l, int64_t n, const int64_t *ite
 static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item, int64_t first,
                              kz_start *start, kz_decision *decision) {
   for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), level, start + i));
+  kz_dynamics_release(l->dynamics, level, n, start);
   kz_dynamics_label(l->dynamics, level, before, n, start, l->max_periods, decision);
   return KZ_OK;
 }

@@ -32,3 +32,8 @@ void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, con
   free(exact);
   free(decision);
 }
+
+void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state) {
+  kz_dynamics_release(dynamics, KZ_LEVEL_DOUBLE, n, start);
+  for (int64_t i = 0; i < n; i++) kz_start_state(start[i].theta[0], start[i].velocity[0], state + 2 * i);
+}

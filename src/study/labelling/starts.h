@@ -12,4 +12,7 @@ void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, con
 void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
                       int64_t *periods);
 
+/* Takes n starts from their release to the strobe from which labels follow them; state [n][2] then: half-turns, velocity. */
+void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state);
+
 #endif

@@ -74,6 +74,8 @@ static kz_status make(kz_engine *engine, const kz_scene *scene, bool moving, kz_
 kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident) {
   if (!kz_is_sine(&scene->parameters.pendulum)) /* images of windows, folded frames and continued attractors are the sine's */
     return kz_fail(KZ_REFUSED, "pendulum: frames are of pivots that move up and down as a sine; use kapitza run");
+  if (kz_release_strobes(&scene->parameters.release) > 0)
+    return kz_fail(KZ_REFUSED, "pendulum: frames are of starts at a strobe, without a phase or a ramp; use kapitza run");
   kz_resident *near = NULL;
   *resident = find(engine, scene, moving);
   if (!*resident && moving && (near = nearest(engine, scene))) {

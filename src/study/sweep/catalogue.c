@@ -8,11 +8,14 @@
 #include "numerics/cells.h"
 #include "resilience/resilience.h"
 #include "attractors/search.h"
+#include "labelling/labeller.h"
+#include "labelling/starts.h"
 #include "numerics/settling.h"
 #include "sweep.h"
 
 enum {
   CHUNK = 4096, /* cells followed at once */
+  FEW = 1024,   /* of them released at once */
   ROUNDS = 3    /* of discovery among cells that end nowhere known, at most */
 };
 
@@ -32,13 +35,14 @@ static bool on_grid(const kz_scene *scene) {
   return scene->has_basin && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
 }
 
-static void begin(const kz_pendulum *pendulum, searching *s) {
+static void begin(const kz_pendulum *pendulum, const kz_release *release, searching *s) {
   const kz_scene *scene = s->scene;
   s->n_starts = scene->sweep.starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
   if (on_grid(scene)) s->n_cells = kz_unique_cells(&scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
+  if (s->n_cells > 0) kz_dynamics_set_release(s->dynamics, release);
   s->state = kz_malloc(2 * most * sizeof *s->state);
   s->label = kz_malloc(most * sizeof *s->label);
   s->cell = kz_calloc((size_t)s->n_cells + 1, sizeof *s->cell);
@@ -50,6 +54,21 @@ static void end(searching *s) {
   free(s->label);
   free(s->cell);
   free(s->hits);
+}
+
+/* The states of n cells where they are first followed. */
+static void states_of(const searching *s, int64_t n, const int64_t *cell, double *state) {
+  const kz_basin_plan *basin = &s->scene->basin;
+  kz_start start[FEW];
+  for (int64_t done = 0; done < n; done += FEW) {
+    const int64_t part = n - done < FEW ? n - done : FEW;
+    for (int64_t i = 0; i < part; i++) {
+      double centre[2];
+      kz_cell_start(basin, cell[done + i], centre);
+      start[i] = kz_start_at(centre[0], centre[1]);
+    }
+    kz_released_states(s->dynamics, part, start, state + 2 * done);
+  }
 }
 
 typedef struct {
@@ -64,7 +83,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   double state[2 * CHUNK];
   int64_t periods[CHUNK];
   const int64_t first = tile * l->tile, n = l->n - first < l->tile ? l->n - first : l->tile;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(basin, l->pending[first + i], state + 2 * i);
+  states_of(l->s, n, l->pending + first, state);
   kz_dynamics_follow(l->s->dynamics, kz_stepping(basin->method, basin->interpolation), n, basin->max_periods, state, record,
                      periods);
   return KZ_OK;
@@ -103,7 +122,7 @@ static kz_status label_rounds(labelling *l) {
     KZ_TRY(label_pending(l));
     if (round == ROUNDS - 1 || l->n == 0) return KZ_OK;
     const int64_t n = l->n < s->n_starts ? l->n : s->n_starts;
-    for (int64_t i = 0; i < n; i++) kz_cell_state(&s->scene->basin, l->pending[i], s->state + 2 * i);
+    states_of(s, n, l->pending, s->state);
     KZ_TRY(kz_discover(s->run, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
     if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
   }
@@ -229,7 +248,8 @@ kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_
   searching s = {.scene = scene, .run = run};
   kz_pendulum pendulum;
   if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, value), &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  begin(&pendulum, &s);
+  const kz_release release = kz_sweep_release_at(scene, kz_sweep_value(&scene->sweep, value));
+  begin(&pendulum, &release, &s);
   const kz_status status = search(&s, catalogue);
   end(&s);
   return status;

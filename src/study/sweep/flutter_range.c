@@ -73,7 +73,7 @@ static kz_status release_fails(const kz_path *path, const kz_numerics *numerics,
   kz_pendulum pendulum;
   uint8_t stays;
   path->pendulum(path->context, m, &pendulum);
-  KZ_TRY(kz_release(&pendulum, numerics, 1, &RELEASE_ANGLE, &stays));
+  KZ_TRY(kz_release_from_rest(&pendulum, numerics, 1, &RELEASE_ANGLE, &stays));
   *fails = !stays;
   return KZ_OK;
 }

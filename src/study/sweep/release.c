@@ -19,7 +19,8 @@ static const double SHRUNK = 6;
 static const double LOCATED = 1e-9;
 
 /* Follows the releases period by period; one that is more than half a turn from inverted has gone over the bottom. */
-kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays) {
+kz_status kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
+                               uint8_t *stays) {
   const double enough = pendulum->beta > 0 ? SHRUNK / (M_PI * pendulum->beta) : LONGEST;
   const int64_t periods = (int64_t)fmin(fmax(ceil(enough), SHORTEST), LONGEST);
   kz_flow *flow = kz_flow_create(pendulum, numerics);
@@ -73,7 +74,7 @@ static kz_status locate(const kz_pendulum *pendulum, const kz_numerics *numerics
     const double step = (outside - inside) / (BRACKET + 1), from = inside;
     int first = outermost ? BRACKET : 0; /* that fails */
     for (int i = 0; i < BRACKET; i++) angle[i] = from + step * (i + 1);
-    KZ_TRY(kz_release(pendulum, numerics, BRACKET, angle, stays));
+    KZ_TRY(kz_release_from_rest(pendulum, numerics, BRACKET, angle, stays));
     while (!outermost && first < BRACKET && stays[first]) first++;
     while (outermost && first > 0 && !stays[first - 1]) first--;
     if (first < BRACKET) outside = angle[first];
@@ -91,7 +92,7 @@ static kz_status scan(const kz_pendulum *pendulum, const kz_numerics *numerics, 
   while (outside - inside > LOCATED) {
     const double middle = (inside + outside) / 2;
     uint8_t here;
-    KZ_TRY(kz_release(pendulum, numerics, 1, &middle, &here));
+    KZ_TRY(kz_release_from_rest(pendulum, numerics, 1, &middle, &here));
     *(here ? &inside : &outside) = middle;
   }
   *edge = inside;
@@ -106,7 +107,7 @@ static kz_status first_failure(const kz_pendulum *pendulum, const kz_numerics *n
   uint8_t *stays = kz_malloc((size_t)n);
   kz_status status = KZ_OK;
   for (int64_t i = 0; status == KZ_OK && i < n; i++) angle[i] = (double)(i + 1) * step;
-  if (status == KZ_OK) status = kz_release(pendulum, numerics, n, angle, stays);
+  if (status == KZ_OK) status = kz_release_from_rest(pendulum, numerics, n, angle, stays);
   for (int64_t i = n - 1; status == KZ_OK && i >= 0; i--)
     if (!stays[i]) *outside = angle[i];
   free(angle);
@@ -134,7 +135,7 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   out->first = out->scan = out->largest = NAN;
   if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, tile), &pendulum)) return KZ_OK;
   for (int64_t i = 0; i < HALF_DEGREES; i++) angle[i] = half_degrees(i);
-  KZ_TRY(kz_release(&pendulum, &scene->numerics, HALF_DEGREES, angle, out->stays));
+  KZ_TRY(kz_release_from_rest(&pendulum, &scene->numerics, HALF_DEGREES, angle, out->stays));
   int64_t first = 0, last = HALF_DEGREES - 1;
   while (first < HALF_DEGREES && out->stays[first]) first++;
   while (last >= 0 && !out->stays[last]) last--;

@@ -130,7 +130,8 @@ typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, k
 kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary);
 
 /* Releases from rest at t = 0, `angle` [n] rad from inverted: stays [n] = 1 where the motion stays within half a turn of it. */
-kz_status kz_release(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle, uint8_t *stays);
+kz_status kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
+                               uint8_t *stays);
 
 /* A line for each class of speeds that is off by more than is good, at the worst of the values. */
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);

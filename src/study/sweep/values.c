@@ -4,7 +4,8 @@
 
 #include "kapitza/study.h"
 
-#define KEY(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)}
+#define NAMED(name_, field_, unit_) {name_, unit_, offsetof(kz_pendulum_keys, field_)}
+#define KEY(name_, unit_) NAMED(#name_, name_, unit_)
 const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(quality_factor, "1"),
     KEY(drive_frequency, "1"),
@@ -26,6 +27,8 @@ const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(tilt, "rad"),
     KEY(ellipse, "1"),
     KEY(torque, "1"),
+    NAMED("ramp.periods", ramp_periods, "1"),
+    NAMED("ramp.from", ramp_from, "1"),
 };
 
 const char *kz_sweep_words(void) {
@@ -38,13 +41,29 @@ const char *kz_sweep_words(void) {
   return words;
 }
 
+bool kz_sweep_is_of_release(int32_t parameter) {
+  return kz_sweep_parameters[parameter].offset == offsetof(kz_pendulum_keys, ramp_periods) ||
+         kz_sweep_parameters[parameter].offset == offsetof(kz_pendulum_keys, ramp_from);
+}
+
+/* The scene's parameters with n keys at other values; false where they are none. */
+static bool parameters_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value,
+                          kz_parameters *parameters) {
+  *parameters = scene->parameters;
+  for (int i = 0; i < n; i++) *(double *)((char *)&parameters->written + kz_sweep_parameters[parameter[i]].offset) = value[i];
+  if (kz_parameters_resolve(parameters) == KZ_OK) return true;
+  kz_message_clear();
+  return false;
+}
+
+kz_release kz_sweep_release_at(const kz_scene *scene, double value) {
+  kz_parameters parameters;
+  return parameters_at(scene, 1, &scene->sweep.parameter, &value, &parameters) ? parameters.release : scene->parameters.release;
+}
+
 bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum) {
-  kz_parameters parameters = scene->parameters;
-  for (int i = 0; i < n; i++) *(double *)((char *)&parameters.written + kz_sweep_parameters[parameter[i]].offset) = value[i];
-  if (kz_parameters_resolve(&parameters) != KZ_OK) {
-    kz_message_clear();
-    return false;
-  }
+  kz_parameters parameters;
+  if (!parameters_at(scene, n, parameter, value, &parameters)) return false;
   *pendulum = parameters.pendulum;
   return pendulum->beta >= 0 && (isnan(parameters.written.inertia) || kz_inertia_is_possible(&parameters.written));
 }

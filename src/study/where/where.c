@@ -5,6 +5,7 @@
 
 #include "numerics/cells.h"
 #include "attractors/search.h"
+#include "labelling/labeller.h"
 #include "labelling/starts.h"
 #include "bisect.h"
 
@@ -22,6 +23,7 @@ static void where_allocate(where_job *a) {
   const kz_scene *scene = q->scene;
   q->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
                                    scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
+  if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
   a->state = kz_malloc(2 * (size_t)most * sizeof *a->state);
   a->found = kz_malloc((size_t)most * sizeof *a->found);
 }
@@ -36,7 +38,10 @@ static kz_status where_discover(where_job *a) {
   const int64_t searched = kz_dynamics_count(q->dynamics);
   int64_t *reached = kz_calloc((size_t)searched + 1, sizeof *reached);
   for (int64_t i = 0; i < a->search.starts; i++) reached[a->found[i]]++;
-  for (int64_t i = 0; i < q->n; i++) kz_start_state(q->start[i][0].high, q->start[i][1].high, a->state + 2 * i);
+  for (int64_t i = 0; i < q->n; i++) {
+    kz_start start = kz_start_at(q->start[i][0].high, q->start[i][1].high);
+    kz_released_states(q->dynamics, 1, &start, a->state + 2 * i);
+  }
   kz_status status = kz_discover(NULL, q->dynamics, a->search.max_periods, q->n, a->state, a->found);
   const int64_t known = kz_dynamics_count(q->dynamics);
   a->reached = kz_calloc((size_t)known + 1, sizeof *a->reached);

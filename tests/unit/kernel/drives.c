@@ -118,23 +118,8 @@ static void the_tangent_is_the_derivative(void **unused) {
   }
 }
 
-/* A shift of the drive's phase is a later beginning. */
-static void a_shift_is_a_later_beginning(void **unused) {
-  (void)unused;
-  for (int which = 0; which < DRIVES; which++) {
-    const kz_pendulum p = drive(which);
-    kz_pendulum shifted;
-    double x = 0.4, v = -0.8, y = 0.4, w = -0.8;
-    kz_pendulum_shift(&p, 1.3, &shifted);
-    integrate(&p, 1.3L, 5, &x, &v);
-    integrate(&shifted, 0, 5, &y, &w);
-    assert_true(fabs(x - y) < 1e-13 && fabs(v - w) < 1e-13);
-  }
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(the_equation_is_integrated), cmocka_unit_test(symmetry_is_told),
-                                     cmocka_unit_test(the_tangent_is_the_derivative),
-                                     cmocka_unit_test(a_shift_is_a_later_beginning)};
+                                     cmocka_unit_test(the_tangent_is_the_derivative)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,144 @@
+!> Orbits from their release to the strobe after which the drive has its final form, with their errors beside them: stretch by stretch, each
+!> with tables of its own, many orbits at once.
+module kz_labels_released
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
+  use kz_kernel_flows, only: make_stretch_flow
+  use kz_labels_carrier, only: carrier_t, orbit_t, make_carrier
+  use kz_labels_inner, only: inner_t, inner_quad_t
+  use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
+  use kz_labels_spread, only: spread_errors
+  use kz_lanes_map, only: flow_t, WIDTH
+  use kz_model_pendulum, only: pendulum_t
+  use kz_model_release, only: release_t, stretch_t, first_stretch, next_stretch, is_open, strobes_before
+  implicit none
+  private
+  public :: released_t, make_released, carry_released
+
+  !> Of a period in quad precision, relative to hypot(pi, v): as of the level (levels.f90).
+  real(dp), parameter :: QUAD_ERROR = 1e-31_dp
+  !> rad: what is not linear in a stretch is left out below it; an orbit whose error is larger is lost, its error as large as FAR.
+  real(dp), parameter :: LINEAR = 1e-4_dp, FAR = 10
+  !> Stretches whose errors are measured: the first, the last, and some between.
+  integer, parameter :: MEASURED = 4
+  !> How much more than their largest error is assumed for the others.
+  real(dp), parameter :: MARGIN = 2
+
+  type :: released_t
+    type(release_t) :: release
+    type(period_error_t) :: error !< of a stretch in double precision
+  end type released_t
+
+contains
+
+  !> The errors of the stretches of a release, measured.
+  subroutine make_released(released, release, pendulum, fastest)
+    !> is made
+    type(released_t), intent(out) :: released
+    !> how the motions begin
+    type(release_t), intent(in) :: release
+    !> as it is after a ramp
+    type(pendulum_t), intent(in) :: pendulum
+    !> speeds that occur, rad per drive radian
+    real(dp), intent(in) :: fastest
+    type(stretch_t) :: stretch
+    type(period_error_t) :: error
+    type(speed_probes_t), allocatable :: probes
+    class(flow_t), allocatable :: flow
+    integer :: n, i, every
+
+    released%release = release
+    n = int(strobes_before(release))
+    every = max(1, n/(MEASURED - 1))
+    released%error%noise = 0
+    allocate (probes)
+    stretch = first_stretch(release)
+    i = 0
+    do while (is_open(stretch))
+      if (mod(i, every) == 0 .or. i >= n - 1) then
+        call make_stretch_flow(pendulum, stretch, flow)
+        call make_speed_probes(pendulum, fastest, probes, stretch)
+        call measure_period(flow, probes, error)
+        error%noise = max(MARGIN*error%noise, released%error%noise)
+        released%error = error
+      end if
+      i = i + 1
+      stretch = next_stretch(stretch)
+    end do
+    released%error%noise(ubound(released%error%noise, 1)) = huge(1.0_dp)
+  end subroutine make_released
+
+  !> Carries orbits; their age becomes that of the strobe.
+  subroutine carry_released(released, pendulum, precisely, orbit)
+    !> what make_released gave
+    type(released_t), intent(in) :: released
+    !> as it is after a ramp
+    type(pendulum_t), intent(in) :: pendulum
+    !> in quad precision, else in double precision
+    logical, intent(in) :: precisely
+    !> [n] in and out
+    type(orbit_t), intent(inout) :: orbit(:)
+    type(stretch_t) :: stretch
+    type(drive_t), allocatable, target :: drive
+    class(flow_t), allocatable :: flow
+    class(inner_t), allocatable :: inner
+    type(carrier_t) :: carrier
+    integer :: first
+
+    stretch = first_stretch(released%release)
+    do while (is_open(stretch))
+      call make_stretch_flow(pendulum, stretch, flow)
+      if (precisely) then
+        if (allocated(drive)) deallocate (drive)
+        allocate (drive)
+        call make_drive(drive, pendulum, TAYLOR_STEPS, stretch)
+        call make_quad(drive, inner)
+      end if
+      call make_carrier(flow, released%error, inner, carrier)
+      do first = 1, size(orbit), WIDTH
+        call carry(carrier, orbit(first:min(size(orbit), first + WIDTH - 1)))
+      end do
+      stretch = next_stretch(stretch)
+    end do
+    orbit%age = orbit%age + strobes_before(released%release)
+  end subroutine carry_released
+
+  !> Orbits in quad precision by a drive.
+  subroutine make_quad(drive, inner)
+    type(drive_t), target, intent(in) :: drive
+    class(inner_t), allocatable, intent(out) :: inner
+    type(inner_quad_t), allocatable :: quad
+
+    allocate (quad)
+    quad%drive => drive
+    quad%error = QUAD_ERROR
+    call move_alloc(quad, inner)
+  end subroutine make_quad
+
+  !> At most WIDTH orbits through the stretch of the carrier.
+  subroutine carry(carrier, orbit)
+    type(carrier_t), intent(inout) :: carrier
+    type(orbit_t), intent(inout) :: orbit(:)
+    real(dp) :: p(WIDTH, 3), trace(WIDTH), bent(WIDTH)
+    integer :: lane, n
+
+    n = size(orbit)
+    p = 0
+    bent = 0
+    trace = 0
+    do lane = 1, n
+      call carrier%put(lane, orbit(lane))
+      p(lane, :) = orbit(lane)%p
+    end do
+    call carrier%to_map(1, n)
+    call carrier%advance(n)
+    call spread_errors(n, carrier%tangent, carrier%noise, bent, p, trace)
+    do lane = 1, n
+      call carrier%take(lane, orbit(lane))
+      orbit(lane)%lost = 0
+      orbit(lane)%p = p(lane, :)
+      if (.not. trace(lane) < LINEAR**2) orbit(lane)%p = FAR**2*[1, 0, 1]
+    end do
+  end subroutine carry
+
+end module kz_labels_released
