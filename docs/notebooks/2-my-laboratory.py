@@ -25,7 +25,7 @@ scene = {
 # The first line of a summary says it: which rest positions are stable, and between which amplitudes.
 
 # %%
-print(next(line for line in kapitza.check(scene).text.splitlines() if line.startswith("at rest")))
+print(next(line for line in kapitza.check(scene).text.splitlines() if line.startswith("Rest")))
 
 # %% [markdown]
 # 5 mm are not enough. With 8 mm:

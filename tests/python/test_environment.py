@@ -49,13 +49,12 @@ def test_the_time_limit_is_heard_before_modelling(tmp_path):
     assert done.returncode == 75 and "time limit" in done.stderr and not list(tmp_path.iterdir()), done.stderr
 
 
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGUSR1"])
-def test_signals_are_heard_before_modelling(tmp_path, name):
+def test_a_signal_is_heard_before_modelling(tmp_path):
     process = subprocess.Popen(STIFF, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     time.sleep(0.5)
-    process.send_signal(getattr(signal, name))
+    process.send_signal(signal.SIGTERM)
     _, message = process.communicate(timeout=60)
-    assert process.returncode == 75 and name in message and not list(tmp_path.iterdir()), message
+    assert process.returncode == 75 and "SIGTERM" in message and not list(tmp_path.iterdir()), message
 
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGUSR1"])

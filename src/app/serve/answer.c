@@ -42,14 +42,15 @@ static void text(const char *name, const char *value) {
   putchar('"');
 }
 
-/* The keys of the pendulum that the scene gives. */
+/* The keys of the pendulum that the scene gives; those of its ramp, which frames do not have, are left out. */
 static void print_pendulum(const kz_scene *scene) {
   static const char mapping[] = "pendulum.";
   bool first = true;
   fputs(", \"pendulum\": {", stdout);
   for (const kz_key *key = kz_keys; key->path; key++) {
-    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || !kz_value_is_set(key, scene)) continue;
-    printf("%s\"%s\": ", first ? "" : ", ", key->path + strlen(mapping));
+    const char *name = key->path + strlen(mapping);
+    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !kz_value_is_set(key, scene)) continue;
+    printf("%s\"%s\": ", first ? "" : ", ", name);
     kz_value_print(key, scene, stdout);
     first = false;
   }
