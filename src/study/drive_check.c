@@ -17,6 +17,7 @@ static const char *needs_no_release(const kz_scene *scene) {
   if (plan->theta.centre.text[0] || plan->velocity.centre.text[0])
     return "windows by centre and width have a reference orbit from a strobe on; give min and max";
   if (scene->has_tradeoff) return "study tradeoff compares with starts at a strobe; leave one of them out";
+  if (scene->has_orbit && scene->parameters.has_ramp) return "study orbit follows a motion without it; leave one of them out";
   return NULL;
 }
 

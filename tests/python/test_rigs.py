@@ -173,6 +173,7 @@ def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.ramp: basin.method icm"),
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "proof": True}}, "pendulum.ramp: basin.proof"),
     ({"ramp": LINEAR}, {"attractors": {"velocity": {"min": -1, "max": 1}}}, "pendulum.ramp: is of the cells"),
+    ({"ramp": LINEAR}, {"basin": WINDOW, "orbit": {"start": {"theta": 1, "velocity": 0}}}, "pendulum.ramp: study orbit"),
     ({"ramp": {**LINEAR, "from": -1}}, {"basin": WINDOW}, "pendulum.ramp.from"),
     ({"ramp": {**LINEAR, "key": "k"}}, {"basin": WINDOW}, "pendulum.ramp.key"),
     ({}, {"basin": {**WINDOW, "start_phase": 1, "boundary": {}}}, "basin.start_phase: basin.boundary"),
