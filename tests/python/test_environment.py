@@ -45,13 +45,13 @@ STIFF = [PROGRAM, "run", SMALL, "--set", "pendulum.drive_amplitude=9e6"]
 
 
 def test_the_time_limit_is_heard_before_modelling(tmp_path):
-    done = run([*STIFF, "--time-limit", "0.5"], tmp_path)
+    done = run([*STIFF, "--time-limit", "0.3"], tmp_path)
     assert done.returncode == 75 and "time limit" in done.stderr and not list(tmp_path.iterdir()), done.stderr
 
 
 def test_a_signal_is_heard_before_modelling(tmp_path):
     process = subprocess.Popen(STIFF, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
-    time.sleep(0.5)
+    time.sleep(0.3)
     process.send_signal(signal.SIGTERM)
     _, message = process.communicate(timeout=60)
     assert process.returncode == 75 and "SIGTERM" in message and not list(tmp_path.iterdir()), message

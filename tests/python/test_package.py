@@ -85,7 +85,7 @@ def test_what_pip_installs(sdist, made_file, tmp_path):
     """The package of the sdist without the program: results lazily, no backend of its own, and the command draws what the script draws."""
     place = tmp_path / "place"
     install = ["install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-build-isolation", "--no-deps",
-               "-C", "wheel.cmake=false", "--target", place]
+               "--config-settings=wheel.cmake=false", "--target", place]
     done = python("-m", "pip", *install, sdist)
     assert done.returncode == 0, done.stderr
     alone = os.environ | {"PYTHONPATH": str(place), "MPLBACKEND": "svg"}

@@ -1,5 +1,6 @@
 """Entry of `kapitza view`, run as a file: a package that is missing is known here. Errors are one line, as the program's own are."""
 
+import os
 import sys
 
 try:
@@ -17,4 +18,5 @@ except (BadFile, WrongArgument) as error:
     sys.exit(2)
 except OSError as error:  # the address could not be printed: a full disk, a closed pipe
     print(f"kapitza: error: view: {error.strerror or error}", file=sys.stderr)
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is left would fail again at the end
     sys.exit(1)

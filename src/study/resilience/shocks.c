@@ -6,15 +6,16 @@
 #include <string.h>
 
 enum {
-  LINE = 2048,  /* points on each side of a line */
-  RINGS = 96,   /* of a disc */
-  RAYS = 256,   /* of a disc */
-  FAN = 24,     /* rays on each side of the best one */
-  PIECES = 32,  /* of a bracket, each round */
-  BRACKETS = 4, /* nearest parts of a boundary that are followed */
-  PASSES = 12,  /* most grids of a search */
-  FINDS = 48,   /* most boundaries along a line, each nearer than the one before */
-  RIMS = 4,
+  LINE = 2048,   /* points on each side of a line */
+  RINGS = 96,    /* of a disc */
+  RAYS = 256,    /* of a disc */
+  FAN = 24,      /* rays on each side of the best one */
+  PIECES = 32,   /* of a bracket, each round */
+  BRACKETS = 4,  /* nearest parts of a boundary that are followed */
+  PASSES = 12,   /* most grids of a search */
+  FINDS = 48,    /* most boundaries along a line, each nearer than the one before */
+  RIMS = 4,      /* of them */
+  FINER = LINE,  /* points on each side of those after the first */
   SPREAD = 4096, /* shocks of a size */
   MOST = RINGS * RAYS
 };
@@ -109,7 +110,7 @@ static bool nearest_of_line(workspace *r, const double direction[2], double near
 static bool nearest_of_rims(workspace *r, const double direction[2], double *far, kz_shock *shock) {
   double rim = RIM;
   for (int i = 0; i < RIMS; i++, rim *= RIM)
-    if (nearest_of_line(r, direction, *far * (1 - rim), MOST / 2, far, shock)) return true;
+    if (nearest_of_line(r, direction, *far * (1 - rim), i == 0 ? MOST / 2 : FINER, far, shock)) return true;
   return false;
 }
 
