@@ -50,8 +50,8 @@ def _serve(explorer, opens):
         signal.signal(number, lambda *_: stop.set())
     explorer.serve()
     try:
-        print(f"{explorer.title}\n{explorer.new_address()}\nEach address serves one browser. Ctrl-C ends it.", flush=True)
         explorer.on_trade = lambda: print(f"for another browser: {explorer.new_address()}", flush=True)
+        print(f"{explorer.title}\n{explorer.new_address()}\nEach address serves one browser. Ctrl-C ends it.", flush=True)
         if opens and not webbrowser.open(explorer.new_address()):
             print("no browser was found: open the address above in one", file=sys.stderr)
         stop.wait()
