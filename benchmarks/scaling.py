@@ -4,7 +4,7 @@
     scaling.py load [--grid N] LOG                                            seconds of its tiles, for build/tests/uneven
     scaling.py share [--slower X] [--ranks R...] FILE                         what build/tests/uneven FILE X will measure
 
-docs/howto/cluster.md says what is assumed, how the costs of messages were measured (messages.c), and how good it is.
+docs/validation/scaling.md says what is assumed, how the costs of messages were measured (messages.c), and how good it is.
 """
 
 import argparse

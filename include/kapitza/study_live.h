@@ -42,7 +42,7 @@ enum { KZ_PLANE_LABELS, KZ_PLANE_SETTLING_TIME, KZ_PLANE_DOUBT, KZ_PLANE_OTHER, 
 enum { KZ_NO_LABEL = 255 }; /* not settled, or no attractor */
 enum { KZ_DOUBT_NONE = 0, KZ_DOUBT_OPEN = 1, KZ_DOUBT_UNSEEN = 2 };
 
-/* A level of a frame: every so many cells (docs/develop/developer.md). plane: labels, other and doubt are bytes, settling times float; NULL where
+/* A level of a frame: every so many cells (docs/reference/serve.md). plane: labels, other and doubt are bytes, settling times float; NULL where
  * not asked for. */
 typedef struct {
   int64_t level, rows, columns;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A double of `kapitza serve` (docs/develop/developer.md) without mechanics: its basins are stripes. As the program of an explorer it shows
+"""A double of `kapitza serve` (docs/reference/serve.md) without mechanics: its basins are stripes. As the program of an explorer it shows
 what page and server do with what the program gives seldom: deafness (pendulum m = 6), slow frames (m = 7), refusals (m = 8), a sudden
 end (m = 9)."""
 

@@ -1,4 +1,4 @@
-/* Answers of the command serve: a header of JSON on one line, then its payload (docs/develop/developer.md). */
+/* Answers of the command serve: a header of JSON on one line, then its payload (docs/reference/serve.md). */
 #ifndef KAPITZA_APP_ANSWER_H
 #define KAPITZA_APP_ANSWER_H
 

@@ -172,7 +172,7 @@ static kz_status change_scene(const kz_request *request, kz_node *root, kz_node 
 static kz_status check_rest(kz_node *root) {
   kz_tree_free(kz_tree_find(root, "window") && !kz_tree_find(root, "window")->first ? kz_tree_take(root, "window") : NULL);
   if (!root->first) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "%s: %.60s: unknown key of such a request; docs/develop/developer.md lists them", SOURCE,
+  return kz_fail(KZ_REFUSED, "%s: %.60s: unknown key of such a request; docs/reference/serve.md lists them", SOURCE,
                  root->first->name);
 }
 

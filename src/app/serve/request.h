@@ -1,4 +1,4 @@
-/* Requests of the command serve: a line of JSON becomes what it asks for (docs/develop/developer.md). */
+/* Requests of the command serve: a line of JSON becomes what it asks for (docs/reference/serve.md). */
 #ifndef KAPITZA_APP_REQUEST_H
 #define KAPITZA_APP_REQUEST_H
 

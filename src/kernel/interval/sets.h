@@ -1,5 +1,5 @@
 /* Inside of the enclosures of kernel.h: sets of states in the lanes of vectors, and the constants of a class of speeds. What each bound
- * covers, and why it does, is derived in docs/explanation/proof.md; the numbers (B1) .. (B7) are those of that page. */
+ * covers, and why it does, is derived in docs/explanation/bounds.md; the numbers (B1) .. (B7) are those of that page. */
 #ifndef KAPITZA_KERNEL_INTERVAL_SETS_H
 #define KAPITZA_KERNEL_INTERVAL_SETS_H
 

@@ -1,4 +1,4 @@
-/* The step of a class of speeds, and the bounds (B2) .. (B6) of docs/explanation/proof.md: Taylor's rest by the majorants, rounding by the recurrences
+/* The step of a class of speeds, and the bounds (B2) .. (B6) of docs/explanation/bounds.md: Taylor's rest by the majorants, rounding by the recurrences
  * of the step on bounds of the numbers' sizes. */
 #include <math.h>
 #include <stdlib.h>
