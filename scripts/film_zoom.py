@@ -5,8 +5,9 @@
     .venv/bin/python scripts/film_zoom.py SCENE THETA VELOCITY --to 1e-100 -o zoom.mp4
 
 One reference orbit serves all frames (docs/validation/accuracy.md). MP4 by ffmpeg where it is there; a name that ends in .gif, or a
-machine without ffmpeg, gives an animated GIF. Cells are labelled as in the explorer's moving frames: a few in a
-thousand may be wrong.
+machine without ffmpeg, gives an animated GIF. Cells are labelled as in the explorer's moving frames: the map makes a
+curve of a deep window, and 16 starts a cell along it stand for all cells. Where a boundary is fractal throughout, some cells in a
+hundred have the label of a start beside theirs.
 """
 
 import argparse

@@ -56,7 +56,7 @@ size_t kz_plane_bytes(int plane);
 
 /* What a frame is made for. */
 typedef struct {
-  bool moving;                       /* quickly, to a tolerance of 1e-6 rad a period; else as method exact */
+  bool moving;                       /* quickly, to a tolerance a period that is small beside a cell; else as method exact */
   const kz_integers *levels;         /* 8, 4, 2 or 1, falling */
   bool plane[KZ_PLANES];             /* which are shown */
   kz_status (*pause)(void *context); /* called every few milliseconds; anything but KZ_OK ends the frame with that status */

@@ -72,6 +72,15 @@ def test_a_moving_frame_is_rougher_by_one_cell_in_a_hundred_at_most(server):
     assert 0 < np.mean(np.any(abs(exact - moving) > 1e-6, axis=-1)) < 0.015
 
 
+def test_samples_of_a_deep_window_stand_for_its_cells(server):
+    """They lie within a thirty-second of a cell; where basins are fractal, that changes some labels. A level shows cells of the frame."""
+    window = {"theta": {"centre": "-0.2640114250694581920926546831048437", "width": 1e-20}, "velocity": {"centre": "1.42", "width": 1e-20}}
+    exact, moving = (server.frame(40, 60, window=window, levels=[4, 1], quality=quality)[1] for quality in ("exact", "moving"))
+    ends_of = [ends(server, *frames[-1]) for frames in (exact, moving)]
+    assert 0 < np.mean(np.any(abs(ends_of[0] - ends_of[1]) > 1e-6, axis=-1)) < 0.1
+    assert np.array_equal(moving[0][1]["labels"], moving[1][1]["labels"][np.ix_(places(4, 40), places(4, 60))])
+
+
 def test_a_symmetric_window_has_mirrored_labels(server):
     catalogue = server.ask("catalogue")[0][0]["attractors"]
     labels = server.frame(40, 60)[1][-1][1]["labels"]

@@ -5,15 +5,17 @@
 #include <stddef.h>
 #include <cmocka.h>
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../study/attractors/search.h"
-#include "../study/labelling/labeller.h"
-#include "../study/numerics/cells.h"
-#include "../study/window/images.h"
-#include "../study/window/own_orbit.h"
+#include "attractors/search.h"
+#include "labelling/labeller.h"
+#include "numerics/cells.h"
+#include "window/curve.h"
+#include "window/images.h"
+#include "window/own_orbit.h"
 #include "scene.h"
 
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
@@ -127,8 +129,44 @@ static void labels_are_those_of_own_orbits(void **state) {
   for (size_t i = 0; getenv("KAPITZA_EXTENSIVE") && i < sizeof deep / sizeof *deep; i++) compare(deep + i);
 }
 
+/* The state of a cell, and of the sample that stands for it, at most half a step and a tenth away; a step's image is `step` long. */
+static void compare_samples(const kz_window_starts *starts, const kz_window_curve *curve) {
+  double cell[2], sample[2], next[2], farthest = 0;
+  int64_t periods, same;
+  kz_window_curve_state(curve, curve->count / 2, sample, &periods);
+  kz_window_curve_state(curve, curve->count / 2 + 1, next, &periods);
+  const double step = hypot(M_PI * (next[0] - sample[0]), next[1] - sample[1]);
+  for (int i = 0; i < 2000; i++) {
+    const int64_t at = (int64_t)(rand() % COUNT) * COUNT + rand() % COUNT, of = kz_window_curve_sample(curve, at);
+    assert_true(of >= 0 && of < curve->count);
+    kz_window_state(starts, at, cell, &periods);
+    kz_window_curve_state(curve, of, sample, &same);
+    assert_int_equal(same, periods);
+    farthest = fmax(farthest, hypot(M_PI * (cell[0] - sample[0]), cell[1] - sample[1]) / step);
+  }
+  assert_true(farthest > 0.4 && farthest < 0.7);
+}
+
+static void deep_windows_are_curves(void **state) {
+  (void)state;
+  static const window deep = {K01, K01_BOUNDARY, "17", "1e-20", 0}, wide = {K01, K01_BOUNDARY, "17", "1e-4", 0};
+  for (int i = 0; i < 2; i++) {
+    view v = open_view(i == 0 ? &deep : &wide);
+    kz_window_starts starts;
+    kz_window_curve curve;
+    kz_window_starts_make(&v.scene.basin, &v.scene.parameters.pendulum, v.dynamics, v.images, &starts);
+    kz_window_curve_make(&starts, &curve);
+    assert_true(i == 0 ? curve.count > 16 * COUNT && curve.count <= 2 * 16 * COUNT + 3 : curve.count == 0);
+    if (i == 0) compare_samples(&starts, &curve);
+    kz_window_curve_free(&curve);
+    kz_window_starts_free(&starts);
+    close_view(&v);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(deep_windows_are_curves),
       cmocka_unit_test(labels_are_those_of_own_orbits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,20 +1,27 @@
 #include "cells.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 
-/* As method direct labels them, from where they are handed over to doubles. */
-static void follow(kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number, kz_frame_cell *cells) {
+/* Where cells are when they are handed over to doubles. */
+typedef struct {
   double state[2 * KZ_FRAME_TILE];
+  int64_t spent[KZ_FRAME_TILE];
+} handed;
+
+/* As method direct labels them. */
+static void follow(kz_resident *r, int64_t n, const handed *from, const int64_t *number, kz_frame_cell *cells) {
   int32_t label[KZ_FRAME_TILE];
-  int64_t periods[KZ_FRAME_TILE], spent[KZ_FRAME_TILE];
-  for (int64_t i = 0; i < n; i++) kz_window_state(starts, number[i], state + 2 * i, spent + i);
+  int64_t periods[KZ_FRAME_TILE];
+  double state[2 * KZ_FRAME_TILE];
+  memcpy(state, from->state, (size_t)n * 2 * sizeof *state);
   kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, n, r->periods, state, label, periods);
   for (int64_t i = 0; i < n; i++) {
     cells[number[i]] =
-        (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)(spent[i] + periods[i]), .state = KZ_CELL_FOLLOWED};
+        (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)(from->spent[i] + periods[i]), .state = KZ_CELL_FOLLOWED};
     if (label[i] == 0 && r->n_strays < KZ_STRAYS) memcpy(r->stray + 2 * r->n_strays++, state + 2 * i, 2 * sizeof *state);
   }
 }
@@ -38,8 +45,48 @@ static kz_status decide(const kz_window_starts *starts, int64_t n, const int64_t
 
 kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_frame_cell *cells) {
-  if (!resident->moving) return decide(starts, n, number, cells);
-  follow(resident, starts, n, number, cells);
+  handed from;
+  if (!kz_resident_moves(resident)) return decide(starts, n, number, cells);
+  for (int64_t i = 0; i < n; i++) kz_window_state(starts, number[i], from.state + 2 * i, from.spent + i);
+  follow(resident, n, &from, number, cells);
+  return KZ_OK;
+}
+
+void kz_samples_make(const kz_window_starts *starts, kz_samples *samples) {
+  kz_window_curve_make(starts, &samples->curve);
+  samples->cell = kz_calloc((size_t)samples->curve.count, sizeof *samples->cell);
+  samples->wanted = kz_malloc((size_t)samples->curve.count * sizeof *samples->wanted);
+}
+
+void kz_samples_free(kz_samples *samples) {
+  kz_window_curve_free(&samples->curve);
+  free(samples->cell);
+  free(samples->wanted);
+}
+
+/* The samples that n cells need and that have not been followed. */
+static int64_t list_wanted(kz_samples *samples, int64_t n, const int64_t *number) {
+  int64_t wanted = 0;
+  for (int64_t i = 0; i < n; i++) {
+    const int64_t sample = kz_window_curve_sample(&samples->curve, number[i]);
+    if (samples->cell[sample].state != KZ_CELL_PENDING) continue;
+    samples->cell[sample].state = KZ_CELL_FOLLOWED;
+    samples->wanted[wanted++] = sample;
+  }
+  return wanted;
+}
+
+kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
+                            kz_frame_cell *cells) {
+  const int64_t wanted = list_wanted(samples, n, number);
+  handed from;
+  for (int64_t done = 0; done < wanted; done += KZ_FRAME_TILE) {
+    const int64_t part = wanted - done < KZ_FRAME_TILE ? wanted - done : KZ_FRAME_TILE, *sample = samples->wanted + done;
+    KZ_TRY(frame->pause(frame->context));
+    for (int64_t i = 0; i < part; i++) kz_window_curve_state(&samples->curve, sample[i], from.state + 2 * i, from.spent + i);
+    follow(resident, part, &from, sample, samples->cell);
+  }
+  for (int64_t i = 0; i < n; i++) cells[number[i]] = samples->cell[kz_window_curve_sample(&samples->curve, number[i])];
   return KZ_OK;
 }
 

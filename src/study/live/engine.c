@@ -23,9 +23,9 @@ static kz_scene searched(const kz_scene *scene) {
   return wide;
 }
 
-static kz_resident *find(kz_engine *engine, const kz_scene *scene, bool moving) {
+static kz_resident *find(kz_engine *engine, const kz_scene *scene, double tolerance) {
   for (int i = 0; i < KZ_RESIDENTS; i++)
-    if (kz_resident_serves(engine->resident + i, scene, moving)) return engine->resident + i;
+    if (kz_resident_serves(engine->resident + i, scene, tolerance)) return engine->resident + i;
   return NULL;
 }
 
@@ -57,10 +57,10 @@ void kz_engine_list(kz_engine *engine, kz_resident *resident) {
   engine->shown = &resident->catalogue;
 }
 
-static kz_status make(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident *place) {
+static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, kz_resident *place) {
   const kz_scene wide = searched(scene);
   kz_resident fresh;
-  const kz_status status = kz_resident_make(&wide, moving, &fresh);
+  const kz_status status = kz_resident_make(&wide, tolerance, &fresh);
   if (status == KZ_OK) kz_resident_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
   if (engine->shown == &place->catalogue) engine->shown = NULL;
   kz_resident_free(place);
@@ -77,14 +77,15 @@ kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool movi
   if (kz_release_strobes(&scene->parameters.release) > 0)
     return kz_fail(KZ_REFUSED, "pendulum: frames are of starts at a strobe, without a phase or a ramp; use kapitza run");
   kz_resident *near = NULL;
-  *resident = find(engine, scene, moving);
+  const double tolerance = moving ? kz_moving_tolerance(scene) : 0;
+  *resident = find(engine, scene, tolerance);
   if (!*resident && moving && (near = nearest(engine, scene))) {
     kz_resident_move(near, scene);
     kz_engine_list(engine, near);
     *resident = near;
   } else if (!*resident) {
     *resident = oldest(engine);
-    KZ_TRY(make(engine, scene, moving, *resident));
+    KZ_TRY(make(engine, scene, tolerance, *resident));
   }
   (*resident)->used = ++engine->calls;
   engine->shown = &(*resident)->catalogue;

@@ -15,6 +15,7 @@ typedef struct {
   const kz_scene *scene;
   const kz_frame *frame;
   kz_window_starts starts;
+  kz_samples samples;  /* of a moving frame whose window is a curve */
   int64_t total, own;  /* cells; the first ones, of which the others are mirror images */
   kz_frame_cell *cell; /* [total] */
   int64_t *pending;    /* [total] numbers of the cells that a level follows */
@@ -55,6 +56,7 @@ static int64_t list_pending(making *m, int64_t level) {
 }
 
 static kz_status follow(making *m, int64_t n) {
+  if (m->samples.curve.count > 0) return kz_samples_follow(m->resident, m->frame, &m->samples, n, m->pending, m->cell);
   for (int64_t done = 0; done < n; done += KZ_FRAME_TILE) {
     KZ_TRY(m->frame->pause(m->frame->context));
     const int64_t part = n - done < KZ_FRAME_TILE ? n - done : KZ_FRAME_TILE;
@@ -77,7 +79,7 @@ static kz_status label(making *m, int64_t n) {
   KZ_TRY(follow(m, n));
   const int64_t left = list_unsettled(m, n);
   bool born = false;
-  if (left == 0 || m->searched || m->resident->moving) return KZ_OK;
+  if (left == 0 || m->searched || kz_resident_moves(m->resident)) return KZ_OK;
   m->searched = true;
   KZ_TRY(kz_cells_discover(m->resident, &m->starts, left, m->pending, &born));
   if (!born) return KZ_OK;
@@ -140,6 +142,7 @@ static kz_status show(making *m, int64_t level) {
 static kz_status make(making *m) {
   frame_allocate(m);
   if (m->resident->dynamics) KZ_TRY(kz_cells_begin(m->resident, &m->scene->basin, m->frame, &m->starts));
+  if (kz_resident_moves(m->resident) && m->resident->dynamics) kz_samples_make(&m->starts, &m->samples);
   for (int64_t i = 0; i < m->frame->levels->count; i++) {
     const int64_t level = m->frame->levels->values[i];
     KZ_TRY(label(m, list_pending(m, level)));
@@ -164,6 +167,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   m.resident->busy = true;
   const kz_status status = make(&m);
   m.resident->busy = was_busy;
+  kz_samples_free(&m.samples);
   kz_window_starts_free(&m.starts);
   free(m.cell);
   free(m.pending);

@@ -7,8 +7,9 @@
 #include "numerics/cells.h"
 #include "numerics/processed.h"
 
-/* Of moving frames: the error of a period, rad, and the starts of the search. */
-static const double TOLERANCE = 1e-6;
+/* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not, which at any depth are
+ * some 1e-7 wide when they are handed over; and the starts of the search. */
+static const double COARSE = 1e-6, FINE = 1e-10, SMALL = 1e-4;
 enum { MOVING_STARTS = 1024 };
 /* Trapping regions that pay for frames, whatever their size: those of so many cells. */
 enum { CELLS = 130000 };
@@ -24,6 +25,13 @@ enum { OLDEST = 5, MOVING_CELLS = 192 };
 /* Of moving frames: drive periods that cells are followed, at least, and lifetimes 1/(2 pi beta). */
 static const double LEAST_PERIODS = 400, LIFETIMES = 24;
 
+double kz_moving_tolerance(const kz_scene *scene) {
+  const kz_axis *theta = &scene->basin.theta, *velocity = &scene->basin.velocity;
+  const double cells[2] = {(double)kz_axis_width(theta) / (double)theta->count,
+                           (double)kz_axis_width(velocity) / (double)velocity->count};
+  return fmin(cells[0], cells[1]) < SMALL ? FINE : COARSE;
+}
+
 static kz_window window_of(const kz_scene *scene) {
   return kz_window_of(&scene->basin.theta, &scene->basin.velocity);
 }
@@ -32,12 +40,12 @@ static kz_window window_of(const kz_scene *scene) {
 static void choose_numerics(kz_resident *r) {
   kz_scene *scene = &r->scene;
   scene->basin.method = KZ_METHOD_EXACT;
-  if (!r->moving) {
+  if (!kz_resident_moves(r)) {
     kz_numerics_resolve(scene);
     return;
   }
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  scene->numerics = kz_processed_or_split(pendulum, TOLERANCE, kz_fastest_motion(pendulum, &r->search.window, 0));
+  scene->numerics = kz_processed_or_split(pendulum, r->tolerance, kz_fastest_motion(pendulum, &r->search.window, 0));
 }
 
 static kz_status search(kz_resident *r) {
@@ -57,8 +65,9 @@ static int64_t periods_of(const kz_scene *scene, bool moving) {
   return moving ? (int64_t)fmin(enough, (double)scene->basin.max_periods) : scene->basin.max_periods;
 }
 
-kz_status kz_resident_make(const kz_scene *scene, bool moving, kz_resident *resident) {
-  *resident = (kz_resident){.scene = *scene, .moving = moving, .chosen = scene->parameters.pendulum};
+kz_status kz_resident_make(const kz_scene *scene, double tolerance, kz_resident *resident) {
+  const bool moving = tolerance > 0;
+  *resident = (kz_resident){.scene = *scene, .tolerance = tolerance, .chosen = scene->parameters.pendulum};
   resident->periods = periods_of(scene, moving);
   resident->scene.title = NULL;
   resident->search = kz_search_of(scene);
@@ -119,7 +128,7 @@ static double parted(const kz_pendulum *a, const kz_pendulum *b) {
 }
 
 double kz_resident_distance(const kz_resident *resident, const kz_scene *scene) {
-  if (resident->used == 0 || !resident->moving || !resident->dynamics || resident->busy) return INFINITY;
+  if (resident->used == 0 || !kz_resident_moves(resident) || !resident->dynamics || resident->busy) return INFINITY;
   if (!(scene->parameters.pendulum.beta > 0) || !same_search(resident, scene)) return INFINITY;
   const double distance = parted(&resident->scene.parameters.pendulum, &scene->parameters.pendulum);
   return distance < FARTHEST ? distance : INFINITY;
@@ -127,12 +136,14 @@ double kz_resident_distance(const kz_resident *resident, const kz_scene *scene) 
 
 void kz_resident_move(kz_resident *r, const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
+  const double tolerance = kz_moving_tolerance(scene);
   int64_t lost;
   r->scene.parameters = scene->parameters;
   r->scene.basin.max_periods = scene->basin.max_periods;
   r->search.max_periods = scene->basin.max_periods;
   r->periods = periods_of(scene, true);
-  if (parted(&r->chosen, pendulum) > RECHOSEN) {
+  if (parted(&r->chosen, pendulum) > RECHOSEN || tolerance != r->tolerance) {
+    r->tolerance = tolerance;
     choose_numerics(r);
     r->chosen = *pendulum;
   }
@@ -146,8 +157,8 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
   }
 }
 
-bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, bool moving) {
-  return resident->used > 0 && resident->moving == moving &&
+bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, double tolerance) {
+  return resident->used > 0 && resident->tolerance == tolerance &&
          same_pendulum(&resident->scene.parameters.pendulum, &scene->parameters.pendulum) &&
          resident->scene.basin.max_periods == scene->basin.max_periods && same_search(resident, scene);
 }

@@ -96,6 +96,10 @@ static void add_quad(const double centre[2], __float128 change, double pair[2]) 
   pair[1] = (double)(sum - pair[0]);
 }
 
+void kz_hand_over_change(const kz_hand_over *h, double theta, double velocity, double change[2]) {
+  for (int axis = 0; axis < 2; axis++) change[axis] = in_doubles(h->linear[axis], h->bent[axis], theta, velocity);
+}
+
 void kz_hand_over_start(const kz_hand_over *h, __float128 theta, __float128 velocity, kz_start *start) {
   *start = (kz_start){.periods = h->periods, .error = {h->error * h->error, 0, h->error * h->error}};
   const kz_image *image = h->image;
@@ -103,8 +107,9 @@ void kz_hand_over_start(const kz_hand_over *h, __float128 theta, __float128 velo
     add_quad(image->theta, in_quads(image->jet.linear[0], image->jet.bent[0], theta, velocity), start->theta);
     add_quad(image->velocity, in_quads(image->jet.linear[1], image->jet.bent[1], theta, velocity), start->velocity);
   } else {
-    const double x = (double)theta, y = (double)velocity;
-    add(image->theta, in_doubles(h->linear[0], h->bent[0], x, y), start->theta);
-    add(image->velocity, in_doubles(h->linear[1], h->bent[1], x, y), start->velocity);
+    double change[2];
+    kz_hand_over_change(h, (double)theta, (double)velocity, change);
+    add(image->theta, change[0], start->theta);
+    add(image->velocity, change[1], start->velocity);
   }
 }

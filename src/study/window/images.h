@@ -70,5 +70,7 @@ typedef struct {
 kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reach);
 /* The start at shares of the width of the images. */
 void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);
+/* The same as the change from the image's centre, in doubles: rad, rad per drive radian. */
+void kz_hand_over_change(const kz_hand_over *hand_over, double theta, double velocity, double change[2]);
 
 #endif
