@@ -14,9 +14,24 @@ root_doc = "index"
 default_role = "code"  # of docstrings
 html_theme = "furo"
 html_title = f"kapitza {version}"
+html_static_path = ["site/static"]
+html_css_files = ["dark.css"]
+templates_path = ["site/templates"]
+html_sidebars = {"**": [f"sidebar/{part}.html" for part in ("brand", "search", "scroll-start", "navigation")]
+                 + ["versions.html", "sidebar/scroll-end.html"]}
 html_copy_source = False
 html_show_copyright = False
 myst_heading_anchors = 3
 myst_enable_extensions = ["dollarmath"]
 smartquotes = False  # theta'' is no quotation
 copybutton_exclude = ".linenos, .gp, .go"
+
+
+def name_versions(app, page, template, context, tree):
+    """The versions whose sites stand beside this one, for the sidebar: the newest first."""
+    found = {path.parent.name for path in Path(app.outdir).parent.glob("*.*.*/index.html")} | {version}
+    context["versions"] = sorted(found, key=lambda name: [int(part) for part in re.findall(r"\d+", name)], reverse=True)
+
+
+def setup(app):
+    app.connect("html-page-context", name_versions)

@@ -15,7 +15,6 @@ from matplotlib.patches import Arc, Circle, FancyArrowPatch, Polygon, Rectangle 
 
 FOLDER = Path(__file__).resolve().parent / "figures"
 K, BETA, M = 1 / 121, 1 / 55, 0.3  # Blackburn's Fig. 12
-SLOW = np.sqrt(M * M / 2 - K)  # frequency of the slow swing about the inverted state
 BLUE, RED, GREY, AMBER = "#2b6cb0", "#c53030", "#718096", "#d69e2e"
 
 
@@ -90,7 +89,7 @@ def potential():
     axes.annotate("Kapitza's well", (180, 1000 * K), (180, 21), ha="center", arrowprops={"arrowstyle": "->"})
     axes.annotate("the well of gravity", (0, -1000 * K), (20, -14), arrowprops={"arrowstyle": "->"})
     axes.set(xlabel="angle from down / deg", ylabel="effective potential / 0.001", xticks=range(-90, 271, 90), ylim=(-17, 27))
-    axes.legend(frameon=False, loc="upper left")
+    axes.legend(frameon=False, loc="lower right")
     save(figure, "potential")
 
 
@@ -126,20 +125,63 @@ def splitting():
     save(figure, "splitting")
 
 
+def eigenbasis():
+    """Columns [2, 2] that span the norm in which the map contracts about the inverted state."""
+    e = 1e-6
+    columns = [np.array(period(np.pi + a, b)) - [np.pi, 0] for a, b in ((e, 0.0), (0.0, e))]
+    vector = np.linalg.eig(np.column_stack(columns) / e)[1][:, 0]
+    return np.column_stack([vector.real, vector.imag])
+
+
+def joined(grid, radius, basis):
+    """The round [rows, columns] in which each cell of a grid joins the region that grows from an ellipse; 0 = it does not."""
+    theta, velocity = grid
+    rounds, corners = np.zeros((len(velocity) - 1, len(theta) - 1), int), np.meshgrid(theta, velocity)
+    images = [period(*corners)]
+    for _ in range(3):
+        images.append(period(*images[-1]))
+
+    def inside(a, v):
+        own = np.linalg.solve(basis, np.stack([a.ravel() - np.pi, v.ravel()])).reshape(2, *a.shape)
+        row, column = np.searchsorted(velocity, v) - 1, np.searchsorted(theta, a) - 1
+        known = (row >= 0) & (row < rounds.shape[0]) & (column >= 0) & (column < rounds.shape[1])
+        known[known] = rounds[row[known], column[known]] > 0
+        return known | (np.hypot(*own) < radius)
+
+    for number in range(1, 60):
+        new = np.zeros(rounds.shape, bool)
+        for image in images:
+            ends = inside(*image)
+            new |= ends[:-1, :-1] & ends[1:, :-1] & ends[:-1, 1:] & ends[1:, 1:]
+        new &= rounds == 0
+        if not new.any():
+            break
+        rounds[new] = number
+    return rounds
+
+
 def trapping():
-    """An ellipse about the inverted state and its images after 8, 16 and 32 periods: it is carried into itself."""
-    figure, axes = pyplot.subplots(figsize=(5, 4.2))
-    theta, velocity = circle(np.pi, 0, 0.12)
-    velocity *= SLOW
-    axes.fill(np.degrees(theta), velocity, color=AMBER, alpha=0.25)
-    axes.plot(np.degrees(theta), velocity, color=AMBER, label="an ellipse of starts")
-    for n in range(1, 33):
+    """Left an ellipse that each period carries into itself; right the cells of a grid that join it, round by round."""
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(8, 3.6), layout="constrained")
+    basis, turn = eigenbasis(), np.array(circle(0, 0, 1))
+    radius = 0.12 / np.hypot(*basis[0])
+    theta, velocity = np.array([[np.pi], [0]]) + radius * basis @ turn
+    left.fill(np.degrees(theta), velocity, color=AMBER, alpha=0.25)
+    left.plot(np.degrees(theta), velocity, color=AMBER, label="the ellipse")
+    for n in range(1, 13):
         theta, velocity = period(theta, velocity)
-        if n in (8, 16, 32):
-            axes.plot(np.degrees(theta), velocity, color=BLUE, alpha=0.35 + n / 50, label=f"after {n} periods")
-    axes.plot([180], [0], "k.", label="inverted state")
-    axes.set(xlabel="angle from down / deg", ylabel="velocity / rad per drive radian")
-    axes.legend(frameon=False, fontsize=8)
+        if n in (1, 4, 12):
+            left.plot(np.degrees(theta), velocity, color=BLUE, alpha=0.4 + n / 20, label=f"after {n} period{'s' * (n > 1)}")
+    left.plot([180], [0], "k.", label="inverted state")
+    left.set(xlabel="angle from down / deg", ylabel="velocity / rad per drive radian", ylim=(-0.026, 0.04))
+    left.legend(frameon=False, fontsize=8, ncols=2, loc="upper center")
+    grid = np.radians(np.linspace(60, 300, 97)), np.linspace(-0.2, 0.2, 81)
+    rounds = joined(grid, radius, basis)
+    found = np.ma.masked_equal(rounds, 0)
+    colours = right.pcolormesh(np.degrees(grid[0]), grid[1], found, cmap="viridis_r", rasterized=True)
+    right.fill(*(np.array([[180], [0]]) + np.array([[180 / np.pi], [1]]) * (radius * basis @ turn)), color=AMBER)
+    right.set(xlabel="angle from down / deg")
+    figure.colorbar(colours, label="round in which a cell joins")
     save(figure, "trapping")
 
 
@@ -168,7 +210,7 @@ def handover():
     side = np.linspace(-1, 1, 11)
     x, y = np.meshgrid(side, side)
     theta, velocity = 2.0 + 0.05 * x, 0.6 + 0.05 * y
-    for axes, title in ((left, "the window"), (right, "its image after 6 periods")):
+    for axes, title in ((left, "the window"), (right, "its image after 2 periods")):
         for i in range(11):
             axes.plot(np.degrees(theta[i]), velocity[i], color=BLUE, lw=0.8)
             axes.plot(np.degrees(theta[:, i]), velocity[:, i], color=GREY, lw=0.8)
@@ -176,21 +218,23 @@ def handover():
         axes.set_title(title, fontsize=10)
         axes.set_xlabel("angle / deg")
         if axes is left:
-            for _ in range(6):
+            for _ in range(2):
                 theta, velocity = period(theta, velocity)
             theta = theta - 2 * np.pi * np.round(theta[5, 5] / (2 * np.pi))
     left.set_ylabel("velocity / rad per drive radian")
+    figure.tight_layout()
     save(figure, "handover")
 
 
 def proof():
     """An enclosure that follows one start until it lies inside a region that is proved to be carried into itself."""
     figure, axes = pyplot.subplots(figsize=(6, 4))
-    corners = np.array([[2.35], [0.05]]) + np.array([[-1, 1, 1, -1], [-1, -1, 1, 1]]) * 0.003
-    rim = np.array(circle(0, 0, 0.14)) * [[1], [SLOW]]
+    corners = np.array([[2.35], [0.05]]) + np.array([[-1, 1, 1, -1], [-1, -1, 1, 1]]) * 0.012
+    basis = eigenbasis() * 0.3 / np.hypot(*eigenbasis()[0])
+    rim = basis @ circle(0, 0, 1)
     axes.fill(np.degrees(np.pi + rim[0]), rim[1], color=AMBER, alpha=0.3, label="proved trapping region")
     for n in range(40):
-        inside = np.all(np.hypot(corners[0] - np.pi, corners[1] / SLOW) < 0.14)
+        inside = np.all(np.hypot(*np.linalg.solve(basis, corners - [[np.pi], [0]])) < 1)
         axes.add_patch(Polygon(np.column_stack([np.degrees(corners[0]), corners[1]]), color=RED if inside else BLUE, alpha=0.6))
         axes.annotate(str(n), (np.degrees(corners[0].mean()), corners[1].mean()), textcoords="offset points", xytext=(6, 6), fontsize=7)
         if inside:
@@ -199,7 +243,7 @@ def proof():
         middle = corners.mean(axis=1, keepdims=True)
         corners = middle + (corners - middle) * 1.03  # an enclosure is wider than what it encloses
     axes.set(xlabel="angle from down / deg", ylabel="velocity / rad per drive radian")
-    axes.legend(frameon=False)
+    axes.legend(frameon=False, loc="upper right")
     save(figure, "proof")
 
 

@@ -13,7 +13,7 @@ from text_style import faults
 
 HOOKS = {hook["id"]: hook for hook in yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"][0]["hooks"]}
 ENDINGS = {"python": {".py"}, "c": {".c", ".h"}, "markdown": {".md"}, "text": None}
-BINARY = {".png", ".h5"}
+BINARY = {".gif", ".png", ".h5"}
 
 
 def files(kind):

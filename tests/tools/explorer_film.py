@@ -16,7 +16,7 @@ sys.path[:0] = [str(ROOT / "tests" / "python"), str(ROOT / "python")]
 from explorer_page import Page, Server, browser, wait_for  # noqa: E402
 
 SCENE = ROOT / "scenes" / "blackburn-fig12.yaml"
-SIZE = "840,660"  # of the window; the page itself is 139 px lower
+SIZE = "960,690"  # of the window; the page itself is 139 px lower
 WIDTH = 600  # of the film, px
 RATE = 8  # pictures a second
 BOUNDARY = (-0.264011425069458, 1.42)  # theta, velocity

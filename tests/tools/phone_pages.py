@@ -1,6 +1,6 @@
 """Opens every page of the site in Chromium on a phone's width, and says which pages are wider than the phone.
 
-    phone_pages.py build/site [--width 390] [--pictures FOLDER]      status 1 where a page has to be scrolled sideways
+    phone_pages.py build/site/VERSION [--width 390] [--pictures FOLDER]      status 1 where a page has to be scrolled sideways
 
 Tables and blocks of code may scroll inside their own frames; the page itself may not.
 """
