@@ -155,6 +155,12 @@ typedef struct {
  * order in every run. `run` NULL, or without ranks: this process alone does all tiles in order and keeps nothing; not for local records. */
 kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
 
+/* Stages of one tile, each of which needs the one before, show their progress as one, by an estimate of what is left. NULL without ranks. */
+typedef struct kz_chain kz_chain;
+kz_chain *kz_chain_begin(const kz_run *run, const char *name);
+void kz_chain_show(kz_chain *chain, double seconds_left);
+void kz_chain_end(kz_chain *chain, bool complete);
+
 /* What all tiles of a stage would take, seconds of processor time, from some that this process does alone and throws away: at most `most`,
  * spread over the stage, and no more of them once they took `enough` seconds. Added to *seconds. Not collective. */
 kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, double *seconds);

@@ -1,6 +1,7 @@
 /* A live bar where a terminal is there, else a line now and then. */
 #include "progress.h"
 
+#include <stdlib.h>
 #include <unistd.h>
 
 static const double BAR_DELAY = 0.5, BAR_PERIOD = 0.2, LINE_PERIOD = 10.0, LINE_PERIOD_ALWAYS = 1.0; /* s */
@@ -84,4 +85,28 @@ void kz_meter_end(kz_meter *meter, bool complete, double idle) {
     fprintf(meter->out, "kapitza: %s: 100 %%, %s, ranks idle %.1f %%\n", meter->name,
             clock_text(kz_clock() - meter->begun, spent), 100 * idle);
   fflush(meter->out);
+}
+
+enum { CHAIN_PARTS = 1000000 };
+struct kz_chain {
+  kz_meter meter;
+};
+
+kz_chain *kz_chain_begin(const kz_run *run, const char *name) {
+  if (!run || !run->ranks) return NULL;
+  kz_chain *chain = kz_calloc(1, sizeof *chain);
+  kz_meter_begin(&chain->meter, run->ranks, name, CHAIN_PARTS, 0);
+  return chain;
+}
+
+void kz_chain_show(kz_chain *chain, double seconds_left) {
+  if (!chain) return;
+  const double elapsed = kz_clock() - chain->meter.begun;
+  kz_meter_show(&chain->meter, (int64_t)(CHAIN_PARTS * elapsed / (elapsed + seconds_left + 1e-9)));
+}
+
+void kz_chain_end(kz_chain *chain, bool complete) {
+  if (!chain) return;
+  kz_meter_end(&chain->meter, complete, 1 - 1.0 / chain->meter.ranks->size);
+  free(chain);
 }

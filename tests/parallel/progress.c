@@ -20,31 +20,48 @@ static kz_status fill(void *context, int64_t tile, void *bytes) {
   return KZ_OK;
 }
 
-/* Runs a stage with stderr at `end`; what came out is read from `file` into shown. */
-static void show(kz_progress progress, int64_t n_tiles, int end, int file) {
+static kz_status run_cells(int64_t n_tiles) {
   const kz_stage stage = {.name = "cells", .n_tiles = n_tiles, .record_bytes = 1, .work = fill};
   char records[100];
+  return run_stage(&stage, records);
+}
+
+/* Two stages of half a second and more, after which as much is left. */
+static kz_status run_chain(int64_t n_stages) {
+  kz_chain *chain = kz_chain_begin(&(kz_run){.ranks = ranks}, "reference");
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; status == KZ_OK && i < n_stages; i++) {
+    pause_for(0.6);
+    status = run_cells(1);
+    kz_chain_show(chain, 0.6 * (double)(i + 1));
+  }
+  kz_chain_end(chain, status == KZ_OK);
+  return status;
+}
+
+/* Runs stages with stderr at `end`; what came out is read from `file` into shown. */
+static void show(kz_progress progress, kz_status (*run)(int64_t), int64_t n, int end, int file) {
   const int before = dup(STDERR_FILENO);
   dup2(end, STDERR_FILENO);
   kz_ranks_set_progress(ranks, progress);
-  const kz_status status = run_stage(&stage, records);
+  const kz_status status = run(n);
   dup2(before, STDERR_FILENO);
   close(before);
   assert_int_equal(status, KZ_OK);
   struct pollfd waiting = {.fd = file, .events = POLLIN};
-  size_t n = 0;
+  size_t bytes = 0;
   while (poll(&waiting, 1, 300) > 0) { /* a terminal hands its bytes on in pieces */
-    const ssize_t got = read(file, shown + n, sizeof shown - 1 - n);
+    const ssize_t got = read(file, shown + bytes, sizeof shown - 1 - bytes);
     if (got <= 0) break;
-    n += (size_t)got;
+    bytes += (size_t)got;
   }
-  shown[n] = '\0';
+  shown[bytes] = '\0';
 }
 
-static void show_in_pipe(kz_progress progress, int64_t n_tiles) {
+static void show_in_pipe(kz_progress progress, kz_status (*run)(int64_t), int64_t n) {
   int ends[2];
   assert_int_equal(pipe(ends), 0);
-  show(progress, n_tiles, ends[1], ends[0]);
+  show(progress, run, n, ends[1], ends[0]);
   close(ends[0]);
   close(ends[1]);
 }
@@ -52,7 +69,7 @@ static void show_in_pipe(kz_progress progress, int64_t n_tiles) {
 /* Skips the test on a machine without pseudo-terminals: a bare chroot has none. */
 static void show_on_terminal(kz_progress progress, int64_t n_tiles) {
   if (here < 0) skip();
-  show(progress, n_tiles, there, here);
+  show(progress, run_cells, n_tiles, there, here);
 }
 
 static void a_terminal_gets_a_bar(void **state) {
@@ -65,18 +82,28 @@ static void a_terminal_gets_a_bar(void **state) {
 
 static void a_file_gets_lines(void **state) {
   (void)state;
-  show_in_pipe(KZ_PROGRESS_ALWAYS, 70);
+  show_in_pipe(KZ_PROGRESS_ALWAYS, run_cells, 70);
   assert_non_null(strstr(shown, "kapitza: cells: 100 %"));
   assert_non_null(strstr(shown, "ranks idle "));
   assert_ptr_not_equal(strstr(shown, "kapitza: cells:"), strstr(shown, "kapitza: cells: 100 %"));
   assert_null(strchr(shown, '\r'));
 }
 
+/* Half of the time has passed after the second one, a second after the first line was due. */
+static void a_chain_of_stages_is_shown_as_one(void **state) {
+  (void)state;
+  show_in_pipe(KZ_PROGRESS_ALWAYS, run_chain, 2);
+  assert_non_null(strstr(shown, "kapitza: reference: 5")); /* half, or a little more on a busy machine */
+  assert_non_null(strstr(shown, " left\n"));
+  assert_non_null(strstr(shown, "kapitza: reference: 100 %, 0:01"));
+  assert_null(strstr(shown, "cells"));
+}
+
 static void nothing_is_nothing(void **state) {
   (void)state;
-  show_in_pipe(KZ_PROGRESS_AUTO, 60); /* over before the first line is due */
+  show_in_pipe(KZ_PROGRESS_AUTO, run_cells, 60); /* over before the first line is due */
   assert_string_equal(shown, "");
-  show_in_pipe(KZ_PROGRESS_ALWAYS, 1);
+  show_in_pipe(KZ_PROGRESS_ALWAYS, run_cells, 1);
   assert_string_equal(shown, "");
 }
 
@@ -99,7 +126,7 @@ static void a_terminal_of_others_is_left_alone(void **state) {
   assert_int_equal(setpgid(other, other) | tcgetattr(there, &settings), 0);
   settings.c_lflag |= TOSTOP;
   assert_int_equal(tcsetattr(there, TCSANOW, &settings) | tcsetpgrp(there, other), 0);
-  show(KZ_PROGRESS_AUTO, 60, there, here);
+  show(KZ_PROGRESS_AUTO, run_cells, 60, there, here);
   kill(other, SIGKILL);
   waitpid(other, NULL, 0);
   assert_int_equal(tcsetpgrp(there, getpgrp()), 0); /* of a process in the background: allowed, since SIGTTOU is ignored */
@@ -123,6 +150,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(a_terminal_gets_a_bar),
       cmocka_unit_test(a_file_gets_lines),
+      cmocka_unit_test(a_chain_of_stages_is_shown_as_one),
       cmocka_unit_test(nothing_is_nothing),
       cmocka_unit_test(a_terminal_is_left_alone_too),
       cmocka_unit_test(a_terminal_of_others_is_left_alone),

@@ -1,4 +1,5 @@
-/* The images of a window in pieces of a few periods: each piece needs the one before, and is a stage of one tile. */
+/* The images of a window in pieces of a few periods: each piece needs the one before, and is a stage of one tile. Together they are shown
+ * as one. */
 #include "reference.h"
 
 #include <stdlib.h>
@@ -48,10 +49,16 @@ static kz_status run_piece(const kz_run *run, const work *w, piece *record, size
 
 kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods) {
   const work w = {.images = images, .dynamics = dynamics, .max_periods = max_periods};
+  kz_chain *chain = kz_chain_begin(run, "reference");
   const size_t bytes = sizeof(piece) + kz_arbitrary_size(images->orbit);
   piece *record = kz_malloc(bytes);
   kz_status status = KZ_OK;
-  while (status == KZ_OK && !images->finished) status = run_piece(run, &w, record, bytes);
+  while (status == KZ_OK && !images->finished) {
+    const double begun = kz_clock();
+    status = run_piece(run, &w, record, bytes);
+    kz_chain_show(chain, record->n > 0 ? (kz_clock() - begun) / (double)record->n * kz_images_left(images) : 0);
+  }
+  kz_chain_end(chain, status == KZ_OK);
   free(record);
   return status;
 }
