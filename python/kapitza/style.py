@@ -19,6 +19,7 @@ import xarray
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 
+FONT_SIZE = 9.0  # points
 UNSETTLED = "#ffffff"
 INK = "#1c2127"
 FAINT = "#6b747e"
@@ -186,12 +187,15 @@ def pi_text(multiple: float) -> str:
     return sign + ("" if top == 1 else str(top)) + "π" + ("" if bottom == 1 else f"/{bottom}")
 
 
-def settings(font_size: float = 9) -> dict[str, Any]:
+def settings(font_size: float = FONT_SIZE) -> dict[str, Any]:
     """The page settings of every figure, for matplotlib's rcParams. Text stays text in SVG and PDF."""
+    scale = font_size / FONT_SIZE
+    ticks = {f"{axis}tick.{which}": size * scale for axis in "xy" for which, size in
+             (("major.width", 0.7), ("major.size", 3.5), ("major.pad", 3.5), ("minor.width", 0.6), ("minor.size", 2.0), ("minor.pad", 3.4))}
     return {
         "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": font_size, "mathtext.fontset": "dejavusans",
         "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK, "ytick.color": INK,
-        "axes.linewidth": 0.7, "xtick.major.width": 0.7, "ytick.major.width": 0.7,
+        "axes.linewidth": 0.7 * scale, "axes.labelpad": 4.0 * scale, **ticks,
         "axes.titlelocation": "left", "axes.titlesize": "large", "axes.titleweight": "bold",
         "legend.frameon": False, "figure.dpi": 100, "savefig.facecolor": "white",
         "svg.fonttype": "none", "pdf.fonttype": 42, "svg.hashsalt": "kapitza",
@@ -204,7 +208,7 @@ def use() -> None:
 
 
 @contextmanager
-def using(font_size: float = 9, colours: Mapping[str, str] | None = None) -> Iterator[None]:
+def using(font_size: float = FONT_SIZE, colours: Mapping[str, str] | None = None) -> Iterator[None]:
     """Figures drawn inside have these letters, and `colours` (name of an attractor, or kind of motion, -> colour) before those of KINDS."""
     token = _chosen.set({name: to_hex(colour) for name, colour in (colours or {}).items()})
     try:

@@ -32,6 +32,15 @@ def test_the_legend_has_its_place(made_file, tmp_path):
     assert np.std(image[: image.shape[0] // 3, 200:, :3]) > 0.05  # the plane takes the width, not half of it
 
 
+def test_a_page_for_a_talk_is_a_larger_page(made_file):
+    """Letters twice as large on a page twice as wide: lines, dots and panels are twice as large too."""
+    usual, talk = (kapitza.Result(made_file).plot(width=f"{86 * scale}mm", font_size=8 * scale) for scale in (1, 2))
+    sizes = [(line.get_markersize(), line.get_markeredgewidth()) for line in usual.axes[0].lines]
+    assert sizes and np.allclose([(line.get_markersize(), line.get_markeredgewidth()) for line in talk.axes[0].lines], 2 * np.array(sizes))
+    legend = talk.legends[0].get_window_extent()
+    assert talk.axes[0].get_position().width > 0.7 and 0 <= legend.x0 < legend.x1 <= talk.bbox.width
+
+
 def test_colours_by_name(made_file, tmp_path):
     (tmp_path / "mine.yaml").write_text('inverted: "#010203"\nrotation +: teal\nnot settled: "#fefefe"\n')
     result = kapitza.Result(made_file)

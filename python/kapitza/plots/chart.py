@@ -6,14 +6,16 @@
 """
 
 import argparse
+import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm, SymLogNorm, to_rgb
+from matplotlib.colors import LogNorm, TwoSlopeNorm, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
@@ -60,17 +62,32 @@ def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] |
 def draw_number(axes: Axes, chart: xarray.Dataset, view: str, *, colours: str | None = None, legend: bool = True) -> Axes:
     """Exponents or settling times of one start; `colours`: name of a colour map; `legend`: the bar beside it."""
     if view == "exponent":
-        values, text = chart["exponent"].values, "largest Lyapunov exponent, per drive period"
-        most = max(float(np.nanquantile(np.abs(values), 0.995)), 1e-5) if np.isfinite(values).any() else 1.0
-        norm = SymLogNorm(most / 30, vmin=-most, vmax=most)  # regular blue, chaotic red, both told apart near 0
-        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "RdBu_r", norm=norm, shading="nearest", rasterized=True)
+        values, text = chart["exponent"].values, "largest Lyapunov exponent (per drive period)"
+        low, high = exponent_range(values)
+        image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "RdBu_r", norm=TwoSlopeNorm(0, low, high),
+                                shading="nearest", rasterized=True)
     else:
-        values, text = np.maximum(chart["settling_time"].values, 1), "settling time, drive periods"
+        values, text = np.maximum(chart["settling_time"].values, 1), "settling time (drive periods)"
         image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "viridis", norm=LogNorm(), shading="nearest",
                                 rasterized=True)
     if legend:
-        axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, pad=0.01)
+        bar = axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, pad=0.01)
+        if view == "exponent":
+            bar.set_ticks([*_ticks(low)[:0:-1], *_ticks(high)])
     return axes
+
+
+def exponent_range(values: np.ndarray) -> tuple[float, float]:
+    """The ends of the scale: regular motions (negative, blue) and chaotic ones (positive, red) have a range each, so that neither hides
+    the differences of the other; half a percent of the points may lie beyond."""
+    sides = [side[np.isfinite(side) & (side > 0)] for side in (-values, values)]
+    low, high = (float(np.quantile(side, 0.995)) if side.size else 0.0 for side in sides)
+    return -(low or high or 1.0), high or low or 1.0
+
+
+def _ticks(end: float) -> list[float]:
+    """0 and some round numbers towards the end of one side."""
+    return [math.copysign(tick, end) for tick in MaxNLocator(3, steps=[1, 2, 5, 10]).tick_values(0, abs(end)) if 0 <= tick <= abs(end)]
 
 
 def linear_curves(result: Result, chart: xarray.Dataset) -> Iterator[tuple[np.ndarray, np.ndarray]]:

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from kapitza import style
 from kapitza.plots.page import SEPARATOR, Picture, add_page_options, drawing, lay_out, new_figure, page_of
+from kapitza.plots.strokes import scale_strokes
 from kapitza.result import BadFile, Result
 
 __all__ = ["argument_parser", "entitle", "figure_of", "new_figure", "parsed", "write_picture"]
@@ -61,7 +62,9 @@ def figure_of(result: Result, arguments: argparse.Namespace, draw: Callable[[Res
     try:
         with warnings.catch_warnings(), drawing(page_of(arguments)):
             warnings.simplefilter("ignore")  # values that are not there (NaN), axes of one value
-            return lay_out(draw(result, arguments))
+            figure = lay_out(draw(result, arguments))
+            scale_strokes(figure, page_of(arguments).scale)
+            return figure
     except (ArithmeticError, LookupError, TypeError, ValueError, Warning) as error:
         reason = " ".join(str(error).split())
         raise BadFile(f"{result.path}: holds values that cannot be drawn ({type(error).__name__}: {reason})") from error

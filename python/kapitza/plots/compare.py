@@ -7,15 +7,17 @@
 import argparse
 
 import numpy as np
+import pandas
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.compare import Comparison
-from kapitza.plots.basin import basin_entries, draw_basins, show_in_si, write_legend
+from kapitza.plots.basin import draw_basins, show_in_si, write_legend
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, title_text, write_picture
-from kapitza.plots.page import Page, current, drawing, lay_out
+from kapitza.plots.page import Page, Picture, current, drawing, lay_out
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.units import add_si, pivot_frequency
 from kapitza.result import BadFile, Result
@@ -50,7 +52,7 @@ def draw_differing(axes: Axes, comparison: Comparison, *, colours: str = DIFFERE
     return label_axes(axes, plane)
 
 
-def comparison_panels(comparison: Comparison, centre: str) -> Figure:
+def comparison_panels(comparison: Comparison, centre: str) -> Picture:
     """Three panels: first, second, difference; one above the other on a narrow page."""
     plane = Plane(comparison.first.group("basin"), centre)
     narrow = current().narrow
@@ -66,11 +68,26 @@ def comparison_panels(comparison: Comparison, centre: str) -> Figure:
         axes.set_ylabel("")
     for axes in panels[:-1] if narrow else ():
         axes.set_xlabel("")
-    first = comparison.first
-    write_legend(panels[-1], [entry for entry in basin_entries(first.group("attractors"), matched_colours(comparison)[0],
-                                                               first.group("basin")["attractor"].values) if entry[2] >= 0.001])
-    entitle(figure, first, "shares are those of the first")
+    _write_both(panels[-1], comparison)
+    entitle(figure, comparison.first, "shares of the starts: first → second")
+    if comparison.first.title != comparison.second.title and figure.heading:
+        figure.heading.set_text(f"{title_text(comparison.first)} → {title_text(comparison.second)}")
     return figure
+
+
+def _write_both(axes: Axes, comparison: Comparison) -> None:
+    """The legend: every motion that has a permille of one of the two planes, with its shares in both."""
+    first, second = matched_colours(comparison)
+    rows = comparison.table[comparison.table[["fraction_first", "fraction_second"]].max(axis="columns") >= 0.001]
+    patches = []
+    for _, row in rows.sort_values("fraction_first", ascending=False, kind="stable").iterrows():
+        mine = not pandas.isna(row["first"])
+        index = int(row["first" if mine else "second"])
+        colour = (first if mine else second)[index]
+        shares = f"{style.share_text(row['fraction_first'])} → {style.share_text(row['fraction_second'])}"
+        name = row["name"] if list(rows["name"]).count(row["name"]) == 1 else f"{row['name']} ({index})"
+        patches.append(Patch(facecolor=colour, edgecolor=style.INK, linewidth=0.5, label=f"{style.name_text(name)} {shares}"))
+    axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
 
 
 def _difference(result: Result, comparison: Comparison) -> str:

@@ -59,6 +59,21 @@ def label(name: str) -> str:
     return CURVES.get(int(number), f"curve {number}") if number.isdigit() else name.replace("_", " ")
 
 
+def lowest_point(chart: xarray.Dataset, name: str) -> tuple[float, float] | None:
+    """(k, m) of the lowest point of a damped tongue, where the chart has found it."""
+    found = re.fullmatch(r"damped_(\d)", name)
+    if not found or name not in chart:
+        return None
+    k, m = (float(chart.attrs.get(f"tongue_{found[1]}_lowest_{axis}", np.nan)) for axis in "km")
+    return (k, m) if np.isfinite(k) else None
+
+
+def _entry(chart: xarray.Dataset, name: str) -> str:
+    """What the legend says of a curve."""
+    lowest = lowest_point(chart, name)
+    return label(name) + (f", lowest at k = {lowest[0]:.5f}, m = {lowest[1]:.5f}" if lowest else "")
+
+
 def family(name: str) -> str:
     """Formula and exact curve share a colour."""
     number = int((re.findall(r"\d+", exact_of(name) or name) or ["1"])[0])
@@ -96,7 +111,7 @@ def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str]
         formula, faint = exact_of(name) is not None, damped and name.startswith("exact")
         axes.plot(*whole_curve(chart, name), color=(colours or {}).get(name, style.FAINT if faint else family(name)),
                   linestyle=(0, (1, 1.2)) if "refined" in name else (0, (4, 2)) if formula else "-",
-                  linewidth=0.7 if faint else 1.3 if formula else 1.6, label=label(name) + (", undamped" if faint else ""))
+                  linewidth=0.7 if faint else 1.3 if formula else 1.6, label=_entry(chart, name) + (", undamped" if faint else ""))
     if names and legend:
         axes.legend(handles=_entries(axes, names, damped), loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes

@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 from matplotlib.axes import Axes
 
+from kapitza.plots.page import current
 from kapitza.plots.plane import Plane
 
 
@@ -13,11 +14,11 @@ def mark_strobe_points(axes: Axes, plane: Plane, basin: xarray.Dataset, attracto
                        edge: str = "white") -> Axes:
     """Every strobe point of the attractors in `colours` (id -> colour), at every place of the window where it shows; many points are
     drawn smaller, and what would hide a small basin is smaller still or left out."""
-    room = Room(axes, plane, basin)
+    room, strokes = Room(axes, plane, basin), current().scale  # by which the page will draw them larger
     for index, face in colours.items():
         size, line = (4.6, 0.9) if attractors["period"].values[index] <= 2 else (3.2, 0.6)
         points = plane.inside(attractors["strobe_theta"].values[index], attractors["strobe_velocity"].values[index])
-        scale = room.taken_by(*points, size + line)
+        scale = room.taken_by(*points, strokes * (size + line))
         if scale:
             axes.plot(*points, "o", markersize=scale * size, markerfacecolor=face, markeredgecolor=edge, markeredgewidth=scale * line,
                       clip_on=False, zorder=3)

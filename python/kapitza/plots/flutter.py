@@ -36,7 +36,7 @@ def draw_square(axes: Axes, sweep: xarray.Dataset, *, colours: str = FLUTTER, le
     if legend:
         axes.plot([], [], " ", label=f"fitted slope {fit['fit_slope']:.3f} ± {fit['fit_slope_stderr']:.3f}")
         axes.plot([], [], " ", label=f"exponent {fit['fit_exponent']:.4f} ± {fit['fit_exponent_error']:.4f}")
-        axes.legend(loc="upper left")
+        axes.legend(loc="upper left", fontsize="small")
     return axes
 
 
@@ -45,11 +45,11 @@ def draw_zone(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str, str
     value = sweep["value"].values
     onset, asymmetry, end, release = (sweep[f"flutter_{name}"].values for name in ("onset", "asymmetry", "end", "release_end"))
     axes.fill_between(value, onset, end, color=style.shade(colours[0], 0.8), lw=0)
-    axes.plot(value, end, color=colours[1], lw=1, ls=":", label="the asymmetric cycles double their period")
+    axes.plot(value, end, color=colours[1], lw=1, ls=":", label="asymmetric cycles double their period")
     axes.plot(value, asymmetry, color=colours[2], lw=1.4, label="flutter loses its mirror symmetry")
     axes.plot(value, release, "o", color=colours[3], markersize=4, label="a release of 1° from rest fails (the dots)")
     axes.plot(value, onset, color=colours[4], lw=1.8, label="inverted gives way to flutter")
     axes.set(xlabel=parameter_text(sweep), ylabel=r"drive amplitude $\epsilon$ = m", xlim=(value[0], value[-1]))
     if legend:
-        axes.legend(loc="upper right")
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes

@@ -27,6 +27,7 @@ from kapitza.plots.units import add_si, pivot_frequency, show_in
 from kapitza.result import Result
 
 PANELS: dict[str, Callable[..., Axes]] = {"time": draw_time, "path": draw_path, "phase": draw_phase, "spectrum": draw_spectrum}
+PANEL = 2.3  # inches of usual letters that a panel needs
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
@@ -51,15 +52,14 @@ def periods(text: str) -> float:
 
 
 def lay_out(panels: Sequence[str]) -> tuple[Figure, dict[str, Axes]]:
-    """The time graph over the whole width, the others beneath it side by side; on a narrow page one above the other."""
-    if current().narrow:
-        figure = new_figure(6.4, 4.4 * len(panels))
-        return figure, figure.subplot_mosaic([[name] for name in panels])
+    """The time graph over the whole width, the others beneath it, as many side by side as the page has place for."""
     below = [name for name in panels if name != "time"]
-    rows: list[Any] = [["time"] * max(1, len(below))] if "time" in panels else []
-    rows += [below] if below else []
-    width = 3.3 * max(2, len(below)) if below else 7.0
-    figure = new_figure(width, 3.0 * len(rows))
+    columns = int(max(1, min(len(below), current().inches // PANEL)))
+    rows: list[Any] = [["time"] * columns] if "time" in panels else []
+    for first in range(0, len(below), columns):
+        row = below[first:first + columns]
+        rows.append(row + row[-1:] * (columns - len(row)))
+    figure = new_figure(6.4, 4.4 * len(rows)) if current().inches < 2 * PANEL else new_figure(max(6.6, 3.3 * columns), 3.0 * len(rows))
     return figure, figure.subplot_mosaic(rows)
 
 

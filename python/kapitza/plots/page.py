@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from io import BytesIO
 from pathlib import Path
 
@@ -19,9 +19,10 @@ from matplotlib.legend import Legend
 from matplotlib.text import Text
 
 from kapitza import style
+from kapitza.plots.strokes import fix_ticks
 
 UNITS = {"mm": 1 / 25.4, "cm": 1 / 2.54, "in": 1.0, "pt": 1 / 72}
-NARROW = 5.0  # inches: on a narrower page the legend stands below, and panels side by side stand one above the other
+NARROW = 6.0  # inches of usual letters: on a narrower page the legend stands below, and panels side by side stand one above the other
 LEGENDS = ("right", "below", "none")
 BELOW = "below"  # mark of a legend under all panels
 SEPARATOR = "   |   "  # between the parts of the line under a picture
@@ -33,14 +34,24 @@ class Page:
     attractor or kind of motion -> colour."""
 
     width: float | None = None
-    font_size: float = 9
+    font_size: float = style.FONT_SIZE
     legend: str = "right"
     title: bool = True
     colours: dict[str, str] = field(default_factory=dict)
 
     @property
     def narrow(self) -> bool:
-        return self.width is not None and self.width < NARROW
+        return self.inches < NARROW
+
+    @property
+    def inches(self) -> float:
+        """Width that letters of the usual size have there: a page with letters twice as large has half as many words on a line."""
+        return float("inf") if self.width is None else self.width / self.scale
+
+    @property
+    def scale(self) -> float:
+        """Of the letters, and of lines and marks."""
+        return self.font_size / style.FONT_SIZE
 
 
 _current: ContextVar[Page] = ContextVar("page", default=Page())  # noqa: B039  # it is frozen
@@ -75,8 +86,8 @@ class Picture(Figure):
 
 
 def new_figure(width: float, height: float) -> Picture:
-    """An empty page (inches) that no window shows; its panels are laid out when it is written."""
-    figure = Picture(figsize=(width, height), layout="constrained")
+    """An empty page that no window shows, `width` and `height` inches for letters of the usual size; laid out when it is written."""
+    figure = Picture(figsize=(width * current().scale, height * current().scale), layout="constrained")
     FigureCanvasAgg(figure)  # which measures words
     return figure
 
@@ -85,7 +96,8 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
     """The options that every picture takes."""
     parser.add_argument("--width", type=length, metavar="LENGTH",
                         help="width of the page, such as 86mm or 3.4in (default: that of the kind)")
-    parser.add_argument("--font-size", type=points, metavar="POINTS", default=9.0, help="size of the letters (default: 9)")
+    parser.add_argument("--font-size", type=points, metavar="POINTS", default=style.FONT_SIZE,
+                        help=f"size of the letters, and of lines and marks (default: {style.FONT_SIZE:g})")
     parser.add_argument("--legend", choices=LEGENDS, help=f"where it stands (default: right; below on pages under {NARROW:g} in)")
     parser.add_argument("--colours", type=colour_file, metavar="FILE", default={},
                         help='YAML file of "name of an attractor or kind of motion: colour"')
@@ -94,9 +106,10 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
 
 def page_of(arguments: argparse.Namespace) -> Page:
     """The page that the options ask for."""
-    narrow = arguments.width is not None and arguments.width < NARROW
-    legend = "none" if getattr(arguments, "no_legend", False) else arguments.legend or ("below" if narrow else "right")
-    return Page(arguments.width, arguments.font_size, legend, not arguments.no_title, arguments.colours)
+    page = Page(arguments.width, arguments.font_size, "none", not arguments.no_title, arguments.colours)
+    if getattr(arguments, "no_legend", False):
+        return page
+    return replace(page, legend=arguments.legend or ("below" if page.narrow else "right"))
 
 
 def length(text: str) -> float:
@@ -151,6 +164,8 @@ def lay_out(figure: Figure, page: Page | None = None) -> Figure:
         wide = box.width * figure.get_figwidth()
         figure.set_figheight(min(max(figure.get_figheight() + (shape - _shape(figure)) * wide, 0.8), 4 * figure.get_figwidth()))
     _break_labels(figure)
+    if page.width is not None:
+        fix_ticks(figure)
     return figure
 
 
@@ -174,7 +189,7 @@ def _move_legends(figure: Figure, below: bool) -> None:
         placed = figure.legend(list(entries.values()), list(entries), loc="outside lower left", ncols=columns, fontsize="small",
                                handlelength=1.1, handleheight=1.1, columnspacing=1.2, borderaxespad=0.2, alignment="left")
         placed.set_gid(BELOW)
-        if placed.get_window_extent().width < figure.bbox.width or columns == 1:
+        if placed.get_window_extent().width < 0.97 * figure.bbox.width or columns == 1:
             return
         placed.remove()
 

@@ -19,7 +19,7 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.curves import K_LABEL, M_LABEL, curve_names, draw_curves, exact_of, is_branch, whole_curve
+from kapitza.plots.curves import K_LABEL, M_LABEL, curve_names, draw_curves, exact_of, is_branch, lowest_point, whole_curve
 from kapitza.plots.formula_errors import error_figure
 from kapitza.plots.page import current
 from kapitza.result import BadFile, Result
@@ -52,12 +52,11 @@ def draw_zones(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("
 
 
 def mark_thresholds(axes: Axes, chart: xarray.Dataset) -> Axes:
-    """The lowest points of the damped tongues, with their numbers."""
+    """The lowest points of the damped tongues; their numbers stand in the legend."""
     for tongue in (1, 2):
-        k, m = (chart.attrs.get(f"tongue_{tongue}_lowest_{axis}", np.nan) for axis in "km")
-        if f"damped_{tongue}" in chart and np.isfinite(k):
-            axes.plot(k, m, "o", markersize=4, color=style.INK, zorder=5)
-            axes.annotate(f"{k:.5f}, {m:.5f}", (k, m), (4, -11), textcoords="offset points", fontsize="small")
+        lowest = lowest_point(chart, f"damped_{tongue}")
+        if lowest is not None:
+            axes.plot(*lowest, "o", markersize=4, color=style.INK, zorder=5)
     return axes
 
 

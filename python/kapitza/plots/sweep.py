@@ -29,6 +29,7 @@ from kapitza.result import BadFile, Result
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
 STROBE_LABEL = "θ at the strobe"
+EIGHTHS = [tick / 4 for tick in range(9)]  # of a turn, in parts of pi
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
@@ -43,7 +44,7 @@ def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str,
                   legend: bool = True) -> Axes:
     """The set of releases that stay, its last edge, what a scan finds, its first gap (colours: of these four)."""
     value, angle = sweep["value"].values, np.degrees(sweep["release"].values)
-    edges = np.concatenate([[1.5 * value[0] - 0.5 * value[1]], (value[1:] + value[:-1]) / 2, [1.5 * value[-1] - 0.5 * value[-2]]])
+    edges = np.concatenate([value[:1], (value[1:] + value[:-1]) / 2, value[-1:]])
     stays = np.where(sweep["release_stays"].values.T == 1, 1.0, np.nan)
     axes.pcolormesh(edges, np.concatenate([[angle[0] / 2], angle + angle[0] / 2]), stays, cmap=ListedColormap([colours[0]]),
                     rasterized=True)
@@ -69,8 +70,16 @@ def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: 
     if legend:
         axes.set_title("going up" if up else "going down", fontsize="medium", fontweight="normal")
     axes.set(xlabel=parameter_text(sweep), ylabel=STROBE_LABEL, xlim=(value[0], value[-1]))
-    axes.set_yticks([0, 0.5, 1, 1.5, 2], [style.pi_text(tick) for tick in (0, 0.5, 1, 1.5, 2)])
+    axes.set_yticks(EIGHTHS, [style.pi_text(tick) for tick in EIGHTHS])
     return axes
+
+
+def strobe_range(sweep: xarray.Dataset) -> tuple[float, float]:
+    """What of the circle the strobe points of both walks take (parts of pi), with a margin; the whole where they take most of it."""
+    points = np.mod(sweep["strobe_theta"].values, 2 * np.pi) / np.pi
+    low, high = (float(edge) for edge in (np.nanmin(points), np.nanmax(points)))
+    margin = max(0.1 * (high - low), 0.02)
+    return (low - margin, high + margin) if high - low < 1 else (0, 2)
 
 
 def fractions_figure(sweep: xarray.Dataset) -> Figure:
@@ -92,16 +101,17 @@ def branches_figure(sweep: xarray.Dataset) -> Figure:
 
 
 def flutter_figure(sweep: xarray.Dataset) -> Figure:
-    """Amplitude and its square side by side."""
-    figure = new_figure(9, 3.9)
-    left, right = figure.subplots(1, 2)
+    """Amplitude and its square side by side; one above the other on a narrow page."""
+    narrow = current().narrow
+    figure = new_figure(6.4, 8) if narrow else new_figure(9, 3.9)
+    left, right = figure.subplots(2, 1) if narrow else figure.subplots(1, 2)
     draw_amplitude(left, sweep)
     draw_square(right, sweep)
     return figure
 
 
 def zone_figure(sweep: xarray.Dataset) -> Figure:
-    figure = new_figure(7.2, 5)
+    figure = new_figure(9.6, 5)
     draw_zone(figure.subplots(), sweep)
     return figure
 
@@ -119,6 +129,7 @@ def strobe_figure(sweep: xarray.Dataset) -> Figure:
     draw_strobe(above, sweep)
     draw_strobe(below, sweep, up=False)
     above.set_xlabel("")
+    above.set_ylim(*strobe_range(sweep))
     return figure
 
 
@@ -158,7 +169,9 @@ def show_degrees(figure: Figure) -> None:
     """The axes that are not in degrees by themselves: strobe points (parts of pi) and squared amplitudes (rad²)."""
     for axes in figure.axes:
         if axes.get_ylabel() == STROBE_LABEL:
-            axes.set_yticks([0, 0.5, 1, 1.5, 2], ["0°", "90°", "180°", "270°", "360°"])
+            window = axes.get_ylim()
+            axes.set_yticks(EIGHTHS, [f"{180 * tick:g}°" for tick in EIGHTHS])
+            axes.set_ylim(window)
         elif axes.get_ylabel() == SQUARE_LABEL:
             show_in(axes.yaxis, np.degrees(1) ** 2, "amplitude² / degrees²")
 

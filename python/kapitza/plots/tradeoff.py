@@ -15,6 +15,7 @@ import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from kapitza import style
@@ -66,7 +67,7 @@ def _draw_way(axes: Axes, trade: xarray.Dataset, x: np.ndarray, name: str, rows:
     height = np.where(seen, wrong, high)
     axes.plot(x[index][seen], height[seen], color=colour, lw=1.2, zorder=2)
     axes.errorbar(x[index][seen], wrong[seen], [(wrong - low)[seen], (high - wrong)[seen]], fmt=marker, color=colour, ms=5, lw=0.8,
-                  label=name, zorder=3)
+                  zorder=3)
     axes.plot(x[index][~seen], height[~seen], "v", mfc="white", mec=colour, ms=5, zorder=3)
     best = trade["pareto"].values[index] == 1
     axes.plot(x[index][best], height[best], "o", mfc="none", mec=style.INK, ms=11, mew=0.9, zorder=4)
@@ -94,7 +95,7 @@ def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, 
         axes.annotate("last place of the start", (1, floor), xycoords=("axes fraction", "data"), xytext=(-4, 3),
                       textcoords="offset points", ha="right", fontsize="small")
     axes.set(xscale="log", yscale="log", ylabel="wrong labels / %",
-             xlabel="processor seconds per million cells" if per_cell else "processor seconds for the map of this scene")
+             xlabel="processor time per million cells (s)" if per_cell else "processor time for the map of this scene (s)")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.set_major_formatter("{x:g}")
@@ -102,7 +103,9 @@ def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, 
     axes.grid(which="both", color="#e3e7eb", lw=0.6)
     axes.set_axisbelow(True)
     if legend:
-        axes.legend(fontsize="small", frameon=False)
+        looks = [(name, *WAYS.get(name, (style.FAINT, "o"))) for name in grouped(trade)]
+        handles = [Line2D([], [], color=(colours or {}).get(name, colour), marker=marker, label=name) for name, colour, marker in looks]
+        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes
 
 
@@ -110,8 +113,7 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: one panel, its legend beside it."""
     trade = result.group("tradeoff")
     figure = new_figure(7.2, 4.8)
-    axes = draw_tradeoff(figure.subplots(), trade, per_cell=arguments.per_cell, legend=False)
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside right upper", fontsize="small", frameon=False)
+    draw_tradeoff(figure.subplots(), trade, per_cell=arguments.per_cell)
     parameters = [f"{symbol} = {result.pendulum[name]:.6g}" for symbol, name in (("k", "k"), ("β", "beta"), ("m", "m"))]
     entitle(figure, result, ",  ".join(parameters), f"{int(trade.attrs['samples'])} cells compared with quad precision")
     return figure
