@@ -157,7 +157,7 @@ const kz_key kz_keys[] = {
         "basin.max_periods", 1, 4e9, "", basin.max_periods,
         "Drive periods after which a cell counts as not settled; left out: the number that the damping needs, at least 2000."),
     REAL("basin.start_phase", "rad", -1e6, 1e6, "", parameters.written.start_phase,
-         "Phase of the drive at which the cells are released; the strobe points of the file are at phase 0 as ever."),
+         "Phase of the drive at which the cells are released; the strobe points of the file are at phase 0 as always."),
     MAPPING("basin.attractors", "", KZ_NO_FIELD, "The search for attractors before the cells are labelled."),
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", basin.starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", basin.max_period, "Longest period of the search."),

@@ -31,7 +31,7 @@ kz_status kz_log_open(const char *path, FILE **log) {
     return KZ_OK;
   }
   close(file);
-  return kz_fail(KZ_REFUSED, "--log: %s: is there and no log of this program; use another name", path);
+  return kz_fail(KZ_REFUSED, "--log: %s: exists and is no log of this program; use another name", path);
 }
 
 void kz_json_text(FILE *log, const char *text) {

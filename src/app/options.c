@@ -259,9 +259,9 @@ static kz_status read_options(const kz_command *command, int argc, char **argv, 
 
 static kz_status check_operands(const kz_command *command, const kz_options *options) {
   if (options->n_operands == 0 && command->fewest > 0)
-    return kz_fail(KZ_REFUSED, "%s: names no scene; kapitza %s%s", command->name, command->name, command->operand);
+    return kz_fail(KZ_REFUSED, "%s: SCENE is missing; kapitza %s%s", command->name, command->name, command->operand);
   if (options->n_operands < command->fewest)
-    return kz_fail(KZ_REFUSED, "%s: names no start; kapitza %s%s", command->name, command->name, command->operand);
+    return kz_fail(KZ_REFUSED, "%s: the start is missing; kapitza %s%s", command->name, command->name, command->operand);
   if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; use one of them");
   return KZ_OK;
 }

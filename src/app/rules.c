@@ -32,7 +32,7 @@ static void undecided_rules(kz_reading *reading, kz_scene *scene) {
   const kz_node *node = kz_tree_find(reading->root, "basin.undecided");
   if (!scene->has_basin || scene->basin.undecided == KZ_UNDECIDED_FLAG) return;
   if (scene->basin.method != KZ_METHOD_EXACT || !isnan(scene->basin.accuracy))
-    kz_complain(reading, node, "basin.undecided", "decide is of basin.method exact alone, which says what is undecided");
+    kz_complain(reading, node, "basin.undecided", "decide needs basin.method: exact; choose that method, or flag");
   else if (kz_arbitrary_bits() < KZ_MOST_BITS)
     kz_complain(reading, node, "basin.undecided", "decide needs a build with FLINT (Arb); leave it out");
 }

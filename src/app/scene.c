@@ -33,11 +33,9 @@ static bool is_result(const char *text, size_t length) {
   return length >= sizeof signature - 1 && memcmp(text, signature, sizeof signature - 1) == 0;
 }
 
-/* Why what was read is no scene, as the end of a message; NULL where it is one. */
-static const char *not_a_scene(const char *text, size_t length, FILE *file) {
+/* Why what was read cannot be a scene, as the end of a message; else NULL. */
+static const char *not_a_scene(size_t length, FILE *file) {
   if (ferror(file)) return strerror(errno);
-  if (is_result(text, length))
-    return "is a result, not a scene; kapitza view shows it, kapitza-plot draws it, its attribute `scene` holds the scene";
   return length > MAX_BYTES ? "has more than 1000000 bytes, too many for a scene" : NULL;
 }
 
@@ -46,13 +44,16 @@ kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   KZ_TRY(open_scene(path, &file));
   *text = kz_malloc(MAX_BYTES + 2);
   *length = fread(*text, 1, MAX_BYTES + 1, file);
-  const char *wrong = not_a_scene(*text, *length, file);
+  const char *wrong = not_a_scene(*length, file);
   (*text)[*length] = '\0';
   if (file != stdin) fclose(file);
-  if (!wrong) return KZ_OK;
+  const bool result = !wrong && is_result(*text, *length);
+  if (!wrong && !result) return KZ_OK;
   free(*text);
   *text = NULL;
-  return kz_fail(KZ_REFUSED, "%s: %s", path, wrong);
+  if (wrong) return kz_fail(KZ_REFUSED, "%s: %s", path, wrong);
+  return kz_fail(KZ_REFUSED, "%s: is a result, not a scene; kapitza view %s shows it, kapitza-plot basin %s draws it", path,
+                 path, path);
 }
 
 /* Refuses an option whose key is not in the table, naming the nearest one of its mapping. */

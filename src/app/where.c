@@ -27,11 +27,18 @@ static void print_decision(const kz_ending *e) {
   putchar('\n');
 }
 
+/* The start, with a note where its angle looks like degrees. */
+static void print_start(const kz_coordinate start[2], double omega) {
+  printf("theta = %.10g (%.6g deg), velocity = %.10g", start[0].high, start[0].high * 180 / M_PI, start[1].high);
+  isnan(omega) ? puts("") : printf(" (%.6g rad/s)\n", start[1].high * omega);
+  if (fabs(start[0].high) > 4 * M_PI)
+    printf("note            an angle without a unit is in rad; write \"%.6g deg\" for degrees\n", start[0].high);
+}
+
 /* `omega`: of the pivot, rad/s; NaN where the scene is not in SI units, which are printed then too. */
 static void print_person(const kz_coordinate start[2], const kz_ending *e, double omega) {
   const bool si = !isnan(omega);
-  printf("theta = %.10g (%.6g deg), velocity = %.10g", start[0].high, start[0].high * 180 / M_PI, start[1].high);
-  si ? printf(" (%.6g rad/s)\n", start[1].high * omega) : puts("");
+  print_start(start, omega);
   if (e->attractor < 0) {
     puts("ends on         no known attractor: it has not settled");
     return;

@@ -72,8 +72,9 @@ void kz_scene_reference(const kz_key *keys, FILE *out) {
       "# The keys of a scene\n\n"
       "Every key that a scene can hold: what it accepts, its default, what it means.\n"
       "Written by `kapitza keys` from the program's own table; do not edit. `-` = may be left out and has no default.\n"
-      "Keys with a letter are ways to give the same: only those of one letter stand together, and required means within that "
-      "letter.\n\n",
+      "A letter in parentheses marks one of several ways to give the same. Use the keys of one letter only; `required` then "
+      "holds for "
+      "that letter.\n\n",
       out);
   fputs("| key | accepted | default | meaning |\n| --- | --- | --- | --- |\n", out);
   for (const kz_key *key = keys; key->path; key++) {

@@ -102,7 +102,7 @@ static const kz_variable variables[] = {
      "interpolation of the map table, which a direct label does not use",
      {KZ_INTERPOLATION_WORDS}},
     {"tradeoff", "table_nodes", KZ_INT32, {"setting"}, NONE, "nodes of the map table along each axis"},
-    {"tradeoff", "wrong", KZ_REAL, {"setting"}, NONE, "share of cells labelled unlike the reference"},
+    {"tradeoff", "wrong", KZ_REAL, {"setting"}, NONE, "share of cells whose label differs from the reference"},
     {"tradeoff", "wrong_low", KZ_REAL, {"setting"}, NONE, "lower end of its 95 % interval"},
     {"tradeoff", "wrong_high", KZ_REAL, {"setting"}, NONE, "upper end of its 95 % interval"},
     {"tradeoff", "undecided", KZ_REAL, {"setting"}, NONE, "share of cells that method exact does not decide"},

@@ -8,7 +8,7 @@
 /* What a release that takes time, by a phase or a ramp, does not go with; NULL = nothing. */
 static const char *needs_no_release(const kz_scene *scene) {
   const kz_basin_plan *plan = &scene->basin;
-  if (!scene->has_basin) return "is of the cells of study basin, which the scene has not";
+  if (!scene->has_basin) return "needs the study basin, which the scene does not have";
   if (plan->method == KZ_METHOD_ICM) return "basin.method icm interpolates from strobe to strobe; choose exact or direct";
   if (!isnan(plan->accuracy)) return "basin.accuracy compares with starts at a strobe; leave one of them out";
   if (plan->proof) return "basin.proof has bounds of whole drive periods; leave one of them out";

@@ -113,7 +113,7 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out) {
   const kz_pendulum *p = &parameters->pendulum;
   if (isnan(p->k)) return;
   if (kz_stiffness(p) > STIFFEST) {
-    fprintf(out, "at rest: not looked at, for |k| + |m| is above %g\n", STIFFEST);
+    fprintf(out, "Rest: stability is not computed, because |k| + |m| is above %g.\n", STIFFEST);
     return;
   }
   const double most = 4 * fmax(fmax(fabs(p->m), sqrt(2 * fabs(p->k))), 0.25);

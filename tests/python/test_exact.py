@@ -100,7 +100,7 @@ def test_what_is_open_is_decided_on_demand(kapitza, tmp_path):
     assert np.all(decided["evidence"][open_cells] == IN_ARBITRARY)
     assert np.array_equal(flagged["attractor"][~open_cells], decided["attractor"][~open_cells])
     refused = kapitza("check", SMALL, "--set", "basin.undecided=decide", folder=tmp_path, status=2)
-    assert "basin.undecided: decide is of basin.method exact alone" in refused.stderr
+    assert "basin.undecided: decide needs basin.method: exact; choose that method, or flag" in refused.stderr
 
 
 def test_the_former_flag_names_what_replaces_it(kapitza, tmp_path):

@@ -323,7 +323,7 @@ def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
 @pytest.mark.parametrize(("arguments", "message"), [
     (["nothing.yaml"], "nothing.yaml: cannot be read"), ([SMALL, "--port", "80"], "--port: 80 is no port"),
     ([SMALL, "--port", "8\u00b2"], "is no port"), ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is no origin"),
-    ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"), ([], "view: names no scene"),
+    ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"), ([], "view: SCENE is missing"),
 ])
 def test_what_cannot_be_opened_is_one_line(arguments, message):
     done = subprocess.run([PROGRAM, "view", *arguments, "--no-browser"], capture_output=True, text=True, timeout=60)

@@ -112,7 +112,7 @@ def test_a_scene_comes_from_standard_input(tmp_path):
 
 @pytest.mark.parametrize(("arguments", "text", "message"), [
     (["1"], "", "VELOCITY: is missing"),
-    ([], "", "where: names no start"),
+    ([], "", "where: the start is missing"),
     (["1", "2", "3"], "", "3: one argument too many"),
     (["x", "2"], "", 'THETA: "x" is not a finite decimal number'),
     (["1", "-2e9"], "", 'VELOCITY: "-2e9" is out of range'),

@@ -42,7 +42,7 @@ def main():
     parser.add_argument("--width", type=int, default=390, help="of the phone, CSS pixels")
     parser.add_argument("--pictures", type=Path, help="a folder for pictures of the pages")
     arguments = parser.parse_args()
-    pages = sorted(page.resolve() for page in arguments.site.rglob("*.html") if not page.name.startswith(("genindex", "search", "py-mod")))
+    pages = sorted(page.resolve() for page in [arguments.site / "index.html", *arguments.site.glob("[!_]*/*.html")])
     with browser(arguments.width) as driver:
         widths = {page: look(driver, page, arguments.pictures) for page in pages}
     wide = {page: width for page, width in widths.items() if width > arguments.width}

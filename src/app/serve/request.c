@@ -95,7 +95,7 @@ static kz_status check_levels(const kz_integers *levels) {
   for (int64_t i = 0; i < levels->count; i++) {
     const int64_t level = levels->values[i];
     if ((level & (level - 1)) != 0 || (i > 0 && level >= levels->values[i - 1]))
-      return kz_fail(KZ_REFUSED, "%s: levels: %lld stands where it may not; a list from 8, 4, 2, 1 in falling order", SOURCE,
+      return kz_fail(KZ_REFUSED, "%s: levels: %lld is out of place; it must be a list from 8, 4, 2, 1 in falling order", SOURCE,
                      (long long)level);
   }
   return KZ_OK;

@@ -132,7 +132,7 @@ static kz_status greet(server *s, const kz_options *options) {
   if (status == KZ_OK) status = kz_scene_of_tree(s->tree.root, &scene);
   if (status != KZ_OK) return status;
   if (!scene.has_basin)
-    status = kz_fail(KZ_REFUSED, "%s: scene: has no study basin, whose window frames begin with; add one", options->scene);
+    status = kz_fail(KZ_REFUSED, "%s: scene: has no study basin, which gives the first window; add one", options->scene);
   if (status == KZ_OK) status = kz_answer_ready(&scene);
   kz_scene_free(&scene);
   return status;

@@ -102,7 +102,7 @@ static void print(const kz_reference_labels *reference, const kz_trade *trade, F
   fprintf(
       summary,
       "one unit in the last place of the start flips %.3f %% (%.3f .. %.3f); the best in double precision is wrong in %.3f %%; "
-      "another number of steps changed %lld of %lld true labels\n",
+      "another number of steps changed %lld of %lld reference labels\n",
       100 * flips.share, 100 * flips.low, 100 * flips.high, 100 * trade->best_wrong, (long long)sum.disagree,
       (long long)sum.asked);
 }

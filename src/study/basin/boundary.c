@@ -153,7 +153,7 @@ static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE
   KZ_TRY(kz_store_real(store, "boundary", "uncertainty_exponent_high", whole.high));
   KZ_TRY(kz_store_real(store, "boundary", "nearest", whole.near));
   if (isnan(whole.slope))
-    fprintf(summary, "boundary: too few of the pairs are uncertain to tell an exponent\n");
+    fprintf(summary, "boundary: too few pairs are uncertain for an exponent\n");
   else
     fprintf(summary, "boundary: uncertainty exponent %.4f (95 %%: %.4f to %.4f) over distances from %.0e to %.0e rad\n",
             whole.slope, whole.low, whole.high, whole.near, whole.far);
