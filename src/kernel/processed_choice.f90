@@ -7,7 +7,7 @@ module kz_kernel_processed_choice
   use kz_kernel_flows, only: make_processed_flow
   use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_lanes_schemes, only: PROCESSED_ROW
-  use kz_model_pendulum, only: pendulum_t, stiffness, is_sine
+  use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_lanes_step_table, only: numerics_t
   use kz_extended_probes, only: probes_t, make_probes
   use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
@@ -47,7 +47,6 @@ contains
 
     status = REFUSED
     error = huge(error)
-    if (is_sine(pendulum) == 0) return
     if (pendulum%beta > MOST_DAMPING .or. out_of_reach(pendulum, fastest)) return
     call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
     call ieee_set_halting_mode(ieee_usual, .false.)

@@ -6,7 +6,7 @@ module kz_model_pendulum
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
-  public :: pendulum_t, stiffness, exact_stiffness, is_mirrored, is_sine, highest_harmonic, acceleration, force_at, force_series, &
+  public :: pendulum_t, is_same, stiffness, exact_stiffness, is_mirrored, is_sine, highest_harmonic, acceleration, force_at, force_series, &
             force_of_parameters, sine_force, MOST_HARMONICS
 
   integer, parameter :: qp = real128, ld = c_long_double
@@ -58,6 +58,17 @@ contains
 
     parts = [1.0_c_double, -cos(2*real(PI, c_double)*turn)]
   end function force_of_parameters
+
+  !> Whether two pendulums are the same numbers.
+  pure function is_same(one, other) result(same)
+    !> a pendulum
+    type(pendulum_t), intent(in) :: one
+    !> a pendulum
+    type(pendulum_t), intent(in) :: other
+    logical :: same
+
+    same = all(transfer(one, [0_c_int32_t]) == transfer(other, [0_c_int32_t])) ! to the bit
+  end function is_same
 
   !> A bound of |a(t)| + |b(t)| + |torque|.
   pure function stiffness(pendulum) bind(C, name='kz_stiffness') result(bound)

@@ -10,7 +10,7 @@ module kz_labels_levels
   use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
   use kz_lanes_map, only: flow_t
   use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
-  use kz_model_pendulum, only: is_sine, pendulum_t
+  use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
@@ -117,7 +117,7 @@ contains
     logical :: is_served
     integer :: n
 
-    is_served = pendulum%beta <= MOST_DAMPING .and. is_sine(pendulum) /= 0
+    is_served = pendulum%beta <= MOST_DAMPING
     n = FEWEST_FINE_STEPS
     if (numerics%scheme == PROCESSED_ROW) n = max(n, 2*int(0.82_dp*numerics%steps_per_period))
     do

@@ -10,7 +10,7 @@ module kz_extended_pairs
   use kz_extended_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
-  use kz_model_pendulum, only: pendulum_t, is_sine
+  use kz_model_pendulum, only: pendulum_t
   use kz_extended_probes, only: probes_t, make_probes
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, PI => PI_QUAD, TAYLOR_STEPS
   implicit none
@@ -68,7 +68,7 @@ contains
     pairs%error = ROUNDING
     n = 0
     allocate (levels(0:MOST_LEVELS))
-    if (pendulum%beta <= MOST_DAMPING .and. is_sine(pendulum) /= 0) then
+    if (pendulum%beta <= MOST_DAMPING) then
       call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
       call ieee_set_halting_mode(ieee_usual, .false.)
       if (.not. allocated(shared%series)) then

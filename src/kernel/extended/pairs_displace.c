@@ -42,11 +42,13 @@ void kz_pairs_displace(const kz_displacement *d, int64_t n, kz_pair_lanes *lanes
         cosine = subtract(loose_product(cosine, cosine_1), loose_product(former, sine_1));
       }
       const int64_t degree = 2 * (KZ_HALF_ORDER - (j > 1 ? j : 1));
-      const pair factor[2] = {sine, multiply(cosine, v)};
-      for (int64_t x = 0; x < 2; x++)
-        for (int64_t odd = 0; odd < 2; odd++)
-          shift[x] = add_powers(shift[x], (degree - odd) / 2 + 1, d->pairs[x][j][odd], d->coefficient[x][j][odd][0],
-                                factor[odd], square);
+      for (int64_t part = 0; part < d->parts; part++) {
+        const pair factor[2] = {part ? cosine : sine, multiply(part ? sine : cosine, v)};
+        for (int64_t x = 0; x < 2; x++)
+          for (int64_t odd = 0; odd < 2; odd++)
+            shift[x] = add_powers(shift[x], (degree - odd) / 2 + 1, d->pairs[part][x][j][odd],
+                                  d->coefficient[part][x][j][odd][0], factor[odd], square);
+      }
     }
     const pair moved[2] = {add(u, shift[0]), add(v, shift[1])};
     for (int x = 0; x < 2; x++) *state[x][0] = moved[x].high, *state[x][1] = moved[x].low;

@@ -42,8 +42,9 @@ module kz_extended_pairs_level
 
   !> kz_displacement of pairs.h.
   type, bind(C) :: displacement_t
-    real(c_double) :: coefficient(2, 0:HALF - 1, 2, 0:HALF - 1, 2) = 0
-    integer(c_int64_t) :: pairs(2, 0:HALF - 1, 2) = 0
+    real(c_double) :: coefficient(2, 0:HALF - 1, 2, 0:HALF - 1, 2, 2) = 0
+    integer(c_int64_t) :: pairs(2, 0:HALF - 1, 2, 2) = 0
+    integer(c_int64_t) :: parts = 1
     real(c_double) :: sine(2, N_SINE) = 0
     integer(c_int64_t) :: sine_pairs = 0
   end type displacement_t
@@ -56,6 +57,7 @@ module kz_extended_pairs_level
     integer :: n_drift = 0
     integer :: n_kick = 0
     integer :: n_pairs = 0
+    logical :: mirrored = .true.
     real(c_double), allocatable :: row(:, :)
     integer(c_int32_t), allocatable :: ordered(:) !< (n_steps): pairs.h
     real(c_double) :: decay(2) = 0
@@ -65,8 +67,9 @@ module kz_extended_pairs_level
 
   interface
     !> pairs.h
-    subroutine pairs_stages(n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
+    subroutine pairs_stages(mirrored, n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
       import :: c_double, c_int32_t, c_int64_t, pair_lanes_t, WIDTH
+      integer(c_int32_t), value :: mirrored
       integer(c_int64_t), value :: n_stages
       integer(c_int64_t), value :: n_drift
       integer(c_int64_t), value :: n_kick
@@ -125,30 +128,52 @@ contains
     !> the tables; the error is still to be measured
     type(level_t), intent(out) :: level
     type(processed_t) :: table
-    integer :: s, j, n
+    integer :: j, n, half, part
 
     call make_processed(pendulum, series, n_steps, MOST_PAIR_DRIFTS, n_kick, fastest, table)
+    level%mirrored = table%mirrored
     level%fastest = fastest
     level%n_steps = n_steps
     level%n_drift = table%n_drift
     level%n_kick = n_kick
-    n = table%n_drift
-    level%n_pairs = min(n_kick - 1, number_of_pairs([(n_steps*maxval(abs(table%row(n + j, :))), j=1, n_kick)], tolerance))
-    allocate (level%row(n + 1 + n_kick + level%n_pairs, n_steps + 1), level%ordered(n_steps))
-    level%row = 0
-    do s = 1, n_steps
-      call set_drift(table%row(:n, s), level%row(:, s))
-      do j = 1, level%n_pairs
-        level%row(n + 2*j:n + 2*j + 1, s) = pair_of(table%row(n + j, s))
-      end do
-      level%ordered(s) = merge(1_c_int32_t, 0_c_int32_t, all([(is_ordered(table%row(n + j:, s)), j=1, level%n_pairs)]))
-      level%row(n + 2*level%n_pairs + 2:, s) = real(table%row(n + level%n_pairs + 1:, s), c_double)
+    n = table%n_drift + n_kick
+    do part = 0, ubound(table%row, 1)/n - 1
+      level%n_pairs = max(level%n_pairs, min(n_kick - 1, number_of_pairs( &
+                      [(n_steps*maxval(abs(table%row(part*n + table%n_drift + j, :))), j=1, n_kick)], tolerance)))
     end do
-    call set_drift(table%last, level%row(:, n_steps + 1))
+    half = n + 1 + level%n_pairs
+    allocate (level%row(half*ubound(table%row, 1)/n, n_steps + 1), level%ordered(n_steps))
+    level%row = 0
+    level%ordered = 0
+    do part = 0, ubound(table%row, 1)/n - 1
+      call set_rows(table%row(part*n + 1:(part + 1)*n, :), table%last(part*table%n_drift + 1:(part + 1)*table%n_drift), part == 0, &
+                    level, level%row(part*half + 1:(part + 1)*half, :))
+    end do
     level%decay = pair_of(table%decay)
     call set_displacement(table%to_kernel, fastest, tolerance, level%to_kernel)
     call set_displacement(table%from_kernel, fastest, tolerance, level%from_kernel)
   end subroutine make_level
+
+  !> The odd or the even coefficients of all stages; whether kicks are ordered, of the odd ones.
+  subroutine set_rows(exact, last, odd, level, row)
+    real(qp), intent(in) :: exact(:, :)
+    real(qp), intent(in) :: last(:)
+    logical, intent(in) :: odd
+    type(level_t), intent(inout) :: level
+    real(c_double), intent(inout) :: row(:, :)
+    integer :: s, j, n
+
+    n = level%n_drift
+    do s = 1, level%n_steps
+      call set_drift(exact(:n, s), row(:, s))
+      do j = 1, level%n_pairs
+        row(n + 2*j:n + 2*j + 1, s) = pair_of(exact(n + j, s))
+      end do
+      if (odd) level%ordered(s) = merge(1_c_int32_t, 0_c_int32_t, all([(is_ordered(exact(n + j:, s)), j=1, level%n_pairs)]))
+      row(n + 2*level%n_pairs + 2:, s) = real(exact(n + level%n_pairs + 1:, s), c_double)
+    end do
+    call set_drift(last, row(:, level%n_steps + 1))
+  end subroutine set_rows
 
   !> Whether the first coefficient is at least as large as the others together, with a margin for their rounding.
   pure logical function is_ordered(c)
@@ -180,14 +205,18 @@ contains
     real(c_double), intent(in) :: tolerance
     type(displacement_t), intent(out) :: displacement
     real(qp) :: largest
-    integer :: j
+    integer :: j, part
 
-    do j = 0, HALF - 1
-      call set_harmonic(processor%theta(j, :ORDER - 2*max(j, 1)), displacement%coefficient(:, :, :, j, 1), displacement%pairs(:, j, 1))
-      call set_harmonic(processor%velocity(j, :ORDER - 2*max(j, 1)), displacement%coefficient(:, :, :, j, 2), &
-                        displacement%pairs(:, j, 2))
+    displacement%parts = merge(1, 2, processor%mirrored)
+    do part = 1, int(displacement%parts)
+      do j = 0, HALF - 1
+        call set_harmonic(processor%theta(j, :ORDER - 2*max(j, 1), part), displacement%coefficient(:, :, :, j, 1, part), &
+                          displacement%pairs(:, j, 1, part))
+        call set_harmonic(processor%velocity(j, :ORDER - 2*max(j, 1), part), displacement%coefficient(:, :, :, j, 2, part), &
+                          displacement%pairs(:, j, 2, part))
+      end do
     end do
-    largest = sum(abs(displacement%coefficient(1, 0, :, :, :)))
+    largest = sum(abs(displacement%coefficient(1, 0, :, :, :, :)))
     do j = 1, N_SINE
       displacement%sine(:, j) = pair_of(SINE_COEFFICIENTS(j))
     end do
@@ -219,7 +248,7 @@ contains
     real(c_double), intent(out) :: turns(WIDTH)
 
     call pairs_displace(level%to_kernel, int(n, c_int64_t), lanes)
-    call pairs_stages(int(level%n_steps, c_int64_t), int(level%n_drift, c_int64_t), int(level%n_kick, c_int64_t), &
+    call pairs_stages(merge(1_c_int32_t, 0_c_int32_t, level%mirrored), int(level%n_steps, c_int64_t), int(level%n_drift, c_int64_t), int(level%n_kick, c_int64_t), &
                       int(level%n_pairs, c_int64_t), level%row, level%ordered, level%decay, int(n, c_int64_t), lanes, turns)
     call pairs_displace(level%from_kernel, int(n, c_int64_t), lanes)
   end subroutine advance_level

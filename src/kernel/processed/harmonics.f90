@@ -4,7 +4,7 @@ module kz_processed_harmonics
   use kz_processed_series_r64, only: HARMONICS
   implicit none
   private
-  public :: harmonic_polynomials
+  public :: sine_polynomials, cosine_polynomials
 
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
@@ -13,28 +13,60 @@ contains
 
   !> sin(pi j r)/(r (1 - r**2)) as polynomials in r**2 of n coefficients, interpolated at the Chebyshev nodes of [0, 1]: the
   !> kick is 0 at the two rest positions, exactly.
-  pure function harmonic_polynomials(n) result(polynomial)
+  pure function sine_polynomials(n) result(polynomial)
     !> coefficients
     integer, intent(in) :: n
     real(qp) :: polynomial(HARMONICS, n)
-    real(qp) :: node(n), difference(n), root
-    integer :: i, j, k
+    real(qp) :: node(n), root(n)
+    integer :: j
+
+    node = nodes_of(n)
+    root = sqrt(node)
+    do j = 1, HARMONICS
+      polynomial(j, :) = through(node, sin(PI*j*root)/(root*(1 - node)))
+    end do
+  end function sine_polynomials
+
+  !> cos(pi j r) as polynomials in r**2 of n coefficients, interpolated likewise.
+  pure function cosine_polynomials(n) result(polynomial)
+    !> coefficients
+    integer, intent(in) :: n
+    real(qp) :: polynomial(0:HARMONICS, n)
+    real(qp) :: node(n)
+    integer :: j
+
+    node = nodes_of(n)
+    do j = 0, HARMONICS
+      polynomial(j, :) = through(node, cos(PI*j*sqrt(node)))
+    end do
+  end function cosine_polynomials
+
+  !> The Chebyshev nodes of [0, 1].
+  pure function nodes_of(n) result(node)
+    integer, intent(in) :: n
+    real(qp) :: node(n)
+    integer :: i
 
     node = [(0.5_qp*(1 + cos(PI*(2*i - 1)/(2*n))), i=1, n)]
-    do j = 1, HARMONICS
-      do i = 1, n
-        root = sqrt(node(i))
-        difference(i) = sin(PI*j*root)/(root*(1 - node(i)))
-      end do
-      do k = 1, n - 1
-        difference(k + 1:) = (difference(k + 1:) - difference(k:n - 1))/(node(k + 1:) - node(:n - k))
-      end do
-      polynomial(j, :) = 0
-      do k = n, 1, -1
-        polynomial(j, 2:) = polynomial(j, :n - 1) - node(k)*polynomial(j, 2:)
-        polynomial(j, 1) = difference(k) - node(k)*polynomial(j, 1)
-      end do
+  end function nodes_of
+
+  !> The polynomial with these values, by divided differences.
+  pure function through(node, value) result(polynomial)
+    real(qp), intent(in) :: node(:)
+    real(qp), intent(in) :: value(:)
+    real(qp) :: polynomial(size(node)), difference(size(node))
+    integer :: k, n
+
+    n = size(node)
+    difference = value
+    do k = 1, n - 1
+      difference(k + 1:) = (difference(k + 1:) - difference(k:n - 1))/(node(k + 1:) - node(:n - k))
     end do
-  end function harmonic_polynomials
+    polynomial = 0
+    do k = n, 1, -1
+      polynomial(2:) = polynomial(:n - 1) - node(k)*polynomial(2:)
+      polynomial(1) = difference(k) - node(k)*polynomial(1)
+    end do
+  end function through
 
 end module kz_processed_harmonics

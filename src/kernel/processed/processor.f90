@@ -33,8 +33,12 @@ contains
       cosine_j(i) = 1
     end do
     do j = 0, HARMONICS
-      call add_harmonic(processor%theta(j, :), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_u)
-      call add_harmonic(processor%velocity(j, :), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_v)
+      call add_harmonic(processor%theta(j, :, 1), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_u)
+      call add_harmonic(processor%velocity(j, :, 1), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_v)
+      if (.not. processor%mirrored) then
+        call add_harmonic(processor%theta(j, :, 2), ORDER - 2*max(j, 1), n, cosine_j, sine_j, v, square, shift_u)
+        call add_harmonic(processor%velocity(j, :, 2), ORDER - 2*max(j, 1), n, cosine_j, sine_j, v, square, shift_v)
+      end if
       do i = 1, n
         former = sine_j(i)
         sine_j(i) = former*cosine_1(i) + cosine_j(i)*sine_1(i)
@@ -106,8 +110,12 @@ contains
     by_v = 0
     do j = 0, HARMONICS
       call sine_and_cosine(1, [j*u], s, c)
-      theta = slopes(processor%theta(j, :), j, s(1), c(1), v)
-      velocity = slopes(processor%velocity(j, :), j, s(1), c(1), v)
+      theta = slopes(processor%theta(j, :, 1), j, s(1), c(1), v, 0)
+      velocity = slopes(processor%velocity(j, :, 1), j, s(1), c(1), v, 0)
+      if (.not. processor%mirrored) then
+        theta = theta + slopes(processor%theta(j, :, 2), j, s(1), c(1), v, 1)
+        velocity = velocity + slopes(processor%velocity(j, :, 2), j, s(1), c(1), v, 1)
+      end if
       by_u = by_u + [theta(1), velocity(1)]
       by_v = by_v + [theta(2), velocity(2)]
     end do
@@ -115,22 +123,23 @@ contains
     derivative(2, :) = [by_u(2)/PI, 1 + by_v(2)]
   end function change_derivative
 
-  !> Derivatives by u and by v of a harmonic: sin(pi j u) (even powers of v) + cos(pi j u) (odd powers).
-  pure function slopes(coefficient, j, s, c, v) result(slope)
+  !> Derivatives by u and by v of a harmonic: sin(pi j u) (even powers of v) + cos(pi j u) (odd powers), or the other way round (odd = 1).
+  pure function slopes(coefficient, j, s, c, v, odd) result(slope)
     real(rk), intent(in) :: coefficient(0:)
     integer, intent(in) :: j
     real(rk), intent(in) :: s
     real(rk), intent(in) :: c
     real(rk), intent(in) :: v
+    integer, intent(in) :: odd
     real(rk) :: slope(2)
     integer :: n
 
     slope = 0
     do n = 0, ubound(coefficient, 1)
-      if (mod(n, 2) == 0) then
+      if (mod(n + odd, 2) == 0) then
         slope = slope + coefficient(n)*[j*c*v**n/INVERSE_PI, n*s*v**max(n - 1, 0)]
       else
-        slope = slope + coefficient(n)*[-j*s*v**n/INVERSE_PI, n*c*v**(n - 1)]
+        slope = slope + coefficient(n)*[-j*s*v**n/INVERSE_PI, n*c*v**max(n - 1, 0)]
       end if
     end do
   end function slopes

@@ -1,6 +1,7 @@
 /* The inner loop of the processed splitting. Written with the compilers' vector types because gfortran does not keep the states
  * in registers (1.5 times slower). Several vectors at once hide the latency of the arithmetic. Operations per lane and kick: a
- * drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2). */
+ * drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2); without mirror symmetry even
+ * polynomials too (n_drift, n_kick). */
 #include "stages.h"
 
 #include <stdbool.h>
@@ -19,34 +20,50 @@ typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(d
 
 typedef float narrow __attribute__((vector_size(VECTOR_BYTES / 2), aligned(sizeof(float)), may_alias));
 
-/* keep: into kept go the squares of the reduced angles at each kick, KZ_LANES a stage. */
-static inline __attribute__((always_inline)) void block(int n_drift, int n_kick, int64_t n_stages, const double *restrict row,
-                                                        vector *u, vector *v, bool keep, float *restrict kept) {
+/* c[0] + c[1] q + .. */
+static inline __attribute__((always_inline)) void polynomial(int n, const double *c, const vector *q, vector *p) {
+  EACH p[i] = c[n - 1] + (vector){0};
+  for (int j = n - 2; j >= 0; j--) EACH p[i] = p[i] * q[i] + c[j];
+}
+
+/* keep: into kept go the squares of the reduced angles at each kick, or the angles, KZ_LANES a stage. */
+static inline __attribute__((always_inline)) void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages,
+                                                        const double *restrict row, vector *u, vector *v, bool keep,
+                                                        float *restrict kept) {
   vector a[CHAINS], b[CHAINS], r[CHAINS], q[CHAINS], p[CHAINS];
+  const int n = n_drift + n_kick;
   EACH a[i] = u[i];
   EACH b[i] = v[i];
-  for (int64_t s = 0; s < n_stages; s++, row += n_drift + n_kick) {
+  for (int64_t s = 0; s < n_stages; s++, row += mirrored ? n : 2 * n) {
     EACH q[i] = b[i] * b[i];
-    EACH p[i] = row[n_drift - 1] + (vector){0};
-    for (int j = n_drift - 2; j >= 0; j--) EACH p[i] = p[i] * q[i] + row[j];
+    polynomial(n_drift, row, q, p);
     EACH a[i] += p[i] * b[i];
+    if (!mirrored) {
+      polynomial(n_drift, row + n, q, p);
+      EACH a[i] += p[i];
+    }
     EACH r[i] = a[i] - ((a[i] + round_to_even) - round_to_even);
     EACH q[i] = r[i] * r[i];
     if (keep) {
-      EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(q[i], narrow);
+      EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(mirrored ? q[i] : r[i], narrow);
       kept += KZ_LANES;
     }
     EACH p[i] = row[n_drift + n_kick - 1] * q[i] + row[n_drift + n_kick - 2];
     for (int j = n_kick - 3; j >= 0; j--) EACH p[i] = p[i] * q[i] + row[n_drift + j];
     EACH r[i] -= r[i] * q[i];
     EACH b[i] -= r[i] * p[i];
+    if (!mirrored) {
+      polynomial(n_kick, row + n + n_drift, q, p);
+      EACH b[i] -= p[i];
+    }
   }
   EACH u[i] = a[i];
   EACH v[i] = b[i];
 }
 
-#define ALL(D, K) \
-  for (int64_t i = 0; i < n; i += CHAINS * LANES) block(D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), KEEP)
+#define ALL(D, K)                                 \
+  for (int64_t i = 0; i < n; i += CHAINS * LANES) \
+  block(MIRRORED, D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), KEEP)
 #ifdef __SANITIZE_ADDRESS__ /* one body for all lengths: the checks of 32 take a minute to compile */
 #define RUN ALL(n_drift, n_kick);
 #else
@@ -59,10 +76,11 @@ static inline __attribute__((always_inline)) void block(int n_drift, int n_kick,
   switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
 #endif
 
-void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v,
-                        float *squares) {
-  if (squares) {
-#define KEEP true, squares + i
+static void run_mirrored(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v,
+                         float *kept) {
+#define MIRRORED true
+  if (kept) {
+#define KEEP true, kept + i
     RUN
 #undef KEEP
   } else {
@@ -70,4 +88,25 @@ void kz_processed_kicks(int32_t n_drift, int32_t n_kick, int64_t n_stages, const
     RUN
 #undef KEEP
   }
+#undef MIRRORED
+}
+
+static void run_any(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v,
+                    float *kept) {
+#define MIRRORED false
+  if (kept) {
+#define KEEP true, kept + i
+    RUN
+#undef KEEP
+  } else {
+#define KEEP false, 0
+    RUN
+#undef KEEP
+  }
+#undef MIRRORED
+}
+
+void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
+                        double *u, double *v, float *kept) {
+  (mirrored ? run_mirrored : run_any)(n_drift, n_kick, n_stages, row, n, u, v, kept);
 }

@@ -15,14 +15,15 @@ module kz_processed_stages
   !> The tables of a period, and what its tangents take.
   type :: stages_t
     type(processed_t) :: table
-    real(c_float), allocatable :: slope(:, :)   !< (1 + TERMS, steps): a drift, and the slope of a kick
-    real(c_float), allocatable :: squares(:, :) !< (WIDTH, steps): of the reduced angles of the last period
+    real(c_float), allocatable :: slope(:, :) !< (1 + 2*TERMS, steps): a drift, and the slope of a kick
+    real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): of the last period, stages.h
   end type stages_t
 
   interface
-    !> The stages of a period for the lanes 1 .. n, or some more; the squares of the reduced angles, if asked (stages.c).
-    subroutine run_stages(n_drift, n_kick, n_stages, row, n, u, v, squares) bind(C, name='kz_processed_kicks')
+    !> The stages of a period for the lanes 1 .. n, or some more; the reduced angles or their squares, if asked (stages.c).
+    subroutine run_stages(mirrored, n_drift, n_kick, n_stages, row, n, u, v, kept) bind(C, name='kz_processed_kicks')
       import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
+      integer(c_int32_t), value :: mirrored
       integer(c_int32_t), value :: n_drift
       integer(c_int32_t), value :: n_kick
       integer(c_int64_t), value :: n_stages
@@ -30,17 +31,18 @@ module kz_processed_stages
       integer(c_int64_t), value :: n
       real(c_double), intent(inout) :: u(WIDTH)
       real(c_double), intent(inout) :: v(WIDTH)
-      real(c_float), intent(out), optional :: squares(WIDTH, *)
+      real(c_float), intent(out), optional :: kept(WIDTH, *)
     end subroutine run_stages
 
     !> The derivative from them (tangents.c).
-    subroutine run_tangents(n_stages, row, last, decay, squares, n, c) bind(C, name='kz_processed_tangents')
-      import :: c_float, c_int64_t, WIDTH
+    subroutine run_tangents(mirrored, n_stages, row, last, decay, kept, n, c) bind(C, name='kz_processed_tangents')
+      import :: c_float, c_int32_t, c_int64_t, WIDTH
+      integer(c_int32_t), value :: mirrored
       integer(c_int64_t), value :: n_stages
       real(c_float), intent(in) :: row(*)
       real(c_float), value :: last
       real(c_float), value :: decay
-      real(c_float), intent(in) :: squares(WIDTH, *)
+      real(c_float), intent(in) :: kept(WIDTH, *)
       integer(c_int64_t), value :: n
       real(c_float), intent(out) :: c(WIDTH, 4)
     end subroutine run_tangents
@@ -54,19 +56,24 @@ contains
     type(processed_t), intent(in) :: table
     !> the stages
     type(stages_t), intent(out) :: stages
-    integer :: i
+    integer :: i, n
 
     stages%table = table
-    allocate (stages%slope(1 + TERMS, table%n_steps), stages%squares(WIDTH, table%n_steps))
+    n = table%n_drift + table%n_kick
+    allocate (stages%slope(1 + 2*TERMS, table%n_steps), stages%kept(WIDTH, table%n_steps))
+    stages%slope(TERMS + 2:, :) = 0
     do i = 1, table%n_steps
       stages%slope(1, i) = real(table%row(1, i), c_float)
-      stages%slope(2:, i) = real(slope_of(table%row(table%n_drift + 1:, i)), c_float)
+      stages%slope(2:TERMS + 1, i) = real(slope_of(table%row(table%n_drift + 1:n, i), .true.), c_float)
+      if (.not. table%mirrored) stages%slope(TERMS + 2:, i) = real(slope_of(table%row(n + table%n_drift + 1:, i), .false.), c_float)
     end do
   end subroutine make_stages
 
-  !> The derivative (1 - 3 q) C + 2 q (1 - q) C' of a kick (r - r**3) C(q), q = r**2, interpolated at the Chebyshev nodes of [0, 1].
-  pure function slope_of(kick) result(slope)
+  !> The derivative (1 - 3 q) C + 2 q (1 - q) C' of a kick (r - r**3) C(q), q = r**2, interpolated at the Chebyshev nodes of [0, 1]; or 2 C',
+  !> which is that of an even kick C(q) over r.
+  pure function slope_of(kick, odd) result(slope)
     real(rk), intent(in) :: kick(:)
+    logical, intent(in) :: odd
     real(rk) :: slope(TERMS)
     real(rk) :: node(TERMS), value(TERMS), c, derivative
     integer :: i, j
@@ -79,7 +86,7 @@ contains
         derivative = derivative*node(i) + c
         c = c*node(i) + kick(j)
       end do
-      value(i) = (1 - 3*node(i))*c + 2*node(i)*(1 - node(i))*derivative
+      value(i) = merge((1 - 3*node(i))*c + 2*node(i)*(1 - node(i))*derivative, 2*derivative, odd)
     end do
     do j = 1, TERMS - 1 ! divided differences
       value(j + 1:) = (value(j + 1:) - value(j:TERMS - 1))/(node(j + 1:) - node(:TERMS - j))
@@ -107,9 +114,9 @@ contains
     integer(c_int64_t) :: steps
 
     steps = self%table%n_steps
-    call move_stages(self%table, n, u, v, self%squares)
-    call run_tangents(steps, self%slope, real(self%table%last(1), c_float), real(self%table%decay, c_float), self%squares, &
-                      int(n, c_int64_t), c)
+    call move_stages(self%table, n, u, v, self%kept)
+    call run_tangents(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), steps, self%slope, real(self%table%last(1), c_float), &
+                      real(self%table%decay, c_float), self%kept, int(n, c_int64_t), c)
     tangent(:n, 1) = c(:n, 1)
     tangent(:n, 2) = PI*c(:n, 2)
     tangent(:n, 3) = (1/PI)*c(:n, 3)
@@ -131,25 +138,31 @@ contains
   end subroutine advance_stages
 
   !> The stages, the last drift, and the velocity itself again.
-  subroutine move_stages(table, n, u, v, squares)
+  subroutine move_stages(table, n, u, v, kept)
     type(processed_t), intent(in) :: table
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH)
     real(rk), intent(inout) :: v(WIDTH)
-    real(c_float), intent(out), optional :: squares(WIDTH, *)
-    real(rk) :: step(WIDTH)
+    real(c_float), intent(out), optional :: kept(WIDTH, *)
+    real(rk) :: step(WIDTH), even(WIDTH)
     integer :: i, j
 
-    call run_stages(int(table%n_drift, c_int32_t), int(table%n_kick, c_int32_t), int(table%n_steps, c_int64_t), table%row, &
-                    int(n, c_int64_t), u, v, squares)
+    call run_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_drift, c_int32_t), int(table%n_kick, c_int32_t), &
+                    int(table%n_steps, c_int64_t), table%row, int(n, c_int64_t), u, v, kept)
     step(:n) = table%last(table%n_drift)
     do j = table%n_drift - 1, 1, -1
       do i = 1, n
         step(i) = step(i)*v(i)**2 + table%last(j)
       end do
     end do
+    even(:n) = 0
+    if (.not. table%mirrored) then
+      do j = 2*table%n_drift, table%n_drift + 1, -1
+        even(:n) = even(:n)*v(:n)**2 + table%last(j)
+      end do
+    end if
     do i = 1, n
-      u(i) = u(i) + v(i)*step(i)
+      u(i) = u(i) + v(i)*step(i) + even(i)
       v(i) = table%decay*v(i)
     end do
   end subroutine move_stages
@@ -166,13 +179,15 @@ contains
     real(rk), intent(in) :: start_v(n)
     !> columns of the tangent map, lane by lane
     real(rk), intent(inout) :: c(WIDTH, 2, 2)
-    real(rk), dimension(n) :: u, v, r, q, kick, slope
-    integer :: s, j
+    real(rk), dimension(n) :: u, v, r, q, kick, slope, even, even_slope
+    integer :: s, j, m
 
+    m = self%table%n_drift + self%table%n_kick
     u = start_u
     v = start_v
     do s = 1, self%table%n_steps
       call drift_tangent(self%table%row(:self%table%n_drift, s), n, u, v, c)
+      if (.not. self%table%mirrored) call even_drift_tangent(self%table%row(m + 1:m + self%table%n_drift, s), n, u, v, c)
       r = u - 2*((0.5_rk*u + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
       q = r*r
       kick = 0
@@ -183,10 +198,21 @@ contains
       end do
       v = v - (r - r*q)*kick
       slope = (1 - 3*q)*kick + 2*q*(1 - q)*slope
+      if (.not. self%table%mirrored) then
+        even = 0
+        even_slope = 0
+        do j = 2*m, m + self%table%n_drift + 1, -1
+          even_slope = even_slope*q + even
+          even = even*q + self%table%row(j, s)
+        end do
+        v = v - even
+        slope = slope + 2*r*even_slope
+      end if
       c(:n, 2, 1) = c(:n, 2, 1) - slope*c(:n, 1, 1)
       c(:n, 2, 2) = c(:n, 2, 2) - slope*c(:n, 1, 2)
     end do
-    call drift_tangent(self%table%last, n, u, v, c)
+    call drift_tangent(self%table%last(:self%table%n_drift), n, u, v, c)
+    if (.not. self%table%mirrored) call even_drift_tangent(self%table%last(self%table%n_drift + 1:), n, u, v, c)
     c(:n, 2, :) = self%table%decay*c(:n, 2, :)
   end subroutine tangent_stages
 
@@ -211,5 +237,28 @@ contains
     c(:n, 1, 1) = c(:n, 1, 1) + shear*c(:n, 2, 1)
     c(:n, 1, 2) = c(:n, 1, 2) + shear*c(:n, 2, 2)
   end subroutine drift_tangent
+
+  !> u += d(1) + d(2) v**2 + .. and its derivative.
+  subroutine even_drift_tangent(drift, n, u, v, c)
+    real(rk), intent(in) :: drift(:)
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: u(n)
+    real(rk), intent(in) :: v(n)
+    real(rk), intent(inout) :: c(WIDTH, 2, 2)
+    real(rk), dimension(n) :: square, step, shear
+    integer :: j
+
+    square = v*v
+    step = 0
+    shear = 0
+    do j = size(drift), 1, -1
+      step = step*square + drift(j)
+      if (j > 1) shear = shear*square + (2*j - 2)*drift(j)
+    end do
+    u = u + step
+    shear = shear*v
+    c(:n, 1, 1) = c(:n, 1, 1) + shear*c(:n, 2, 1)
+    c(:n, 1, 2) = c(:n, 1, 2) + shear*c(:n, 2, 2)
+  end subroutine even_drift_tangent
 
 end module kz_processed_stages

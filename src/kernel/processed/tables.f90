@@ -1,7 +1,7 @@
 !> The processed splitting in double precision: its series and its tables.
 module kz_processed_tables
   use, intrinsic :: iso_c_binding, only: c_double
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, is_same
   use kz_processed_series_r64, only: series_t, make_series, ORDER, HARMONICS
   use kz_processed_tables_r64, only: processed_t, processor_t, make_processed
   implicit none
@@ -13,6 +13,10 @@ module kz_processed_tables
   !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
   real(c_double), parameter, public :: MOST_DAMPING = 16/(2*3.14159265358979323846_c_double)
 
+  !> The series that was made last, and its pendulum: a scene asks for it several times.
+  type(series_t), allocatable, save :: made
+  type(pendulum_t), save :: pendulum_made
+
 contains
 
   !> The series of a pendulum, right to 1e-15 of the force itself.
@@ -22,7 +26,15 @@ contains
     !> what does not depend on the number of steps
     type(series_t), intent(out) :: series
 
-    call make_series(pendulum%k, pendulum%beta, pendulum%m, series)
+    if (allocated(made)) then
+      if (.not. is_same(pendulum, pendulum_made)) deallocate (made)
+    end if
+    if (.not. allocated(made)) then
+      allocate (made)
+      call make_series(pendulum, made)
+      pendulum_made = pendulum
+    end if
+    series = made
   end subroutine make_processed_series
 
 end module kz_processed_tables

@@ -3,8 +3,8 @@ module kz_processed_tables_r128
   use, intrinsic :: iso_c_binding, only: c_double
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use kz_model_pendulum, only: pendulum_t, exact_stiffness
-  use kz_processed_harmonics, only: harmonic_polynomials
-  use kz_processed_series_r64, only: series_r64_t => series_t, make_series_r64 => make_series, ORDER, HARMONICS
+  use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
+  use kz_processed_tables, only: series_r64_t => series_t, make_processed_series, ORDER, HARMONICS
   use kz_processed_series_r128, only: series_r128_t => series_t, make_series_r128 => make_series, EXACT => ORDER
   implicit none
   private
@@ -28,25 +28,44 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     !> what does not depend on the number of steps
     type(series_t), intent(out) :: series
-    integer, parameter :: HALF = EXACT/2
     type(series_r64_t), allocatable :: rounded
     type(series_r128_t), allocatable :: leading
 
     allocate (rounded, leading)
-    call make_series_r64(pendulum%k, pendulum%beta, pendulum%m, rounded)
-    call make_series_r128(real(pendulum%k, rk), real(pendulum%beta, rk), real(pendulum%m, rk), leading)
-    series%kick_cosine(:, :, EXACT + 1:) = rounded%kick_cosine(:, :, EXACT + 1:)
-    series%kick_sine(:, :, EXACT + 1:) = rounded%kick_sine(:, :, EXACT + 1:)
-    series%drift(:, EXACT + 1:) = rounded%drift(:, EXACT + 1:)
-    series%to_kernel(:, :, EXACT - 1:, :) = rounded%to_kernel(:, :, EXACT - 1:, :)
-    series%from_kernel(:, :, EXACT - 1:, :) = rounded%from_kernel(:, :, EXACT - 1:, :)
+    call make_processed_series(pendulum, rounded)
+    call make_series_r128(pendulum, leading)
+    series%mirrored = rounded%mirrored
+    series%times = rounded%times
+    allocate (series%kick_cosine(0:series%times, 0:HARMONICS, 2:ORDER, 2), series%kick_sine(0:series%times, 0:HARMONICS, 2:ORDER, 2), &
+              series%to_kernel(0:HARMONICS, 0:ORDER, 2:ORDER, 2, 2), series%from_kernel(0:HARMONICS, 0:ORDER, 2:ORDER, 2, 2))
+    series%kick_cosine = rounded%kick_cosine
+    series%kick_sine = rounded%kick_sine
+    series%slope = rounded%slope
+    series%drift = rounded%drift
+    series%to_kernel = rounded%to_kernel
+    series%from_kernel = rounded%from_kernel
     series%residual = rounded%residual
-    series%kick_cosine(:HALF, :HALF, :EXACT) = leading%kick_cosine
-    series%kick_sine(:HALF, :HALF, :EXACT) = leading%kick_sine
-    series%drift(:EXACT, :EXACT) = leading%drift
-    series%to_kernel(:HALF, :EXACT, :EXACT - 2, :) = leading%to_kernel(:, :, :EXACT - 2, :)
-    series%from_kernel(:HALF, :EXACT, :EXACT - 2, :) = leading%from_kernel(:, :, :EXACT - 2, :)
+    call put_exact(leading, series)
   end subroutine make_mixed_series
+
+  !> Grades up to EXACT, of a processor up to EXACT - 2, and nothing beyond what they have.
+  subroutine put_exact(leading, series)
+    type(series_r128_t), intent(in) :: leading
+    type(series_t), intent(inout) :: series
+    integer, parameter :: HALF = EXACT/2
+
+    series%kick_cosine(:, :, :EXACT, :) = 0
+    series%kick_sine(:, :, :EXACT, :) = 0
+    series%drift(:, :EXACT) = 0
+    series%to_kernel(:, :, :EXACT - 2, :, :) = 0
+    series%from_kernel(:, :, :EXACT - 2, :, :) = 0
+    series%kick_cosine(:leading%times, :HALF, :EXACT, :) = leading%kick_cosine
+    series%kick_sine(:leading%times, :HALF, :EXACT, :) = leading%kick_sine
+    series%slope(:EXACT) = leading%slope
+    series%drift(:EXACT, :EXACT) = leading%drift
+    series%to_kernel(:HALF, :EXACT, :EXACT - 2, :, :) = leading%to_kernel(:, :, :EXACT - 2, :, :)
+    series%from_kernel(:HALF, :EXACT, :EXACT - 2, :, :) = leading%from_kernel(:, :, :EXACT - 2, :, :)
+  end subroutine put_exact
 
   include 'table_procedures.inc'
 

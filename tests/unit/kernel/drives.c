@@ -60,22 +60,25 @@ static void the_equation_is_integrated(void **unused) {
   (void)unused;
   for (int which = 0; which < DRIVES; which++) {
     const kz_pendulum p = drive(which);
-    const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 192};
-    double theta[N], velocity[N], x[N], v[N], y[N], w[N];
+    const kz_numerics fine[2] = {{.scheme = kz_scheme_find("split6"), .steps_per_period = 192},
+                                 {.scheme = kz_scheme_find("processed"), .steps_per_period = 150}};
+    double theta[N], velocity[N], x[2][N], v[2][N], y[N], w[N];
     int64_t turns[N];
     kz_reference_state states[N];
     put_starts(theta, velocity, turns);
-    memcpy(x, theta, sizeof x), memcpy(v, velocity, sizeof v);
-    kz_flow *flow = kz_flow_create(&p, &fine);
-    kz_advance(flow, N, 1, x, v, turns);
-    kz_flow_free(flow);
+    for (int i = 0; i < 2; i++) {
+      memcpy(x[i], theta, sizeof theta), memcpy(v[i], velocity, sizeof velocity);
+      kz_flow *flow = kz_flow_create(&p, fine + i);
+      kz_advance(flow, N, 1, x[i], v[i], turns);
+      kz_flow_free(flow);
+    }
     kz_reference_start(N, theta, velocity, NULL, states);
     kz_reference_advance(&p, KZ_REFERENCE_STEPS, N, 1, states);
     kz_reference_read(N, states, y, w, turns);
     for (int i = 0; i < N; i++) {
       integrate(&p, 0, 2 * acosl(-1), theta + i, velocity + i);
       assert_true(between(y[i], theta[i]) < 1e-11 && fabs(w[i] - velocity[i]) < 1e-11);
-      assert_true(between(x[i], y[i]) < 1e-11 && fabs(v[i] - w[i]) < 1e-11);
+      for (int j = 0; j < 2; j++) assert_true(between(x[j][i], y[i]) < 1e-11 && fabs(v[j][i] - w[i]) < 1e-11);
     }
   }
 }
@@ -83,19 +86,19 @@ static void the_equation_is_integrated(void **unused) {
 /* Without a torque and a horizontal drive the mirror image is a motion, to the bit; with them it is none. */
 static void symmetry_is_told(void **unused) {
   (void)unused;
-  for (int which = 0; which < DRIVES; which++) {
-    const kz_pendulum p = drive(which);
-    const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
+  for (int i = 0; i < 2 * DRIVES; i++) {
+    const kz_pendulum p = drive(i / 2);
+    const kz_numerics numerics = {.scheme = kz_scheme_find(i % 2 ? "split6" : "processed"), .steps_per_period = 40};
     double x[N], v[N], y[N], w[N];
     int64_t turns[N];
     put_starts(x, v, turns);
-    for (int i = 0; i < N; i++) y[i] = -x[i], w[i] = -v[i];
+    for (int j = 0; j < N; j++) y[j] = -x[j], w[j] = -v[j];
     kz_flow *flow = kz_flow_create(&p, &numerics);
     kz_advance(flow, N, 3, x, v, turns);
     kz_advance(flow, N, 3, y, w, turns);
     kz_flow_free(flow);
     int mirrored = 0;
-    for (int i = 0; i < N; i++) mirrored += x[i] == -y[i] && v[i] == -w[i];
+    for (int j = 0; j < N; j++) mirrored += x[j] == -y[j] && v[j] == -w[j];
     assert_true(kz_is_mirrored(&p) ? mirrored == N : mirrored == 0);
   }
 }
@@ -104,9 +107,10 @@ static void symmetry_is_told(void **unused) {
 static void the_tangent_is_the_derivative(void **unused) {
   (void)unused;
   const double h = 1e-5;
-  for (int which = 0; which < DRIVES; which++) {
-    const kz_pendulum p = drive(which);
-    const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
+  for (int i = 0; i < 2 * DRIVES; i++) {
+    const kz_pendulum p = drive(i / 2);
+    const kz_numerics numerics = {.scheme = kz_scheme_find(i % 2 ? "split6" : "processed"),
+                                  .steps_per_period = i % 2 ? 24 : 150};
     kz_flow *flow = kz_flow_create(&p, &numerics);
     double theta = 0.7, velocity = -0.3, matrix[4], x[2] = {0.7 + h, 0.7 - h}, v[2] = {-0.3, -0.3};
     int64_t turns[2] = {0};
@@ -114,7 +118,7 @@ static void the_tangent_is_the_derivative(void **unused) {
     kz_advance(flow, 2, 1, x, v, turns);
     kz_flow_free(flow);
     assert_true(fabs((x[0] - x[1]) / (2 * h) - matrix[0]) < 1e-7 && fabs((v[0] - v[1]) / (2 * h) - matrix[2]) < 1e-7);
-    assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - exp(-2 * M_PI * p.beta)) < 1e-12);
+    assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - exp(-2 * M_PI * p.beta)) < (i % 2 ? 1e-12 : 1e-10));
   }
 }
 

@@ -132,7 +132,9 @@ static void periods_are_right(void **unused) {
   } cases[] = {{{1.0 / 121, 1.0 / 55, 0.3}, 1e-20, 6},
                {{1.0 / 121, 1.0 / 55, 0.3}, 1e-28, 2},
                {{-1, 0.1, 0.6}, 1e-24, 2},
-               {{0.1, 3, 0.5}, 1e-20, 2}};
+               {{0.1, 3, 0.5}, 1e-20, 2},
+               {{0.05, 0.1, 0.4, 0.1, {{0, 0.05}, {0.2, -0.1}}, {{0.1, 0.07}}, 2, 1}, 1e-28, 2},
+               {{.k = 0.05, .beta = 0.1, .m = 0.4, .vertical = {{0}, {0}, {-0.15, 0.1}}, .harmonics = 3}, 1e-24, 2}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     double measured;
     kz_pairs *pairs = kz_pairs_create(&cases[i].pendulum, cases[i].tolerance, cases[i].fastest, &measured);
