@@ -202,10 +202,10 @@ static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
 
 /* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
 static int32_t choose_steps(const bounds *b) {
-  const real wished = b->quads ? 1e-34L : b->pairs ? 1e-31L : 1e-16L;
+  const real target = b->quads ? 1e-34L : b->pairs ? 1e-31L : 1e-16L;
   real longest = 0;
   for (int i = 0; i < b->n_majorants; i++)
-    longest = fmaxl(longest, b->majorant[i].r * powl(wished / b->majorant[i].w, 1.0L / b->order));
+    longest = fmaxl(longest, b->majorant[i].r * powl(target / b->majorant[i].w, 1.0L / b->order));
   return longest * MOST_STEPS > 2 * M_PI ? (int32_t)(2 * M_PI / (double)longest) + 1 : 0;
 }
 

@@ -85,7 +85,7 @@ static kz_status ask_level(kz_window_labels *l, int round, asked *a, kz_cell_lab
 }
 
 /* From a level on, until each of n cells is decided, or none decides: found [n]. */
-static kz_status climb(kz_window_labels *l, int level, int round, int64_t n, int64_t *cell, kz_cell_label *found) {
+static kz_status escalate(kz_window_labels *l, int level, int round, int64_t n, int64_t *cell, kz_cell_label *found) {
   const kz_labeller labeller = kz_cells_labeller(l);
   asked a = {n, cell, kz_malloc((size_t)n * sizeof *a.place + 1)};
   kz_status status = KZ_OK;
@@ -120,7 +120,7 @@ static kz_status label_tiles(kz_window_labels *l, int level, int round, int64_t 
   KZ_TRY(kz_pending_pick(l, from, n, n, cell));
   kz_cell_label *found = kz_malloc((size_t)n * sizeof *found);
   void *record = kz_malloc(kz_tile_labels_bytes(l));
-  kz_status status = climb(l, level, round, n, cell, found);
+  kz_status status = escalate(l, level, round, n, cell, found);
   for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found, record);
   free(found);
   free(record);
