@@ -1,11 +1,8 @@
-"""scripts/plot_sweep.py: every view of a sweep, and what it says of files that lack one."""
-
-import subprocess
-import sys
+"""kapitza-plot sweep: every view of a sweep, and what it says of files that lack one."""
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import plot
 from kapitza import Result, style
 from kapitza.plots.branches import NAMED, draw_shares, stack_order
 from matplotlib.collections import FillBetweenPolyCollection
@@ -13,8 +10,9 @@ from matplotlib.figure import Figure
 
 
 def draw(path, *arguments):
-    command = [sys.executable, ROOT / "scripts" / "plot_sweep.py", path, *arguments]
-    return subprocess.run(command, cwd=path.parent, capture_output=True, text=True, timeout=120)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(path.parent)
+        return plot("sweep", path, *arguments)
 
 
 @pytest.mark.parametrize("view", ["fractions", "branches", "flutter", "releases", "strobe"])

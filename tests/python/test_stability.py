@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 import pytest
 import yaml
-from conftest import ROOT, datasets
+from conftest import ROOT, datasets, plot
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from kapitza import Result
@@ -110,8 +110,7 @@ def test_a_chart_needs_no_pendulum(kapitza, tmp_path):
         with h5py.File(tmp_path / "alone.h5") as file:
             assert "pendulum" not in file and np.array_equal(file["stability/log_multiplier"][:], one)
             alone = file.attrs["scene_resolved"]
-    script = [sys.executable, ROOT / "scripts" / "plot_stability.py", "alone.h5", "-o", "alone.png", "--dpi", "60"]
-    assert subprocess.run(script, cwd=tmp_path).returncode == 0
+    assert plot("stability", tmp_path / "alone.h5", "-o", tmp_path / "alone.png", "--dpi", "60").returncode == 0
 
 
 def test_one_value(kapitza, tmp_path):
@@ -186,22 +185,19 @@ def test_every_view_draws(kapitza, tmp_path, view):
         chart = chart.replace("min: -1, max: 4, count: 101", "min: -0.25, max: 0.25, count: 4001")
         chart = chart.replace("max: 4, count: 81", "max: 0.6, count: 40")
     run(kapitza, tmp_path, chart + VIEWS[view]).close()
-    script = [sys.executable, ROOT / "scripts" / "plot_stability.py", "chart.h5", "--view", view, "--dpi", "60"]
-    subprocess.run(script, cwd=tmp_path, check=True)
+    assert plot("stability", tmp_path / "chart.h5", "-o", tmp_path / "chart.png", "--view", view, "--dpi", "60").returncode == 0
     assert image.imread(tmp_path / "chart.png")[..., :3].std() > 0.05
 
 
 def test_view_that_the_chart_cannot_give(kapitza, tmp_path):
     run(kapitza, tmp_path, CHART).close()
-    script = [sys.executable, ROOT / "scripts" / "plot_stability.py", "chart.h5", "--view", "errors"]
-    done = subprocess.run(script, cwd=tmp_path, capture_output=True, text=True)
+    done = plot("stability", tmp_path / "chart.h5", "--view", "errors", "-o", tmp_path / "chart.png")
     assert done.returncode == 1 and done.stderr.count("\n") == 1 and "formulas" in done.stderr
 
 
 def test_potential_draws(kapitza, tmp_path):
     run(kapitza, tmp_path, PENDULUM + "potential: {drive_amplitudes: [0.05, 0.3], theta: {count: 101}}\n").close()
-    script = [sys.executable, ROOT / "scripts" / "plot_potential.py", "chart.h5", "-o", "potential.png", "--dpi", "60"]
-    subprocess.run(script, cwd=tmp_path, check=True)
+    assert plot("potential", tmp_path / "chart.h5", "-o", tmp_path / "potential.png", "--dpi", "60").returncode == 0
     assert image.imread(tmp_path / "potential.png")[..., :3].std() > 0.05
 
 

@@ -12,7 +12,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 import reference_coverage
-from conftest import PROGRAM, ROOT, datasets, runs_until_saved, saved_bytes
+from conftest import PROGRAM, ROOT, datasets, plot, runs_until_saved, saved_bytes
 from kapitza import Result
 from kapitza.layout import CODES
 from kapitza.plots.tradeoff import WAYS, way
@@ -175,9 +175,8 @@ def test_true_labels_agree_with_the_independent_judge(kapitza, tmp_path, amplitu
 
 def test_the_picture(reference, tmp_path):
     for options in ([], ["--per-cell"]):
-        done = subprocess.run([sys.executable, ROOT / "scripts" / "plot_tradeoff.py", reference, "-o", "trade.png", *options],
-                              cwd=tmp_path, capture_output=True, text=True, timeout=120)
-        assert (done.returncode, done.stdout, done.stderr) == (0, "trade.png\n", "")
+        done = plot("tradeoff", reference, "-o", tmp_path / "trade.png", *options)
+        assert (done.returncode, done.stdout, done.stderr) == (0, f"{tmp_path / 'trade.png'}\n", "")
         assert matplotlib.image.imread(tmp_path / "trade.png")[..., :3].std() > 0.05
 
 
