@@ -8,13 +8,13 @@ from conftest import datasets, run_until_saved
 SCENES = {
     # orbits take thousands of periods to settle: the search for attractors is nearly all of the work
     "weak damping": """\
-pendulum: {quality_factor: 1000, drive_frequency: 8, drive_amplitude: 0.3}
+pendulum: {quality_factor: 300, drive_frequency: 8, drive_amplitude: 0.3}
 basin:
   theta: {count: 6}
   velocity: {min: -0.5, max: 0.5, count: 6}
   icm: {theta: 100, velocity: 100}
   method: direct
-  max_periods: 40000
+  max_periods: 12000
   attractors: {starts: 64}
 """,
     "frequencies": """\
@@ -23,9 +23,9 @@ sweep:
   parameter: drive_frequency
   min: 9
   max: 13
-  count: 9
+  count: 6
   starts: 64
-  transient: 4000
+  transient: 2000
   measure: [attractors, flutter_amplitude, strobe]
 """,
     # a value of the sweep takes seconds

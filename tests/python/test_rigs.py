@@ -81,6 +81,8 @@ def test_attractors_have_mirror_images_where_the_pendulum_is_mirrored(rig):
 def test_labels_are_those_of_fine_steps(rig, kapitza, tmp_path):
     """Decided labels against integration with four times the steps, where that itself does not doubt."""
     _, name, file = rig
+    if name in ("sine", "square", "tilted", "torque"):
+        pytest.skip("quad precision judges these: verification.drives, verification.certain")
     scene = {"pendulum": {**PENDULUM, **RIGS[name][0]}, "numerics": {"scheme": "split6", "steps_per_period": 96},
              "basin": {**WINDOW, "attractors": {"starts": 256}}}
     fine = run(kapitza, tmp_path, scene)
