@@ -97,7 +97,7 @@ class Comparison:
         return table.rename(index=names[0], columns=names[1]).rename_axis(index="first", columns="second")
 
     def plot(self, **options: Any) -> "Figure":
-        """Both basins, and where they differ: a figure. Options: width (inches), centre ("down" or "inverted")."""
+        """Both basins, and where they differ: a figure. Options: width ("178mm", or inches), centre ("down" or "inverted")."""
         from kapitza.plots.compare import comparison_figure
         return comparison_figure(self, **options)
 

@@ -95,7 +95,7 @@ def check_end(status: int, errors: str, scene: Scene) -> None:
     said = [line.removeprefix(_ERROR) for line in lines if line.startswith(_ERROR)]
     text = said[-1] if said else "\n".join(lines[-5:]) or f"the program ended with status {status}"
     if status == REFUSED:
-        raise scene_error(text, scene)
+        raise scene_error(text.replace("use --force to overwrite it", "force=True overwrites it, resume=True goes on from it"), scene)
     raise RunError(text)
 
 

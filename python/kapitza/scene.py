@@ -45,6 +45,8 @@ class Scene:
             self.text = yaml.dump(texts(scene), Dumper=_Dumper)
         elif _is_text(scene):
             self.text = str(scene)
+        elif not isinstance(scene, str | os.PathLike):
+            raise TypeError(f"a scene is the path of a file, YAML text or a mapping, not {scene!r}")
         else:
             self.is_file, self.path = True, Path(scene)
             self.text = self.path.read_text(encoding="utf-8", errors="replace") if self.path.is_file() else ""

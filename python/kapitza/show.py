@@ -1,6 +1,7 @@
 """What a result says of itself in a session: a few lines, the same as HTML with a small picture, and its figures."""
 
 import base64
+import contextlib
 import html
 import io
 from collections.abc import Callable
@@ -99,4 +100,15 @@ def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "F
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
         words += [option] * bool(value) if isinstance(value, bool) else [option, str(value)]
-    return figure_on_page(result, KINDS[kind].parse_arguments(words), KINDS[kind].draw)
+    return figure_on_page(result, _parsed(KINDS[kind].parse_arguments, words), KINDS[kind].draw)
+
+
+def _parsed(parse: Callable[[list[str]], Any], words: list[str]) -> Any:
+    """The arguments of a picture; what a command line would be told, and end by, is a ValueError here."""
+    said = io.StringIO()
+    try:
+        with contextlib.redirect_stderr(said):
+            return parse(words)
+    except SystemExit as error:
+        line = said.getvalue().strip().splitlines()[-1]
+        raise ValueError(line.split("error: ", 1)[-1].replace("argument --", "")) from error

@@ -17,7 +17,7 @@ import h5py
 import numpy as np
 import pytest
 import yaml
-from conftest import ROOT, plot
+from conftest import PROGRAM, ROOT, plot
 from kapitza import Result, plots, style
 from kapitza.plots.basin import draw_basins, draw_evidence, draw_one, draw_settling_time
 from kapitza.plots.orbit_panels import draw_path, draw_phase, draw_spectrum
@@ -82,7 +82,8 @@ def test_the_sdist_has_all_that_a_build_needs(sdist):
 
 
 def test_what_pip_installs(sdist, made_file, tmp_path):
-    """The package of the sdist without the program: results lazily, no backend of its own, and the command draws what the script draws."""
+    """The package of the sdist, with the program of build/: an example, results lazily, no backend of its own, and the command draws what
+    the script draws. That pip builds the program as well is tested below."""
     place = tmp_path / "place"
     install = ["install", "--quiet", "--disable-pip-version-check", "--no-index", "--no-build-isolation", "--no-deps",
                "--config-settings=wheel.cmake=false", "--target", place]
@@ -91,6 +92,9 @@ def test_what_pip_installs(sdist, made_file, tmp_path):
     alone = os.environ | {"PYTHONPATH": str(place), "MPLBACKEND": "svg"}
     done = python("-c", USE, place, cwd=tmp_path, env=alone)
     assert done.stdout.split() == ["True", "False", "5", "False", "svg"], done.stdout + done.stderr
+    run = "import kapitza, sys; print(kapitza.run(sys.argv[1], progress=False))"
+    done = python("-c", run, ROOT / "scenes" / "small.yaml", cwd=tmp_path, env=alone | {"KAPITZA": str(PROGRAM)})
+    assert done.returncode == 0 and "rotation +1/1" in done.stdout, done.stderr
     done = subprocess.run([place / "bin" / "kapitza-plot", "basin", made_file, "-o", "one.png", "--dpi", "40"], cwd=tmp_path, env=alone,
                           capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stdout, done.stderr) == (0, "one.png\n", "")

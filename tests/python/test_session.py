@@ -55,6 +55,11 @@ def test_what_is_refused_is_named(scene, changes, key, value, place):
         assert caught.value.place and place in (None, caught.value.place) and "error:" not in str(caught.value)
 
 
+def test_what_is_no_scene_is_refused():
+    with pytest.raises(TypeError, match="a scene is the path of a file"):
+        kapitza.run(5)
+
+
 def test_files_have_their_place_and_outputs_stay(result, tmp_path):
     (tmp_path / "a.yaml").write_text("pendulum: {k: x, damping: 1, m: 1}\n")
     with pytest.raises(kapitza.SceneError) as caught:
@@ -112,6 +117,9 @@ def test_a_result_tells_what_it_holds(result):
     assert page.count("<tr>") == 1 + min(len(table), 12) and "data:image/png" in page
     with pytest.raises(KeyError, match="there are"):
         result.basin("nobody")
+    for options, words in (({"breadth": "86mm"}, "unrecognized arguments: --breadth"), ({"width": "86"}, "width: 86 is no width")):
+        with pytest.raises(ValueError, match=words):
+            result.plot(**options)
 
 
 def test_two_results_beside_each_other(result):

@@ -17,7 +17,7 @@ from kapitza import style
 from kapitza.compare import Comparison
 from kapitza.plots.basin import draw_basins, show_in_si, write_legend
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, title_text, write_picture
-from kapitza.plots.page import Page, Picture, current, drawing, lay_out
+from kapitza.plots.page import Page, Picture, current, drawing, lay_out, length
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.units import add_si, pivot_frequency
 from kapitza.result import BadFile, Result
@@ -99,9 +99,9 @@ def _difference(result: Result, comparison: Comparison) -> str:
     return ", ".join(words) or (title_text(result) if comparison.first.title != comparison.second.title else str(result.path.name))
 
 
-def comparison_figure(comparison: Comparison, width: float | None = None, centre: str = "down") -> Figure:
-    """The figure of a comparison; width: inches."""
-    page = Page(width, legend="below")
+def comparison_figure(comparison: Comparison, width: str | float | None = None, centre: str = "down") -> Figure:
+    """The figure of a comparison; width: a text such as "178mm", or inches."""
+    page = Page(length(width) if isinstance(width, str) else width, legend="below")
     with drawing(page):
         return lay_out(comparison_panels(comparison, centre))
 
