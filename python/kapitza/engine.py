@@ -1,4 +1,4 @@
-"""A resident engine: `kapitza serve`, which answers again and again without starting anew."""
+"""A resident engine: a process of `kapitza serve` that answers many requests."""
 
 import json
 import subprocess
@@ -16,7 +16,7 @@ UNSETTLED = 255  # label in an answer
 
 
 class Engine:
-    """Labels of windows of starts, of one scene's pendulum or of any other, as quickly as they can be had.
+    """A resident process that labels many windows of starts quickly, for the scene's pendulum or any other.
 
     >>> with kapitza.Engine("scenes/blackburn-fig12.yaml") as engine:
     ...     labels = engine.frame((-3.1, 3.1, -2, 2), (250, 400))
@@ -48,7 +48,7 @@ class Engine:
         return f"<kapitza.Engine of {self.ready.get('title') or 'a scene'}: {state}>"
 
     def close(self) -> None:
-        """Ends the program, which goes when nobody reads its answers any more."""
+        """Ends the process."""
         for pipe in (self._process.stdin, self._process.stdout):
             if pipe and not pipe.closed:
                 pipe.close()
@@ -77,7 +77,7 @@ class Engine:
 
     @property
     def attractors(self) -> pandas.DataFrame:
-        """The attractors that the labels of the last frame refer to, a row each; before any frame those of the scene."""
+        """The attractors that the labels of the last frame refer to, one row each. Before the first frame: those of the scene."""
         if self._attractors is None:
             self._ask({"request": "catalogue"}, None)
         assert self._attractors is not None

@@ -25,10 +25,10 @@ def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: i
     """Models every study of a scene and returns its Result.
 
     scene: path of a scene file, YAML text, or a mapping. output: the result file; None = one that lasts as long as the session.
-    ranks: MPI processes. set: keys to change, such as {"basin.theta.count": 200}. resume: go on from output's checkpoint, or take a
+    ranks: MPI processes. set: keys to change, such as {"basin.theta.count": 200}. resume: continue from output's checkpoint, or take a
     complete output of this scene as it is. progress: whether a bar shows. method: basin.method. force: overwrite output.
-    Ctrl-C stops the run and keeps what is finished in the checkpoint of `output`. Raises SceneError for what is refused before anything
-    is modelled, RunError for what fails later.
+    Ctrl-C stops the run and keeps what is finished in the checkpoint of `output`. Raises SceneError if the program refuses the scene, and
+    RunError if the run fails later.
     """
     asked = Scene(scene, set, method)
     path = Path(output) if output is not None else new_path(f"{asked.stem}.h5")
@@ -97,7 +97,7 @@ class Check:
 
 
 def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
-    """What a run of the scene would model and cost; SceneError where it would be refused. Nothing is modelled or written."""
+    """What a run of the scene would model and cost. Raises SceneError if a run would be refused. Nothing is modelled or written."""
     asked = Scene(scene, set)
     text = ask(["check", asked.path, *asked.sets], asked)
     facts = {name: value for name, value in re.findall(r"^(studies|cells|estimated time) +(.*)$", text, re.MULTILINE)}
@@ -162,7 +162,7 @@ def _attractor_id(scene: Scene, wanted: int | str) -> int:
 def sweep(scene: SceneLike, parameter: str, values: tuple[Any, Any], count: int = 50,
           measure: str | Iterable[str] = ("attractors", "basin_fractions"), *, ranks: int = 1,
           output: str | os.PathLike[str] | None = None, progress: bool = True, **keys: Any) -> Result:
-    """What becomes of the attractors while one key of the pendulum walks from values[0] to values[1], in `count` values.
+    """The attractors along one key of the pendulum, at `count` values from values[0] to values[1].
 
     measure: one or several of those of the study sweep (attractors, basin_fractions, flutter_amplitude, release_angle, strobe,
     ...); keys: its other keys, such as starts=4096. result.group("sweep") has the numbers.
