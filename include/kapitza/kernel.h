@@ -104,7 +104,7 @@ void kz_linear_floquet(int64_t n, const double *k, const double *beta, const dou
 
 /* Whole drive periods in quad precision. States in real128, moved by Taylor series of order 56
  * whose steps follow the motion; independent of the schemes above. Labels are compared with it: its error is some 1e-32 a
- * period, that of double precision 1e-16. */
+ * period, up to 1e-29 of a strong drive; that of double precision 1e-16. */
 
 /* Steps a period that cost least; any other number gives the same motion to some 1e-32 a period. */
 enum { KZ_REFERENCE_STEPS = 18 };
@@ -127,6 +127,10 @@ void kz_reference_advance(const kz_pendulum *pendulum, int32_t steps, int64_t n,
 
 /* The states rounded to doubles: theta [n] wrapped to [-pi, pi], turns [n] = net turns since kz_reference_start. */
 void kz_reference_read(int64_t n, const kz_reference_state *states, double *theta, double *velocity, int64_t *turns);
+
+/* What a period may miss with KZ_REFERENCE_STEPS, of hypot(pi, velocity) for speeds up to `fastest`: measured between two numbers of steps, with
+ * a margin. */
+double kz_reference_error(const kz_pendulum *pendulum, double fastest);
 
 /* ---- pairs ---- */
 

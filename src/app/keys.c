@@ -119,7 +119,7 @@ const kz_key kz_keys[] = {
           .words = "auto", CHOSEN),
     ROW("numerics.tolerance", KZ_KEY_REAL, "1e-12", AT(asked.tolerance),
         "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "
-        "less.",
+        "less, and method exact a tenth of it where rounding lets it.",
         .unit = "rad", .low = 1e-15, .high = 0.01, CHOSEN),
 
     ROW("basin", KZ_KEY_MAPPING, "", AT(has_basin), "Study: the attractors, then a label for every cell of a window.",

@@ -5,7 +5,7 @@ module kz_api_label
   use kz_extended_pairs, only: pair_of
   use kz_extended_taylor, only: qp, PI_QUAD
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_levels, only: prepare_level, carrier_of, noise_of, LEVEL_DOUBLE
+  use kz_labels_levels, only: prepare_level, carrier_of, noise_of, is_useful, LEVEL_DOUBLE
   use kz_labels_orbits, only: ending_t, follow_orbits, DOUBTFUL, PENDING
   use kz_lanes_map, only: PI
   use kz_maps_states, only: wrapped
@@ -101,15 +101,17 @@ contains
 
     call prepare_level(d%levels, LEVEL_DOUBLE, d%search%pendulum, d%numerics, d%flow, d%regions%top)
     now = max(level, LEVEL_DOUBLE)
+    if (.not. is_useful(d%levels, now)) ending%label = DOUBTFUL
     do
       next = merge(before, now - 1, now == level)
+      if (.not. is_useful(d%levels, next)) next = next - 1
       handover = huge(handover)
+      if (.not. any(ending%label == PENDING)) return
       call prepare_level(d%levels, now, d%search%pendulum, d%numerics, d%flow, d%regions%top)
       if (now > LEVEL_DOUBLE) then
         call prepare_level(d%levels, next, d%search%pendulum, d%numerics, d%flow, d%regions%top)
         handover = RATIO*noise_of(d%levels, next)
       end if
-      if (.not. any(ending%label == PENDING)) return
       call carrier_of(d%levels, now, d%flow, carrier)
       if (.not. allocated(place)) then
         call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, orbit, ending)

@@ -249,6 +249,7 @@ contains
     real(dp) :: noise
 
     noise = max(self%tables%error, 1e-31_dp*hypot(PI, v))
+    if (abs(v) > self%tables%fastest) noise = max(noise, self%tables%series_error*hypot(PI, v))
   end function pairs_noise
 
   subroutine quad_put(self, lane, u, v)

@@ -3,6 +3,7 @@ module kz_labels_levels
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_extended_pairs, only: pairs_t, pair_series_t, make_pairs
+  use kz_extended_probes, only: measure_quad
   use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   use kz_kernel_flows, only: make_flow
   use kz_labels_carrier, only: carrier_t, make_carrier
@@ -15,7 +16,7 @@ module kz_labels_levels
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
   private
-  public :: levels_t, carrier_of, prepare_level, noise_of
+  public :: levels_t, carrier_of, prepare_level, noise_of, is_useful
 
   !> Levels of dynamics.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
@@ -27,8 +28,6 @@ module kz_labels_levels
   real(dp), parameter :: ROUNDED = 1e-13_dp
   !> rad: of a period in pairs of doubles.
   real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 3e-29_dp]
-  !> Of a start and a period in quad precision, relative: ten times what the series misses (kernel.h).
-  real(dp), parameter :: QUAD_ERROR = 1e-31_dp
 
   type :: levels_t
     type(speed_probes_t), allocatable :: probes
@@ -37,7 +36,8 @@ module kz_labels_levels
     type(period_error_t) :: fine_error
     type(pairs_t) :: pairs(LEVEL_PAIRS_16:LEVEL_PAIRS_28)
     type(pair_series_t) :: pair_series          !< of them all
-    type(drive_t), allocatable :: drive
+    type(drive_t), allocatable :: drive         !< quad precision
+    real(dp) :: quad_error = 0                  !< of its period, of hypot(pi, v)
   end type levels_t
 
 contains
@@ -74,6 +74,7 @@ contains
       if (.not. allocated(levels%drive)) then
         allocate (levels%drive)
         call make_drive(levels%drive, pendulum, TAYLOR_STEPS)
+        levels%quad_error = measure_quad(levels%drive, fastest)
       end if
     end select
     call ieee_set_flag(ieee_usual, .false.)
@@ -147,6 +148,17 @@ contains
     end select
   end function noise_of
 
+  !> Whether a level gains so much on the next cheaper one that it pays: the one with more steps may not.
+  pure logical function is_useful(levels, level)
+    !> of a pendulum; LEVEL_DOUBLE has been prepared
+    type(levels_t), intent(in) :: levels
+    !> LEVEL_DOUBLE ..
+    integer, intent(in) :: level
+    real(dp), parameter :: GAIN = 30
+
+    is_useful = level /= LEVEL_FINE .or. levels%error%worst > GAIN*FINE_ERROR
+  end function is_useful
+
   !> What carries orbits at a level that has been prepared.
   subroutine carrier_of(levels, level, flow, carrier)
     !> of a pendulum
@@ -181,7 +193,7 @@ contains
     case (LEVEL_QUAD)
       allocate (quad)
       quad%drive => levels%drive
-      quad%error = QUAD_ERROR
+      quad%error = levels%quad_error
       call move_alloc(quad, inner)
     case default
       allocate (pairs)

@@ -2,6 +2,7 @@
 !> with tables of its own, many orbits at once.
 module kz_labels_released
   use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_extended_probes, only: measure_quad
   use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   use kz_kernel_flows, only: make_stretch_flow
   use kz_labels_carrier, only: carrier_t, orbit_t, make_carrier
@@ -15,8 +16,6 @@ module kz_labels_released
   private
   public :: released_t, make_released, carry_released
 
-  !> Of a period in quad precision, relative to hypot(pi, v): as of the level (levels.f90).
-  real(dp), parameter :: QUAD_ERROR = 1e-31_dp
   !> rad: what is not linear in a stretch is left out below it; an orbit whose error is larger is lost, its error as large as FAR.
   real(dp), parameter :: LINEAR = 1e-4_dp, FAR = 10
   !> Stretches whose errors are measured: the first, the last, and some between.
@@ -27,6 +26,7 @@ module kz_labels_released
   type :: released_t
     type(release_t) :: release
     type(period_error_t) :: error !< of a stretch in double precision
+    real(dp) :: quad_error = 0    !< in quad precision, of hypot(pi, v)
   end type released_t
 
 contains
@@ -45,6 +45,7 @@ contains
     type(period_error_t) :: error
     type(speed_probes_t), allocatable :: probes
     class(flow_t), allocatable :: flow
+    type(drive_t) :: drive
     integer :: n, i, every
 
     released%release = release
@@ -61,6 +62,8 @@ contains
         call measure_period(flow, probes, error)
         error%noise = max(MARGIN*error%noise, released%error%noise)
         released%error = error
+        call make_drive(drive, pendulum, TAYLOR_STEPS, stretch)
+        released%quad_error = max(released%quad_error, MARGIN*measure_quad(drive, fastest))
       end if
       i = i + 1
       stretch = next_stretch(stretch)
@@ -92,7 +95,7 @@ contains
         if (allocated(drive)) deallocate (drive)
         allocate (drive)
         call make_drive(drive, pendulum, TAYLOR_STEPS, stretch)
-        call make_quad(drive, inner)
+        call make_quad(drive, released%quad_error, inner)
       end if
       call make_carrier(flow, released%error, inner, carrier)
       do first = 1, size(orbit), WIDTH
@@ -104,14 +107,15 @@ contains
   end subroutine carry_released
 
   !> Orbits in quad precision by a drive.
-  subroutine make_quad(drive, inner)
+  subroutine make_quad(drive, error, inner)
     type(drive_t), target, intent(in) :: drive
+    real(dp), intent(in) :: error
     class(inner_t), allocatable, intent(out) :: inner
     type(inner_quad_t), allocatable :: quad
 
     allocate (quad)
     quad%drive => drive
-    quad%error = QUAD_ERROR
+    quad%error = error
     call move_alloc(quad, inner)
   end subroutine make_quad
 

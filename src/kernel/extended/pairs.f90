@@ -11,7 +11,7 @@ module kz_extended_pairs
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
   use kz_model_pendulum, only: pendulum_t
-  use kz_extended_probes, only: probes_t, make_probes
+  use kz_extended_probes, only: probes_t, make_probes, measure_quad
   use kz_extended_taylor, only: drive_t, make_drive, advance_period, PI => PI_QUAD, TAYLOR_STEPS
   implicit none
   private
@@ -28,10 +28,14 @@ module kz_extended_pairs
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
   real(c_double), parameter :: ROUNDING = 4e-31_c_double
+  !> What the Taylor series may miss in a period of states that are faster than was expected, of hypot(pi, v).
+  real(c_double), parameter :: UNMEASURED = 1e-28_c_double
 
   type :: pairs_t
     !> the error of a period, rad: the largest of all tables
     real(c_double) :: error = 0
+    real(c_double) :: fastest = 0      !< that the tables serve, rad per drive radian
+    real(c_double) :: series_error = 0 !< of a period of faster states, of hypot(pi, v)
     type(level_t), allocatable :: level(:)
     type(drive_t) :: drive
   end type pairs_t
@@ -86,6 +90,9 @@ contains
       call ieee_set_halting_mode(ieee_usual, halting)
     end if
     allocate (pairs%level, source=levels(1:n))
+    pairs%fastest = levels(n)%fastest
+    pairs%series_error = UNMEASURED
+    if (pairs%fastest < fastest) pairs%series_error = measure_quad(pairs%drive, fastest)
   end subroutine make_pairs
 
   !> By the order of the splitting, and some more.

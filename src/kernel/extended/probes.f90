@@ -2,10 +2,10 @@
 !> other integrator are measured against.
 module kz_extended_probes
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
-  use kz_extended_taylor, only: drive_t, advance_period, qp, PI_QUAD
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD
   implicit none
   private
-  public :: probes_t, make_probes
+  public :: probes_t, make_probes, measure_quad
 
   type :: probes_t
     real(qp), allocatable :: start(:, :) !< (2, n): half-turns, rad per drive radian; doubles
@@ -38,5 +38,30 @@ contains
     probes%image(1, :) = theta/PI_QUAD
     probes%image(2, :) = velocity
   end subroutine make_probes
+
+  !> What the Taylor series may miss in a period, of hypot(pi, v): rounding, which a period of a strong drive makes larger. Measured
+  !> between two numbers of steps.
+  function measure_quad(drive, fastest) result(error)
+    !> of the pendulum
+    type(drive_t), intent(in) :: drive
+    !> speeds up to this one, rad per drive radian
+    real(c_double), intent(in) :: fastest
+    real(c_double) :: error
+    integer, parameter :: N = 128, MORE_STEPS = 8
+    real(c_double), parameter :: PI = real(PI_QUAD, c_double), MARGIN = 4, LEAST = 4e-32_c_double
+    type(drive_t) :: other
+    type(probes_t) :: probes, again
+    real(c_double) :: speed(N), distance(N)
+    real(qp) :: angle(N)
+    integer :: i
+
+    speed = [(fastest*i/N, i=1, N)]
+    call make_drive(other, drive%pendulum, drive%n_steps + MORE_STEPS, drive%stretch)
+    call make_probes(drive, speed, probes)
+    call make_probes(other, speed, again)
+    angle = probes%image(1, :) - again%image(1, :)
+    distance = hypot(PI*real(angle - 2*anint(angle/2), c_double), real(probes%image(2, :) - again%image(2, :), c_double))
+    error = MARGIN*maxval(max(LEAST, distance/hypot(PI, speed)))
+  end function measure_quad
 
 end module kz_extended_probes

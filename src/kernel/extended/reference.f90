@@ -2,7 +2,8 @@
 module kz_extended_reference
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
   use kz_model_pendulum, only: pendulum_t
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp
+  use kz_extended_probes, only: measure_quad
+  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, TAYLOR_STEPS
   implicit none
   private
 
@@ -64,5 +65,15 @@ contains
     velocity = real(states%velocity, c_double)
     turns = states%turns
   end subroutine read_states
+
+  function reference_error(pendulum, fastest) bind(C, name='kz_reference_error') result(error)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), value :: fastest
+    real(c_double) :: error
+    type(drive_t) :: drive
+
+    call make_drive(drive, pendulum, TAYLOR_STEPS)
+    error = measure_quad(drive, fastest)
+  end function reference_error
 
 end module kz_extended_reference

@@ -1,11 +1,11 @@
 !> The reference: whole periods of the pendulum's equation (kz_model_pendulum) in quad precision (real128), by Taylor
-!> series of fixed order (series.f90) in steps that are halved until the series of every step is complete.
+!> series of fixed order (taylor_steps.c) in steps that are halved until the series of every step is complete.
 module kz_extended_taylor
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_model_pendulum, only: pendulum_t, force_series
   use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
-  use kz_extended_series, only: LANES, LAST, force_t, series_t, round_series, begin_series, expand, sums, converged
   implicit none
   private
   public :: drive_t, make_drive, advance_period, qp
@@ -17,6 +17,32 @@ module kz_extended_taylor
   real(qp), parameter :: TWO_PI = 2*PI_QUAD
   !> How often steps may be halved.
   integer, parameter :: FINEST = 24
+  !> KZ_TAYLOR_LANES, KZ_TAYLOR_LAST of taylor_steps.h.
+  integer, parameter :: LANES = 8, LAST = 56
+
+  !> kz_taylor_shared of taylor_steps.h.
+  type, bind(C) :: shared_t
+    real(dp) :: high(0:LAST - 1)
+    real(dp) :: low(0:LAST - 1)
+  end type shared_t
+
+  !> kz_taylor_force of taylor_steps.h.
+  type, bind(C) :: force_t
+    type(shared_t) :: along
+    type(shared_t) :: across
+    real(dp) :: torque(2)
+    real(dp) :: damping(0:CUBIC, 2)
+    integer(c_int32_t) :: has_across
+    integer(c_int32_t) :: has_ramp
+  end type force_t
+
+  !> kz_taylor_state of taylor_steps.h.
+  type, bind(C) :: state_t
+    real(dp) :: theta(LANES, 3)
+    real(dp) :: w(LANES, 3)
+    real(dp) :: s(LANES, 3)
+    real(dp) :: c(LANES, 3)
+  end type state_t
 
   !> A pendulum with the drive's series at the start of every step of a period, unhalved and halved once.
   type :: drive_t
@@ -26,6 +52,17 @@ module kz_extended_taylor
     type(force_t), allocatable :: force(:)
     type(force_t), allocatable :: halved(:) !< of steps half as long
   end type drive_t
+
+  interface
+    !> taylor_steps.h
+    pure subroutine advance_steps(n, force, state, well) bind(C, name='kz_taylor_steps')
+      import :: c_int64_t, c_int32_t, force_t, state_t, LANES
+      integer(c_int64_t), intent(in), value :: n
+      type(force_t), intent(in) :: force(*)
+      type(state_t), intent(inout) :: state
+      integer(c_int32_t), intent(inout) :: well(LANES)
+    end subroutine advance_steps
+  end interface
 
 contains
 
@@ -69,37 +106,62 @@ contains
     real(qp), intent(in) :: t0
     real(qp), intent(in) :: h
     type(force_t) :: force
-    real(qp) :: along(0:LAST - 1), across(0:LAST - 1)
+    real(qp) :: along(0:LAST - 1), across(0:LAST - 1), damping(0:CUBIC)
+    integer :: i
 
+    damping = 0
+    damping(0) = drive%pendulum%beta*h
     call force_series(drive%pendulum, t0, h, h*h, along, across)
-    if (drive%stretch%changes) call put_on_ramp(drive, t0/TWO_PI, h, along, across, force)
+    if (drive%stretch%changes) call put_on_ramp(drive, t0/TWO_PI, h, along, across, damping)
     force%along = round_series(along)
-    force%has_across = drive%pendulum%unmirrored /= 0
-    if (.not. force%has_across) return
     force%across = round_series(-across)
-    force%torque = h*h*drive%pendulum%torque
+    force%torque = doubles_of(h*h*drive%pendulum%torque, 2)
+    do i = 0, CUBIC
+      force%damping(i, :) = doubles_of(damping(i), 2)
+    end do
+    force%has_across = merge(1_c_int32_t, 0_c_int32_t, drive%pendulum%unmirrored /= 0)
+    force%has_ramp = merge(1_c_int32_t, 0_c_int32_t, drive%stretch%changes)
   end function force_of_step
 
+  pure function round_series(series) result(rounded)
+    real(qp), intent(in) :: series(0:LAST - 1)
+    type(shared_t) :: rounded
+
+    rounded%high = real(series, dp)
+    rounded%low = real(series - rounded%high, dp)
+  end function round_series
+
+  !> The largest first.
+  pure function doubles_of(x, n) result(part)
+    real(qp), intent(in) :: x
+    integer, intent(in) :: n
+    real(dp) :: part(n)
+    real(qp) :: rest
+    integer :: i
+
+    rest = x
+    do i = 1, n
+      part(i) = real(rest, dp)
+      rest = rest - part(i)
+    end do
+  end function doubles_of
+
   !> The damping and the drive as they are on the ramp.
-  pure subroutine put_on_ramp(drive, turn, h, along, across, force)
+  pure subroutine put_on_ramp(drive, turn, h, along, across, damping)
     type(drive_t), intent(in) :: drive
     real(qp), intent(in) :: turn
     real(qp), intent(in) :: h
     real(qp), intent(inout) :: along(0:)
     real(qp), intent(inout) :: across(0:)
-    type(force_t), intent(inout) :: force
-    real(qp) :: scale(0:CUBIC), damping(0:LAST - 1)
+    real(qp), intent(out) :: damping(0:CUBIC)
+    real(qp) :: scale(0:CUBIC)
 
     scale = drive_series(drive%stretch, turn, h/TWO_PI)
     along(0) = along(0) - h*h*drive%pendulum%k
     call multiply(scale, along)
     along(0) = along(0) + h*h*drive%pendulum%k
     call multiply(scale, across)
-    damping = 0
-    damping(:CUBIC) = h*damping_series(drive%stretch, drive%pendulum, turn, h/TWO_PI)
-    force%damping = round_series(damping)
-    force%constant_damping = damping(0)
-    force%has_ramp = .true.
+    damping = h*damping_series(drive%stretch, drive%pendulum, turn, h/TWO_PI)
   end subroutine put_on_ramp
 
   !> series = series * polynomial.
@@ -187,33 +249,39 @@ contains
     real(qp), intent(inout) :: velocity(LANES)
     !> Which lanes are in use; set to false where a series did not converge.
     logical, intent(inout) :: carried(LANES)
-    type(series_t) :: series
-    type(force_t) :: force
-    real(qp), dimension(LANES) :: s, c, of_theta, of_w, of_s, of_c
+    type(state_t) :: state
+    integer(c_int32_t) :: well(LANES)
     real(qp) :: h
     integer :: i
 
     h = step_of(drive, halvings)
-    s = sin(theta)
-    c = cos(theta)
-    do i = 1, drive%n_steps*2**halvings
-      if (halvings == 0) then
-        force = drive%force(i)
-      else if (halvings == 1) then
-        force = drive%halved(i)
-      else
-        force = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*h, h)
-      end if
-      call begin_series(series, velocity*h, s, c)
-      call expand(series, force, merge(force%constant_damping, drive%pendulum%beta*h, force%has_ramp))
-      carried = carried .and. converged(series)
-      if (.not. any(carried)) exit
-      call sums(series, of_theta, of_w, of_s, of_c)
-      theta = theta + velocity*h + of_theta
-      velocity = velocity + of_w/h
-      s = s + of_s
-      c = c + of_c
+    do i = 1, LANES
+      state%theta(i, :) = doubles_of(theta(i), 3)
+      state%w(i, :) = doubles_of(velocity(i)*h, 3)
+      state%s(i, :) = doubles_of(sin(theta(i)), 3)
+      state%c(i, :) = doubles_of(cos(theta(i)), 3)
     end do
+    well = merge(1_c_int32_t, 0_c_int32_t, carried)
+    if (halvings == 0) then
+      call advance_steps(size(drive%force, kind=c_int64_t), drive%force, state, well)
+    else if (halvings == 1) then
+      call advance_steps(size(drive%halved, kind=c_int64_t), drive%halved, state, well)
+    else
+      do i = 1, drive%n_steps*2**halvings
+        call advance_steps(1_c_int64_t, [force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*h, h)], state, well)
+        if (all(well == 0)) exit
+      end do
+    end if
+    carried = well /= 0
+    theta = quads_of(state%theta)
+    velocity = quads_of(state%w)/h
   end subroutine advance_lanes
+
+  pure function quads_of(part) result(x)
+    real(dp), intent(in) :: part(LANES, 3)
+    real(qp) :: x(LANES)
+
+    x = real(part(:, 1), qp) + (real(part(:, 2), qp) + part(:, 3))
+  end function quads_of
 
 end module kz_extended_taylor

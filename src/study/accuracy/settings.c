@@ -47,7 +47,7 @@ const char *kz_tradeoff_words(void) {
 kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, const kz_basin_plan *plan) {
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   if (setting->steps == KZ_AUTO)
-    return kz_processed_or_split(pendulum, setting->tolerance,
+    return kz_processed_or_split(pendulum, setting->method, setting->tolerance,
                                  kz_fastest_motion(pendulum, &window, setting->method == KZ_METHOD_ICM ? setting->nodes : 0));
   return (kz_numerics){.scheme = kz_scheme_find(setting->scheme), .steps_per_period = setting->steps};
 }

@@ -8,14 +8,10 @@ typedef struct {
 } level;
 
 static const level levels[KZ_LEVELS + 1] = {
-    [KZ_LEVEL_DOUBLE] = {"cells", 4096, KZ_FOLLOWED},
-    [KZ_LEVEL_FINE] = {"fine", 4096, KZ_IN_FINE},
-    [KZ_LEVEL_PAIRS_16] = {"pairs 16", 4096, KZ_IN_PAIRS},
-    [KZ_LEVEL_PAIRS_20] = {"pairs 20", 2048, KZ_IN_PAIRS},
-    [KZ_LEVEL_PAIRS_24] = {"pairs 24", 1024, KZ_IN_PAIRS},
-    [KZ_LEVEL_PAIRS_28] = {"pairs 28", 512, KZ_IN_PAIRS},
-    [KZ_LEVEL_QUAD] = {"quad", 64, KZ_IN_QUAD},
-    [KZ_LEVEL_ARBITRARY] = {"arbitrary", 1, KZ_IN_ARBITRARY},
+    [KZ_LEVEL_DOUBLE] = {"cells", 4096, KZ_FOLLOWED},      [KZ_LEVEL_FINE] = {"fine", 4096, KZ_IN_FINE},
+    [KZ_LEVEL_PAIRS_16] = {"pairs 16", 4096, KZ_IN_PAIRS}, [KZ_LEVEL_PAIRS_20] = {"pairs 20", 2048, KZ_IN_PAIRS},
+    [KZ_LEVEL_PAIRS_24] = {"pairs 24", 2048, KZ_IN_PAIRS}, [KZ_LEVEL_PAIRS_28] = {"pairs 28", 1024, KZ_IN_PAIRS},
+    [KZ_LEVEL_QUAD] = {"quad", 256, KZ_IN_QUAD},           [KZ_LEVEL_ARBITRARY] = {"arbitrary", 1, KZ_IN_ARBITRARY},
     [KZ_LEVELS] = {"candidates", 64, KZ_UNDECIDED},
 };
 

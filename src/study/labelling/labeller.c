@@ -88,10 +88,3 @@ kz_status kz_label(const kz_labeller *l, int64_t n, const int64_t *item, kz_deci
   free(found);
   return status;
 }
-
-void kz_labeller_prepare(const kz_labeller *l) {
-  const kz_start start = {{0}, {0}, 0, {0}};
-  kz_decision decision;
-  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++)
-    kz_dynamics_label(l->dynamics, level, level > 0 ? level - 1 : 0, 0, &start, l->max_periods, &decision);
-}

@@ -43,7 +43,4 @@ kz_status kz_label_candidates(const kz_labeller *labeller, int64_t n, const int6
 /* Labels n items: the levels one after the other until each is decided. KZ_DOUBTFUL, with level KZ_LEVELS, where none decides. */
 kz_status kz_label(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_decision *decision);
 
-/* Makes the tables of all levels, else made where they are first needed: before something is timed. */
-void kz_labeller_prepare(const kz_labeller *labeller);
-
 #endif

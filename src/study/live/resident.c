@@ -45,7 +45,8 @@ static void choose_numerics(kz_resident *r) {
     return;
   }
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  scene->numerics = kz_processed_or_split(pendulum, r->tolerance, kz_fastest_motion(pendulum, &r->search.window, 0));
+  scene->numerics =
+      kz_processed_or_split(pendulum, KZ_METHOD_DIRECT, r->tolerance, kz_fastest_motion(pendulum, &r->search.window, 0));
 }
 
 static kz_status search(kz_resident *r) {

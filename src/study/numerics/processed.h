@@ -16,8 +16,8 @@ double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, i
 /* Fills scene->numerics; false where the processed splitting does not carry the scene's motions, or where nothing is labelled. */
 bool kz_processed_choose(kz_scene *scene);
 
-/* The cheapest processed splitting of one pendulum to a tolerance (rad, of one drive period), or split6 with its own number of steps
- * where there is none. */
-kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, double tolerance, double fastest);
+/* The cheapest processed splitting of one pendulum for a method, to a tolerance (rad, of one drive period), or split6 with its own number
+ * of steps where there is none. Method exact takes a tenth of the tolerance where rounding allows. */
+kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, int32_t method, double tolerance, double fastest);
 
 #endif

@@ -56,6 +56,41 @@ static void agrees_with_the_quad_reference(void **state) {
   }
 }
 
+/* rad: how far a period in quad precision is from the motion. */
+static double missed(const kz_pendulum *pendulum, double theta, double velocity) {
+  const kz_coordinate start[2] = {at(theta), at(velocity)};
+  kz_arbitrary *orbit = kz_arbitrary_create(pendulum, start, 200);
+  kz_reference_state quad;
+  __float128 end[2], state[2];
+  kz_reference_start(1, &theta, &velocity, NULL, &quad);
+  kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, 1, 1, &quad);
+  memcpy(end, quad.quads, sizeof end);
+  assert_int_equal(kz_arbitrary_advance(orbit, 200, 0, NULL), KZ_OK);
+  kz_arbitrary_read_quads(orbit, state);
+  kz_arbitrary_free(orbit);
+  assert_true(fabs((double)(end[0] - state[0])) < 1); /* not on either side of the seam */
+  return hypot((double)(end[0] - state[0]), (double)(end[1] - state[1]));
+}
+
+/* What is told of the quad reference holds. It was assumed to be 1e-31 of the motion, which it is not where the drive is strong. */
+static void errors_of_quads_are_not_understated(void **state) {
+  (void)state;
+  static const kz_pendulum pendulums[] = {{.k = 1, .beta = 0.5, .m = 7.7}, {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.46}};
+  static const double starts[][2] = {{-0.57601889359626179, 0.92164362479996953},
+                                     {1.7401103791778954, -12.380928537600042},
+                                     {-0.092368924726252022, 6.6726473615999424}};
+  if (kz_arbitrary_bits() < 200) skip();
+  for (int p = 0; p < 2; p++) {
+    const double told = kz_reference_error(pendulums + p, 13);
+    double largest = 0;
+    for (int i = 0; i < 3; i++)
+      largest = fmax(largest, missed(pendulums + p, starts[i][0], starts[i][1]) / hypot(M_PI, starts[i][1]));
+    print_message("m %g: %.1e, told %.1e\n", pendulums[p].m, largest, told);
+    assert_true(largest <= told);
+    assert_true(p == 0 ? largest > 1e-30 : told < 1e-30);
+  }
+}
+
 /* What fewer bits leave out is of the size of the last bit. */
 static void more_digits_agree(void **state) {
   (void)state;
@@ -169,9 +204,13 @@ static void mirror_images_stay_mirrored(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(agrees_with_the_quad_reference), cmocka_unit_test(more_digits_agree),
-      cmocka_unit_test(neighbours_follow_the_jet),      cmocka_unit_test(areas_shrink_at_any_scale),
-      cmocka_unit_test(neighbours_of_rest_move),        cmocka_unit_test(starts_are_read),
+      cmocka_unit_test(agrees_with_the_quad_reference),
+      cmocka_unit_test(errors_of_quads_are_not_understated),
+      cmocka_unit_test(more_digits_agree),
+      cmocka_unit_test(neighbours_follow_the_jet),
+      cmocka_unit_test(areas_shrink_at_any_scale),
+      cmocka_unit_test(neighbours_of_rest_move),
+      cmocka_unit_test(starts_are_read),
       cmocka_unit_test(mirror_images_stay_mirrored),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

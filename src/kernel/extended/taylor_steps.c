@@ -1,0 +1,194 @@
+/* Steps by Taylor series (taylor_steps.h).
+ *
+ * With w = h theta', s = sin theta, c = cos theta over t = t0 + h x, 0 <= x <= 1, the scaled coefficients obey
+ *   (n+1) w_(n+1) = -sum_i (d_i w_(n-i) + f_i s_(n-i) + g_i c_(n-i)) (+ torque at n = 0),
+ *   (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),
+ * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_FINE are pairs of doubles (32 digits); those beyond, smaller than
+ * 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles: steps add up without loss. */
+#include "taylor_steps.h"
+
+#include <stdbool.h>
+
+#include "pairs_arithmetic.h"
+
+enum { FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
+
+/* Largest coefficients at FINE and at LAST, relative to the motion's own size, which the orders below GENTLE tell. */
+static const double COARSE = 1e-16, TOLERANCE = 1e-33;
+
+/* The orders of w, s or c: pairs up to FINE, the high parts alone beyond. */
+typedef struct {
+  pair fine[FINE + 1];
+  vector coarse[LAST + 1];
+} coefficients;
+
+typedef struct {
+  coefficients w, s, c;
+} series;
+
+/* sum += a b; the low part of the sum is not carried up. */
+OPERATION void gain(pair *total, pair a, pair b) {
+  const vector p = a.high * b.high;
+  const pair t = sum(total->high, p);
+  total->high = t.high;
+  total->low += t.low + fused(a.high, b.low, fused(a.low, b.high, fused(a.high, b.high, -p)));
+}
+
+OPERATION pair shared(const kz_taylor_shared *x, int64_t i) {
+  return (pair){same(x->high[i]), same(x->low[i])};
+}
+
+/* 1/n to 32 digits, n = 1 .. LAST + 1. */
+#define INVERSE(n) {1.0 / (n), __builtin_fma(-(1.0 / (n)), n, 1.0) / (n)}
+#define INVERSES(n) \
+  INVERSE(n), INVERSE(n + 1), INVERSE(n + 2), INVERSE(n + 3), INVERSE(n + 4), INVERSE(n + 5), INVERSE(n + 6), INVERSE(n + 7)
+static const double inverses[][2] = {INVERSES(1),  INVERSES(9),  INVERSES(17), INVERSES(25),
+                                     INVERSES(33), INVERSES(41), INVERSES(49), INVERSE(57)};
+_Static_assert(sizeof inverses / sizeof *inverses == LAST + 1, "one for each order, and one beyond");
+
+OPERATION pair inverse(int64_t n) {
+  return (pair){same(inverses[n - 1][0]), same(inverses[n - 1][1])};
+}
+
+OPERATION void set_order(coefficients *x, int64_t n, pair total) {
+  x->fine[n] = multiply(quick_sum(total.high, total.low), inverse(n));
+  x->coarse[n] = x->fine[n].high;
+}
+
+/* Order n + 1 from the orders up to n, in pairs. */
+static void next_pair(int64_t n, const kz_taylor_force *force, series *x) {
+  pair of_w = {same(0), same(0)}, of_s = of_w, of_c = of_w;
+  for (int64_t i = 0; i <= n; i++) {
+    gain(&of_w, shared(&force->along, i), x->s.fine[n - i]);
+    gain(&of_s, x->c.fine[i], x->w.fine[n - i]);
+    gain(&of_c, x->s.fine[i], x->w.fine[n - i]);
+  }
+  for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++)
+    gain(&of_w, (pair){same(force->damping[0][i]), same(force->damping[1][i])}, x->w.fine[n - i]);
+  for (int64_t i = 0; force->has_across && i <= n; i++) gain(&of_w, shared(&force->across, i), x->c.fine[n - i]);
+  if (force->has_across && n == 0)
+    gain(&of_w, (pair){same(-force->torque[0]), same(-force->torque[1])}, (pair){same(1), same(0)});
+  set_order(&x->w, n + 1, negative(of_w));
+  set_order(&x->s, n + 1, of_s);
+  set_order(&x->c, n + 1, negative(of_c));
+}
+
+/* Order n + 1 in doubles. */
+static void next_double(int64_t n, const kz_taylor_force *force, series *x) {
+  vector of_w = same(0), of_s = same(0), of_c = same(0);
+  for (int64_t i = 0; i <= n; i++) {
+    of_w = fused(same(force->along.high[i]), x->s.coarse[n - i], of_w);
+    of_s = fused(x->c.coarse[i], x->w.coarse[n - i], of_s);
+    of_c = fused(x->s.coarse[i], x->w.coarse[n - i], of_c);
+  }
+  for (int64_t i = 0; i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++)
+    of_w = fused(same(force->damping[0][i]), x->w.coarse[n - i], of_w);
+  for (int64_t i = 0; force->has_across && i <= n; i++) of_w = fused(same(force->across.high[i]), x->c.coarse[n - i], of_w);
+  x->w.coarse[n + 1] = -of_w * inverse(n + 1).high;
+  x->s.coarse[n + 1] = of_s * inverse(n + 1).high;
+  x->c.coarse[n + 1] = -of_c * inverse(n + 1).high;
+}
+
+/* The sum of the orders from 1 on, each divided by its number plus 1 where they are `integrated`; smallest terms first. */
+OPERATION pair sum_of(const coefficients *x, bool integrated) {
+  pair total = {same(0), same(0)};
+  for (int64_t n = LAST; n > FINE; n--) total.high += x->coarse[n] * (integrated ? inverse(n + 1).high : same(1));
+  for (int64_t n = FINE; n >= 1; n--) total = loose_sum(total, integrated ? multiply(x->fine[n], inverse(n + 1)) : x->fine[n]);
+  return quick_sum(total.high, total.low);
+}
+
+OPERATION vector modulus(vector x) {
+  return pick(x < 0, -x, x);
+}
+
+OPERATION vector larger(vector a, vector b) {
+  return pick(a > b, a, b);
+}
+
+/* Whether the coefficients of order n and of its neighbours below are at most a bound: one may vanish by chance or by symmetry. Not where one is
+ * no number. */
+OPERATION mask is_small(const series *x, int64_t n, vector bound) {
+  mask small = same(0) == same(0);
+  for (int64_t i = n - 2; i <= n; i++)
+    small &= (modulus(x->w.coarse[i]) <= bound) & (modulus(x->s.coarse[i]) <= bound) & (modulus(x->c.coarse[i]) <= bound);
+  return small;
+}
+
+/* Whether the series are complete at LAST, and small enough at FINE for what follows. */
+OPERATION mask is_complete(const series *x) {
+  vector motion = same(0);
+  for (int64_t i = 0; i < GENTLE; i++) motion = larger(motion, larger(modulus(x->w.coarse[i]), modulus(x->s.coarse[i])));
+  return is_small(x, FINE, COARSE * motion) & is_small(x, LAST, TOLERANCE * motion);
+}
+
+OPERATION bool is_any(mask where) {
+  int64_t bits = 0;
+  for (int i = 0; i < LANES; i++) bits |= where[i];
+  return bits != 0;
+}
+
+/* A number of a vector of orbits: three doubles. */
+typedef struct {
+  vector part[3];
+} triple;
+
+OPERATION triple load(double (*x)[KZ_TAYLOR_LANES], int64_t first) {
+  return (triple){{*(vector *)(x[0] + first), *(vector *)(x[1] + first), *(vector *)(x[2] + first)}};
+}
+
+OPERATION void save(triple x, double (*to)[KZ_TAYLOR_LANES], int64_t first) {
+  for (int i = 0; i < 3; i++) *(vector *)(to[i] + first) = x.part[i];
+}
+
+OPERATION triple add_pair(triple x, pair y) {
+  const pair a = sum(x.part[0], y.high), b = sum(x.part[1], y.low), c = sum(b.high, a.low);
+  const pair top = quick_sum(a.high, c.high), rest = quick_sum(top.low, x.part[2] + (b.low + c.low));
+  return (triple){{top.high, rest.high, rest.low}};
+}
+
+/* Rest where the mask is not set: what is lost does not overflow. */
+OPERATION triple keep(mask where, triple x) {
+  for (int i = 0; i < 3; i++) x.part[i] = pick(where, x.part[i], same(0));
+  return x;
+}
+
+/* The first two of its doubles: to 32 digits. */
+OPERATION pair upper(triple x) {
+  return (pair){x.part[0], x.part[1]};
+}
+
+OPERATION void begin(coefficients *x, triple start) {
+  x->fine[0] = upper(start);
+  x->coarse[0] = start.part[0];
+}
+
+/* The steps of one vector of orbits; where their series were complete. */
+static mask advance(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int64_t first) {
+  triple theta = load(state->theta, first), w = load(state->w, first), s = load(state->s, first), c = load(state->c, first);
+  mask well = same(0) == same(0);
+  series x;
+  for (int64_t step = 0; step < n && is_any(well); step++) {
+    begin(&x.w, w);
+    begin(&x.s, s);
+    begin(&x.c, c);
+    for (int64_t i = 0; i < FINE; i++) next_pair(i, force + step, &x);
+    for (int64_t i = FINE; i < LAST; i++) next_double(i, force + step, &x);
+    well &= is_complete(&x);
+    theta = add_pair(add_pair(add_pair(theta, upper(w)), (pair){w.part[2], same(0)}), sum_of(&x.w, true));
+    w = keep(well, add_pair(w, sum_of(&x.w, false)));
+    s = keep(well, add_pair(s, sum_of(&x.s, false)));
+    c = keep(well, add_pair(c, sum_of(&x.c, false)));
+  }
+  save(theta, state->theta, first);
+  save(w, state->w, first);
+  save(s, state->s, first);
+  save(c, state->c, first);
+  return well;
+}
+
+void kz_taylor_steps(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well) {
+  for (int64_t first = 0; first < KZ_TAYLOR_LANES; first += LANES) {
+    const mask complete = advance(n, force, state, first);
+    for (int64_t i = 0; i < LANES; i++) well[first + i] = well[first + i] && complete[i];
+  }
+}

@@ -1,0 +1,33 @@
+/* Steps of the Taylor series of the pendulum's equation for a few orbits at once: the inner loops of the quad-precision reference.
+ * taylor.f90 makes the forces, loops in C. */
+#ifndef KAPITZA_TAYLOR_STEPS_H
+#define KAPITZA_TAYLOR_STEPS_H
+
+#include <stdint.h>
+
+/* Orbits at once; highest order in pairs of doubles, and of all; powers of time in a damping that changes. */
+enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_RAMP = 4 };
+
+/* A series in the time of a step, the same for all orbits: sums of two doubles. */
+typedef struct {
+  double high[KZ_TAYLOR_LAST], low[KZ_TAYLOR_LAST];
+} kz_taylor_shared;
+
+/* The force over a step h, as (h theta')' = -damping h theta' - along sin theta - across cos theta + torque in the time of the step. */
+typedef struct {
+  kz_taylor_shared along, across;
+  double torque[2];
+  double damping[2][KZ_TAYLOR_RAMP]; /* high, low */
+  int32_t has_across, has_ramp;      /* whether there are `across` and `torque`; whether the damping changes */
+} kz_taylor_force;
+
+/* theta (rad), h theta', sin theta, cos theta of the orbits, as sums of three doubles. */
+typedef struct {
+  double theta[3][KZ_TAYLOR_LANES], w[3][KZ_TAYLOR_LANES], s[3][KZ_TAYLOR_LANES], c[3][KZ_TAYLOR_LANES];
+} kz_taylor_state;
+
+/* The steps force [n], one after the other. well [KZ_TAYLOR_LANES] becomes 0 where a series is not complete at the last order, or too large
+ * at the last one in pairs: that orbit needs shorter steps, and its state is of no meaning. Orbits never look at each other. */
+void kz_taylor_steps(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well);
+
+#endif
