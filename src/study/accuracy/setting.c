@@ -11,8 +11,9 @@
 
 enum {
   CHUNK = 16384, /* cells labelled at a time */
-  MANY = 1 << 19 /* cells that are timed by method exact */
+  MANY = 1 << 19 /* cells that are timed by method exact, where they do not take longer than LONG */
 };
+static const double LONG = 20; /* s */
 
 /* Arrays of one chunk: too large for the stack. */
 typedef struct {
@@ -114,13 +115,12 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
   return KZ_OK;
 }
 
-kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
-                             kz_measured *measured) {
+/* With its own dynamics; at least n cells are labelled. */
+static kz_status measure_cells(const kz_setting *setting, const kz_reference_labels *reference, int64_t n,
+                               kz_measured *measured) {
   measurement g = {.setting = setting, .reference = reference};
   const kz_numerics numerics = kz_setting_numerics(setting, &reference->pendulum, reference->plan);
-  /* The few cells that need more digits, and the tables of these, make the time of method exact: of many cells, what they take of all. */
-  if (setting->method == KZ_METHOD_EXACT && timed > 0) timed = MANY;
-  int64_t n = timed > reference->samples ? timed : reference->samples;
+  if (n < reference->samples) n = reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
   g.work = kz_malloc(sizeof *g.work);
@@ -132,4 +132,12 @@ kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_label
   free(label);
   free(surplus);
   return status;
+}
+
+kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
+                             kz_measured *measured) {
+  KZ_TRY(measure_cells(setting, reference, timed, measured));
+  /* The tables of more digits are made once for all cells. */
+  if (setting->method != KZ_METHOD_EXACT || timed == 0 || measured->cell * MANY > LONG) return KZ_OK;
+  return measure_cells(setting, reference, MANY, measured);
 }
