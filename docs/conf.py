@@ -15,7 +15,7 @@ default_role = "code"  # of docstrings
 html_theme = "furo"
 html_title = f"kapitza {version}"
 html_static_path = ["site/static"]
-html_css_files = ["dark.css"]
+html_css_files = ["site.css"]
 templates_path = ["site/templates"]
 html_sidebars = {"**": [f"sidebar/{part}.html" for part in ("brand", "search", "scroll-start", "navigation")]
                  + ["versions.html", "sidebar/scroll-end.html"]}

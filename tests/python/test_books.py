@@ -13,8 +13,8 @@ PAGES = [page for page in PAGES if page.stem not in ELSEWHERE]
 
 
 def blocks(page):
-    """(language, text) of the blocks that are to be run."""
-    return re.findall(r"^```(bash|python)\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
+    """(language, text) of the blocks that are to be run, or (text) that show lines which the block before prints."""
+    return re.findall(r"^```(bash|python|text)\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture
@@ -30,10 +30,16 @@ def test_the_commands_of_a_page_work(clone, page):
     settings = os.environ | {"PYTHONPATH": str(ROOT / "python"), "KAPITZA": str(ROOT / "build" / "kapitza"), "MPLBACKEND": "agg"}
     texts = blocks(page)
     assert texts
+    printed = ""
     for language, text in texts:
+        if language == "text":
+            lines = [line.rstrip() for line in printed.splitlines()]
+            assert [line for line in text.splitlines() if line != "..." and line not in lines] == []
+            continue
         words = ["bash", "-euc", text] if language == "bash" else [ROOT / ".venv" / "bin" / "python", "-c", text]
         done = subprocess.run(list(map(str, words)), cwd=clone, env=settings, capture_output=True, text=True, timeout=200)
         assert done.returncode == 0, text + done.stdout + done.stderr
+        printed = done.stdout
 
 
 MESSAGES = re.findall(r"^\$ (kapitza .+)\n(.+)$", (ROOT / "docs" / "reference" / "messages.md").read_text(), re.MULTILINE)

@@ -105,7 +105,7 @@ def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
     first = np.ceil(plane.theta_range[0] / unit / step - 1e-9)
     ticks = np.arange(first, plane.theta_range[1] / unit / step + 1e-9) * step
     if width > 2 * steps[0] and "theta" not in plane.widths:
-        axes.set_xticks(ticks * unit, [f"{tick:.0f}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
+        axes.set_xticks(ticks * unit, [f"{round(tick)}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
     elif degrees and "theta" not in plane.widths:
         axes.xaxis.set_major_formatter(lambda theta, _: f"{np.degrees(theta):.6g}°".replace("-", "−"))
     if "theta" in plane.widths:
