@@ -36,7 +36,7 @@ typedef struct {
 } kz_harmonics;
 
 /* Wave forms of the drive. */
-enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2 };
+enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2, KZ_SAMPLES = 3 };
 
 /* A bound of |a(t)| + |b(t)| + |torque|. */
 double kz_stiffness(const kz_pendulum *pendulum);

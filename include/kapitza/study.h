@@ -189,10 +189,12 @@ typedef struct {
   double amplitude;               /* c: m, instead of pivot_amplitude */
   double decay_time;              /* c: s, 2 I/b, instead of friction or quality_factor */
   double tilt, ellipse, torque;   /* rad; short axis over long axis; in units of I omega^2 */
+  double torque_amplitude;        /* of a torque that goes as cos t, in units of I omega^2 */
   double start_phase;             /* of the scene's basin: rad, of the drive when the pendulum is released */
   double ramp_from, ramp_periods; /* in the units of its key; drive periods */
   int32_t ramp_key, ramp_shape;   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
   int32_t waveform;               /* KZ_SINE, ... */
+  kz_reals samples;               /* of KZ_SAMPLES: at equal times of a period, in units of m */
   kz_harmonics harmonics;         /* further ones */
 } kz_pendulum_keys;
 
@@ -219,6 +221,8 @@ kz_status kz_parameters_resolve(kz_parameters *parameters);
 
 /* The drive that the keys describe beyond k, beta and m, which `pendulum` has: the rest of it. And how motions begin. */
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
+const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pendulum *pendulum); /* NULL = none */
+void kz_drive_print(const kz_parameters *parameters, FILE *out); /* what harmonics stand for, and how well */
 void kz_release_resolve(const kz_parameters *parameters, kz_release *release);
 
 /* The numerics mapping as written. */
@@ -277,7 +281,7 @@ typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
-enum { KZ_SWEEP_PARAMETERS = 22 };
+enum { KZ_SWEEP_PARAMETERS = 23 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
 /* Their names, and what a sweep can measure, joined by '|'. */
 const char *kz_sweep_words(void);

@@ -91,8 +91,16 @@ const kz_key kz_keys[] = {
          "The pivot's path is an ellipse: its axis across the path over the one along it; > 0 = clockwise."),
     REAL("pendulum.torque", "", -1e6, 1e6, "", parameters.written.torque,
          "Constant torque on the pendulum, in units of I omega^2."),
-    WORD("pendulum.waveform", "sine|square|triangle", "", parameters.written.waveform,
-         "The pivot's motion in time; square and triangle: their Fourier series up to order 7."),
+    REAL("pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
+         "A torque that oscillates beside it, torque_amplitude cos t, without a drive of the pivot (a Josephson junction under "
+         "microwaves). Angles are counted from the swing that it gives to a free pendulum."),
+    WORD("pendulum.waveform", "sine|square|triangle|samples", "", parameters.written.waveform,
+         "Form of the drive in time, which is that of the pivot's downward acceleration; square and triangle: their Fourier "
+         "series "
+         "up to order 7; samples: of the list samples up to order 16."),
+    ROW("pendulum.samples", KZ_KEY_REALS, "", AT(parameters.written.samples),
+        "The drive at equal times of a period, the first at t = 0, in units of drive_amplitude; its mean is left out.",
+        .unit = "", .low = -1e6, .high = 1e6),
     MAPPING("pendulum.ramp", "", AT(parameters.has_ramp),
             "The damping or the drive comes from another value when a cell of a basin is released."),
     WORD("pendulum.ramp.key", "damping|drive_amplitude", NULL, parameters.written.ramp_key,

@@ -64,6 +64,19 @@ static void check_laboratory(kz_reading *reading, const kz_pendulum_keys *w) {
               kz_shortest(w->inertia).text, kz_shortest(kz_point_inertia(w)).text);
 }
 
+/* Samples and the word for them come together. */
+static void check_samples(kz_reading *reading, const kz_pendulum_keys *w) {
+  enum { FEWEST = 4 };
+  const kz_node *list = kz_tree_find(reading->root, "pendulum.samples");
+  if (w->waveform == KZ_SAMPLES && !list)
+    kz_complain(reading, kz_tree_find(reading->root, "pendulum.waveform"), "pendulum.waveform",
+                "samples needs the list pendulum.samples; give it, or choose another form");
+  else if (list && w->waveform != KZ_SAMPLES)
+    kz_complain(reading, list, "pendulum.samples", "is for pendulum.waveform: samples; choose it, or leave the list out");
+  else if (list && w->samples.count < FEWEST)
+    kz_complain(reading, list, "pendulum.samples", "has %lld values; at least %d", (long long)w->samples.count, FEWEST);
+}
+
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
   kz_pendulum_keys *written = &scene->parameters.written;
   if (!kz_tree_child(reading->root, "pendulum")) { /* stability alone does without */
@@ -72,6 +85,7 @@ void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
     scene->parameters.pivot_frequency = NAN;
     return;
   }
+  check_samples(reading, written);
   if (is_laboratory(written)) {
     check_laboratory(reading, written);
     if (!is_given(written->gravity)) written->gravity = KZ_STANDARD_GRAVITY;

@@ -48,6 +48,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
   if (!isnan(p->k)) printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   kz_rest_print(&scene->parameters, stdout);
+  kz_drive_print(&scene->parameters, stdout);
   fputs("studies         ", stdout);
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);

@@ -205,6 +205,7 @@ static void print_summary(job *j) {
   kz_rest_print(&j->scene.parameters, stdout);
   if (j->scene.title[0]) puts(j->scene.title);
   if (!isnan(p->k)) printf("k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
+  kz_drive_print(&j->scene.parameters, stdout);
   printf("%swritten to %s\n", j->words, j->path);
 }
 

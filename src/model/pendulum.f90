@@ -131,14 +131,20 @@ contains
     real(qp), intent(out) :: a
     !> of -cos theta
     real(qp), intent(out) :: b
-    real(qp) :: c, s
+    real(qp) :: cosine, sine, c, s, former
     integer :: j
 
-    a = real(pendulum%k, qp) - pendulum%m*cos(2*PI*turn)
+    cosine = cos(2*PI*turn)
+    a = real(pendulum%k, qp) - pendulum%m*cosine
     b = 0
-    do j = 1, pendulum%harmonics
-      c = cos(2*PI*j*turn)
-      s = sin(2*PI*j*turn)
+    if (pendulum%harmonics == 0) return
+    sine = sin(2*PI*turn)
+    c = 1
+    s = 0
+    do j = 1, pendulum%harmonics ! by the sum of angles: quad precision's own functions are slow
+      former = c
+      c = c*cosine - s*sine
+      s = s*cosine + former*sine
       a = a - pendulum%vertical(1, j)*c - pendulum%vertical(2, j)*s
       b = b + pendulum%horizontal(1, j)*c + pendulum%horizontal(2, j)*s
     end do

@@ -1,5 +1,6 @@
 /* The drive of a pendulum from the keys that describe it: wave form, further harmonics, tilt, ellipse, torque, phase of release. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "kapitza/study.h"
@@ -7,17 +8,131 @@
 /* Highest harmonic of the Fourier series that stands for a wave form with corners. */
 enum { CORNERED = 7 };
 
-/* Amplitude of cos j t of a wave form of height 1 that is at its top at t = 0. */
-static double fourier(int32_t waveform, int j) {
-  if (waveform <= KZ_SINE || j % 2 == 0 || j > CORNERED) return j == 1 ? 1 : 0;
+static bool has(double value) {
+  return !isnan(value) && value != 0;
+}
+
+/* Harmonics of samples below this part of the largest are rounding. */
+static const double LEAST = 1e-9;
+
+/* Harmonic j of samples, j up to half their number: cosine and sine. */
+static void harmonic_of(const kz_reals *samples, int j, double form[2]) {
+  const double share = (2 * j == samples->count ? 1.0 : 2.0) / (double)samples->count;
+  form[0] = form[1] = 0;
+  for (int64_t i = 0; i < samples->count; i++) {
+    const double angle = 2 * M_PI * (double)(i * j % samples->count) / (double)samples->count;
+    form[0] += share * samples->values[i] * cos(angle);
+    form[1] += share * samples->values[i] * sin(angle);
+  }
+}
+
+/* The highest harmonic of samples that counts. */
+static int highest_of_samples(const kz_reals *samples) {
+  const int most = (int)(samples->count / 2 < KZ_HARMONICS ? samples->count / 2 : KZ_HARMONICS);
+  double size[KZ_HARMONICS + 1] = {0}, largest = 0, form[2];
+  int highest = 1;
+  for (int j = 1; j <= most; j++) {
+    harmonic_of(samples, j, form);
+    size[j] = hypot(form[0], form[1]);
+    largest = fmax(largest, size[j]);
+  }
+  for (int j = 1; j <= most; j++)
+    if (size[j] > LEAST * largest) highest = j;
+  return highest;
+}
+
+/* Harmonic j of the wave form, which is at its top at t = 0 but for samples: cosine and sine. */
+static void fourier(const kz_pendulum_keys *written, int j, double form[2]) {
+  const bool corners = written->waveform == KZ_SQUARE || written->waveform == KZ_TRIANGLE;
   const double share = 4 / (M_PI * j);
-  return waveform == KZ_SQUARE ? (j % 4 == 1 ? share : -share) : 2 * share / (M_PI * j);
+  form[0] = j == 1, form[1] = 0;
+  if (corners && (j % 2 == 0 || j > CORNERED))
+    form[0] = 0;
+  else if (corners)
+    form[0] = written->waveform == KZ_SQUARE ? (j % 4 == 1 ? share : -share) : 2 * share / (M_PI * j);
+  if (written->waveform != KZ_SAMPLES) return;
+  form[0] = 0;
+  if (j <= highest_of_samples(&written->samples)) harmonic_of(&written->samples, j, form);
+}
+
+/* How far the harmonics are from samples less their mean: largest difference. */
+static double distance_from_samples(const kz_reals *samples) {
+  double rest[KZ_LIST_MAX], mean = 0, largest = 0, form[2];
+  const int highest = highest_of_samples(samples);
+  for (int64_t i = 0; i < samples->count; i++) mean += samples->values[i] / (double)samples->count;
+  for (int64_t i = 0; i < samples->count; i++) rest[i] = samples->values[i] - mean;
+  for (int j = 1; j <= highest; j++) {
+    harmonic_of(samples, j, form);
+    for (int64_t i = 0; i < samples->count; i++) {
+      const double angle = 2 * M_PI * (double)(i * j % samples->count) / (double)samples->count;
+      rest[i] -= form[0] * cos(angle) + form[1] * sin(angle);
+    }
+  }
+  for (int64_t i = 0; i < samples->count; i++) largest = fmax(largest, fabs(rest[i]));
+  return largest;
+}
+
+/* What is left of the Bessel functions beyond the last harmonic, at most. */
+static const double BESSEL_LEFT = 1e-9;
+
+/* What an oscillating torque T cos t makes of a free pendulum: g = amplitude cos(t + phase), g'' + beta g' = T cos t. */
+static void swing_of(double torque_amplitude, double beta, double *amplitude, double *phase) {
+  *amplitude = torque_amplitude / hypot(1, beta);
+  *phase = atan2(-beta, -1);
+}
+
+/* The amplitudes of cos j(t + phase) in cos g (j even) and sin g (j odd), j >= 1: 2 (-1)^floor(j/2) J_j. */
+static double bessel_of(double amplitude, int j) {
+  return (j / 2 % 2 == 0 ? 2 : -2) * jn(j, amplitude);
+}
+
+/* theta = phi + g: phi'' + beta phi' + k cos g sin phi + k sin g cos phi = torque, a drive of the pivot in the plane. */
+static void resolve_swing(const kz_pendulum_keys *written, kz_pendulum *p) {
+  double amplitude, phase;
+  swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
+  p->harmonics = 1;
+  for (int j = 1; j <= KZ_HARMONICS; j++) {
+    const double size = -p->k * bessel_of(amplitude, j);
+    double *harmonic = j % 2 == 0 ? p->vertical[j - 1] : p->horizontal[j - 1];
+    harmonic[0] = size * cos(j * phase), harmonic[1] = -size * sin(j * phase);
+    if (fabs(bessel_of(amplitude, j)) > 1e-17) p->harmonics = j;
+  }
+  p->k *= jn(0, amplitude);
+  p->unmirrored = 1;
+}
+
+const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pendulum *p) {
+  double amplitude, phase;
+  if (!has(written->torque_amplitude)) return NULL;
+  if (has(p->m) || written->waveform > KZ_SINE || written->harmonics.count > 0 || has(written->tilt) || has(written->ellipse))
+    return "torque_amplitude is for a pivot at rest: drive_amplitude 0 and no other drive";
+  swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
+  if (fabs(bessel_of(amplitude, KZ_HARMONICS + 1)) > BESSEL_LEFT)
+    return "torque_amplitude swings the pendulum so far that 16 harmonics do not hold its gravity; at most about 4";
+  return NULL;
+}
+
+void kz_drive_print(const kz_parameters *parameters, FILE *out) {
+  const kz_pendulum_keys *written = &parameters->written;
+  if (has(written->torque_amplitude)) {
+    double amplitude, phase;
+    swing_of(written->torque_amplitude, parameters->pendulum.beta, &amplitude, &phase);
+    fprintf(out,
+            "Drive: angles are counted from the swing %.10g cos(t + %.10g); harmonics up to order %d stand for it, and leave "
+            "%.2g of k.\n",
+            amplitude, phase, (int)parameters->pendulum.harmonics, fabs(bessel_of(amplitude, KZ_HARMONICS + 1)));
+  }
+  if (written->waveform != KZ_SAMPLES) return;
+  fprintf(out, "Drive: harmonics up to order %d stand for %lld samples; they are off by %.2g of drive_amplitude at most.\n",
+          highest_of_samples(&written->samples), (long long)written->samples.count, distance_from_samples(&written->samples));
 }
 
 /* The pivot's motion along its line, in units of m: cosine and sine of harmonic j. */
 static void along(const kz_pendulum_keys *written, double m, int j, double *cosine, double *sine) {
-  *cosine = m * fourier(written->waveform, j);
-  *sine = 0;
+  double form[2];
+  fourier(written, j, form);
+  *cosine = m * form[0];
+  *sine = m * form[1];
   for (int64_t i = 0; i < written->harmonics.count; i++) {
     const kz_harmonic *h = written->harmonics.values + i;
     if (h->order != j) continue;
@@ -42,13 +157,10 @@ static void add_harmonic(const kz_pendulum_keys *written, int j, kz_pendulum *p)
 
 static int highest_of(const kz_pendulum_keys *written) {
   int highest = written->waveform > KZ_SINE ? CORNERED : 1;
+  if (written->waveform == KZ_SAMPLES) highest = highest_of_samples(&written->samples);
   for (int64_t i = 0; i < written->harmonics.count; i++)
     if (written->harmonics.values[i].order > highest) highest = (int)written->harmonics.values[i].order;
   return highest;
-}
-
-static bool has(double value) {
-  return !isnan(value) && value != 0;
 }
 
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
@@ -60,6 +172,7 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
   }
   if (has(written->torque)) p->torque = written->torque;
   p->unmirrored = plane || has(written->torque);
+  if (has(written->torque_amplitude)) resolve_swing(written, p);
 }
 
 /* A ramp of the drive is in units of m, which it ends at. */

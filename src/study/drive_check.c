@@ -25,6 +25,8 @@ static const char *needs_no_release(const kz_scene *scene) {
 static const char *wrong_ramp(const kz_parameters *parameters) {
   const kz_pendulum_keys *written = &parameters->written;
   if (written->ramp_key == KZ_RAMP_DAMPING && written->ramp_from < 0) return "from: a damping is not below 0";
+  if (written->ramp_key == KZ_RAMP_DAMPING && !isnan(written->torque_amplitude))
+    return "key: angles are counted from the swing of torque_amplitude, which the damping changes; leave one of them out";
   if (written->ramp_key == KZ_RAMP_DRIVE && !(fabs(parameters->pendulum.m) > 0))
     return "key: a drive of amplitude 0 has nothing to be in proportion to; choose damping";
   return NULL;
@@ -47,6 +49,7 @@ static const char *keys_of(const kz_scene *scene) {
   if (!isnan(written->tilt)) return "pendulum.tilt";
   if (!isnan(written->ellipse)) return "pendulum.ellipse";
   if (!isnan(written->torque)) return "pendulum.torque";
+  if (!isnan(written->torque_amplitude)) return "pendulum.torque_amplitude";
   if (written->harmonics.count > 0) return "pendulum.harmonics";
   return "pendulum.waveform";
 }

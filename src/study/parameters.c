@@ -64,6 +64,8 @@ kz_status kz_parameters_resolve(kz_parameters *parameters) {
   if (!isfinite(p.k) || !isfinite(p.beta) || !isfinite(p.m))
     return kz_fail(KZ_REFUSED, "gives k = %g, beta = %g, m = %g, not all finite; use less extreme parameters", p.k, p.beta,
                    p.m);
+  const char *wrong = kz_drive_contradiction(&parameters->written, &p);
+  if (wrong) return kz_fail(KZ_REFUSED, "%s", wrong);
   kz_drive_resolve(parameters, &p);
   parameters->pendulum = p;
   kz_release_resolve(parameters, &parameters->release);

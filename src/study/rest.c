@@ -109,11 +109,32 @@ static void print_position(const char *name, const rest *r, const drive_words *w
   fputs(").", out);
 }
 
+/* Whether rest at `theta` is stable under any vertical drive: by the tangent map of a period. */
+static bool is_stable_at(const kz_pendulum *p, double theta) {
+  const kz_numerics fine = {.scheme = kz_scheme_find("split6"),
+                            .steps_per_period = 96 * (int32_t)ceil(sqrt(fmax(1, kz_stiffness(p))))};
+  double velocity = 0, matrix[4];
+  int64_t turns = 0;
+  kz_flow *flow = kz_flow_create(p, &fine);
+  kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
+  kz_flow_free(flow);
+  return fabs(matrix[0] + matrix[3]) <= 1 + exp(-2 * M_PI * p->beta);
+}
+
 void kz_rest_print(const kz_parameters *parameters, FILE *out) {
   const kz_pendulum *p = &parameters->pendulum;
   if (isnan(p->k)) return;
   if (kz_stiffness(p) > STIFFEST) {
     fprintf(out, "Rest: stability is not computed, because |k| + |m| is above %g.\n", STIFFEST);
+    return;
+  }
+  if (!kz_is_mirrored(p)) {
+    fputs("Rest: none, because the drive across the vertical or the torque moves the pendulum.\n", out);
+    return;
+  }
+  if (!kz_is_sine(p)) {
+    fprintf(out, "Rest hanging down: %s. Rest upside down: %s.\n", is_stable_at(p, 0) ? "stable" : "unstable",
+            is_stable_at(p, M_PI) ? "stable" : "unstable");
     return;
   }
   const double most = 4 * fmax(fmax(fabs(p->m), sqrt(2 * fabs(p->k))), 0.25);

@@ -91,6 +91,72 @@ def test_labels_are_those_of_fine_steps(rig, kapitza, tmp_path):
     assert decided.mean() > 0.8 and (names[0] == names[1])[decided].all()
 
 
+def test_samples_are_the_harmonics_that_they_hold(kapitza, tmp_path):
+    """Cosine of order 1 and sine of order 2, 8 samples; 64 samples of a square wave hold more, and what is left is told."""
+    samples = [math.cos(math.pi * i / 4) + 0.25 * math.sin(math.pi * i / 2) for i in range(8)]
+    basin = {"basin": {**WINDOW, "method": "direct", "attractors": {"starts": 256}}}
+    labels = [run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, **basin})["basin/attractor"][:]
+              for keys in ({"waveform": "samples", "samples": samples},
+                           {"harmonics": [{"order": 2, "amplitude": 0.25 * M, "phase": -math.pi / 2}]})]
+    assert (labels[0] == labels[1]).all()
+    square = {"pendulum": {**PENDULUM, "waveform": "samples", "samples": [1] * 16 + [-1] * 32 + [1] * 16}, **basin}
+    (tmp_path / "rig.yaml").write_text(json.dumps(square))
+    said = kapitza("check", "rig.yaml", folder=tmp_path).stdout.split("Drive: ")[1]
+    times = 2 * math.pi * np.arange(64) / 64
+    wave = np.array(square["pendulum"]["samples"], dtype=float)
+    amplitude = np.fft.rfft(wave)[:17] / 32
+    left = wave - sum((amplitude[j] * np.exp(1j * j * times)).real for j in range(1, 17))
+    assert said.startswith("harmonics up to order 15 stand for 64 samples")
+    assert abs(float(said.split("off by ")[1].split()[0]) - abs(left).max()) < 0.01
+
+
+@pytest.mark.parametrize("keys, rest", [({}, "(for drive_amplitude"), ({"waveform": "square"}, "stable. Rest upside down: stable."),
+                                        ({"waveform": "square", "drive_amplitude": 0.05}, "stable. Rest upside down: unstable."),
+                                        ({"torque": 0.01}, "Rest: none")])
+def test_rest_is_told_for_the_drive_that_is_there(kapitza, tmp_path, keys, rest):
+    (tmp_path / "rig.yaml").write_text(json.dumps({"pendulum": {**PENDULUM, **keys}, "basin": WINDOW}))
+    assert rest in kapitza("check", "rig.yaml", folder=tmp_path).stdout
+
+
+def bessel(n, x):
+    return sum((-1) ** i * (x / 2) ** (2 * i + n) / (math.factorial(i) * math.factorial(i + n)) for i in range(20))
+
+
+@pytest.mark.parametrize("n", [0, 1])
+def test_shapiro_steps_are_as_wide_as_bessel_functions(kapitza, tmp_path, n):
+    """Kautz, Rep. Prog. Phys. 59 (1996) 935: under a fast drive step n reaches to beta n + k |J_n(a)|, a the swing's amplitude."""
+    k, beta, amplitude = 0.02, 0.3, 1.5
+    half = k * abs(bessel(n, amplitude / math.hypot(1, beta)))
+    sweep = {"parameter": "torque", "min": beta * n, "max": beta * n + 1.2 * half, "count": 2, "measure": ["attractors"],
+             "starts": 16, "velocity": {"min": n - 0.5, "max": n + 0.5}, "theta": {"min": -math.pi, "max": math.pi}}
+    file = run(kapitza, tmp_path, {"pendulum": {"k": k, "damping": beta, "m": 0, "torque": 0, "torque_amplitude": amplitude},
+                                   "numerics": {"scheme": "split6", "steps_per_period": 24}, "sweep": sweep})
+    names = list(file["sweep/branch_name"].asstr()[:])
+    step = names.index("rotation +1/1" if n else "down")
+    assert abs((file["sweep/branch_end"][step] - beta * n) / half - 1) < 2e-3
+
+
+@pytest.mark.parametrize("torque", [0, 0.13])
+def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque):
+    """Cycles in the frame of the swing g obey theta'' + beta theta' + k sin theta = torque + T cos t with theta + g."""
+    k, beta, amplitude = 0.3, 0.5, 1.2
+    scene = {"pendulum": {"k": k, "damping": beta, "m": 0, "torque": torque, "torque_amplitude": amplitude},
+             "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 64}}
+    found = run(kapitza, tmp_path, scene)["attractors"]
+    t0 = (-amplitude / (1 + beta**2), amplitude * beta / (1 + beta**2))  # g = a cos t + b sin t and its slope at t = 0
+    x = np.array([found["strobe_theta"][0, 0] + t0[0], found["strobe_velocity"][0, 0] + t0[1]])
+    start, steps = x.copy(), 1500 * int(found["period"][0])
+    h = 2 * math.pi * int(found["period"][0]) / steps
+    for i in range(steps):
+        def slope(t, y):
+            return np.array([y[1], torque + amplitude * math.cos(t) - beta * y[1] - k * math.sin(y[0])])
+        one = slope(i * h, x)
+        two = slope(i * h + h / 2, x + h / 2 * one)
+        three = slope(i * h + h / 2, x + h / 2 * two)
+        x = x + h / 6 * (one + 2 * two + 2 * three + slope(i * h + h, x + h * three))
+    assert abs(math.remainder(x[0] - start[0], 2 * math.pi)) < 1e-9 and abs(x[1] - start[1]) < 1e-9
+
+
 LINEAR = {"key": "damping", "from": 0.06, "periods": 2.5}
 SMOOTH = {"key": "drive_amplitude", "from": 0.1, "periods": 3, "shape": "smooth"}
 
@@ -174,9 +240,13 @@ def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
     ({"torque": 0.1}, {"potential": {"drive_amplitudes": [0.3]}}, "pendulum.torque: study potential"),
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.ramp: basin.method icm"),
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "proof": True}}, "pendulum.ramp: basin.proof"),
-    ({"ramp": LINEAR}, {"attractors": {"velocity": {"min": -1, "max": 1}}}, "pendulum.ramp: is of the cells"),
+    ({"ramp": LINEAR}, {"attractors": {"velocity": {"min": -1, "max": 1}}}, "pendulum.ramp: needs the study basin"),
     ({"ramp": LINEAR}, {"basin": WINDOW, "orbit": {"start": {"theta": 1, "velocity": 0}}}, "pendulum.ramp: study orbit"),
     ({"ramp": {**LINEAR, "from": -1}}, {"basin": WINDOW}, "pendulum.ramp.from"),
+    ({"drive_amplitude": 0.3, "torque_amplitude": 1}, {"basin": WINDOW}, "torque_amplitude is for a pivot at rest"),
+    ({"drive_amplitude": 0, "torque_amplitude": 9}, {"basin": WINDOW}, "at most about 4"),
+    ({"waveform": "samples"}, {"basin": WINDOW}, "pendulum.samples"),
+    ({"samples": [1, 0, -1, 0]}, {"basin": WINDOW}, "pendulum.waveform: samples"),
     ({"ramp": {**LINEAR, "key": "k"}}, {"basin": WINDOW}, "pendulum.ramp.key"),
     ({}, {"basin": {**WINDOW, "start_phase": 1, "boundary": {}}}, "basin.start_phase: basin.boundary"),
     ({"harmonics": [{"order": 17, "amplitude": 1}]}, {"basin": WINDOW}, "pendulum.harmonics"),

@@ -27,6 +27,7 @@ const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     KEY(tilt, "rad"),
     KEY(ellipse, "1"),
     KEY(torque, "1"),
+    KEY(torque_amplitude, "1"),
     NAMED("ramp.periods", ramp_periods, "1"),
     NAMED("ramp.from", ramp_from, "1"),
 };
