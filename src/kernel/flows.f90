@@ -9,10 +9,11 @@ module kz_kernel_flows
   use kz_model_release, only: stretch_t
   use kz_lanes_step_table, only: numerics_t, period_t, make_period
   use kz_processed_batch, only: make_processed_batch
+  use kz_processed_slider, only: make_slid_series
   use kz_split_batch, only: make_batch
   implicit none
   private
-  public :: make_flow, make_stretch_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
+  public :: make_flow, make_moving_flow, make_stretch_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
 
   !> What published values are computed with, whatever the scene says: split6, 96 steps.
   type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96)
@@ -69,6 +70,25 @@ contains
     call make_period(pendulum, numerics, fused, period)
     call make_batch(period, flow)
   end subroutine make_flow
+
+  !> The same for a pendulum that is moved by a slider, a little beside the last one: its series comes from theirs.
+  subroutine make_moving_flow(pendulum, numerics, flow)
+    !> k, beta, m
+    type(pendulum_t), intent(in) :: pendulum
+    !> scheme, steps a period
+    type(numerics_t), intent(in) :: numerics
+    !> the map of one drive period
+    class(flow_t), allocatable, intent(out) :: flow
+    type(series_t), allocatable :: series
+
+    if (SCHEMES(numerics%scheme + 1)%form /= PROCESSED) then
+      call make_flow(pendulum, numerics, .true., flow)
+      return
+    end if
+    allocate (series)
+    call make_slid_series(pendulum, series)
+    call make_processed_flow(pendulum, series, numerics, flow)
+  end subroutine make_moving_flow
 
   !> The map of a stretch, by fine steps of split6.
   subroutine make_stretch_flow(pendulum, stretch, flow)

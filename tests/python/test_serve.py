@@ -81,6 +81,21 @@ def test_samples_of_a_deep_window_stand_for_its_cells(server):
     assert np.array_equal(moving[0][1]["labels"], moving[1][1]["labels"][np.ix_(places(4, 40), places(4, 60))])
 
 
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core")
+@pytest.mark.parametrize("quality, size", [("moving", (180, 240)), ("exact", (110, 150))])
+def test_cores_share_a_frame(quality, size):
+    """The same bytes on one core and on two; helpers have worked, and none is left."""
+    cores = sorted(os.sched_getaffinity(0))
+    with Server(FIG12) as server:
+        labels = []
+        for allowed in (cores[:1], cores[:1], cores[:2]):
+            os.sched_setaffinity(server.process.pid, allowed)
+            labels.append(server.frame(*size, window=WINDOW, quality=quality)[1][-1][1]["labels"])
+        helped = int(Path(f"/proc/{server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()[8])  # pages that its children touched
+        children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children").read_text()
+    assert np.array_equal(labels[1], labels[2]) and helped > 0 and not children
+
+
 def test_a_symmetric_window_has_mirrored_labels(server):
     catalogue = server.ask("catalogue")[0][0]["attractors"]
     labels = server.frame(40, 60)[1][-1][1]["labels"]

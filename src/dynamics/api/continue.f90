@@ -29,7 +29,7 @@ contains
     integer :: a
 
     from => of_handle(handle)
-    d => make_dynamics(pendulum, numerics, from%search%max_period)
+    d => make_dynamics(pendulum, numerics, from%search%max_period, .true.)
     allocate (number(size(from%attractors)), source=0)
     lost = 0
     do a = 1, size(from%attractors)

@@ -1,7 +1,7 @@
 !> The C interface of dynamics: the handle (include/kapitza/dynamics.h).
 module kz_api_dynamics
   use, intrinsic :: iso_c_binding, only: c_int64_t, c_ptr, c_loc
-  use kz_kernel_flows, only: make_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow, make_moving_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
   use kz_api_handle, only: dynamics_t, of_handle
@@ -17,22 +17,28 @@ contains
     integer(c_int64_t), value :: max_period
     type(c_ptr) :: handle
 
-    handle = c_loc(make_dynamics(pendulum, numerics, int(max_period)))
+    handle = c_loc(make_dynamics(pendulum, numerics, int(max_period), .false.))
   end function create
 
   !> Maps without attractors and regions.
-  function make_dynamics(pendulum, numerics, max_period) result(d)
+  function make_dynamics(pendulum, numerics, max_period, moving) result(d)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
     !> of the map that labels
     type(numerics_t), intent(in) :: numerics
     !> of the cycles that a search looks for
     integer, intent(in) :: max_period
+    !> whether a slider moves the pendulum
+    logical, intent(in) :: moving
     type(dynamics_t), pointer :: d
 
     allocate (d)
     d%numerics = numerics
-    call make_flow(pendulum, numerics, .true., d%flow)
+    if (moving) then
+      call make_moving_flow(pendulum, numerics, d%flow)
+    else
+      call make_flow(pendulum, numerics, .true., d%flow)
+    end if
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)

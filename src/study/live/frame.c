@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "cells.h"
+#include "crew.h"
 #include "numerics/cells.h"
 #include "engine.h"
 #include "levels.h"
@@ -15,9 +16,10 @@ typedef struct {
   const kz_scene *scene;
   const kz_frame *frame;
   kz_window_starts starts;
-  kz_samples samples;  /* of a moving frame whose window is a curve */
-  int64_t total, own;  /* cells; the first ones, of which the others are mirror images */
-  kz_frame_cell *cell; /* [total] */
+  kz_samples samples; /* of a moving frame whose window is a curve */
+  int64_t total, own; /* cells; the first ones, of which the others are mirror images */
+  kz_crew *crew;
+  kz_frame_cell *cell; /* [total] the crew's */
   int64_t *pending;    /* [total] numbers of the cells that a level follows */
   void *buffer;        /* of a level's planes */
   bool searched;       /* attractors have been looked for among its cells */
@@ -37,7 +39,8 @@ size_t kz_plane_bytes(int plane) {
 static void frame_allocate(making *m) {
   size_t bytes = 0;
   for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
-  m->cell = kz_calloc((size_t)m->total, sizeof *m->cell);
+  m->crew = kz_crew_create(m->total, kz_spare_cores());
+  m->cell = kz_crew_cells(m->crew);
   m->pending = kz_malloc((size_t)m->total * sizeof *m->pending);
   m->buffer = kz_malloc((size_t)m->total * bytes + sizeof(float));
 }
@@ -57,12 +60,7 @@ static int64_t list_pending(making *m, int64_t level) {
 
 static kz_status follow(making *m, int64_t n) {
   if (m->samples.curve.count > 0) return kz_samples_follow(m->resident, m->frame, &m->samples, n, m->pending, m->cell);
-  for (int64_t done = 0; done < n; done += KZ_FRAME_TILE) {
-    KZ_TRY(m->frame->pause(m->frame->context));
-    const int64_t part = n - done < KZ_FRAME_TILE ? n - done : KZ_FRAME_TILE;
-    KZ_TRY(kz_cells_follow(m->resident, &m->starts, part, m->pending + done, m->cell));
-  }
-  return KZ_OK;
+  return kz_crew_follow(m->crew, m->resident, m->frame, &m->starts, n, m->pending);
 }
 
 /* The cells among n that have not settled come to the front; their number. */
@@ -169,7 +167,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   m.resident->busy = was_busy;
   kz_samples_free(&m.samples);
   kz_window_starts_free(&m.starts);
-  free(m.cell);
+  kz_crew_free(m.crew);
   free(m.pending);
   free(m.buffer);
   return status;

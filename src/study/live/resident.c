@@ -9,7 +9,7 @@
 
 /* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not, which at any depth are
  * some 1e-7 wide when they are handed over; and the starts of the search. */
-static const double COARSE = 1e-6, FINE = 1e-10, SMALL = 1e-4;
+static const double COARSE = 1e-6, FINE = 1e-10, SMALL = 3e-5;
 enum { MOVING_STARTS = 1024 };
 /* Trapping regions that pay for frames, whatever their size: those of so many cells. */
 enum { CELLS = 130000 };

@@ -12,11 +12,22 @@ static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {
   return place;
 }
 
+/* Centres of the cells of an axis, rad or rad per drive radian. */
+static double *centres(const kz_axis *axis) {
+  double *centre = kz_malloc((size_t)axis->count * sizeof *centre);
+  for (int64_t cell = 0; cell < axis->count; cell++) centre[cell] = kz_axis_centre(axis, cell);
+  return centre;
+}
+
 void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
                            kz_window_starts *starts) {
   kz_view view;
   *starts = (kz_window_starts){.plan = plan, .pendulum = pendulum, .dynamics = dynamics, .images = kz_images_hold(images)};
-  if (!images) return;
+  if (!images) {
+    starts->centre[0] = centres(&plan->theta);
+    starts->centre[1] = centres(&plan->velocity);
+    return;
+  }
   kz_images_serve(images, pendulum, &plan->theta, &plan->velocity, &view);
   for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++)
     starts->hand_over[level] = kz_hand_over_at(images, level, view.reach);
@@ -28,6 +39,8 @@ void kz_window_starts_free(kz_window_starts *starts) {
   kz_images_free(starts->images);
   free(starts->place[0]);
   free(starts->place[1]);
+  free(starts->centre[0]);
+  free(starts->centre[1]);
   *starts = (kz_window_starts){0};
 }
 
@@ -38,7 +51,7 @@ static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start
   if (s->images)
     kz_hand_over_start(&s->hand_over[level < 0 ? KZ_LEVEL_DOUBLE : level], s->place[0][column], s->place[1][row], start);
   else
-    *start = kz_start_at(kz_axis_centre(&s->plan->theta, column), kz_axis_centre(&s->plan->velocity, row));
+    *start = kz_start_at(s->centre[0][column], s->centre[1][row]);
   return KZ_OK;
 }
 
@@ -59,8 +72,13 @@ kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide) {
 }
 
 void kz_window_state(const kz_window_starts *starts, int64_t cell, double state[2], int64_t *periods) {
-  kz_start start;
-  start_cell((void *)starts, cell, KZ_LEVEL_DOUBLE, &start);
-  kz_start_state(start.theta[0], start.velocity[0], state);
+  kz_start start = {0};
+  if (!starts->images) {
+    kz_start_state(starts->centre[0][cell % starts->plan->theta.count], starts->centre[1][cell / starts->plan->theta.count],
+                   state);
+  } else {
+    start_cell((void *)starts, cell, KZ_LEVEL_DOUBLE, &start);
+    kz_start_state(start.theta[0], start.velocity[0], state);
+  }
   *periods = start.periods;
 }

@@ -12,6 +12,7 @@ typedef struct {
   kz_images *images; /* held; NULL: the cells are doubles */
   kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
   __float128 *place[2]; /* with images: of each column and of each row, in shares of the images' width */
+  double *centre[2];    /* without: of each column and of each row, rad and rad per drive radian */
 } kz_window_starts;
 
 /* Of images that serve the window (kz_images_serve; NULL: none are needed) and have been followed. To be freed. */

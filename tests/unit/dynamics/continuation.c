@@ -110,6 +110,40 @@ static void test_refusals(void **state) {
   assert_int_equal(kz_branch_continue(&still, &rotation, 3, &out), 0);
 }
 
+/* Where three periods take a start, in the coordinates of the map. */
+static void carry(kz_dynamics *dynamics, double end[2]) {
+  int32_t label;
+  int64_t periods;
+  end[0] = 0.3;
+  end[1] = 0.4;
+  kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 1, 3, end, &label, &periods);
+}
+
+/* Along a slider the coefficients are interpolated: the map is that of a pendulum made anew, forwards, back, and after a leap. */
+static void test_slider(void **state) {
+  (void)state;
+  const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40};
+  for (int by_k = 0; by_k < 2; by_k++) {
+    kz_pendulum p = pendulum(0.3);
+    kz_dynamics *moved = kz_dynamics_create(&p, &numerics, 4);
+    kz_dynamics_coarse_regions(moved, 3);
+    for (int i = 1; i <= 40; i++) {
+      int64_t lost;
+      double end[2], known[2];
+      *(by_k ? &p.k : &p.m) += i == 20 ? 0.05 : i < 30 ? 3e-4 : -1e-3;
+      kz_dynamics *next = kz_dynamics_continue(moved, &p, &numerics, &lost), *anew = kz_dynamics_create(&p, &numerics, 4);
+      kz_dynamics_coarse_regions(anew, 3);
+      carry(next, end);
+      carry(anew, known);
+      assert_true(fabs(end[0] - known[0]) < 1e-10 && fabs(end[1] - known[1]) < 1e-10);
+      kz_dynamics_free(moved);
+      kz_dynamics_free(anew);
+      moved = next;
+    }
+    kz_dynamics_free(moved);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_flutter),
@@ -118,6 +152,7 @@ int main(void) {
       cmocka_unit_test(test_rotation),
       cmocka_unit_test(test_same_from_any_point),
       cmocka_unit_test(test_refusals),
+      cmocka_unit_test(test_slider),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
