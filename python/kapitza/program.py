@@ -27,7 +27,7 @@ class SceneError(ValueError):
     """A scene, or a command, that the program refuses; the text is the program's line.
 
     `key`: the key of the scene that is at fault, None where no single one is. `value`: what the scene gives it, None where it is
-    missing. `place`: where it stands: "FILE:LINE:COLUMN", "line LINE, column COLUMN" of a text, or the option that set it.
+    missing. `place`: where it stands: `FILE:LINE:COLUMN`, "line LINE, column COLUMN" of a text, or the option that set it.
     """
 
     def __init__(self, text: str, key: str | None = None, value: Any = None, place: str | None = None) -> None:

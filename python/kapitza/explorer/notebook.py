@@ -42,8 +42,8 @@ def explore(scene: SceneLike, *, set=None, height=760, port=0, base=None, origin
     """Shows the basins of a scene in a cell of a notebook, to be zoomed, dragged and changed.
 
     scene: path of a scene or of a result, YAML text, or a mapping. set: {"pendulum.m": 0.4}. height: px. port: of the server on the
-    kernel's machine; 0 = any that is free. base: where a browser reaches it, with {port} in it; None = http://127.0.0.1:{port}/, or
-    behind JupyterHub its server proxy. origins: of that place, where it is not this machine ("https://hub.example.org"). frames: origins
+    kernel's machine; 0 = any that is free. base: where a browser reaches it, with {port} in it; None = `http://127.0.0.1:{port}/`, or
+    behind JupyterHub its server proxy. origins: of that place, where it is not this machine (`https://hub.example.org`). frames: origins
     whose pages may hold the cell; None = those of this machine, and `origins`. Returns what a cell shows; its close() ends it.
     """
     from .server import Explorer, Refused, Start  # with what draws: not for those who only import the package
