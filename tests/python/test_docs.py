@@ -43,28 +43,26 @@ def test_an_old_name_leads_to_the_new_page(page):
     assert (DOCS / link).read_text().startswith(title + "\n")
 
 
-@pytest.fixture(scope="module")
-def site(tmp_path_factory):
+@pytest.fixture
+def site(tmp_path):
     """The folder of the site, made without a warning."""
     for module in ("sphinx", "myst_parser", "furo", "sphinx_copybutton"):
         pytest.importorskip(module, reason="scripts/requirements-docs.txt is not installed: the site is not made")
-    folder = tmp_path_factory.mktemp("docs")
-    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", folder / "site"]
-    done = subprocess.run([*command, "-d", folder / "doctrees"], capture_output=True, text=True, timeout=300)
+    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", tmp_path / "site"]
+    done = subprocess.run([*command, "-d", tmp_path / "doctrees"], capture_output=True, text=True, timeout=300)
     assert (done.returncode, done.stderr) == (0, "")
-    return folder / "site"
+    return tmp_path / "site"
 
 
-def test_the_site_has_every_page(site):
+def test_the_site_has_every_page_and_none_is_wider_than_a_phone(site):
+    """One test, because the site takes seconds to make."""
     pages = [(site / f"{name_of(path)}.html").read_text() for path in PAGES]
     assert all("<h1>" in page for page in pages) and "tutorials/how-hard.html" in pages[PAGES.index(DOCS / "index.md")]
     version = re.search(r"project\(kapitza VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     assert all(f"../{version}/index.html" in page for page in pages)
     assert "kapitza.Result.labels" in (site / "reference" / "api.html").read_text()
-
-
-@pytest.mark.skipif(not shutil.which("chromedriver"), reason="needs chromium and chromium-driver")
-def test_no_page_is_wider_than_a_phone(site):
+    if not shutil.which("chromedriver"):
+        pytest.skip("no chromium and chromium-driver: the pages are not opened at a phone's width")
     command = [sys.executable, ROOT / "tests" / "tools" / "phone_pages.py", site]
     done = subprocess.run(command, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0 and done.stdout.endswith(" pages, 0 too wide\n"), done.stdout + done.stderr
