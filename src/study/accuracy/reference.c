@@ -66,12 +66,10 @@ static kz_status follow_probes(const kz_reference_labels *reference, const kz_ru
 
 static kz_status find_attractors(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics, probes *p) {
   const kz_basin_plan *plan = reference->plan;
-  const kz_search search = {.window = kz_window_of(&plan->theta, &plan->velocity),
-                            .starts = plan->starts,
-                            .seed = plan->seed,
-                            .max_periods = plan->max_periods,
-                            .cells = reference->total,
-                            .max_velocity = reference->max_velocity};
+  kz_search search = kz_search_of_basin(plan);
+  search.cells = reference->total;
+  search.table_theta = 0;
+  search.max_velocity = reference->max_velocity;
   KZ_TRY(kz_search_window(run, dynamics, &search, p->state, p->label));
   for (int round = 0; round < ROUNDS; round++) {
     const int64_t known = kz_dynamics_count(dynamics);

@@ -43,10 +43,7 @@ static void attractors_allocate(const kz_scene *scene, finding *s) {
 }
 
 static kz_search search_of(const finding *s) {
-  kz_search search = {.window = kz_window_of(&s->plan->theta, &s->plan->velocity),
-                      .starts = s->plan->starts,
-                      .seed = s->plan->seed,
-                      .max_periods = s->max_periods};
+  kz_search search = kz_search_of_attractors(s->plan, s->max_periods);
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
   return search;
 }

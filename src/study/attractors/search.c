@@ -222,17 +222,27 @@ kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_se
   return rest > 0 ? kz_discover(run, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
 }
 
+kz_search kz_search_of_basin(const kz_basin_plan *plan) {
+  return (kz_search){.window = kz_window_of(&plan->theta, &plan->velocity),
+                     .starts = plan->starts,
+                     .seed = plan->seed,
+                     .max_periods = plan->max_periods,
+                     .cells = plan->theta.count * plan->velocity.count,
+                     .table_theta = plan->method == KZ_METHOD_ICM ? plan->table_theta : 0,
+                     .table_velocity = plan->table_velocity};
+}
+
+kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods) {
+  return (kz_search){.window = kz_window_of(&plan->theta, &plan->velocity),
+                     .starts = plan->starts,
+                     .seed = plan->seed,
+                     .max_periods = max_periods};
+}
+
 kz_search kz_search_of(const kz_scene *scene) {
-  const kz_basin_plan *basin = &scene->basin;
-  const kz_attractors_plan *attractors = &scene->attractors;
   if (!scene->has_basin)
-    return (kz_search){.window = kz_window_of(&attractors->theta, &attractors->velocity),
-                       .starts = attractors->starts,
-                       .seed = attractors->seed,
-                       .max_periods = kz_settling_periods(scene->parameters.pendulum.beta)};
-  return (kz_search){.window = kz_window_of(&basin->theta, &basin->velocity),
-                     .starts = basin->starts,
-                     .seed = basin->seed,
-                     .max_periods = basin->max_periods,
-                     .cells = basin->theta.count * basin->velocity.count};
+    return kz_search_of_attractors(&scene->attractors, kz_settling_periods(scene->parameters.pendulum.beta));
+  kz_search search = kz_search_of_basin(&scene->basin);
+  search.table_theta = 0;
+  return search;
 }

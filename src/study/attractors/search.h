@@ -41,7 +41,10 @@ enum { KZ_SEARCH_FEW = 256, KZ_SEARCH_MOST_SOUGHT = 1024 /* starts that a round 
 kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
                             double *seconds);
 
-/* The search for the attractors of the scene's study basin or attractors. */
+/* The search for the attractors of a basin, of a window, and of the scene's study basin or attractors, the last without a map table. The largest
+ * speed is left to the caller, who has the dynamics. */
+kz_search kz_search_of_basin(const kz_basin_plan *plan);
+kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods);
 kz_search kz_search_of(const kz_scene *scene);
 
 #endif

@@ -108,13 +108,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
                                 .run = run,
                                 .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
                                 .batch = kz_tile_cells(scene, KZ_TILE_CELLS),
-                                .search = {.window = kz_window_of(&plan->theta, &plan->velocity),
-                                           .starts = plan->starts,
-                                           .seed = plan->seed,
-                                           .max_periods = plan->max_periods,
-                                           .cells = plan->theta.count * plan->velocity.count,
-                                           .table_theta = plan->method == KZ_METHOD_ICM ? plan->table_theta : 0,
-                                           .table_velocity = plan->table_velocity}};
+                                .search = kz_search_of_basin(plan)};
   kz_catalogue catalogue = {0};
   kz_proof *proof;
   sample s = {0};

@@ -48,13 +48,10 @@ static const kz_run ALONE = {NULL, NULL};
 
 /* The catalogue of the attractors that a few starts end on; regions and table are as the study has them. */
 static kz_status basin_cost_discover(sample *s, kz_catalogue *catalogue) {
-  const kz_basin_plan *plan = &s->scene->basin;
   double state[2 * KZ_SEARCH_FEW];
   int32_t label[KZ_SEARCH_FEW];
   int64_t n;
-  kz_search search = kz_search_of(s->scene);
-  if (plan->method == KZ_METHOD_ICM) search.table_theta = plan->table_theta;
-  search.table_velocity = plan->table_velocity;
+  kz_search search = kz_search_of_basin(&s->scene->basin);
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
   KZ_TRY(kz_search_measure(s->dynamics, &search, state, label, &n, &s->seconds));
   kz_dynamics_update(s->dynamics);

@@ -193,15 +193,11 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
 /* The attractors of the window of the grid, or without one of the sweep's own. */
 static kz_status sweep_catalogue_discover(searching *s) {
   const kz_sweep_plan *sweep = &s->scene->sweep;
-  const kz_basin_plan *basin = s->n_cells > 0 ? &s->scene->basin : NULL;
-  kz_search search = {
-      .window = basin ? kz_window_of(&basin->theta, &basin->velocity) : kz_window_of(&sweep->theta, &sweep->velocity),
-      .starts = s->n_starts,
-      .seed = sweep->seed,
-      .max_periods = s->max_periods,
-      .cells = basin ? basin->theta.count * basin->velocity.count : 0,
-      .table_theta = basin && basin->method == KZ_METHOD_ICM ? basin->table_theta : 0,
-      .table_velocity = basin ? basin->table_velocity : 0};
+  kz_search search = {.window = kz_window_of(&sweep->theta, &sweep->velocity)};
+  if (s->n_cells > 0) search = kz_search_of_basin(&s->scene->basin);
+  search.starts = s->n_starts;
+  search.seed = sweep->seed;
+  search.max_periods = s->max_periods;
   search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
   return kz_search_window(s->run, s->dynamics, &search, s->state, s->label);
 }
