@@ -1,9 +1,10 @@
-"""kapitza-plot KIND FILE: one table says which function draws which kind of result, reports on it, or opens it to ParaView."""
+"""kapitza-plot KIND FILE: one table says which function draws which kind of result, reports on it, opens it to ParaView, or
+makes a film of pictures."""
 
 import sys
 from collections.abc import Callable
 
-from kapitza import vtkhdf
+from kapitza import recording, vtkhdf
 from kapitza.plots import basin, chart, compare, orbit, potential, stability, sweep, tradeoff
 from kapitza.report import command as report
 from kapitza.script import run_apart
@@ -13,6 +14,7 @@ KINDS: dict[str, Callable[[list[str]], None]] = {
     "basin": basin.main,
     "chart": chart.main,
     "compare": compare.main,
+    "film": recording.main,
     "orbit": orbit.main,
     "potential": potential.main,
     "report": report.main,

@@ -3,13 +3,15 @@
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import film_basin
 import kapitza
 import numpy as np
 import pytest
 from conftest import ROOT, run_script
-from kapitza import films
+from kapitza import films, recording
+from kapitza.result import BadFile
 from PIL import Image, ImageSequence
 
 SCENE = """
@@ -101,3 +103,29 @@ def test_a_film_that_falls_into_a_boundary(tmp_path):
         pictures = [np.asarray(frame.convert("RGB").crop((0, 0, 60, 20))) for frame in ImageSequence.Iterator(film)]
     assert [len(np.unique(picture.reshape(-1, 3), axis=0)) > 1 for picture in pictures] == [True] * 6
     assert all((one != other).any() for one, other in zip(pictures, pictures[1:], strict=False))
+
+
+@pytest.mark.parametrize("name, first", [("film.gif", b"GIF8"), ("film.mp4", b"ftyp")])
+def test_a_recording_of_the_explorer_becomes_a_film(tmp_path, name, first):
+    if name.endswith("mp4") and not shutil.which("ffmpeg"):
+        pytest.skip("no ffmpeg")
+    with zipfile.ZipFile(tmp_path / "film.zip", "w") as archive:
+        for number, size in enumerate([(31, 20), (31, 20), (40, 26)]):
+            with archive.open(f"film-{number:03}.png", "w") as file:
+                Image.new("RGB", size, (40 * number, 90, 10)).save(file, format="PNG")
+    recording.main([str(tmp_path / "film.zip"), "-o", str(tmp_path / name)])
+    assert first in (tmp_path / name).read_bytes()[:16]
+    if name.endswith("gif"):
+        with Image.open(tmp_path / name) as film:
+            assert (film.n_frames, film.size) == (3, (31, 20))
+
+
+def test_what_is_no_recording_is_refused(tmp_path):
+    (tmp_path / "a.zip").write_bytes(b"no archive")
+    with zipfile.ZipFile(tmp_path / "b.zip", "w") as archive:
+        archive.writestr("film-000.png", "no picture")
+    for name in ("a.zip", "b.zip"):
+        with pytest.raises(BadFile, match="is no ZIP of pictures"):
+            recording.main([str(tmp_path / name), "-o", str(tmp_path / "film.gif")])
+    with pytest.raises(SystemExit):
+        recording.main([str(tmp_path / "a.zip"), "-o", str(tmp_path / "film.avi")])
