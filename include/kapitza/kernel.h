@@ -172,7 +172,7 @@ kz_status kz_coordinate_text(const kz_coordinate *coordinate, int64_t digits, ch
 __float128 kz_coordinate_difference(const kz_coordinate *a, const kz_coordinate *b, int64_t bits);
 
 /* The neighbourhood of an orbit: coefficients of x, y; xx, xy, yy; xxx, xxy, xyy, yyy for the angle (0) and the velocity (1). Those of the
- * first degree are right to 33 digits, the others to 17. */
+ * first degree are right to 33 digits, the others, and the first degree alone, to 17. */
 enum { KZ_BENT = 7 };
 typedef struct {
   __float128 linear[2][2];

@@ -2,6 +2,7 @@
  *
  * With P1, P2, P3 the parts of a neighbour's angle by degree, f h^2 (k - m cos t), g = f cos theta, w = f sin theta:
  *   P2'' = -beta P2' - g P2 + w P1^2 / 2,   P3'' = -beta P3' - g P3 + w P1 P2 + g P1^3 / 6. */
+#include <math.h>
 #include <string.h>
 
 #include "step.h"
@@ -115,4 +116,32 @@ void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tan
   for (int axis = 0; axis < 2; axis++) read_series(series->angle[axis], tangent_orders, p.n, p.x[axis]);
   move_second(&p, jet);
   move_third(&p, jet);
+}
+
+/* The last order of a series that long doubles see. */
+static int64_t last_order(const kz_number *series, int64_t last) {
+  enum { BITS = 76 };
+  while (last > 0 && kz_number_exponent(series + last) < -BITS) last--;
+  return last;
+}
+
+bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet) {
+  enum { FEWEST = 24, MORE = 8 };
+  const int64_t n = larger(FEWEST, larger(last_order(series->cosine, orders), last_order(series->speed, orders))) + MORE;
+  parts p = {
+      .n = n < KZ_BENT_ORDERS ? n : KZ_BENT_ORDERS, .h = kz_number_long(&steps->h), .damping = kz_number_long(&steps->damping)};
+  row force = {0}, cosine = {0}, none = {0}, x;
+  read_series(series->force, steps->force_orders, p.n, force);
+  read_series(series->cosine, orders, p.n, cosine);
+  add_product(p.n, 1, force, cosine, p.gain);
+  for (int axis = 0; axis < 2; axis++) {
+    long double rate = (long double)jet->linear[1][axis] * p.h;
+    x[0] = (long double)jet->linear[0][axis];
+    const long double size = fabsl(x[0]) + fabsl(rate);
+    solve(p.n, p.damping, p.gain, none, x, &rate);
+    if (!(fabsl(x[p.n - 1]) + fabsl(x[p.n - 2]) <= 0x1p-60L * size)) return false;
+    jet->linear[0][axis] = sum_of(p.n, x);
+    jet->linear[1][axis] = rate / p.h;
+  }
+  return true;
 }

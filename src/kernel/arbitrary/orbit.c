@@ -75,10 +75,11 @@ static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *
     int64_t tangent = 0;
     const int64_t orders = kz_series_expand(&o->series, &o->steps, i, &o->place, bits);
     if (orders == 0) return false;
-    if (degree > 0) {
+    if (degree == 1 && !kz_tangent_advance(&o->series, &o->steps, orders, jet)) return false;
+    if (degree > 1) {
       tangent = kz_series_expand_tangent(&o->series, &o->steps, &o->place);
       if (tangent == 0) return false;
-      if (degree > 1) kz_bent_advance(&o->series, &o->steps, tangent, jet);
+      kz_bent_advance(&o->series, &o->steps, tangent, jet);
     }
     kz_series_sum(&o->series, &o->steps, orders, tangent, bits, &o->place);
   }
@@ -119,7 +120,7 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
   kz_jet bent = {.bent = {{0}}};
   bool done = false;
   wrap(o, o->bits);
-  set_tangent(&o->place, degree > 0 ? jet : NULL);
+  set_tangent(&o->place, degree > 1 ? jet : NULL);
   copy_place(&o->place, &before);
   for (int64_t halvings = 0; !done && halvings <= HALVINGS; halvings++) {
     kz_steps_make(&o->steps, &o->pendulum, o->series.orders, o->bits + 32, (int64_t)FEWEST_STEPS << halvings);
@@ -132,10 +133,8 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
   for (size_t i = 0; i < sizeof copies / sizeof *copies; i++) kz_number_clear(copies[i]);
   if (!done) return kz_fail(KZ_FAILED, "a motion is too fast for an orbit of %lld bits", (long long)fine);
   wrap(o, fine);
-  if (degree > 0) {
-    *jet = bent;
-    get_tangent(&o->place, jet);
-  }
+  if (degree > 0) *jet = bent;
+  if (degree > 1) get_tangent(&o->place, jet);
   return KZ_OK;
 }
 

@@ -39,6 +39,8 @@ int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const
 void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t tangent_orders, int64_t bits,
                    kz_place *place);
 
+/* Moves the first degree alone, in long doubles, with the series of an orbit to so many orders; false where it does not converge. */
+bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet);
 /* Moves the higher degrees of a neighbourhood through the step. */
 void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, kz_jet *jet);
 

@@ -126,15 +126,20 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
             1 / (M_PI * scene->parameters.pendulum.beta));
 }
 
+/* What may be done about undecided cells. */
+static const char *advice(const kz_basin_plan *plan) {
+  if (plan->undecided == KZ_UNDECIDED_DECIDE)
+    return "the largest number of digits that was tried does not tell where they end.";
+  if (kz_arbitrary_bits() < KZ_MOST_BITS) return "their orbits need more than quad precision, and so a build with FLINT (Arb).";
+  return "their orbits need more than quad precision; basin.undecided: decide follows them further.";
+}
+
 static void print_decided(const kz_basin_plan *plan, const kz_window_summary *labels, FILE *summary) {
   const long long undecided = labels->counts.undecided;
   if (undecided == 0)
     fputs("All cells are decided.\n", summary);
   else
-    fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided,
-            plan->undecided == KZ_UNDECIDED_DECIDE ? "the largest number of digits that was tried does not tell where they end."
-                                                   : "their orbits need more than quad precision; basin.undecided: decide "
-                                                     "follows them further.");
+    fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided, advice(plan));
 }
 
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,

@@ -2,10 +2,13 @@
 #include "own_orbit.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+/* Each further try has a third more bits: twice as many take five times as long, and are seldom needed. */
 enum {
-  FIRST_BITS = 192, /* of the first try; each further one has twice as many */
+  FEWEST_BITS = 192,  /* of the first try, */
+  BESIDE_WIDTH = 128, /* and that many beyond the size of the window that the start is in */
   MOST_BITS = 12288,
   TRY_EVERY = 8,  /* periods between two looks whether doubles decide the rest, */
   LOOK_EVERY = 64 /* and whether they end anywhere */
@@ -90,13 +93,20 @@ static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_
   return KZ_OK;
 }
 
+static int64_t first_bits(const kz_coordinate start[2]) {
+  long double bits = FEWEST_BITS;
+  for (int i = 0; i < 2; i++)
+    if (start[i].width) bits = fmaxl(bits, BESIDE_WIDTH - log2l(strtold(start[i].width, NULL)));
+  return (int64_t)bits;
+}
+
 kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision) {
   const int64_t all = kz_arbitrary_bits(), most = all < MOST_BITS ? all : MOST_BITS;
   kz_status status = KZ_OK;
   *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
   if (!kz_is_sine(pendulum)) return KZ_OK; /* kz_arbitrary has no other drives: left undecided */
-  for (int64_t bits = FIRST_BITS; status == KZ_OK && decision->label == KZ_DOUBTFUL; bits *= 2) {
+  for (int64_t bits = first_bits(start); status == KZ_OK && decision->label == KZ_DOUBTFUL; bits += bits / 3) {
     path p = {.bits = bits < most ? bits : most, .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
     status = follow(&p, dynamics, max_periods, decision);

@@ -124,6 +124,27 @@ static long double value_of(const __float128 *linear, const long double *b, long
          b[3] * x * x * x + b[4] * x * x * y + b[5] * x * y * y + b[6] * y * y * y;
 }
 
+/* The first degree alone is that of a whole neighbourhood, to long doubles: in motion, fast, and at rest. */
+static void a_tangent_alone_is_the_same(void **state) {
+  (void)state;
+  static const double start[][2] = {{0.7, 1.42}, {-2.3, 17}, {0, 0}};
+  for (int i = 0; i < 3; i++) {
+    kz_arbitrary *orbit[2];
+    kz_jet jet[2];
+    for (int j = 0; j < 2; j++) {
+      orbit[j] = orbit_at(start[i][0], start[i][1], 160);
+      jet[j] = (kz_jet){.linear = {{1, 0}, {0, 1}}};
+      for (int period = 0; period < 3; period++)
+        assert_int_equal(kz_arbitrary_advance(orbit[j], 160, j == 0 ? 3 : 1, &jet[j]), KZ_OK);
+      kz_arbitrary_free(orbit[j]);
+    }
+    for (int axis = 0; axis < 4; axis++) {
+      const double exact = (double)jet[0].linear[axis / 2][axis % 2], off = (double)(jet[1].linear[axis / 2][axis % 2] - exact);
+      assert_true(exact != 0 && fabs(off) < 1e-14 * fabs(exact));
+    }
+  }
+}
+
 /* A neighbour at 1e-4 is where the cubic says, to the fourth power of the distance; and at 1e-9 to all digits that remain. */
 static void neighbours_follow_the_jet(void **state) {
   (void)state;
@@ -207,6 +228,7 @@ int main(void) {
       cmocka_unit_test(agrees_with_the_quad_reference),
       cmocka_unit_test(errors_of_quads_are_not_understated),
       cmocka_unit_test(more_digits_agree),
+      cmocka_unit_test(a_tangent_alone_is_the_same),
       cmocka_unit_test(neighbours_follow_the_jet),
       cmocka_unit_test(areas_shrink_at_any_scale),
       cmocka_unit_test(neighbours_of_rest_move),
