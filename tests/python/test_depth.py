@@ -1,4 +1,4 @@
-"""Labels of deep windows against orbits of the cells themselves, by another integrator, in as many digits as it takes (tests/tools/own_orbit.py)."""
+"""Labels of deep windows against orbits of the cells themselves, by another integrator, in as many digits as it takes."""
 
 import json
 import os
@@ -27,7 +27,7 @@ def boundary(kapitza, folder, name, digits):
     window = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}}
     (folder / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "basin": window}))
     said = kapitza("where", "s.yaml", one, velocity, other, velocity, "--boundary", digits, folder=folder).stdout
-    return re.search(r"^theta +(\S+)", said, re.M)[1], velocity
+    return [re.search(rf"^{axis} +(\S+)", said, re.M)[1] for axis in ("theta", "velocity")]
 
 
 def run_window(kapitza, folder, name, depth):
