@@ -40,7 +40,7 @@ def run_window(kapitza, folder, name, depth):
 
 
 def referee(path, centre, width, cells):
-    """Of so many random cells: how many the program decided, of these the ones whose own orbit ends elsewhere, and how many attractors they show."""
+    """Of random cells: how many the program decided, those whose own orbit ends elsewhere, and how many attractors they show."""
     with h5py.File(path) as file:
         labels, evidence = file["basin/attractor"][:], file["basin/evidence"][:]
         pendulum = [float(file["pendulum"].attrs[name]) for name in ("k", "beta", "m")]

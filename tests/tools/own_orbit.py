@@ -129,7 +129,7 @@ class Orbit:
 
 
 def end_of(pendulum, start, strobes, digits, most_periods=3000):
-    """The number of the attractor whose strobe points, [(theta, velocity), ...] each, the orbit of a start comes to; None where it does not.
+    """The number of the attractor that the orbit of a start comes to, by lists of their strobe points; None where it comes to none.
 
     start: two fractions or decimal texts; digits: that tell it from its neighbours."""
     bits = math.ceil(digits * math.log2(10)) + GUARD
