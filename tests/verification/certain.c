@@ -119,7 +119,29 @@ static void test_decided_is_right(void **state) {
   }
 }
 
+/* What a process has labelled before at coarser levels changes no decision: ranks that met other tiles, and resumed runs, agree. */
+static void test_decisions_have_no_history(void **state) {
+  (void)state;
+  enum { N = 64 };
+  double x[2 * N];
+  kz_start start[N];
+  kz_decision first[N], decision[2][N];
+  kz_dynamics_starts(&WINDOW, 5, N, x);
+  for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {M_PI * x[2 * i]}, .velocity = {x[2 * i + 1]}};
+  for (int again = 0; again < 2; again++) {
+    kz_dynamics *d = explored_pendulum(&pendulums[4], numerics(), 1, 0, 3);
+    kz_dynamics_fine_regions(d, 200, 3);
+    if (again) kz_dynamics_label(d, KZ_LEVEL_PAIRS_16, KZ_LEVEL_FINE, N, start, MAX_PERIODS, first);
+    kz_dynamics_label(d, KZ_LEVEL_PAIRS_20, KZ_LEVEL_PAIRS_16, N, start, MAX_PERIODS, decision[again]);
+    kz_dynamics_free(d);
+  }
+  for (int i = 0; i < N; i++) {
+    assert_int_equal(decision[0][i].label, decision[1][i].label);
+    if (decision[0][i].label != KZ_DOUBTFUL) assert_true(decision[0][i].error == decision[1][i].error);
+  }
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_decided_is_right)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_decided_is_right), cmocka_unit_test(test_decisions_have_no_history)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,9 +81,10 @@ contains
     call ieee_set_halting_mode(ieee_usual, halting)
   end subroutine prepare_level
 
-  !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, or from the scene's, which have fewer terms than would
-  !> show their order, and a quarter more.
-  subroutine make_table(levels, level, pendulum, numerics, fastest)
+  !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, which are made first where this process has not met
+  !> them yet: what a rank has done before must not change a label. The steps of the coarsest are expected from the scene's, which have
+  !> fewer terms than would show their order, and a quarter more.
+  recursive subroutine make_table(levels, level, pendulum, numerics, fastest)
     type(levels_t), intent(inout) :: levels
     integer, intent(in) :: level
     type(pendulum_t), intent(in) :: pendulum
@@ -96,12 +97,11 @@ contains
     error = levels%error%worst
     if (numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = ceiling(1.25_dp*numerics%steps_per_period)
     if (level > LEVEL_PAIRS_16) then
+      if (.not. allocated(levels%pairs(level - 1)%level)) call make_table(levels, level - 1, pendulum, numerics, fastest)
       associate (coarser => levels%pairs(level - 1))
-        if (allocated(coarser%level)) then
-          if (size(coarser%level) > 0) then
-            steps = coarser%level(1)%n_steps
-            error = coarser%level(1)%error
-          end if
+        if (size(coarser%level) > 0) then
+          steps = coarser%level(1)%n_steps
+          error = coarser%level(1)%error
         end if
       end associate
     end if
