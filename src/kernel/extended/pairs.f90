@@ -43,6 +43,7 @@ module kz_extended_pairs
   !> What does not depend on the tolerance, once it is made.
   type :: pair_series_t
     type(series_t), allocatable :: series
+    type(probes_t), allocatable :: slow !< of the first table
   end type pair_series_t
 
 contains
@@ -78,10 +79,12 @@ contains
       if (.not. allocated(shared%series)) then
         allocate (shared%series)
         call make_mixed_series(pendulum, shared%series)
+        allocate (shared%slow)
+        call make_probes(pairs%drive, speeds_of(levels(0)), shared%slow)
       end if
       if (like_steps > 0) levels(0)%n_steps = expected_steps(like_steps, like_error, tolerance)
       do while (n < MOST_LEVELS .and. levels(n)%fastest < fastest)
-        call choose_level(pendulum, shared%series, pairs%drive, tolerance, levels(n), levels(n + 1))
+        call choose_level(pendulum, shared, pairs%drive, tolerance, levels(n), levels(n + 1))
         if (levels(n + 1)%error > tolerance) exit
         n = n + 1
         pairs%error = max(pairs%error, levels(n)%error)
@@ -113,21 +116,36 @@ contains
     n = min(MOST_PAIR_KICKS, ceiling(7 - 0.39_c_double*log10(tolerance)))
   end function expected_kicks
 
+  !> Of the probes of the table after a slower one.
+  pure function speeds_of(slower) result(speed)
+    type(level_t), intent(in) :: slower
+    real(c_double) :: speed(N_PROBES)
+    real(c_double) :: fastest
+    integer :: i
+
+    fastest = max(SLOWEST, RATIO*slower%fastest)
+    speed = [(slower%fastest + (fastest - slower%fastest)*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)]
+  end function speeds_of
+
   !> The steps that are expected, and more of them, by the order of the splitting, until the measured error is at most the tolerance for speeds
   !> beyond those of the slower level.
-  subroutine choose_level(pendulum, series, drive, tolerance, slower, level)
+  subroutine choose_level(pendulum, shared, drive, tolerance, slower, level)
     type(pendulum_t), intent(in) :: pendulum
-    type(series_t), intent(in) :: series
+    type(pair_series_t), intent(in) :: shared
     type(drive_t), intent(in) :: drive
     real(c_double), intent(in) :: tolerance
     type(level_t), intent(in) :: slower
     type(level_t), intent(out) :: level
     type(probes_t) :: probes
     real(c_double) :: fastest, former
-    integer :: n, kicks, i
+    integer :: n, kicks
 
     fastest = max(SLOWEST, RATIO*slower%fastest)
-    call make_probes(drive, [(slower%fastest + (fastest - slower%fastest)*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], probes)
+    if (slower%fastest > 0) then
+      call make_probes(drive, speeds_of(slower), probes)
+    else
+      probes = shared%slow
+    end if
     n = slower%n_steps ! twice the speed needs some 1.5 times the steps
     if (slower%fastest > 0) n = STRIDE*int(1.5_c_double*slower%n_steps/STRIDE)
     n = max(FEWEST_STEPS, n)
@@ -135,7 +153,7 @@ contains
     level%error = huge(level%error)
     do while (n <= MOST_STEPS)
       former = level%error
-      call make_level(pendulum, series, n, kicks, fastest, tolerance, level)
+      call make_level(pendulum, shared%series, n, kicks, fastest, tolerance, level)
       level%error = measure(level, probes)
       if (level%error <= tolerance .or. (n > FEWEST_STEPS .and. level%error > former)) return
       n = max(n + STRIDE, expected_steps(n, min(level%error, 4.0_c_double**ORDER*tolerance), tolerance))

@@ -23,17 +23,22 @@ static void step_aside(int64_t n, const double *state, double places, double *be
 
 /* Looks ever farther beside the states until each has another end. */
 static void find_others(const kz_labeller *l, int64_t n, const double *state, const int32_t *label, kz_decision *decision) {
-  double end[8 * BATCH];
+  double from[2 * BATCH], end[8 * BATCH];
   int32_t found[4 * BATCH];
-  int64_t late[4 * BATCH];
-  bool is_open = n > 0;
-  for (double places = 1; is_open && places * DBL_EPSILON < 1; places *= 2) {
-    step_aside(n, state, places, end);
-    kz_dynamics_follow(l->dynamics, KZ_FOLLOW_DIRECT, 4 * n, l->max_periods, end, found, late);
-    for (int64_t i = 0; i < 4 * n; i++)
-      if (decision[i / 4].other == 0 && found[i] != label[i / 4]) decision[i / 4].other = found[i];
-    is_open = false;
-    for (int64_t i = 0; i < n; i++) is_open = is_open || decision[i].other == 0;
+  int64_t late[4 * BATCH], open[BATCH], left = n;
+  for (int64_t i = 0; i < n; i++) open[i] = i;
+  for (double places = 1; left > 0 && places * DBL_EPSILON < 1; places *= 2) {
+    const int64_t asked = left;
+    for (int64_t i = 0; i < asked; i++) memcpy(from + 2 * i, state + 2 * open[i], 2 * sizeof *from);
+    step_aside(asked, from, places, end);
+    kz_dynamics_follow(l->dynamics, KZ_FOLLOW_DIRECT, 4 * asked, l->max_periods, end, found, late);
+    left = 0;
+    for (int64_t i = 0; i < asked; i++) {
+      const int64_t own = open[i];
+      for (int side = 0; side < 4 && decision[own].other == 0; side++)
+        if (found[4 * i + side] != label[own]) decision[own].other = found[4 * i + side];
+      if (decision[own].other == 0) open[left++] = own;
+    }
   }
 }
 
