@@ -85,6 +85,7 @@ typedef struct {
   } boundary;
   bool has_shocks;
   kz_shocks_plan shocks;
+  int64_t phases; /* of the drive at which the cells are released besides; not above 0: none */
 } kz_basin_plan;
 
 /* Study `attractors`: the counts of the axes are not used. */
@@ -184,18 +185,17 @@ typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
   double k, damping, m;                                                              /* b: k, beta, m */
   double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
-  double length;                  /* c: m, of a point mass, instead of radius and inertia */
-  double frequency;               /* c: Hz, instead of pivot_frequency */
-  double amplitude;               /* c: m, instead of pivot_amplitude */
-  double decay_time;              /* c: s, 2 I/b, instead of friction or quality_factor */
-  double tilt, ellipse, torque;   /* rad; short axis over long axis; in units of I omega^2 */
-  double torque_amplitude;        /* of a torque that goes as cos t, in units of I omega^2 */
-  double start_phase;             /* of the scene's basin: rad, of the drive when the pendulum is released */
-  double ramp_from, ramp_periods; /* in the units of its key; drive periods */
-  int32_t ramp_key, ramp_shape;   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
-  int32_t waveform;               /* KZ_SINE, ... */
-  kz_reals samples;               /* of KZ_SAMPLES: at equal times of a period, in units of m */
-  kz_harmonics harmonics;         /* further ones */
+  double length;                                  /* c: m, of a point mass, instead of radius and inertia */
+  double frequency;                               /* c: Hz, instead of pivot_frequency */
+  double amplitude;                               /* c: m, instead of pivot_amplitude */
+  double decay_time;                              /* c: s, 2 I/b, instead of friction or quality_factor */
+  double tilt, ellipse, torque, torque_amplitude; /* rad; short over long axis; in units of I omega^2; of a torque cos t */
+  double start_phase;                             /* of the scene's basin: rad, of the drive when the pendulum is released */
+  double ramp_from, ramp_periods;                 /* in the units of its key; drive periods */
+  int32_t ramp_key, ramp_shape;                   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
+  int32_t waveform;                               /* KZ_SINE, ... */
+  kz_reals samples;                               /* of KZ_SAMPLES: at equal times of a period, in units of m */
+  kz_harmonics harmonics;                         /* further ones */
 } kz_pendulum_keys;
 
 /* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */

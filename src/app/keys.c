@@ -186,6 +186,10 @@ const kz_key kz_keys[] = {
     INTEGER("basin.boundary.decades", 2, KZ_BOUNDARY_MOST_DECADES, "10", basin.boundary.decades,
             "Decades of these distances: 10 go down to 1e-12 rad; more need basin.method exact, because doubles cannot "
             "distinguish such starts."),
+    INTEGER("basin.phases", 2, 64, "", basin.phases,
+            "Also releases every cell at so many phases of the drive, spread evenly over a period from 0 on: how much of the "
+            "window ends "
+            "alike at all of them."),
     MAPPING("basin.shocks", "", AT(basin.has_shocks),
             "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
     REAL("basin.shocks.scale", "rad per drive radian", 1e-6, 1e6, "1", basin.shocks.scale,

@@ -80,6 +80,14 @@ const kz_variable kz_basin_variables[] = {
      {"velocity", "theta"},
      NONE,
      "id of the second candidate of an undecided cell; -1 = none"},
+
+    {"phases", "phase", KZ_REAL, {"phase"}, ANGLE, "phase of the drive at which the cells are released"},
+    {"phases", "velocity", KZ_REAL, {"velocity"}, VELOCITY, "angular velocity of the cell centre"},
+    {"phases", "theta", KZ_REAL, {"theta"}, ANGLE, "angle of the cell centre from down, counterclockwise"},
+    {"phases", "attractor", KZ_INT32, {"attractor"}, NONE, "id of the attractor"},
+    {"phases", "fraction", KZ_REAL, {"phase", "attractor"}, NONE, "share of the cells that end there"},
+    {"phases", "common", KZ_INT16, {"velocity", "theta"}, NONE, "id of the attractor that is reached at all phases; -1 = none"},
+    {"phases", "ends", KZ_UINT8, {"velocity", "theta"}, NONE, "different ends: attractors, and one for what has none"},
 };
 /* clang-format on */
 const size_t kz_basin_variable_count = sizeof kz_basin_variables / sizeof *kz_basin_variables;

@@ -78,7 +78,17 @@ static const char *needs_mirror(const kz_scene *scene) {
   return NULL;
 }
 
+/* What basin.phases does not go with; NULL = nothing. */
+static const char *needs_one_phase(const kz_scene *scene) {
+  if (!scene->has_basin || scene->basin.phases <= 0) return NULL;
+  if (scene->basin.method != KZ_METHOD_EXACT) return "labels the cells as basin.method exact does; choose that";
+  if (!(scene->parameters.pendulum.beta > 0)) return "without damping there are no attractors; leave it out";
+  return needs_no_release(scene);
+}
+
 static kz_status check_release(const kz_scene *scene) {
+  const char *phases = needs_one_phase(scene);
+  if (phases) return kz_fail(KZ_REFUSED, "basin.phases: %s", phases);
   const bool ramp = scene->parameters.has_ramp;
   const char *wrong = ramp ? wrong_ramp(&scene->parameters) : NULL;
   if (wrong) return kz_fail(KZ_REFUSED, "pendulum.ramp.%s", wrong);

@@ -66,9 +66,10 @@ kz_status kz_parameters_resolve(kz_parameters *parameters) {
                    p.m);
   const char *wrong = kz_drive_contradiction(&parameters->written, &p);
   if (wrong) return kz_fail(KZ_REFUSED, "%s", wrong);
+  parameters->pendulum = p;
+  fill_defined(parameters);
   kz_drive_resolve(parameters, &p);
   parameters->pendulum = p;
   kz_release_resolve(parameters, &parameters->release);
-  fill_defined(parameters);
   return KZ_OK;
 }

@@ -200,6 +200,38 @@ def test_released_cells_end_where_an_integration_up_to_the_strobe_leads(kapitza,
     assert (late == (math.ceil(ramp["periods"]) if ramp else 1)).mean() > 0.9
 
 
+def test_what_ends_alike_at_all_phases(kapitza, tmp_path):
+    """Phase 0 is the basin itself, pi/2 that of start_phase; a common end is that of every phase. Same bytes for two ranks."""
+    scene = {"pendulum": PENDULUM, "basin": {**WINDOW, "method": "exact", "phases": 4, "attractors": {"starts": 256}}}
+    def shares(names, fractions):
+        return dict(zip(names.asstr()[:], fractions, strict=True))
+    other = run(kapitza, tmp_path, scene, "--set", "basin.start_phase=90 deg", "--set", "basin.phases=2")["attractors"]
+    turned = shares(other["name"], other["fraction"][:])
+    file = run(kapitza, tmp_path, scene)
+    group, labels = file["phases"], file["basin/attractor"][:]
+    assert np.allclose(group["phase"][:], [0, math.pi / 2, math.pi, 3 * math.pi / 2])
+    assert (group["fraction"][0] == file["attractors/fraction"][:]).all()
+    quarter = shares(file["attractors/name"], group["fraction"][1])
+    assert all(abs(quarter.get(name, 0) - share) < 0.005 for name, share in turned.items())  # flagged cells have two candidates
+    common, ends = group["common"][:], group["ends"][:]
+    assert ((common >= 0) == (ends == 1)).all() and (common == labels)[common >= 0].all()
+    assert group.attrs["share"] == (common >= 0).mean() and 0.02 < group.attrs["share"] < 0.3
+    kapitza("run", "rig.yaml", "-o", "two.h5", folder=tmp_path, ranks=2)
+    with h5py.File(tmp_path / "two.h5") as two:
+        assert all((two["phases"][name][:] == group[name][:]).all() for name in ("common", "ends", "fraction"))
+
+
+def test_folding_changes_no_byte(kapitza, tmp_path):
+    """A window that is its own mirror image is computed by half; with a row more nothing is folded."""
+    basin = {"method": "exact", "theta": {"count": 24}, "attractors": {"starts": 256}}
+    scene = {"pendulum": {**PENDULUM, "waveform": "triangle"}}
+    folded = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2, "count": 16}}})["basin"]
+    folded = {name: folded[name][:] for name in ("attractor", "settling_time", "velocity")}
+    whole = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2.25, "count": 17}}})["basin"]
+    assert (whole["velocity"][:16] == folded["velocity"]).all()
+    assert (whole["attractor"][:16] == folded["attractor"]).all()
+
+
 def test_releases_are_the_same_for_any_number_of_ranks_and_mirrored(kapitza, tmp_path):
     scene = {"pendulum": {**PENDULUM, "ramp": SMOOTH}, "basin": {**WINDOW, "start_phase": 1, "attractors": {"starts": 256}}}
     alone = run(kapitza, tmp_path, scene)
@@ -248,6 +280,7 @@ def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
     ({"waveform": "samples"}, {"basin": WINDOW}, "pendulum.samples"),
     ({"samples": [1, 0, -1, 0]}, {"basin": WINDOW}, "pendulum.waveform: samples"),
     ({"ramp": {**LINEAR, "key": "k"}}, {"basin": WINDOW}, "pendulum.ramp.key"),
+    ({}, {"basin": {**WINDOW, "method": "direct", "phases": 4}}, "basin.phases: labels the cells as basin.method exact does"),
     ({}, {"basin": {**WINDOW, "start_phase": 1, "boundary": {}}}, "basin.start_phase: basin.boundary"),
     ({"harmonics": [{"order": 17, "amplitude": 1}]}, {"basin": WINDOW}, "pendulum.harmonics"),
     ({"harmonics": [{"order": 2, "height": 1}]}, {"basin": WINDOW}, "none of order, amplitude, phase"),

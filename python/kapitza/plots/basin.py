@@ -33,7 +33,8 @@ PAGE_WIDTH, PLANE_WIDTH, TITLES = 7.6, 5.3, 0.9  # inches, nearly the same in ev
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("basin", __doc__, "a basin")
-    parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence"], default="attractor")
+    parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence", "common"], default="attractor",
+                        help="common: the attractor that a cell reaches at all of basin.phases")
     parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
     parser.add_argument("--centre", choices=["down", "inverted"], default="down",
                         help="state in the middle of a whole-circle picture (default: down)")
@@ -134,6 +135,17 @@ def draw_evidence(axes: Axes, basin: xarray.Dataset, *, colours: Sequence[str] =
     return label_axes(axes, plane)
 
 
+def draw_common(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, phases: xarray.Dataset, *, legend: bool = True,
+                centre: str = "down") -> Axes:
+    """What a cell reaches at every phase of release, in the colours of the basins; other cells as the unsettled ones."""
+    common, colours = phases["common"].values, style.colours(attractors)
+    draw_basins(axes, basin.assign(attractor=basin["attractor"].copy(data=common)), attractors, legend=False, centre=centre, dots=False)
+    if legend:
+        write_legend(axes, [(colour, "depends on the phase" if name == "not settled" else name, share)
+                            for colour, name, share in basin_entries(attractors, colours, common)])
+    return axes
+
+
 def write_legend(axes: Axes, entries: Sequence[tuple[str, str, float]]) -> Axes:
     """Colour and name in one column, the share in the next, digits under digits."""
     shares = [style.share_text(share) for _, _, share in entries]
@@ -169,6 +181,8 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
         draw_basins(axes, basin, attractors, centre=centre, dots=False, shade=arguments.shade)
     elif arguments.quantity == "evidence":
         draw_evidence(axes, basin, centre=centre)
+    elif arguments.quantity == "common":
+        draw_common(axes, basin, attractors, result.group("phases"), centre=centre)
     else:
         draw_settling_time(axes, basin, centre=centre)
     if arguments.manifolds:

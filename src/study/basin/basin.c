@@ -12,6 +12,7 @@
 #include "boundary.h"
 #include "resilience/resilience.h"
 #include "numerics/table_check.h"
+#include "phases.h"
 #include "proof_write.h"
 #include "shocks_write.h"
 
@@ -98,6 +99,7 @@ static kz_status write_window(const kz_scene *scene, kz_window_labels *labelling
                                             : KZ_OK));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_lifetime_write(scene, store, summary) : KZ_OK));
   KZ_TRY(kz_boundary_find(scene, labelling, catalogue, store, summary));
+  KZ_TRY(kz_phases_find(scene, labelling, catalogue, store, summary));
   return find_shocks(scene, labelling, catalogue, store, summary);
 }
 

@@ -11,6 +11,7 @@
 #include "boundary.h"
 #include "label_parts.h"
 #include "proof.h"
+#include "phases.h"
 #include "shocks_write.h"
 
 /* s a cell, as measured: its record, its measures, its place in the file. */
@@ -29,7 +30,8 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   const double regions = pow((double)kz_regions_cells(cells), 2);
   return (kz_cost){.cells = cells,
                    .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
-                   .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + 40 * (double)kz_tile_capacity(&tiles),
+                   .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + kz_phases_bytes(plan) +
+                                   40 * (double)kz_tile_capacity(&tiles),
                    .rank0_bytes = 4e6,
                    .shared_bytes = 0.2 * (double)cells};
 }
@@ -170,6 +172,7 @@ static kz_status measure_parts(sample *s) {
   kz_status status = basin_cost_discover(s, &catalogue);
   if (status == KZ_OK) status = measure_cells(s);
   if (status == KZ_OK) status = kz_boundary_measure(&s->scene->basin, s->dynamics, &s->seconds);
+  if (status == KZ_OK) status = kz_phases_measure(s->scene, s->dynamics, &s->seconds);
   if (status == KZ_OK) status = measure_shocks(s, &catalogue);
   if (status == KZ_OK) status = kz_proof_measure(s->scene, s->dynamics, &s->seconds);
   kz_catalogue_free(&catalogue);
