@@ -60,7 +60,7 @@ def picture(engine, labels, decades):
     palette = [tuple(int(colour[i:i + 2], 16) for i in (1, 3, 5)) for colour in style.colours(attractors)]
     image = Image.fromarray(np.array([*palette, UNSETTLED], dtype=np.uint8)[labels[::-1]])
     draw = ImageDraw.Draw(image)
-    draw.text((9, image.height - 19), f"width {2 * np.pi * 10 ** (-decades % 1):.1f}e{int(np.floor(-decades))}", fill=(0, 0, 0))
+    draw.text((9, image.height - 19), f"width {2 * np.pi * 10.0 ** -decades:.1e}", fill=(0, 0, 0))
     return image
 
 
