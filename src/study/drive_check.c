@@ -57,6 +57,7 @@ static const char *keys_of(const kz_scene *scene) {
 /* The first study or method that needs the sine; NULL = none. */
 static const char *needs_sine(const kz_scene *scene) {
   if (scene->has_chart) return "study chart follows pendulums whose pivot moves up and down as a sine";
+  if (scene->has_stability) return "study stability has the curves of Mathieu's equation, for the sine alone";
   if (scene->has_potential) return "study potential has a closed formula for the sine alone";
   if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM) return "orbit.model has equations for the sine alone";
   if (scene->has_basin && (scene->basin.theta.centre.text[0] || scene->basin.velocity.centre.text[0]))

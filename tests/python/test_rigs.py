@@ -221,6 +221,23 @@ def test_what_ends_alike_at_all_phases(kapitza, tmp_path):
         assert all((two["phases"][name][:] == group[name][:]).all() for name in ("common", "ends", "fraction"))
 
 
+@pytest.mark.parametrize("name", ["tilted", "square"])
+def test_saddles_manifolds_and_orbits_are_of_the_drive(kapitza, tmp_path, name):
+    """Unstable cycles obey the equation, manifolds begin at them, an orbit settles on an attractor."""
+    keys, force = RIGS[name]
+    studies = {"saddles": {"max_period": 1, "velocity": {"min": -2, "max": 2}}, "manifolds": {"length": 5},
+               "orbit": {"start": {"theta": 0.1, "velocity": 0}, "periods": 20}}
+    file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, **studies})
+    points = np.column_stack([file["saddles/strobe_theta"][:, 0], file["saddles/strobe_velocity"][:, 0]])
+    assert len(points) > 0
+    for point in points:
+        theta, velocity = period(force, point)
+        assert abs(math.remainder(theta - point[0], 2 * math.pi)) < 1e-9 and abs(velocity - point[1]) < 1e-9
+    where = np.column_stack([file["manifolds/theta"][:], file["manifolds/velocity"][:]])
+    assert len(where) > 100 and np.isfinite(where).all()
+    assert file["orbit"].attrs["settles_on"] == "down"
+
+
 def test_folding_changes_no_byte(kapitza, tmp_path):
     """A window that is its own mirror image is computed by half; with a row more nothing is folded."""
     basin = {"method": "exact", "theta": {"count": 24}, "attractors": {"starts": 256}}
@@ -269,6 +286,8 @@ def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
     ({"tilt": math.pi / 36}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.tilt: basin.method icm"),
     ({"tilt": 0.1}, {"basin": WINDOW, "numerics": {"scheme": "rk4"}}, "pendulum.tilt: numerics.scheme rk4"),
     ({"waveform": "square"}, {"basin": {**WINDOW, "method": "exact", "proof": True}}, "pendulum.waveform: basin.proof"),
+    ({"tilt": 0.1}, {"stability": {"k": {"min": 0, "max": 0.1, "count": 3}, "m": {"min": 0, "max": 1, "count": 3}}},
+     "pendulum.tilt: study stability"),
     ({"torque": 0.1}, {"potential": {"drive_amplitudes": [0.3]}}, "pendulum.torque: study potential"),
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.ramp: basin.method icm"),
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "proof": True}}, "pendulum.ramp: basin.proof"),
