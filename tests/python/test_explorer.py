@@ -118,9 +118,11 @@ def test_a_newer_frame_ends_the_one_before_and_a_sudden_end_is_said(striped):
 
 
 def test_a_program_that_does_not_hear_is_replaced(striped):
-    threading.Thread(target=lambda: attempt(striped.ask, FRAME | {"pendulum": {"m": 6}}, "deaf")).start()
+    deaf = []  # what it was asked for has ended, as if it had heard
+    threading.Thread(target=lambda: deaf.extend(striped.ask(FRAME | {"pendulum": {"m": 6}}, "deaf"))).start()
     time.sleep(0.3)
     assert striped.ask({"request": "cancel"}, "deaf")[-1][0]["answer"] == "ended"
+    assert wait_for(lambda: deaf and deaf[-1][0]["answer"] == "ended", 20)
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "deaf")[-1][0]["answer"] == "frame"
 
 

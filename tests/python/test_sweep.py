@@ -53,7 +53,7 @@ RANGES = REFERENCE["attractor_existence_ranges_Q5_Omega11"]
 
 
 def test_inverted_gives_way_to_flutter(sweep):
-    branches, _ = sweep("attractors", 0.46, 0.475, 16, more=", starts: 4096")
+    branches, _ = sweep("attractors", 0.46, 0.475, 16 if EXTENSIVE else 4, more=", starts: 4096")
     critical = REFERENCE["blackburn_fig4_upper_flutter"]["Omega11_Q5"]["eps_c"]
     assert ends(branches, "inverted")[2:] == (near(critical), "period_doubling")
     assert ends(branches, "flutter")[:2] == (near(critical), "period_doubling")
@@ -212,7 +212,7 @@ def test_no_flutter_where_there_is_none(sweep):
 
 
 def test_flutter_zone_over_the_frequency(sweep):
-    arrays, _ = sweep("flutter_zone", 7, 15, 5 if EXTENSIVE else 3, parameter="drive_frequency")
+    arrays, _ = sweep("flutter_zone", *((7, 15, 5) if EXTENSIVE else (11, 15, 2)), parameter="drive_frequency")
     for row, omega in enumerate(arrays["value"]):
         known = REFERENCE["blackburn_fig4_upper_flutter"][f"Omega{round(omega)}_Q5"]
         assert arrays["flutter_onset"][row] == pytest.approx(known["eps_c"], abs=1e-9)

@@ -49,10 +49,12 @@ class View:
         self._lock = threading.Lock()
         self._numbers, self._waiting, self._last_frame = itertools.count(1), {}, None
         self._unanswered = set()  # numbers of requests whose last answer has not come
+        self._frames = set()      # numbers of requests that a newer one may end
         self._catalogues, self._colours = {}, Colours()
-        self._errors = []
+        self._errors, self._closed = [], False
         first = self._waiting[None] = queue.SimpleQueue()
-        threading.Thread(target=self._read_errors, daemon=True).start()
+        self._error_reader = threading.Thread(target=self._read_errors, daemon=True)
+        self._error_reader.start()
         threading.Thread(target=self._read, daemon=True).start()
         try:
             self.ready, _ = first.get(timeout=START)
@@ -72,6 +74,7 @@ class View:
             self._unanswered.add(number)
             if kind in ENDING:
                 self._last_frame = number
+                self._frames.add(number)
         self.used, final = time.monotonic(), False
         try:
             self._send(request | {"sequence": number})
@@ -88,6 +91,7 @@ class View:
         finally:
             with self._lock:
                 self._waiting.pop(number, None)
+                self._frames.discard(number)
             if not final and number == self._last_frame:  # nobody reads on
                 with suppress(Gone):
                     self._send({"request": "cancel", "sequence": next(self._numbers)})
@@ -128,9 +132,11 @@ class View:
             pass  # it was ended amid an answer
         self._process.wait()
         words = self._end_words()
+        last = {"answer": "error", "final": True, "bytes": 0, "status": 1, "message": words}
         with self._lock:
-            for waiting in self._waiting.values():
-                waiting.put(({"answer": "error", "final": True, "bytes": 0, "status": 1, "message": words}, b""))
+            for number, waiting in self._waiting.items():
+                is_superseded = self._closed and number in self._frames
+                waiting.put((last | {"answer": "ended"} if is_superseded else last, b""))
 
     def _keep_catalogue(self, header):
         header["attractors"] = self._colours.added(header["attractors"])
@@ -144,7 +150,7 @@ class View:
                 self._errors = [*self._errors, line.decode(errors="replace").strip()][-5:]
 
     def _end_words(self):
-        time.sleep(0.02)  # its last words may still be on their way
+        self._error_reader.join(1)  # its last words may still be on their way
         said = [line for line in self._errors if line.startswith("kapitza: error: ")]
         return plain(said[-1]) if said else "the program has ended"
 
@@ -153,7 +159,8 @@ class View:
         return self._process.poll() is not None
 
     def close(self):
-        """Ends the program, at once where it does not go by itself."""
+        """Ends the program, at once where it does not go by itself; what it still computes has ended."""
+        self._closed = True
         with suppress(OSError):
             self._process.stdin.close()
         try:
