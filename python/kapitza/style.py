@@ -72,7 +72,7 @@ def colours(attractors: xarray.Dataset, apart: Iterable[int] | None = None) -> l
     rows = list(zip(attractors["period"].values, attractors["winding"].values, attractors["centre"].values,
                     attractors["mirror"].values, strict=True))
     order = sorted(range(len(rows)) if apart is None else apart,
-                   key=lambda index: (rows[index][0], abs(rows[index][1]), rows[index][3] < index, index))
+                   key=lambda index: (rows[index][0], abs(rows[index][1]), _is_second(index, rows[index][3]), index))
     found = _told_apart([_colour(index, *row) for index, row in enumerate(rows)], order)
     names = [str(name) for name in attractors["name"].values] if "name" in attractors else [""] * len(rows)
     both = zip(found, names, names_with_ids(names), strict=True)
@@ -128,9 +128,14 @@ def _colour(index: int, period: int, winding: int, centre: int, mirror: int) -> 
         lighter = _rotation_shade(period, winding)
     elif name in ("down nodding", "inverted nodding"):
         lighter = 0.55 * (1 - 2 / period) if period > 1 else 0.6
-    if not name.startswith("rotation") and mirror < index:  # the second of two mirror partners
+    if not name.startswith("rotation") and _is_second(index, mirror):
         return shade(kind_colour(name), lighter - 0.3)
     return shade(kind_colour(name), lighter)
+
+
+def _is_second(index: int, mirror: int) -> bool:
+    """Whether it is the second of two mirror partners; `mirror`: -1 = it has none."""
+    return mirror != -1 and mirror < index
 
 
 def _rotation_shade(period: int, winding: int) -> float:

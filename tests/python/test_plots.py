@@ -261,3 +261,11 @@ def test_flipped_bytes_never_give_a_traceback(made_file, tmp_path):
         made_file.write_bytes(damaged)
         done = plot(made_file, "-o", tmp_path / "out.png", "--dpi", 40)
         assert done.returncode in (0, 1) and "Traceback" not in done.stderr, done.stderr
+
+
+def test_a_motion_without_mirror_image_has_the_colour_of_its_kind(made_file):
+    """As on a tilted shaker: only the second of two mirror partners is darker."""
+    attractors = Result(made_file).group("attractors")
+    usual = style.colours(attractors)
+    alone = style.colours(attractors.assign(mirror=attractors["mirror"] * 0 - 1))
+    assert alone[:3] == usual[:3] and alone[0] == style.KINDS["down"] and usual[3] != usual[2]

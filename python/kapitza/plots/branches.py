@@ -28,7 +28,7 @@ def parameter_text(sweep: xarray.Dataset) -> str:
 def motions(sweep: xarray.Dataset) -> list[tuple[int, int, int, bool]]:
     """(period, winding, centre, whether the second of two mirror partners) of every branch."""
     columns = (sweep[f"branch_{name}"].values for name in ("period", "winding", "centre", "mirror"))
-    return [(int(period), int(winding), int(centre), bool(mirror < branch)) for branch, (period, winding, centre, mirror)
+    return [(int(period), int(winding), int(centre), bool(-1 < mirror < branch)) for branch, (period, winding, centre, mirror)
             in enumerate(zip(*columns, strict=True))]
 
 
@@ -39,7 +39,7 @@ def branch_colours(sweep: xarray.Dataset, named: Iterable[int] | None = None) ->
     dimension = sweep["branch_period"].dims
     table = xarray.Dataset({name: (dimension, [kinds[branch][column] for branch in firsts])
                             for column, name in enumerate(("period", "winding", "centre"))})
-    table["mirror"] = dimension, [-1 if kinds[branch][3] else len(firsts) for branch in firsts]
+    table["mirror"] = dimension, [-2 if kinds[branch][3] else len(firsts) for branch in firsts]  # of a second partner: before all
     wanted = None if named is None else {kinds[one] for one in named}
     apart = None if wanted is None else [row for row, branch in enumerate(firsts) if kinds[branch] in wanted]
     colour = dict(zip((kinds[branch] for branch in firsts), style.colours(table, apart), strict=True))
