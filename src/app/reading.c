@@ -58,23 +58,13 @@ __attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *readi
   va_end(arguments);
 }
 
-/* "0.3" of "0,3"; false where the text is no number with one comma in it. */
-static bool with_a_point(const char *text, char *number, size_t bytes) {
-  const size_t before = strspn(text, "+-0123456789");
-  if (before == 0 || text[before] != ',') return false;
-  const size_t after = strspn(text + before + 1, "0123456789");
-  if (after == 0 || text[before + 1 + after] != '\0') return false;
-  snprintf(number, bytes, "%.*s.%s", (int)before, text, text + before + 1);
-  return true;
-}
-
 /* Complains about a value: what is wrong with it, what would be accepted. */
 static void complain_value(kz_reading *reading, const kz_key *key, const kz_node *node, const char *wrong) {
   char accepted[700], nearest[64], hint[96] = "";
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
   if (node->kind == KZ_SCALAR && kz_key_renamed(key, node->text, nearest, sizeof nearest))
     snprintf(hint, sizeof hint, " (it is gone: use %s)", nearest);
-  else if (node->kind == KZ_SCALAR && with_a_point(node->text, nearest, sizeof nearest))
+  else if (node->kind == KZ_SCALAR && kz_scalar_with_a_point(node->text, nearest, sizeof nearest))
     snprintf(hint, sizeof hint, " (with a decimal point: %s)", nearest);
   else if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
     snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);

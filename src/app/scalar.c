@@ -123,3 +123,12 @@ void kz_scalar_print(double value, char *text) {
     if (strtod(text, NULL) == value) return;
   }
 }
+
+bool kz_scalar_with_a_point(const char *text, char *number, size_t bytes) {
+  const size_t before = strspn(text, "+-0123456789");
+  if (before == 0 || text[before] != ',') return false;
+  const size_t after = strspn(text + before + 1, "0123456789");
+  if (after == 0 || text[before + 1 + after] != '\0') return false;
+  snprintf(number, bytes, "%.*s.%s", (int)before, text, text + before + 1);
+  return true;
+}

@@ -108,6 +108,8 @@ const char *kz_scalar_real(const kz_node *node, double *value);
 const char *kz_scalar_angle(const kz_node *node, double *value);
 /* A number of any digits, in quotes or not; of an angle also in degrees. The text is kept. */
 const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value);
+/* "0.3" of "0,3"; false where the text is no number with one comma in it. */
+bool kz_scalar_with_a_point(const char *text, char *number, size_t bytes);
 /* A number, or one with a unit behind it ("20 cm"), as so many of `unit`; "" = of any unit of the table. */
 const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value);
 /* "3 pi/4" as the text "3" [bytes] and the divisor 4; false where the text is no part of pi. */

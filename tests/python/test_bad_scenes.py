@@ -222,6 +222,7 @@ COMMAND_LINES = {
     "unknown command": (["modl", "scene.yaml"], "modl"),
     "typo in a command": (["chekc", "scene.yaml"], "did you mean check?"),
     "no scene": (["run"], "SCENE is missing"),
+    "decimal comma of a start": (["where", "scene.yaml", "3,1", "0"], "(with a decimal point: 3.1)"),
     "two scenes": (["run", "scene.yaml", "scene.yaml"], "one argument too many"),
     "missing scene": (["run", "absent.yaml"], "absent.yaml: cannot be opened"),
     "folder as the scene": (["run", "folder"], "folder: is a folder"),

@@ -20,6 +20,8 @@
 
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
 #define FIG12 "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"
+#define FOLD "pendulum: {k: 0.1, damping: 0.1, m: 0.39965146083203706}" /* beside a fold: a saddle is near the attractor */
+#define FOLD_BOUNDARY "-2.446848329686444"
 #define K01_BOUNDARY "-2.36717282205514094284618936441679792892500699963420629501343"
 #define K01_DEEP                                                       \
   "-2.367172822054595206197195965469343352456262073417327939174161857" \
@@ -121,8 +123,7 @@ static void labels_are_those_of_own_orbits(void **state) {
   static const window windows[] = {
       {K01, K01_BOUNDARY, "17", "1e-7", 6},        {K01, K01_BOUNDARY, "17", "1e-20", 6},
       {FIG12, FIG12_BOUNDARY, "1.42", "1e-12", 4}, {FIG12, FIG12_BOUNDARY, "1.42", "1e-25", 1},
-      {K01, "180 deg", "0", "1e-12", 6},
-
+      {K01, "180 deg", "0", "1e-12", 6},           {FOLD, FOLD_BOUNDARY, "-0.21806737647827037", "1e-14", 3},
   };
   static const window deep[] = {{K01, K01_DEEP, "17", "1e-50", 0}, {K01, K01_DEEP, "17", "1e-100", 0}};
   for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) compare(windows + i);
