@@ -65,6 +65,7 @@ _SCENES = {
     "chart-blackburn": [_ENDS],
     "chart-butikov": [_ENDS],
     "formula-errors": [_ERRORS],
+    "josephson": [_SWEEP],
     "laboratory": [_LABORATORY],
     "manifolds-fig12": [_MANIFOLDS],
     "proof-fig12": [_PROVED],

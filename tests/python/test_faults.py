@@ -324,7 +324,7 @@ def test_kills_lose_nothing(tmp_path):
     assert done.returncode == 0 and "nothing lost" in done.stdout, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"compare", "report", "vtkhdf"}))
+@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"compare", "film", "report", "vtkhdf"}))
 @pytest.mark.parametrize("how", ["empty", "foreign text", "half", "no groups"])
 def test_plots_answer_bad_files_with_one_line(small_result, tmp_path, kind, how):
     path = tmp_path / "bad.h5"

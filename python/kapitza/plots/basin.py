@@ -135,11 +135,12 @@ def draw_evidence(axes: Axes, basin: xarray.Dataset, *, colours: Sequence[str] =
     return label_axes(axes, plane)
 
 
-def draw_common(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, phases: xarray.Dataset, *, legend: bool = True,
-                centre: str = "down") -> Axes:
+def draw_common(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, phases: xarray.Dataset, *,
+                colours: Sequence[str] | None = None, legend: bool = True, centre: str = "down") -> Axes:
     """What a cell reaches at every phase of release, in the colours of the basins; other cells as the unsettled ones."""
-    common, colours = phases["common"].values, style.colours(attractors)
-    draw_basins(axes, basin.assign(attractor=basin["attractor"].copy(data=common)), attractors, legend=False, centre=centre, dots=False)
+    common, colours = phases["common"].values, colours or style.colours(attractors)
+    plane = basin.assign(attractor=basin["attractor"].copy(data=common))
+    draw_basins(axes, plane, attractors, colours=colours, legend=False, centre=centre, dots=False)
     if legend:
         write_legend(axes, [(colour, "depends on the phase" if name == "not settled" else name, share)
                             for colour, name, share in basin_entries(attractors, colours, common)])

@@ -9,7 +9,7 @@
 """
 
 import argparse
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray
@@ -29,7 +29,9 @@ from kapitza.result import BadFile, Result
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
 STROBE_LABEL = "θ at the strobe"
-EIGHTHS = [tick / 4 for tick in range(9)]  # of a turn, in parts of pi
+NARROWEST = 0.04                                        # of the circle, in parts of pi
+PI_STEPS = [1 / 4, 1 / 8, 1 / 16, 1 / 32, 0.01]         # between ticks, in parts of pi: the last one for the narrowest
+DEGREE_STEPS = [step / 180 for step in (45, 15, 5, 2)]
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
@@ -70,15 +72,25 @@ def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: 
     if legend:
         axes.set_title("going up" if up else "going down", fontsize="medium", fontweight="normal")
     axes.set(xlabel=parameter_text(sweep), ylabel=STROBE_LABEL, xlim=(value[0], value[-1]))
-    axes.set_yticks(EIGHTHS, [style.pi_text(tick) for tick in EIGHTHS])
+    axes.set_ylim(strobe_range(sweep))
+    show_angles(axes, PI_STEPS, lambda tick: f"{tick:.2f}π" if 32 * tick % 1 else style.pi_text(tick))
     return axes
+
+
+def show_angles(axes: Axes, steps: Sequence[float], text: Callable[[float], str]) -> None:
+    """Ticks of angles (parts of pi) within the limits: the widest of the steps that gives three of them."""
+    low, high = axes.get_ylim()
+    inside = (np.arange(np.ceil(low / step), np.floor(high / step) + 1) * step for step in steps)
+    ticks = next(found for found in inside if len(found) >= 3)
+    axes.set_yticks(ticks, [text(float(tick)) for tick in ticks])
+    axes.set_ylim(low, high)
 
 
 def strobe_range(sweep: xarray.Dataset) -> tuple[float, float]:
     """What of the circle the strobe points of both walks take (parts of pi), with a margin; the whole where they take most of it."""
     points = np.mod(sweep["strobe_theta"].values, 2 * np.pi) / np.pi
     low, high = (float(edge) for edge in (np.nanmin(points), np.nanmax(points)))
-    margin = max(0.1 * (high - low), 0.02)
+    margin = max(0.1 * (high - low), NARROWEST / 2)
     return (low - margin, high + margin) if high - low < 1 else (0, 2)
 
 
@@ -129,7 +141,6 @@ def strobe_figure(sweep: xarray.Dataset) -> Figure:
     draw_strobe(above, sweep)
     draw_strobe(below, sweep, up=False)
     above.set_xlabel("")
-    above.set_ylim(*strobe_range(sweep))
     return figure
 
 
@@ -169,9 +180,7 @@ def show_degrees(figure: Figure) -> None:
     """The axes that are not in degrees by themselves: strobe points (parts of pi) and squared amplitudes (rad²)."""
     for axes in figure.axes:
         if axes.get_ylabel() == STROBE_LABEL:
-            window = axes.get_ylim()
-            axes.set_yticks(EIGHTHS, [f"{180 * tick:g}°" for tick in EIGHTHS])
-            axes.set_ylim(window)
+            show_angles(axes, DEGREE_STEPS, lambda tick: f"{180 * tick:g}°")
         elif axes.get_ylabel() == SQUARE_LABEL:
             show_in(axes.yaxis, np.degrees(1) ** 2, "amplitude² / degrees²")
 

@@ -15,7 +15,7 @@ static void test_mirrored_labels(void **state) {
   (void)state;
   enum { N = 1000 };
   kz_dynamics *d = explored(0.46, 1, 3);
-  with_table(d, PART > 1 ? 200 : 400, 3);
+  with_table(d, 400, 3);
   assert_true(kz_dynamics_trapped_share(d) > 0.2);
   double *x = malloc(2 * N * sizeof *x), *y = malloc(2 * N * sizeof *y);
   int32_t a[N], b[N];
@@ -94,7 +94,7 @@ static void test_processed(void **state) {
     memcpy(y, x, sizeof x);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, label, periods);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, z, mirrored, late);
-    with_table(d, PART > 1 ? 150 : 300, 3);
+    with_table(d, 300, 3);
     memcpy(y, x, sizeof x);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, cells, late);
     for (int i = 0; i < N; i++) {
@@ -156,7 +156,7 @@ static void test_wrong_labels_are_doubtful(void **state) {
   static int32_t direct[N], followed[N], expected[N];
   static int64_t periods[N];
   kz_dynamics *d = explored(0.46, 1, 3);
-  with_table(d, PART > 1 ? 200 : 400, 3);
+  with_table(d, 400, 3);
   int wrong = 0, doubtful = 0;
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < 2 * N; i++) start[i] = i % 2 ? x[i] : x[i] * M_PI;
