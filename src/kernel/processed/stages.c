@@ -63,7 +63,7 @@ static inline __attribute__((always_inline)) void block(bool mirrored, int n_dri
 
 #define ALL(D, K)                                 \
   for (int64_t i = 0; i < n; i += CHAINS * LANES) \
-  block(MIRRORED, D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), KEEP)
+  block(mirrored, D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), KEEP)
 #ifdef __SANITIZE_ADDRESS__ /* one body for all lengths: the checks of 32 take a minute to compile */
 #define RUN ALL(n_drift, n_kick);
 #else
@@ -76,9 +76,9 @@ static inline __attribute__((always_inline)) void block(bool mirrored, int n_dri
   switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
 #endif
 
-static void run_mirrored(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v,
-                         float *kept) {
-#define MIRRORED true
+/* `mirrored` is a constant where it is called: each kind of pendulum has loops of its own. */
+__attribute__((always_inline)) static inline void run(bool mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages,
+                                                      const double *row, int64_t n, double *u, double *v, float *kept) {
   if (kept) {
 #define KEEP true, kept + i
     RUN
@@ -88,25 +88,12 @@ static void run_mirrored(int32_t n_drift, int32_t n_kick, int64_t n_stages, cons
     RUN
 #undef KEEP
   }
-#undef MIRRORED
-}
-
-static void run_any(int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u, double *v,
-                    float *kept) {
-#define MIRRORED false
-  if (kept) {
-#define KEEP true, kept + i
-    RUN
-#undef KEEP
-  } else {
-#define KEEP false, 0
-    RUN
-#undef KEEP
-  }
-#undef MIRRORED
 }
 
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept) {
-  (mirrored ? run_mirrored : run_any)(n_drift, n_kick, n_stages, row, n, u, v, kept);
+  if (mirrored)
+    run(true, n_drift, n_kick, n_stages, row, n, u, v, kept);
+  else
+    run(false, n_drift, n_kick, n_stages, row, n, u, v, kept);
 }
