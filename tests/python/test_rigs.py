@@ -26,6 +26,14 @@ RIGS = {
 }
 
 
+def step(slope, t, x, h):
+    """By Runge and Kutta."""
+    one = slope(t, x)
+    two = slope(t + h / 2, x + h / 2 * one)
+    three = slope(t + h / 2, x + h / 2 * two)
+    return x + h / 6 * (one + 2 * two + 2 * three + slope(t + h, x + h * three))
+
+
 def period(force, state, phase=0.0, steps=1500):
     """One drive period from the phase `phase`, by Runge and Kutta."""
     def slope(t, x):
@@ -33,11 +41,7 @@ def period(force, state, phase=0.0, steps=1500):
         return np.array([x[1], torque - BETA * x[1] - (K + a) * math.sin(x[0]) + b * math.cos(x[0])])
     x, h = np.array(state, dtype=float), 2 * math.pi / steps
     for i in range(steps):
-        t = phase + i * h
-        one = slope(t, x)
-        two = slope(t + h / 2, x + h / 2 * one)
-        three = slope(t + h / 2, x + h / 2 * two)
-        x = x + h / 6 * (one + 2 * two + 2 * three + slope(t + h, x + h * three))
+        x = step(slope, phase + i * h, x, h)
     return x
 
 
@@ -147,13 +151,11 @@ def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque
     x = np.array([found["strobe_theta"][0, 0] + t0[0], found["strobe_velocity"][0, 0] + t0[1]])
     start, steps = x.copy(), 1500 * int(found["period"][0])
     h = 2 * math.pi * int(found["period"][0]) / steps
+
+    def slope(t, y):
+        return np.array([y[1], torque + amplitude * math.cos(t) - beta * y[1] - k * math.sin(y[0])])
     for i in range(steps):
-        def slope(t, y):
-            return np.array([y[1], torque + amplitude * math.cos(t) - beta * y[1] - k * math.sin(y[0])])
-        one = slope(i * h, x)
-        two = slope(i * h + h / 2, x + h / 2 * one)
-        three = slope(i * h + h / 2, x + h / 2 * two)
-        x = x + h / 6 * (one + 2 * two + 2 * three + slope(i * h + h, x + h * three))
+        x = step(slope, i * h, x, h)
     assert abs(math.remainder(x[0] - start[0], 2 * math.pi)) < 1e-9 and abs(x[1] - start[1]) < 1e-9
 
 
@@ -176,11 +178,7 @@ def released(theta, velocity, phase, ramp, steps=1000):
     for end in ends:
         h = (end - t) / steps
         for i in range(steps):
-            at = t + i * h
-            one = slope(at, x)
-            two = slope(at + h / 2, x + h / 2 * one)
-            three = slope(at + h / 2, x + h / 2 * two)
-            x = x + h / 6 * (one + 2 * two + 2 * three + slope(at + h, x + h * three))
+            x = step(slope, t + i * h, x, h)
         t = end
     return x
 

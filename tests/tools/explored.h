@@ -94,4 +94,17 @@ static inline void label_starts(kz_dynamics *d, int32_t level, int64_t n, const 
   for (int64_t i = 0; i < n; i++) label[i] = decision[i].label;
 }
 
+/* The attractor one of whose strobe points is within 1e-3 rad of the state; 0 = none. */
+static inline int32_t circle_at(const kz_dynamics *d, double theta, double velocity) {
+  double points[2][64];
+  kz_attractor row;
+  for (int32_t a = 1; a <= kz_dynamics_count(d); a++) {
+    kz_dynamics_attractor(d, a, &row);
+    kz_dynamics_strobe(d, a, points[0], points[1]);
+    for (int i = 0; i < row.period; i++)
+      if (hypot(remainder(theta - points[0][i], 2 * M_PI), velocity - points[1][i]) < 1e-3) return a;
+  }
+  return 0;
+}
+
 #endif

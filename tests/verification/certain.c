@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-enum { MOST_POINTS = 64, CLOSE = 9, MAX_PERIODS = 2000, FOLLOWED = 600, STEPS = 26, BISECTIONS = 56 };
+enum { CLOSE = 9, MAX_PERIODS = 2000, FOLLOWED = 600, STEPS = 26, BISECTIONS = 56 };
 
 static const kz_pendulum pendulums[] = {
     {0.1, 0.1, 0.3997},
@@ -21,23 +21,6 @@ static const kz_pendulum pendulums[] = {
     {1.0 / 121, 1.0 / 55, 0.52},
     {0.1, 0.1, 0.39965146083203706},
 };
-
-static double wrapped(double angle) {
-  return angle - 2 * M_PI * rint(angle / (2 * M_PI));
-}
-
-/* The attractor one of whose strobe points is within 1e-3 rad of the state; 0 = none. */
-static int32_t circle_at(const kz_dynamics *d, double theta, double velocity) {
-  double points[2][MOST_POINTS];
-  kz_attractor row;
-  for (int32_t a = 1; a <= kz_dynamics_count(d); a++) {
-    kz_dynamics_attractor(d, a, &row);
-    kz_dynamics_strobe(d, a, points[0], points[1]);
-    for (int i = 0; i < row.period; i++)
-      if (hypot(wrapped(theta - points[0][i]), velocity - points[1][i]) < 1e-3) return a;
-  }
-  return 0;
-}
 
 /* Quad precision: where n starts are after FOLLOWED periods. */
 static void truth(const kz_dynamics *d, const kz_pendulum *pendulum, int n, const kz_start *start, int32_t *label) {

@@ -10,7 +10,7 @@
 
 #include <stdbool.h>
 
-enum { MOST_POINTS = 64, MAX_PERIODS = 2000, ORDER = 28, STEPS = 64, DRIVES = 4, TERMS = 7, AT_ONCE = 10, MOST = 1000 };
+enum { MAX_PERIODS = 2000, ORDER = 28, STEPS = 64, DRIVES = 4, TERMS = 7, AT_ONCE = 10, MOST = 1000 };
 
 typedef __float128 quad;
 static const quad PI_QUAD = 3.14159265358979323846264338327950288Q;
@@ -156,19 +156,6 @@ static void test_reference_obeys_the_equation(void **unused) {
     integrate(&p, &at_once, 0, x);
     assert_near(x, y, 1e-28);
   }
-}
-
-/* The attractor one of whose strobe points is within 1e-3 rad of the state; 0 = none. */
-static int32_t circle_at(const kz_dynamics *d, double theta, double velocity) {
-  double points[2][MOST_POINTS];
-  kz_attractor row;
-  for (int32_t a = 1; a <= kz_dynamics_count(d); a++) {
-    kz_dynamics_attractor(d, a, &row);
-    kz_dynamics_strobe(d, a, points[0], points[1]);
-    for (int i = 0; i < row.period; i++)
-      if (hypot(remainder(theta - points[0][i], 2 * M_PI), velocity - points[1][i]) < 1e-3) return a;
-  }
-  return 0;
 }
 
 /* By the reference: where n states end; 0 = nowhere. */
