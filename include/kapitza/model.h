@@ -47,9 +47,6 @@ int32_t kz_is_mirrored(const kz_pendulum *pendulum);
 /* 1 where the drive is k - m cos t alone. */
 int32_t kz_is_sine(const kz_pendulum *pendulum);
 
-/* Highest harmonic of the drive, at least 1. */
-int32_t kz_highest_harmonic(const kz_pendulum *pendulum);
-
 /* Bounds for enclosures, up to rounding in extended precision. sizes [n]: of the Taylor coefficients of h (a(t) sin - b(t) cos) over a
  * step h in units of it, whatever its beginning; the largest of these forces for times with |Im t| <= r; and during step i of length h
  * from t = 0 on. */

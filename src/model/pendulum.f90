@@ -113,7 +113,7 @@ contains
   end function is_sine
 
   !> Highest harmonic of the drive, at least 1.
-  pure function highest_harmonic(pendulum) bind(C, name='kz_highest_harmonic') result(highest)
+  pure function highest_harmonic(pendulum) result(highest)
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int32_t) :: highest
