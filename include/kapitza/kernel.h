@@ -43,6 +43,15 @@ enum { KZ_MOST_PROCESSED_STEPS = 160 };
 kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics,
                              double *error);
 
+/* The search itself, for any integrator whose error can be measured: `error` tells the error of a period of so many steps (rad; DBL_MAX where it
+ * diverges). Tries `fewest` steps, then what the order expects from the last error, until an error is at most `tolerance` (rad) or falls more
+ * slowly than as 1/steps. Returns the last error; *steps: its number, 0 where fewest exceeds most. */
+typedef double kz_step_error(int32_t steps, void *context);
+double kz_steps_search(kz_step_error *error, void *context, int32_t order, double tolerance, int32_t fewest, int32_t most,
+                       int32_t *steps);
+/* n (error / tolerance)^(1/order): how many steps make an error of n steps as small as the tolerance. */
+double kz_expected_steps(int32_t n, double error, double tolerance, int32_t order);
+
 /* A flow: pendulum and numerics turned into the map of one drive period. Opaque; free with kz_flow_free. */
 typedef struct kz_flow kz_flow;
 kz_flow *kz_flow_create(const kz_pendulum *pendulum, const kz_numerics *numerics);

@@ -5,6 +5,7 @@ module kz_kernel_processed_choice
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_processed_flow
+  use kz_lanes_step_search, only: trial_t, search_steps
   use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_lanes_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
@@ -16,8 +17,8 @@ module kz_kernel_processed_choice
 
   !> Codes of common.h.
   integer(c_int32_t), parameter :: OK = 0, REFUSED = 2
-  !> Numbers of steps are multiples of STRIDE; KZ_MOST_PROCESSED_STEPS of kernel.h.
-  integer, parameter :: STRIDE = 2, FEWEST_STEPS = 12, MOST_STEPS = 160
+  !> KZ_MOST_PROCESSED_STEPS of kernel.h.
+  integer, parameter :: FEWEST_STEPS = 12, MOST_STEPS = 160
   !> Coefficients of a kick, least of all.
   integer, parameter :: FEWEST_KICKS = 4
   !> Operations of a step besides the terms of drift and kick.
@@ -28,6 +29,16 @@ module kz_kernel_processed_choice
   !> Probes: states with speeds up to the fastest, both ends included, and how much more than their largest error is assumed.
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
+
+  !> The splitting of a pendulum with so many terms.
+  type, extends(trial_t) :: splitting_t
+    type(pendulum_t) :: pendulum
+    type(series_t), allocatable :: series
+    type(probes_t) :: probes
+    type(numerics_t) :: numerics
+  contains
+    procedure :: measure => measure_splitting
+  end type splitting_t
 
 contains
 
@@ -40,8 +51,7 @@ contains
     real(c_double), intent(out) :: error
     integer(c_int32_t) :: status
     logical :: halting(size(ieee_usual))
-    type(series_t), allocatable :: series
-    type(probes_t) :: probes
+    type(splitting_t) :: trial
     type(drive_t) :: drive
     integer :: i
 
@@ -50,17 +60,22 @@ contains
     if (pendulum%beta > MOST_DAMPING .or. out_of_reach(pendulum, fastest)) return
     call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
     call ieee_set_halting_mode(ieee_usual, .false.)
-    allocate (series)
-    call make_processed_series(pendulum, series)
+    trial%order = ORDER
+    trial%pendulum = pendulum
+    allocate (trial%series)
+    call make_processed_series(pendulum, trial%series)
     call make_drive(drive, pendulum, TAYLOR_STEPS)
-    call make_probes(drive, [(fastest*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], probes)
+    call make_probes(drive, [(fastest*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], trial%probes)
     numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest
+    numerics%drift_terms = MOST_DRIFTS
+    numerics%kick_terms = MOST_KICKS
+    trial%numerics = numerics
     if (numerics%steps_per_period > 0) then
-      call fit_terms(pendulum, series, probes, tolerance, numerics, error)
+      call fit_terms(trial, tolerance, numerics, error)
       status = OK
     else
-      call compare_terms(pendulum, series, probes, tolerance, numerics, error)
+      call compare_terms(trial, tolerance, numerics, error)
       if (error <= tolerance) status = OK
     end if
     call ieee_set_flag(ieee_usual, .false.)
@@ -77,66 +92,59 @@ contains
     out = .not. (STEP*fastest <= LONGEST_TURN .and. STEP*sqrt(stiffness(pendulum)) <= LONGEST_SWING)
   end function out_of_reach
 
-  !> The largest error of one period, rad.
-  function measure(pendulum, series, probes, numerics) result(error)
-    type(pendulum_t), intent(in) :: pendulum
-    type(series_t), intent(in) :: series
-    type(probes_t), intent(in) :: probes
-    type(numerics_t), intent(in) :: numerics
+  !> The largest error of one period of n steps, rad.
+  function measure_splitting(trial, n) result(error)
+    class(splitting_t), intent(inout) :: trial
+    integer, intent(in) :: n
     real(c_double) :: error
     class(flow_t), allocatable :: flow
     type(numerics_t) :: unbounded
     real(c_double) :: distance
     integer :: first, lane
 
-    unbounded = numerics
+    trial%numerics%steps_per_period = int(n, c_int32_t)
+    unbounded = trial%numerics
     unbounded%fastest = huge(unbounded%fastest)
-    call make_processed_flow(pendulum, series, unbounded, flow, numerics%fastest)
+    call make_processed_flow(trial%pendulum, trial%series, unbounded, flow, trial%numerics%fastest)
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
       do lane = 1, WIDTH
-        call flow%put(lane, real(probes%start(1, first + lane), c_double), real(probes%start(2, first + lane), c_double))
+        call flow%put(lane, real(trial%probes%start(1, first + lane), c_double), real(trial%probes%start(2, first + lane), c_double))
       end do
       call flow%to_map(WIDTH)
       call flow%advance(WIDTH)
       call flow%to_physical(WIDTH)
       do lane = 1, WIDTH
-        distance = hypot(PI*(modulo(flow%u(lane) - real(probes%image(1, first + lane), c_double) + 1, 2.0_c_double) - 1), &
-                         flow%v(lane) - real(probes%image(2, first + lane), c_double))
+        distance = hypot(PI*(modulo(flow%u(lane) - real(trial%probes%image(1, first + lane), c_double) + 1, 2.0_c_double) - 1), &
+                         flow%v(lane) - real(trial%probes%image(2, first + lane), c_double))
         if (.not. distance <= error) error = distance ! NaN too
       end do
     end do
     error = MARGIN*error
     if (.not. error <= huge(error)) error = huge(error)
-  end function measure
+  end function measure_splitting
 
   !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, tells
   !> how many steps the method needs at least.
-  subroutine compare_terms(pendulum, series, probes, tolerance, numerics, error)
-    type(pendulum_t), intent(in) :: pendulum
-    type(series_t), intent(in) :: series
-    type(probes_t), intent(in) :: probes
+  subroutine compare_terms(trial, tolerance, numerics, error)
+    type(splitting_t), intent(inout) :: trial
     real(c_double), intent(in) :: tolerance
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
-    type(numerics_t) :: candidate
     real(c_double) :: candidate_error
-    integer :: fewest, drifts, kicks
+    integer :: fewest, drifts, kicks, steps
 
-    numerics%drift_terms = MOST_DRIFTS
-    numerics%kick_terms = MOST_KICKS
-    call find_steps(pendulum, series, probes, tolerance, FEWEST_STEPS, MOST_STEPS, numerics, error)
+    call search_steps(trial, tolerance, FEWEST_STEPS, MOST_STEPS, fewest, error)
+    numerics = trial%numerics
     if (error > tolerance) return
-    fewest = numerics%steps_per_period
-    candidate = numerics
     do drifts = MOST_DRIFTS, 1, -1
       do kicks = MOST_KICKS, FEWEST_KICKS, -1
-        candidate%drift_terms = drifts
-        candidate%kick_terms = kicks
-        if (cheaper_steps(numerics, candidate) < fewest) cycle
-        call find_steps(pendulum, series, probes, tolerance, fewest, cheaper_steps(numerics, candidate), candidate, candidate_error)
+        trial%numerics%drift_terms = drifts
+        trial%numerics%kick_terms = kicks
+        if (cheaper_steps(numerics, trial%numerics) < fewest) cycle
+        call search_steps(trial, tolerance, fewest, cheaper_steps(numerics, trial%numerics), steps, candidate_error)
         if (candidate_error > tolerance) exit
-        numerics = candidate
+        numerics = trial%numerics
         error = candidate_error
       end do
     end do
@@ -158,58 +166,25 @@ contains
     n = numerics%drift_terms + numerics%kick_terms + OTHER_OPERATIONS
   end function operations
 
-  !> The fewest steps that reach the tolerance, found from the order; more than `most`, or where more steps no longer help: the
-  !> error comes back as above the tolerance.
-  subroutine find_steps(pendulum, series, probes, tolerance, fewest, most, numerics, error)
-    type(pendulum_t), intent(in) :: pendulum
-    type(series_t), intent(in) :: series
-    type(probes_t), intent(in) :: probes
-    real(c_double), intent(in) :: tolerance
-    integer, intent(in) :: fewest
-    integer, intent(in) :: most
-    type(numerics_t), intent(inout) :: numerics
-    real(c_double), intent(out) :: error
-    real(c_double) :: factor, former
-    integer :: n
-
-    error = huge(error)
-    n = fewest
-    do while (n <= most)
-      former = error
-      numerics%steps_per_period = int(n, c_int32_t)
-      error = measure(pendulum, series, probes, numerics)
-      if (error <= tolerance) exit
-      if (error > 0.9_c_double*former .and. former < 1e-3_c_double) return
-      factor = min(2.0_c_double, max(1.0_c_double, (min(error, 1.0_c_double)/tolerance)**(1.0_c_double/ORDER)))
-      n = max(n + STRIDE, STRIDE*int(n*factor/STRIDE))
-    end do
-  end subroutine find_steps
-
   !> A given number of steps: as few terms as cost no accuracy that the tolerance asks for, or that the steps have.
-  subroutine fit_terms(pendulum, series, probes, tolerance, numerics, error)
-    type(pendulum_t), intent(in) :: pendulum
-    type(series_t), intent(in) :: series
-    type(probes_t), intent(in) :: probes
+  subroutine fit_terms(trial, tolerance, numerics, error)
+    type(splitting_t), intent(inout) :: trial
     real(c_double), intent(in) :: tolerance
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
-    type(numerics_t) :: candidate
     real(c_double) :: candidate_error, enough
     integer :: drifts, kicks
 
-    numerics%drift_terms = MOST_DRIFTS
-    numerics%kick_terms = MOST_KICKS
-    error = measure(pendulum, series, probes, numerics)
+    error = trial%measure(int(numerics%steps_per_period))
     enough = max(tolerance, 1.2_c_double*error)
-    candidate = numerics
     do drifts = MOST_DRIFTS, 1, -1
       do kicks = MOST_KICKS, FEWEST_KICKS, -1
-        candidate%drift_terms = drifts
-        candidate%kick_terms = kicks
-        if (operations(candidate) >= operations(numerics)) cycle
-        candidate_error = measure(pendulum, series, probes, candidate)
+        trial%numerics%drift_terms = drifts
+        trial%numerics%kick_terms = kicks
+        if (operations(trial%numerics) >= operations(numerics)) cycle
+        candidate_error = trial%measure(int(numerics%steps_per_period))
         if (candidate_error > enough) exit
-        numerics = candidate
+        numerics = trial%numerics
         error = candidate_error
       end do
     end do

@@ -109,7 +109,8 @@ def test_no_circle(node_of, pairs):
 # ---- Fortran entries and their C headers ----
 
 # The same number, by its name in C and by the one that gfortran takes.
-KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short", "kz_status": "int"}
+KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short", "__float128": "float128",
+         "kz_status": "int"}
 
 
 def without_comments(text):

@@ -3,10 +3,11 @@
 !> applied at both ends of every period. Faster states need more steps, so there are several tables, by speeds; the fastest states
 !> are advanced by the Taylor series themselves.
 module kz_extended_pairs
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_lanes_map, only: WIDTH
+  use kz_lanes_step_search, only: trial_t, search_steps, expected_steps
   use kz_extended_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
@@ -18,8 +19,9 @@ module kz_extended_pairs
   public :: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs, pair_of, quad_of
 
   integer, parameter :: qp = real128
-  !> Numbers of steps are multiples of STRIDE. With more steps the Taylor series cost no more.
+  !> Numbers of steps are multiples of STRIDE. With more steps the Taylor series cost no more. CAUTION: tables are dear to make.
   integer, parameter :: STRIDE = 8, FEWEST_STEPS = 48, MOST_STEPS = 1920
+  real(c_double), parameter :: CAUTION = 1.04_c_double
   !> The speeds of the first table, and how much faster those of the next are.
   real(c_double), parameter :: SLOWEST = 2.5_c_double, RATIO = 2
   integer, parameter :: MOST_LEVELS = 8
@@ -45,6 +47,19 @@ module kz_extended_pairs
     type(series_t), allocatable :: series
     type(probes_t), allocatable :: slow !< of the first table
   end type pair_series_t
+
+  !> A table whose number of steps is searched; each try takes a coefficient of a kick more.
+  type, extends(trial_t) :: level_trial_t
+    type(pendulum_t) :: pendulum
+    type(series_t), pointer :: series => null()
+    type(probes_t) :: probes
+    real(c_double) :: fastest = 0
+    real(c_double) :: tolerance = 0
+    integer :: kicks = 0
+    type(level_t) :: level
+  contains
+    procedure :: measure => measure_level
+  end type level_trial_t
 
 contains
 
@@ -82,7 +97,8 @@ contains
         allocate (shared%slow)
         call make_probes(pairs%drive, speeds_of(levels(0)), shared%slow)
       end if
-      if (like_steps > 0) levels(0)%n_steps = expected_steps(like_steps, like_error, tolerance)
+      if (like_steps > 0) &
+        levels(0)%n_steps = multiple(CAUTION*expected_steps(int(like_steps, c_int32_t), like_error, tolerance, int(ORDER, c_int32_t)))
       do while (n < MOST_LEVELS .and. levels(n)%fastest < fastest)
         call choose_level(pendulum, shared, pairs%drive, tolerance, levels(n), levels(n + 1))
         if (levels(n + 1)%error > tolerance) exit
@@ -98,15 +114,12 @@ contains
     if (pairs%fastest < fastest) pairs%series_error = measure_quad(pairs%drive, fastest)
   end subroutine make_pairs
 
-  !> By the order of the splitting, and some more.
-  pure function expected_steps(like_steps, like_error, tolerance) result(n)
-    integer, intent(in) :: like_steps
-    real(c_double), intent(in) :: like_error
-    real(c_double), intent(in) :: tolerance
+  pure function multiple(steps) result(n)
+    real(c_double), intent(in) :: steps
     integer :: n
 
-    n = STRIDE*ceiling(1.04_c_double*like_steps*(like_error/tolerance)**(1.0_c_double/ORDER)/STRIDE)
-  end function expected_steps
+    n = STRIDE*ceiling(steps/STRIDE)
+  end function multiple
 
   !> As many coefficients of a kick as a tolerance needs, or some more.
   pure function expected_kicks(tolerance) result(n)
@@ -127,65 +140,60 @@ contains
     speed = [(slower%fastest + (fastest - slower%fastest)*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)]
   end function speeds_of
 
-  !> The steps that are expected, and more of them, by the order of the splitting, until the measured error is at most the tolerance for speeds
-  !> beyond those of the slower level.
+  !> The table after a slower one: with as many steps as are expected, or more, until the measured error is at most the tolerance for speeds
+  !> beyond those of the slower one.
   subroutine choose_level(pendulum, shared, drive, tolerance, slower, level)
     type(pendulum_t), intent(in) :: pendulum
-    type(pair_series_t), intent(in) :: shared
+    type(pair_series_t), target, intent(in) :: shared
     type(drive_t), intent(in) :: drive
     real(c_double), intent(in) :: tolerance
     type(level_t), intent(in) :: slower
     type(level_t), intent(out) :: level
-    type(probes_t) :: probes
-    real(c_double) :: fastest, former
-    integer :: n, kicks
+    type(level_trial_t) :: trial
+    real(c_double) :: error
+    integer :: fewest, n
 
-    fastest = max(SLOWEST, RATIO*slower%fastest)
+    trial = level_trial_t(ORDER, STRIDE, CAUTION, pendulum, shared%series, tolerance=tolerance, fastest=max(SLOWEST, RATIO*slower%fastest), &
+                          kicks=expected_kicks(tolerance))
+    fewest = slower%n_steps
     if (slower%fastest > 0) then
-      call make_probes(drive, speeds_of(slower), probes)
+      call make_probes(drive, speeds_of(slower), trial%probes)
+      fewest = STRIDE*int(1.5_c_double*slower%n_steps/STRIDE) ! twice the speed needs some 1.5 times the steps
     else
-      probes = shared%slow
+      trial%probes = shared%slow
     end if
-    n = slower%n_steps ! twice the speed needs some 1.5 times the steps
-    if (slower%fastest > 0) n = STRIDE*int(1.5_c_double*slower%n_steps/STRIDE)
-    n = max(FEWEST_STEPS, n)
-    kicks = expected_kicks(tolerance)
-    level%error = huge(level%error)
-    do while (n <= MOST_STEPS)
-      former = level%error
-      call make_level(pendulum, shared%series, n, kicks, fastest, tolerance, level)
-      level%error = measure(level, probes)
-      if (level%error <= tolerance .or. (n > FEWEST_STEPS .and. level%error > former)) return
-      n = max(n + STRIDE, expected_steps(n, min(level%error, 4.0_c_double**ORDER*tolerance), tolerance))
-      kicks = min(MOST_PAIR_KICKS, kicks + 1)
-    end do
+    call search_steps(trial, tolerance, max(FEWEST_STEPS, fewest), MOST_STEPS, n, error)
+    level = trial%level
+    level%error = error
   end subroutine choose_level
 
-  !> The largest error of one period, rad.
-  function measure(level, probes) result(error)
-    type(level_t), intent(in) :: level
-    type(probes_t), intent(in) :: probes
+  !> The largest error of one period of n steps, rad.
+  function measure_level(trial, n) result(error)
+    class(level_trial_t), intent(inout) :: trial
+    integer, intent(in) :: n
     real(c_double) :: error, distance, turns(WIDTH)
     real(qp) :: u
     type(pair_lanes_t) :: lanes
     integer :: first, lane
 
+    call make_level(trial%pendulum, trial%series, n, trial%kicks, trial%fastest, trial%tolerance, trial%level)
+    trial%kicks = min(MOST_PAIR_KICKS, trial%kicks + 1)
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
       do lane = 1, WIDTH
-        lanes%u(lane, :) = pair_of(probes%start(1, first + lane))
-        lanes%v(lane, :) = pair_of(probes%start(2, first + lane))
+        lanes%u(lane, :) = pair_of(trial%probes%start(1, first + lane))
+        lanes%v(lane, :) = pair_of(trial%probes%start(2, first + lane))
       end do
-      call advance_level(level, WIDTH, lanes, turns)
+      call advance_level(trial%level, WIDTH, lanes, turns)
       do lane = 1, WIDTH
-        u = quad_of(lanes%u(lane, :)) - probes%image(1, first + lane)
-        distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - probes%image(2, first + lane)), c_double)
+        u = quad_of(lanes%u(lane, :)) - trial%probes%image(1, first + lane)
+        distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - trial%probes%image(2, first + lane)), c_double)
         if (.not. distance <= error) error = distance ! NaN too
       end do
     end do
     error = MARGIN*error + ROUNDING
     if (.not. error <= huge(error)) error = huge(error)
-  end function measure
+  end function measure_level
 
   !> Advances n lanes by one period; a state that is lost becomes NaN.
   subroutine advance_pairs(pairs, n, lanes, turns)

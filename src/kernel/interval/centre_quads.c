@@ -14,23 +14,6 @@ typedef struct {
   quad v[Q], S[Q], C[Q];
 } quad_series;
 
-void kz_quad_constants_make(const kz_pendulum *pendulum, kz_speed_class *speed) {
-  kz_quad_constants *q = &speed->quads;
-  const quad h = 2 * M_PIq / speed->n_steps;
-  q->step = h;
-  q->damping = h * pendulum->beta;
-  q->torque = kz_malloc((size_t)speed->n_steps * sizeof *q->torque);
-  for (int32_t i = 0; i < speed->n_steps; i++) {
-    const quad angle = 2 * M_PIq * i / speed->n_steps, cosine = cosq(angle), sine = sinq(angle);
-    const quad derivative[4] = {cosine, -sine, -cosine, sine};
-    quad factor = -pendulum->m * h;
-    for (int n = 0; n < Q; n++, factor *= h / n) {
-      q->torque[i][n] = factor * derivative[n % 4];
-      if (n == 0) q->torque[i][n] += h * pendulum->k;
-    }
-  }
-}
-
 static quad join(pair x, vector rest, int lane) {
   return ((quad)x.high[lane] + x.low[lane]) + rest[lane];
 }

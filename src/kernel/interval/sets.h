@@ -90,9 +90,6 @@ void kz_sets_renew_frame(kz_sets *sets);
 /* A class of the given precision, for centres up to `fastest`; NULL where it takes too many steps. */
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest);
 void kz_speed_class_free(kz_speed_class *speed);
-/* Makes the constants in quads of a class with its steps; to be freed with it. */
-void kz_quad_constants_make(const kz_pendulum *pendulum, kz_speed_class *speed);
-
 /* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs. */
 void kz_enclosure_sine_doubles(int64_t n, const double *theta, double *sine, double *cosine);
 void kz_enclosure_sine_pairs(int64_t n, const double *theta, double *sine, double *cosine);

@@ -18,6 +18,9 @@ static const real TINY = 1e-280L; /* products below the range of doubles */
 
 void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t order, double *damping, double *step,
                            double *inverse, double *torque);
+/* h beta, h, and the first n powers of s in h a(t + h s) [n_steps][n]; h = 2 pi / n_steps. */
+void kz_quad_constants_make(const kz_pendulum *pendulum, int32_t n_steps, int32_t n, __float128 *damping, __float128 *step,
+                            __float128 *torque);
 
 /* What a step is bounded by. */
 typedef struct {
@@ -228,7 +231,11 @@ static kz_speed_class *create(bounds *b, double fastest) {
   made->frame_steps = steps_of_frame(b->pendulum, n_steps);
   kz_interval_constants(b->pendulum, n_steps, b->order, &made->damping.high, &made->step->high, &made->inverse->high,
                         &made->torque->high);
-  if (b->quads) kz_quad_constants_make(b->pendulum, made);
+  if (b->quads) {
+    kz_quad_constants *q = &made->quads;
+    q->torque = kz_malloc((size_t)n_steps * sizeof *q->torque);
+    kz_quad_constants_make(b->pendulum, n_steps, KZ_COEFFICIENTS_QUADS, &q->damping, &q->step, *q->torque);
+  }
   b->h = 2 * (real)M_PI / n_steps * CAUTION;
   set_sizes(b);
   set_errors(b, fastest);

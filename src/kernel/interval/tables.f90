@@ -1,7 +1,7 @@
-!> Constants of the enclosures as sums of two doubles, made in quad precision: off by at most 2^-106 of the number, the torque's by
+!> Constants of the enclosures, made in quad precision. As sums of two doubles they are off by at most 2^-106 of the number, the torque's by
 !> 2^-105 of the largest of its power.
 module kz_interval_tables
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_float128, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_model_pendulum, only: pendulum_t, force_series
   implicit none
@@ -36,6 +36,24 @@ contains
       end do
     end do
   end subroutine interval_tables
+
+  !> kz_quad_constants_make of speed_class.c: h beta, h, powers of s as above, n of them.
+  subroutine quad_constants(pendulum, n_steps, n, damping, step, torque) bind(C, name='kz_quad_constants_make')
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int32_t), value :: n_steps
+    integer(c_int32_t), value :: n
+    real(c_float128), intent(out) :: damping
+    real(c_float128), intent(out) :: step
+    real(c_float128), intent(out) :: torque(n, n_steps)
+    real(real128) :: across(n)
+    integer :: i
+
+    step = 2 * PI / n_steps
+    damping = step * pendulum%beta
+    do i = 1, n_steps
+      call force_series(pendulum, 2 * PI * (i - 1) / n_steps, step, step, torque(:, i), across)
+    end do
+  end subroutine quad_constants
 
   pure function pair_of(x) result(pair)
     real(real128), intent(in) :: x

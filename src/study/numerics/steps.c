@@ -4,26 +4,36 @@
 
 #include "kapitza/dynamics.h"
 
-/* rad: above it the error of a period in double precision is that of the steps, not of rounding; below the other hardly any is. */
-static const double ROUNDED = 1e-10, ROUNDING = 1e-13;
+static const double ROUNDING = 1e-13; /* rad: hardly more than rounding is the error of a period below it */
+
+/* What is searched for: numerics whose steps are tried. */
+typedef struct {
+  const kz_pendulum *pendulum;
+  double fastest;
+  kz_numerics *numerics;
+} trial;
 
 double kz_steps_by_stiffness(const kz_pendulum *pendulum, double gentle) {
   return gentle * ceil(sqrt(fmax(1, kz_stiffness(pendulum))));
 }
 
+static int32_t order_of(const kz_numerics *numerics) {
+  kz_scheme scheme;
+  kz_scheme_row(numerics->scheme, &scheme);
+  return scheme.order;
+}
+
+static double error_of(int32_t steps, void *context) {
+  const trial *t = context;
+  t->numerics->steps_per_period = steps;
+  const kz_speed_errors classes = kz_step_error_classes(t->pendulum, t->numerics, t->fastest);
+  return kz_worst_error(&classes);
+}
+
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
-  kz_speed_errors classes = kz_step_error_classes(pendulum, numerics, fastest);
-  for (int worst; worst = kz_worst_class(&classes), classes.error[worst] > tolerance;) {
-    do { /* only the worst class, so that a hopeless case is refused quickly */
-      const double before = classes.error[worst];
-      if (numerics->steps_per_period > most / 2) return false;
-      numerics->steps_per_period *= 2;
-      kz_step_errors(pendulum, numerics, 1, classes.speed + worst, classes.error + worst);
-      if (before < ROUNDED && classes.error[worst] > before / 2) return false; /* only rounding is left */
-    } while (classes.error[worst] > tolerance);
-    classes = kz_step_error_classes(pendulum, numerics, fastest);
-  }
-  return true;
+  trial t = {pendulum, fastest, numerics};
+  int32_t tried;
+  return kz_steps_search(error_of, &t, order_of(numerics), tolerance, numerics->steps_per_period, most, &tried) <= tolerance;
 }
 
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
@@ -34,11 +44,10 @@ bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, do
 int32_t kz_steps_scaled(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest, double tolerance,
                         int32_t least, int32_t most) {
   const double speed[] = {0, fastest};
-  kz_scheme scheme;
   double error;
-  kz_scheme_row(numerics->scheme, &scheme);
   kz_step_errors(pendulum, numerics, 1, speed, &error);
-  const double steps = ceil(numerics->steps_per_period * pow(fmax(error, ROUNDING) / tolerance, 1.0 / scheme.order));
+  const double steps =
+      ceil(kz_expected_steps(numerics->steps_per_period, fmax(error, ROUNDING), tolerance, order_of(numerics)));
   return (int32_t)fmin(fmax(steps, least), most);
 }
 

@@ -7,7 +7,7 @@
 /* Steps that resolve the fastest oscillation of a pendulum as `gentle` steps do that of a weak drive. */
 double kz_steps_by_stiffness(const kz_pendulum *pendulum, double gentle);
 
-/* Doubles the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
+/* Raises the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
  * `most` steps: then the last number tried. */
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
 

@@ -209,6 +209,37 @@ static void test_choice(void **state) {
   assert_int_equal(kz_numerics_choose(&overdamped, 1e-10, 2, &numerics, &error), KZ_REFUSED);
 }
 
+/* An integrator of the sixth order whose rounding is known. */
+typedef struct {
+  double scale, rounding;
+  int tries;
+} sixth_order;
+
+static double error_of_sixth_order(int32_t steps, void *context) {
+  sixth_order *s = context;
+  s->tries++;
+  return s->scale * pow(steps, -6) + s->rounding;
+}
+
+/* Enough steps and hardly more than that, in few tries; none where rounding or the largest number of steps forbids it. */
+static void test_search(void **state) {
+  (void)state;
+  int32_t steps;
+  for (double scale = 1; scale < 1e12; scale *= 7) {
+    sixth_order s = {scale, 1e-15, 0};
+    const double enough = kz_expected_steps(1, scale, 1e-10, 6);
+    assert_true(kz_steps_search(error_of_sixth_order, &s, 6, 1e-10, 12, 100000, &steps) <= 1e-10);
+    assert_true(steps >= floor(enough) && steps <= fmax(12, 1.3 * enough + 2));
+    assert_true(s.tries < 16);
+    s = (sixth_order){scale, 1e-9, 0};
+    assert_true(kz_steps_search(error_of_sixth_order, &s, 6, 1e-10, 12, 100000, &steps) > 1e-10);
+    assert_true(s.tries < 24 && steps <= 100000);
+    s = (sixth_order){scale, 0, 0};
+    assert_true(kz_steps_search(error_of_sixth_order, &s, 6, 1e-10, 12, (int32_t)(enough / 2), &steps) > 1e-10);
+    assert_true(steps <= enough / 2);
+  }
+}
+
 static void test_tangent(void **state) {
   (void)state;
   const double h = 1e-5;
@@ -280,7 +311,7 @@ int main(void) {
       cmocka_unit_test(test_determinant), cmocka_unit_test(test_tangent),
       cmocka_unit_test(test_sample),      cmocka_unit_test(test_exact_determinant),
       cmocka_unit_test(test_rest),        cmocka_unit_test(test_choice),
-      cmocka_unit_test(test_subnormals),
+      cmocka_unit_test(test_subnormals),  cmocka_unit_test(test_search),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
