@@ -42,7 +42,7 @@ def parse_arguments():
     parser.add_argument("--dpi", type=int, default=150)
     arguments = parser.parse_args()
     if arguments.count < 2:
-        parser.error("--count: at least 2")
+        parser.error("--count must be at least 2")
     return arguments
 
 

@@ -40,9 +40,9 @@ def parse_arguments():
     parser.add_argument("-o", "--output", type=Path, default=Path("zoom.mp4"))
     arguments = parser.parse_args()
     if arguments.count < 2 or not 1e-300 <= float(arguments.to) <= 1:
-        parser.error("--count: at least 2; --to: from 1e-300 to 1")
+        parser.error("--count must be at least 2, and --to from 1e-300 to 1")
     if arguments.columns % 2 or arguments.rows % 2:
-        parser.error("--columns, --rows: even numbers")
+        parser.error("--columns and --rows must be even numbers")
     return arguments
 
 

@@ -93,10 +93,10 @@ def _write_mp4(path: Path, pictures: Iterable[Image.Image], rate: float) -> None
         except BrokenPipeError:
             break
     if process is None:
-        raise BadFile(f"{path}: a film needs a picture")
+        raise BadFile(f"{path}: there are no pictures to make a film of")
     process.communicate()
     if process.returncode:
-        raise BadFile(f"{path}: ffmpeg could not write it")
+        raise BadFile(f"{path}: ffmpeg could not write the film")
 
 
 def _ffmpeg(path: Path, size: tuple[int, int], rate: float) -> list[str]:
@@ -110,7 +110,7 @@ def _write_gif(path: Path, pictures: Iterable[Image.Image], rate: float) -> None
     frames = (picture.quantize(GIF_COLOURS, dither=Image.Dither.NONE) for picture in pictures)
     first = next(iter(frames), None)
     if first is None:
-        raise BadFile(f"{path}: a film needs a picture")
+        raise BadFile(f"{path}: there are no pictures to make a film of")
     first.save(path, format="GIF", save_all=True, append_images=frames, duration=round(1000 / rate), loop=0)
 
 

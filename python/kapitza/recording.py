@@ -25,7 +25,7 @@ def pictures_of(path: Path) -> Iterator[Image.Image]:
                 size = size or picture.size
                 yield picture if picture.size == size else picture.resize(size)
     except (zipfile.BadZipFile, UnidentifiedImageError, Image.DecompressionBombError, NotImplementedError, RuntimeError, EOFError) as error:
-        raise BadFile(f"{path}: is no ZIP of pictures, such as the explorer records: {error}") from error
+        raise BadFile(f"{path}: is not a ZIP of pictures as the explorer records them: {error}") from error
 
 
 def main(words: list[str]) -> None:
@@ -39,5 +39,5 @@ def main(words: list[str]) -> None:
     if output.suffix.lower() not in FORMATS:
         parser.error(f"{output}: the name must end in {' or '.join(FORMATS)}")
     if not 0.1 <= given.rate <= 1000:
-        parser.error(f"--rate {given.rate:g} is out of range; from 0.1 to 1000")
+        parser.error(f"--rate {given.rate:g} is out of range; give a number from 0.1 to 1000")
     print(write_film(output, pictures_of(given.file), given.rate))

@@ -109,7 +109,7 @@ class Result:
         table = self.attractors
         found = [index for index, (plain, full) in enumerate(zip(table["name"], self.names, strict=True)) if name in (plain, full, index)]
         if not found:
-            raise KeyError(f"no attractor {name!r}; there are {', '.join(self.names)}")
+            raise KeyError(f"no attractor has the name {name!r}; the names are {', '.join(self.names)}")
         return found
 
     def basins_fractions(self) -> dict[int, float]:

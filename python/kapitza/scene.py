@@ -98,7 +98,7 @@ def texts(value: Any) -> Any:
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [texts(item) for item in value]
     if value is None:
-        raise TypeError("a scene holds no None; leave the key out")
+        raise TypeError("a scene cannot contain None; leave the key out")
     if isinstance(value, bool):
         return "true" if value else "false"
     return repr(value) if isinstance(value, float) else str(value)

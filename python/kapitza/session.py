@@ -155,7 +155,7 @@ def _attractor_id(scene: Scene, wanted: int | str) -> int:
     found = run(scene, set={"basin.method": "direct"}, progress=False).attractors
     ids = found.index[found["name"] == wanted]
     if len(ids) == 0:
-        raise ValueError(f"{wanted!r} is no attractor of the scene; there are {', '.join(dict.fromkeys(found['name']))}")
+        raise ValueError(f"{wanted!r} is not an attractor of the scene; its attractors are {', '.join(dict.fromkeys(found['name']))}")
     return int(ids[0])
 
 

@@ -92,10 +92,10 @@ def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "F
     held = [name for name in KINDS if name in result.groups]
     if kind is None:
         if not held:
-            raise BadFile(f"{result.path}: holds nothing that has a picture of its own")
+            raise BadFile(f"{result.path}: contains no study that can be drawn")
         kind = held[0]
     if kind not in KINDS:
-        raise ValueError(f"{kind!r} is no kind of picture; there are {', '.join(KINDS)}")
+        raise ValueError(f"{kind!r} is not a kind of picture; the kinds are {', '.join(KINDS)}")
     words = [str(result.path)]
     for name, value in options.items():
         option = "--" + name.replace("_", "-")

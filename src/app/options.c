@@ -154,7 +154,7 @@ const kz_option kz_option_rows[] = {
     {"json", 261, NULL, WHERE, set_json, "print JSON, one object a line", NULL},
     {"boundary", 269, "DIGITS", WHERE, set_boundary,
      "print the point between two starts at which their basins meet, correct to DIGITS decimal places", NULL},
-    {"json-schema", 262, NULL, KEYS, set_json_schema, "print them as a JSON schema, for editors", NULL},
+    {"json-schema", 262, NULL, KEYS, set_json_schema, "print the keys as a JSON schema, for editors", NULL},
     {"port", 263, "N", VIEW, set_port, "port of the local server, 1024 to 65535; default: a free one", NULL},
     {"no-browser", 264, NULL, VIEW, set_no_browser, "print the address, and do not open a browser", NULL},
     {"origin", 270, "ORIGIN", VIEW, add_origin,
@@ -187,7 +187,8 @@ static kz_status refuse_option(const kz_command *command, const char *typed, boo
   char names[256] = "", nearest[64];
   const size_t length = strcspn(typed, "=");
   const char *space = command->name[0] ? " " : "";
-  if (lacks_argument) return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza%s%s --help", typed, space, command->name);
+  if (lacks_argument)
+    return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza%s%s --help shows its form", typed, space, command->name);
   for (int i = 0; i < N_ROWS; i++)
     if (kz_option_rows[i].commands & command->bit)
       snprintf(names + strlen(names), sizeof names - strlen(names), "%s--%s", names[0] ? "|" : "", kz_option_rows[i].name);

@@ -14,7 +14,7 @@ kz_status kz_output_name(const kz_options *options, char *path, size_t bytes) {
   if (options->output) {
     length = snprintf(path, bytes, "%s", options->output);
   } else if (strcmp(options->scene, "-") == 0) {
-    return kz_fail(KZ_REFUSED, "--output: is missing; a scene from standard input gives the result no name");
+    return kz_fail(KZ_REFUSED, "--output: is missing; a scene from standard input has no name, so give -o FILE");
   } else {
     const char *slash = strrchr(options->scene, '/');
     const char *base = slash ? slash + 1 : options->scene;

@@ -60,7 +60,7 @@ static void check_laboratory(kz_reading *reading, const kz_pendulum_keys *w) {
   check_complete(reading, w);
   if (reading->message[0] || !is_given(w->inertia) || kz_inertia_is_possible(w)) return;
   kz_complain(reading, kz_tree_find(reading->root, "pendulum.inertia"), "pendulum.inertia",
-              "%s is below pendulum.mass * pendulum.radius^2 = %s, the least of any body; at least that",
+              "%s is below pendulum.mass * pendulum.radius^2 = %s, the least that a body can have; give at least that",
               kz_shortest(w->inertia).text, kz_shortest(kz_point_inertia(w)).text);
 }
 
@@ -74,7 +74,7 @@ static void check_samples(kz_reading *reading, const kz_pendulum_keys *w) {
   else if (list && w->waveform != KZ_SAMPLES)
     kz_complain(reading, list, "pendulum.samples", "is for pendulum.waveform: samples; choose it, or leave the list out");
   else if (list && w->samples.count < FEWEST)
-    kz_complain(reading, list, "pendulum.samples", "has %lld values; at least %d", (long long)w->samples.count, FEWEST);
+    kz_complain(reading, list, "pendulum.samples", "has %lld values; give at least %d", (long long)w->samples.count, FEWEST);
 }
 
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {

@@ -63,7 +63,7 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
   char accepted[700], nearest[64], hint[96] = "";
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
   if (node->kind == KZ_SCALAR && kz_key_renamed(key, node->text, nearest, sizeof nearest))
-    snprintf(hint, sizeof hint, " (it is gone: use %s)", nearest);
+    snprintf(hint, sizeof hint, " (it was removed: use %s)", nearest);
   else if (node->kind == KZ_SCALAR && kz_scalar_with_a_point(node->text, nearest, sizeof nearest))
     snprintf(hint, sizeof hint, " (with a decimal point: %s)", nearest);
   else if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
@@ -83,7 +83,7 @@ static void complain_unknown(kz_reading *reading, const kz_node *node, const cha
   char names[1024], list[1024], nearest[64];
   const kz_key *mapping = kz_key_find(reading->keys, parent);
   if (mapping && kz_key_renamed(mapping, node->name, nearest, sizeof nearest)) {
-    complain_key(reading, node, path, "is gone; use %s", nearest);
+    complain_key(reading, node, path, "is no longer a key; use %s", nearest);
     return;
   }
   if (is_decimal_comma(node)) {
@@ -134,7 +134,7 @@ static void read_child(kz_reading *reading, const kz_node *mapping, const kz_nod
   const kz_key *key = kz_key_find(reading->keys, path);
   const kz_key *chooser = key && key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
   if (kz_tree_child(mapping, child->name) != child)
-    complain_key(reading, child, path, "is given twice; once");
+    complain_key(reading, child, path, "is given twice; give it once");
   else if (!key)
     complain_unknown(reading, child, parent, path);
   else if (chooser && !strpbrk(chooser->form, key->form))

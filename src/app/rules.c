@@ -43,11 +43,11 @@ static void shocks_rules(kz_reading *reading, kz_scene *scene) {
   const kz_node *node = kz_tree_find(reading->root, "basin.shocks.sizes");
   if (!scene->has_basin || !scene->basin.has_shocks) return;
   if (sizes->count < 1 || sizes->count > KZ_MOST_SHOCK_SIZES)
-    kz_complain(reading, node, "basin.shocks.sizes", "has %lld values; from 1 to %d", (long long)sizes->count,
+    kz_complain(reading, node, "basin.shocks.sizes", "has %lld values; give 1 to %d", (long long)sizes->count,
                 KZ_MOST_SHOCK_SIZES);
   for (int64_t i = 1; i < sizes->count; i++)
     if (!(sizes->values[i] > sizes->values[i - 1]))
-      kz_complain(reading, node, "basin.shocks.sizes", "%s does not exceed the size before it; sizes must go up",
+      kz_complain(reading, node, "basin.shocks.sizes", "%s is not above the size before it; give sizes in rising order",
                   kz_shortest(sizes->values[i]).text);
 }
 
@@ -57,7 +57,7 @@ static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   kz_axis_rules(reading, &scene->attractors.velocity, "attractors.velocity");
   if (scene->has_basin)
     kz_complain(reading, kz_tree_child(reading->root, "attractors"), "attractors",
-                "stands beside basin, which finds the attractors of its window itself; give one of them");
+                "repeats what basin does, which finds the attractors of its window itself; give one of them");
 }
 
 static void saddles_rules(kz_reading *reading, kz_scene *scene) {
@@ -70,16 +70,16 @@ static void edge_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_edge) return;
   if (!scene->has_basin && !scene->has_attractors)
     kz_complain(reading, kz_tree_child(reading->root, "edge"), "edge",
-                "has no catalogue of ends; add a basin or attractors study to the scene");
+                "needs a list of attractors; add a basin or attractors study to the scene");
   else if (!reading->message[0] && !(scene->parameters.pendulum.beta > 0))
     kz_complain(reading, kz_tree_child(reading->root, "edge"), "edge",
-                "needs damping: without it nothing attracts, and there are no basins");
+                "needs damping, because without it there are no attractors; give damping");
 }
 
 static void manifolds_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_manifolds || scene->has_saddles) return;
   kz_complain(reading, kz_tree_child(reading->root, "manifolds"), "manifolds",
-              "has no cycles to grow from; add a saddles study to the scene");
+              "needs a list of unstable cycles; add a saddles study to the scene");
 }
 
 /* Complains about `name` of the study orbit where it is given. */
@@ -91,15 +91,16 @@ static void orbit_refuse(kz_reading *reading, const char *name, const char *why)
 /* The keys that an attractor answers itself. */
 static void orbit_attractor_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin && !scene->has_attractors)
-    orbit_refuse(reading, "orbit.attractor", "has no catalogue to choose from; add a basin or attractors study to the scene");
+    orbit_refuse(reading, "orbit.attractor", "needs a list of attractors; add a basin or attractors study to the scene");
   orbit_refuse(reading, "orbit.start", "contradicts attractor; give one of them");
   if (!scene->orbit.closed)
     orbit_refuse(reading, "orbit.closed",
                  "contradicts attractor, whose orbit is closed; set true, or give a start instead of attractor");
   scene->orbit.closed = true;
-  orbit_refuse(reading, "orbit.period", "is known from attractor; leave it out");
+  orbit_refuse(reading, "orbit.period", "follows from orbit.attractor; leave it out");
   if (scene->orbit.model != KZ_PENDULUM)
-    orbit_refuse(reading, "orbit.model", "has no attractors of the catalogue; choose the model pendulum, or give a start");
+    orbit_refuse(reading, "orbit.model",
+                 "has no attractors; choose the model pendulum, or give orbit.start instead of orbit.attractor");
 }
 
 static void orbit_rules(kz_reading *reading, kz_scene *scene) {
@@ -110,10 +111,10 @@ static void orbit_rules(kz_reading *reading, kz_scene *scene) {
     orbit_attractor_rules(reading, scene);
   else if (!kz_tree_find(reading->root, "orbit.start"))
     kz_complain(reading, NULL, "orbit.start", "is missing; give a mapping of theta and velocity, or an attractor instead");
-  if (!linear) orbit_refuse(reading, "orbit.about", "belongs to the model mathieu alone; leave it out");
+  if (!linear) orbit_refuse(reading, "orbit.about", "belongs to the model mathieu only; leave it out");
   if (orbit->model == KZ_EFFECTIVE && orbit->closed)
     orbit_refuse(reading, "orbit.closed", "cannot be used with the model effective, which has no drive; set false");
-  if (!orbit->closed) orbit_refuse(reading, "orbit.period", "belongs to closed orbits alone; add closed: true");
+  if (!orbit->closed) orbit_refuse(reading, "orbit.period", "belongs to closed orbits only; add closed: true");
   if (linear && orbit->closed && orbit->period == KZ_UNSET_INTEGER)
     kz_complain(reading, NULL, "orbit.period",
                 "is missing; give the period of the closed orbit, which cannot be found for the model mathieu");
@@ -128,16 +129,15 @@ static void stability_rules(kz_reading *reading, kz_scene *scene) {
 
 static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_tradeoff || scene->has_basin) return;
-  kz_complain(reading, kz_tree_child(reading->root, "tradeoff"), "tradeoff",
-              "has no window to label; add a basin study to the scene");
+  kz_complain(reading, kz_tree_child(reading->root, "tradeoff"), "tradeoff", "needs a window; add a basin study to the scene");
 }
 
 /* Whether the motions of a pendulum can be followed; `path` names what gives it. */
 static void check_stiffness(kz_reading *reading, const kz_pendulum *pendulum, const char *path) {
   if (kz_stiffness(pendulum) <= KZ_MOST_STIFFNESS) return;
   kz_complain(reading, kz_tree_find(reading->root, path), path,
-              "gives abs(k) + abs(m) = %.3g; motions are followed up to %g: a weaker or faster drive", kz_stiffness(pendulum),
-              KZ_MOST_STIFFNESS);
+              "gives abs(k) + abs(m) = %.3g; the program follows motions up to %g; use a weaker or faster drive",
+              kz_stiffness(pendulum), KZ_MOST_STIFFNESS);
 }
 
 /* The scene's own pendulum, where a study follows motions of it. */
@@ -171,7 +171,7 @@ static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t 
     return;
   else if (!kz_pendulum_at(scene, 1, &parameter, &value, &pendulum))
     kz_complain(reading, node, path,
-                "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; a less extreme value",
+                "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; use a less extreme value",
                 kz_shortest(value).text);
   else
     check_stiffness(reading, &pendulum, path);
@@ -220,7 +220,7 @@ static void chart_rules(kz_reading *reading, kz_scene *scene) {
   chart_axis_rules(reading, scene, &chart->y, "chart.y");
   if (chart->x.parameter == chart->y.parameter && chart->y.parameter != KZ_UNSET_WORD)
     kz_complain(reading, kz_tree_find(reading->root, "chart.y.parameter"), "chart.y.parameter",
-                "is that of chart.x too; name another key of the pendulum mapping");
+                "is also the parameter of chart.x; name another key of the pendulum mapping");
   if (chart->velocity.count != 1 && chart->velocity.count != chart->theta.count)
     kz_complain(reading, kz_tree_find(reading->root, "chart.start.velocity"), "chart.start.velocity",
                 "has %lld values for %lld angles; give one for each angle, or one for all", (long long)chart->velocity.count,

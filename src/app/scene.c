@@ -64,7 +64,7 @@ static kz_status refuse_key(const kz_key *keys, const char *label, const char *p
   const kz_key *holder = kz_key_find(keys, parent);
   if (dot && (!holder || holder->type != KZ_KEY_MAPPING)) return refuse_key(keys, label, parent);
   if (holder && kz_key_renamed(holder, dot + 1, nearest, sizeof nearest))
-    return kz_fail(KZ_REFUSED, "%s: %s: is gone; use %s", label, path, nearest);
+    return kz_fail(KZ_REFUSED, "%s: %s: is no longer a key; use %s", label, path, nearest);
   kz_key_children(keys, parent, names, sizeof names);
   if (kz_key_suggest(dot ? dot + 1 : path, names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%s: %s: unknown key; did you mean %s%s%s?", label, path, parent, dot ? "." : "", nearest);

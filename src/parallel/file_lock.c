@@ -55,7 +55,8 @@ static kz_status attempt(const char *path, bool may_exist, kz_file_lock *file_lo
   if (file_lock->file < 0) return KZ_OK;
   kz_status status = KZ_OK;
   if (file_lock->existed && !may_exist)
-    status = kz_fail(KZ_REFUSED, "%s: a checkpoint is there; use --resume to go on from it or --force to discard it", path);
+    status = kz_fail(
+        KZ_REFUSED, "%s: a checkpoint of an earlier run exists; use --resume to go on from it, or --force to discard it", path);
   else if (lock(file_lock->file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, file_lock->file))
     return KZ_OK;
   else if (!is_held(errno) && kz_file_lock_names(path, file_lock->file)) {

@@ -36,7 +36,12 @@ const kz_variable kz_basin_variables[] = {
      "whether the orbit is proved to exist and to attract",
      {"no", "yes"}},
     {"attractors", "strobe_theta_half_width", KZ_REAL, {"attractor", "phase"}, ANGLE, "proved bound on strobe_theta's error"},
-    {"attractors", "strobe_velocity_half_width", KZ_REAL, {"attractor", "phase"}, VELOCITY, "proved, of strobe_velocity"},
+    {"attractors",
+     "strobe_velocity_half_width",
+     KZ_REAL,
+     {"attractor", "phase"},
+     VELOCITY,
+     "proved bound on strobe_velocity's error"},
     {"attractors", "multiplier_half_width", KZ_REAL, {"attractor", "pair"}, NONE, "proved bound on the multiplier's error"},
     {"attractors",
      "multiplier_re",
@@ -73,7 +78,7 @@ const kz_variable kz_basin_variables[] = {
      "angle of the cell centre less the attribute theta_centre, in units of theta_width"},
     {"basin", "attractor", KZ_INT16, {"velocity", "theta"}, NONE, "id of the attractor that is reached; -1 = not settled"},
     {"basin", "settling_time", KZ_UINT32, {"velocity", "theta"}, PERIODS, "time until the orbit is inside a trapping region"},
-    {"basin", "evidence", KZ_UINT8, {"velocity", "theta"}, NONE, "what the label rests on", {EVIDENCE}},
+    {"basin", "evidence", KZ_UINT8, {"velocity", "theta"}, NONE, "how the label is known", {EVIDENCE}},
     {"basin",
      "other_attractor",
      KZ_INT16,
@@ -87,7 +92,7 @@ const kz_variable kz_basin_variables[] = {
     {"phases", "attractor", KZ_INT32, {"attractor"}, NONE, "id of the attractor"},
     {"phases", "fraction", KZ_REAL, {"phase", "attractor"}, NONE, "share of the cells that end there"},
     {"phases", "common", KZ_INT16, {"velocity", "theta"}, NONE, "id of the attractor that is reached at all phases; -1 = none"},
-    {"phases", "ends", KZ_UINT8, {"velocity", "theta"}, NONE, "different ends: attractors, and one for what has none"},
+    {"phases", "ends", KZ_UINT8, {"velocity", "theta"}, NONE, "number of different ends; not settled counts as one"},
 };
 /* clang-format on */
 const size_t kz_basin_variable_count = sizeof kz_basin_variables / sizeof *kz_basin_variables;

@@ -36,9 +36,9 @@ const kz_variable kz_saddle_variables[] = {
      NONE,
      "Floquet multiplier over one period of the orbit, imaginary part"},
     {"saddles", "sum", KZ_INT32, {"sum"}, NONE, "place in the list of index sums"},
-    {"saddles", "sum_period", KZ_INT32, {"sum"}, PERIODS, "n of the fixed points of F^n that are summed"},
-    {"saddles", "sum_winding", KZ_INT32, {"sum"}, NONE, "their turns in n periods"},
-    {"saddles", "sum_points", KZ_INT32, {"sum"}, NONE, "how many they are, attracting ones included"},
+    {"saddles", "sum_period", KZ_INT32, {"sum"}, PERIODS, "n of the fixed points of F^n in the sum"},
+    {"saddles", "sum_winding", KZ_INT32, {"sum"}, NONE, "turns of these fixed points in n periods"},
+    {"saddles", "sum_points", KZ_INT32, {"sum"}, NONE, "number of these fixed points, attracting ones included"},
     {"saddles", "index_sum", KZ_INT32, {"sum"}, NONE, "sum of their fixed-point indices; 0 where none is missing"},
 
     {"boundary", "distance", KZ_REAL, {"distance"}, ANGLE, "distance of the pairs"},
@@ -49,7 +49,7 @@ const kz_variable kz_saddle_variables[] = {
     {"boundary", "slope_low", KZ_REAL, {"distance"}, NONE, "lower end of its 95 % interval"},
     {"boundary", "slope_high", KZ_REAL, {"distance"}, NONE, "upper end of its 95 % interval"},
     {"boundary", "box", KZ_INT32, {"box"}, NONE, "level of the boxes"},
-    {"boundary", "basin", KZ_INT32, {"basin"}, NONE, "id of the attractor; 63: and all larger ones"},
+    {"boundary", "basin", KZ_INT32, {"basin"}, NONE, "id of the attractor; 63 stands for all larger ids too"},
     {"boundary", "box_cells", KZ_INT32, {"box"}, NONE, "cells along an edge of a box"},
     {"boundary", "boxes", KZ_INT32, {"box"}, NONE, "boxes that hold more than one label"},
     {"boundary", "dimension", KZ_REAL, {"box"}, NONE, "box-counting dimension between this size and the next"},
@@ -109,13 +109,13 @@ const kz_variable kz_saddle_variables[] = {
      KZ_INT8,
      CHART,
      NONE,
-     "in what the motion ends",
+     "kind of the end of the motion",
      {"cycle", "chaotic", "not_settled", "no_damped_pendulum"}},
     {"chart", "winding", KZ_INT32, CHART, NONE, "net turns in one period of the cycle, + counterclockwise"},
     {"chart", "centre", KZ_INT8, CHART, NONE, "what the cycle moves about", {CENTRES}},
     {"chart", "exponent", KZ_REAL, CHART, RATE, "largest Lyapunov exponent of the end"},
     {"chart", "settling_time", KZ_INT32, CHART, PERIODS,
-     "until the motion is within 1e-5 rad of where it was a period of the cycle before"},
+     "time until the motion is within 1e-5 rad of its state one period of the cycle before"},
 };
 /* clang-format on */
 const size_t kz_saddle_variable_count = sizeof kz_saddle_variables / sizeof *kz_saddle_variables;

@@ -8,27 +8,29 @@
 /* What a release that takes time, by a phase or a ramp, does not go with; NULL = nothing. */
 static const char *needs_no_release(const kz_scene *scene) {
   const kz_basin_plan *plan = &scene->basin;
-  if (!scene->has_basin) return "needs the study basin, which the scene does not have";
-  if (plan->method == KZ_METHOD_ICM) return "basin.method icm interpolates from strobe to strobe; choose exact or direct";
-  if (!isnan(plan->accuracy)) return "basin.accuracy compares with starts at a strobe; leave one of them out";
-  if (plan->proof) return "basin.proof has bounds of whole drive periods; leave one of them out";
-  if (plan->undecided == KZ_UNDECIDED_DECIDE) return "basin.undecided decide has orbits from a strobe on; choose flag";
-  if (plan->has_boundary) return "basin.boundary has pairs of starts at a strobe; leave one of them out";
+  if (!scene->has_basin) return "needs the study basin; add it to the scene";
+  if (plan->method == KZ_METHOD_ICM)
+    return "basin.method icm follows whole drive periods from phase 0 only; choose exact or direct";
+  if (!isnan(plan->accuracy)) return "basin.accuracy needs starts at phase 0 and no ramp; leave one of them out";
+  if (plan->proof) return "basin.proof needs starts at phase 0 and no ramp; leave one of them out";
+  if (plan->undecided == KZ_UNDECIDED_DECIDE) return "basin.undecided decide needs starts at phase 0 and no ramp; choose flag";
+  if (plan->has_boundary) return "basin.boundary needs starts at phase 0 and no ramp; leave one of them out";
   if (plan->theta.centre.text[0] || plan->velocity.centre.text[0])
-    return "windows by centre and width have a reference orbit from a strobe on; give min and max";
-  if (scene->has_tradeoff) return "study tradeoff compares with starts at a strobe; leave one of them out";
-  if (scene->has_orbit && scene->parameters.has_ramp) return "study orbit follows a motion without it; leave one of them out";
+    return "a window by centre and width needs starts at phase 0 and no ramp; give min and max";
+  if (scene->has_tradeoff) return "study tradeoff needs starts at phase 0 and no ramp; leave one of them out";
+  if (scene->has_orbit && scene->parameters.has_ramp) return "study orbit does not follow a ramp; leave one of them out";
   return NULL;
 }
 
 /* What is wrong with a ramp; NULL = nothing. */
 static const char *wrong_ramp(const kz_parameters *parameters) {
   const kz_pendulum_keys *written = &parameters->written;
-  if (written->ramp_key == KZ_RAMP_DAMPING && written->ramp_from < 0) return "from: a damping is not below 0";
+  if (written->ramp_key == KZ_RAMP_DAMPING && written->ramp_from < 0) return "from: is below 0; a damping must be at least 0";
   if (written->ramp_key == KZ_RAMP_DAMPING && !isnan(written->torque_amplitude))
-    return "key: angles are counted from the swing of torque_amplitude, which the damping changes; leave one of them out";
+    return "key: a damping that changes also changes the swing from which torque_amplitude counts angles; leave one of them "
+           "out";
   if (written->ramp_key == KZ_RAMP_DRIVE && !(fabs(parameters->pendulum.m) > 0))
-    return "key: a drive of amplitude 0 has nothing to be in proportion to; choose damping";
+    return "key: the drive has amplitude 0, so a ramp cannot change it in proportion; choose damping";
   return NULL;
 }
 
@@ -36,11 +38,11 @@ static const char *wrong_ramp(const kz_parameters *parameters) {
 static const char *needs_cells(const kz_scene *scene) {
   if (scene->has_chart &&
       (kz_sweep_is_of_release(scene->chart.x.parameter) || kz_sweep_is_of_release(scene->chart.y.parameter)))
-    return "study chart follows starts without a ramp; name another parameter";
+    return "study chart does not follow a ramp; choose another parameter for the chart";
   if (!scene->has_sweep || !kz_sweep_is_of_release(scene->sweep.parameter)) return NULL;
   if (scene->has_basin && scene->sweep.measure.count == 1 && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS))
     return NULL;
-  return "a sweep over it has one measure, basin_fractions, on the cells of study basin";
+  return "a sweep over a ramp needs the study basin and measures basin_fractions only; give measure: [basin_fractions]";
 }
 
 /* The keys that make the drive what it is, as a message begins. */
@@ -56,34 +58,39 @@ static const char *keys_of(const kz_scene *scene) {
 
 /* The first study or method that needs the sine; NULL = none. */
 static const char *needs_sine(const kz_scene *scene) {
-  if (scene->has_chart) return "study chart follows pendulums whose pivot moves up and down as a sine";
-  if (scene->has_stability) return "study stability has the curves of Mathieu's equation, for the sine alone";
-  if (scene->has_potential) return "study potential has a closed formula for the sine alone";
-  if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM) return "orbit.model has equations for the sine alone";
+  if (scene->has_chart) return "study chart needs a pivot that moves up and down as a sine; leave one of them out";
+  if (scene->has_stability) return "study stability needs a pivot that moves up and down as a sine; leave one of them out";
+  if (scene->has_potential) return "study potential needs a pivot that moves up and down as a sine; leave one of them out";
+  if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM)
+    return "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum";
   if (scene->has_basin && (scene->basin.theta.centre.text[0] || scene->basin.velocity.centre.text[0]))
-    return "windows by centre and width have their reference orbit for the sine alone; give min and max";
+    return "a window by centre and width needs a pivot that moves up and down as a sine; give min and max";
   if (scene->has_basin && scene->basin.undecided == KZ_UNDECIDED_DECIDE)
-    return "basin.undecided decide has orbits of any precision for the sine alone; choose flag";
-  if (scene->has_basin && scene->basin.proof) return "basin.proof has bounds for the sine alone";
+    return "basin.undecided decide needs a pivot that moves up and down as a sine; choose flag";
+  if (scene->has_basin && scene->basin.proof)
+    return "basin.proof needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_sweep && (kz_sweep_measures(&scene->sweep, KZ_SWEEP_FLUTTER_AMPLITUDE) ||
                            kz_sweep_measures(&scene->sweep, KZ_SWEEP_FLUTTER_RANGE)))
-    return "sweep.measure flutter_amplitude and flutter_zone have their theory for the sine alone";
+    return "sweep.measure flutter_amplitude and flutter_zone need a pivot that moves up and down as a sine; leave one of them "
+           "out";
   return NULL;
 }
 
 static const char *needs_mirror(const kz_scene *scene) {
   if (scene->has_basin && scene->basin.method == KZ_METHOD_ICM)
-    return "basin.method icm stores half of the plane, which is the mirror image of the other; choose direct or exact";
-  if (scene->has_tradeoff) return "study tradeoff has settings of method icm, which need mirror symmetry";
-  if (scene->asked.scheme == kz_scheme_find("rk4")) return "numerics.scheme rk4 has kicks without a phase; choose split6";
+    return "basin.method icm needs mirror symmetry, which this drive does not have; choose exact or direct";
+  if (scene->has_tradeoff) return "study tradeoff needs mirror symmetry, which this drive does not have; leave one of them out";
+  if (scene->asked.scheme == kz_scheme_find("rk4"))
+    return "numerics.scheme rk4 needs mirror symmetry, which this drive does not have; choose processed or split6";
   return NULL;
 }
 
 /* What basin.phases does not go with; NULL = nothing. */
 static const char *needs_one_phase(const kz_scene *scene) {
   if (!scene->has_basin || scene->basin.phases <= 0) return NULL;
-  if (scene->basin.method != KZ_METHOD_EXACT) return "labels the cells as basin.method exact does; choose that";
-  if (!(scene->parameters.pendulum.beta > 0)) return "without damping there are no attractors; leave it out";
+  if (scene->basin.method != KZ_METHOD_EXACT) return "needs basin.method exact; choose that method";
+  if (!(scene->parameters.pendulum.beta > 0))
+    return "needs damping, because without it there are no attractors; leave it out, or give damping";
   return needs_no_release(scene);
 }
 

@@ -62,17 +62,17 @@ SCENES = {
     "saddles without velocities": (GOOD + "saddles: {max_period: 3}\n", "9:10", "saddles.velocity: is missing"),
     "saddles of a long period": (GOOD + "saddles: {velocity: {min: -1, max: 1}, max_period: 33}\n", "9:52", "saddles.max_period"),
     "saddles of an empty window": (GOOD + "saddles: {velocity: {min: 1, max: 1}}\n", "9:35", "saddles.velocity.max: 1 is too small"),
-    "manifolds without saddles": (GOOD + "manifolds: {kind: stable}\n", "9:1", "manifolds: has no cycles to grow from"),
+    "manifolds without saddles": (GOOD + "manifolds: {kind: stable}\n", "9:1", "manifolds: needs a list of unstable cycles"),
     "chart of one key": (GOOD + "chart: {x: {parameter: drive_amplitude, min: 0, max: 1}, y: {parameter: drive_amplitude, min: 0, max: 1}, "
-        "start: {theta: [1]}}\n", "9:73", "chart.y.parameter: is that of chart.x too"),
+        "start: {theta: [1]}}\n", "9:73", "chart.y.parameter: is also the parameter of chart.x"),
     "chart of a key of another form": (GOOD + "chart: {x: {parameter: k, min: 0, max: 1}, y: {parameter: m, min: 0, max: 1}, "
         "start: {theta: [1]}}\n", "9:24", "chart.x.parameter: k is not given in the pendulum mapping"),
     "chart with velocities for other angles": (GOOD + "chart: {x: {parameter: drive_frequency, min: 2, max: 3}, "
         "y: {parameter: drive_amplitude, min: 0, max: 1}, start: {theta: [1, 2, 3], velocity: [0, 1]}}\n",
         "9:143", "chart.start.velocity: has 2 values for 3 angles"),
     "edge without ends": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nedge: {first: {theta: 0, "
-        "velocity: 0}, second: {theta: 1, velocity: 0}}\n", "2:7", "edge: has no catalogue of ends"),
-    "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: 0.5 does not exceed"),
+        "velocity: 0}, second: {theta: 1, velocity: 0}}\n", "2:7", "edge: needs a list of attractors"),
+    "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: 0.5 is not above"),
     "sweep without a measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: []}\n",
         "9:74", "sweep.measure"),
     "sweep with an unknown measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: [angle]}\n",

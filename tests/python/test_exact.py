@@ -109,4 +109,4 @@ def test_the_former_flag_names_what_replaces_it(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(LONG.replace("method: exact", "flag_undecided: true"))
     for words in ["s.yaml"], [SMALL, "--set", "basin.flag_undecided=true"]:
         done = kapitza("check", *words, folder=tmp_path, status=2)
-        assert "basin.flag_undecided: is gone; use basin.method exact" in done.stderr
+        assert "basin.flag_undecided: is no longer a key; use basin.method exact" in done.stderr

@@ -160,7 +160,7 @@ def test_an_address_serves_once(striped):
     once = striped.address().partition("once=")[2]
     assert striped.request("token", {"once": once}, X_Kapitza_Token=None)[0] == 200
     status, answer = striped.request("token", {"once": once}, X_Kapitza_Token=None)
-    assert status == 403 and "served already" in answer["error"]
+    assert status == 403 and "has been used" in answer["error"]
     striped.process.stdout.readline()
 
 
@@ -323,8 +323,8 @@ def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
 
 
 @pytest.mark.parametrize(("arguments", "message"), [
-    (["nothing.yaml"], "nothing.yaml: cannot be read"), ([SMALL, "--port", "80"], "--port: 80 is no port"),
-    ([SMALL, "--port", "8\u00b2"], "is no port"), ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is no origin"),
+    (["nothing.yaml"], "nothing.yaml: cannot be read"), ([SMALL, "--port", "80"], "--port: 80 is not a port"),
+    ([SMALL, "--port", "8\u00b2"], "is not a port"), ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is not an origin"),
     ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"), ([], "view: SCENE is missing"),
 ])
 def test_what_cannot_be_opened_is_one_line(arguments, message):

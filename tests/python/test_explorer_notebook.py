@@ -110,7 +110,7 @@ def test_a_hub_must_be_named_and_is_then_let_in(monkeypatch):
 def test_what_cannot_be_shown_is_said_in_python():
     with pytest.raises(kapitza.SceneError, match="drive_frequency"):
         kapitza.explore({"pendulum": {"quality_factor": 5, "drive_frequency": -1, "drive_amplitude": 0.3}})
-    with pytest.raises(ValueError, match="frames: x is no origin"):
+    with pytest.raises(ValueError, match="frames: x is not an origin"):
         kapitza.explore(SMALL, frames=["x"])
-    with pytest.raises(ValueError, match="hub is no origin"):
+    with pytest.raises(ValueError, match="hub is not an origin"):
         kapitza.explore(SMALL, origins=["hub"])

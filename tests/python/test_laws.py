@@ -1,4 +1,4 @@
-"""Simple laws of the two papers' text (docs/explanation/theory.md, "Laws for a glance"): the program's numbers obey them."""
+"""Simple laws of the two papers' text (docs/explanation/theory.md, "Simple laws"): the program's numbers obey them."""
 
 import json
 from math import acos, degrees, sqrt

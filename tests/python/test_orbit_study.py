@@ -151,7 +151,7 @@ REFUSED = {
     "no start": ({}, "orbit.start: is missing"),
     "start and attractor": ({**START, "attractor": 0}, "orbit.start: contradicts attractor"),
     "open attractor": ({"attractor": 0, "closed": False}, "orbit.closed: contradicts attractor", {"attractors": WINDOW}),
-    "no catalogue": ({"attractor": 0}, "orbit.attractor: has no catalogue"),
+    "no catalogue": ({"attractor": 0}, "orbit.attractor: needs a list of attractors"),
     "about the pendulum": ({**START, "about": "down"}, "orbit.about"),
     "closed slow motion": ({**START, "model": "effective", "closed": True}, "orbit.closed"),
     "period of an open orbit": ({**START, "period": 3}, "orbit.period"),
@@ -210,7 +210,7 @@ FAILING = {
     "another period": (closed(0.0767, 0.2707, period=8), "closes after 4"),
     "no such cycle": (closed(1.5, 1.5, period=3), "no cycle of 3 periods"),
     "overflow": ({"start": {"theta": 0.1, "velocity": 0}, "model": "mathieu", "about": "inverted", "periods": 10000},
-                 "range of numbers"),
+                 "too large for double precision"),
 }
 
 
@@ -231,5 +231,5 @@ def test_an_attractor_that_is_not_there_is_refused(kapitza, tmp_path, ranks):
     (tmp_path / "s.yaml").write_text(json.dumps(scene))
     line = kapitza("run", "s.yaml", folder=tmp_path, ranks=ranks, status=2).stderr
     place = f"s.yaml:1:{json.dumps(scene).index('7}') + 1}"
-    assert line == f"kapitza: error: {place}: orbit.attractor: 7 is not in the catalogue, which has 1; choose an id below that\n"
+    assert line == f"kapitza: error: {place}: orbit.attractor: 7 is not the id of an attractor; the search found 1, so choose an id below that\n"
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]

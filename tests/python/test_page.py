@@ -47,7 +47,7 @@ def test_colours_by_name(made_file, tmp_path):
     figure = result.plot(colours=tmp_path / "mine.yaml", no_dots=True)
     image, labels = figure.axes[0].images[0].get_array(), result.labels().values
     assert np.allclose(image[labels == 1], to_rgb("#010203")) and np.allclose(image[labels == 4], to_rgb("teal"))
-    for text, said in (("inverted: reddish", "is no colour"), ("[1]", "holds no colours"), ("a: [", "cannot be read")):
+    for text, said in (("inverted: reddish", "is not a colour"), ("[1]", "contains no colours"), ("a: [", "cannot be read")):
         (tmp_path / "bad.yaml").write_text(text)
         done = plot("basin", made_file, "--colours", tmp_path / "bad.yaml")
         assert done.returncode == 2 and said in done.stderr

@@ -135,7 +135,7 @@ def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
 @pytest.mark.parametrize("arguments, words", [
     (["--attractor", "nobody"], "has no attractor nobody"),
     (["-o", "out.gif"], "must end in"),
-    (["--attractor", "0", "--shade"], "goes with neither"),
+    (["--attractor", "0", "--shade"], "cannot be combined"),
     (["--dpi", "0"], "0 is out of range"),
     (["--dpi", "fine"], "invalid resolution"),
     (["-o", "absent/out.png"], "error: absent/out.png: No such file or directory"),
@@ -230,7 +230,7 @@ def replace(file, name, **contents):
     ("no pendulum", "lacks the group pendulum"),
     ("no parameters", "lacks k, beta or m"),
     ("parameter of text", "lacks k, beta or m"),
-    ("unknown label", "has cells of attractors that it does not list"),
+    ("unknown label", "some cells have ids of attractors that the file does not list"),
     ("axis not finite", "theta is an axis with values that are not finite"),
     ("axis down", "theta is an axis that does not go up"),
     ("unknown evidence", "evidence has values that mean nothing"),

@@ -90,8 +90,8 @@ def test_windows_that_are_too_fast_for_a_proof_are_refused(kapitza, tmp_path):
 
 @pytest.mark.parametrize("change, said", [
     ("basin.theta={centre: 1, width: 1e-27, count: 40}", "basin.proof: cells below 1e-28 are too small for a proof"),
-    ("pendulum.torque=0.01", "pendulum.torque: basin.proof has bounds for the sine alone"),
-    ("pendulum.harmonics=[{order: 2, amplitude: 0.1}]", "pendulum.harmonics: basin.proof has bounds for the sine alone"),
+    ("pendulum.torque=0.01", "pendulum.torque: basin.proof needs a pivot that moves up and down as a sine"),
+    ("pendulum.harmonics=[{order: 2, amplitude: 0.1}]", "pendulum.harmonics: basin.proof needs a pivot that moves up and down as a sine"),
 ], ids=["deep", "torque", "harmonics"])
 def test_what_cannot_be_proved_is_refused(kapitza, tmp_path, change, said):
     (tmp_path / "s.yaml").write_text(SCENE)

@@ -80,4 +80,5 @@ def test_a_number_that_fails_is_said(tmp_path):
     wrong = Number("Fig. 1", "m", 0.2, "0.1")
     assert write_page([("A paper", [wrong, Number("Fig. 2", "k", 0.1, reference=0.1)])], tmp_path / "results.md") == [wrong]
     text = (tmp_path / "results.md").read_text()
-    assert "2 numbers: 1 right, 0 approximation, 0 erratum, 1 FAILED" in text and "| Fig. 1 | m | 0.1 | 0.2 | 1.0e-01 | FAILED |" in text
+    assert "1 of the 2 numbers are right." in text and "paper. 1 failed." in text
+    assert "| Fig. 1 | m | 0.1 | 0.2 | 1.0e-01 | FAILED |" in text

@@ -297,7 +297,7 @@ def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
     ({"waveform": "samples"}, {"basin": WINDOW}, "pendulum.samples"),
     ({"samples": [1, 0, -1, 0]}, {"basin": WINDOW}, "pendulum.waveform: samples"),
     ({"ramp": {**LINEAR, "key": "k"}}, {"basin": WINDOW}, "pendulum.ramp.key"),
-    ({}, {"basin": {**WINDOW, "method": "direct", "phases": 4}}, "basin.phases: labels the cells as basin.method exact does"),
+    ({}, {"basin": {**WINDOW, "method": "direct", "phases": 4}}, "basin.phases: needs basin.method exact"),
     ({}, {"basin": {**WINDOW, "start_phase": 1, "boundary": {}}}, "basin.start_phase: basin.boundary"),
     ({"harmonics": [{"order": 17, "amplitude": 1}]}, {"basin": WINDOW}, "pendulum.harmonics"),
     ({"harmonics": [{"order": 2, "height": 1}]}, {"basin": WINDOW}, "none of order, amplitude, phase"),

@@ -139,7 +139,7 @@ def test_starts_that_end_alike_have_no_edge(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": FIG11, "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 256},
                                                  "edge": {**EDGE, "second": {"theta": 3.11, "velocity": 0}}}))
     done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
-    assert "edge.second: ends where the other start does" in done.stderr and not (tmp_path / "s.h5").exists()
+    assert "edge.second: ends on the same attractor as the other start" in done.stderr and not (tmp_path / "s.h5").exists()
 
 
 def test_any_number_of_ranks(fig11, kapitza, tmp_path):

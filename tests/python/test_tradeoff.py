@@ -133,7 +133,7 @@ def test_what_no_other_setting_reaches_is_exact(kapitza, tmp_path):
 
 def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):
     done = kapitza("run", SMALL, "-o", "no.h5", *without_method(0.9), "--set", "basin.velocity.max=1e4", folder=tmp_path, status=2)
-    assert "basin.velocity: 3072 steps a period do not carry starts of speed 1e+04" in done.stderr
+    assert "basin.velocity: 3072 steps a period are too few for reference labels of starts with speed 1e+04" in done.stderr
     assert list(tmp_path.iterdir()) == []
 
 

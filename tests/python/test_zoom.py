@@ -45,7 +45,7 @@ def test_labels_of_a_zoom_are_right(kapitza, tmp_path, method):
 
 def test_a_table_that_is_off_by_cells_is_refused(kapitza, tmp_path):
     done = kapitza("run", scene(tmp_path, 1e-7, 30, "icm"), "--set", "basin.icm={theta: 800, velocity: 800}", folder=tmp_path, status=2)
-    error = r"--set basin.icm=\S.*: basin.icm: one drive period of the map table is off by \S+ rad, where a cell is 6.7e-09 wide: "
+    error = r"--set basin.icm=\S.*: basin.icm: the map table has an error of \S+ rad a period, but a cell is 6.7e-09 wide; use "
     assert re.search(error + "method direct, or some [0-9]+00 nodes an axis", done.stderr), done.stderr
     assert not (tmp_path / "zoom.h5").exists()
 

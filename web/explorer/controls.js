@@ -96,6 +96,6 @@ function listenSaving(state, basins) {
   element("link").onclick = guarded(async () => {
     const { once } = await ask("link");
     await copyText(`${location.origin}${location.pathname}?once=${once}${location.hash}`);
-    element("status").textContent = "an address of this view is copied; it serves once";
+    element("status").textContent = "An address of this view was copied. One browser can open it, once.";
   });
 }

@@ -19,7 +19,7 @@ export class Dive {
     this.starts = [];
     this.basins.onClick = (pane, start) => this.take(pane, start);
     element("dive").setAttribute("aria-pressed", "true");
-    this.say("dive: click two starts of different ends");
+    this.say("Dive: click two starts that end on different attractors.");
   }
 
   stop() {
@@ -43,10 +43,10 @@ export class Dive {
     if (order !== this.order) return;
     this.starts.push({ ...start, end });
     this.mark(this.starts);
-    if (this.starts.length < 2) return this.say("dive: click a start of another end");
+    if (this.starts.length < 2) return this.say("Dive: click a start that ends on another attractor.");
     if (this.starts[0].end === end) {
       this.starts.pop();
-      return this.say("dive: both end alike; click a start of another end");
+      return this.say("Dive: both starts end on the same attractor. Click another one.");
     }
     this.basins.onClick = null;
     this.diving = true;
@@ -72,7 +72,7 @@ export class Dive {
       const end = await this.endOf(pane, { theta: middle[0].toString(), velocity: middle[1].toString() });
       if (end === first) one = middle;
       else other = middle;
-      this.say(`dive: the boundary to ${(distance / 2).toExponential(1)} of the distance`);
+      this.say(`Dive: the boundary is known to ${(distance / 2).toExponential(1)} of the distance of the starts.`);
     }
     return one;
   }

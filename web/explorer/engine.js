@@ -13,7 +13,7 @@ export async function signIn() {
     if (answer.ok) keep(KEY, (await answer.json()).token);
     else if (!kept(KEY)) throw new Error((await answer.json()).error);
   }
-  if (!kept(KEY)) throw new Error("this page needs the address that kapitza view has printed in the terminal");
+  if (!kept(KEY)) throw new Error("Open the address that kapitza view has printed in the terminal. This one has no token.");
 }
 
 function keep(name, value) {

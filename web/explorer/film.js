@@ -55,7 +55,7 @@ export class Film {
   /** Pictures that the film has. */
   count() {
     const count = Number(element("film-count").value);
-    if (!(Number.isInteger(count) && count >= 2 && count <= MOST)) throw new Error(`a film has 2 to ${MOST} pictures`);
+    if (!(Number.isInteger(count) && count >= 2 && count <= MOST)) throw new Error(`the number of pictures of a film must be from 2 to ${MOST}`);
     return count;
   }
 

@@ -110,7 +110,7 @@ export class Pane {
   async rest(version) {
     const { quality } = this.state;
     const samples = Number(this.state.samples);
-    this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "more samples ...", 0);
+    this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "computing more samples ...", 0);
     if (quality === "exact" || samples > 1) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
     if (version === this.version) this.say(this, "done", this.words());
   }
@@ -165,7 +165,7 @@ export class Pane {
   cancel() {
     this.controller.abort();
     this.engine.cancel().catch(() => {});
-    this.say(this, "done", "cancelled: the picture is as far as it came");
+    this.say(this, "done", "Cancelled. The picture shows what was computed before.");
   }
 
   words() {

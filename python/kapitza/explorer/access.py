@@ -20,7 +20,7 @@ def origin(text, option="--origin"):
     except ValueError:
         bad = True
     if bad:
-        raise WrongArgument(f"{option}: {text} is no origin; one reads https://hub.example.org or http://machine:8888")
+        raise WrongArgument(f"{option}: {text} is not an origin; write for example https://hub.example.org or http://machine:8888")
     return text.rstrip("/")
 
 

@@ -27,7 +27,7 @@ def _arguments():
 def _port(text):
     """A port that a user may take; 0: any that is free."""
     if not (text.isascii() and text.isdigit() and len(text) <= 5) or not (int(text) == 0 or 1024 <= int(text) <= 65535):
-        raise WrongArgument(f"--port: {text} is no port; it must be a number from 1024 to 65535, or 0 for any that is free")
+        raise WrongArgument(f"--port: {text} is not a port; it must be a number from 1024 to 65535, or 0 for any that is free")
     return int(text)
 
 

@@ -53,7 +53,7 @@ def explore(scene: SceneLike, *, set=None, height=760, port=0, base=None, origin
         raise ValueError('behind JupyterHub the browser\'s origin must be named: explore(scene, origins=["https://hub.example.org"])')
     frames = ["'self'", *LOCAL, *origins] if frames is None else list(frames)
     if bad := [text for text in frames if not _FRAME.fullmatch(text)]:
-        raise ValueError(f"frames: {bad[0]} is no origin; one reads https://hub.example.org")
+        raise ValueError(f"frames: {bad[0]} is not an origin; write for example https://hub.example.org")
     given = Scene(scene, set)
     try:
         explorer = Explorer(Start(given.path, sets=given.sets[1::2]), program(), port, origins, frames)

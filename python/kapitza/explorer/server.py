@@ -144,7 +144,7 @@ class Handler(BaseHTTPRequestHandler):
         name = name.lstrip("/")
         try:
             if not self.explorer.access.knows(self.headers.get("Host"), self.headers.get("Origin")):
-                raise PermissionError("foreign origin: kapitza view --origin allows others")
+                raise PermissionError("this page comes from another origin; start kapitza view with --origin to allow it")
             if name == "token":
                 return self._trade(self._request())
             if name == "close":
@@ -165,13 +165,13 @@ class Handler(BaseHTTPRequestHandler):
 
     def _check(self, token):
         if not self.explorer.access.admits(token):
-            raise PermissionError("wrong token: open the address that kapitza view has printed")
+            raise PermissionError("the token is wrong; open the address that kapitza view has printed")
         self.explorer.gate.working(self.connection)
 
     def _trade(self, request):
         token = self.explorer.access.trade(request.get("once"))
         if token is None:
-            raise PermissionError("this address has served already; the terminal shows another one")
+            raise PermissionError("this address has been used; open the newest address in the terminal")
         self._send_json(200, {"token": token})
         self.explorer.on_trade()
 
@@ -211,13 +211,13 @@ class Handler(BaseHTTPRequestHandler):
         length = self.headers.get("Content-Length", "")
         if not (length.isascii() and length.isdigit() and len(length) < 7 and int(length) <= MOST_BYTES):
             self.close_connection = True
-            raise BadRequest(f"a request has a length, of at most {MOST_BYTES} bytes")
+            raise BadRequest(f"a request must give its length, at most {MOST_BYTES} bytes")
         try:
             request = json.loads(self.rfile.read(int(length)))
         except (ValueError, RecursionError) as error:
-            raise BadRequest("a request is JSON") from error
+            raise BadRequest("the request is not JSON") from error
         if not isinstance(request, dict):
-            raise BadRequest("a request is a JSON object")
+            raise BadRequest("the request is not a JSON object")
         return request
 
     def _refuse(self, status, message):

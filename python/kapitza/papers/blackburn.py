@@ -18,44 +18,46 @@ def boundaries(runs, known):
         where = f"Omega = {omega}, " + (f"Q = {quality}" if damping else "no damping")
         lower, upper = ("damped_0", "damped_1") if damping else ("exact_1", "exact_2")
         for what, curve, sign, key in (
-            ("lower", lower, -1, "eps_lower_exact"),
-            ("upper", upper, -1, "eps_upper_exact"),
-            ("down, upper", upper, 1, "eps_down_upper_exact"),
+            ("lower boundary of the inverted position", lower, -1, "eps_lower_exact"),
+            ("upper boundary of the inverted position", upper, -1, "eps_upper_exact"),
+            ("upper boundary of the hanging position", upper, 1, "eps_down_upper_exact"),
         ):
-            yield Number("Fig. 4", f"{what} boundary, {where}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
-        for equation, curve, sign, key in (
-            ("(5)", "blackburn_lower", -1, "eq5"),
-            ("(6)", "blackburn_upper", -1, "eq6"),
-            ("(6) about down", "blackburn_down_upper", 1, "eq6_down"),
+            yield Number("Fig. 4", f"{what}, {where}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
+        for equation, what, curve, sign, key in (
+            ("(5)", "lower boundary of the inverted position", "blackburn_lower", -1, "eq5"),
+            ("(6)", "upper boundary of the inverted position", "blackburn_upper", -1, "eq6"),
+            ("(6)", "upper boundary of the hanging position", "blackburn_down_upper", 1, "eq6_down"),
         ):
             if not damping:
-                yield Number(equation, f"epsilon at Omega = {omega}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
+                yield Number(equation, f"{what}, Omega = {omega}", at(chart, sign * k, curve), reference=row[key], bar=1e-9)
     k = 1 / 121
     free, _ = curves(runs, -k, k, 2, names)
     damped, _ = curves(runs, -k, k, 2, names, quality_factor=5.0)
-    yield Number("(5)", "lower boundary at Omega = 11", at(free, -k, "blackburn_lower"), "0.129")
-    yield Number("(6)", "upper boundary at Omega = 11", at(free, -k, "blackburn_upper"), "0.465")
+    yield Number("(5)", "lower boundary of the inverted position, Omega = 11", at(free, -k, "blackburn_lower"), "0.129")
+    yield Number("(6)", "upper boundary of the inverted position, Omega = 11", at(free, -k, "blackburn_upper"), "0.465")
     yield Number(
         "Sec. III",
-        "upper boundary at Omega = 11, exact",
+        "upper boundary of the inverted position, Omega = 11, exact",
         at(free, -k, "exact_2"),
         "0.465",
-        remark="(6) is a chord of the exact curve",
+        remark="Equation (6) is a straight chord of the exact curve.",
         kind="approximation",
     )
-    yield Number("Sec. III", "onset of flutter at Omega = 11, Q = 5", at(damped, -k, "damped_1"), "0.468")
+    yield Number(
+        "Sec. III", "epsilon where flutter begins, Omega = 11, Q = 5, from the linear equation", at(damped, -k, "damped_1"), "0.468"
+    )
     yield Number(
         "Sec. II",
-        "onset of the inverted state at Omega = 11, Q = 5",
+        "epsilon where the inverted position becomes stable, Omega = 11, Q = 5",
         at(damped, -k, "damped_0"),
         "0.12",
-        remark="0.129; at 0.125 no release stays",
+        remark="The inverted position becomes stable at 0.129. At 0.125 no release stays.",
     )
     fine, _ = curves(runs, -0.0276, -0.0275, 1001, ["exact_2"])
     order = np.argsort(fine["exact_2"])
     yield Number(
         "Sec. II",
-        "delta of curve 2 at epsilon = 0.5",
+        "delta of the upper boundary at epsilon = 0.5",
         np.interp(0.5, fine["exact_2"][order], fine["k"][order]),
         "-0.02756",
         known["blackburn_delta_at_eps0.5_exact"],
@@ -70,20 +72,20 @@ def potential(runs, known):
     from scipy.interpolate import CubicSpline
 
     for name, what, exact in (
-        ("energy", "exact", 0.030434554),
-        ("energy_blackburn", "(11)", 0.030237336),
-        ("energy_simple", "(12)", 0.030307184),
+        ("energy", "exact, by (10)", 0.030434554),
+        ("energy_blackburn", "by (11)", 0.030237336),
+        ("energy_simple", "by (12)", 0.030307184),
     ):
         yield Number(
             "Fig. 5",
-            f"potential at theta = 2, epsilon = 0.3, {what}",
+            f"effective potential at theta = 2 rad, epsilon = 0.3, {what}",
             CubicSpline(values["theta"], values[name][1])(2.0),
             reference=exact,
             bar=6e-10,
         )
     rim = known["blackburn_fig6_7_release"]["11_20_0.13"]["well_rim_from_top_deg"]
     yield Number(
-        "(12)", "rim of the well at epsilon = 0.13, degrees from inverted", 180 - np.degrees(values["rim"][0]), reference=rim, bar=1e-9
+        "(12)", "angle of the rim of the well at epsilon = 0.13, degrees", 180 - np.degrees(values["rim"][0]), reference=rim, bar=1e-9
     )
 
 
@@ -113,7 +115,7 @@ def releases(runs, known):
             for index, (epsilon, row) in enumerate(pair):
                 yield Number(
                     "Fig. 6" if quality == 20 else "Fig. 7",
-                    f"first release that fails, Omega = {omega:g}, Q = {quality:g}, epsilon = {epsilon:g}, degrees",
+                    f"smallest angle of a release that fails, Omega = {omega:g}, Q = {quality:g}, epsilon = {epsilon:g}, degrees",
                     np.degrees(values["release_angle_scan"][index]),
                     reference=row["first_fail_deg"],
                     bar=_release_bar(epsilon, row["first_fail_deg"]),
@@ -123,10 +125,10 @@ def releases(runs, known):
     )
     yield Number(
         "Fig. 6",
-        "releases stay up to more than, degrees (epsilon = 0.13)",
+        "angle below which every release stays, Omega = 11, Q = 20, epsilon = 0.13, degrees",
         np.degrees(values["release_angle"][0]),
         "45",
-        remark="holds for 0.15 <= epsilon <= 0.49 alone",
+        remark="The paper says that the angle is always above 45 degrees. This holds for epsilon from 0.15 to 0.49 only.",
     )
 
 
@@ -134,8 +136,6 @@ def _release_bar(epsilon, first):
     if first == 0:
         return 1.0
     return 2e-5 if 0.13 < epsilon < 0.3 else 1e-3
-
-
 
 
 def attractors(runs, known):
@@ -156,10 +156,16 @@ def attractors(runs, known):
             yield Number("Figs 11-15", f"period of {what}", values["period"][id_], reference=row["period"])
             yield Number("Figs 11-15", f"winding of {what}", values["winding"][id_], reference=row["winding_total"])
             yield Number(
-                "Figs 11-15", f"strobe velocity of {what}", values["strobe_velocity"][id_, phase], reference=points[0, 1], bar=1e-9
+                "Figs 11-15",
+                f"velocity of the strobe point of {what}",
+                values["strobe_velocity"][id_, phase],
+                reference=points[0, 1],
+                bar=1e-9,
             )
-            yield Number("Figs 11-15", f"multiplier, real part, of {what}", values["multiplier_re"][id_, 0], reference=exact.real, bar=1e-7)
-            yield Number("Figs 11-15", f"share of {what}", values["fraction"][id_], reference=share, bar=doubt)
+            yield Number(
+                "Figs 11-15", f"real part of the multiplier of {what}", values["multiplier_re"][id_, 0], reference=exact.real, bar=1e-7
+            )
+            yield Number("Figs 11-15", f"share of the starts of {what}", values["fraction"][id_], reference=share, bar=doubt)
 
 
 def cores(runs, known):
@@ -176,7 +182,7 @@ def cores(runs, known):
         leaves = centre[labels["attractor"][:, 0]] != 1
         yield Number(
             "Figs 11-15",
-            f"first velocity above theta = pi that leaves, epsilon = {epsilon}",
+            f"smallest velocity at theta = pi whose motion leaves the inverted position, epsilon = {epsilon}",
             labels["velocity"][np.argmax(leaves)],
             reference=row["first_fail_v_at_top"],
             bar=0.0051,

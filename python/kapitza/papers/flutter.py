@@ -14,7 +14,7 @@ def flutter(runs, known):
         for turn, exact in enumerate(row["first12"]):
             yield Number(
                 "Fig. 8",
-                f"turning point {turn + 1} after a release of {release} degrees",
+                f"turning point {turn + 1} after a release from {release} degrees, degrees",
                 np.degrees(values["maximum_angle"][turn]),
                 reference=exact,
                 bar=2e-3,
@@ -27,12 +27,18 @@ def flutter(runs, known):
         yield Number("Figs 9, 10", f"amplitude of flutter at epsilon = {row['eps']}, rad", amplitude, reference=row["amp_rad"], bar=1e-8)
         if row["eps"] == "0.5":
             yield Number(
-                "Fig. 8", "final amplitude at epsilon = 0.5, degrees", np.degrees(amplitude), "40", row["amp_deg"], 1e-6, printed_bar=5
+                "Fig. 8",
+                "final amplitude of flutter at epsilon = 0.5, degrees",
+                np.degrees(amplitude),
+                "40",
+                row["amp_deg"],
+                1e-6,
+                printed_bar=5,
             )
     values, attributes = sweep(runs, FIVE, "drive_amplitude", 0.4683, 0.473, 48, "flutter_amplitude")
     yield Number(
         "Sec. III",
-        "onset of flutter from the multiplier -1",
+        "epsilon where flutter begins, Omega = 11, Q = 5, from the multiplier -1 of the map",
         attributes["critical_value"],
         "0.468",
         known["blackburn_fig4_upper_flutter"]["Omega11_Q5"]["eps_c"],
@@ -40,7 +46,7 @@ def flutter(runs, known):
     )
     yield Number(
         "Fig. 10",
-        "exponent of the amplitude (a straight line over the square root)",
+        "exponent of the amplitude as a power of epsilon - epsilon_c",
         attributes["fit_exponent"],
         "0.5",
         printed_bar=attributes["fit_exponent_error"],
@@ -55,10 +61,16 @@ def flutter_ends(runs, known):
             row = known["blackburn_fig4_upper_flutter"].get(f"Omega{round(omega)}_Q5")
             if row is None:
                 continue
-            yield Number("Fig. 4", f"flutter begins at Omega = {omega:g}", values["flutter_onset"][index], reference=row["eps_c"], bar=1e-9)
             yield Number(
                 "Fig. 4",
-                f"flutter loses its symmetry at Omega = {omega:g}",
+                f"epsilon where flutter begins, Omega = {omega:g}, Q = 5",
+                values["flutter_onset"][index],
+                reference=row["eps_c"],
+                bar=1e-9,
+            )
+            yield Number(
+                "Fig. 4",
+                f"epsilon where flutter loses its symmetry, Omega = {omega:g}, Q = 5",
                 values["flutter_asymmetry"][index],
                 reference=row["eps_symmetry_breaking"],
                 bar=1e-6,
@@ -67,12 +79,12 @@ def flutter_ends(runs, known):
                 end = known["blackburn_flutter_cascade_Q5_Omega11"]["eps_period_doubling_of_asymmetric_flutter"]
                 yield Number(
                     "Sec. III",
-                    "flutter ends",
+                    "epsilon where flutter ends, Omega = 11, Q = 5",
                     values["flutter_end"][index],
                     "0.53",
                     end,
                     1e-6,
-                    "0.53 is a limit of releases from rest; the attractor lives on, and doubles its period at 0.5717",
+                    "From 0.53 on, releases from rest do not reach flutter. The attractor exists up to 0.5717, where its period doubles.",
                 )
 
 
@@ -95,7 +107,7 @@ def lives(runs, known):
             if low < ends[side]["eps"] < high:
                 yield Number(
                     "Figs 11-15",
-                    f"{words} {what}, epsilon",
+                    f"epsilon where the {words} {what}",
                     values["branch_start" if side == "low" else "branch_end"][row],
                     reference=ends[side]["eps"],
                     bar=1e-7,

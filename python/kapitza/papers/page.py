@@ -7,24 +7,54 @@ from . import blackburn, butikov, flutter, tongues
 from .number import FAILED
 from .runs import ROOT, Runs
 
-PAPERS = [
-    ("Blackburn, Smith and Groenbech-Jensen (1992)", blackburn.PARTS + flutter.PARTS),
-    ("Butikov (2018)", butikov.PARTS + tongues.PARTS),
-]
+BLACKBURN, BUTIKOV = "Blackburn, Smith and Groenbech-Jensen (1992)", "Butikov (2018)"
+PAPERS = [(BLACKBURN, blackburn.PARTS + flutter.PARTS), (BUTIKOV, butikov.PARTS + tongues.PARTS)]
 HEAD = """\
 # Every number of the two papers
 
-What the papers print, what this program finds, and the agreement. `scripts/reproduce --numbers` runs the program and writes this page;
-do not edit.
+The tables compare each number that the two papers print or draw with the number that this program finds.
 
-- **right**: ours rounds to what is printed, or meets the reference within the stated bar.
-- **approximation**: what is printed comes from a formula that its paper calls approximate; ours is exact.
-- **erratum**: what is printed is not what the paper's own equations give; the last column says what is meant.
-- **FAILED**: ours is neither, or an erratum no longer explains the difference.
+`scripts/reproduce --numbers` runs the program and writes this page. Its words stand in `python/kapitza/papers`. The column
+`agreement` has one of four words:
 
-References are values by other methods, with 10 to 16 digits (`tests/literature/reference.json`); how they were found is said in
-[theory.md](../explanation/theory.md).
+| word | meaning |
+| --- | --- |
+| right | The program's number rounds to the printed number, or it differs from the reference by at most the `bar` of its row. |
+| approximation | The paper prints the result of a formula that it calls approximate. The program's number has no such approximation. |
+| erratum | The paper's own equations do not give the printed number. The column `remark` says what is right. |
+| FAILED | The two numbers differ and no remark explains why, or a remark explains a difference that does not exist. |
+
+The column `place` has the paper's number of the figure, the section or, in parentheses, the equation. The bar of whole numbers is
+"equal".
+
+A reference is a value with 10 to 16 digits that was computed without this program (`tests/literature/reference.json`). A Taylor-series
+integrator in 80-bit arithmetic followed the orbits, and Newton's method closed the cycles. Another integrator, of order 8, integrated
+every cycle again; each closed with an error of at most 2.8e-12. Linear problems were solved by Hill determinants with 30 digits.
 """
+SYMBOLS = {
+    BLACKBURN: """\
+Omega = omega/omega0 is the frequency of the drive, epsilon its amplitude, and Q the quality factor. If a row names neither Q nor
+Omega, they are 5 and 11.
+
+- A position is stable between its lower and its upper boundary, which are values of epsilon. delta is the paper's name for k,
+  which is negative for the inverted position.
+- A release begins at rest. It fails if the pendulum leaves the inverted position. Angles of releases, turning points and rims are
+  measured from the inverted position.
+- A share of the starts counts the starts with velocities of up to 3 rad per drive radian that end in a motion. The reference has
+  1500 random starts; the bar is four standard errors.
+- The motions have the program's [names](../explanation/orbits.md#names). Velocities are in rad per drive radian.
+""",
+    BUTIKOV: """\
+k and m are those of the [equation of motion](../explanation/theory.md#the-equation-of-motion). n is the order of a subharmonic.
+
+- Curves 1 to 5 bound the zones of stability in the plane of k and m. A pendulum on the curve of order n has an orbit that closes
+  after n drive periods.
+- Line j/n of an orbit is the part of its angle that has j/n of the drive's frequency. Cj and Sj are the cosine and the sine part
+  of line number j. Aj is its amplitude with a sign.
+- Tongue 1 is the zone of parametric resonance at k = 1/4, tongue 2 the one at k = 1; exact tuning is at these two values. The
+  lowest point of a tongue has the smallest m at which the hanging pendulum starts to swing.
+""",
+}
 
 
 def find_numbers(say):
@@ -45,18 +75,21 @@ def write_page(found, path: Path):
     """The page; returns the numbers that failed."""
     every = [number for _, numbers in found for number in numbers]
     failed = [number for number in every if number.agreement == FAILED]
-    counts = {word: sum(number.agreement == word for number in every) for word in ("right", "approximation", "erratum", FAILED)}
-    lines = [HEAD, f"{len(every)} numbers: " + ", ".join(f"{count} {word}" for word, count in counts.items()) + ".\n"]
+    right, approximate, erratum = (sum(number.agreement == word for number in every) for word in ("right", "approximation", "erratum"))
+    summary = (f"{right} of the {len(every)} numbers are right. {approximate} differ because the paper approximates, "
+               f"{erratum} because of an erratum in the paper. {len(failed)} failed.\n")
+    lines = [HEAD, summary]
     lines += [
         "## What failed\n",
-        *(_table(failed, "place", "quantity", "paper", "reference", "ours", "agreement") if failed else ["Nothing.\n"]),
+        *(_table(failed, "place", "quantity", "paper", "reference", "ours", "agreement") if failed else ["No number failed.\n"]),
     ]
     for title, numbers in found:
         printed = [number for number in numbers if number.printed]
         lines += [
-            f"## {title}: what is printed\n",
+            f"## {title}: the printed numbers\n",
+            *([SYMBOLS[title]] if title in SYMBOLS else []),
             *_table(printed, "place", "quantity", "paper", "ours", "ours - paper", "agreement", "remark"),
-            f"## {title}: what its figures and equations hold\n",
+            f"## {title}: numbers of its figures and equations\n",
             *_table(
                 [number for number in numbers if not number.printed],
                 "place",

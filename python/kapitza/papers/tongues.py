@@ -16,7 +16,7 @@ def damped_tongues(runs, known):
         for tongue, tuned in ((1, "m_at_k0.25"), (2, "m_at_k1")):
             for kind, suffix in ((f"tongue{tongue}_exact", ""), (f"tongue{tongue}_eq{24 + tongue}", "_determinant")):
                 row = known[f"butikov_sec6_Q{quality}"][kind]
-                by = f", by ({24 + tongue}) corrected" if suffix else ""
+                by = f", by the corrected ({24 + tongue})" if suffix else ""
                 for what, key, name in (
                     ("lowest k", "k_min", "lowest_k"),
                     ("lowest m", "m_min", "lowest_m"),
@@ -24,27 +24,27 @@ def damped_tongues(runs, known):
                 ):
                     yield Number(
                         "Sec. 6",
-                        f"tongue {tongue}, Q = {quality}: {what}{by}",
+                        f"{what} of tongue {tongue} at Q = {quality}{by}",
                         lowest[quality][f"tongue_{tongue}_{name}{suffix}"],
                         reference=row[key],
                         bar=1e-8,
                     )
     five, fine = lowest[5], lowest[1000]
-    yield Number("Sec. 6", "tongue 1, Q = 5: lowest k", five["tongue_1_lowest_k"], "0.244")
-    yield Number("Sec. 6", "tongue 1, Q = 5: lowest m", five["tongue_1_lowest_m"], "0.099")
-    yield Number("Sec. 6", "tongue 1, Q = 5: m at k = 1/4", five["tongue_1_tuned_m"], "0.1002")
-    remark = "a point of the curve, not its lowest; (26) needs 2(k - 1) in rows 2 and 3"
-    yield Number("Sec. 6", "tongue 2, Q = 5: lowest k", five["tongue_2_lowest_k"], "1.106", remark=remark)
-    yield Number("Sec. 6", "tongue 2, Q = 5: lowest m", five["tongue_2_lowest_m"], "0.999", remark=remark)
-    yield Number("Sec. 6", "tongue 1: lowest m times Q, Q = 1000", 1000 * fine["tongue_1_lowest_m"], "0.5")
+    yield Number("Sec. 6", "lowest k of tongue 1 at Q = 5", five["tongue_1_lowest_k"], "0.244")
+    yield Number("Sec. 6", "lowest m of tongue 1 at Q = 5", five["tongue_1_lowest_m"], "0.099")
+    yield Number("Sec. 6", "m at exact tuning of tongue 1 at Q = 5", five["tongue_1_tuned_m"], "0.1002")
+    remark = "The printed point is on the curve, but not its lowest. Rows 2 and 3 of (26) need 2(k - 1)."
+    yield Number("Sec. 6", "lowest k of tongue 2 at Q = 5", five["tongue_2_lowest_k"], "1.106", remark=remark)
+    yield Number("Sec. 6", "lowest m of tongue 2 at Q = 5", five["tongue_2_lowest_m"], "0.999", remark=remark)
+    yield Number("Sec. 6", "lowest m of tongue 1 times Q, at Q = 1000", 1000 * fine["tongue_1_lowest_m"], "0.5")
     yield Number(
         "Sec. 6",
-        "tongue 2: lowest m times sqrt(Q), Q = 1000",
+        "lowest m of tongue 2 times sqrt(Q), at Q = 1000",
         np.sqrt(1000) * fine["tongue_2_lowest_m"],
         "2.32",
-        remark="2 / sqrt(Q); 2.32 belongs to exact tuning, k = 1",
+        remark="The lowest m is 2/sqrt(Q). The printed 2.32 belongs to exact tuning, k = 1.",
     )
-    yield Number("Sec. 6", "tongue 2: m at k = 1 times sqrt(Q), Q = 1000", np.sqrt(1000) * fine["tongue_2_tuned_m"], "2.32")
+    yield Number("Sec. 6", "m at exact tuning of tongue 2 times sqrt(Q), at Q = 1000", np.sqrt(1000) * fine["tongue_2_tuned_m"], "2.32")
     yield from _damped_curves(runs, known)
 
 
@@ -54,15 +54,21 @@ def _damped_curves(runs, known):
         for k, exact, formula in (map(float, row) for row in rows):
             names = (f"damped_{tongue}", f"butikov_damped_{tongue}")
             chart, _ = curves(runs, k, k + 0.01, 2, names, quality_factor=5)
-            yield Number("Fig. 11", f"tongue {tongue}, Q = 5: m at k = {k:g}", at(chart, k, names[0]), reference=exact, bar=1e-9)
             yield Number(
-                f"({24 + tongue}) corrected", f"tongue {tongue}, Q = 5: m at k = {k:g}", at(chart, k, names[1]), reference=formula, bar=1e-9
+                "Fig. 11", f"m of the edge of tongue {tongue} at Q = 5, k = {k:g}", at(chart, k, names[0]), reference=exact, bar=1e-9
+            )
+            yield Number(
+                f"({24 + tongue})",
+                f"m of the edge of tongue {tongue} at Q = 5, k = {k:g}, with the equation corrected",
+                at(chart, k, names[1]),
+                reference=formula,
+                bar=1e-9,
             )
     values, _ = runs("butikov-fig12", "orbit")
     scale = values["line_amplitude"][1]
     for name, relative in next(row for key, row in known.items() if key.startswith("butikov_fig12")).items():
         part = cosine if name[0] == "C" else sine
-        yield Number("Fig. 12", f"{name} beside the first harmonic", part(values, int(name[1])) / scale, reference=relative, bar=1e-7)
+        yield Number("Fig. 12", f"{name} over the amplitude of line 1", part(values, int(name[1])) / scale, reference=relative, bar=1e-7)
 
 
 PARTS = [damped_tongues]

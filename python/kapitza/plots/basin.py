@@ -48,7 +48,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--no-dots", action="store_true", help="leave out the strobe points of the attractors")
     arguments = parsed(parser, words)
     if arguments.attractor and (arguments.quantity != "attractor" or arguments.shade):
-        parser.error("--attractor goes with neither --quantity nor --shade")
+        parser.error("--attractor cannot be combined with --quantity or --shade")
     return arguments
 
 
@@ -171,7 +171,7 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     basin, attractors = result.group("basin"), result.group("attractors")
     labels = basin["attractor"].values
     if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes["attractor"]:
-        raise BadFile(f"{result.path}: has cells of attractors that it does not list")
+        raise BadFile(f"{result.path}: is damaged: some cells have ids of attractors that the file does not list")
     plane = Plane(basin, arguments.centre)
     figure = new_figure(PAGE_WIDTH, PLANE_WIDTH * plane.shape + TITLES)
     axes, centre = figure.subplots(), arguments.centre

@@ -128,7 +128,7 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: one panel for each start."""
     chart = result.group("chart")
     if chart.sizes["x"] < 2 or chart.sizes["y"] < 2:
-        raise BadFile(f"{result.path}: the chart has no area")
+        raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
     figure = new_figure(8.2, 4.8 * chart.sizes["start"])
     for place, axes in enumerate(np.atleast_1d(figure.subplots(chart.sizes["start"], 1))):
         panel(axes, result, chart.isel(start=place), arguments.view)

@@ -31,7 +31,7 @@ def argument_parser(kind: str, description: str | None, study: str) -> argparse.
 def resolution(text: str) -> int:
     """Dots per inch that a picture can have."""
     if not 10 <= int(text) <= 2400:
-        raise argparse.ArgumentTypeError(f"{text} is out of range; from 10 to 2400")
+        raise argparse.ArgumentTypeError(f"{text} is out of range; give a number from 10 to 2400")
     return int(text)
 
 
@@ -51,7 +51,7 @@ def write_picture(arguments: argparse.Namespace, draw: Callable[[Result, argpars
         with drawing(page_of(arguments)):
             style.save(figure, arguments.output, arguments.dpi)
     except UserWarning as error:
-        raise BadFile(f"{arguments.output}: its panels do not fit on the page; a larger --width, or a smaller --font-size") from error
+        raise BadFile(f"{arguments.output}: its panels do not fit on the page; give a larger --width or a smaller --font-size") from error
 
 
 def figure_of(result: Result, arguments: argparse.Namespace, draw: Callable[[Result, argparse.Namespace], Figure]) -> Figure:

@@ -40,7 +40,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     arguments = parsed(parser, words)
     arguments.panels = arguments.panels.split(",")
     if not set(arguments.panels) <= PANELS.keys() or len(set(arguments.panels)) < len(arguments.panels):
-        parser.error(f"--panels takes some of {','.join(PANELS)}")
+        parser.error(f"--panels: give one or more of {','.join(PANELS)}")
     return arguments
 
 

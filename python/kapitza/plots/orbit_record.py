@@ -33,7 +33,7 @@ class Orbit:
     def __init__(self, result: Result, last: float | None = None) -> None:
         whole = result.group("orbit")
         if whole.sizes["time"] < 2 or whole.sizes["line_frequency"] < 2:
-            raise BadFile(f"{result.path}: the orbit has no length")
+            raise BadFile(f"{result.path}: the orbit has fewer than two samples")
         self.data, self.last = shown(whole, last)
         self.attributes = self.data.attrs
         self.closed = bool(self.attributes["closed"])

@@ -116,14 +116,14 @@ def length(text: str) -> float:
     """Inches of a text such as 86mm."""
     number, unit = text[:-2].strip(), text[-2:]
     if unit not in UNITS or not 0.5 <= float(number) * UNITS[unit] <= 60:
-        raise argparse.ArgumentTypeError(f"{text} is no width; a number and one of {', '.join(UNITS)}, such as 86mm, from 0.5 to 60 inches")
+        raise argparse.ArgumentTypeError(f"{text} is not a width; give a number and one of {', '.join(UNITS)}, such as 86mm, from 0.5 to 60 inches")
     return float(number) * UNITS[unit]
 
 
 def points(text: str) -> float:
     """A size of letters."""
     if not 3 <= float(text) <= 72:
-        raise argparse.ArgumentTypeError(f"{text} is out of range; from 3 to 72 points")
+        raise argparse.ArgumentTypeError(f"{text} is out of range; give 3 to 72 points")
     return float(text)
 
 
@@ -134,10 +134,10 @@ def colour_file(text: str) -> dict[str, str]:
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise argparse.ArgumentTypeError(f"{text} cannot be read: {' '.join(str(error).split())}") from error
     if not isinstance(colours, dict):
-        raise argparse.ArgumentTypeError(f'{text} holds no colours; write lines such as inverted: "#f2b233"')
+        raise argparse.ArgumentTypeError(f'{text} contains no colours; write lines such as inverted: "#f2b233"')
     for name, colour in colours.items():
         if not is_color_like(colour):
-            raise argparse.ArgumentTypeError(f'{text}: {name}: {colour!r} is no colour; write one such as "#f2b233" or gold')
+            raise argparse.ArgumentTypeError(f'{text}: {name}: {colour!r} is not a colour; write one such as "#f2b233" or gold')
     return {str(name): colour for name, colour in colours.items()}
 
 

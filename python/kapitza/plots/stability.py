@@ -145,7 +145,7 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page of the view that was asked for."""
     chart = result.group("stability")
     if chart.sizes["k"] < 2 or chart.sizes["m"] < 2:
-        raise BadFile(f"{result.path}: the chart has no area")
+        raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
     figure = VIEWS[arguments.view](chart)
     entitle(figure, result, f"{chart.sizes['k']} x {chart.sizes['m']} points", damping_text(chart))
     return figure

@@ -159,7 +159,7 @@ def chosen_view(result: Result, sweep: xarray.Dataset, wanted: str | None) -> Ca
     """The function that draws the view asked for, or the first one that the file has."""
     there = {name: draw for name, variable, draw in VIEWS if variable in sweep}
     if not there:
-        raise BadFile(f"{result.path}: the sweep has measured nothing")
+        raise BadFile(f"{result.path}: the sweep contains no measure")
     if wanted and wanted not in there:
         raise BadFile(f"{result.path}: has no {wanted}; it has {', '.join(there)}")
     return there[wanted or next(iter(there))]

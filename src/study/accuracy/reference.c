@@ -33,7 +33,7 @@ kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendu
   *numerics = (kz_numerics){.scheme = kz_scheme_find("split6"), .steps_per_period = (int32_t)fmin(steps, most)};
   if (steps <= most && kz_steps_enough(pendulum, fastest, FINE, (int32_t)most, numerics)) return KZ_OK;
   return kz_fail(KZ_REFUSED,
-                 "basin.velocity: %d steps a period do not carry starts of speed %.3g well enough for reference labels; choose "
+                 "basin.velocity: %d steps a period are too few for reference labels of starts with speed %.3g; choose "
                  "slower starts",
                  (int)numerics->steps_per_period, fastest);
 }

@@ -46,10 +46,10 @@ static kz_status write_measures(const kz_reference_labels *reference, const kz_t
 static kz_status write_attributes(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store) {
   const kz_reference_labels_summary sum = kz_reference_labels_sum(reference);
   char method[200];
-  snprintf(
-      method, sizeof method,
-      "quad precision, Taylor series in %d steps a period or more; more steps give the same label in %lld of %lld cells asked",
-      KZ_REFERENCE_STEPS, (long long)(sum.asked - sum.disagree), (long long)sum.asked);
+  snprintf(method, sizeof method,
+           "quad precision, Taylor series in %d steps a period or more; with more steps %lld of %lld repeated cells have the "
+           "same label",
+           KZ_REFERENCE_STEPS, (long long)(sum.asked - sum.disagree), (long long)sum.asked);
   KZ_TRY(kz_store_text(store, "tradeoff", "reference", method));
   KZ_TRY(kz_store_integer(store, "tradeoff", "samples", reference->samples));
   KZ_TRY(kz_store_real(store, "tradeoff", "floor", kz_share_of(sum.flipped, reference->samples).share));
@@ -99,12 +99,11 @@ static void print(const kz_reference_labels *reference, const kz_trade *trade, F
           "s/1e6 cells\n",
           (long long)reference->samples, sum.mean_periods);
   for (int64_t i = 0; i < trade->count; i++) print_row(reference, trade, i, summary);
-  fprintf(
-      summary,
-      "one unit in the last place of the start flips %.3f %% (%.3f .. %.3f); the best in double precision is wrong in %.3f %%; "
-      "another number of steps changed %lld of %lld reference labels\n",
-      100 * flips.share, 100 * flips.low, 100 * flips.high, 100 * trade->best_wrong, (long long)sum.disagree,
-      (long long)sum.asked);
+  fprintf(summary,
+          "One unit in the last place of the start changes %.3f %% of the labels (%.3f .. %.3f). The best setting in double "
+          "precision has %.3f %% wrong. Another number of steps changed %lld of %lld reference labels.\n",
+          100 * flips.share, 100 * flips.low, 100 * flips.high, 100 * trade->best_wrong, (long long)sum.disagree,
+          (long long)sum.asked);
 }
 
 kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary) {

@@ -65,7 +65,7 @@ static kz_status publish(const kz_scene *scene, const finding *s, kz_store *stor
   const kz_status status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
   if (status == KZ_OK) {
     kz_catalogue_print(&catalogue, false, summary);
-    fprintf(summary, "%lld of %lld starts did not settle within %lld drive periods\n", (long long)s->reached[0],
+    fprintf(summary, "%lld of %lld starts did not settle within %lld drive periods.\n", (long long)s->reached[0],
             (long long)s->plan->starts, (long long)s->max_periods);
   }
   kz_catalogue_free(&catalogue);
@@ -75,7 +75,7 @@ static kz_status publish(const kz_scene *scene, const finding *s, kz_store *stor
 /* Without damping areas are conserved and nothing attracts. */
 static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (kz_rank(run->ranks) != 0) return KZ_OK;
-  fprintf(summary, "attractors: without damping there are none.\n");
+  fprintf(summary, "attractors: without damping there are no attractors.\n");
   return kz_catalogue_write(&(kz_catalogue){0}, &scene->parameters.pendulum, false, store);
 }
 

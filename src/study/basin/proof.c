@@ -33,16 +33,18 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
   *proof = NULL;
   if (!plan->proof || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   if (!kz_is_sine(&scene->parameters.pendulum))
-    return kz_fail(KZ_REFUSED, "basin.proof: motions are proved for the drive k - m cos t alone; leave basin.proof out");
+    return kz_fail(KZ_REFUSED, "basin.proof: needs a pivot that moves up and down as a sine; leave basin.proof out");
   if (fmin(kz_axis_step(&plan->theta), kz_axis_step(&plan->velocity)) < SMALLEST)
-    return kz_fail(KZ_REFUSED, "basin.proof|basin.theta.width: cells below %.0e are too small for a proof in pairs of doubles",
+    return kz_fail(KZ_REFUSED,
+                   "basin.proof|basin.theta.width: cells below %.0e are too small for a proof in pairs of doubles; use wider "
+                   "cells, or leave basin.proof out",
                    SMALLEST);
   const double fastest = kz_axis_fastest(&plan->velocity);
   const kz_status status = kz_proof_create(&scene->parameters.pendulum, COLUMNS, rows_of(scene), top_of(scene), fastest, proof);
   if (status != KZ_REFUSED) return status;
   return kz_fail(
       KZ_REFUSED,
-      "basin.proof|basin.velocity: speeds of %.3g rad per drive radian are too fast for a proof under this pendulum; leave "
+      "basin.proof|basin.velocity: speeds of %.3g rad per drive radian are too fast for a proof with this pendulum; leave "
       "basin.proof out, or choose slower starts",
       fastest);
 }

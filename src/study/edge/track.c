@@ -152,7 +152,8 @@ kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t ma
   *edge = (kz_edge){.exponent = NAN};
   kz_decide_starts(dynamics, max_periods, 2, p.side[0], end, periods);
   if (end[0] == end[1])
-    return kz_fail(KZ_REFUSED, "edge.second|edge.first: ends where the other start does; give starts of two basins");
+    return kz_fail(KZ_REFUSED,
+                   "edge.second|edge.first: ends on the same attractor as the other start; give starts of different basins");
   p.own = end[0];
   p.other = end[1];
   p.map = kz_flow_create(pendulum, &fine);

@@ -145,9 +145,10 @@ static kz_status make(making *m) {
     const int64_t level = m->frame->levels->values[i];
     KZ_TRY(label(m, list_pending(m, level)));
     if (m->resident->catalogue.list.count >= KZ_NO_LABEL)
-      return kz_fail(KZ_REFUSED,
-                     "basin.attractors.max_period: the pendulum has %lld attractors, too many for the bytes of a frame (%d)",
-                     (long long)m->resident->catalogue.list.count, KZ_NO_LABEL - 1);
+      return kz_fail(
+          KZ_REFUSED,
+          "basin.attractors.max_period: the pendulum has %lld attractors, but a frame holds at most %d; use a smaller period",
+          (long long)m->resident->catalogue.list.count, KZ_NO_LABEL - 1);
     KZ_TRY(show(m, level));
   }
   return KZ_OK;

@@ -15,17 +15,16 @@ kz_status kz_steps_check_table(const kz_basin_plan *plan, double table_error) {
   const double nodes = (double)most * pow(table_error / cell, 1.0 / kz_stencil(plan->interpolation));
   char more[64] = "";
   if (nodes <= MOST_NODES) snprintf(more, sizeof more, ", or some %.0f nodes an axis", 100 * ceil(nodes / 100));
-  return kz_fail(
-      KZ_REFUSED,
-      "basin.icm|basin.method: one drive period of the map table is off by %.2g rad, where a cell is %.2g wide: method "
-      "direct%s",
-      table_error, cell, more);
+  return kz_fail(KZ_REFUSED,
+                 "basin.icm|basin.method: the map table has an error of %.2g rad a period, but a cell is %.2g wide; use method "
+                 "direct%s",
+                 table_error, cell, more);
 }
 
 void kz_steps_warn_table(const kz_basin_plan *plan, double table_error, FILE *summary) {
   if (table_error <= kz_steps_tolerance(plan)) return;
   fprintf(summary,
-          "warning: one drive period of the map table is off by %.2g rad (%.2g of a cell); more nodes (basin.icm), a higher "
+          "warning: the map table has an error of %.2g rad a period (%.2g of a cell); use more nodes (basin.icm), a higher "
           "interpolation, or method direct\n",
           table_error, table_error / kz_cell_size(plan));
 }

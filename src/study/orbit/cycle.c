@@ -59,6 +59,6 @@ kz_status kz_cycle_close(const kz_model *model, int64_t period, kz_state start, 
                    (long long)period, MAX_DISTANCE, start.theta, start.velocity);
   if (cycle->period == period) return KZ_OK;
   return kz_fail(KZ_FAILED,
-                 "orbit.period: %lld, but the cycle found there closes after %lld; give that period, or a nearer start",
+                 "orbit.period: is %lld, but the cycle found there closes after %lld; give that period, or a nearer start",
                  (long long)period, (long long)cycle->period);
 }

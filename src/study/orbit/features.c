@@ -67,10 +67,9 @@ kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool p
   record.centre = features->origin;
   KZ_TRY(make_lines(motion, &record, features));
   if (record.closed && features->period != period)
-    return kz_fail(
-        KZ_FAILED,
-        "orbit: the strobe points close after %lld periods, the spectral lines give %lld; choose a less degenerate cycle",
-        (long long)period, (long long)features->period);
+    return kz_fail(KZ_FAILED,
+                   "orbit: by its strobe points the cycle has period %lld, by its spectral lines %lld; choose another cycle",
+                   (long long)period, (long long)features->period);
   features->chaotic = parting && features->period == 0;
   if (features->chaotic) KZ_TRY(take_velocity(motion, features));
   int64_t span = features->period > 0 ? features->period : record.periods;

@@ -42,9 +42,10 @@ void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state) {
 static kz_status check_range(const kz_motion *motion) {
   for (int64_t i = 0; i <= motion->periods * motion->samples; i++) {
     if (isfinite(motion->theta[i]) && isfinite(motion->velocity[i])) continue;
-    return kz_fail(KZ_FAILED,
-                   "orbit: the motion leaves the range of numbers in period %lld; use fewer periods or a smaller start",
-                   (long long)(i / motion->samples));
+    return kz_fail(
+        KZ_FAILED,
+        "orbit: the motion becomes too large for double precision in period %lld; use fewer periods or a smaller start",
+        (long long)(i / motion->samples));
   }
   return KZ_OK;
 }

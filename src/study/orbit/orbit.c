@@ -47,9 +47,10 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
   KZ_TRY(kz_store_length(store, "attractors", "attractor", &count));
   if (count == 0)
     return kz_fail(KZ_REFUSED,
-                   "orbit.attractor: the catalogue is empty; give orbit.start, add damping, or choose another window");
+                   "orbit.attractor: no attractor was found; give orbit.start, add damping, or choose another window");
   if (id >= count)
-    return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is not in the catalogue, which has %lld; choose an id below that",
+    return kz_fail(KZ_REFUSED,
+                   "orbit.attractor: %lld is not the id of an attractor; the search found %lld, so choose an id below that",
                    (long long)id, (long long)count);
   for (int i = 0; i < 3; i++) KZ_TRY(kz_store_number(store, "attractors", names[i], (int64_t[]){id, 0}, values[i]));
   *period = (int64_t)n;

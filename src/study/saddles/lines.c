@@ -101,7 +101,7 @@ static int64_t drop_repeats(const kz_saddles_plan *plan, int64_t n, double *cycl
 }
 
 static kz_status too_many(const kz_saddles_plan *plan, int most, const char *what) {
-  return kz_fail(KZ_REFUSED, "saddles.max_period: %lld gives over %d %s; use a shorter period", (long long)plan->max_period,
+  return kz_fail(KZ_REFUSED, "saddles.max_period: %lld needs more than %d %s; use a smaller value", (long long)plan->max_period,
                  most, what);
 }
 
@@ -109,8 +109,8 @@ static kz_status search_tile(void *context, int64_t tile, void *record) {
   const kz_lines *lines = context;
   uint64_t *bytes = record;
   int64_t work[2], n = kz_lines_search(lines, tile, MOST_STARTS, (double *)(bytes + 1), work);
-  if (work[0] > MOST_STARTS) return too_many(lines->plan, MOST_STARTS, "starts along a piece of a line, so far it stretches");
-  if (n > MOST_OF_A_PIECE) return too_many(lines->plan, MOST_OF_A_PIECE, "cycles along a piece of a line");
+  if (work[0] > MOST_STARTS) return too_many(lines->plan, MOST_STARTS, "starts on one piece of a line of the search");
+  if (n > MOST_OF_A_PIECE) return too_many(lines->plan, MOST_OF_A_PIECE, "cycles on one piece of a line of the search");
   n = drop_repeats(lines->plan, n, (double *)(bytes + 1));
   *bytes = sizeof *bytes + (uint64_t)n * kz_cycle_bytes(lines->plan);
   return KZ_OK;

@@ -79,23 +79,22 @@ static void print_cycles(const kz_cycle_list *cycles, FILE *summary) {
 
 static void print_sums(const kz_scene *scene, const kz_index_sums *sums, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) {
-    fprintf(summary, "without damping the index sums say nothing about missing cycles\n");
+    fprintf(summary, "Without damping the index sums cannot show missing cycles.\n");
     return;
   }
   if (sums->open == 0) {
-    fprintf(summary,
-            "the indices add up to 0 for all %lld pairs of period and winding: no cycle is missing that would show alone\n",
+    fprintf(summary, "The indices add up to 0 for all %lld pairs of period and winding, as they must if no cycle is missing.\n",
             (long long)sums->count);
     return;
   }
-  fprintf(summary, "the indices do not add up to 0 for %lld of %lld pairs of period and winding, so cycles are missing:\n",
+  fprintf(summary, "The indices do not add up to 0 for %lld of %lld pairs of period and winding, so cycles are missing:\n",
           (long long)sums->open, (long long)sums->count);
   for (int64_t i = 0; i < sums->count; i++)
     if (sums->entries[i].index != 0)
       fprintf(summary, "  period %d, winding %d: sum %+d\n", sums->entries[i].period, sums->entries[i].winding,
               sums->entries[i].index);
   fprintf(summary,
-          "they lie outside the window, between the lines of the search, or at a bifurcation; widen saddles.velocity first\n");
+          "They lie outside the window, between the lines of the search, or at a bifurcation. Widen saddles.velocity first.\n");
 }
 
 void kz_saddles_print(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums, FILE *summary) {

@@ -120,7 +120,9 @@ static kz_status narrow(piece *p, int64_t digits, kz_bisection *bisection) {
     kz_images_free(p->images);
     KZ_TRY(status);
     if (!found && ++widenings > MOST_WIDENINGS)
-      return kz_fail(KZ_FAILED, "no boundary of settled starts is found beside theta = %.40s...", p->axis[0].centre.text);
+      return kz_fail(KZ_FAILED,
+                     "--boundary: no start that settles was found on one side of theta = %.40s...; give other starts",
+                     p->axis[0].centre.text);
     if (found) KZ_TRY(move_centre(p, share, digits + 20));
     p->width *= found ? narrower : wider;
   }

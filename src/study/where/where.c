@@ -100,7 +100,7 @@ static kz_status where_bisect(const where_job *a, int64_t digits, const kz_endin
   kz_bisection bisection;
   if (endings[0].attractor == endings[1].attractor)
     return kz_fail(KZ_REFUSED, "--boundary: both starts end on %s; give two that end on different attractors",
-                   endings[0].attractor < 0 ? "nothing known" : endings[0].name);
+                   endings[0].attractor < 0 ? "no known attractor" : endings[0].name);
   KZ_TRY(kz_bisect(q, digits, &bisection));
   memcpy(point->theta, bisection.theta, sizeof point->theta);
   memcpy(point->velocity, bisection.velocity, sizeof point->velocity);

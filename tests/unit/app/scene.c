@@ -164,12 +164,12 @@ static void errors_name_place_key_and_remedy(void **state) {
       "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; it must be an integer from 1 to 1000000");
 }
 
-/* A word that is gone is answered with the one to use. */
+/* A word that was removed is answered with the one to use. */
 static void gone_words_name_the_new_one(void **state) {
   (void)state;
   expect_refused(
       GOOD "  method: hybrid\n", NULL,
-      "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct, exact (it is gone: use direct)");
+      "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct, exact (it was removed: use direct)");
 }
 
 /* What the processed splitting does not carry is left to split6 with its own number of steps. */
@@ -232,7 +232,7 @@ static void structure_is_strict(void **state) {
   expect_refused(
       "a: 1\nb: \xff\n", NULL,
       "s.yaml:2:4: scene: is not text (invalid leading UTF-8 octet); save the scene in UTF-8 without control characters");
-  expect_refused("title: a\ntitle: b\n" GOOD, NULL, "s.yaml:2:1: title: is given twice; once");
+  expect_refused("title: a\ntitle: b\n" GOOD, NULL, "s.yaml:2:1: title: is given twice; give it once");
   expect_refused(
       "pendulum: {k: 0, m: 1, mass: 3}\nbasin: {}\n", NULL,
       "s.yaml:1:24: pendulum.mass: contradicts pendulum.k, which gives the same in another way; use the keys of one way");
