@@ -12,7 +12,7 @@
 
 /* ---- spectra of orbits ---- */
 
-/* What an orbit stays about; the values of the file. */
+/* The position about which an orbit moves; the values are those of the file. */
 enum { KZ_ABOUT_DOWN = 0, KZ_ABOUT_INVERTED = 1, KZ_ROTATING = 2, KZ_ABOUT_NEITHER = 3 };
 
 /* A motion sampled at equal times, sample i at t = 2 pi i / samples_per_period. */
@@ -21,40 +21,40 @@ typedef struct {
   int64_t samples_per_period; /* periods * samples_per_period samples in all, the end left out */
   double rotation;            /* turns per drive period, counterclockwise +: winding/n of a closed orbit */
   double centre;              /* rad: the angle that lines are counted from, 0 or pi */
-  bool closed;                /* the orbit closes after `periods`; else the record is seen through a window */
-  bool velocity;              /* the samples are velocities: their mean is not wrapped */
+  bool closed;   /* true: the orbit closes after `periods`; false: an open record, multiplied by a window function */
+  bool velocity; /* true: the samples are velocities, whose mean is not wrapped */
 } kz_record;
 
-/* Amplitudes under this count as none: their phase is NaN. */
+/* Smaller amplitudes count as 0, and their phase is NaN. */
 #define KZ_LINE_FLOOR 1e-12
 
-/* The mean rotation of a record (turns per drive period), fitted through the window below: for open records. */
+/* The mean rotation of an open record, turns per drive period: a fit weighted by the window function below. */
 double kz_spectrum_rotation(const kz_record *record, const double *theta);
 
 /* Lines of a record: theta - centre - rotation t = a0 + sum_j A_j cos(j t/periods + phase_j).
  * theta [periods * samples_per_period] unwrapped; amplitude, phase [n_lines], line j at j/periods drive frequencies; line 0 is
- * abs(a0), phase 0 or pi, a0 in [-pi, pi] but of a velocity. A closed record gives the Fourier coefficients to rounding. An
- * open one is seen through the four-term Blackman-Harris window (Harris, Proc. IEEE 66 (1978) 51): side lobes below -92 dB, a
- * line is eight bins wide, its top up to 0.83 dB low between bins, its phase right at bin centres alone. 2 n_lines must not
- * exceed the samples (KZ_REFUSED); KZ_FAILED where FFTW has no memory. */
+ * abs(a0) with phase 0 or pi; a0 of an angle is in [-pi, pi]. A closed record gives the Fourier coefficients to rounding. An
+ * open one is multiplied by the four-term Blackman-Harris window (Harris, Proc. IEEE 66 (1978) 51): side lobes are below -92 dB, a
+ * line is eight bins wide and up to 0.83 dB low between bins, and its phase is right only at the centre of a bin. KZ_REFUSED if 2 n_lines
+ * exceeds the number of samples; KZ_FAILED if FFTW has no memory. */
 kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase);
 
-/* The largest line j >= 1; 0 where all are under KZ_LINE_FLOOR. */
+/* The number j >= 1 of the largest line; 0 if all are below KZ_LINE_FLOOR. */
 int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude);
 
-/* The period n that the lines tell: the smallest n whose multiples of 1/n hold every line that matters and whose
- * n-fold rotation is whole. Closed record: n divides `periods`; lines above 1e-9 of the largest matter. Open record: peaks
- * above 1e-3 of the largest matter, n <= periods/8, and 0 where no n fits (aperiodic, not settled, or the record too short). */
+/* The period n that follows from the lines: the smallest n for which every relevant line is at a multiple of 1/n and n times the
+ * rotation is a whole number. Closed record: n divides `periods`; lines above 1e-9 of the largest are relevant. Open record: peaks above
+ * 1e-3 of the largest are relevant, and n <= periods/8; returns 0 if no n fits (aperiodic, not settled, or the record is too short). */
 int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const double *amplitude);
 
-/* True where a closed orbit is its own mirror image (theta, v) -> (-theta, -v): no turns, and only odd lines of an even n, or
- * at rest. `amplitude` as of a record of n = periods. */
+/* True if a closed orbit is its own mirror image (theta, v) -> (-theta, -v): it does not turn over, and it is at rest or has only odd lines
+ * with an even n. amplitude [n_lines] belongs to a record of n = periods. */
 bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude);
 
 /* ---- shares ---- */
 
-/* Upper bound, with this confidence, of a share seen `hits` times in n independent draws (C. J. Clopper, E. S. Pearson, Biometrika 26
- * (1934) 404). */
+/* Upper bound of a share that occurred `hits` times in n independent draws; it holds with probability `confidence`, such as 0.95 (C. J.
+ * Clopper, E. S. Pearson, Biometrika 26 (1934) 404). */
 double kz_share_upper(int64_t hits, int64_t n, double confidence);
 
 /* ---- turning points ---- */
@@ -64,8 +64,9 @@ typedef struct {
   double angle; /* theta there */
 } kz_turning_point;
 
-/* Every change of sign of the velocity after the first sample. theta, velocity [n] at times i * step; found [n]; returns how
- * many. Located on the Hermite polynomial through four samples (degree 7, error of order step^8). */
+/* The turning points: every change of sign of the velocity after the first sample. theta, velocity [n] at the times i * step (drive
+ * radians); found [n]; returns their number. Each is located on the Hermite polynomial through four samples (degree 7, error of order
+ * step^8). */
 int64_t kz_turning_points(int64_t n, double step, const double *theta, const double *velocity, kz_turning_point *found);
 
 /* ---- names ---- */
@@ -82,55 +83,55 @@ typedef struct {
   double intercept, slope, slope_stderr;
 } kz_line;
 
-/* Least squares through n points; all NaN for n < 3. */
+/* The line of least squares through n points; all values are NaN for n < 3. */
 kz_line kz_fit_line(int64_t n, const double *x, const double *y);
 
 /* ---- boundaries of basins ---- */
 
-/* Pairs of starts at one distance, and those among them that end differently. */
+/* Pairs of starts at one distance, and the number of them that end differently (uncertain). */
 typedef struct {
   double distance; /* rad */
   int64_t pairs, uncertain;
 } kz_uncertain;
 
-/* The slope of ln(uncertain share) against ln(distance) between two distances: the uncertainty exponent of C. Grebogi, S. W. McDonald,
- * E. Ott, J. A. Yorke, Phys. Lett. 99A (1983) 415, which is the dimension of the plane less that of the boundary. */
+/* The slope of ln(uncertain share) over ln(distance) between two distances. This is the uncertainty exponent of C. Grebogi, S. W. McDonald,
+ * E. Ott, J. A. Yorke, Phys. Lett. 99A (1983) 415: 2 minus the dimension of the boundary. */
 typedef struct {
   double far, near;        /* rad */
-  double slope, low, high; /* with its 95 % interval; NaN = not known, high infinite where no nearer pair was uncertain */
+  double slope, low, high; /* with its 95 % interval; NaN = not known; high is infinite if no nearer pair was uncertain */
 } kz_slope;
 
 enum { KZ_ENOUGH_UNCERTAIN = 30 };
-/* slope [n - 1]: between neighbours of n distances that go down; returns that between the first and the last one with
- * KZ_ENOUGH_UNCERTAIN uncertain pairs. The intervals take the shares as independent, which makes them too wide where pairs share starts. */
+/* slope [n - 1] = slopes between neighbours of n falling distances. Returns the slope between the first distance and the last one with
+ * KZ_ENOUGH_UNCERTAIN uncertain pairs. The intervals assume independent shares, so they are too wide if pairs share starts. */
 kz_slope kz_uncertainty_slopes(int64_t n, const kz_uncertain *uncertain, kz_slope *slope);
 
 enum { KZ_BOX_LEVELS = 8, KZ_BOX_LABELS = 64 };
-/* Boxes of 2^level cells an axis, their edges included, that hold more than one label, and those that hold each one besides another
- * (labels from 63 on count together): the boundary of a basin when all others are merged (A. Daza, A. Wagemakers,
- * M. A. F. Sanjuan, Sci. Rep. 8 (2018) 9954), on every scale. */
+/* Boxes of 2^level cells an axis, edges included. boxes [level] = number of boxes with more than one label; with [level][label] = number
+ * of those that contain this label (labels from 63 on count together). The latter are the boundary of this basin when all others are
+ * merged (A. Daza, A. Wagemakers, M. A. F. Sanjuan, Sci. Rep. 8 (2018) 9954). */
 typedef struct {
   int64_t boxes[KZ_BOX_LEVELS];
   int64_t with[KZ_BOX_LEVELS][KZ_BOX_LABELS];
 } kz_box_counts;
-/* Adds the boxes of label [rows][columns] (-1 = none). Strips of a grid add up where each begins with the last row of the one before and
- * has 2^(KZ_BOX_LEVELS - 1) rows more. */
+/* Adds the boxes of label [rows][columns] (-1 = none) to *counts. Strips of a grid add up to the whole grid if each begins with the last
+ * row of the one before and has 2^(KZ_BOX_LEVELS - 1) rows more. */
 kz_status kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, kz_box_counts *counts);
-/* log2 of how many times more boxes of a level there are than of the next: the box-counting dimension of the boundary there. */
+/* log2 of the ratio of boxes at this level and at the next: the box-counting dimension of the boundary between these two sizes. */
 double kz_boxes_dimension(const kz_box_counts *counts, int level);
 
 /* ---- lifetimes ---- */
 
-/* Mean of exponential times with its 95 % interval (chi-squared; B. Epstein, M. Sobel, J. Am. Stat. Assoc. 48 (1953) 486). Where none has
- * ended: mean NaN, high infinite. */
+/* Mean of exponential times with its 95 % interval (chi-squared; B. Epstein, M. Sobel, J. Am. Stat. Assoc. 48 (1953) 486). If no motion has
+ * ended, the mean is NaN and high is infinite. */
 typedef struct {
   int64_t ended, open;
-  double from; /* what came sooner is left out */
+  double from; /* earlier ends are left out, and times count from here */
   double mean, low, high;
 } kz_lifetime;
-/* `ended` motions ended within `total` time that all spent together. */
+/* The lifetime if `ended` motions have ended and all motions together have lasted `total`. */
 kz_lifetime kz_lifetime_of(int64_t ended, double total);
-/* Of the tail of n times (moved here), where n_open motions had not ended by `longest`. */
+/* The lifetime from the tail of time [n], which is reordered; n_open further motions had not ended by the time `longest`. */
 kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double longest);
 
 /* ---- stability ---- */
@@ -142,7 +143,7 @@ kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double lon
 
 /* ---- curves ---- */
 
-/* Damping along a curve: beta itself, or beta = sqrt|k|/Q where quality_factor is finite and > 0. */
+/* Damping along a curve: beta, or beta = sqrt|k|/Q if quality_factor is finite and > 0. */
 typedef struct {
   double beta;
   double quality_factor; /* NaN = not given */
@@ -155,7 +156,7 @@ typedef struct {
   const char *name;  /* exact_1 ... of the result file */
   const char *asked; /* the name by which a scene asks for it: NAME for NAME_upper, else the name itself */
   double (*value)(double k, double beta, double turn);
-  double (*turn)(void); /* m where the curve turns back; NULL for one that does not need it */
+  double (*turn)(void); /* returns m where the curve turns back; NULL for a curve that does not need it */
 } kz_curve;
 extern const kz_curve kz_curves[];
 extern const int kz_curve_count;
@@ -163,11 +164,12 @@ extern const int kz_curve_count;
 /* The names that a scene may ask for, joined by '|'. */
 const char *kz_curve_names(void);
 
-/* m of a curve at k [n], NaN where it does not exist. */
+/* m [n] of a curve at k [n]; NaN where the curve does not exist. */
 void kz_curve_values(const kz_curve *curve, const kz_damping *damping, int64_t n, const double *k, double *m);
 
-/* The curve on which a solution repeats after `order` >= 2 drive periods (Floquet angle 2 pi/order), from k = 1/order^2, m = 0
- * to negative k; order 2: both edges of the first tongue. Exact, and by the determinant BUT (21). beta = 0. */
+/* The curve on which a solution without damping repeats after `order` >= 2 drive periods (Floquet angle 2 pi/order). It goes from
+ * k = 1/order^2, m = 0 to negative k; order 2 gives both edges of the first tongue. m_exact [n], and m_formula [n] by the determinant
+ * BUT (21), at k [n]. */
 void kz_subharmonic_values(int32_t order, int64_t n, const double *k, double *m_exact, double *m_formula);
 
 /* ---- thresholds of the damped tongues 1 (k = 1/4) and 2 (k = 1) at a quality factor ---- */
@@ -176,7 +178,8 @@ typedef struct {
   double m_tuned;            /* m at exact tuning, k = 1/4 or 1 */
 } kz_threshold;
 enum { KZ_BY_FLOQUET, KZ_BY_DETERMINANT, KZ_BY_ASYMPTOTE };
-/* way: exact; from BUT (25), (26); leading terms for large Q (BUT section 6, corrected). NaN where there is no tongue. */
+/* way: KZ_BY_FLOQUET = exact; KZ_BY_DETERMINANT = from BUT (25), (26); KZ_BY_ASYMPTOTE = leading terms for large Q (BUT section 6,
+ * corrected). NaN if there is no tongue. */
 void kz_tongue_threshold(int32_t tongue, double quality_factor, int32_t way, kz_threshold *threshold);
 
 /* ---- effective potential, in units of I omega^2, zero at theta = 0 ---- */

@@ -30,7 +30,7 @@ void kz_message_clear(void);
     if (kz_try_status != KZ_OK) return kz_try_status; \
   } while (0)
 
-/* Seconds of a clock that never goes back. */
+/* Seconds of a clock that never runs backwards. */
 double kz_clock(void);
 /* Seconds of processor time of this thread, independent of other processes. */
 double kz_processor_clock(void);
@@ -42,28 +42,28 @@ double kz_processor_clock(void);
 #define KZ_UNDECIDED_WORDS "flag", "decide"
 #define KZ_INTERPOLATION_WORDS "linear", "quintic"
 
-/* Such a list of two or three as one text, "icm|direct|exact". */
+/* Such a list of two or three words as one text, "icm|direct|exact". */
 #define KZ_JOINED(words) KZ_JOINED_OF(words)
 #define KZ_JOINED_OF(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)
 
 /* ---- memory ---- */
 
-/* Memory that runs out ends the run: the rank that finds none says so in one line, what is finished stays in the checkpoint, and all ranks
- * end (src/app/abandon.c). So nothing here returns NULL where bytes are asked for, and no caller checks. The linker leads the calls that
- * gfortran makes for automatic arrays, temporaries and copies of components to the same functions (cmake/Layers.cmake): allocate(stat=)
- * would reach none of these. */
+/* These functions never return NULL when bytes are requested, so callers do not check. If memory runs out, the rank prints one line, the
+ * checkpoint keeps the finished work, and all ranks end (src/app/abandon.c). The linker redirects the calls that gfortran makes for
+ * automatic arrays, temporaries and copies of components to the same functions (cmake/Layers.cmake); allocate(stat=) would not catch
+ * these. */
 
-/* As in C. */
+/* As malloc, calloc, realloc, strdup and strndup of C. */
 void *kz_malloc(size_t bytes);
 void *kz_calloc(size_t n, size_t bytes);
 void *kz_realloc(void *old, size_t bytes);
 char *kz_strdup(const char *text);
 char *kz_strndup(const char *text, size_t length);
 
-/* Whether so many bytes could be had now; none are taken. */
+/* True if `bytes` bytes could be allocated now. Nothing is allocated. */
 bool kz_memory_is_there(size_t bytes);
 
-/* What is done where there is none: `leave` must end the process. Without it: abort. */
+/* Sets the function that is called when memory runs out; `leave` must end the process. Default: abort. */
 void kz_memory_on_failure(void (*leave)(void));
 
 #endif

@@ -17,39 +17,41 @@ typedef struct {
   double theta_min, theta_max, velocity_min, velocity_max;
 } kz_window;
 
-/* Free with kz_dynamics_free. Cycles up to max_period are looked for. */
+/* The dynamics of a pendulum, without attractors yet. Searches look for cycles of up to max_period drive periods. Free with
+ * kz_dynamics_free. */
 kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
 void kz_dynamics_free(kz_dynamics *dynamics);
 
-/* The same for a pendulum nearby, to be freed too: its attractors are those of `dynamics` that continue, by Newton's method, and its trapping regions
- * what is left of theirs without their outermost cells. So they are only likely to trap: for moving pictures, until
- * kz_dynamics_fine_regions. *lost: attractors that do not continue, mirror images not counted. */
+/* The dynamics of a nearby pendulum, made from `dynamics`; free it too. Newton's method continues the attractors. The trapping regions are
+ * the old ones without their outermost cells, so it is only likely that they trap: they are for moving pictures, until
+ * kz_dynamics_fine_regions makes new ones. *lost = number of attractors that could not be continued, mirror images not counted. */
 kz_dynamics *kz_dynamics_continue(const kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_numerics *numerics,
                                   int64_t *lost);
 
-/* Starts spread evenly over the window: state [n][2]. The seed moves them. */
+/* n starts spread evenly over the window: state [n][2]. Another seed gives other starts. */
 void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
 
-/* The velocity that a map table of this window must reach: the largest within one period of its starts. */
+/* The largest velocity (rad per drive radian) within one period of starts in the window: a map table must reach it. */
 double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
 
-/* A coarse open grid for trapping regions up to velocity `max_velocity`: enough for a search. */
+/* Makes a coarse empty grid for trapping regions, up to the velocity `max_velocity` (rad per drive radian): enough for a search. */
 void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
-/* In its place a grid of `cells` along the velocity and around the circle (one more where odd), in which the regions are grown
- * outwards around the attractors known so far: its nodes are integrated through 8 periods. */
+/* Replaces it by a grid of `cells` x `cells` (one more if odd) around the circle and along the velocity. Integrates its nodes through 8
+ * periods and grows the regions around the known attractors. */
 void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
-/* Draws the ellipses and covers of new attractors into the regions, and lets a fine grid's grow. */
+/* Adds the ellipses and covers of new attractors to the regions; on a fine grid the regions then grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
 
-/* Ways to follow a start: the scene's map, or interpolated cell mapping over 2 or 6 nodes an axis of the map table. */
+/* Ways to follow a start: by the scene's map, or by interpolation of the map table with 2 or 6 nodes an axis. */
 enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
-/* Follows n starts state [n][2] until each is trapped: label [n] = attractor, 0 where it has not settled; periods [n] = first
- * period inside a trapping region, max_periods where none. The states of those that have not settled become where they are then. */
+/* Follows n starts, state [n][2], until a trapping region holds them, at most max_periods. label [n] = number of the attractor, 0 = not
+ * settled. periods [n] = first period inside a trapping region, or max_periods. State [i] of a start that has not settled becomes its last
+ * state. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
                         int64_t *periods);
 
-/* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) of n_steps steps a period, from start [n][2] in rad and
- * rad per drive radian; low [n][2]: what is to be added to them, below their last places; NULL = nothing. The sums are taken as exact. */
+/* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) with n_steps steps a period. A start is start [i] + low [i], in rad and
+ * rad per drive radian; low [n][2] holds digits below the last places of start [n][2]; NULL = zeros. The sums count as exact. */
 void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
                                   const double *low, int32_t *label, int64_t *periods);
 
@@ -57,17 +59,17 @@ void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_
 
 /* Where an orbit begins. */
 typedef struct {
-  double theta[2], velocity[2]; /* rad, rad per drive radian: a double, and what is to be added to it below its last place */
-  int64_t periods;              /* drive periods that were spent before: its settling time counts them */
-  double error
-      [3]; /* covariance of an error of its own: theta theta, theta velocity, velocity velocity; the largest, not the mean */
+  double theta[2], velocity[2]; /* rad, rad per drive radian: the sum of two doubles, high and low */
+  int64_t periods;              /* drive periods before this start; the settling time includes them */
+  double error[3]; /* ellipse of the start's own error: entries theta theta, theta velocity, velocity velocity of its matrix */
 } kz_start;
 
 /* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
- * more steps, an error of some 3e-15 a period; pairs of doubles, 1e-16, 1e-20, 1e-24 and 3e-29; quad precision, by Taylor series. Beyond them:
- * as many digits as it takes. */
+ * more steps (error of a period some 3e-15 rad); pairs of doubles (1e-16, 1e-20, 1e-24, 3e-29); quad precision, by Taylor series; and as
+ * many digits as needed. */
 enum {
-  KZ_LEVEL_GUESS = -1, /* KZ_LEVEL_DOUBLE, but doubtful orbits are followed on: their labels are those of the states alone */
+  KZ_LEVEL_GUESS =
+      -1, /* as KZ_LEVEL_DOUBLE, but a doubtful orbit is followed on and gets the label of its state without its error */
   KZ_LEVEL_DOUBLE = 0,
   KZ_LEVEL_FINE = 1,
   KZ_LEVEL_PAIRS_16 = 2,
@@ -78,73 +80,74 @@ enum {
   KZ_LEVEL_ARBITRARY = 7,
   KZ_LEVELS = 8
 };
-/* The label of an orbit whose error outgrows what a label bears. Any other label, 0 too, is decided: the errors do not change it. */
+/* The label of an orbit whose error has become too large for a label. Any other label, also 0, is decided: the errors cannot change it. */
 enum { KZ_DOUBTFUL = -1 };
 
 typedef struct {
   int32_t label;   /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
-  int32_t other;   /* second candidate of a label that no level decides; 0 = none */
-  int32_t level;   /* that decided; KZ_LEVELS: none */
-  int64_t periods; /* first period inside a trapping region, or those that were followed */
-  double error;    /* rad: how far the orbit may be off when it is trapped; of no meaning where it is chaotic or not decided */
+  int32_t other;   /* second candidate, if no level decides the label; 0 = none */
+  int32_t level;   /* the level that decided; KZ_LEVELS = none */
+  int64_t periods; /* first period inside a trapping region; the number of periods followed if there is none */
+  double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
 } kz_decision;
 
-/* Labels n starts at one level, which takes what level `before` left: decision [n]. The orbits carry their errors; each is followed at that
- * level only until its error reaches what level `before` would add, then there, and so on downwards. What is trapped is decided; the
- * others come back as KZ_DOUBTFUL, or at KZ_LEVEL_GUESS with the label of the state alone, and level KZ_LEVELS. */
+/* Labels n starts at one level: decision [n]. `before` is the level at which they were doubtful. Each orbit carries its error. It uses the
+ * precision of `level` until its error has reached what level `before` would add, then that of `before`, and so on downwards. A trapped
+ * orbit is decided. The others get KZ_DOUBTFUL (at KZ_LEVEL_GUESS the label of the state without its error) and level KZ_LEVELS. */
 void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int64_t n, const kz_start *start,
                        int64_t max_periods, kz_decision *decision);
 
-/* How starts are released from now on. Its errors are measured when they are first needed, so after the trapping regions are made. */
+/* Sets how starts are released. The errors of a release are measured at its first use, which must come after the trapping regions are made. */
 void kz_dynamics_set_release(kz_dynamics *dynamics, const kz_release *release);
-/* Takes n starts from their release to the strobe after which the drive has its final form, as a level needs them, with their errors; an
- * orbit whose error grows beyond 1e-4 rad comes back with a large one, so that no level decides it. Without a release that takes time they
- * stay. */
+/* Moves n starts, with their errors, from their release to the strobe from which on the drive has its final form, in the precision of
+ * `level`. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. If the release takes no time, the
+ * starts stay as they are. */
 void kz_dynamics_release(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);
 
-/* Looks for an unknown cycle near n <= 64 states that come back to themselves within `closeness` rad, until one is found or all
- * have been looked at. found [kz_dynamics_cycle_size], in and out: found[0] = states looked at so far (all 0 to begin); from
- * found[1] on what kz_dynamics_adopt takes: the cycle and its mirror image, or nothing. The catalogue itself stays as it is. */
+/* Looks for an unknown cycle near n <= 64 states that return to themselves within `closeness` rad, until it finds one or has tried all
+ * states. found [kz_dynamics_cycle_size], in and out, 0 before the first call: found[0] = number of states tried so far; from found[1] on
+ * the cycle and its mirror image, for kz_dynamics_adopt, or nothing. The catalogue does not change. */
 void kz_dynamics_find_cycle(kz_dynamics *dynamics, int64_t n, const double *state, double closeness, double *found);
 int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
-/* Follows a bundle of orbits from one state through 60,000 periods, where neighbours part in its first 2000. found
- * [kz_dynamics_chaos_size]: what kz_dynamics_adopt takes: a chaotic attractor, where they diverge and are never trapped, or
- * nothing. */
+/* Follows a bundle of orbits near one state. If neighbours separate in the first 2000 periods, it goes on for 60,000. found
+ * [kz_dynamics_chaos_size]: a chaotic attractor, for kz_dynamics_adopt, if the orbits separate and no region traps them; else nothing. */
 void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
 int64_t kz_dynamics_chaos_size(void);
-/* The attractors that were found join the catalogue. */
+/* Adds the attractors in `found`, of one of the two calls above, to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
 
-/* The catalogue as doubles, to travel between ranks. */
+/* The catalogue as doubles, flat [n], for messages between ranks; n = kz_dynamics_packed_size. */
 int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
 void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
-/* The cycle near a state, by Newton's method on the strobe map of `numerics`: n = a period that closes it; returns its smallest
- * period, 0 where none lies within `max_distance` (rad). theta, velocity become its point there; re, im [2] its Floquet
- * multipliers over the smallest period, larger modulus first, + imaginary first. It need not attract. */
+/* Finds the cycle near a state by Newton's method on the strobe map of `numerics`; n = a period after which it closes. The cycle need not
+ * attract. Returns its smallest period, or 0 if none lies within `max_distance` (rad). Out: theta (rad) and velocity of its strobe point
+ * near the state; re, im [2] = its Floquet multipliers over the smallest period, the larger modulus first, the positive imaginary part first. */
 int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double max_distance,
                                 double *theta, double *velocity, double *re, double *im);
 
-/* The cycles of up to max_period <= 64 periods, attracting or not, with a point in the window (least and largest angle, rad, least and
- * largest velocity, rad per drive radian) that show on a line through n_nodes <= 64 states node [n_nodes][2] (the same units): where
- * an image of the line passes near the line, multiple shooting begins. found [most][2 + 2 max_period]: period, largest speed, each point
- * as half-turns and velocity; right to 1e-8 or so, some more than once. work [2]: starts that were followed, orbits that were closed or
- * not. Returns how many there are. The search ends early with more than most_starts starts, or more cycles than `most`. */
+/* Searches cycles of up to max_period <= 64 periods, attracting or not, along a line through n_nodes <= 64 states node [n_nodes][2] (rad,
+ * rad per drive radian). Wherever an image of the line passes near the line, multiple shooting begins. window = least and largest angle,
+ * least and largest velocity; a cycle counts if it has a point there. found [most][2 + 2 max_period]: period, largest speed, and each
+ * point as half-turns and velocity, right to about 1e-8; a cycle may occur twice. work [2]: number of starts followed, number of orbits
+ * that shooting tried to close. Returns the number of cycles. Ends early with more than most_starts starts, or more than `most` cycles. */
 int64_t kz_dynamics_search_line(const kz_pendulum *pendulum, int64_t max_period, int64_t n_nodes, const double *node,
                                 const double window[4], int64_t most_starts, int64_t most, double *found, int64_t work[2]);
-/* Adds n cycles so found, in the order of periods and speeds, and their mirror images to a catalogue that holds no others, as cycles
- * of the map of published values: their points are right to rounding. It is for reading and ordering alone: it has no trapping
- * regions. */
+/* Adds n cycles from such searches, in the order of periods and speeds, and their mirror images to an empty catalogue. They become cycles
+ * of the map of published values, whose points are right to rounding. The catalogue then serves for reading and ordering; it has no
+ * trapping regions. */
 void kz_dynamics_add_cycles(kz_dynamics *dynamics, int64_t max_period, int64_t n, const double *found);
 
-/* The map table: n_theta nodes around the circle, n_velocity rows from -top to top, `top` a little above `max_velocity`. */
+/* Makes an empty map table: n_theta nodes around the circle, n_velocity rows from -top to top, with `top` a little above `max_velocity`. */
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
-int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics);               /* doubles per row */
-void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift); /* integrates row 0 .. n_velocity - 1 */
-/* Takes all rows, in order. */
+/* Number of doubles in a row. */
+int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics);
+/* Integrates row 0 .. n_velocity - 1 of the table: shift [row size]. */
+void kz_dynamics_table_row(kz_dynamics *dynamics, int64_t row, double *shift);
+/* Sets the table from all its rows, in order. */
 void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);
-/* Share of the cells of the regions' grid that are trapped. */
+/* Share of the cells of the regions' grid that belong to a trapping region. */
 double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
 
 typedef struct {
@@ -152,20 +155,20 @@ typedef struct {
   double mean, mean_velocity; /* over time: rad in [-pi, pi], rad per drive radian */
   double amplitude;           /* rad from the centre */
   double multiplier_re[2], multiplier_im[2];
-  double lyapunov, lyapunov_error;
+  double lyapunov, lyapunov_error; /* largest exponent per drive period, and its standard error */
 } kz_attractor;
 
 int64_t kz_dynamics_count(const kz_dynamics *dynamics);
-/* Attractor number = 1 .. */
+/* Attractor `number`, from 1 to the count. */
 void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t number, kz_attractor *attractor);
-/* Its strobe points theta, velocity [period] from the lowest velocity, theta in [-pi, pi); none of a chaotic one. */
+/* Its strobe points theta [period] in [-pi, pi) and velocity [period], from that with the lowest velocity on; a chaotic one has none. */
 void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number, double *theta, double *velocity);
-/* number [count]: the attractors in the order of the file. */
+/* number [count] = the numbers of the attractors in the order of the file. */
 void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);
 
 /* ---- branches ---- */
 
-/* One cycle of the stroboscopic map carried from parameters to parameters.
+/* One cycle of the stroboscopic map, followed from one pendulum to another.
  *
  * Angles in rad from the DOWN position, velocities in rad per drive radian. The map is the one of published values (split6, 96
  * steps or more), whatever the scene's numerics. Nothing here is collective. */
@@ -175,16 +178,17 @@ typedef struct {
   double theta, velocity;                    /* the strobe point that is followed; theta in [-pi, pi] */
   double amplitude;                          /* rad from its centre over continuous time; 0 for rotations */
   double multiplier_re[2], multiplier_im[2]; /* over the period: larger modulus first, + imaginary first */
-  double half_re[2], half_im[2]; /* of the half map x -> -F^(n/2)(x) of a symmetric cycle (n = 1: -F); of the map F^n else */
-  double halves_distance; /* rad, between strobe points half a period apart, the nearest pair; HUGE_VAL for odd periods */
-  double mirror_distance; /* rad, between the cycle and its mirror image: the strobe point's nearest; 0 if symmetric */
+  double half_re[2],
+      half_im[2];         /* multipliers of the half map x -> -F^(n/2)(x) of a symmetric cycle (n = 1: -F); else of F^n */
+  double halves_distance; /* rad: least distance of two strobe points half a period apart; HUGE_VAL for odd periods */
+  double mirror_distance; /* rad: distance of the strobe point from the mirror image of the cycle; 0 if symmetric */
   int32_t period, winding, centre, symmetric; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
 } kz_branch_point;
 
-/* The cycle of `pendulum` that continues `from` (whose point, period, winding and symmetry count): Newton's method from its
- * strobe point, each step at most half the last one, which keeps it from leaving for another cycle; symmetric cycles are solved
- * on the half map (BSG's flutter: -F(x) = x). Returns 1 where one of the same period, winding and symmetry lies within
- * `max_distance` rad, else 0 and *to is undefined. It need not attract. from == to is allowed. */
+/* Finds the cycle of `pendulum` that continues the cycle `from` of another pendulum; it need not attract. Newton's method starts at the
+ * strobe point of `from`. Each of its steps is at most half the one before, so it cannot jump to another cycle. Symmetric cycles are
+ * solved on the half map (BSG's flutter: -F(x) = x). Returns 1 if a cycle of the same period, winding and symmetry lies within
+ * `max_distance` rad; else 0, and *to is undefined. to may equal from. */
 int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *from, double max_distance, kz_branch_point *to);
 
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
@@ -194,16 +198,16 @@ int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, co
 
 /* Where a motion of one of many pendulums ends. */
 typedef struct {
-  int32_t period;        /* 0 = chaotic: not settled, and neighbours part; -1 = not settled */
+  int32_t period;        /* 0 = chaotic: not settled, and neighbours separate; -1 = not settled */
   int32_t winding;       /* net turns per period */
   int32_t centre;        /* 0 down, 1 inverted, 2 rotating, 3 none of these */
-  int32_t settling_time; /* drive periods until the motion is within 1e-5 rad of where it was a period of the cycle before */
-  double exponent; /* largest Lyapunov exponent, per drive period: of the cycle, or of 1000 periods of a motion without one */
+  int32_t settling_time; /* drive periods until the motion is within 1e-5 rad of its state one period of the cycle before */
+  double exponent;       /* largest Lyapunov exponent per drive period: of the cycle, else of 1000 periods of the motion */
 } kz_chart_ending;
 
-/* Ends of the motions of n pendulums from one start (half-turns, velocity), by `steps` steps of split6 a period: followed until
- * they come back within 1e-5 rad after up to max_period periods, then Newton's method. A cycle that does not attract is left to be
- * left; a start that sits on one has not settled. max_periods [n]: 0 = not followed. */
+/* Ends of the motions of n pendulums from one start (half-turns, velocity), with `steps` steps of split6 a period. A motion is followed
+ * until it returns within 1e-5 rad after up to max_period periods; then Newton's method finds the cycle. Near a cycle that does not
+ * attract, the motion is followed on; a start exactly on such a cycle does not settle. max_periods [n]: 0 = do not follow this one. */
 void kz_chart_ends(int32_t steps, int64_t n, const kz_pendulum *pendulum, const double start[2], int32_t max_period,
                    const int64_t *max_periods, kz_chart_ending *endings);
 
@@ -213,79 +217,82 @@ void kz_chart_ends(int32_t steps, int64_t n, const kz_pendulum *pendulum, const 
 typedef struct {
   double theta, velocity;       /* a point of the saddle: rad, rad per drive radian */
   int32_t period, stable, side; /* stable: 0 or 1; side: 1 or -1, along the eigenvector or against it */
-  double spacing;               /* farthest that neighbouring points may be apart, rad */
+  double spacing;               /* largest distance of neighbouring points, rad */
   double length;                /* of the branch, rad and rad per drive radian together */
-  double fastest;               /* parts at larger speeds are left out, and do not count */
+  double fastest;               /* rad per drive radian: parts at larger speeds are left out and do not count to the length */
 } kz_branch;
 
-/* Grows it from the saddle on; point [most][4]: theta in [-pi, pi), velocity, arc length, number of the unbroken part. Returns how many
- * points there are: all of them fit, a branch ends where no more do. */
+/* Computes the branch from the saddle on. point [most][4]: theta in [-pi, pi), velocity, arc length, number of the unbroken part. Returns
+ * the number of points; the branch ends if `most` is reached. */
 int64_t kz_manifold_grow(const kz_pendulum *pendulum, const kz_branch *branch, int64_t most, double *point);
 
 /* ---- step error ---- */
 
-/* Errors of one drive period, measured on a few thousand states before anything is labelled. Nothing here is collective. */
+/* Errors of one drive period, measured on a few thousand states before cells are labelled. Nothing here is collective. */
 
-/* error [n]: an upper estimate of the error of one drive period, by step doubling, for states with speeds from speed[c] to
- * speed[c + 1] (rad per drive radian, speed [n + 1] ascending), whole circle; rad: twice the largest of 512 states. Huge where a
- * state diverges. Double precision at most. */
+/* error [n] = upper estimate of the error of one drive period, in rad: error[c] for states of the whole circle with speeds from speed[c] to
+ * speed[c + 1] (rad per drive radian; speed [n + 1] ascends). It is twice the largest difference that doubling the steps makes on 512
+ * states; very large if a state diverges. */
 void kz_step_errors(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *speed, double *error);
 
-/* The largest error of one period of the map table (`points` nodes an axis), rad. Needs the table. */
+/* The largest error of one period by the map table, with interpolation over `points` nodes an axis, in rad. Needs a complete table. */
 double kz_dynamics_table_error(kz_dynamics *dynamics, int32_t points);
 
 /* ---- proof ---- */
 
-/* Where starts are proved to end, under the true flow (the enclosures of kernel.h; docs/explanation/proof.md). A region: ellipses that are proved
- * to contract onto a cycle, and a grid of closed cells over the whole circle and velocities from -top to top, whose second half mirrors
- * the first. Cells join by induction: they are proved to reach ellipses, or cells that have joined. Single starts are proved where
- * their set reaches the region. Numbers of attractors are 1 .. KZ_PROOF_MOST; nothing here is collective. */
+/* Proofs of where starts end under the true flow, by the enclosures of kernel.h (docs/explanation/proof.md). The proved region consists of
+ * ellipses that contract onto a cycle, and of cells of a grid over the whole circle and velocities from -top to top. The second half of
+ * the grid is the mirror image of the first. A cell joins the region if it is proved to reach the ellipses or cells that have joined
+ * before. A start is proved if its enclosure reaches the region. Attractors have the numbers 1 .. KZ_PROOF_MOST; nothing here is
+ * collective. */
 enum { KZ_PROOF_MOST = 254, KZ_PROOF_LATE = 255 };
 typedef struct kz_proof kz_proof;
 
-/* An open grid of even numbers of columns and rows, for starts that are not faster than `fastest`. KZ_REFUSED, without a message, where that
- * or `top` (rad per drive radian) is too fast for enclosures, or the drive is not k - m cos t alone. *proof is to be freed in every case;
- * NULL may be. */
+/* Makes a proof with an empty region; columns and rows of the grid are even. Starts may be as fast as `fastest` (rad per drive radian).
+ * KZ_REFUSED, without a message, if `fastest` or `top` is too fast for enclosures, or if the drive is not k - m cos t. The caller frees
+ * *proof in every case; it may be NULL. */
 kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, double fastest,
                           kz_proof **proof);
 void kz_proof_free(kz_proof *proof);
 
-/* Around a strobe point: all states point + axes z, |z| <= radius; 0 = none. */
+/* An ellipse around a strobe point: all states point + axes z with |z| <= radius. Radius 0 = no ellipse. */
 typedef struct {
   double radius, axes[2][2];
 } kz_proof_ellipse;
-/* Whether the map of `period` drive periods carries the ellipse into itself and contracts it: then all its starts end on one cycle. */
+/* True if it is proved that the map of `period` drive periods carries the ellipse into itself and contracts it, so that all its starts
+ * end on one cycle. */
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse);
 /* The largest ellipse around a strobe point (rad, rad per drive radian) whose starts are proved to end on one cycle of that period. */
 kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity);
-/* The ellipse joins the region as a part of attractor `number`, its mirror image as one of the mirror image `mirror`; so do cells
- * inside them. */
+/* Adds the ellipse to the region of attractor `number`, and its mirror image to that of attractor `mirror`, with all cells inside. */
 void kz_proof_add(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
                   const kz_proof_ellipse *ellipse);
 
-/* A cycle as it is published: theta, velocity [period] strobe points, and its Floquet multipliers. */
+/* A published cycle: strobe points theta [period], velocity [period], and Floquet multipliers multiplier_re, multiplier_im [2]. */
 typedef struct {
   int64_t period;
   const double *theta, *velocity, *multiplier_re, *multiplier_im;
 } kz_proof_cycle;
-/* True where it is proved that there is one attracting cycle within theta [period], velocity [period] of the strobe points, with multipliers
- * within multiplier [2]. */
+/* True if it is proved that exactly one attracting cycle lies within theta [period] and velocity [period] of the strobe points, and that its
+ * multipliers differ from the published ones by at most multiplier [2]. These half-widths are the output. */
 bool kz_proof_confine(const kz_proof *proof, const kz_proof_cycle *cycle, double *theta, double *velocity,
                       double multiplier[2]);
 
-/* Cells of the first half. */
+/* Number of cells in the first half of the grid. */
 int64_t kz_proof_own(const kz_proof *proof);
-/* label [n] of cells first .. first + n - 1: those that are open are followed through up to 16 periods, until the region
- * of one attractor holds their image. The grid stays as it is. */
+/* label [n] = attractors of the cells first .. first + n - 1, 0 = open. Open cells are followed through up to 16 periods, until the region
+ * of one attractor contains their image. The grid does not change. */
 void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *label);
-/* Takes the labels of the first half; mirror [number]: of the mirror image, mirror[0] = 0. Returns how many cells were open before. */
+/* Sets the grid from the labels of the first half; mirror [number] = number of the mirror image, mirror[0] = 0. Returns how many cells
+ * joined. */
 int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirror[KZ_PROOF_MOST + 1]);
-/* A start: high + low, off by at most `radius` in rad and in rad per drive radian. */
+/* A start: theta and velocity as sums high + low, known to within `radius` (rad, and rad per drive radian). */
 typedef struct {
   double theta[2], velocity[2], radius;
 } kz_proof_start;
-/* Follows n starts in KZ_ENCLOSE_DOUBLES or KZ_ENCLOSE_PAIRS. number [n]: of the attractor on which they are proved to end; 0: none,
- * because the set around it has grown, so that more digits may help; KZ_PROOF_LATE: none within most_periods. */
+/* Follows n starts in one of the precisions KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS, KZ_ENCLOSE_QUADS. number [n] = the attractor on which a
+ * start is proved to end; 0 = no proof because its enclosure has grown too large, so more digits may help; KZ_PROOF_LATE = no proof within
+ * most_periods. */
 void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
                      uint8_t *number);
 

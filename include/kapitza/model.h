@@ -1,10 +1,10 @@
-/* model: the pendulum, what drives it, its symmetry and bounds (Fortran; the layer above common).
+/* model: the pendulum, its drive, its symmetry, and bounds of its forces (Fortran; the layer above common).
  *
  * theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque
  * a = k - m cos t - sum_j (vertical[j-1][0] cos j t + vertical[j-1][1] sin j t)
  * b = sum_j (horizontal[j-1][0] cos j t + horizontal[j-1][1] sin j t)
- * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. Without the further terms this is BSG Eq. 2 and BUT Eq.
- * 9 in drive time: {k, beta, m} alone. */
+ * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. If vertical, horizontal and torque are 0, the pendulum is
+ * {k, beta, m} and the equation is BSG Eq. 2, or BUT Eq. 9 in drive time. */
 #ifndef KAPITZA_MODEL_H
 #define KAPITZA_MODEL_H
 
@@ -15,20 +15,20 @@
 enum { KZ_HARMONICS = 16 };
 
 typedef struct {
-  double k;    /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */
-  double beta; /* damping, >= 0 */
-  double m;    /* drive, any sign */
-  double torque;
-  double vertical[KZ_HARMONICS][2]; /* amplitudes of cosine and sine of harmonics 1, 2, .. */
-  double horizontal[KZ_HARMONICS][2];
-  int32_t harmonics;  /* highest harmonic of these; 0 = none */
-  int32_t unmirrored; /* 1 where there is a torque or a horizontal drive */
+  double k;                           /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */
+  double beta;                        /* damping, >= 0 */
+  double m;                           /* drive, any sign */
+  double torque;                      /* constant torque, in units of I omega^2 */
+  double vertical[KZ_HARMONICS][2];   /* amplitudes of cosine and sine of harmonics 1, 2, .. */
+  double horizontal[KZ_HARMONICS][2]; /* the same for the horizontal drive */
+  int32_t harmonics;                  /* highest harmonic in use; 0 = none */
+  int32_t unmirrored;                 /* 1 if there is a torque or a horizontal drive, else 0 */
 } kz_pendulum;
 
 /* One harmonic of the drive: amplitude cos(order t + phase). */
 typedef struct {
   int64_t order;
-  double amplitude, phase; /* as m; rad */
+  double amplitude, phase; /* in units of m; rad */
 } kz_harmonic;
 typedef struct {
   int64_t count;
@@ -38,38 +38,40 @@ typedef struct {
 /* Wave forms of the drive. */
 enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2, KZ_SAMPLES = 3 };
 
-/* A bound of |a(t)| + |b(t)| + |torque|. */
+/* An upper bound of |a(t)| + |b(t)| + |torque| over all t. */
 double kz_stiffness(const kz_pendulum *pendulum);
 
-/* 1 where (theta, velocity) -> (-theta, -velocity) takes motions to motions: no torque, no horizontal drive. */
+/* 1 if the mirror image (-theta, -velocity) of every motion is a motion too, which needs no torque and no horizontal drive; else 0. */
 int32_t kz_is_mirrored(const kz_pendulum *pendulum);
 
-/* 1 where the drive is k - m cos t alone. */
+/* 1 if the drive is k - m cos t, without further harmonics and torque; else 0. */
 int32_t kz_is_sine(const kz_pendulum *pendulum);
 
-/* Bounds for enclosures, up to rounding in extended precision. sizes [n]: of the Taylor coefficients of h (a(t) sin - b(t) cos) over a
- * step h in units of it, whatever its beginning; the largest of these forces for times with |Im t| <= r; and during step i of length h
- * from t = 0 on. */
+/* Bounds of the force for enclosures, right up to rounding in extended precision.
+ * kz_force_sizes: sizes [n] bound the Taylor coefficients of h (a(t) sin - b(t) cos) in t/h, for a step of length h that begins at any t.
+ * kz_force_majorant: the largest force at complex times with |Im t| <= r.
+ * kz_force_largest: the largest force during step i of length h, counted from t = 0. */
 void kz_force_sizes(const kz_pendulum *pendulum, long double h, int32_t n, long double *sizes);
 long double kz_force_majorant(const kz_pendulum *pendulum, long double r);
 long double kz_force_largest(const kz_pendulum *pendulum, int32_t i, long double h);
 
-/* The slow motion where the drive is fast (BSG Eq. 10): theta'' + beta theta' + pull sin theta = 0 with
- * pull = k + m^2/2 cos theta u/(u^2 + beta^2), u = 1 - k cos theta. The fraction, and the pull, at cos theta. */
+/* The slow motion under a fast drive (BSG Eq. 10): theta'' + beta theta' + pull sin theta = 0 with
+ * pull = k + m^2/2 cos theta u/(u^2 + beta^2), u = 1 - k cos theta. `cosine` is cos theta. kz_slow_fraction returns u/(u^2 + beta^2),
+ * kz_slow_pull returns the pull. */
 double kz_slow_fraction(double k, double beta, double cosine);
 double kz_slow_pull(double k, double beta, double m, double cosine);
 
-/* How motions begin. They are released at t = phase; until t = 2 pi periods damping and drive come, linearly in time or smoothly, from other
- * values to those of the pendulum. */
+/* How a motion begins. It is released at t = phase. From t = 0 to t = 2 pi periods, damping and drive change from the values here to those
+ * of the pendulum. */
 typedef struct {
   double phase;   /* rad, from 0 to below 2 pi */
   double periods; /* of the ramp, drive periods; 0 = none */
   double damping; /* beta at t = 0 */
-  double drive;   /* all that drives the pendulum at t = 0, in units of what does after the ramp */
-  int32_t smooth; /* 1: as a cubic that begins and ends without a kink */
+  double drive;   /* strength of the whole drive at t = 0; 1 = that after the ramp */
+  int32_t smooth; /* 0: linear in time; 1: 3 s^2 - 2 s^3, which begins and ends without a kink */
 } kz_release;
 
-/* Strobes (t = 2 pi, 4 pi, ..) up to the one after which the drive has its final form; 0 where it has from the beginning. */
+/* Number of the first strobe (t = 2 pi is number 1) from which on the drive has its final form; 0 if it has this form from the release. */
 int64_t kz_release_strobes(const kz_release *release);
 
 #endif

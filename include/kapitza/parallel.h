@@ -1,7 +1,7 @@
-/* parallel: who works on which tile; progress, stop requests, checkpoints (MPI; layer 2).
+/* parallel: distribution of work among ranks; progress, stop requests, checkpoints (MPI; layer 2).
  *
- * One mechanism: a stage is n_tiles independent pieces of work, each giving one record of fixed size. Ranks take tiles in
- * batches from rank 0. The result depends on the tiles alone, never on who did them. */
+ * There is one mechanism: a stage consists of n_tiles independent pieces of work, and each gives one record of fixed size. Rank 0 hands
+ * out tiles in batches. The records do not depend on which rank made them. */
 #ifndef KAPITZA_PARALLEL_H
 #define KAPITZA_PARALLEL_H
 
@@ -14,79 +14,80 @@
 
 typedef struct kz_ranks kz_ranks;
 
-/* What can be known without starting MPI: this process's rank as its launcher told it at the first call (-1: none did), and the
- * library. */
+/* These three work before MPI is started. The rank of this process that the launcher gave it, read at the first call; -1 if there is no
+ * launcher. */
 int kz_launch_rank(void);
-/* How many ranks the launcher says that there are; -1 where it says nothing. */
+/* The number of ranks that the launcher gives; -1 if it gives none. */
 int kz_launch_count(void);
+/* Name and version of the MPI library. */
 const char *kz_parallel_library(void);
 
 typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;
 
-/* Starts MPI (signal handlers first: SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop) and sets up the ranks.
- * `ranks` is NULL or must be ended also where this fails. Collective. */
+/* Installs signal handlers (SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop), starts MPI and sets up the ranks. If *ranks is
+ * not NULL, the caller must end it, also after a failure. Collective. */
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks);
-/* Frees `ranks` (NULL too) and leaves through MPI_Finalize. Collective. */
+/* Calls MPI_Finalize and frees `ranks`, which may be NULL. Collective. */
 void kz_ranks_end(kz_ranks *ranks);
 
-/* Ends every rank at once, for one that cannot go on to the next collective call; does not return. `ranks` may be NULL. */
+/* Ends every rank at once and does not return: for a rank that cannot go on to the next collective call. `ranks` may be NULL. */
 void kz_ranks_abandon(kz_ranks *ranks, kz_status status) __attribute__((noreturn));
 
 int kz_rank(const kz_ranks *ranks);
 int kz_ranks_count(const kz_ranks *ranks);
 
-/* The sum of `mine` over the ranks that share this rank's memory, and how many they are. Collective. */
+/* *sum = the sum of `mine` over the ranks that share this rank's memory; *count = the number of these ranks. Collective. */
 kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *count);
 
 /* The worst status of all ranks (failed, refused, stopped, done), with that rank's message on every rank. Collective. */
 kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine);
 
-/* KZ_REFUSED on every rank where one has another text than rank 0; `what` is said to differ. Collective. */
+/* KZ_REFUSED on every rank if a rank has another text than rank 0; the message names `what` as the thing that differs. Collective. */
 kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what);
 
-/* Bytes of rank 0 to every rank. Collective. */
+/* Sends `data` [bytes] of rank 0 to every rank. Collective. */
 kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes);
 
-/* Sums of each of n numbers over the ranks, on every rank. Collective. */
+/* Replaces each of numbers [n] by its sum over the ranks, on every rank. Collective. */
 kz_status kz_ranks_sum(kz_ranks *ranks, int64_t *numbers, int64_t n);
 
-/* KZ_STOPPED where a signal or the time limit asks for a stop; a tile that may last seconds returns it. No MPI. */
+/* KZ_STOPPED if a signal or the time limit asks for a stop. A tile that may last seconds calls this and returns the status. No MPI. */
 kz_status kz_ranks_interrupted(const kz_ranks *ranks);
 
-/* auto: a bar where a person's terminal is found, else a line every 10 s; always: where no terminal is, a line every
- * second and one at the end of each stage; never: nothing. Stages of one tile are silent. */
+/* auto: a bar on a terminal, else a line every 10 s. always: a bar on a terminal, else a line every second and one at the end of each
+ * stage. never: nothing. Stages of one tile are silent. */
 void kz_ranks_set_progress(kz_ranks *ranks, kz_progress progress);
-/* Progress and the end of each stage as JSON lines (rank 0; NULL: none): {"event": "progress", "seconds", "stage", "done", "total"},
- * {"event": "stage", "seconds", "stage", "tiles", "wall", "processor", "most", "busy"}; and
- * processor seconds of the tiles that rank 0 does: {"event": "tiles", "seconds", "stage", "tile", "processor"}. */
+/* Makes rank 0 write JSON lines to `log` (NULL = none): progress {"event": "progress", "seconds", "stage", "done", "total"}, the end of each
+ * stage {"event": "stage", "seconds", "stage", "tiles", "wall", "processor", "most", "busy"}, and the processor seconds of each tile that
+ * rank 0 does {"event": "tiles", "seconds", "stage", "tile", "processor"}. */
 void kz_ranks_set_log(kz_ranks *ranks, FILE *log);
 /* Seconds since kz_ranks_start. */
 double kz_ranks_seconds(const kz_ranks *ranks);
-/* Processor seconds of this rank outside of stages, from the start of the program on. */
+/* Processor seconds of this rank outside of stages, since the start of the program. */
 double kz_ranks_outside(const kz_ranks *ranks);
 
-/* What the stages of one name took. */
+/* The times of all stages of one name. */
 typedef struct {
   char stage[32];
   int64_t calls, tiles;
   double wall;      /* s */
-  double processor; /* s, of all ranks, for tiles: without those in which MPI waits */
+  double processor; /* s of processor time of all ranks for tiles, without waiting for messages */
   double most;      /* s, the same of the rank that needed most */
-  double busy;      /* s in which a rank had work, of all ranks */
-  double serial;    /* s in which only one had: stages of one tile */
+  double busy;      /* s in which a rank had work, summed over the ranks */
+  double serial;    /* s in which only one rank had work: stages of one tile */
 } kz_timing;
-/* Those of all stages so far, in the order of their first; how many. Rank 0. */
+/* *list = the timings of all stages so far, in the order of their first call; returns their number. Rank 0. */
 int64_t kz_ranks_timings(const kz_ranks *ranks, const kz_timing **list);
-/* Stop (KZ_STOPPED) once `seconds` have passed since kz_ranks_start; 0 = no limit. */
+/* Asks for a stop (KZ_STOPPED) once `seconds` have passed since kz_ranks_start; 0 = no limit. */
 void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds);
 
-/* Between two tiles a stop request is heard. Where that takes more than 6 s, `leave` must end the process; it is called by a
- * signal handler, with "stopped by SIGUSR1" or the like. NULL: no longer. After kz_ranks_set_time_limit. */
+/* A stop request takes effect between two tiles. If the present tile takes more than 6 s longer, a signal handler calls `leave`, with a
+ * reason such as "stopped by SIGUSR1"; `leave` must end the process. NULL switches this off. Call it after kz_ranks_set_time_limit. */
 void kz_ranks_set_overdue(kz_ranks *ranks, void (*leave)(const char *reason));
 
-/* A checkpoint: one regular locked file; one that another process holds is waited for up to 15 s. `fingerprint` is
- * text (scene, version, numerics: one "name: value" a line) that a resumed run must match; a difference is refused naming
- * the first line that differs. Collective. */
+/* A checkpoint is one regular file with a lock; if another process has locked it, the program waits up to 15 s. `fingerprint` is a text of
+ * lines "name: value" (scene, version, numerics) that a resumed run must match. If it does not, the refusal names the first line that
+ * differs. */
 typedef struct {
   const char *path; /* of the checkpoint itself */
   const char *fingerprint;
@@ -94,29 +95,29 @@ typedef struct {
   bool force;  /* discard an existing file */
 } kz_checkpoint_plan;
 typedef struct kz_checkpoint kz_checkpoint;
-/* *checkpoint: NULL where this fails; to be closed. */
+/* Opens or creates it; close it with kz_checkpoint_close. *checkpoint is NULL after a failure. Collective. */
 kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz_checkpoint **checkpoint);
-/* Closes and frees it (NULL: KZ_OK); removes the file when `complete`, or where it holds no finished work. Collective. */
+/* Closes and frees it (NULL: returns KZ_OK). Removes the file if `complete`, or if it has no finished work. Collective. */
 kz_status kz_checkpoint_close(kz_ranks *ranks, kz_checkpoint *checkpoint, bool complete);
-/* The path of a checkpoint that holds finished work of any rank; NULL where it holds none, or `checkpoint` is NULL. */
+/* The path of the checkpoint if it has finished work of any rank; else, and for NULL, NULL. */
 const char *kz_checkpoint_saved(const kz_checkpoint *checkpoint);
-/* Removes the file of a checkpoint (NULL: none) that holds none. Safe in a signal handler, as kz_checkpoint_saved. */
+/* Removes the file if it has no finished work; `checkpoint` may be NULL. Safe in a signal handler, as is kz_checkpoint_saved. */
 void kz_checkpoint_forget(const kz_checkpoint *checkpoint);
-/* KZ_STOPPED of a stage, once all ranks have agreed on it: adds to the message whether and where the finished work was saved. */
+/* Adds to the message of a stop whether, and where, the finished work was saved; returns KZ_STOPPED. Called after all ranks have agreed. */
 kz_status kz_checkpoint_stopped(const kz_checkpoint *checkpoint);
-/* Removes a checkpoint that outlived its complete file: only one that no process holds and that has this fingerprint. */
+/* Removes a checkpoint that is left beside its complete result, if no process has locked it and it has this fingerprint. */
 void kz_checkpoint_clear(const char *path, const char *fingerprint);
-/* KZ_REFUSED where the fingerprint `there`, of the file PATH, is not the one `here`: the message has the first line that
- * differs. */
+/* KZ_REFUSED if the fingerprint `there`, of the file PATH, differs from `here`; the message has the first line that differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
-/* What stages run on. Without ranks (NULL) everything is done by this process alone, without MPI: collective calls return at once. */
+/* The ranks and the checkpoint that stages use. If ranks is NULL, this process does everything without MPI, and collective calls return at
+ * once. */
 typedef struct {
   kz_ranks *ranks;
-  kz_checkpoint *checkpoint; /* of the records of kept stages; NULL: nothing is kept */
+  kz_checkpoint *checkpoint; /* for the records of kept stages; NULL = nothing is kept */
 } kz_run;
 
-/* Records of varying length that stay with the ranks that made them. */
+/* Records of varying length that stay on the rank that made them. */
 typedef struct {
   int64_t tile;
   size_t bytes;
@@ -129,8 +130,8 @@ typedef struct {
 void kz_local_records_add(kz_local_records *records, int64_t tile, const void *data, size_t bytes);
 void kz_local_records_free(kz_local_records *records);
 
-/* Fills record (record_bytes, at most 1 GiB, zeroed before the call) with the result of one tile. No MPI, of kz_ranks only
- * kz_ranks_interrupted. */
+/* Fills `record` [record_bytes], at most 1 GiB and zeroed before the call, with the result of one tile. It may not use MPI; of kz_ranks it
+ * may call kz_ranks_interrupted only. */
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
 
 typedef struct {
@@ -139,34 +140,35 @@ typedef struct {
   size_t record_bytes;
   kz_tile_fn work;
   void *context;
-  bool keep; /* records go to the checkpoint as they finish, and are not done again on resume */
+  bool keep; /* finished records are saved in the checkpoint and not computed again on resume */
   kz_local_records
-      *local;      /* not NULL: a record begins with a uint64_t, the bytes that it uses of record_bytes (a multiple of 8); it is
-                        added here, on the rank that made it or, from a checkpoint, on any, and `records` is NULL */
-  bool everywhere; /* all ranks receive all records; else only rank 0 */
+      *local;      /* not NULL: a record begins with a uint64_t, the number of bytes in use (a multiple of 8). It is added to
+                        this list, on the rank that made it or, from a checkpoint, on any rank; `records` is NULL then */
+  bool everywhere; /* true: all ranks receive all records; false: only rank 0 */
   bool
-      collective; /* all ranks do every tile together, in order, each with the same record (everywhere): `work` is collective and may
-                      run stages, whose kept records last until its tile is finished */
+      collective; /* true: all ranks do every tile together, in order, and get the same record (everywhere). `work` is collective
+                      and may run stages, whose kept records last until its tile is finished */
 } kz_stage;
 
-/* Runs a stage; `records` [n_tiles][record_bytes] is filled on the ranks that receive (others may pass NULL unless
- * everywhere). The first failing rank stops the others, and all return its status. Collective. KZ_STOPPED: a signal or the
- * time limit came before the last tile was begun; finished kept records are on disk. Kept stages must come in the same
- * order in every run. `run` NULL, or without ranks: this process alone does all tiles in order and keeps nothing; not for local records. */
+/* Runs a stage and fills `records` [n_tiles][record_bytes] on the ranks that receive them; the others may pass NULL. The first failing rank
+ * stops the others, and all return its status. KZ_STOPPED: a signal or the time limit came before the last tile was begun; finished kept
+ * records are on the disk. Kept stages must come in the same order in every run. If `run` is NULL or has no ranks, this process does all
+ * tiles in order and keeps nothing; this is not possible with local records. Collective. */
 kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
 
-/* Stages of one tile, each of which needs the one before, show their progress as one, by an estimate of what is left. NULL without ranks. */
+/* A chain of stages of one tile, each of which needs the one before, shows its progress as one stage, by an estimate of the seconds left.
+ * Returns NULL without ranks; the other calls accept NULL. */
 typedef struct kz_chain kz_chain;
 kz_chain *kz_chain_begin(const kz_run *run, const char *name);
 void kz_chain_show(kz_chain *chain, double seconds_left);
 void kz_chain_end(kz_chain *chain, bool complete);
 
-/* What all tiles of a stage would take, seconds of processor time, from some that this process does alone and throws away: at most `most`,
- * spread over the stage, and no more of them once they took `enough` seconds. Added to *seconds. Not collective. */
+/* Estimates the processor time of all tiles of a stage and adds it to *seconds. This process does at most `most` tiles, spread over the
+ * stage, until they have taken `enough` seconds; their records are thrown away. Not collective. */
 kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, double *seconds);
 
-/* What becomes of local records: each rank makes a message of each of its own, rank 0 takes all messages, in no order. Both may return
- * KZ_FAILED; `make` fills message [message_bytes, at most 1 GiB] and says how many bytes it used, more than 0. */
+/* How local records are delivered: each rank makes a message of each of its records, and rank 0 takes all messages, in any order. Both
+ * functions may return KZ_FAILED. `make` fills message [message_bytes], at most 1 GiB; *bytes = the number of bytes in use, more than 0. */
 typedef struct {
   const char *name; /* for the progress line */
   size_t message_bytes;
@@ -174,7 +176,7 @@ typedef struct {
   kz_status (*take)(void *context, const void *message, size_t bytes);
   void *context;
 } kz_delivery;
-/* Delivers the local records of all ranks. KZ_STOPPED as kz_stage_run. Collective. */
+/* Delivers the local records of all ranks. Returns KZ_STOPPED in the same cases as kz_stage_run. Collective. */
 kz_status kz_local_records_deliver(kz_ranks *ranks, const kz_local_records *records, const kz_delivery *delivery);
 
 #endif

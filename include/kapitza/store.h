@@ -1,7 +1,7 @@
-/* store: the result file (HDF5, netCDF-4 readable; layer 2). Names, types, units and long names of every dataset of the
- * file's contract are stated once, in a table of this layer. Written by one rank with the serial library.
+/* store: the result file (HDF5, readable as netCDF-4; layer 2). One table of this layer states the name, type, units and long name of
+ * every dataset. One rank writes the file, with the serial library.
  *
- * The file grows on disk as PATH.part, and is renamed to PATH when complete. */
+ * The file is written as PATH.part and renamed to PATH when it is complete. */
 #ifndef KAPITZA_STORE_H
 #define KAPITZA_STORE_H
 
@@ -14,46 +14,45 @@
 
 typedef struct kz_store kz_store;
 
-/* Name and version of the library. */
+/* Name and version of the HDF5 library. */
 const char *kz_store_library(void);
 
-/* Creates PATH.part. KZ_REFUSED where the path cannot be written. */
+/* Creates PATH.part. KZ_REFUSED if it cannot be written. */
 kz_status kz_store_create(const char *path, kz_store **store);
 /* PATH. */
 const char *kz_store_path(const kz_store *store);
-/* Flushes, closes and renames to PATH (fsync before the rename). Frees the store in every case; where it fails
- * (KZ_FAILED, as on a full disk) no PATH and no PATH.part is left. */
+/* Flushes and closes the file, and renames it to PATH (fsync before the rename). Frees the store in every case. After a failure (KZ_FAILED,
+ * as on a full disk) neither PATH nor PATH.part is left. */
 kz_status kz_store_complete(kz_store *store);
-/* Closes and removes PATH.part. NULL: nothing. */
+/* Closes and removes PATH.part, and frees the store. NULL: does nothing. */
 void kz_store_discard(kz_store *store);
 
-/* Attributes of a group ("/" = root, "basin" or "/basin"). Text of any length (over 64 KiB too). */
+/* Write an attribute of a group ("/" = root, "basin" or "/basin"). Text may have any length, also over 64 KiB. */
 kz_status kz_store_text(kz_store *store, const char *group, const char *name, const char *value);
 kz_status kz_store_real(kz_store *store, const char *group, const char *name, double value);
 kz_status kz_store_integer(kz_store *store, const char *group, const char *name, int64_t value);
 
-/* A dimension of a group: its scale variable. `values` of the type that the table gives to a variable of that name; NULL
- * for a dimension without coordinates (0, 1, 2, ... is written). */
+/* Writes a dimension of a group as its scale variable. `values` [length] have the type that the table gives to the variable of that name;
+ * NULL = 0, 1, 2, ... */
 kz_status kz_store_dimension(kz_store *store, const char *group, const char *name, int64_t length, const void *values);
 
-/* A variable of the table, whole; its dimensions (declared before) are those of the table, its type is the table's:
- * data is an array of double, int8_t, uint8_t, int16_t, int32_t, uint32_t or const char * accordingly. */
+/* Writes a whole variable of the table. Its dimensions must have been written before. `data` is an array of the type in the table: double,
+ * int8_t, uint8_t, int16_t, int32_t, uint32_t or const char *. */
 kz_status kz_store_variable(kz_store *store, const char *group, const char *name, const void *data);
 
-/* The same, of two dimensions, whose chunks come one by one: `chunk` [2], the cells of one along each. */
+/* Begins a variable of two dimensions whose chunks come one by one; `chunk` [2] = cells of a chunk along each dimension. */
 kz_status kz_store_chunked(kz_store *store, const char *group, const char *name, const int64_t *chunk);
-/* Its chunk that begins at cell `place` [2], packed by kz_pack; cells beyond the ends of the variable are there and have no
- * meaning. */
+/* Writes the chunk that begins at cell `place` [2], packed by kz_pack_into. A chunk at the edge also contains the cells beyond the variable,
+ * which have no meaning. */
 kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, const int64_t *place, const void *packed,
                          size_t bytes);
-/* What the integers of a variable that is there mean, as attributes flag_values (first .. first + n - 1) and flag_meanings (CF: words
- * between blanks). */
+/* Writes the meanings of the integers first .. first + n - 1 of an existing variable, as attributes flag_values and flag_meanings (CF: words
+ * separated by blanks). */
 kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings);
-/* Its rows first .. first + n - 1, from the file. */
+/* Reads rows first .. first + n - 1 of a variable from the file. */
 kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data);
 
-/* Writes GROUP/NAME of n values of a type; `expression` gives value i. Returns from the function that it stands in where it
- * fails. */
+/* Writes the variable GROUP/NAME of n values of a type; `expression` gives value i. If that fails, the calling function returns the status. */
 #define KZ_COLUMN(store, group, name, n, type, expression)                         \
   do {                                                                             \
     const int64_t column_n = (n);                                                  \
@@ -64,22 +63,22 @@ kz_status kz_store_rows(kz_store *store, const char *group, const char *name, in
     KZ_TRY(column_status);                                                         \
   } while (0)
 
-/* What a study before has written: the length of a dimension (0 where there is none), and one number of a variable at
- * index [its dimensions]. */
+/* Read what an earlier study has written: the length of a dimension (0 if there is none), and the number of a variable at `index` [its
+ * dimensions]. */
 kz_status kz_store_length(kz_store *store, const char *group, const char *dimension, int64_t *length);
 kz_status kz_store_number(kz_store *store, const char *group, const char *name, const int64_t *index, double *value);
 
 /* ---- arrays of numbers as HDF5's filters shuffle and deflate pack them; no HDF5 ---- */
 
-/* Bytes that n packed numbers of `item` bytes take at most. */
+/* The largest number of bytes that n packed numbers of `item` bytes each can take. */
 size_t kz_pack_bytes(size_t n, size_t item);
-/* Packs n numbers of `item` bytes, of which neighbours are often equal, into `packed` [kz_pack_bytes]: how many bytes that took, a function of the numbers alone; 0 where
- * zlib has no memory. */
+/* Packs n numbers of `item` bytes each, neighbours of which are often equal, into `packed` [kz_pack_bytes]. Returns the number of bytes,
+ * which depends on the numbers only; 0 if zlib has no memory. */
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed);
-/* The reverse; false where `packed` [bytes] does not hold n such numbers. */
+/* Unpacks `packed` [bytes] to numbers [n]; false if it does not contain n such numbers. */
 bool kz_unpack(const void *packed, size_t bytes, size_t n, size_t item, void *numbers);
 
-/* The root attribute `fingerprint` of PATH, to be freed; NULL where PATH is no complete file of this program. */
+/* The root attribute `fingerprint` of PATH, which the caller frees; NULL if PATH is not a complete file of this program. */
 char *kz_store_fingerprint(const char *path);
 
 #endif

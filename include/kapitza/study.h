@@ -1,5 +1,5 @@
-/* study: what a scene can ask for, one folder per study (C; layer 3). The scene arrives as plain structs; the results go to
- * the store and, for people, to a summary. */
+/* study: the studies that a scene can contain, one folder each (C; layer 3). The scene comes as plain structs; results go to the store and,
+ * for people, to a summary. */
 #ifndef KAPITZA_STUDY_H
 #define KAPITZA_STUDY_H
 
@@ -13,38 +13,38 @@
 #include "kapitza/parallel.h"
 #include "kapitza/store.h"
 
-/* A number of any digits: its text (radians, or degrees with " deg" behind), and the sum of two doubles nearest to it; "" = not given. */
+/* A number of any digits: its text (rad, or degrees if " deg" follows; "" = not given), and the nearest sum of two doubles. */
 enum { KZ_DECIMAL_LENGTH = 1024 };
 typedef struct {
   char text[KZ_DECIMAL_LENGTH];
   double high, low;
 } kz_decimal;
 
-/* An axis of cells or of values: n cells between min and max (basin), or n values with both ends (charts, sweeps). A window may be given
- * by its centre and width, finer than doubles are; min and max are then the nearest doubles. */
+/* An axis: `count` cells between min and max (basin), or `count` values with both ends included (charts, sweeps). For a window by its centre
+ * and width, which may be finer than doubles, min and max are the nearest doubles. */
 typedef struct {
   double min, max;
   int64_t count;
   kz_decimal centre, width;
 } kz_axis;
 
-/* Whether the cells of an axis are too narrow for doubles to tell apart: only method exact labels them. */
+/* True if doubles cannot distinguish neighbouring cells of the axis, so that only method exact can label them. */
 bool kz_axis_is_deep(const kz_axis *axis);
-/* The number of a decimal text, maybe with " deg" behind it; 0 where it is none. */
+/* The number of a decimal text, which may end in " deg"; 0 if the text is not a number. */
 __float128 kz_decimal_quad(const char *text);
-/* The same number in all digits; its text is the decimal's. */
+/* The same number with all its digits; the result refers to the text of `decimal`. */
 kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal);
 
-/* The edges of a window as written; NaN = not given. */
+/* The edges of a window as the scene gives them; NaN = not given. */
 typedef struct {
   double min, max;
 } kz_edges;
 
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
-enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* cells that quad precision leaves open */
+enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* what happens to cells that quad precision does not decide */
 enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
 
-/* A list of a scene. */
+/* A list in a scene. */
 enum { KZ_LIST_MAX = 256 };
 typedef struct {
   int64_t count;
@@ -57,9 +57,9 @@ typedef struct {
 
 enum { KZ_BOUNDARY_DECADES = 10, KZ_BOUNDARY_MOST_DECADES = 23 };
 enum { KZ_MOST_SHOCK_SIZES = 16 };
-/* Smallest shocks that leave a basin. The size of one is hypot(dtheta, dv / scale). */
+/* The search for the smallest shocks that leave a basin. The size of a shock is hypot(dtheta, dv / scale). */
 typedef struct {
-  double scale; /* rad per drive radian that count as much as 1 rad */
+  double scale; /* velocity, rad per drive radian, that counts as much as 1 rad */
   kz_reals sizes;
 } kz_shocks_plan;
 
@@ -69,39 +69,39 @@ typedef struct {
   kz_edges theta_edges, velocity_edges;
   int32_t method, undecided;
   int64_t table_theta, table_velocity; /* nodes of the map table */
-  bool table_is_idle;                  /* the scene gives a map table that its method does not use */
+  bool table_is_idle;                  /* the scene gives keys of a map table, but its method does not use one */
   int32_t interpolation;
   int64_t max_periods;
   int64_t starts;
   int64_t max_period;
   int64_t seed;
-  bool proof;      /* prove trapping regions of the true flow */
+  bool proof;      /* prove the labels */
   bool unmirrored; /* the pendulum has no mirror symmetry */
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;
   struct {
     int64_t pairs;   /* starts, each with a partner at every distance */
-    int64_t decades; /* of distances, from 1e-2 rad down; more than KZ_BOUNDARY_DECADES with method exact alone */
+    int64_t decades; /* of distances below 1e-2 rad; more than KZ_BOUNDARY_DECADES only with method exact */
   } boundary;
   bool has_shocks;
   kz_shocks_plan shocks;
-  int64_t phases; /* of the drive at which the cells are released besides; not above 0: none */
+  int64_t phases; /* number of phases of the drive at which the cells are also released; 0 or less = none */
 } kz_basin_plan;
 
-/* Study `attractors`: the counts of the axes are not used. */
+/* Study `attractors`. The counts of the axes are not used. */
 typedef struct {
   kz_axis theta, velocity;
   int64_t starts, max_period, seed;
 } kz_attractors_plan;
 
-/* Study `saddles`: all cycles up to a period with a point in the window; the counts of the axes are not used. */
+/* Study `saddles`: all cycles of up to max_period with a point in the window. The counts of the axes are not used. */
 enum { KZ_SADDLES_MAX_PERIOD = 32, KZ_SADDLES_MOST = 200000 /* cycles */ };
 typedef struct {
   kz_axis theta, velocity;
   int64_t max_period;
 } kz_saddles_plan;
 
-/* Study `manifolds`: of the saddles of the study before. */
+/* Study `manifolds`: those of the cycles that the study `saddles` of the same scene finds. */
 enum { KZ_MANIFOLDS_BOTH, KZ_MANIFOLDS_STABLE, KZ_MANIFOLDS_UNSTABLE };
 typedef struct {
   kz_integers saddles; /* ids; none = all */
@@ -109,28 +109,28 @@ typedef struct {
   double length, spacing, max_speed;
 } kz_manifolds_plan;
 
-/* Study `edge`: of the basins of two starts. */
+/* Study `edge`: the edge between the basins of two starts. */
 typedef struct {
   double first[2], second[2]; /* rad, rad per drive radian */
-  int64_t periods;            /* drive periods that the edge is followed at most */
-  int64_t max_period;         /* longest cycle that is told */
+  int64_t periods;            /* largest number of drive periods for which the edge is followed */
+  int64_t max_period;         /* longest period of a cycle that is recognised */
 } kz_edge_plan;
 enum { KZ_EDGE_MOST_PERIOD = 64 };
 
-/* Study `orbit`. Unset: NaN (start), INT64_MIN (attractor, periods, period). */
+/* Study `orbit`. Values that are not given: NaN (start), INT64_MIN (attractor, periods, period). */
 typedef struct {
   double theta, velocity; /* start */
   int64_t attractor;      /* id in the catalogue of the same scene, instead of a start */
   int32_t model;          /* KZ_PENDULUM, KZ_MATHIEU, KZ_EFFECTIVE */
-  int32_t about;          /* of the linear model: 0 down, 1 inverted */
+  int32_t about;          /* position of the model mathieu: 0 down, 1 inverted */
   int64_t transient;      /* drive periods before the record */
   int64_t periods;        /* of the record */
   int64_t samples_per_period;
   bool closed;
-  int64_t period; /* of a closed orbit; unset = found */
+  int64_t period; /* of a closed orbit; not given = the program finds it */
 } kz_orbit_plan;
 
-/* Study `stability`; damping and quality factor NaN = not given, curves: places among kz_curve_names(). */
+/* Study `stability`. damping, quality_factor: NaN = not given. curves: indices in the list of kz_curve_names(). */
 typedef struct {
   kz_axis k, m; /* values with both ends */
   double damping, quality_factor;
@@ -143,10 +143,10 @@ typedef struct {
   int64_t theta_count;
 } kz_potential_plan;
 
-/* Study `tradeoff`: on the window of the basin. */
+/* Study `tradeoff`, on the window of the study `basin`. */
 typedef struct {
   int64_t samples;      /* cells compared with quad precision */
-  kz_integers settings; /* indices in the table of settings; none = all */
+  kz_integers settings; /* indices in the table of settings; empty = all */
 } kz_tradeoff_plan;
 
 /* The labels of the settings that a trade-off compares, joined by '|'. */
@@ -156,12 +156,12 @@ const char *kz_tradeoff_words(void);
 typedef struct {
   int32_t parameter;       /* row of kz_sweep_parameters */
   kz_axis values;          /* both ends included */
-  kz_integers measure;     /* places among kz_sweep_measure_words() */
+  kz_integers measure;     /* indices in the list of kz_sweep_measure_words() */
   kz_axis theta, velocity; /* window of starts; the counts of the axes are not used */
   int64_t starts, max_period, seed;
   double start_theta, start_velocity; /* of the bifurcation diagram */
-  int64_t transient, samples;         /* drive periods at each value before the record, and of it */
-  double shock_scale;                 /* of resilience, as kz_shocks_plan has it */
+  int64_t transient, samples;         /* drive periods at each value: before the record, and recorded */
+  double shock_scale;                 /* for resilience: see kz_shocks_plan */
 } kz_sweep_plan;
 
 /* Study `chart`: ends of the same starts over a plane of two keys of the pendulum mapping. */
@@ -172,15 +172,15 @@ typedef struct {
 } kz_chart_axis;
 typedef struct {
   kz_chart_axis x, y;
-  kz_reals theta, velocity;        /* starts: rad, rad per drive radian; one velocity serves all angles */
-  int64_t max_period, max_periods; /* max_periods unset: INT64_MIN */
+  kz_reals theta, velocity;        /* starts: rad, rad per drive radian; a single velocity belongs to all angles */
+  int64_t max_period, max_periods; /* max_periods INT64_MIN = not given */
 } kz_chart_plan;
 
-/* What a ramp changes, and how. */
+/* The quantity that a ramp changes, and its form in time. */
 enum { KZ_RAMP_DAMPING = 0, KZ_RAMP_DRIVE = 1 };
 enum { KZ_RAMP_LINEAR = 0, KZ_RAMP_SMOOTH = 1 };
 
-/* The pendulum mapping as written, in one of three forms; NaN = key not given. */
+/* The mapping `pendulum` as written, in one of three forms a, b, c; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
   double k, damping, m;                                                              /* b: k, beta, m */
@@ -189,47 +189,48 @@ typedef struct {
   double frequency;                               /* c: Hz, instead of pivot_frequency */
   double amplitude;                               /* c: m, instead of pivot_amplitude */
   double decay_time;                              /* c: s, 2 I/b, instead of friction or quality_factor */
-  double tilt, ellipse, torque, torque_amplitude; /* rad; short over long axis; in units of I omega^2; of a torque cos t */
-  double start_phase;                             /* of the scene's basin: rad, of the drive when the pendulum is released */
+  double tilt, ellipse, torque, torque_amplitude; /* rad; ratio of the axes; both in units of I omega^2 */
+  double start_phase;                             /* of the scene's basin: phase of the drive at the release, rad */
   double ramp_from, ramp_periods;                 /* in the units of its key; drive periods */
   int32_t ramp_key, ramp_shape;                   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
   int32_t waveform;                               /* KZ_SINE, ... */
-  kz_reals samples;                               /* of KZ_SAMPLES: at equal times of a period, in units of m */
-  kz_harmonics harmonics;                         /* further ones */
+  kz_reals samples;                               /* for KZ_SAMPLES: the drive at equal times of a period, in units of m */
+  kz_harmonics harmonics;                         /* those that the scene adds */
 } kz_pendulum_keys;
 
-/* The three forms all end in `pendulum`; the others are NaN where not defined (Q without damping, Omega at k <= 0). */
+/* All three forms give `pendulum`. Other numbers are NaN if they are not defined (Q without damping, Omega at k <= 0). */
 typedef struct {
   kz_pendulum_keys written;
   kz_pendulum pendulum;
   bool has_ramp;
   double quality_factor, drive_frequency, drive_amplitude;
   double pivot_frequency; /* rad s-1; NaN without SI */
-  kz_release release;     /* how motions of a basin begin */
+  kz_release release;     /* how the cells of a basin are released */
 } kz_parameters;
 
 /* m s-2; CGPM 1901. */
 #define KZ_STANDARD_GRAVITY 9.80665
 
-/* Fills everything but `written` from `written`. KZ_REFUSED where k, beta or m is not finite; then nothing is usable. */
+/* Computes all fields from `written`. KZ_REFUSED if k, beta or m is not finite; the fields are then not usable. */
 kz_status kz_parameters_resolve(kz_parameters *parameters);
 
-/* The stiffest pendulum and the fastest start whose motions are followed: kz_stiffness; rad per drive radian. Beyond them one drive period
- * takes more than 300,000 steps, or 10,000 turns. */
+/* The largest kz_stiffness of a pendulum, and the largest speed of a start (rad per drive radian), that the program follows. Beyond them a
+ * drive period takes more than 300,000 steps, or 10,000 turns. */
 #define KZ_MOST_STIFFNESS 1e7
 #define KZ_MOST_SPEED 1e4
 
-/* The drive that the keys describe beyond k, beta and m, which `pendulum` has: the rest of it. And how motions begin. */
+/* kz_drive_resolve adds the drive that the keys describe to `pendulum`, which has k, beta and m. kz_release_resolve fills *release. */
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
-const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pendulum *pendulum); /* NULL = none */
-void kz_drive_print(const kz_parameters *parameters, FILE *out); /* what harmonics stand for, and how well */
+const char *kz_drive_contradiction(const kz_pendulum_keys *written,
+                                   const kz_pendulum *pendulum); /* what contradicts; NULL = nothing */
+void kz_drive_print(const kz_parameters *parameters, FILE *out); /* a summary line: harmonics in use, and their error */
 void kz_release_resolve(const kz_parameters *parameters, kz_release *release);
 
-/* The numerics mapping as written. */
+/* The mapping `numerics` as written. */
 typedef struct {
   int32_t scheme;           /* row of the kernel's table */
   int32_t steps_per_period; /* KZ_AUTO, or as given */
-  double tolerance;         /* rad: the error of a drive period that KZ_AUTO allows the processed splitting */
+  double tolerance;         /* rad: the largest error of a drive period with KZ_AUTO and the processed splitting */
 } kz_numerics_keys;
 enum { KZ_AUTO = 0 };
 
@@ -237,7 +238,7 @@ typedef struct {
   char *title; /* may be "" */
   kz_parameters parameters;
   kz_numerics_keys asked;
-  kz_numerics numerics; /* what that comes to here (kz_numerics_resolve) */
+  kz_numerics numerics; /* resolved from `asked` by kz_numerics_resolve */
   bool has_basin;
   kz_basin_plan basin;
   bool has_attractors;
@@ -262,59 +263,59 @@ typedef struct {
   kz_chart_plan chart;
 } kz_scene;
 
-/* Steps a period of the study `orbit`: those of the scene, or more where a fast motion needs them; a multiple of the samples. */
+/* Steps a period of the study `orbit`: those of the scene, or more for a fast motion; a multiple of the samples a period. */
 enum { KZ_MOST_ORBIT_STEPS = 200000 };
 double kz_orbit_steps(const kz_scene *scene);
-/* The numerics of the study `orbit`: with that many steps of the scene's scheme, or of split6 where that is the processed one. */
+/* The numerics of the study `orbit`: that many steps of the scene's scheme, or of split6 in place of the processed splitting. */
 kz_numerics kz_orbit_numerics(const kz_scene *scene);
 
-/* One line: whether down and inverted are stable at rest (linearly), and between which amplitudes of the pivot, in the user's words. Nothing
- * without a pendulum. */
+/* Prints one line: whether the pendulum at rest is stable down and inverted (by the linear equation), and between which amplitudes of the
+ * pivot, in the keys and units of the scene. Prints nothing without a pendulum. */
 void kz_rest_print(const kz_parameters *parameters, FILE *out);
 
-/* M r^2 of a pendulum written in SI units, kg m2; whether its inertia is at least that, to rounding. */
+/* M r^2 of a pendulum in SI units, kg m2; true if its inertia is at least that, to rounding. */
 double kz_point_inertia(const kz_pendulum_keys *written);
 bool kz_inertia_is_possible(const kz_pendulum_keys *written);
 
-/* The keys of the pendulum mapping that a sweep can walk along. */
+/* The keys of the mapping `pendulum` that a sweep can change. */
 typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
 enum { KZ_SWEEP_PARAMETERS = 23 };
 extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
-/* Their names, and what a sweep can measure, joined by '|'. */
+/* The names of these keys, and of the measures of a sweep, each list joined by '|'. */
 const char *kz_sweep_words(void);
 const char *kz_sweep_measure_words(void);
 
-/* Value i of n >= 2 values, or of one, with both ends exact. */
+/* Value i of an axis of values; both ends are exact. */
 double kz_axis_value(const kz_axis *values, int64_t i);
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
 
-/* The scene's pendulum with n of its keys (rows of kz_sweep_parameters) at other values; false where that is none (not finite,
- * negative damping, less inertia than a point). */
+/* The scene's pendulum with n of its keys (rows of kz_sweep_parameters) at other values; false if that is not possible (not finite, negative
+ * damping, less inertia than a point mass). */
 bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum);
 
 /* The same with the swept key at `value`. */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
-/* How motions begin then. */
+/* How cells are released at this value. */
 kz_release kz_sweep_release_at(const kz_scene *scene, double value);
-/* Whether a key changes the beginning of motions alone. */
+/* True if a key changes only how cells are released. */
 bool kz_sweep_is_of_release(int32_t parameter);
 
-/* What a study would cost. */
+/* Estimated cost of a study. */
 typedef struct {
   int64_t cells;
   double disk_bytes;   /* result file and checkpoint */
-  double memory_bytes; /* of every rank */
-  double rank0_bytes;  /* of rank 0 besides */
-  double shared_bytes; /* of all ranks together besides */
+  double memory_bytes; /* on every rank */
+  double rank0_bytes;  /* more on rank 0 */
+  double shared_bytes; /* more on all ranks together */
 } kz_cost;
 
-/* One row per study. `summary` is a stream for people on rank 0, NULL elsewhere; so is `store`. All ranks call run. `check`
- * (NULL = nothing to check) refuses a scene that the study cannot model, as where the steps are too coarse for its motions. The
- * message begins with the keys that a user could change ("numerics.steps_per_period|basin.velocity: ..."). `measure`
- * tells the processor time that run would take, seconds on one core, from samples of its work that it does and times; not collective. */
+/* One row per study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check` (NULL = nothing
+ * to check) refuses a scene that the study cannot model, for example because the steps are too coarse; its message begins with the keys
+ * that a user could change ("numerics.steps_per_period|basin.velocity: ..."). `measure` estimates the processor time of `run`, seconds on
+ * one core, from samples of the work; not collective. */
 typedef struct {
   const char *name;
   bool (*wanted)(const kz_scene *scene);
@@ -326,25 +327,24 @@ typedef struct {
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 
-/* KZ_REFUSED where a study cannot serve the drive. */
+/* KZ_REFUSED if a study or method does not support the drive. */
 kz_status kz_drive_check(const kz_scene *scene);
-/* KZ_REFUSED where a study of the scene does not pass its check: the first one's message. */
+/* KZ_REFUSED, with the message of the first study of the scene that does not pass its check. */
 kz_status kz_studies_check(const kz_scene *scene);
 
-/* Drive periods after which nearly all motions are trapped, at least 2000. Where that would be more than a million, 2000 too. */
+/* Drive periods within which nearly all motions are trapped, at least 2000; also 2000 if it would be more than a million. */
 int64_t kz_settling_periods(double beta);
 
-/* The same for the weakest damping of a scene: that of its pendulum and of its sweep. */
+/* The same for the weakest damping in a scene, of its pendulum and its sweep. */
 int64_t kz_settling_scene(const kz_scene *scene);
 
-/* A line for each study whose max_periods leaves most motions unsettled. It begins with the key to change. */
+/* Prints a warning for each study whose max_periods leaves most motions unsettled; it names the key to change. */
 void kz_settling_warn(const kz_scene *scene, FILE *out);
 
-/* The numerics that a scene asks for, for its pendulum, or for all values of its sweep: scene->numerics from scene->asked.
- * steps_per_period: auto of the processed splitting: the fewest steps whose measured error, at the speeds that the windows' motions
- * reach, is at most the tolerance and what small cells need; split6 with enough steps where there are none. auto of another scheme: its own number, or
- * as many more as the small cells of a damped basin need (smaller than 0.01 rad); left as it is where no number would do
- * (the basin's check says so then), and where basin.accuracy chooses. */
+/* Sets scene->numerics from scene->asked, for the scene's pendulum, or for all values of its sweep. steps_per_period auto means, for the
+ * processed splitting: the fewest steps whose measured error, at all speeds of the windows' motions, is below the tolerance and small beside
+ * the cells; split6 if no number is enough. For other schemes: the default, or more for cells of a damped basin below 0.01 rad. If no
+ * number is enough for these (the basin's check then refuses the scene), or if basin.accuracy chooses, the default stays. */
 void kz_numerics_resolve(kz_scene *scene);
 
 #endif

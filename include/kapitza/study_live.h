@@ -1,4 +1,4 @@
-/* study: frames of basins on request, from an engine that keeps what the next frame can use (C; layer 3). No MPI, no files. */
+/* study: frames of basins on request. The engine keeps everything that the next frame can use (C; layer 3). No MPI, no files. */
 #ifndef KAPITZA_STUDY_LIVE_H
 #define KAPITZA_STUDY_LIVE_H
 
@@ -8,7 +8,7 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study_where.h"
 
-/* Pendulums of the last requests: their maps, attractors and trapping regions. */
+/* The engine: maps, attractors and trapping regions of the pendulums of the last requests. */
 typedef struct kz_engine kz_engine;
 
 kz_engine *kz_engine_create(void);
@@ -19,75 +19,76 @@ typedef struct {
   kz_attractor row;
   char name[KZ_NAME_LENGTH];
   int32_t mirror;           /* id of the mirror image */
-  double fraction;          /* of the grid's cells; NaN without a grid */
+  double fraction;          /* share of the grid's cells that end on it; NaN without a grid */
   double *theta, *velocity; /* [period] strobe points */
 } kz_entry;
 
-/* In the order of the file: id = index. */
+/* The attractors in the order of the file: the index of an entry is its id. */
 typedef struct {
   int64_t count;
   kz_entry *entries;
-  int32_t *id_of; /* [numbers from 1]: id of a number of kz_dynamics, -1 = not in the catalogue */
+  int32_t *id_of; /* [number], from 1: id of the attractor with this number in kz_dynamics; -1 = not in the catalogue */
 } kz_catalogue;
 
-/* All attractors that are known of a pendulum; a frame's labels are ids of `list`. */
+/* All known attractors of a pendulum; the labels of a frame are ids of `list`. */
 typedef struct {
-  int64_t version; /* from 1; another number wherever it is another catalogue */
+  int64_t version; /* from 1; every other catalogue has another number */
   kz_parameters parameters;
   kz_catalogue list;
-  int64_t *track; /* [count] a number that stays with an attractor while the pendulum changes */
+  int64_t *track; /* [count]: a number that stays with an attractor while the pendulum changes */
 } kz_live_catalogue;
 
 enum { KZ_PLANE_LABELS, KZ_PLANE_SETTLING_TIME, KZ_PLANE_DOUBT, KZ_PLANE_OTHER, KZ_PLANES };
 enum { KZ_NO_LABEL = 255 }; /* not settled, or no attractor */
 enum { KZ_DOUBT_NONE = 0, KZ_DOUBT_OPEN = 1, KZ_DOUBT_UNSEEN = 2 };
 
-/* A level of a frame: every so many cells (docs/reference/serve.md). plane: labels, other and doubt are bytes, settling times float; NULL where
- * not asked for. */
+/* A level of a frame, which has every `level`-th cell (docs/reference/serve.md). The planes labels, other and doubt have bytes, settling times
+ * are float; the pointer of a plane that was not requested is NULL. */
 typedef struct {
   int64_t level, rows, columns;
   const kz_live_catalogue *catalogue;
   const void *plane[KZ_PLANES]; /* [rows][columns] */
-  double seconds;               /* of this process's processor time since the frame began */
+  double seconds;               /* processor time of this process since the frame began */
 } kz_live_level;
 
-/* Bytes of a cell. */
+/* Bytes of a cell in a plane. */
 size_t kz_plane_bytes(int plane);
 
-/* What a frame is made for. */
+/* How a frame is made, and where it goes. */
 typedef struct {
-  bool moving;                       /* quickly, to a tolerance a period that is small beside a cell; else as method exact */
+  bool moving;                       /* true: fast, with an error per period much smaller than a cell; false: as method exact */
   const kz_integers *levels;         /* 8, 4, 2 or 1, falling */
-  bool plane[KZ_PLANES];             /* which are shown */
-  kz_status (*pause)(void *context); /* called every few milliseconds; anything but KZ_OK ends the frame with that status */
+  bool plane[KZ_PLANES];             /* the planes to show */
+  kz_status (*pause)(void *context); /* called every few milliseconds; any status but KZ_OK ends the frame with that status */
   kz_status (*show)(void *context, const kz_live_level *level);
   void *context;
 } kz_frame;
 
-/* A frame of the scene's study basin: pendulum, window, cells, max_periods. The scene's numerics need not be resolved. */
+/* Makes a frame of the scene's study basin, from its pendulum, window, cells and max_periods. The scene's numerics need not be resolved. */
 kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_frame *frame);
 
-/* When nothing is asked: looks for attractors where cells of the last moving frames have not settled. Takes milliseconds at most of the time. */
+/* Uses idle time: looks for attractors from cells of the last moving frames that have not settled. Usually takes milliseconds. */
 void kz_engine_rest(kz_engine *engine);
 
-/* What is known of the scene's pendulum; it belongs to the engine and holds until the next call. */
+/* *catalogue = the known attractors of the scene's pendulum. It belongs to the engine and is valid until the next call. */
 kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue);
 
-/* kz_where with the attractors that the engine knows; endings [n] to be freed as there. */
+/* kz_where with the attractors that the engine knows; the caller frees endings [n] by kz_where_free. */
 kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings);
 
-/* A level of a chart: the periods and centres (as in /chart) of its points, x fastest; period KZ_NO_LABEL = not settled, or no pendulum. */
+/* A level of a chart: periods and centres of its points, with the values of the group /chart, x fastest; period KZ_NO_LABEL = not settled,
+ * or no pendulum. */
 typedef struct {
   int64_t level, rows, columns;
   const uint8_t *period, *centre; /* [rows][columns] */
 } kz_chart_level;
-/* The scene's study chart for its first start; pause as of a frame. */
+/* Draws the scene's study chart for its first start; `pause` as in kz_frame. */
 kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
                         kz_status (*show)(void *context, const kz_chart_level *level), void *context);
 
-/* The motion of the study orbit, from its start, after its transient: theta (rad, not wrapped) and velocity [samples], at the scene's
- * samples_per_period. The caller frees both in every case. */
+/* The motion of the scene's study orbit, after its transient: theta [samples] (rad, not wrapped) and velocity [samples] (rad per drive
+ * radian), at samples_per_period of the scene. The caller frees both in every case. */
 kz_status kz_orbit_record(const kz_scene *scene, int64_t *samples, double **theta, double **velocity);
 
 #endif

@@ -8,26 +8,27 @@
 
 /* Where a start ends. */
 typedef struct {
-  int32_t attractor;               /* id in the catalogue of the scene's window; -1 = not settled */
-  char name[KZ_NAME_LENGTH];       /* "" = not settled */
-  int32_t period, winding;         /* as in /attractors */
-  int64_t settling_time;           /* drive periods until the orbit is inside a trapping region */
-  const char *precision;           /* that decides it: double, pairs, quad, arbitrary; NULL = none does, or not settled */
-  double error;                    /* rad: how far the orbit may be off when it is trapped; NaN = not decided, or chaotic */
-  int32_t other;                   /* settled, but not decided: the other candidate's id; -1 = none */
-  char other_name[KZ_NAME_LENGTH]; /* "" = none */
+  int32_t attractor;         /* id in the catalogue of the scene's window; -1 = not settled */
+  char name[KZ_NAME_LENGTH]; /* "" = not settled */
+  int32_t period, winding;   /* as in /attractors */
+  int64_t settling_time;     /* drive periods until the orbit is inside a trapping region */
+  const char *precision;     /* that decides the label: double, pairs, quad, arbitrary; NULL = not decided, or not settled */
+  double error;              /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
+  int32_t other;             /* id of the second candidate of an undecided start; -1 = none */
+  char other_name[KZ_NAME_LENGTH];        /* "" = none */
   double *strobe_theta, *strobe_velocity; /* [period] rad, rad per drive radian; NULL = not settled */
 } kz_ending;
 
-/* Where n starts (start [n]: theta and velocity; of one with a centre `high` and `low` are the nearest pair) end, into endings [n]. The
- * attractors are those that the search of the scene's study basin or attractors finds, and those that the starts find themselves; each
- * start is then labelled as basin.method exact labels a cell, and in as many digits as it takes. KZ_REFUSED without such a study. Not
- * collective. kz_where_free in every case. */
+/* Finds where n starts end: start [n], theta and velocity; high and low of a coordinate with a centre are the nearest pair of doubles.
+ * The attractors are those that the search of the scene's study basin or attractors finds, and those that the starts lead to. Each start is
+ * labelled as basin.method exact labels a cell, with as many digits as needed. KZ_REFUSED if the scene has neither study. Free endings [n] by
+ * kz_where_free in every case. Not collective. */
 kz_status kz_where(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], kz_ending *endings);
 void kz_where_free(int64_t n, kz_ending *endings);
 
-/* A point of the boundary between basins, on the straight line between two starts that end differently: decimal texts, right to so many
- * digits behind the point, and the attractors that starts beside it end on, towards the first start and towards the second. */
+/* A point of the boundary between two basins, on the straight line between two starts that end on different attractors. theta and velocity
+ * are decimal texts with `digits` right digits behind the point. attractor and name [2] are the attractors on which starts beside the point
+ * end: towards the first start, and towards the second. */
 enum { KZ_BOUNDARY_MOST_DIGITS = 900 };
 typedef struct {
   char theta[KZ_DECIMAL_LENGTH], velocity[KZ_DECIMAL_LENGTH];
