@@ -3,17 +3,17 @@
 #ifndef KAPITZA_ANALYSIS_MATHIEU_H
 #define KAPITZA_ANALYSIS_MATHIEU_H
 
-/* k of a curve at m >= 0: from GSL up to q = 5000, beyond from the tridiagonal eigenproblem. GSL 2.7 loses digits without
- * telling: 1e-12 at q = 3e4, 1e-8 at 1e5, all of them at 1e6. */
+/* k of a curve at m >= 0: from GSL up to q = 5000, beyond from the tridiagonal eigenproblem. GSL 2.7 loses digits
+ * without a message: its relative error is 1e-12 at q = 3e4, 1e-8 at 1e5, and 1 at 1e6. */
 double kz_mathieu_k(int curve, double m);
 double kz_mathieu_k_gsl(int curve, double m);
 double kz_mathieu_k_tridiagonal(int curve, double m);
 
-/* m where curve 3 or 5 turns back: its largest k. */
+/* m at which curve 3 or 5 turns back, at its largest k. */
 double kz_mathieu_turn(int curve);
 
-/* m of a curve at k, between the axis and its turn or (upper) beyond the turn; turn = 0 for curves that have none. NaN where
- * it does not exist. */
+/* m of a curve at k, between the axis and its turn or (upper) beyond the turn; turn = 0 for curves that have none. NaN if
+ * the curve does not exist at k. */
 double kz_mathieu_m(int curve, double k, double turn, int upper);
 
 #endif

@@ -4,11 +4,11 @@
 
 typedef double (*kz_real_fn)(double x, void *context);
 
-/* The root of fn between low and high to rounding; low or high themselves where fn is 0 there; NaN where fn does not change
- * its sign. */
+/* The root of fn between low and high, to rounding; low or high if fn is 0 there; NaN if fn does not change its sign. */
 double kz_root(kz_real_fn fn, void *context, double low, double high);
 
-/* Where fn is lowest between low and high, given one interior point below both ends; `guess` where there is none. */
+/* The place of the minimum of fn between low and high. `guess` is an interior point at which fn is below both ends; it is returned if it is
+ * not. */
 double kz_lowest(kz_real_fn fn, void *context, double low, double guess, double high);
 
 #endif

@@ -12,16 +12,16 @@ typedef struct {
 /* The number as a user would write it. */
 kz_shortest_text kz_shortest(double value);
 
-/* min < max, and cells that double precision can tell apart. */
+/* min must be below max, and double precision must distinguish neighbouring cells. */
 void kz_axis_rules(kz_reading *reading, const kz_axis *axis, const char *path);
 
 /* The axis of a basin from its edges, or from its centre and width. */
 void kz_axis_set(kz_reading *reading, const kz_basin_plan *plan, kz_edges edges, kz_axis *axis, const char *path);
 
-/* Both edges or neither; neither is the whole circle. */
+/* The scene gives both edges or neither; neither means the whole circle. */
 void kz_theta_rules(kz_reading *reading, kz_axis *theta, const char *path);
 
-/* Values from min to max, both included: one value where they are equal. */
+/* Values from min to max, both included; if they are equal, there must be one value. */
 void kz_ends_rules(kz_reading *reading, const kz_axis *axis, const char *path);
 
 #endif

@@ -32,7 +32,7 @@ extern const int kz_command_count, kz_option_count;
 void kz_help_print(const kz_command *command);
 /* The manual page, as roff. */
 void kz_manual_print(void);
-/* What a shell needs to complete the words of the command line; `shell` = bash, zsh or fish. */
+/* Prints the completion script of a shell: bash, zsh or fish. */
 void kz_completion_print(const char *shell);
 
 #endif

@@ -6,20 +6,20 @@
 
 #include "kapitza/parallel.h"
 
-/* Opens FILE to go on writing at its end. KZ_REFUSED where it cannot be written, or is there and no such log. */
+/* Opens FILE to append to it. KZ_REFUSED if it cannot be written, or if it exists and is not such a log. */
 kz_status kz_log_open(const char *path, FILE **log);
-/* One event, "begin", "warning" or "end": `fields` are pairs of name and text, NULL-ended; "#name": the text is a
- * number. `log` NULL: nothing. */
+/* Writes one event, "begin", "warning" or "end". `fields` = pairs of name and text, NULL-ended; "#name" = the text is a number. NULL as
+ * `log`: does nothing. */
 void kz_log_event(FILE *log, double seconds, const char *event, const char *const *fields);
-/* An event "warning" for each line of `text` that is one. */
+/* Writes an event "warning" for each line of `text` that is a warning. */
 void kz_log_warnings(FILE *log, double seconds, const char *text);
-/* Closes it; KZ_FAILED where not all was written. NULL: nothing. */
+/* Closes the log; KZ_FAILED if it could not be written completely. NULL: does nothing. */
 kz_status kz_log_close(FILE *log, const char *path);
 
-/* Prints where the time went. */
+/* Prints the table of timings. */
 void kz_timings_print(const kz_ranks *ranks, FILE *out);
 
-/* What stands between the quotes of a text in JSON. */
+/* Prints `text` escaped for JSON, without the quotes. */
 void kz_json_text(FILE *out, const char *text);
 
 #endif

@@ -5,8 +5,8 @@
 #include "kapitza/study.h"
 #include "scene.h"
 
-/* k, beta, m from the form that the scene chose; only a reading without complaints has it whole. All keys that a laboratory's pendulum lacks
- * are named at once. */
+/* Computes k, beta, m from the form that the scene uses; they are complete only if the reading has no complaint. One complaint names all keys
+ * that a laboratory's pendulum lacks. */
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene);
 
 #endif

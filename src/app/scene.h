@@ -1,4 +1,4 @@
-/* scene: from the YAML text of a user to kz_scene and back (C; layer 4).
+/* scene: reads the YAML text of a user into kz_scene, and writes it back (C; layer 4).
  *
  * ONE table, kz_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/reference/scene.md
  * all come from its rows: a new key is a new row. */
@@ -12,7 +12,7 @@
 
 #include "kapitza/study.h"
 
-/* What a key holds, and the C type of its field. */
+/* The type of a key, and the C type of its field. */
 typedef enum {
   KZ_KEY_MAPPING,  /* bool: the mapping is given (a study), or no field at all (KZ_NO_FIELD) */
   KZ_KEY_TEXT,     /* char *, owned by the scene; "" where absent */
@@ -40,16 +40,16 @@ typedef struct {
   double low, high;                /* accepted values, ends included */
   const char *fallback;            /* default as YAML text; "" = may be left out without one; NULL = required */
   const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto" */
-  const char *(*words_from)(void); /* the same where another layer knows them */
-  const char *former;    /* words, or keys of a mapping, that are gone, and what to write instead: "old=new|old=new" */
+  const char *(*words_from)(void); /* returns the words if another layer has them */
+  const char *former;              /* removed words, or keys of a mapping, and their replacements: "old=new|old=new" */
   const char *form;      /* letters; keys of one mapping without a common letter exclude each other; NULL = of no form */
   size_t offset;         /* of the field in kz_scene */
-  const char *chosen_by; /* path of a number instead of which the key is given; NULL = none */
+  const char *chosen_by; /* path of a number that excludes this key, because the program then chooses it; NULL = none */
   size_t chooser;        /* offset of that number */
   const char *help;      /* one sentence of the scene reference */
 } kz_key;
 
-/* The unit of values that another key is given. */
+/* Placeholder for the unit of the key that a sweep or chart changes. */
 #define KZ_OWN_UNIT "the unit of the parameter"
 
 /* The table; a row without path ends it. */
@@ -57,7 +57,7 @@ extern const kz_key kz_keys[];
 
 /* The words of a key, joined by '|'; "" for other types. */
 const char *kz_key_words(const kz_key *key);
-/* Whether it holds an angle, which may be written in degrees. */
+/* True if the key is an angle, which may be written in degrees. */
 bool kz_key_is_angle(const kz_key *key);
 /* The row of `path`, or NULL. */
 const kz_key *kz_key_find(const kz_key *keys, const char *path);
@@ -65,14 +65,14 @@ const kz_key *kz_key_find(const kz_key *keys, const char *path);
 void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes);
 /* The words "a|b|c" as "a, b, c", written to `text` [bytes]. */
 void kz_key_list(const char *words, char *text, size_t bytes);
-/* "an integer from 1 to 512": what the key takes, written to `text` [bytes]. */
+/* Writes what the key accepts, such as "an integer from 1 to 512", to `text` [bytes]. */
 void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes);
-/* What to write instead of a word that is gone, copied to `now` [bytes]; false where it never was one. */
+/* Copies the replacement of a removed word to `now` [bytes]; false if `word` is not a removed word. */
 bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes);
-/* The word nearest to `word` among `words` ("a|b|c"), copied to `nearest` [bytes]; false where none is near. */
+/* Copies the word of `words` ("a|b|c") that is most similar to `word` to `nearest` [bytes]; false if none is similar. */
 bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes);
 
-/* The YAML text as a tree that knows where everything stood. */
+/* The YAML text as a tree, with the place of every node in the text. */
 typedef enum { KZ_SCALAR, KZ_SEQUENCE, KZ_MAPPING } kz_node_kind;
 typedef struct kz_node {
   kz_node_kind kind;
@@ -94,42 +94,42 @@ void kz_tree_free(kz_node *root);
 kz_node *kz_tree_child(const kz_node *mapping, const char *name);
 /* The node at a path such as "basin.theta", or NULL. */
 kz_node *kz_tree_find(const kz_node *root, const char *path);
-/* Puts `value` (taken over in every case) at `path`, replacing what stood there; mappings on the way are created. */
+/* Puts `value` at `path` in place of the old node and creates the mappings on the way. The tree owns `value` in every case. */
 kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
-/* Takes what stands at `path` out of the tree; NULL where nothing does. The caller frees it. */
+/* Removes the node at `path` from the tree and returns it, or NULL; the caller frees it. */
 kz_node *kz_tree_take(kz_node *root, const char *path);
-/* A copy of a tree, without what stands beside its root. */
+/* A copy of a tree, without the siblings of its root. */
 kz_node *kz_tree_copy(const kz_node *root);
 
-/* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), NULL where it is right. */
+/* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), or NULL. */
 const char *kz_scalar_integer(const kz_node *node, int64_t *value);
 const char *kz_scalar_real(const kz_node *node, double *value);
 /* An angle in rad, or in degrees with "deg" behind the number, or a part of pi such as "3 pi/4"; value in rad. */
 const char *kz_scalar_angle(const kz_node *node, double *value);
-/* A number of any digits, in quotes or not; of an angle also in degrees. The text is kept. */
+/* A number of any digits, with or without quotes; an angle may be in degrees. *value keeps the text. */
 const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value);
-/* "0.3" of "0,3"; false where the text is no number with one comma in it. */
+/* Writes "0.3" for "0,3" to number [bytes]; false if the text is not a number with one comma. */
 bool kz_scalar_with_a_point(const char *text, char *number, size_t bytes);
-/* A number, or one with a unit behind it ("20 cm"), as so many of `unit`; "" = of any unit of the table. */
+/* A number, or one with a unit ("20 cm"); *value is in `unit`; "" accepts any unit of the table. */
 const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value);
-/* "3 pi/4" as the text "3" [bytes] and the divisor 4; false where the text is no part of pi. */
+/* Splits "3 pi/4" into the text "3", written to multiple [bytes], and the divisor 4; false if the text is not a part of pi. */
 bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
 const char *kz_scalar_text(const kz_node *node);
 
-/* Units of the table (units.c): whether a key's unit has others; how many of `of` ("" = any) the unit `text` is, or what is wrong with it;
- * the others of `of`, written to `text` [bytes]. */
+/* The table of units (units.c). kz_unit_is_known: true if other units can be converted to `of`. kz_unit_factor: *factor = size of the unit
+ * `text` in units of `of` ("" = any); returns what is wrong, or NULL. kz_unit_names: writes the other units of `of` to `text` [bytes]. */
 bool kz_unit_is_known(const char *of);
 const char *kz_unit_factor(const char *text, const char *of, double *factor);
 void kz_unit_names(const char *of, char *text, size_t bytes);
 
-/* Bytes of the control character at `c` (UTF-8: C0, DEL or C1, which terminals obey), 0 where there is none. */
+/* Number of bytes of the control character at `c` (UTF-8: C0, DEL or C1, which terminals interpret); 0 if it is not one. */
 int kz_control_bytes(const char *c);
 /* The shortest decimal text that reads back as `value`, in text [32]. */
 void kz_scalar_print(double value, char *text);
 
-/* The field of a key in `scene`: made unset; read from a node (what is wrong, or NULL; *culprit = the node or the value of its
- * list that is wrong); whether it is set; printed as YAML flow text. Of a mapping, clear alone makes sense. */
+/* The field of a key in `scene`. clear: marks it as not given. read: reads it from a node; returns what is wrong, or NULL; *culprit = the node,
+ * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports clear only. */
 void kz_value_clear(const kz_key *key, void *scene);
 const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit);
 bool kz_value_is_set(const kz_key *key, const void *scene);
@@ -144,15 +144,15 @@ typedef struct {
   char message[2000];
 } kz_reading;
 
-/* Records a complaint about `path` at the value of `node`; NULL = a missing key, reported at the mapping it misses from. */
+/* Records a complaint about the key `path` at the value of `node`; NULL = a missing key, reported at its mapping. */
 void kz_complain(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
-/* Sets every field of `scene` to its default, then reads the tree into it by the table. KZ_FAILED where memory ran out. */
+/* Sets every field of `scene` to its default, then reads the tree into it by the table. */
 kz_status kz_reading_keys(kz_reading *reading);
-/* Rules between keys (an axis, the pendulum's parameters), and the values that follow from others. */
+/* Checks rules that connect several keys (an axis, the pendulum's parameters), and sets the values that follow from others. */
 void kz_reading_rules(kz_reading *reading);
 
-/* The tree of a text and of --set options ("KEY=VALUE"), whose labels it refers to. To be freed in every case. */
+/* The tree of a text and of --set options ("KEY=VALUE"); its nodes refer to `labels`. The caller frees it in every case. */
 typedef char kz_option_label[128];
 typedef struct {
   kz_node *root;
@@ -161,23 +161,23 @@ typedef struct {
 kz_status kz_scene_tree_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
                              kz_scene_tree *tree);
 void kz_scene_tree_free(kz_scene_tree *tree);
-/* A tree into a scene that the caller frees; its numerics stay to be resolved. KZ_REFUSED names the first error. */
+/* Reads a tree into a scene, which the caller frees; its numerics are not resolved yet. KZ_REFUSED names the first error. */
 kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene);
-/* Text of a scene, and of --set options ("KEY=VALUE"), into a scene that the caller frees. KZ_REFUSED names the first error. */
+/* Reads the text of a scene and --set options ("KEY=VALUE") into a scene, which the caller frees. KZ_REFUSED names the first error. */
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene);
 void kz_scene_free(kz_scene *scene);
-/* A refusal or failure "KEY|KEY: what is wrong" that another layer made gets the place of the first of its keys that was given
- * (else of the last one's mapping); others stay as they are. Returns `status`. */
+/* Completes a message "KEY|KEY: what is wrong" of another layer with the place of the first of its keys that the scene gives (else of the
+ * last one's mapping). Other messages stay as they are. Returns `status`. */
 kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets);
-/* YAML with every default; reading it gives the same scene. `flat` = one "path: value" a line instead. */
+/* Writes the scene as YAML with every default; reading it gives the same scene. flat = true writes a line "path: value" for each key. */
 void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out);
 /* The scene reference (docs/reference/scene.md). */
 void kz_scene_reference(const kz_key *keys, FILE *out);
 
-/* The same as a JSON schema. Rules between keys of different mappings are the program's own (`check`). */
+/* Writes the keys as a JSON schema. It does not have the rules that connect keys of different mappings; the command check tests them. */
 void kz_scene_schema(const kz_key *keys, FILE *out);
 
-/* The bytes of a scene file, regular, or of standard input ("-"): at most 1 MB. The caller frees *text. */
+/* Reads a regular scene file, or standard input ("-"), of at most 1 MB. The caller frees *text. */
 kz_status kz_scene_load(const char *path, char **text, size_t *length);
 
 #endif

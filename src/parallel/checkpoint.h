@@ -18,7 +18,7 @@ struct kz_checkpoint {
   int file; /* -1: none is open */
   char *path;
   bool ours;     /* begun by this run, or by one with the same fingerprint */
-  bool marked;   /* this rank has said in the header that the file holds records */
+  bool marked;   /* this rank has marked in the header that the file has records */
   uint64_t seed; /* checksum of the header */
   int64_t end;   /* offset of the next section */
   int64_t n_sections;
@@ -36,23 +36,23 @@ typedef struct kz_file_lock {
   bool existed;
 } kz_file_lock;
 kz_status kz_file_lock_take(const char *path, bool may_exist, kz_file_lock *file_lock);
-/* Takes hold of an existing file at once; false where there is none, or where another process holds it. */
+/* Locks an existing file without waiting; false if it does not exist, or if another process has locked it. */
 bool kz_file_lock_try(const char *path, int *file);
-/* Lets the other ranks of this run in. */
+/* Lets the other ranks of this run join. */
 kz_status kz_file_lock_share(const char *path, int file);
 /* Joins as another rank of this run. */
 kz_status kz_file_lock_join(const char *path, int *file);
-/* True where `path` still names the open file. */
+/* True if `path` still names the open file. */
 bool kz_file_lock_names(const char *path, int file);
 
-/* The header of a run with this fingerprint. */
+/* Writes the header of a run with this fingerprint. */
 kz_status kz_header_write(kz_checkpoint *checkpoint, const char *fingerprint);
-/* Reads it back: `unfinished` where the run that created the file ended before its header was written; a damaged header
- * or another fingerprint is refused. */
+/* Reads and checks the header. *unfinished = true if the run that created the file ended before it had written the header. KZ_REFUSED if the
+ * header is damaged or has another fingerprint. */
 kz_status kz_header_read(kz_checkpoint *checkpoint, const char *fingerprint, bool *unfinished);
-/* Says in the header that the file holds a finished record. Any rank; 0, or -1 with errno. */
+/* Marks in the header that the file has a finished record. Any rank. Returns 0, or -1 with errno. */
 int kz_header_mark(kz_checkpoint *checkpoint);
-/* Whether it says so. */
+/* True if the header has this mark. */
 bool kz_header_is_marked(const kz_checkpoint *checkpoint);
 
 #endif

@@ -1,5 +1,5 @@
-/* Tiles are given away by plain messages: rank 0 grants some at a time, from a thread of its own, so that it answers amid its
- * own tiles.
+/* Distribution of tiles by plain messages. Rank 0 grants some tiles at a time, from a thread of its own, so that it answers while it works on
+ * its own tiles.
  *
  *   rank -> 0   ask: seconds it takes for a tile; whether it still works, is idle, or cannot go on
  *   0 -> rank   tiles first .. first + n - 1; whether asking again makes sense
@@ -35,13 +35,13 @@ typedef struct {
   int mpi_error; /* of the thread, MPI_SUCCESS */
 } kz_dispatch;
 
-/* Prepares for `n_tiles` tiles; no messages. To be ended on every rank, whatever it returns. */
+/* Prepares for `n_tiles` tiles without messages. Every rank must call kz_dispatch_end. */
 void kz_dispatch_prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles);
-/* Rank 0 answers from here on; no rank but through kz_dispatch may use MPI before kz_dispatch_end. */
+/* From here on rank 0 answers. Until kz_dispatch_end the ranks may use MPI through kz_dispatch only. */
 void kz_dispatch_begin(kz_dispatch *dispatch);
-/* The next tile of this rank; -1 where none is left, or a rank has halted. */
+/* *tile = the next tile of this rank; -1 if none is left, or if a rank has halted. */
 kz_status kz_dispatch_next(kz_dispatch *dispatch, int64_t *tile);
-/* This rank cannot go on, and no other gets more than it has. */
+/* Tells that this rank cannot go on. The other ranks get no further tiles. */
 kz_status kz_dispatch_halt(kz_dispatch *dispatch);
 /* Rank 0 waits until all others know that nothing is left. */
 kz_status kz_dispatch_end(kz_dispatch *dispatch);

@@ -1,4 +1,4 @@
-/* The inside of kz_ranks: what the files of this layer share. */
+/* The fields of kz_ranks, and functions that the files of this layer share. */
 #ifndef KAPITZA_PARALLEL_RANKS_H
 #define KAPITZA_PARALLEL_RANKS_H
 
@@ -30,9 +30,9 @@ struct kz_ranks {
   } while (0)
 kz_status kz_mpi_fail(int code, const char *file, int line);
 
-/* Signals that ask for a stop are noted from here on. Call before MPI_Init and again after it. */
+/* From here on signals that ask for a stop are recorded. Call it before MPI_Init and again after it. */
 void kz_signals_catch(void);
-/* The name of the signal that asked for a stop, NULL if none came. */
+/* The name of the signal that asked for a stop; NULL if there was none. */
 const char *kz_signals_caught(void);
 
 #endif

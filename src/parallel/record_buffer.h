@@ -1,4 +1,4 @@
-/* Records that a rank keeps until they are delivered to rank 0: blocks of slots, one block = one message. */
+/* Records that a rank keeps until they are delivered to rank 0: blocks of slots; a block is sent as one message. */
 #ifndef KAPITZA_PARALLEL_RECORD_BUFFER_H
 #define KAPITZA_PARALLEL_RECORD_BUFFER_H
 
@@ -18,7 +18,7 @@ typedef struct {
 #define KZ_RECORD_MAX ((size_t)1 << 30)
 
 void kz_record_buffer_begin(kz_record_buffer *buffered, size_t record_bytes);
-/* Room for the record of `tile`, zeroed and aligned for any type. */
+/* Returns zeroed memory for the record of `tile`, aligned for any type. */
 void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile);
 /* Bytes of the largest message. */
 size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered);

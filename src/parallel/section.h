@@ -14,12 +14,12 @@ typedef struct {
   bool varying;          /* a record begins with its length */
 } kz_section;
 
-/* Opens the next section on rank 0: finds it (`known`) or begins it. Room for records of fixed length is reserved on the disk;
- * those of varying length leave holes in the file. */
+/* Opens the next section on rank 0: *known = true if it exists already, else it is begun. Space on the disk is reserved for records of fixed
+ * length; records of varying length leave holes in the file. */
 kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, kz_section *section, bool *known);
-/* Reads the record of a tile in a section that was known; false where there is no valid one. Any rank. */
+/* Reads the record of a tile in a known section; false if there is no valid one. Any rank. */
 bool kz_section_recall(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, void *record);
-/* Bytes that a record uses. */
+/* Number of bytes in use of a record. */
 size_t kz_section_used(const kz_section *section, const void *record);
 /* Counts the opened section as part of the checkpoint. Every rank. */
 void kz_section_adopt(kz_checkpoint *checkpoint, const kz_section *section);

@@ -11,7 +11,7 @@ struct kz_store {
   hid_t file;        /* PATH.part */
 };
 
-/* The group of that name ("/" = root), made where it is missing; closed by the caller. */
+/* Opens the group of that name ("/" = root) and creates it if necessary; the caller closes it. */
 kz_status kz_store_group(kz_store *store, const char *group, hid_t *opened);
 
 /* Attributes of an open object. */
@@ -19,7 +19,7 @@ kz_status kz_attribute_text(hid_t object, const char *name, const char *value);
 kz_status kz_attribute_array(hid_t object, const char *name, hid_t type, hsize_t n, const void *values);
 /* Variable-length UTF-8, closed by the caller. */
 kz_status kz_text_type(hid_t *type);
-/* The text of an attribute, freed by the caller; NULL where there is none. */
+/* The text of an attribute, which the caller frees; NULL if there is none. */
 char *kz_attribute_read_text(hid_t object, const char *name);
 
 #endif

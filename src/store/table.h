@@ -12,8 +12,8 @@ typedef struct {
   const char *group, *name;
   kz_kind kind;
   const char *dimensions[KZ_MAX_DIMENSIONS + 1]; /* NULL-ended; a scale is its own dimension */
-  const char *units, *long_name;       /* units "@NAME": what the group's attribute NAME says, written before; "1|WORDS": 1, as
-                                  * UDUNITS knows it, and ", in WORDS" behind the long name */
+  const char *units, *long_name; /* units "@NAME": the value of the group's attribute NAME, written before; "1|WORDS": unit 1
+                                  * of UDUNITS, and ", in WORDS" is added to the long name */
   const char *flags[KZ_MAX_FLAGS + 1]; /* meanings of 0, 1, 2, ...; NULL-ended */
 } kz_variable;
 

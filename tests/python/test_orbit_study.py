@@ -231,5 +231,6 @@ def test_an_attractor_that_is_not_there_is_refused(kapitza, tmp_path, ranks):
     (tmp_path / "s.yaml").write_text(json.dumps(scene))
     line = kapitza("run", "s.yaml", folder=tmp_path, ranks=ranks, status=2).stderr
     place = f"s.yaml:1:{json.dumps(scene).index('7}') + 1}"
-    assert line == f"kapitza: error: {place}: orbit.attractor: 7 is not the id of an attractor; the search found 1, so choose an id below that\n"
+    said = "7 is not the id of an attractor; the search found 1, so choose an id below that"
+    assert line == f"kapitza: error: {place}: orbit.attractor: {said}\n"
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]

@@ -19,13 +19,13 @@ The tables compare each number that the two papers print or draw with the number
 
 | word | meaning |
 | --- | --- |
-| right | The program's number rounds to the printed number, or it differs from the reference by at most the `bar` of its row. |
-| approximation | The paper prints the result of a formula that it calls approximate. The program's number has no such approximation. |
-| erratum | The paper's own equations do not give the printed number. The column `remark` says what is right. |
-| FAILED | The two numbers differ and no remark explains why, or a remark explains a difference that does not exist. |
+| `right` | The program's number rounds to the printed number, or it differs from the reference by at most the `bar` of its row. |
+| `approximation` | The paper prints the result of a formula that it calls approximate. The program's number has no such approximation. |
+| `erratum` | The paper's own equations do not give the printed number. The column `remark` says what is right. |
+| `FAILED` | The two numbers differ and no remark explains why, or a remark explains a difference that does not exist. |
 
-The column `place` has the paper's number of the figure, the section or, in parentheses, the equation. The bar of whole numbers is
-"equal".
+The column `place` has the paper's number of the figure, the section or, in parentheses, the equation. The column `ours` has the
+program's number. The bar of whole numbers is "equal".
 
 A reference is a value with 10 to 16 digits that was computed without this program (`tests/literature/reference.json`). A Taylor-series
 integrator in 80-bit arithmetic followed the orbits, and Newton's method closed the cycles. Another integrator, of order 8, integrated

@@ -116,7 +116,8 @@ def length(text: str) -> float:
     """Inches of a text such as 86mm."""
     number, unit = text[:-2].strip(), text[-2:]
     if unit not in UNITS or not 0.5 <= float(number) * UNITS[unit] <= 60:
-        raise argparse.ArgumentTypeError(f"{text} is not a width; give a number and one of {', '.join(UNITS)}, such as 86mm, from 0.5 to 60 inches")
+        units = ", ".join(UNITS)
+        raise argparse.ArgumentTypeError(f"{text} is not a width; give a number and one of {units}, such as 86mm, from 0.5 to 60 inches")
     return float(number) * UNITS[unit]
 
 

@@ -4,7 +4,7 @@
 
 #include "request.h"
 
-/* Each writes one answer to standard output; KZ_STOPPED where nobody reads it any more. sequence KZ_UNSET_INTEGER = null. */
+/* Each writes one answer to standard output; KZ_STOPPED if nobody reads it any more. sequence KZ_UNSET_INTEGER = null. */
 kz_status kz_answer_ready(const kz_scene *scene);
 kz_status kz_answer_catalogue(int64_t sequence, bool final, const kz_live_catalogue *catalogue);
 kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_level *level);
@@ -13,7 +13,7 @@ kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const 
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity);
 kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *level);
 kz_status kz_answer_ended(int64_t sequence);
-/* With the present message, which is then forgotten. */
+/* Contains the present message, which is then cleared. */
 kz_status kz_answer_error(int64_t sequence, kz_status status);
 
 #endif

@@ -1,4 +1,4 @@
-/* What requests are answered with: the engine, orbits, charts. */
+/* Answers requests, with the engine, orbits and charts. */
 #ifndef KAPITZA_APP_DRAWING_H
 #define KAPITZA_APP_DRAWING_H
 
@@ -12,7 +12,7 @@ typedef struct {
 void kz_drawing_open(kz_drawing *drawing);
 void kz_drawing_close(kz_drawing *drawing);
 
-/* Answers where, orbit or catalogue. KZ_REFUSED and KZ_FAILED: nothing has been answered. */
+/* Answers where, orbit or catalogue. After KZ_REFUSED and KZ_FAILED no answer has been written. */
 kz_status kz_drawing_answer(kz_drawing *drawing, kz_request *request);
 
 /* Answers a frame or chart; `pause` (with its context) is called every few milliseconds, and anything but KZ_OK ends it. */

@@ -1,4 +1,4 @@
-/* Requests of the command serve: a line of JSON becomes what it asks for (docs/reference/serve.md). */
+/* Requests of the command serve, read from a line of JSON (docs/reference/serve.md). */
 #ifndef KAPITZA_APP_REQUEST_H
 #define KAPITZA_APP_REQUEST_H
 
@@ -25,13 +25,13 @@ typedef struct kz_request {
   int32_t quality;
   int64_t rows, columns;
   kz_integers levels, planes;
-  kz_decimal theta, velocity; /* of where */
+  kz_decimal theta, velocity; /* start, for the request where */
   bool has_scene;
   kz_scene scene; /* the scene with what the request changes: pendulum, window, orbit, chart; numerics not resolved */
   struct kz_request *next;
 } kz_request;
 
-/* Reads a line [length]; `tree` is the scene's. *request is to be freed in every case. KZ_REFUSED says what is wrong. */
+/* Reads a line [length]; `tree` is the tree of the scene. The caller frees *request in every case. KZ_REFUSED: the message says why. */
 kz_status kz_request_read(const kz_node *tree, const char *line, size_t length, kz_request **request);
 void kz_request_free(kz_request *request);
 

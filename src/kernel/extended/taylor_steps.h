@@ -1,11 +1,11 @@
 /* Steps of the Taylor series of the pendulum's equation for a few orbits at once: the inner loops of the quad-precision reference.
- * taylor.f90 makes the forces, loops in C. */
+ * taylor.f90 makes the forces; the loops are in C. */
 #ifndef KAPITZA_TAYLOR_STEPS_H
 #define KAPITZA_TAYLOR_STEPS_H
 
 #include <stdint.h>
 
-/* Orbits at once; highest order in pairs of doubles, and of all; powers of time in a damping that changes. */
+/* Number of orbits at once; highest order in pairs of doubles; highest order; powers of time in a damping that changes. */
 enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_RAMP = 4 };
 
 /* A series in the time of a step, the same for all orbits: sums of two doubles. */
@@ -18,7 +18,7 @@ typedef struct {
   kz_taylor_shared along, across;
   double torque[2];
   double damping[2][KZ_TAYLOR_RAMP]; /* high, low */
-  int32_t has_across, has_ramp;      /* whether there are `across` and `torque`; whether the damping changes */
+  int32_t has_across, has_ramp;      /* 1 if there are `across` and `torque`; 1 if the damping changes */
 } kz_taylor_force;
 
 /* theta (rad), h theta', sin theta, cos theta of the orbits, as sums of three doubles. */
@@ -26,8 +26,8 @@ typedef struct {
   double theta[3][KZ_TAYLOR_LANES], w[3][KZ_TAYLOR_LANES], s[3][KZ_TAYLOR_LANES], c[3][KZ_TAYLOR_LANES];
 } kz_taylor_state;
 
-/* The steps force [n], one after the other. well [KZ_TAYLOR_LANES] becomes 0 where a series is not complete at the last order, or too large
- * at the last one in pairs: that orbit needs shorter steps, and its state is of no meaning. Orbits never look at each other. */
+/* Does the steps force [n], one after the other. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has not converged at the last
+ * order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are independent. */
 void kz_taylor_steps(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well);
 
 #endif

@@ -1,4 +1,4 @@
-/* Taylor series of a centre whose coefficients are pairs of doubles, the later ones doubles. */
+/* Taylor series of a centre. The first coefficients are pairs of doubles, the later ones doubles. */
 #ifndef KAPITZA_KERNEL_INTERVAL_PAIRS_SERIES_H
 #define KAPITZA_KERNEL_INTERVAL_PAIRS_SERIES_H
 
@@ -10,7 +10,7 @@ OPERATION pair scaled(products s, kz_constant factor) {
   return times(sum(s.high, s.low), constant_pair(factor));
 }
 
-/* Coefficients of the velocity, of sine and cosine: the high parts of all, and the low parts of those that are pairs; [0] is given. */
+/* Coefficients of the velocity, of sine and cosine: the high parts of all, and the low parts of the pairs. Those of index 0 are given. */
 typedef struct {
   vector v[P], S[P], C[P], v_low[PAIRS], S_low[PAIRS], C_low[PAIRS];
 } kz_series_of_pairs;
@@ -20,7 +20,7 @@ OPERATION void put_pair(pair value, int n, vector *high, vector *low) {
   low[n] = value.low;
 }
 
-/* Those after coefficient `known`, which are pairs. */
+/* Computes the coefficients that are pairs, after coefficient `known`. */
 OPERATION void expand_pairs(const kz_speed_class *speed, const kz_constant *torque, int known, kz_series_of_pairs *x) {
   for (int n = known; n + 1 < PAIRS; n++) {
     products f = {same(0), same(0)}, s = f, c = f;
@@ -39,7 +39,7 @@ OPERATION void expand_pairs(const kz_speed_class *speed, const kz_constant *torq
   }
 }
 
-/* The others. */
+/* Computes the coefficients that are doubles. */
 OPERATION void expand_doubles(const kz_speed_class *speed, const kz_constant *torque, kz_series_of_pairs *x) {
   for (int n = PAIRS - 1; n + 1 < P; n++) {
     vector f = same(speed->damping.high) * x->v[n], s = same(0), c = same(0);
@@ -55,7 +55,7 @@ OPERATION void expand_doubles(const kz_speed_class *speed, const kz_constant *to
   }
 }
 
-/* What the coefficients from `first` on add to the velocity and, with h / (n + 1), to the angle. */
+/* *faster = the sum of the coefficients from `first` on, for the velocity; *farther = the same times h / (n + 1), for the angle. */
 OPERATION void sum_series(const kz_speed_class *speed, int first, const kz_series_of_pairs *y, pair *faster, pair *farther) {
   vector faster_small = same(0), farther_small = same(0);
   for (int n = P - 1; n >= PAIRS; n--) {

@@ -8,16 +8,16 @@
 #include "kapitza/kernel.h"
 #include "extended/pairs_arithmetic.h"
 
-/* Orders of the Taylor polynomials: of the centre in doubles, and in pairs or quads, of the tangent map - where its rest is small beside the set, and
- * where the frame is kept. KZ_PARTS vectors go together, so that
- * a processor has enough to do while it waits for sums. */
+/* Orders of the Taylor polynomials: of the centre in doubles; in pairs or quads; of the tangent map with new frames, where its remainder is
+ * small compared with the set; of the tangent map with a kept frame. KZ_PARTS vectors are advanced together, so that the processor has
+ * work while it waits for sums. */
 enum { KZ_ORDER_DOUBLES = 22, KZ_ORDER_PAIRS = 40, KZ_ORDER_TANGENT = 8, KZ_ORDER_JACOBIAN = 20, KZ_PARTS = 2 };
 
-/* Of a centre in pairs: so many coefficients are pairs. The others, below 1e-18 of the velocity, are doubles. Of one in quads so many are
- * quads, and the others as before. */
+/* Number of coefficients of a centre that are pairs; the others, below 1e-18 of the velocity, are doubles. Number of coefficients that are
+ * quads, for a centre in quads; the others are as for a centre in pairs. */
 enum { KZ_COEFFICIENTS_PAIRS = 25, KZ_COEFFICIENTS_QUADS = 6 };
 
-/* Relative: far above the rounding of the few operations on positive numbers that a bound is made of. */
+/* Relative margin: far above the rounding of the few operations on positive numbers in a bound. */
 #define KZ_LARGER (1 + 0x1p-40)
 
 /* A real number: high + low, |low| at most half a unit in the last place of high. */
@@ -33,7 +33,7 @@ typedef struct {
 /* A step of 2 pi / n_steps for centres that are at most `fastest` at its beginning. Time s in steps: 0 .. 1. */
 typedef struct {
   int32_t n_steps, order;
-  int32_t frame_steps;                /* after so many steps the frame is renewed */
+  int32_t frame_steps;                /* number of steps after which the frame is renewed */
   double fastest;                     /* rad per drive radian */
   double theta_error, velocity_error; /* (B3) of the centre, a step */
   double tangent_error
@@ -52,11 +52,12 @@ typedef struct {
 
 struct kz_enclosure_tables {
   int32_t precision, n_classes;
-  double swing; /* rad per drive radian: a class serves centres that are slower by this at the beginning of a period */
+  double
+      swing; /* rad per drive radian: a centre may use a class if it is slower than `fastest` by this at the beginning of a period */
   kz_speed_class *classes[];
 };
 
-/* LANES sets. A centre is the sum of a pair and a rest, which is 0 but in quads. */
+/* LANES sets. A centre is the sum of a pair and a rest, which is 0 except in quads. */
 typedef struct {
   pair theta, velocity;
   vector theta_rest, velocity_rest;
@@ -65,29 +66,30 @@ typedef struct {
   mask too_fast, lost;
 } kz_sets;
 
-/* Before a step: sets that are too fast for the class, too large or without area are lost. */
+/* Call it before a step. It marks sets as lost that are too fast for the class, too large, or without area. */
 void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);
-/* Step i of the centres of KZ_PARTS vectors; cosine: the first n coefficients of cos theta along them, in doubles. In quads lost sets stay. */
+/* Step i of the centres of KZ_PARTS vectors. cosine = the first n coefficients of cos theta along them, in doubles. In quads lost sets do not
+ * move. */
 void kz_centres_step_doubles(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
                              vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
 void kz_centres_step_pairs(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
                            vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
 void kz_centres_step_quads(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
                            vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
-/* The same step of the sets around the centres; `jacobian`: their jacobian_error too. */
+/* The same step of the sets around the centres; jacobian = true updates jacobian_error too. */
 void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector cosine[KZ_ORDER_JACOBIAN], bool jacobian,
                         kz_sets *sets);
-/* The centres are off by at most p: the sets become wider. */
+/* Widens the sets by an error p of their centres. */
 void kz_sets_widen(const vector p[2], kz_sets *sets);
-/* The rest of a centre becomes a part of its error. */
+/* Sets the rest of each centre to 0 and widens the sets by it. */
 void kz_sets_drop_rest(kz_sets *sets);
-/* Takes whole turns out of the centres: of pairs, or of quads. */
+/* Removes whole turns from the centres, in pairs or in quads. */
 void kz_sets_wrap(kz_sets *sets);
 void kz_sets_wrap_quads(kz_sets *sets);
-/* Sets become rectangles with the longer side of the former set first. */
+/* Replaces each set by a rectangle around it, along its longer side. */
 void kz_sets_renew_frame(kz_sets *sets);
 
-/* A class of the given precision, for centres up to `fastest`; NULL where it takes too many steps. */
+/* A class of the given precision, for centres up to `fastest` (rad per drive radian); NULL if it needs too many steps. */
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest);
 void kz_speed_class_free(kz_speed_class *speed);
 /* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs. */
@@ -98,7 +100,7 @@ OPERATION vector size_of(vector x) {
   return (vector)((mask)x & INT64_MAX);
 }
 
-/* (B5) The sine is off by less than 1e-14, and changes less than the angle. */
+/* (B5) Sets most_sine: the error of `sine` is below 1e-14, and the sine changes by less than the angle. */
 OPERATION void bound_sine(const kz_speed_class *speed, vector sine, kz_sets *x) {
   const vector most = (size_of(sine) + speed->step[0].high * size_of(x->velocity.high) + speed->turn + 1e-14) * KZ_LARGER;
   x->most_sine = pick(most < 1, most, same(1));

@@ -6,15 +6,16 @@
 
 #include "lanes/lanes.h"
 
-/* All drifts and kicks of a period, in whole blocks of lanes: u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes,
- * of which n and some more move. row [n_stages][n_drift + n_kick]: the coefficients of a drift and a kick; of pendulums that are
- * not mirrored twice as many (table_types.inc). kept [n_stages][KZ_LANES], or NULL: the squares of the reduced angles at the kicks, or
- * not mirrored these angles, from which tangents.c finds the derivative. */
+/* Does all drifts and kicks of a period. u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes; the first n lanes move, and
+ * further ones up to a whole block. row [n_stages][n_drift + n_kick]: coefficients of a drift and a kick; twice as many without mirror
+ * symmetry (table_types.inc). kept [n_stages][KZ_LANES], or NULL: squares of the reduced angles at the kicks (without mirror symmetry the
+ * angles), from which tangents.c computes the derivative. */
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept);
 
-/* The derivative of a period in single precision. row [n_stages][1 + 5 + 5]: a drift, the slope of a kick as a polynomial of the square,
- * and what is to be added to it, over the angle; last: a drift more. c [4][KZ_LANES]: d(u, v)/d(u0, v0), row by row. */
+/* Computes the derivative of a period in single precision. row [n_stages][1 + 5 + 5]: a drift, the slope of a kick as a polynomial of the
+ * square of the angle, and a second polynomial, times the angle, for pendulums without mirror symmetry; last = the last drift. c
+ * [4][KZ_LANES] = d(u, v)/d(u0, v0), row by row. */
 void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
                            int64_t n, float *c);
 

@@ -10,14 +10,14 @@ typedef struct {
   int64_t samples, wrong, flipped, tried;
 } kz_choice;
 
-/* The cheapest setting by kz_setting_cost whose share of wrong labels of the sample is at most 1 - accuracy at the upper
- * end of its 95 % interval, or method exact, where none is. Collective. */
+/* Chooses the cheapest setting (kz_setting_cost) whose share of wrong labels in the sample, at the upper end of its 95 % interval, is at most
+ * 1 - accuracy; method exact if there is none. Collective. */
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice);
 
 /* The choice as attributes of /basin. Rank 0. */
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store);
 
-/* What the choice itself takes, seconds of processor time from samples, is added to *seconds. Not collective. */
+/* Estimates the processor time of the choice from samples and adds it to *seconds. Not collective. */
 kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds);
 
 #endif

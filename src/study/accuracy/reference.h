@@ -8,23 +8,23 @@
 #include "kapitza/study.h"
 
 enum {
-  KZ_REFERENCE_FAR = 128 /* distance of a cell whose neighbours agree up to 64 cells away */
+  KZ_REFERENCE_FAR = 128 /* distance of a cell if all cells up to 64 cells away have the same label */
 };
 
 /* The reference label of one cell; labels are numbers of its attractors from 1, 0 = not settled within max_periods. */
 typedef struct {
   int16_t label;    /* of the cell's start */
-  int16_t flipped;  /* of a start one unit in the last place farther out, in angle and velocity */
-  uint8_t distance; /* cells along an axis to a different label, a power of two; KZ_REFERENCE_FAR = none seen */
-  uint8_t agrees;   /* 1 = another number of steps gave the same label, 0 = it did not, 2 = not asked */
-  uint32_t periods; /* that the start was followed */
+  int16_t flipped;  /* of a start that is larger by one unit in the last place, in angle and velocity */
+  uint8_t distance; /* cells along an axis to a different label, a power of two; KZ_REFERENCE_FAR = none found */
+  uint8_t agrees;   /* 1 = another number of steps gave the same label, 0 = it gave another one, 2 = not tried */
+  uint32_t periods; /* for which the start was followed */
 } kz_reference_label;
 
 typedef struct {
   const kz_basin_plan *plan;
   kz_pendulum pendulum;
   int64_t total;       /* cells of the window */
-  int64_t samples;     /* cells with a reference label: the first of kz_shuffled */
+  int64_t samples;     /* number of cells with a reference label: the first ones in the order of kz_shuffled */
   double max_velocity; /* of kz_dynamics_max_velocity */
   int64_t packed_size;
   double *packed;             /* the attractors, for kz_dynamics_unpack */
@@ -36,23 +36,24 @@ typedef struct {
  * Collective. */
 kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int64_t samples, const char *path,
                                    kz_reference_labels *reference);
-/* Writes the cache where there are more labels than it holds. Rank 0. */
+/* Writes the cache if there are more labels than it has. Rank 0. */
 kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path);
-/* Those of a few cells, by this process alone; what `samples` of them take is added to *seconds. Not collective. */
+/* Makes the labels of a few cells in this process, estimates the processor time of `samples` cells and adds it to *seconds. Not collective. */
 kz_status kz_reference_labels_measure(const kz_scene *scene, int64_t samples, kz_reference_labels *reference, double *seconds);
 void kz_reference_labels_free(kz_reference_labels *reference);
 
-/* The labels of a cache that was made for the same pendulum, window, seed, limit and attractors: as many as there are and at
- * most reference->samples, into reference->labels; returns how many. A missing, damaged or foreign cache gives 0. */
+/* Reads labels from a cache that was made for the same pendulum, window, seed, limit and attractors: at most reference->samples, into
+ * reference->labels. Returns their number; 0 for a missing, damaged or foreign cache. */
 int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *reference);
 
-/* Steps that are accurate enough for reference labels at every speed of the window. KZ_REFUSED where there are none. */
+/* Finds a number of steps that is accurate enough for reference labels at every speed of the window. KZ_REFUSED if there is none. */
 kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics);
 
 /* Cell i in the order of the sample. */
 int64_t kz_reference_labels_cell(const kz_reference_labels *reference, int64_t i);
 
-/* Cells flipped by the last place of the start, cells where the step counts disagree, and the mean number of periods followed. */
+/* Cells whose label the last place of the start changes; cells whose label another number of steps changes, of those tried (asked); and the
+ * mean number of periods followed. */
 typedef struct {
   int64_t flipped, disagree, asked;
   double mean_periods;

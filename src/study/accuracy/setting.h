@@ -9,11 +9,11 @@ typedef struct {
   const char *label;
   int32_t method;        /* KZ_METHOD_ICM, ... */
   const char *scheme;    /* of the kernel's table */
-  int32_t steps;         /* per period; KZ_AUTO: of the processed splitting, by */
-  double tolerance;      /* rad, error of one drive period */
+  int32_t steps;         /* per period; KZ_AUTO = as many as `tolerance` needs, for the processed splitting */
+  double tolerance;      /* rad: error of one drive period */
   int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
   int64_t nodes;         /* of the map table, an axis; not used by KZ_METHOD_DIRECT */
-  bool candidate;        /* of basin.accuracy: no other is both as fast and as accurate as one of these */
+  bool candidate;        /* true: basin.accuracy may choose it; no other setting is both as fast and as accurate */
 } kz_setting;
 
 /* The table. Labels that end in -1992 name the methods of the first published maps of these basins. */
@@ -22,27 +22,27 @@ extern const int kz_setting_count;
 /* The row of method exact. */
 extern const kz_setting *const kz_setting_exact;
 
-/* For the cells of a basin of a pendulum. */
+/* The numerics of a setting, for the cells of a basin of this pendulum. */
 kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, const kz_basin_plan *plan);
 /* The scene with the setting in place of its method, icm and numerics. */
 void kz_setting_apply(const kz_setting *setting, kz_scene *scene);
 
-/* The cost of a setting as a count, which depends on no clock: in kicks of one trajectory, for `cells` cells that take
- * `mean_periods` each. */
+/* The cost of a setting for `cells` cells of `mean_periods` periods each, counted in kicks of one trajectory, so that it does not depend on a
+ * clock. */
 double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods);
 
 /* One setting on the sampled cells. */
 typedef struct {
-  int64_t wrong;       /* sampled cells whose label differs from the reference, of those that are decided */
-  int64_t undecided;   /* of method exact alone */
-  int64_t inside;      /* of these, those without another label next to them */
-  int64_t distance;    /* median distance of the wrong ones from another label, cells; 0 where none is wrong */
+  int64_t wrong;       /* decided cells of the sample whose label differs from the reference */
+  int64_t undecided;   /* cells that method exact does not decide */
+  int64_t inside;      /* wrong cells without another label next to them */
+  int64_t distance;    /* median distance of the wrong cells from another label, in cells; 0 if none is wrong */
   int64_t count_error; /* the largest surplus or lack of cells of one attractor */
   double set_up;       /* processor seconds for map table and trapping regions */
   double cell;         /* processor seconds a cell */
 } kz_measured;
 
-/* Labels the sample and, for a clock that needs more cells, those that follow it up to `timed`; on this rank alone. */
+/* Labels the sample on this rank, and further cells up to `timed` to measure the time. */
 kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
                              kz_measured *measured);
 

@@ -10,7 +10,7 @@
 typedef struct {
   int64_t count;
   const kz_setting **settings; /* [count] */
-  kz_numerics *numerics;       /* [count] what they come to */
+  kz_numerics *numerics;       /* [count] resolved */
   kz_measured *measured;       /* [count] */
   double *seconds;             /* [count] for the whole grid of the basin, without the search for attractors */
   double *wrong;               /* [count] */
@@ -21,7 +21,7 @@ typedef struct {
 /* Group /tradeoff and its table in the summary. Rank 0. */
 kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary);
 
-/* The name of the cache of true labels beside the result, freed by the caller; NULL without a store or memory. */
+/* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
 char *kz_reference_path(const kz_store *store);
 
 bool kz_tradeoff_wanted(const kz_scene *scene);

@@ -10,17 +10,17 @@
 #include "kapitza/store.h"
 #include "kapitza/study_live.h"
 
-/* The attractors whose reached [number] is not 0, and their mirror images. */
+/* Makes the catalogue of the attractors whose reached [number] is not 0, and of their mirror images. The caller frees it. */
 void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);
 void kz_catalogue_free(kz_catalogue *catalogue);
 
-/* The longest period, 1 at least. */
+/* The longest period of an attractor, at least 1. */
 int64_t kz_catalogue_longest(const kz_catalogue *catalogue);
 
 /* Writes group /attractors, with the lines of every closed orbit; `fraction` only `with_fraction`. */
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store);
 
-/* The table for people. */
+/* Prints the table of attractors. */
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
 
 #endif

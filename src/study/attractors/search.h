@@ -8,22 +8,22 @@
 #include "kapitza/parallel.h"
 #include "kapitza/study.h"
 
-/* Starts spread over a window, the trapping regions and the map table of its dynamics. */
+/* A search: its starts, the trapping regions and the map table. */
 typedef struct {
   kz_window window;
   int64_t starts, seed, max_periods;
-  int64_t cells;                       /* that are to be labelled: as finely do trapping regions grow */
-  int64_t table_theta, table_velocity; /* nodes; 0 = no table is made */
-  double max_velocity;                 /* of kz_dynamics_max_velocity */
+  int64_t cells;                       /* number of cells to label later: more cells get a finer grid of trapping regions */
+  int64_t table_theta, table_velocity; /* nodes of the map table; 0 = none */
+  double max_velocity;                 /* kz_dynamics_max_velocity */
 } kz_search;
 
-/* Finds the attractors that the starts end on. Where regions grow, the first starts are pilots: the regions grow around
- * the attractors of most of the window, and the other starts settle soon. state [starts][2], label [starts] as of kz_discover. */
+/* Finds the attractors that the starts end on. If regions are grown, a few starts come first: regions grow around the attractors of most of
+ * the window, and the other starts then settle soon. state [starts][2], label [starts] as in kz_discover. */
 kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
 
-/* Cells along an axis of a grid of trapping regions that pays back where so many cells are to be labelled; 0 = none does. */
+/* Cells an axis of the grid of trapping regions that saves more time than it costs if `cells` cells are labelled; 0 = none does. */
 int64_t kz_regions_cells(int64_t cells);
-/* Grows the regions on that grid, where there is one, around the attractors that are known; on a finer one where hardly anything grows. */
+/* Grows the regions around the known attractors on that grid, or on a finer one if hardly anything grows; without a grid does nothing. */
 void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
@@ -35,14 +35,14 @@ kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_peri
  * settled. In kept stages. Collective. */
 kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
 
-/* The same with KZ_SEARCH_FEW starts at most, by this process alone: *n of them, state and label [KZ_SEARCH_FEW] as above. What all would take
- * is added to *seconds, processor time; a map table of few nodes is made. Not collective. */
+/* Does the search with at most KZ_SEARCH_FEW starts in this process, to estimate its time: *n of them, state and label [KZ_SEARCH_FEW] as above.
+ * Makes a map table of few nodes. The processor time of the whole search is added to *seconds. Not collective. */
 enum { KZ_SEARCH_FEW = 256, KZ_SEARCH_MOST_SOUGHT = 1024 /* starts that a round looks for cycles from */ };
 kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
                             double *seconds);
 
-/* The search for the attractors of a basin, of a window, and of the scene's study basin or attractors, the last without a map table. The largest
- * speed is left to the caller, who has the dynamics. */
+/* The search of a basin, of the study attractors, and of the scene's study basin or attractors (without a map table). The caller sets
+ * max_velocity, because it has the dynamics. */
 kz_search kz_search_of_basin(const kz_basin_plan *plan);
 kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods);
 kz_search kz_search_of(const kz_scene *scene);

@@ -7,29 +7,29 @@
 #include "labelling/doubt.h"
 #include "resilience/resilience.h"
 
-enum { KZ_TILE_CELLS = 16384 }; /* of a tile, about: so many that the few that take long hardly leave lanes empty */
+enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
 
-/* What is known of a labelled window. */
+/* Totals of a labelled window. */
 typedef struct {
   int64_t cells;
   kz_counts counts;
-  double trapped_share; /* of the cells of the trapping regions' grid */
-  double step_error;    /* rad, the largest of one drive period in a sample */
+  double trapped_share; /* share of the cells of the trapping regions' grid that are trapped */
+  double step_error;    /* rad: the largest error of one drive period in a sample */
   kz_doubt doubt;       /* of the labels */
-  double table_error;   /* the same of the map table; NaN where labels do not come from it */
+  double table_error;   /* rad: the same of the map table; NaN without a table */
 } kz_window_summary;
 
-/* Axes and variables of group /basin, before the cells come. */
+/* Declares axes and variables of group /basin, before the cells are written. */
 kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store);
-/* Group /attractors, attributes of /basin, and the summary. */
+/* Writes group /attractors, the attributes of /basin, and the summary. */
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary);
 
-/* The steps of a basin and their error beside its cells, and a line for each class of speeds that is off by more than
- * kz_steps_tolerance. Returns the largest error of a drive period, rad: an upper estimate. */
+/* Prints the steps of a basin and their error, and a warning for each class of speeds whose error exceeds kz_steps_tolerance. Returns an
+ * upper estimate of the largest error of a drive period, rad. */
 double kz_basin_warn_steps(const kz_scene *scene, FILE *summary);
 
-/* What basin.shocks asks of all points. */
+/* The plan of basin.shocks, for all strobe points. */
 kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan);
 
 bool kz_basin_wanted(const kz_scene *scene);

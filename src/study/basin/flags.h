@@ -5,7 +5,7 @@
 #include "../attractors/catalogue.h"
 #include "kapitza/store.h"
 
-/* flag_values (-1 = not settled, then the ids) and flag_meanings of basin/attractor; none of more than 16,000 attractors. */
+/* Writes flag_values (-1 = not settled, then the ids) and flag_meanings of basin/attractor; nothing for more than 16,000 attractors. */
 kz_status kz_basin_flags_write(const kz_catalogue *catalogue, kz_store *store);
 
 #endif

@@ -6,8 +6,9 @@
 #include "tiles.h"
 #include "window/starts.h"
 
-/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on: not decided by the scene's own numerics, but
- * for KZ_PROVED and the like, which are of basin.proof, whatever the method; no tile has them. KZ_LEFT: of method direct, which leaves it so. */
+/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
+ * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_QUADS are from basin.proof with any method; they occur in the file only, not in
+ * tiles. KZ_LEFT is a doubtful label of method direct. */
 enum {
   KZ_UNSETTLED = 0,
   KZ_INSIDE = 1,
@@ -30,7 +31,7 @@ typedef struct {
   int16_t other;    /* of an undecided cell: the second candidate, 0 = none */
   uint8_t evidence; /* from KZ_FOLLOWED on */
   uint8_t proof;    /* KZ_PROVED, ..._IN_PAIRS, ..._IN_QUADS, 0 = not proved */
-  uint8_t proved;   /* where it is proved to end: number of kz_dynamics */
+  uint8_t proved;   /* number of the attractor, in kz_dynamics, on which it is proved to end */
   uint8_t unused;   /* 0 */
 } kz_cell_label;
 
@@ -42,28 +43,28 @@ typedef struct {
   kz_dynamics *dynamics;
   kz_search search; /* of the starts */
   kz_tiles tiles;
-  kz_images *images;       /* of a window given by its centre and width, for method exact; else NULL */
+  kz_images *images;       /* for a window by centre and width with method exact; else NULL */
   kz_window_starts starts; /* of all cells */
   int64_t batch;           /* cells that are followed together */
   const kz_run *run;
   kz_workspace *work;       /* of this rank */
   kz_cell_label *cell;      /* [kz_tile_capacity] a tile, unpacked */
   kz_local_records records; /* tiles of this rank, packed */
-  int before_level;         /* that left the cells of the present stage */
-  int level;                /* of the present stage, KZ_LEVELS: candidates of what none decides */
+  int before_level;         /* the level at which the cells of the present stage were doubtful */
+  int level;                /* of the present stage; KZ_LEVELS: it looks for candidates of undecided cells */
   int16_t wanted;           /* label of the pending cells: 0 or KZ_DOUBTFUL */
-  int64_t *before;          /* [own tiles + 1] pending cells in the tiles before */
-  int64_t n_pending;        /* cells of the present stage that labels pending ones again, */
-  const int64_t *pending;   /* [n_pending] */
-  int64_t *reached;         /* [INT16_MAX + 1] starts and tiles that ended on each attractor */
+  int64_t *before;          /* [own tiles + 1]: number of pending cells in all tiles before */
+  int64_t n_pending;        /* number of pending cells that the present stage labels again */
+  const int64_t *pending;   /* [n_pending]: their numbers */
+  int64_t *reached;         /* [INT16_MAX + 1]: number of starts and tiles that ended on each attractor */
 } kz_window_labels;
 
-/* Finds the attractors and labels all own cells: `records` has the tiles of this rank, `reached` what all ranks found. To be freed in
- * every case. Collective. */
+/* Finds the attractors and labels all cells but mirror images. Out: `records`, the tiles of this rank; `reached`, of all ranks. The caller
+ * frees *labelling in every case. Collective. */
 kz_status kz_label_window(kz_window_labels *labelling);
 void kz_window_labels_free(kz_window_labels *labelling);
 
-/* The own cells of a packed tile into labelling->cell. */
+/* Unpacks the labelled cells of a tile into labelling->cell. */
 kz_status kz_tile_labels_unpack(kz_window_labels *labelling, const kz_local_record *kept);
 
 #endif

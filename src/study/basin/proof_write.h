@@ -1,4 +1,4 @@
-/* What is proved, in the file and for people. */
+/* Writes the results of a proof to the file and the summary. */
 #ifndef KAPITZA_STUDY_PROOF_WRITE_H
 #define KAPITZA_STUDY_PROOF_WRITE_H
 

@@ -12,14 +12,14 @@ kz_cost kz_chart_cost(const kz_scene *scene);
 kz_status kz_chart_measure(const kz_scene *scene, double *seconds);
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
-/* Ends of start `place` of the list at n <= KZ_CHART_POINTS points (x fastest). */
+/* ending [n] of start number `place` at n <= KZ_CHART_POINTS points; point [n] = their numbers, x fastest. */
 enum { KZ_CHART_POINTS = 256 };
 void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending);
 
-/* The group /chart and the summary, from endings [starts][y][x]. Rank 0. */
+/* Writes the group /chart and the summary from endings [starts][y][x]. Rank 0. */
 kz_status kz_chart_publish(const kz_chart_plan *plan, const kz_chart_ending *endings, kz_store *store, FILE *summary);
 
-/* Start `place` of the list: rad, rad per drive radian. */
+/* The velocity of start number `place`, rad per drive radian. */
 static inline double kz_chart_velocity(const kz_chart_plan *plan, int64_t place) {
   return plan->velocity.values[plan->velocity.count == 1 ? 0 : place];
 }

@@ -1,4 +1,4 @@
-/* The map table of one dynamics, its rows shared out. */
+/* The map table; the ranks share its rows. */
 #ifndef KAPITZA_STUDY_MAP_TABLE_H
 #define KAPITZA_STUDY_MAP_TABLE_H
 

@@ -1,18 +1,18 @@
-/* Starts in physical units labelled. Not collective. */
+/* Labels of starts in rad and rad per drive radian. Not collective. */
 #ifndef KAPITZA_STUDY_STARTS_H
 #define KAPITZA_STUDY_STARTS_H
 
 #include "kapitza/dynamics.h"
 
-/* Where n starts [n][2] (rad, rad per drive radian) end by direct integration: end [n] = number of kz_dynamics, 0 = not settled; periods [n]
- * until then. */
+/* Follows n starts, start [n][2] (rad, rad per drive radian), by direct integration. end [n] = number of the attractor in kz_dynamics, 0 = not
+ * settled; periods [n] = drive periods until then. */
 void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
                       int64_t *periods);
-/* The same, decided by the precision levels; what none of them decides ends where direct integration puts it. */
+/* The same by the precision levels. A start that no level decides gets the end by direct integration. */
 void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
                       int64_t *periods);
 
-/* Takes n starts from their release to the strobe from which labels follow them; state [n][2] then: half-turns, velocity. */
+/* Moves n starts from their release to the strobe at which labelling begins. state [n][2] = half-turns and velocity there. */
 void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state);
 
 #endif

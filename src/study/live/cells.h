@@ -5,7 +5,7 @@
 #include "resident.h"
 #include "window/curve.h"
 
-/* What is known of a cell. */
+/* State of a cell of a frame. */
 enum { KZ_CELL_PENDING = 0, KZ_CELL_FOLLOWED = 1, KZ_CELL_DECIDED = 2, KZ_CELL_UNDECIDED = 3 };
 typedef struct {
   int16_t label; /* number of kz_dynamics, 0 = not settled */
@@ -14,32 +14,33 @@ typedef struct {
   uint8_t state;
 } kz_frame_cell;
 
-/* Cells that are followed at a time. */
+/* Largest number of cells that are followed together. */
 enum { KZ_FRAME_TILE = 1024 };
 
-/* The starts of a frame's cells: at any depth, with the images of the last frame where these serve. To be freed where it is KZ_OK. */
+/* Makes the starts of a frame's cells, at any depth; it reuses the images of the last frame if possible. The caller frees them if the status
+ * is KZ_OK. */
 kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts);
 
-/* Follows n <= KZ_FRAME_TILE cells (their numbers, theta fastest). */
+/* Follows n <= KZ_FRAME_TILE cells; number [n] = their numbers in the frame, theta fastest. */
 kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_frame_cell *cells);
 
-/* The cells of a moving frame whose window is a curve, by samples along it. */
+/* Samples along the curve that a deep window becomes: they label the cells of a moving frame. */
 typedef struct {
   kz_window_curve curve;
-  kz_frame_cell *cell; /* [curve.count] of each sample */
-  int64_t *wanted;     /* [curve.count] those that are to be followed */
+  kz_frame_cell *cell; /* [curve.count] result of each sample */
+  int64_t *wanted;     /* [curve.count] numbers of the samples to follow */
 } kz_samples;
 
-/* To be freed. curve.count is 0 where the window is no curve. */
+/* The caller frees *samples. curve.count is 0 if the window is not a curve. */
 void kz_samples_make(const kz_window_starts *starts, kz_samples *samples);
 void kz_samples_free(kz_samples *samples);
 
-/* Follows n cells, any number, as their samples. */
+/* Follows any number n of cells by following their samples. */
 kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
                             kz_frame_cell *cells);
 
-/* Looks for attractors that up to n of these cells end on, which have not settled. *born: some have joined. */
+/* Looks for attractors from up to n of these cells, which have not settled. *born = true if it has found some. */
 kz_status kz_cells_discover(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                             bool *born);
 

@@ -11,10 +11,10 @@ struct kz_engine {
   const kz_live_catalogue *shown;  /* the last catalogue: tracks go on from it */
 };
 
-/* The resident for a scene, made where there is none; it belongs to the engine. */
+/* *resident = the resident for a scene; the engine makes it if necessary and owns it. */
 kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident);
 
-/* Its attractors have become more. */
+/* Makes the catalogue of a resident anew after new attractors were found. */
 void kz_engine_list(kz_engine *engine, kz_resident *resident);
 
 #endif

@@ -9,15 +9,14 @@ typedef struct {
   double share, low, high;
 } kz_share;
 kz_share kz_share_of(int64_t hits, int64_t n);
-/* The same for n different ones of `total`: the variance is smaller by (total - n)/(total - 1), and none is left for all of
- * them. */
+/* The same for n different items of `total`: the variance is smaller by the factor (total - n)/(total - 1), and 0 for n = total. */
 kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 
-/* The smallest sample whose upper bound is at most `share` where no hit is seen. */
+/* The smallest sample size for which the upper bound is at most `share` if there is no hit. */
 int64_t kz_share_sample(double share);
 
-/* front [n] = 1 where no other entry costs at most as much, is wrong at most as often, and is better in one of the two; else
- * 0. */
+/* front [n] = 1 for entries of the Pareto front: no other entry is at least as good in seconds [n] and in wrong [n], and better in one of
+ * them; else 0. */
 void kz_pareto(int64_t n, const double *seconds, const double *wrong, int8_t *front);
 
 /* rank [n]: the indices of `cost` from the lowest to the highest; equal costs keep their order. */

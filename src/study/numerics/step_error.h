@@ -6,7 +6,7 @@
 
 #include "kapitza/kernel.h"
 
-/* Classes of speeds: the fastest half of all speeds, half of those, and so on; class 0 is what is left. */
+/* Classes of speeds: the fastest half of all speeds is the last class, the faster half of the rest the class before, and so on. */
 enum { KZ_SPEED_CLASSES = 8 };
 
 typedef struct {
@@ -14,7 +14,8 @@ typedef struct {
   double error[KZ_SPEED_CLASSES];     /* rad, of one drive period, an upper estimate; DBL_MAX = diverges */
 } kz_speed_errors;
 
-/* Step doubling on a sample of the speeds up to `fastest` (rad per drive radian), and those that rotation and fall bring. */
+/* Errors by step doubling, on a sample of states with speeds up to `fastest` (rad per drive radian), or up to those of rotations and falls
+ * if these are larger. */
 kz_speed_errors kz_step_error_classes(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
 
 /* The class of the largest error, and that error, rad. */

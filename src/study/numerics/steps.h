@@ -1,14 +1,14 @@
-/* How many steps a drive period takes so that its error, as step_error.h measures it, is small enough. Not collective. */
+/* The number of steps a drive period that keeps its error, measured by step_error.h, small enough. Not collective. */
 #ifndef KAPITZA_STUDY_STEPS_H
 #define KAPITZA_STUDY_STEPS_H
 
 #include "step_error.h"
 
-/* Steps that resolve the fastest oscillation of a pendulum as `gentle` steps do that of a weak drive. */
+/* The number of steps that resolves the fastest oscillation of this pendulum as well as `gentle` steps do for a weak drive. */
 double kz_steps_by_stiffness(const kz_pendulum *pendulum, double gentle);
 
-/* Raises the steps until every class is right to `tolerance` (rad); false where that does not help, or takes more than
- * `most` steps: then the last number tried. */
+/* Raises numerics->steps_per_period until the error of every class is at most `tolerance` (rad). False if this does not help or needs more
+ * than `most` steps; the steps are then the last number tried. */
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics);
 
 /* False where the error of one drive period exceeds KZ_STEPS_REFUSED or the motion diverges: labels would be random. */
@@ -20,7 +20,7 @@ bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, do
 int32_t kz_steps_scaled(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest, double tolerance,
                         int32_t least, int32_t most);
 
-/* split6 with its own number of steps: where nothing else is asked for. */
+/* split6 with its default number of steps. */
 kz_numerics kz_steps_plain(void);
 
 #endif

@@ -11,9 +11,10 @@ typedef struct {
   kz_cycle cycle; /* of a closed orbit; period 0 = open */
   kz_motion motion;
   kz_orbit_features features;
-  double lyapunov, lyapunov_error; /* per drive period, largest exponent along the record; NaN but of the pendulum */
-  bool parting;                    /* neighbours of an open record part for good */
-  char settles_on[KZ_NAME_LENGTH]; /* the attractor that an open record of the pendulum leads to; empty where none is known */
+  double lyapunov,
+      lyapunov_error; /* largest exponent along the record, per drive period; NaN for other models than the pendulum */
+  bool parting;       /* neighbours of an open record separate for good */
+  char settles_on[KZ_NAME_LENGTH]; /* name of the attractor that an open record of the pendulum leads to; "" = none is known */
 } kz_orbit;
 
 /* Group /orbit of the file. */

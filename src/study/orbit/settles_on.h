@@ -4,9 +4,9 @@
 
 #include "orbit/motion.h"
 
-/* The name of the attractor that the pendulum settles on from a state, into name [KZ_NAME_LENGTH]; empty where nothing attracts,
- * or where it has not settled after as many periods as the damping needs (at most a million steps). `fastest` = a velocity that
- * the motion reaches. */
+/* Writes the name of the attractor that the pendulum settles on from a state to name [KZ_NAME_LENGTH]; "" if there is no attractor, or if it
+ * has not settled within the periods that the damping needs (at most a million steps). `fastest` = a velocity that the motion reaches, rad
+ * per drive radian. */
 kz_status kz_settles_on(const kz_model *model, kz_state state, double fastest, char *name);
 
 #endif

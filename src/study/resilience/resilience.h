@@ -7,7 +7,7 @@
 #include "kapitza/study.h"
 #include "shocks.h"
 
-/* What is asked of all points. */
+/* The settings, the same for all points. */
 typedef struct {
   double scale, farthest; /* as in kz_shock_problem */
   int64_t n_sizes;
@@ -15,7 +15,7 @@ typedef struct {
   int64_t max_periods;
 } kz_resilience_plan;
 
-/* A strobe point, and what was found there; ends are numbers of kz_dynamics, 0 = not settled. */
+/* A strobe point and its shocks; ends are numbers of kz_dynamics, 0 = not settled. */
 typedef struct {
   int64_t number, phase;
   double theta, velocity;
@@ -23,14 +23,14 @@ typedef struct {
   kz_harmless harmless[KZ_MOST_SHOCK_SIZES];
 } kz_resilience;
 
-/* The strobe points of the attractors of a catalogue that have a period, one after the other: [*n], to be freed. */
+/* All strobe points of the non-chaotic attractors of a catalogue, [*n]; the caller frees them. */
 kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n);
 
-/* Fills point [n], on every rank. A kept stage. Collective. */
+/* Fills point [n] on every rank, in a kept stage. Collective. */
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point);
 
-/* The same for one of the points, to be timed; own: how many of them are not mirror images of others. */
+/* Does the same for one of the points, to measure its time; *own = number of points that are not mirror images of others. */
 kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n, const kz_resilience *point,
                             int64_t *own);
 

@@ -6,20 +6,20 @@
 
 #include "kapitza/common.h"
 
-/* Where n starts [n][2] (rad, rad per drive radian) end: end [n], periods [n] until then. */
+/* Finds where n starts, start [n][2] (rad, rad per drive radian), end: end [n], after periods [n] drive periods. */
 typedef void (*kz_ends_fn)(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods);
 
-/* What is asked. The size of a shock (dtheta, dv) is hypot(dtheta, dv / scale). */
+/* The problem: shocks of one state. The size of a shock (dtheta, dv) is hypot(dtheta, dv / scale). */
 typedef struct {
   kz_ends_fn ends;
   void *context;
-  double from[2];  /* the motion: rad, rad per drive radian */
-  int32_t own;     /* its end */
+  double from[2];  /* the state: rad, rad per drive radian */
+  int32_t own;     /* its end without a shock */
   double scale;    /* velocity that counts as much as 1 rad, rad per drive radian */
   double farthest; /* largest change of the velocity, rad per drive radian */
 } kz_shock_problem;
 
-/* A shock: end = where it leads, size NaN where none was found. */
+/* A shock; end = the end after it; size NaN = none was found. */
 typedef struct {
   double theta, velocity, size; /* rad, rad per drive radian, rad */
   int32_t end;
@@ -28,7 +28,7 @@ typedef struct {
 /* Harmless shocks among evenly spread ones of at most `size`. */
 typedef struct {
   int64_t harmless, shocks;
-  double return_time; /* mean drive periods of the harmless ones until the end is certain */
+  double return_time; /* mean number of drive periods after a harmless shock until the end is certain */
 } kz_harmless;
 
 /* The smallest shocks: [0] of the angle alone, [1] of the velocity alone (size: the change itself, rad or rad per drive radian), [2]

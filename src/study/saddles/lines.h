@@ -1,11 +1,11 @@
-/* Lines of starts that cross a window, and the cycles that show on them. */
+/* Lines of starts that cross a window, and the search for cycles along them. */
 #ifndef KAPITZA_STUDY_SADDLES_LINES_H
 #define KAPITZA_STUDY_SADDLES_LINES_H
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* Lines of constant angle, or rows of constant velocity, all cut into as many pieces: a tile each. */
+/* Lines of constant angle, or rows of constant velocity; each is cut into `pieces` pieces, and a piece is a tile. */
 typedef struct {
   const kz_pendulum *pendulum;
   const kz_saddles_plan *plan;
@@ -14,21 +14,21 @@ typedef struct {
   int64_t count, pieces;
 } kz_lines;
 
-/* Cycles as kz_dynamics_search_line gives them, each once, in the order of periods and speeds; cycle is to be freed. */
+/* Cycles in the form of kz_dynamics_search_line, each once, in the order of periods and speeds. The caller frees `cycle`. */
 typedef struct {
   int64_t count;
   double *cycle;
 } kz_found;
 
 size_t kz_cycle_bytes(const kz_saddles_plan *plan);
-/* What one piece may give. */
+/* Largest number of bytes that one piece can give. */
 size_t kz_piece_bytes(const kz_saddles_plan *plan);
 
-/* Those of a round = 0 ..: rows, lines of constant angle, then both twice as near, and so on. */
+/* The lines of a round 0, 1, ...: rows, lines of constant angle, then both with half the distance, and so on. */
 kz_lines kz_lines_of(const kz_pendulum *pendulum, const kz_saddles_plan *plan, int round);
-/* One piece, found [kz_piece_bytes]: kz_dynamics_search_line. */
+/* Searches one piece by kz_dynamics_search_line: found [kz_piece_bytes], work [2]; returns the number of cycles. */
 int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts, double *found, int64_t work[2]);
-/* All pieces: what they show joins the cycles of rank 0. Collective; kept. */
+/* Searches all pieces in a kept stage and adds their cycles to *found on rank 0. Collective. */
 kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *name, kz_found *found);
 
 #endif

@@ -23,9 +23,9 @@ typedef struct {
   double *k, *m; /* the axes */
   kz_curve_task *tasks;
   int64_t n_tasks;
-  double *log_multiplier, *angle; /* [m][k], rank 0 alone, as the rest */
+  double *log_multiplier, *angle; /* [m][k]; this and the following on rank 0 only */
   uint8_t *stable;
-  double *curves; /* [task][2][k]: the curve; of a subharmonic order exact and formula */
+  double *curves; /* [task][2][k]: the curve; for a subharmonic order the exact curve and the formula */
 } kz_chart;
 
 /* The groups' variables and attributes, and a few words for people. On rank 0. */

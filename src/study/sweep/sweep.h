@@ -5,8 +5,8 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* What a sweep can measure: its code, its word in the scene, what runs it and what times samples of it; NULL: the branches, which serve
- * four measures. */
+/* The measures of a sweep: code, word in the scene, function that runs it, function that estimates its time. NULL = part of the branches,
+ * which serve four measures. */
 #define KZ_SWEEP_MEASURES(MEASURE)                                                                        \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL, NULL)                                                  \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL, NULL)                                        \
@@ -34,7 +34,7 @@ enum {
   KZ_END_NOT_LOCATED
 };
 
-/* A pendulum for every value of one parameter: what a walk goes along. False where there is none. */
+/* Gives the pendulum at a value of one parameter; false if there is none. A walk goes along such a path. */
 typedef bool (*kz_pendulum_fn)(const void *context, double value, kz_pendulum *pendulum);
 typedef struct {
   kz_pendulum_fn pendulum;
@@ -44,19 +44,19 @@ typedef struct {
 /* The path of the sweep itself; `scene` must outlive it. */
 kz_path kz_sweep_path(const kz_scene *scene);
 
-/* Continues an attracting cycle from value `from` towards `to`, in steps that shrink where it changes fast. Returns the last
- * value where it exists and attracts: `to`, or its end to 1e-10 relative. *point comes back as the cycle there. */
+/* Continues an attracting cycle from the value `from` towards `to`, in steps that shrink if it changes fast. Returns the last value at which
+ * it exists and attracts: `to`, or its end, known to 1e-10 relative. In and out: *point, the cycle at that value. */
 double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point);
 
-/* The kind of end that the multipliers of a cycle at its very end tell. */
+/* The kind of end (KZ_END_FOLD, ...) from the multipliers of a cycle at its end. */
 int kz_end_kind(const kz_branch_point *end);
 
-/* The attracting symmetric period-2 cycle about inverted (flutter) near the inverted state of a pendulum that has lost its
- * stability by multiplier -1: searched with growing amplitudes along the eigenvector. */
+/* Finds the attracting symmetric period-2 cycle about inverted (flutter) of a pendulum whose inverted state has lost its stability by the
+ * multiplier -1. It searches along the eigenvector with growing amplitudes; false if it finds none. */
 bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter);
 
-/* The value between low and high where a multiplier of the inverted state passes -1, to rounding: where 1 + trace + det of its
- * one-period map changes sign. NaN where it does not. */
+/* The value between low and high, to rounding, at which a multiplier of the inverted state passes -1: 1 + trace + det of its one-period map
+ * changes sign there. NaN if it does not change sign. */
 double kz_flutter_critical(const kz_path *path, double low, double high);
 
 /* ---- catalogues: what attracts at each value ---- */
@@ -65,17 +65,17 @@ enum { KZ_SWEEP_MOST = 128 }; /* attractors at one value */
 
 typedef struct {
   kz_branch_point point; /* period 0 = chaotic: theta, velocity are its mean angle and mean velocity */
-  int64_t hits;          /* starts or cells that ended on it */
-  double shock[3];       /* smallest that leave its basin: of the angle, the velocity, both; NaN = none, or not asked */
+  int64_t hits;          /* number of starts or cells that ended on it */
+  double shock[3];       /* smallest shocks that leave its basin: of angle, velocity, both; NaN = none, or not measured */
 } kz_sweep_entry;
 
 typedef struct {
   int64_t count, samples; /* attractors; starts or cells that were followed */
-  kz_lifetime lifetime;   /* of the starts, where it is asked for */
+  kz_lifetime lifetime;   /* of the starts, if it is measured */
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 } kz_sweep_catalogue;
 
-/* Lifetime of the motions of the sweep's starts at one value, and its variables. The first is collective. */
+/* The lifetime of the motions of the sweep's starts at one value (collective), and its variables in the file (rank 0). */
 kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
                             kz_lifetime *life);
 kz_status kz_sweep_lifetime_write(const kz_sweep_plan *plan, const kz_sweep_catalogue *catalogue, kz_store *store);
@@ -92,7 +92,7 @@ typedef struct {
   kz_sweep_entry entry;
   int64_t value;          /* index */
   int64_t previous, next; /* nodes; -1 = none */
-  double first, last;     /* where the branch begins before or ends after this node, if it does */
+  double first, last;     /* value at which the branch begins before, or ends after, this node */
   int32_t first_kind, last_kind;
 } kz_sweep_node;
 
@@ -107,7 +107,7 @@ kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const
                                  kz_sweep_branches *branches);
 void kz_sweep_branches_free(kz_sweep_branches *branches);
 
-/* Everything about branches into the file and the summary. Rank 0. */
+/* Writes everything about branches to the file and the summary. Rank 0. */
 kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue, const kz_sweep_branches *branches,
                                   kz_store *store, FILE *summary);
 
@@ -118,22 +118,23 @@ kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_st
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
-/* What each takes, seconds of processor time from samples, is added to *seconds. Not collective. */
+/* Estimate the processor time of each from samples and add it to *seconds. Not collective. */
 kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds);
 kz_status kz_sweep_flutter_range_measure(const kz_scene *scene, double *seconds);
 kz_status kz_sweep_release_measure(const kz_scene *scene, double *seconds);
 kz_status kz_sweep_strobe_measure(const kz_scene *scene, double *seconds);
 
-/* What such a measure does with its records on rank 0. */
+/* Writes the records of such a measure, on rank 0. */
 typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, kz_store *store, FILE *summary);
 /* Runs a stage whose context is the scene, then `write`. Collective. */
 kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary);
 
-/* Releases from rest at t = 0, `angle` [n] rad from inverted: stays [n] = 1 where the motion stays within half a turn of it. */
+/* Releases the pendulum from rest at t = 0, at angle [n] (rad) from inverted. stays [n] = 1 if the motion stays within half a turn of
+ * inverted, else 0. */
 kz_status kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
                                uint8_t *stays);
 
-/* A line for each class of speeds that is off by more than is good, at the worst of the values. */
+/* Prints a warning for each class of speeds whose error is too large, at the value with the largest error. */
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
 
 /* One row of kz_studies. */

@@ -1,4 +1,4 @@
-/* Starts that are asked about, once the attractors are known. */
+/* Starts to be labelled by the command where, after the attractors are known. */
 #ifndef KAPITZA_STUDY_QUESTION_H
 #define KAPITZA_STUDY_QUESTION_H
 
@@ -13,13 +13,13 @@ typedef struct {
   kz_decision *decision;           /* [n] */
 } kz_question;
 
-/* Labels the starts as method exact does: fills `decision`, where candidates take the place of KZ_DOUBTFUL. */
+/* Labels the starts as method exact does: fills `decision`. An undecided start gets its candidates in place of KZ_DOUBTFUL. */
 kz_status kz_question_decide(kz_question *question);
 void kz_question_free(kz_question *question);
 
-/* Endings that say nothing. */
+/* Clears endings [n]. */
 void kz_endings_clear(int64_t n, kz_ending *endings);
-/* What was decided, in words of the catalogue. */
+/* Fills endings [n] from the decisions, with names of the catalogue. */
 void kz_question_answer(const kz_question *question, const kz_catalogue *catalogue, kz_ending *endings);
 
 #endif

@@ -1,5 +1,5 @@
-/* The map stretches a small window along one direction and presses it together across. Where its cells are handed over to doubles, a deep
- * window is a curve: samples along it tell where all cells go. Not collective. */
+/* The map stretches a small window along one direction and compresses it across. When its cells are handed over to doubles, a deep window has
+ * become a curve, so samples along the curve give the labels of all cells. Not collective. */
 #ifndef KAPITZA_STUDY_WINDOW_CURVE_H
 #define KAPITZA_STUDY_WINDOW_CURVE_H
 
@@ -8,20 +8,20 @@
 typedef struct {
   const kz_hand_over *hand_over;
   double middle[2], along[2]; /* of the window, and the curve's direction (a unit vector): shares of the images' width */
-  double step;                /* from one sample to the next, along it */
-  int64_t count;              /* samples; 0: the window is no curve */
+  double step;                /* distance of neighbouring samples */
+  int64_t count;              /* number of samples; 0 = the window is not a curve */
   int64_t columns;            /* of the window */
-  double *column, *row;       /* of a cell: their sum is its place in steps from sample 0 */
+  double *column, *row;       /* column [j] + row [i] = place of cell (i, j), in steps from sample 0 */
 } kz_window_curve;
 
-/* Sixteen samples a cell, so that a cell's start moves by a thirty-second of a cell at most; along the curve's width the starts differ by less
- * than a tenth of that. To be freed. */
+/* Makes the curve with 16 samples a cell, so that a sample is at most 1/32 of a cell from the start of a cell; across the curve starts differ
+ * by less than a tenth of that. The caller frees it. */
 void kz_window_curve_make(const kz_window_starts *starts, kz_window_curve *curve);
 void kz_window_curve_free(kz_window_curve *curve);
 
 /* The sample nearest to a cell. */
 int64_t kz_window_curve_sample(const kz_window_curve *curve, int64_t cell);
-/* Where a sample is when it is handed over: half-turns, rad per drive radian; *periods that it has spent then. */
+/* The state of a sample when it is handed over: state [2], half-turns and rad per drive radian, after *periods drive periods. */
 void kz_window_curve_state(const kz_window_curve *curve, int64_t sample, double state[2], int64_t *periods);
 
 #endif

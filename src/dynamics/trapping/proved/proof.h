@@ -6,7 +6,7 @@
 
 #include "kapitza/dynamics.h"
 
-/* An ellipse of the region: its own bounds, along theta and velocity, tell most sets apart from it. */
+/* An ellipse of the region, with the box around it, which excludes most sets quickly. */
 typedef struct {
   kz_proof_ellipse ellipse;
   double centre[2], half[2]; /* rad, rad per drive radian */
@@ -28,27 +28,27 @@ typedef struct {
   double centre[2], a[2], b[2];
 } kz_parallelogram;
 
-/* Half of a cell: rad, rad per drive radian. */
+/* half [2] = half the width of a cell: rad, rad per drive radian. */
 void kz_proof_half_cell(const kz_proof *proof, double half[2]);
-/* Centre of cell f: exactly mirrored. */
+/* state [2] = centre of cell f, exactly mirrored: rad, rad per drive radian. */
 void kz_proof_centre(const kz_proof *proof, int64_t f, double state[2]);
-/* Cells inside a part join its attractor. */
+/* Gives all cells inside a part the number of its attractor. */
 void kz_proof_draw(kz_proof *proof, const kz_proof_part *part);
 
-/* The parallelogram that holds a set. */
+/* A parallelogram that contains a set. */
 kz_parallelogram kz_proof_image(const kz_proof *proof, const kz_enclosure *set);
-/* False for one that is too large to be covered, or reaches beyond the grid's velocities. */
+/* False if a parallelogram is too large to be covered by cells, or reaches beyond the grid's velocities. */
 bool kz_proof_within(const kz_proof *proof, const kz_parallelogram *image);
-/* The attractor that all cells of a parallelogram within the grid belong to, 0 where there is none. */
+/* The attractor of all cells that a parallelogram within the grid touches; 0 if they do not have the same one. */
 uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *image);
-/* The attractor of the region that holds a set, 0 where it does not. */
+/* The attractor whose region contains a set; 0 if none does. */
 uint8_t kz_proof_holds(const kz_proof *proof, const kz_enclosure *set);
-/* Whether a set lies inside an ellipse. */
+/* True if a set lies inside an ellipse. */
 bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], const kz_enclosure *set);
 
 /* An ellipse that the map of `period` drive periods carries into itself and contracts; radius 0: none was found. */
 kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, double theta, double velocity);
-/* An ellipse grows: every start in it is proved to reach it as it was. */
+/* Grows an ellipse by rings; every start in the larger ellipse is proved to reach the one before. */
 void kz_proof_grow_rings(const kz_enclosure_tables *tables, const double centre[2], kz_proof_ellipse *ellipse);
 
 /* z with M z = x. */
@@ -58,7 +58,7 @@ static inline void kz_proof_solve(const double M[2][2], const double x[2], doubl
   z[1] = (M[0][0] * x[1] - M[1][0] * x[0]) / det;
 }
 
-/* Relative: tests that decide are passed by more than their own rounding. */
+/* Relative margin of decisive tests, above their own rounding. */
 #define KZ_PROOF_ROUNDING 1e-9
 
 #endif
