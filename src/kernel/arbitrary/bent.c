@@ -73,16 +73,17 @@ static void move_second(parts *p, kz_jet *jet) {
   }
 }
 
-/* Coefficient i of the third degree: i factors of y. */
+/* The third degree: its source is P1 (w P2 + g (P1^2 / 2) / 3); coefficient i has i factors of y. */
 static void move_third(const parts *p, kz_jet *jet) {
+  row pull[3] = {0};
+  for (int i = 0; i < 3; i++) {
+    add_product(p->n, 1, p->lift, p->second[i], pull[i]);
+    add_product(p->n, 1.0L / 3, p->gain, p->square[i], pull[i]);
+  }
   for (int i = 0; i < 4; i++) {
-    row mixed = {0}, cube = {0}, source = {0};
-    if (i < 3) add_product(p->n, 1, p->x[0], p->second[i], mixed);
-    if (i > 0) add_product(p->n, 1, p->x[1], p->second[i - 1], mixed);
-    if (i < 3) add_product(p->n, 1.0L / 3, p->x[0], p->square[i], cube);
-    if (i > 0) add_product(p->n, 1.0L / 3, p->x[1], p->square[i - 1], cube);
-    add_product(p->n, 1, p->lift, mixed, source);
-    add_product(p->n, 1, p->gain, cube, source);
+    row source = {0};
+    if (i < 3) add_product(p->n, 1, p->x[0], pull[i], source);
+    if (i > 0) add_product(p->n, 1, p->x[1], pull[i - 1], source);
     move(p, source, jet, 3 + i, NULL);
   }
 }

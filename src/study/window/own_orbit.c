@@ -7,15 +7,15 @@
 
 /* Each further try has a third more bits: twice as many take five times as long, and are seldom needed. */
 enum {
-  FEWEST_BITS = 192,  /* of the first try, */
-  BESIDE_WIDTH = 128, /* and that many beyond the size of the window that the start is in */
+  FEWEST_BITS = 160,  /* of the first try, */
+  BESIDE_WIDTH = 112, /* and that many beyond the size of the window that the start is in */
   MOST_BITS = 12288,
   TRY_EVERY = 8,  /* periods between two looks whether doubles decide the rest, */
   LOOK_EVERY = 64 /* and whether they end anywhere */
 };
 
-/* rad: the orbit is followed in many digits as long as its error is below this; doubles add as much in a period. */
-static const double tolerable = 1e-17;
+/* rad: the orbit is followed in many digits as long as its error is below that of a state in quad precision. */
+static const double tolerable = 1e-31;
 
 /* The error of an orbit as an ellipse, in units of the error of a period: it grows far beyond the range of doubles. */
 typedef struct {
@@ -66,12 +66,18 @@ static bool ends_nowhere(const kz_start *start, kz_dynamics *dynamics, int64_t m
   return decision->label == 0;
 }
 
-/* The rest of the motion in double precision. */
-static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
+/* Where the orbit is, with its error. */
+static kz_start start_of(const path *p) {
   const long double unit = unit_of(p) * unit_of(p);
   kz_start start = {.periods = p->periods,
                     .error = {(double)(unit * p->error.xx), (double)(unit * p->error.xy), (double)(unit * p->error.yy)}};
   kz_arbitrary_read(p->orbit, start.theta, start.velocity);
+  return start;
+}
+
+/* The rest of the motion in double precision. */
+static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
+  const kz_start start = start_of(p);
   for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_FINE; level++) {
     kz_dynamics_label(dynamics, level, KZ_LEVEL_DOUBLE, 1, &start, max_periods, decision);
     if (decision->label != KZ_DOUBTFUL) return;
@@ -80,16 +86,23 @@ static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_per
   decision->label = KZ_DOUBTFUL;
 }
 
+/* The rest of the motion in quad precision, once that has as many digits as the orbit has left. */
+static void try_in_quads(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
+  const kz_start start = start_of(p);
+  kz_dynamics_label(dynamics, KZ_LEVEL_QUAD, KZ_LEVEL_FINE, 1, &start, max_periods, decision);
+}
+
 /* Until it is decided, or has lost its digits: decision->label is KZ_DOUBTFUL then. */
 static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   decision->label = KZ_DOUBTFUL;
-  for (; p->periods <= max_periods && !is_lost(p); p->periods++) {
-    if (p->periods % TRY_EVERY == 0 || p->periods == max_periods) {
+  for (; !is_lost(p); p->periods++) {
+    if (p->periods % TRY_EVERY == 0 || p->periods >= max_periods) {
       try_in_doubles(p, dynamics, max_periods, decision);
-      if (decision->label != KZ_DOUBTFUL || p->periods == max_periods) return KZ_OK;
+      if (decision->label != KZ_DOUBTFUL || p->periods >= max_periods) return KZ_OK;
     }
     KZ_TRY(advance(p));
   }
+  try_in_quads(p, dynamics, max_periods, decision);
   return KZ_OK;
 }
 

@@ -6,7 +6,7 @@
 
 #include "kapitza/dynamics.h"
 
-/* Follows the start in more and more digits until double precision decides the rest of its motion. decision->label = number of an attractor;
+/* Follows the start in more and more digits until double or quad precision decides the rest of its motion. decision->label = number of an attractor;
  * 0 = not settled within max_periods; KZ_DOUBTFUL = undecided even with 10,000 bits, or with the most bits of the build. */
 kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision);
