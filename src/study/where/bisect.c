@@ -1,5 +1,5 @@
-/* Bisection in windows about the point found so far: each is 1e10 times narrower than the last one, and its cells are handed over by its
- * own reference orbit. */
+/* Bisection in windows about the point found so far: each is as narrow as the last one could tell, some 1e20 times narrower, and its points
+ * are handed over by its own reference orbit. */
 #include "bisect.h"
 
 #include <math.h>
@@ -11,9 +11,11 @@
 #include "numerics/cells.h"
 #include "window/images.h"
 
-enum { POINTS = 17, MOST_WIDENINGS = 6 };
-/* Shares of a window's width: how near the boundary is found in it, the next window's width, and that of one that missed it. */
-static const double nearest = 1e-12, narrower = 1e-10, wider = 100;
+/* Those within fill the lanes of an orbit in quad precision. */
+enum { POINTS = 9, MOST_WIDENINGS = 6 };
+/* Shares of a window's width: how near the boundary is looked for in it, the next window's width in those of the bracket that is found, and
+ * the width of one that missed it. */
+static const double nearest = 1e-21, roomy = 4, wider = 100;
 
 /* A piece of the line between the two starts: a window whose points have the same share along both axes. */
 typedef struct {
@@ -23,7 +25,7 @@ typedef struct {
   kz_axis axis[2];
   kz_images *images;
   kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
-  double share[POINTS];
+  __float128 share[POINTS];
   kz_decision decision[POINTS];
 } piece;
 
@@ -37,12 +39,25 @@ static kz_coordinate coordinate_of(const piece *p, int axis, double share) {
   return (kz_coordinate){.centre = p->axis[axis].centre.text, .width = p->axis[axis].width.text, .share = share};
 }
 
-/* Labels POINTS points from one share to another; what quad precision leaves open stays so. */
-static kz_status label_points(piece *p, double from, double to) {
+/* Labels the points from the first to the last one, evenly spread; what quad precision leaves open stays so. */
+static kz_status label_points(piece *p, int first, int last) {
   const kz_labeller labeller = {
       .dynamics = p->question->dynamics, .max_periods = p->question->max_periods, .start = start_point, .context = p};
-  for (int i = 0; i < POINTS; i++) p->share[i] = from + (to - from) * i / (POINTS - 1);
-  return kz_label(&labeller, POINTS, NULL, p->decision);
+  const __float128 from = p->share[0], step = (p->share[POINTS - 1] - from) / (POINTS - 1);
+  int64_t item[POINTS];
+  for (int i = first; i <= last; i++) {
+    item[i] = i;
+    if (i > 0 && i < POINTS - 1) p->share[i] = from + step * i;
+  }
+  return kz_label(&labeller, last - first + 1, item + first, p->decision + first);
+}
+
+/* The points i and i + 1 become the ends. */
+static void close_in(piece *p, int i) {
+  p->share[0] = p->share[i];
+  p->decision[0] = p->decision[i];
+  p->share[POINTS - 1] = p->share[i + 1];
+  p->decision[POINTS - 1] = p->decision[i + 1];
 }
 
 /* The pair of neighbours nearest to the middle of which both are decided, and differently: the number of the first; -1: none. */
@@ -69,31 +84,31 @@ static kz_status follow_piece(piece *p) {
   return KZ_OK;
 }
 
-/* The share at which the labels change, as finely as the window tells; *found: whether they do. */
-static kz_status search_piece(piece *p, double *share, bool *found, kz_bisection *bisection) {
-  double from = -0.5, to = 0.5;
+/* Closes in on a change of the labels, as finely as the window tells or as is asked for; *found: whether there is one. Then it lies between the
+ * ends. */
+static kz_status search_piece(piece *p, double finest, bool *found) {
   *found = false;
+  p->share[0] = -0.5;
+  p->share[POINTS - 1] = 0.5;
   KZ_TRY(follow_piece(p));
-  while (to - from > nearest) {
-    KZ_TRY(label_points(p, from, to));
-    const int i = meeting(p);
-    if (i < 0) break;
+  KZ_TRY(label_points(p, 0, POINTS - 1));
+  for (int i = meeting(p); i >= 0; i = meeting(p)) {
     *found = true;
-    from = p->share[i];
-    to = p->share[i + 1];
-    for (int side = 0; side < 2; side++) bisection->label[side] = p->decision[i + side].label;
+    close_in(p, i);
+    if (!(p->share[POINTS - 1] - p->share[0] > finest)) break;
+    KZ_TRY(label_points(p, 1, POINTS - 2));
   }
-  *share = (from + to) / 2;
   return KZ_OK;
 }
 
 /* The window's centre moves by a share of its width. */
-static kz_status move_centre(piece *p, double share, int64_t digits) {
-  for (int i = 0; i < 2; i++) {
-    const kz_coordinate moved = coordinate_of(p, i, share);
+static kz_status move_centre(piece *p, __float128 share, int64_t digits) {
+  const double part[2] = {(double)share, (double)(share - (double)share)};
+  for (int i = 0; i < 4; i++) {
+    const kz_coordinate moved = coordinate_of(p, i / 2, part[i % 2]);
     char text[KZ_DECIMAL_LENGTH];
     KZ_TRY(kz_coordinate_text(&moved, digits, text, sizeof text));
-    strcpy(p->axis[i].centre.text, text);
+    strcpy(p->axis[i / 2].centre.text, text);
   }
   return KZ_OK;
 }
@@ -109,22 +124,33 @@ static kz_status begin(piece *p, int64_t digits) {
   return move_centre(p, 0.5, digits + MORE);
 }
 
+/* The next window: about the ends of the bracket that was found, or wider than the one that has missed the boundary. */
+static kz_status go_on(piece *p, bool found, int64_t digits, kz_bisection *bisection) {
+  const __float128 bracket = p->share[POINTS - 1] - p->share[0];
+  if (!found) {
+    p->width *= wider;
+    return KZ_OK;
+  }
+  KZ_TRY(move_centre(p, p->share[0] + bracket / 2, digits));
+  p->width *= roomy * (double)bracket;
+  for (int side = 0; side < 2; side++) bisection->label[side] = p->decision[side * (POINTS - 1)].label;
+  return KZ_OK;
+}
+
 static kz_status narrow(piece *p, int64_t digits, kz_bisection *bisection) {
-  const double way = fmax(fabs((double)p->way[0]), fabs((double)p->way[1]));
+  const double way = fmax(fabs((double)p->way[0]), fabs((double)p->way[1])), enough = pow(10, -(double)digits) / way;
   int widenings = 0;
-  while (way * p->width > pow(10, -(double)digits)) {
-    double share;
+  while (p->width > enough) {
     bool found;
     open_piece(p);
-    const kz_status status = search_piece(p, &share, &found, bisection);
+    const kz_status status = search_piece(p, fmax(nearest, enough / p->width / roomy), &found);
     kz_images_free(p->images);
     KZ_TRY(status);
     if (!found && ++widenings > MOST_WIDENINGS)
       return kz_fail(KZ_FAILED,
                      "--boundary: no start that settles was found on one side of theta = %.40s...; give other starts",
                      p->axis[0].centre.text);
-    if (found) KZ_TRY(move_centre(p, share, digits + 20));
-    p->width *= found ? narrower : wider;
+    KZ_TRY(go_on(p, found, digits + 20, bisection));
   }
   return KZ_OK;
 }
