@@ -55,7 +55,7 @@ typedef struct {
   int64_t values[KZ_LIST_MAX];
 } kz_integers;
 
-enum { KZ_BOUNDARY_DECADES = 10, KZ_BOUNDARY_MOST_DECADES = 23 };
+enum { KZ_BOUNDARY_FEWEST_DECADES = 2, KZ_BOUNDARY_MOST_DECADES = 23 };
 enum { KZ_MOST_SHOCK_SIZES = 16 };
 /* The search for the smallest shocks that leave a basin. The size of a shock is hypot(dtheta, dv / scale). */
 typedef struct {
@@ -80,8 +80,8 @@ typedef struct {
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;
   struct {
-    int64_t pairs;   /* starts, each with a partner at every distance */
-    int64_t decades; /* of distances below 1e-2 rad; more than KZ_BOUNDARY_DECADES only with method exact */
+    int64_t pairs, decades; /* starts; of their partners' distances */
+    double farthest;        /* distance of the first partner, rad */
   } boundary;
   bool has_shocks;
   kz_shocks_plan shocks;

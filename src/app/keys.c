@@ -186,10 +186,12 @@ const kz_key kz_keys[] = {
             "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that share "
             "their boundary."),
     INTEGER("basin.boundary.pairs", 100, 1e8, "50000", basin.boundary.pairs,
-            "Starts of the window, each with a partner at 1e-2, 1e-3, ... rad."),
-    INTEGER("basin.boundary.decades", 2, KZ_BOUNDARY_MOST_DECADES, "10", basin.boundary.decades,
-            "Decades of these distances: 10 go down to 1e-12 rad; more need basin.method exact, because doubles cannot "
-            "distinguish such starts."),
+            "Starts of the window, each with a partner at `farthest`, a tenth of that, ... rad."),
+    REAL("basin.boundary.farthest", "rad", 1e-300, 1, "0.01", basin.boundary.farthest,
+         "Distance of the first partner. With method exact it may be any share of the width of a deep window."),
+    INTEGER("basin.boundary.decades", KZ_BOUNDARY_FEWEST_DECADES, KZ_BOUNDARY_MOST_DECADES, "10", basin.boundary.decades,
+            "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact, because "
+            "doubles cannot distinguish such starts."),
     INTEGER("basin.phases", 2, 64, "", basin.phases,
             "Also releases every cell at so many phases of the drive, spread evenly over a period from 0 on: how much of the "
             "window ends "

@@ -69,8 +69,28 @@ def test_distances_below_the_last_place_of_a_double(kapitza, tmp_path):
     assert np.all((low < known)[apart] & (known < high)[apart])
     assert group["slope_low"].values[-2] < 1 < group["slope_high"].values[-2]
     (tmp_path / "s.yaml").write_text(json.dumps(scene(0.15)))
-    done = kapitza("check", "s.yaml", "--set", "basin.method=direct", "--set", "basin.boundary.decades=11", folder=tmp_path, status=2)
-    assert "basin.boundary.decades: 11 go down to 1e-13 rad" in done.stderr
+
+
+def test_pairs_within_a_deep_window(kapitza, tmp_path):
+    """Pairs nearer than the window is wide are handed over as its cells are. Across 1e-28 about the edge of the inverted state's basin, a
+    straight line nearly along a side, 2/pi times their distance over the width end differently."""
+    width = 1e-28
+    deep = scene(0.15)
+    axes = {name: {"centre": centre, "width": str(width), "count": 2} for name, centre in (("theta", EDGE), ("velocity", 0))}
+    deep["basin"] = {**axes, "attractors": {"starts": 512}, "boundary": {"pairs": 400, "farthest": width, "decades": 2}}
+    group = run(kapitza, tmp_path, deep, ranks=None)[0].group("boundary")
+    known = 2 / np.pi * group["distance"].values[1:] / width
+    assert group["distance"].values == pytest.approx(width * np.array([1, 0.1, 0.01]))
+    assert np.all((group["uncertain_low"].values[1:] < known) & (known < group["uncertain_high"].values[1:]))
+
+
+@pytest.mark.parametrize("keys, message", [
+    (["method=direct", "boundary.decades=11"], "basin.boundary.decades: 11 go down to 1e-13 rad"),
+    (["boundary.farthest=1e-24"], "it must be 1e-23 at least, or farthest at most the width of a window whose cells")])
+def test_pairs_too_near_for_their_numbers(kapitza, tmp_path, keys, message):
+    (tmp_path / "s.yaml").write_text(json.dumps(scene(0.15)))
+    settings = [word for key in keys for word in ("--set", f"basin.{key}")]
+    assert message in kapitza("check", "s.yaml", *settings, folder=tmp_path, status=2).stderr
 
 
 def test_any_number_of_ranks(fractal, kapitza, tmp_path):

@@ -8,10 +8,10 @@
 #include "attractors/catalogue.h"
 #include "attractors/search.h"
 #include "basin.h"
-#include "boundary.h"
 #include "label_parts.h"
-#include "proof.h"
+#include "pairs.h"
 #include "phases.h"
+#include "proof.h"
 #include "shocks_write.h"
 
 /* s a cell, as measured: its record, its measures, its place in the file. */
@@ -147,7 +147,8 @@ static kz_status measure_cells(sample *s) {
   kz_window_starts_make(plan, &s->scene->parameters.pendulum, s->dynamics, images, &s->labelling.starts);
   kz_images_free(images);
   s->seconds += WRITE_SECONDS * (double)(plan->theta.count * plan->velocity.count);
-  const kz_status status = plan->method == KZ_METHOD_EXACT ? measure_exact(s, n) : measure_followed(s, n);
+  kz_status status = plan->method == KZ_METHOD_EXACT ? measure_exact(s, n) : measure_followed(s, n);
+  if (status == KZ_OK && plan->has_boundary) status = kz_pairs_measure(plan, &s->labelling, &s->seconds);
   kz_window_starts_free(&s->labelling.starts);
   free(s->labelling.work);
   KZ_TRY(status);
@@ -171,7 +172,6 @@ static kz_status measure_parts(sample *s) {
   kz_catalogue catalogue = {0};
   kz_status status = basin_cost_discover(s, &catalogue);
   if (status == KZ_OK) status = measure_cells(s);
-  if (status == KZ_OK) status = kz_boundary_measure(&s->scene->basin, s->dynamics, &s->seconds);
   if (status == KZ_OK) status = kz_phases_measure(s->scene, s->dynamics, &s->seconds);
   if (status == KZ_OK) status = measure_shocks(s, &catalogue);
   if (status == KZ_OK) status = kz_proof_measure(s->scene, s->dynamics, &s->seconds);

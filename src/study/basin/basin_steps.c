@@ -5,6 +5,7 @@
 #include "basin.h"
 #include "numerics/processed.h"
 #include "numerics/resolve.h"
+#include "pairs.h"
 #include "proof.h"
 
 static void print_numerics(const kz_scene *scene, FILE *summary) {
@@ -19,23 +20,12 @@ static void print_numerics(const kz_scene *scene, FILE *summary) {
     fprintf(summary, " (its default is %d)", (int)scheme.default_steps);
 }
 
-/* Pairs that are nearer than doubles can tell need labels in more precision. */
-static kz_status check_boundary(const kz_basin_plan *plan) {
-  const bool exact = isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
-  if (!plan->has_boundary || plan->boundary.decades <= KZ_BOUNDARY_DECADES || exact) return KZ_OK;
-  return kz_fail(
-      KZ_REFUSED,
-      "basin.boundary.decades: %lld go down to 1e-%lld rad, which double precision does not tell apart; it must be %d "
-      "at most, or basin.method exact",
-      (long long)plan->boundary.decades, (long long)plan->boundary.decades + 2, KZ_BOUNDARY_DECADES);
-}
-
 /* Without damping nothing is labelled. What basin.accuracy chooses is compared with reference labels. */
 kz_status kz_basin_check(const kz_scene *scene) {
   const kz_motions motions = kz_motions_of_basin(scene);
   kz_numerics reference;
   if (!(motions.pendulum.beta > 0)) return KZ_OK;
-  KZ_TRY(check_boundary(&scene->basin));
+  KZ_TRY(kz_pairs_check(&scene->basin));
   kz_proof *proof;
   const kz_status status = kz_proof_plan(scene, &proof);
   kz_proof_free(proof);

@@ -10,9 +10,6 @@
 kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                            kz_store *store, FILE *summary);
 
-/* Estimates the processor time of the pairs from some of them and adds it to *seconds. */
-kz_status kz_boundary_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds);
-
 /* Writes the mean lifetime, from the tail of the settling times in the store, as attributes of /basin and a line of the summary. Rank 0. */
 kz_status kz_lifetime_write(const kz_scene *scene, kz_store *store, FILE *summary);
 

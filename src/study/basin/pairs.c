@@ -1,0 +1,214 @@
+#include "pairs.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "labelling/labeller.h"
+#include "labelling/starts.h"
+#include "numerics/cells.h"
+
+enum {
+  STARTS = 64, /* of a tile, each with a partner at every distance */
+  POINTS = STARTS * (1 + KZ_PAIR_DISTANCES)
+};
+
+/* The nearest pairs that doubles and pairs of doubles tell apart, rad, and that the images of a window do, a share of its width. */
+static const double nearest_of_doubles = 1e-12, nearest_of_pairs = 1e-25, nearest_of_images = 1e-18;
+
+typedef struct {
+  const kz_basin_plan *plan;
+  kz_dynamics *dynamics;
+  kz_images *images; /* of the window, where the partners lie in it or about it too; else NULL */
+  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+} pairing;
+
+typedef struct {
+  int64_t pairs[KZ_PAIR_DISTANCES], uncertain[KZ_PAIR_DISTANCES];
+} pair_record;
+
+/* Shares of the window from its lower left corner, and a distance more, rad and rad per drive radian. */
+typedef struct {
+  double share[2], offset[2];
+} point;
+
+/* The starts of a tile and their partners, and where they end. */
+typedef struct {
+  const pairing *pairing;
+  point point[POINTS];
+  double plain[2 * POINTS];
+  int32_t end[POINTS];
+  int64_t periods[POINTS];
+  kz_decision decision[POINTS];
+} pair_tile;
+
+int kz_distances_of(const kz_basin_plan *plan) {
+  return (int)plan->boundary.decades + 1;
+}
+
+double kz_distance_of(const kz_basin_plan *plan, int d) {
+  return pow(10, log10(plan->boundary.farthest) - d);
+}
+
+static double narrower_side(const kz_basin_plan *plan) {
+  return fmin((double)kz_axis_width(&plan->theta), (double)kz_axis_width(&plan->velocity));
+}
+
+static bool is_exact(const kz_basin_plan *plan) {
+  return isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
+}
+
+/* Whether doubles do not tell the window's cells apart and partners are as near as it is wide, so that its images serve them. */
+static bool is_within(const kz_basin_plan *plan) {
+  const bool is_deep = kz_axis_is_deep(&plan->theta) || kz_axis_is_deep(&plan->velocity);
+  return is_exact(plan) && is_deep && plan->boundary.farthest <= narrower_side(plan);
+}
+
+kz_status kz_pairs_check(const kz_basin_plan *plan) {
+  static const double rounding = 1.01;
+  const bool exact = is_exact(plan), within = is_within(plan);
+  const double least = within  ? fmax(nearest_of_images * narrower_side(plan), DBL_MIN)
+                       : exact ? nearest_of_pairs
+                               : nearest_of_doubles,
+               nearest = kz_distance_of(plan, (int)plan->boundary.decades);
+  const int most = (int)floor(log10(rounding * plan->boundary.farthest / least));
+  if (!plan->has_boundary || rounding * nearest >= least) return KZ_OK;
+  const char *what = within  ? "the images of this window do"
+                     : exact ? "a pair of doubles does"
+                             : "double precision does",
+             *or = within  ? ""
+                   : exact ? ", or farthest at most the width of a window whose cells doubles do not tell apart"
+                           : ", or basin.method exact";
+  if (most < KZ_BOUNDARY_FEWEST_DECADES)
+    return kz_fail(
+        KZ_REFUSED,
+        "basin.boundary.farthest: %g rad is too near: %s not tell starts apart that are nearer than %.0e rad; it must be "
+        "%.0e at least%s",
+        plan->boundary.farthest, what, least, least * pow(10, KZ_BOUNDARY_FEWEST_DECADES), or);
+  return kz_fail(KZ_REFUSED,
+                 "basin.boundary.decades: %lld go down to %.0e rad, which %s not tell apart; it must be %d at most%s",
+                 (long long)plan->boundary.decades, nearest, what, most, or);
+}
+
+/* Start i of an evenly spread sequence (M. Roberts' R2) and its partners, in directions that spread evenly too. */
+static void spread(const kz_basin_plan *plan, int64_t i, point *p) {
+  const double angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
+  *p = (point){.share = {fmod(0.5 + (double)i * 0.75487766624669276, 1), fmod(0.5 + (double)i * 0.56984029099805327, 1)}};
+  for (int d = 0; d < kz_distances_of(plan); d++) {
+    const double distance = kz_distance_of(plan, d);
+    p[1 + d] = (point){{p->share[0], p->share[1]}, {distance * cos(angle), distance * sin(angle)}};
+  }
+}
+
+/* A kz_start_fn. */
+static kz_status start_at(void *context, int64_t i, int32_t level, kz_start *start) {
+  const pair_tile *t = context;
+  const pairing *p = t->pairing;
+  const kz_axis *const axes[] = {&p->plan->theta, &p->plan->velocity};
+  const point *at = t->point + i;
+  *start = (kz_start){.periods = 0};
+  if (p->images) {
+    __float128 place[2];
+    for (int axis = 0; axis < 2; axis++)
+      place[axis] = ((__float128)at->share[axis] - 0.5) + at->offset[axis] / kz_axis_width(axes[axis]);
+    kz_hand_over_start(&p->hand_over[level], place[0], place[1], start);
+  } else {
+    kz_axis_at(axes[0], at->share[0], at->offset[0], start->theta);
+    kz_axis_at(axes[1], at->share[1], at->offset[1], start->velocity);
+  }
+  return KZ_OK;
+}
+
+/* By integration in doubles alone. */
+static kz_status follow_plainly(const pairing *p, int64_t n, pair_tile *t) {
+  for (int64_t i = 0; i < n; i++) {
+    kz_start start;
+    KZ_TRY(start_at(t, i, KZ_LEVEL_DOUBLE, &start));
+    memcpy(t->plain + 2 * i, (double[]){start.theta[0], start.velocity[0]}, 2 * sizeof(double));
+  }
+  kz_follow_starts(p->dynamics, p->plan->max_periods, n, t->plain, t->end, t->periods);
+  return KZ_OK;
+}
+
+/* In quad precision without regard to the error: that is an error of the start, far below the smallest distance. Left out, pairs that no level
+ * decides would be missed among the uncertain. */
+static kz_status follow_in_quads(const pairing *p, int64_t i, pair_tile *t) {
+  kz_start s;
+  KZ_TRY(start_at(t, i, KZ_LEVEL_QUAD, &s));
+  kz_dynamics_follow_reference(p->dynamics, KZ_REFERENCE_STEPS, 1, p->plan->max_periods - s.periods,
+                               (double[]){s.theta[0], s.velocity[0]}, (double[]){s.theta[1], s.velocity[1]}, t->end + i,
+                               t->periods + i);
+  return KZ_OK;
+}
+
+/* By the method's own labels: with their errors, or by integration. */
+static kz_status follow(const pairing *p, int64_t n, pair_tile *t) {
+  const kz_labeller labeller = {.dynamics = p->dynamics, .max_periods = p->plan->max_periods, .start = start_at, .context = t};
+  if (p->plan->method != KZ_METHOD_EXACT) return follow_plainly(p, n, t);
+  KZ_TRY(kz_label(&labeller, n, NULL, t->decision));
+  for (int64_t i = 0; i < n; i++) {
+    t->end[i] = t->decision[i].label;
+    if (t->end[i] == KZ_DOUBTFUL) KZ_TRY(follow_in_quads(p, i, t));
+  }
+  return KZ_OK;
+}
+
+static kz_status count_tile(void *context, int64_t tile, void *record) {
+  const pairing *p = context;
+  pair_record *out = record;
+  pair_tile *t = kz_malloc(sizeof *t);
+  const int distances = kz_distances_of(p->plan), stride = 1 + distances;
+  t->pairing = p;
+  for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, t->point + stride * i);
+  const kz_status status = follow(p, (int64_t)STARTS * stride, t);
+  for (int64_t i = 0; status == KZ_OK && i < STARTS; i++)
+    for (int d = 0; d < distances; d++) {
+      const int32_t own = t->end[stride * i], other = t->end[stride * i + 1 + d];
+      out->pairs[d] += own > 0 && other > 0;
+      out->uncertain[d] += own > 0 && other > 0 && own != other;
+    }
+  free(t);
+  return status;
+}
+
+static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *labelling) {
+  pairing p = {.plan = plan, .dynamics = labelling->dynamics, .images = is_within(plan) ? labelling->images : NULL};
+  const double reach = 0.5 + plan->boundary.farthest / narrower_side(plan);
+  for (int32_t level = 0; p.images && level < KZ_LEVEL_ARBITRARY; level++)
+    p.hand_over[level] = kz_hand_over_at(p.images, level, reach);
+  return p;
+}
+
+static kz_stage stage_of(pairing *p) {
+  return (kz_stage){.name = "pairs",
+                    .n_tiles = (p->plan->boundary.pairs + STARTS - 1) / STARTS,
+                    .record_bytes = sizeof(pair_record),
+                    .work = count_tile,
+                    .context = p,
+                    .keep = true,
+                    .everywhere = true};
+}
+
+kz_status kz_pairs_measure(const kz_basin_plan *plan, const kz_window_labels *labelling, double *seconds) {
+  pairing p = pairing_of(plan, labelling);
+  const kz_stage stage = stage_of(&p);
+  if (is_within(plan) && !p.images) return KZ_OK; /* they take longer than an estimate may */
+  return kz_stage_measure(&stage, 16, 0.5, seconds);
+}
+
+kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain) {
+  pairing p = pairing_of(plan, labelling);
+  const kz_stage stage = stage_of(&p);
+  pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
+  kz_status status = kz_stage_run(labelling->run, &stage, records);
+  for (int d = 0; d < kz_distances_of(plan); d++) {
+    uncertain[d] = (kz_uncertain){.distance = kz_distance_of(plan, d)};
+    for (int64_t tile = 0; status == KZ_OK && tile < stage.n_tiles; tile++) {
+      uncertain[d].pairs += records[tile].pairs[d];
+      uncertain[d].uncertain += records[tile].uncertain[d];
+    }
+  }
+  free(records);
+  return status;
+}
