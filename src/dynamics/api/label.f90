@@ -114,11 +114,11 @@ contains
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
       if (.not. allocated(place)) then
-        call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, orbit, ending)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, orbit, ending)
       else
         some = orbit(place)
         found = ending(place)
-        call follow_orbits(carrier, d%flow, d%regions, d%attractors, most, handover, .false., some, found)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., some, found)
         orbit(place) = some
         ending(place) = found
       end if

@@ -1,16 +1,15 @@
 !> How far the image of an ellipse is from that of the tangent map: states on its rim are moved by the map itself.
 module kz_labels_bending
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_maps_states, only: angle_difference
+  use kz_labels_carrier, only: carrier_t
   implicit none
   private
   public :: measure_bending, SAFETY
 
   !> Ellipses are so many times as large as the error that is carried.
   real(dp), parameter :: SAFETY = 3
-  !> The centre of an ellipse, and both ends of three diameters.
-  integer, parameter :: POINTS = 7, TOGETHER = floor(WIDTH/real(POINTS))
+  !> Both ends of three diameters.
+  integer, parameter :: POINTS = 6
   real(dp), parameter :: HALF = sqrt(0.5_dp)
   real(dp), parameter :: DIAMETERS(2, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, HALF, HALF], [2, 3])
 
@@ -18,89 +17,68 @@ contains
 
   !> What the image of the ellipse SAFETY**2 P has beyond that of the tangent map, in parts of SAFETY, rad. Along z of the unit disc it is
   !> q11 z1**2 + 2 q12 z1 z2 + q22 z2**2, at most |q11| + |q12| + |q22|, and half as much again stands for what is of higher order.
-  subroutine measure_bending(flow, n, lane, u, v, tangent, p, bent)
-    !> the map; its lanes are overwritten
-    class(flow_t), intent(inout) :: flow
-    !> ellipses
-    integer, intent(in) :: n
-    !> [n] their places in what follows
+  subroutine measure_bending(carrier, lane, u, v, p, bent)
+    !> has just moved them by a period
+    type(carrier_t), intent(inout) :: carrier
+    !> [n] lanes of it, and of what follows
     integer, intent(in) :: lane(:)
     !> states before the period, half-turns
     real(dp), intent(in) :: u(:)
     !> rad per drive radian
     real(dp), intent(in) :: v(:)
-    !> (:, 4): of the period
-    real(dp), intent(in) :: tangent(:, :)
-    !> (:, 3): before it
+    !> (:, 3): ellipses before it
     real(dp), intent(in) :: p(:, :)
     !> rad
     real(dp), intent(inout) :: bent(:)
-    integer :: first, last, i, k
+    real(dp) :: by(2, POINTS, size(lane)), start(2, POINTS, size(lane))
+    integer :: i
 
-    do first = 1, n, TOGETHER
-      last = min(n, first + TOGETHER - 1)
-      do i = first, last
-        associate (k => lane(i))
-          call put_points(flow, POINTS*(i - first), u(k), v(k), axes_of(p(k, :)))
-        end associate
-      end do
-      call flow%advance(POINTS*(last - first + 1))
-      do i = first, last
-        k = lane(i)
-        bent(k) = bending(flow, POINTS*(i - first), tangent(k, :), axes_of(p(k, :)))/SAFETY
-      end do
+    do i = 1, size(lane)
+      start(:, :, i) = rim_of(p(lane(i), :))
+    end do
+    by = start
+    call carrier%displace(lane, u, v, by)
+    do i = 1, size(lane)
+      bent(lane(i)) = bending(carrier%tangent(lane(i), :), start(:, :, i), by(:, :, i))/SAFETY
     end do
   end subroutine measure_bending
 
-  !> Two half-axes whose unit disc is the ellipse SAFETY**2 P, rad.
-  pure function axes_of(p) result(axes)
+  !> The ends of the diameters of the ellipse SAFETY**2 P, rad.
+  pure function rim_of(p) result(rim)
     real(dp), intent(in) :: p(3)
-    real(dp) :: axes(2, 2)
+    real(dp) :: rim(2, POINTS)
+    real(dp) :: along, slant, across
 
-    axes(:, 1) = [sqrt(p(1)), p(2)/sqrt(p(1))]
-    axes(:, 2) = [0.0_dp, sqrt(max(0.0_dp, p(3) - axes(2, 1)**2))]
-    axes = SAFETY*axes
-  end function axes_of
+    along = sqrt(p(1))
+    slant = p(2)/along
+    across = sqrt(max(0.0_dp, p(3) - slant**2))
+    rim(1, 1:5:2) = SAFETY*along*DIAMETERS(1, :)
+    rim(2, 1:5:2) = SAFETY*(slant*DIAMETERS(1, :) + across*DIAMETERS(2, :))
+    rim(:, 2:6:2) = -rim(:, 1:5:2)
+  end function rim_of
 
-  subroutine put_points(flow, before, u, v, axes)
-    class(flow_t), intent(inout) :: flow
-    integer, intent(in) :: before
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-    real(dp), intent(in) :: axes(2, 2)
-    real(dp) :: by(2)
+  !> From the ends of the diameters before and after the period.
+  pure function bending(tangent, start, by) result(bent)
+    real(dp), intent(in) :: tangent(4)
+    real(dp), intent(in) :: start(2, POINTS)
+    real(dp), intent(in) :: by(2, POINTS)
+    real(dp) :: bent
+    real(dp) :: rest(2, POINTS), size(POINTS), q(2, 3)
     integer :: j
 
-    call flow%put(before + 1, u, v)
+    rest(1, :) = by(1, :) - (tangent(1)*start(1, :) + tangent(2)*start(2, :))
+    rest(2, :) = by(2, :) - (tangent(3)*start(1, :) + tangent(4)*start(2, :))
+    size = rest(1, :)**2 + rest(2, :)**2
     do j = 1, 3
-      by = matmul(axes, DIAMETERS(:, j))
-      call flow%put(before + 2*j, u + by(1)/PI, v + by(2))
-      call flow%put(before + 2*j + 1, u - by(1)/PI, v - by(2))
+      q(:, j) = rest(:, merge(2*j - 1, 2*j, size(2*j - 1) > size(2*j)))
     end do
-  end subroutine put_points
-
-  !> From the images of the points.
-  function bending(flow, before, tangent, axes) result(bent)
-    class(flow_t), intent(in) :: flow
-    integer, intent(in) :: before
-    real(dp), intent(in) :: tangent(4)
-    real(dp), intent(in) :: axes(2, 2)
-    real(dp) :: bent
-    real(dp) :: q(2, 3), by(2), linear(2), ends(2, 2)
-    integer :: j, side
-
-    do j = 1, 3
-      by = matmul(axes, DIAMETERS(:, j))
-      linear = [dot_product(tangent(1:2), by), dot_product(tangent(3:4), by)]
-      do side = 1, 2
-        associate (i => before + 2*j + side - 1)
-          ends(:, side) = [PI*angle_difference(flow%u(i), flow%u(before + 1)), flow%v(i) - flow%v(before + 1)] &
-                          - merge(1, -1, side == 1)*linear
-        end associate
-      end do
-      q(:, j) = ends(:, merge(1, 2, norm2(ends(:, 1)) > norm2(ends(:, 2))))
-    end do
-    bent = 1.5_dp*(norm2(q(:, 1)) + norm2(q(:, 2)) + norm2(q(:, 3) - 0.5_dp*(q(:, 1) + q(:, 2))))
+    bent = 1.5_dp*(length(q(:, 1)) + length(q(:, 2)) + length(q(:, 3) - 0.5_dp*(q(:, 1) + q(:, 2))))
   end function bending
+
+  pure real(dp) function length(x)
+    real(dp), intent(in) :: x(2)
+
+    length = sqrt(x(1)**2 + x(2)**2)
+  end function length
 
 end module kz_labels_bending

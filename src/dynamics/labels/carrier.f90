@@ -42,6 +42,8 @@ module kz_labels_carrier
     procedure :: move
     !> One period of the lanes 1 .. n.
     procedure :: advance
+    !> How neighbours of some of them have moved in it: displace of flow_t.
+    procedure :: displace
   end type carrier_t
 
 contains
@@ -155,5 +157,15 @@ contains
     self%u(:n) = self%flow%u(:n)
     self%v(:n) = self%flow%v(:n)
   end subroutine advance
+
+  subroutine displace(self, lane, u, v, by)
+    class(carrier_t), intent(inout) :: self
+    integer, intent(in) :: lane(:)
+    real(dp), intent(in) :: u(:)
+    real(dp), intent(in) :: v(:)
+    real(dp), intent(inout) :: by(:, :, :)
+
+    call self%flow%displace(lane, u, v, by)
+  end subroutine displace
 
 end module kz_labels_carrier

@@ -8,7 +8,7 @@ module kz_labels_orbits
   use kz_labels_lanes, only: queued_lanes_t
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors
-  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
+  use kz_lanes_map, only: WIDTH, CAPACITY, PI
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -45,11 +45,9 @@ contains
 
   !> Follows orbits up to age `most`. ending(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
   !> that is below TOLERABLE.
-  subroutine follow_orbits(carrier, flow, regions, attractors, most, handover, guess, orbit, ending)
+  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, orbit, ending)
     !> what moves the orbits by one period
     type(carrier_t), intent(inout) :: carrier
-    !> the scene's map
-    class(flow_t), intent(in) :: flow
     !> the trapping regions
     type(regions_t), intent(in) :: regions
     !> the catalogue, numbered from 1
@@ -66,12 +64,10 @@ contains
     type(ending_t), intent(out) :: ending(:)
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
-    class(flow_t), allocatable :: bender
     real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), bent(WIDTH)
     integer :: region(WIDTH), lane
     logical :: with_covers
 
-    allocate (bender, source=flow)
     next = 1
     trace = 0
     with_covers = size(regions%covered) > 0
@@ -107,7 +103,7 @@ contains
         count = count + 1
         large(count) = i
       end do
-      if (count > 0) call measure_bending(bender, count, large, u, v, carrier%tangent, lanes%p, bent)
+      call measure_bending(carrier, large(:count), u, v, lanes%p, bent)
     end subroutine bend
 
     !> An orbit that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.

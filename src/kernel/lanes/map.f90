@@ -46,6 +46,9 @@ module kz_lanes_map
     !> Advances the lanes 1 .. n by one period; tangent(lane, :), if only to three digits: the derivatives of theta by theta and v, of v by
     !> both, rad.
     procedure :: advance_linear => linear_of_tangent
+    !> What neighbours of lanes that advance_linear has moved differ by from their images, if only to three digits. `by` (2, points,
+    !> n): of the angle and velocity before it, and after it, rad. The lanes stay.
+    procedure :: displace => displace_by_states
     !> Advances lane 1 by one period, shown at n equal times in physical coordinates; u(n) is not yet wrapped.
     procedure(sample_i), deferred :: sample
   end type flow_t
@@ -102,6 +105,41 @@ contains
       tangent(lane, :) = [matrix(1, :, lane), matrix(2, :, lane)]
     end do
   end subroutine linear_of_tangent
+
+  !> By the map of the neighbours themselves.
+  subroutine displace_by_states(self, lane, u, v, by)
+    class(flow_t), intent(inout) :: self
+    !> [n] lanes of u and v
+    integer, intent(in) :: lane(:)
+    !> states before the period, half-turns
+    real(c_double), intent(in) :: u(:)
+    !> rad per drive radian
+    real(c_double), intent(in) :: v(:)
+    real(c_double), intent(inout) :: by(:, :, :)
+    real(c_double) :: old_u(CAPACITY), old_v(CAPACITY)
+    integer(c_int64_t) :: old_turns(CAPACITY)
+    integer :: i, j
+
+    old_u = self%u
+    old_v = self%v
+    old_turns = self%turns
+    do i = 1, size(lane)
+      associate (start_u => u(lane(i)), start_v => v(lane(i)))
+        call self%put(1, start_u, start_v)
+        do j = 1, size(by, 2)
+          call self%put(1 + j, start_u + by(1, j, i)/PI, start_v + by(2, j, i))
+        end do
+      end associate
+      call self%advance(1 + size(by, 2))
+      do j = 1, size(by, 2)
+        by(:, j, i) = [PI*(self%u(1 + j) - self%u(1)), self%v(1 + j) - self%v(1)]
+      end do
+      by(1, :, i) = by(1, :, i) - 2*PI*anint(by(1, :, i)/(2*PI))
+    end do
+    self%u = old_u
+    self%v = old_v
+    self%turns = old_turns
+  end subroutine displace_by_states
 
   !> Puts a state into a lane.
   subroutine put_state(self, lane, u, v)

@@ -7,7 +7,7 @@ module kz_processed_batch
   use kz_lanes_sine, only: INVERSE_PI
   use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
   use kz_processed_processor, only: change_coordinates, change_derivative
-  use kz_processed_stages, only: stages_t, make_stages, advance_stages, linear_stages, tangent_stages
+  use kz_processed_stages, only: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP
   use kz_processed_tables, only: processed_t, processor_t
   implicit none
   private
@@ -17,6 +17,7 @@ module kz_processed_batch
     type(stages_t) :: stages
     real(rk) :: fastest                  !< rad per drive radian, that the tables serve
     logical :: physical(CAPACITY) = .false.  !< lanes that are faster
+    logical :: was_physical(WIDTH) = .false. !< before the last period of advance_linear
     class(flow_t), allocatable :: fallback
   contains
     procedure :: put => processed_put
@@ -24,6 +25,7 @@ module kz_processed_batch
     procedure :: advance => processed_advance
     procedure :: advance_tangent => processed_tangent
     procedure :: advance_linear => processed_linear
+    procedure :: displace => processed_displace
     procedure :: sample => processed_sample
     procedure :: to_map => processed_to_map
     procedure :: to_physical => processed_to_physical
@@ -73,10 +75,37 @@ contains
     u = self%u(:WIDTH)
     v = self%v(:WIDTH)
     call linear_stages(self%stages, n, u, v, tangent)
+    self%was_physical(:n) = self%physical(:n)
     if (any(self%physical(:n))) call linear_fall_back(self, n, tangent)
     call take_images(self, n, u, v)
     call restore_control(control)
   end subroutine processed_linear
+
+  !> By the angles that advance_linear has kept; those of lanes that another flow advances, by that.
+  subroutine processed_displace(self, lane, u, v, by)
+    class(processed_batch_t), intent(inout) :: self
+    integer, intent(in) :: lane(:)
+    real(rk), intent(in) :: u(:)
+    real(rk), intent(in) :: v(:)
+    real(rk), intent(inout) :: by(:, :, :)
+    integer(c_int64_t) :: control
+    integer :: first, i
+
+    control = flush_subnormals()
+    do first = 1, size(lane), GROUP
+      associate (group_lane => lane(first:min(size(lane), first + GROUP - 1)), group_by => by(:, :, first:min(size(lane), first + GROUP - 1)))
+        if (any(self%was_physical(group_lane))) then
+          do i = 1, size(group_lane)
+            if (self%was_physical(group_lane(i))) call self%fallback%displace(group_lane(i:i), u, v, group_by(:, :, i:i))
+            if (.not. self%was_physical(group_lane(i))) call displaced_stages(self%stages, group_lane(i:i), group_by(:, :, i:i))
+          end do
+        else
+          call displaced_stages(self%stages, group_lane, group_by)
+        end if
+      end associate
+    end do
+    call restore_control(control)
+  end subroutine processed_displace
 
   !> The tangent map of lanes that another flow advances.
   subroutine linear_fall_back(self, n, tangent)

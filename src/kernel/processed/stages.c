@@ -26,7 +26,7 @@ static inline __attribute__((always_inline)) void polynomial(int n, const double
   for (int j = n - 2; j >= 0; j--) EACH p[i] = p[i] * q[i] + c[j];
 }
 
-/* keep: into kept go the squares of the reduced angles at each kick, or the angles, KZ_LANES a stage. */
+/* keep: into kept go the reduced angles at each kick, KZ_LANES a stage. */
 static inline __attribute__((always_inline)) void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages,
                                                         const double *restrict row, vector *u, vector *v, bool keep,
                                                         float *restrict kept) {
@@ -45,7 +45,7 @@ static inline __attribute__((always_inline)) void block(bool mirrored, int n_dri
     EACH r[i] = a[i] - ((a[i] + round_to_even) - round_to_even);
     EACH q[i] = r[i] * r[i];
     if (keep) {
-      EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(mirrored ? q[i] : r[i], narrow);
+      EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(r[i], narrow);
       kept += KZ_LANES;
     }
     EACH p[i] = row[n_drift + n_kick - 1] * q[i] + row[n_drift + n_kick - 2];

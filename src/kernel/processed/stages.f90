@@ -7,20 +7,23 @@ module kz_processed_stages
   use kz_processed_tables, only: processed_t
   implicit none
   private
-  public :: stages_t, make_stages, advance_stages, linear_stages, tangent_stages
+  public :: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP, POINTS
 
   !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
   integer, parameter :: TERMS = 5
+  !> Orbits whose neighbours are moved together, and neighbours of each: stages.h.
+  integer, parameter :: GROUP = 16, POINTS = 6
 
   !> The tables of a period, and what its tangents take.
   type :: stages_t
     type(processed_t) :: table
     real(c_float), allocatable :: slope(:, :) !< (1 + 2*TERMS, steps): a drift, and the slope of a kick
     real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): of the last period, stages.h
+    real(c_float), allocatable :: some(:, :)  !< (GROUP, steps): of those lanes whose neighbours are asked for
   end type stages_t
 
   interface
-    !> The stages of a period for the lanes 1 .. n, or some more; the reduced angles or their squares, if asked (stages.c).
+    !> The stages of a period for the lanes 1 .. n, or some more; the reduced angles, if asked (stages.c).
     subroutine run_stages(mirrored, n_drift, n_kick, n_stages, row, n, u, v, kept) bind(C, name='kz_processed_kicks')
       import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
       integer(c_int32_t), value :: mirrored
@@ -46,6 +49,18 @@ module kz_processed_stages
       integer(c_int64_t), value :: n
       real(c_float), intent(out) :: c(WIDTH, 4)
     end subroutine run_tangents
+
+    !> Neighbours of orbits (displaced.c).
+    subroutine run_displaced(mirrored, n_stages, row, last, decay, angle, by) bind(C, name='kz_processed_displaced')
+      import :: c_float, c_int32_t, c_int64_t, GROUP, POINTS
+      integer(c_int32_t), value :: mirrored
+      integer(c_int64_t), value :: n_stages
+      real(c_float), intent(in) :: row(*)
+      real(c_float), value :: last
+      real(c_float), value :: decay
+      real(c_float), intent(in) :: angle(GROUP, *)
+      real(c_float), intent(inout) :: by(GROUP, 2, POINTS)
+    end subroutine run_displaced
   end interface
 
 contains
@@ -60,7 +75,9 @@ contains
 
     stages%table = table
     n = table%n_drift + table%n_kick
-    allocate (stages%slope(1 + 2*TERMS, table%n_steps), stages%kept(WIDTH, table%n_steps))
+    allocate (stages%slope(1 + 2*TERMS, table%n_steps), stages%kept(WIDTH, table%n_steps), &
+              stages%some(GROUP, table%n_steps))
+    stages%some = 0
     stages%slope(TERMS + 2:, :) = 0
     do i = 1, table%n_steps
       stages%slope(1, i) = real(table%row(1, i), c_float)
@@ -122,6 +139,35 @@ contains
     tangent(:n, 3) = (1/PI)*c(:n, 3)
     tangent(:n, 4) = c(:n, 4)
   end subroutine linear_stages
+
+  !> What neighbours of some lanes, at most GROUP, differ by from their images in the period that linear_stages has moved last.
+  subroutine displaced_stages(self, lane, by)
+    !> tables of a period
+    type(stages_t), intent(inout) :: self
+    !> [n] lanes
+    integer, intent(in) :: lane(:)
+    !> (2, POINTS, n): before it, and after it: rad, velocity times exp(beta t)
+    real(rk), intent(inout) :: by(:, :, :)
+    real(c_float) :: c(GROUP, 2, POINTS)
+    integer :: i, s
+
+    do s = 1, self%table%n_steps
+      do i = 1, size(lane)
+        self%some(i, s) = self%kept(lane(i), s)
+      end do
+    end do
+    c = 0
+    do i = 1, size(lane)
+      c(i, 1, :) = real((1/PI)*by(1, :, i), c_float)
+      c(i, 2, :) = real(by(2, :, i), c_float)
+    end do
+    call run_displaced(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), int(self%table%n_steps, c_int64_t), self%slope, &
+                       real(self%table%last(1), c_float), real(self%table%decay, c_float), self%some, c)
+    do i = 1, size(lane)
+      by(1, :, i) = PI*c(i, 1, :)
+      by(2, :, i) = c(i, 2, :)
+    end do
+  end subroutine displaced_stages
 
   !> One period of n lanes.
   subroutine advance_stages(self, n, u, v)

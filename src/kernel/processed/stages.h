@@ -8,8 +8,8 @@
 
 /* Does all drifts and kicks of a period. u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes; the first n lanes move, and
  * further ones up to a whole block. row [n_stages][n_drift + n_kick]: coefficients of a drift and a kick; twice as many without mirror
- * symmetry (table_types.inc). kept [n_stages][KZ_LANES], or NULL: squares of the reduced angles at the kicks (without mirror symmetry the
- * angles), from which tangents.c computes the derivative. */
+ * symmetry (table_types.inc). kept [n_stages][KZ_LANES], or NULL: the reduced angles at the kicks, from which tangents.c computes the
+ * derivative, and displaced.c the motion of neighbours. */
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept);
 
@@ -18,5 +18,13 @@ void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64
  * [4][KZ_LANES] = d(u, v)/d(u0, v0), row by row. */
 void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
                            int64_t n, float *c);
+
+/* Orbits whose neighbours are moved together, and neighbours of each: GROUP and POINTS of stages.f90. */
+enum { KZ_GROUP = 16, KZ_POINTS = 6 };
+
+/* How neighbours of orbits move in a period, relative to the orbits, in single precision. angle [n_stages][KZ_GROUP]: those of the orbits at the
+ * kicks; row, last, decay: as above. by [KZ_POINTS][2][KZ_GROUP], in and out: what the angles (half-turns) and velocities differ by. */
+void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
+                            float *by);
 
 #endif

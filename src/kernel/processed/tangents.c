@@ -1,4 +1,4 @@
-/* The derivative of a period of the processed splitting in single precision, which is enough for an error: from the squares of the
+/* The derivative of a period of the processed splitting in single precision, which is enough for an error: from the
  * reduced angles at every kick, which the loop of the states keeps (stages.c). */
 #include <stdbool.h>
 
@@ -29,8 +29,7 @@ static inline __attribute__((always_inline)) void run(bool mirrored, int64_t n_s
     for (int64_t s = 0; s < n_stages; s++, r += 1 + 2 * TERMS, x += KZ_LANES) {
       EACH uu[i] += r[0] * vu[i];
       EACH uv[i] += r[0] * vv[i];
-      EACH q[i] = *(const vector *)(x + i * LANES);
-      if (!mirrored) EACH q[i] *= q[i];
+      EACH q[i] = *(const vector *)(x + i * LANES) * *(const vector *)(x + i * LANES);
       EACH p[i] = r[TERMS] + (vector){0};
       for (int j = TERMS - 1; j >= 1; j--) EACH p[i] = p[i] * q[i] + r[j];
       if (!mirrored) {

@@ -304,6 +304,30 @@ static void test_subnormals(void **state) {
   }
 }
 
+/* tests/unit/neighbours.f90 */
+double kz_test_neighbour_error(const kz_pendulum *pendulum, int32_t scheme, int32_t steps, double fastest, double distance);
+
+/* Neighbours that are moved beside their orbits go where they go by themselves: with mirror symmetry, without it, in lanes too fast for the
+ * tables, and by a scheme that has no tables. */
+static void test_neighbours(void **state) {
+  (void)state;
+  const kz_pendulum turned = {
+      .k = 0.1, .beta = 0.1, .m = 0.4, .unmirrored = 1, .torque = 0.1, .harmonics = 1, .horizontal = {{0.1, 0.07}}};
+  const struct {
+    const kz_pendulum *pendulum;
+    const char *scheme;
+    int32_t steps;
+    double fastest;
+  } kinds[] = {{&PENDULUM, "processed", 40, 2},
+               {&turned, "processed", 40, 2},
+               {&PENDULUM, "processed", 40, 6},
+               {&PENDULUM, "split6", 24, 2}};
+  for (int i = 0; i < 4; i++)
+    for (double distance = 3e-4; distance < 0.1; distance *= 10)
+      assert_true(kz_test_neighbour_error(kinds[i].pendulum, kz_scheme_find(kinds[i].scheme), kinds[i].steps, kinds[i].fastest,
+                                          distance) < 1e-3);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(test_sine),        cmocka_unit_test(test_mirror),
@@ -312,6 +336,7 @@ int main(void) {
       cmocka_unit_test(test_sample),      cmocka_unit_test(test_exact_determinant),
       cmocka_unit_test(test_rest),        cmocka_unit_test(test_choice),
       cmocka_unit_test(test_subnormals),  cmocka_unit_test(test_search),
+      cmocka_unit_test(test_neighbours),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
