@@ -122,19 +122,20 @@ contains
   end function highest_harmonic
 
   !> a(t) and b(t) at t = 2 pi * turn.
-  pure subroutine force_at(pendulum, turn, a, b)
+  pure subroutine force_at(pendulum, turn, cosine, a, b)
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum
     !> drive periods
     real(qp), intent(in) :: turn
+    !> cos(t), which other pendulums need too
+    real(qp), intent(in) :: cosine
     !> of sin theta
     real(qp), intent(out) :: a
     !> of -cos theta
     real(qp), intent(out) :: b
-    real(qp) :: cosine, sine, c, s, former
+    real(qp) :: sine, c, s, former
     integer :: j
 
-    cosine = cos(2*PI*turn)
     a = real(pendulum%k, qp) - pendulum%m*cosine
     b = 0
     if (pendulum%harmonics == 0) return

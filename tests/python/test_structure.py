@@ -137,7 +137,7 @@ def type_of(declaration):
 def generated(path, folder):
     """What gfortran says of a file's bind(C) entries."""
     done = subprocess.run(["gfortran", "-cpp", "-ffree-line-length-none", "-fsyntax-only", "-fc-prototypes",
-                           f"-I{PROGRAM.parent / 'modules'}", f"-J{folder}", f"-I{path.parent}", str(path)],
+                           f"-I{PROGRAM.parent / 'modules'}", f"-J{folder}", f"-I{path.parent}", f"-I{ROOT / 'src' / 'kernel'}", str(path)],
                           capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return without_comments(done.stdout)

@@ -209,7 +209,7 @@ contains
   end subroutine allocate_kicks
 
   !> Kick n: the force at t = 2 pi * turn times a weight.
-  pure subroutine set_kick(period, pendulum, part, n, weight, turn)
+  subroutine set_kick(period, pendulum, part, n, weight, turn)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stretch_t), intent(in) :: part
@@ -218,7 +218,7 @@ contains
     real(qp), intent(in) :: turn
     real(qp) :: a, b, drive(0:CUBIC)
 
-    call force_at(pendulum, turn, a, b)
+    call force_at(pendulum, turn, cosine_of(turn), a, b)
     if (part%changes) then
       drive = drive_series(part, turn, 0.0_qp)
       a = pendulum%k + drive(0)*(a - pendulum%k)
@@ -230,5 +230,22 @@ contains
     period%shift(n) = atan2(b, a)/PI
     period%push(n) = weight*pendulum%torque
   end subroutine set_kick
+
+  !> cos(2 pi turn). Quad precision's own cosine is slow, and one pendulum after another asks for the same ones: they are kept.
+  function cosine_of(turn) result(cosine)
+    real(qp), intent(in) :: turn
+    real(qp) :: cosine
+    integer, parameter :: KEPT = 8192
+    real(qp), save :: kept_turn(KEPT) = -1
+    real(qp), save :: kept_cosine(KEPT)
+    integer :: place
+
+    place = 1 + int(KEPT*modulo(12289.62_c_double*real(turn, c_double), 1.0_c_double))
+    if (abs(kept_turn(place) - turn) > 0) then ! not kept, or another one in its place
+      kept_turn(place) = turn
+      kept_cosine(place) = cos(2*PI*turn)
+    end if
+    cosine = kept_cosine(place)
+  end function cosine_of
 
 end module kz_lanes_step_table

@@ -1,12 +1,29 @@
 !> The processor of the processed splitting: from physical coordinates to those of the kernel and back.
 module kz_processed_processor
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use kz_lanes_map, only: WIDTH
+  use kz_lanes_wrap, only: vectors_of
   use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
-  use kz_processed_tables, only: processor_t, ORDER, HARMONICS
+  use kz_processed_tables, only: processor_t, HARMONICS
   implicit none
   private
   public :: change_coordinates, change_derivative, sine
+
+  interface
+    !> stages.h
+    subroutine change_lanes(mirrored, theta, velocity, n, sine, cosine, u, v) bind(C, name='kz_processed_change')
+      import :: c_int32_t, c_int64_t, c_double
+      integer(c_int32_t), value :: mirrored
+      real(c_double), intent(in) :: theta(*)
+      real(c_double), intent(in) :: velocity(*)
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: sine(*)
+      real(c_double), intent(in) :: cosine(*)
+      real(c_double), intent(inout) :: u(*)
+      real(c_double), intent(inout) :: v(*)
+    end subroutine change_lanes
+  end interface
 
 contains
 
@@ -20,62 +37,19 @@ contains
     real(rk), intent(inout) :: u(n)
     !> rad per drive radian
     real(rk), intent(inout) :: v(n)
-    real(rk), dimension(WIDTH) :: sine_1, cosine_1, sine_j, cosine_j, square, shift_u, shift_v
-    real(rk) :: former
-    integer :: i, j
+    real(rk), dimension(WIDTH) :: x, y, s, c
+    integer :: lanes
 
-    call sine_and_cosine(n, u, sine_1, cosine_1)
-    do i = 1, n
-      square(i) = v(i)**2
-      shift_u(i) = 0
-      shift_v(i) = 0
-      sine_j(i) = 0
-      cosine_j(i) = 1
-    end do
-    do j = 0, HARMONICS
-      call add_harmonic(processor%theta(j, :, 1), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_u)
-      call add_harmonic(processor%velocity(j, :, 1), ORDER - 2*max(j, 1), n, sine_j, cosine_j, v, square, shift_v)
-      if (.not. processor%mirrored) then
-        call add_harmonic(processor%theta(j, :, 2), ORDER - 2*max(j, 1), n, cosine_j, sine_j, v, square, shift_u)
-        call add_harmonic(processor%velocity(j, :, 2), ORDER - 2*max(j, 1), n, cosine_j, sine_j, v, square, shift_v)
-      end if
-      do i = 1, n
-        former = sine_j(i)
-        sine_j(i) = former*cosine_1(i) + cosine_j(i)*sine_1(i)
-        cosine_j(i) = cosine_j(i)*cosine_1(i) - former*sine_1(i)
-      end do
-    end do
-    do i = 1, n
-      u(i) = u(i) + shift_u(i)
-      v(i) = v(i) + shift_v(i)
-    end do
+    x(:n) = u
+    x(n + 1:) = 0
+    y(:n) = v
+    y(n + 1:) = 0
+    lanes = vectors_of(n)
+    call sine_and_cosine(lanes, x, s, c)
+    call change_lanes(merge(1_c_int32_t, 0_c_int32_t, processor%mirrored), processor%theta, processor%velocity, int(lanes, c_int64_t), s, c, x, y)
+    u = x(:n)
+    v = y(:n)
   end subroutine change_coordinates
-
-  !> total += sin * (even powers of v) + cos * (odd powers), the highest power at most `degree`, which is even.
-  subroutine add_harmonic(coefficient, degree, n, sine_j, cosine_j, v, square, total)
-    real(rk), intent(in) :: coefficient(0:ORDER)
-    integer, intent(in) :: degree
-    integer, intent(in) :: n
-    real(rk), intent(in) :: sine_j(WIDTH)
-    real(rk), intent(in) :: cosine_j(WIDTH)
-    real(rk), intent(in) :: v(n)
-    real(rk), intent(in) :: square(WIDTH)
-    real(rk), intent(inout) :: total(WIDTH)
-    real(rk) :: even(WIDTH), odd(WIDTH)
-    integer :: i, power
-
-    even(:n) = coefficient(degree)
-    odd(:n) = 0
-    do power = degree - 1, 1, -2
-      do i = 1, n
-        odd(i) = odd(i)*square(i) + coefficient(power)
-        even(i) = even(i)*square(i) + coefficient(power - 1)
-      end do
-    end do
-    do i = 1, n
-      total(i) = total(i) + sine_j(i)*even(i) + cosine_j(i)*v(i)*odd(i)
-    end do
-  end subroutine add_harmonic
 
   !> sin(pi u) and cos(pi u), mirror-symmetric to the bit.
   subroutine sine_and_cosine(n, u, s, c)

@@ -1,4 +1,4 @@
-/* The stages of a period of the processed splitting (stages.f90 calls them). */
+/* The vectors' loops of the processed splitting (stages.f90 and processor.f90 call them). */
 #ifndef KAPITZA_KERNEL_STAGES_H
 #define KAPITZA_KERNEL_STAGES_H
 
@@ -26,5 +26,13 @@ enum { KZ_GROUP = 16, KZ_POINTS = 6 };
  * kicks; row, last, decay: as above. by [KZ_POINTS][2][KZ_GROUP], in and out: what the angles (half-turns) and velocities differ by. */
 void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
                             float *by);
+
+/* The order of the doubles' series and its harmonics: series_r64.f90, series.inc. */
+enum { KZ_ORDER = 14, KZ_HARMONICS_KEPT = KZ_ORDER / 2 };
+
+/* (u, v) + processor(u, v), in whole blocks of lanes like kz_processed_kicks. theta, velocity [2][KZ_ORDER + 1][KZ_HARMONICS_KEPT + 1]: processor_t of
+ * table_types.inc. sine, cosine: of pi u. */
+void kz_processed_change(int32_t mirrored, const double *theta, const double *velocity, int64_t n, const double *sine,
+                         const double *cosine, double *u, double *v);
 
 #endif

@@ -1,0 +1,59 @@
+/* The polynomials of the processor of the processed splitting, in vectors (stages.c says why in C): for every lane the sum over the harmonics
+ * j and powers n of c[n][j] v^n times sin(pi j u) where n is even, cos(pi j u) where it is odd, or for the second part the other way round. */
+#include "stages.h"
+
+#if defined __AVX512F__
+enum { VECTOR_BYTES = 64 };
+#else
+enum { VECTOR_BYTES = 32 };
+#endif
+enum { LANES = VECTOR_BYTES / 8, CHAINS = 2, ROW = KZ_HARMONICS_KEPT + 1, PART = ROW * (KZ_ORDER + 1) };
+#define EACH _Pragma("GCC unroll 2") for (int i = 0; i < CHAINS; i++)
+
+typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
+
+/* total += first (even powers of v) + second v (odd powers), to the power `degree`, which is even. */
+static inline __attribute__((always_inline)) void add_harmonic(const double *c, int degree, const vector *first,
+                                                               const vector *second, const vector *v, const vector *square,
+                                                               vector *total) {
+  vector even[CHAINS], odd[CHAINS];
+  EACH even[i] = c[degree * ROW] + (vector){0};
+  EACH odd[i] = (vector){0};
+  for (int power = degree - 1; power >= 1; power -= 2) {
+    EACH odd[i] = odd[i] * square[i] + c[power * ROW];
+    EACH even[i] = even[i] * square[i] + c[(power - 1) * ROW];
+  }
+  EACH total[i] = total[i] + first[i] * even[i] + second[i] * v[i] * odd[i];
+}
+
+static void change(int32_t mirrored, const double *theta, const double *velocity, const vector *sine, const vector *cosine,
+                   vector *u, vector *v) {
+  vector square[CHAINS], s[CHAINS], c[CHAINS], shift_u[CHAINS], shift_v[CHAINS], speed[CHAINS];
+  EACH speed[i] = v[i];
+  EACH square[i] = speed[i] * speed[i];
+  EACH shift_u[i] = shift_v[i] = s[i] = (vector){0};
+  EACH c[i] = 1 + (vector){0};
+  for (int j = 0; j < ROW; j++) {
+    const int degree = KZ_ORDER - 2 * (j > 1 ? j : 1);
+    add_harmonic(theta + j, degree, s, c, speed, square, shift_u);
+    add_harmonic(velocity + j, degree, s, c, speed, square, shift_v);
+    if (!mirrored) {
+      add_harmonic(theta + PART + j, degree, c, s, speed, square, shift_u);
+      add_harmonic(velocity + PART + j, degree, c, s, speed, square, shift_v);
+    }
+    EACH {
+      const vector former = s[i];
+      s[i] = former * cosine[i] + c[i] * sine[i];
+      c[i] = c[i] * cosine[i] - former * sine[i];
+    }
+  }
+  EACH u[i] += shift_u[i];
+  EACH v[i] += shift_v[i];
+}
+
+void kz_processed_change(int32_t mirrored, const double *theta, const double *velocity, int64_t n, const double *sine,
+                         const double *cosine, double *u, double *v) {
+  for (int64_t i = 0; i < n; i += CHAINS * LANES)
+    change(mirrored, theta, velocity, (const vector *)(sine + i), (const vector *)(cosine + i), (vector *)(u + i),
+           (vector *)(v + i));
+}
