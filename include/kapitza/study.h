@@ -12,6 +12,7 @@
 #include "kapitza/kernel.h"
 #include "kapitza/parallel.h"
 #include "kapitza/store.h"
+#include "kapitza/study_pendulum.h"
 
 /* A number of any digits: its text (rad, or degrees if " deg" follows; "" = not given), and the nearest sum of two doubles. */
 enum { KZ_DECIMAL_LENGTH = 1024 };
@@ -43,17 +44,6 @@ typedef struct {
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
 enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* what happens to cells that quad precision does not decide */
 enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
-
-/* A list in a scene. */
-enum { KZ_LIST_MAX = 256 };
-typedef struct {
-  int64_t count;
-  double values[KZ_LIST_MAX];
-} kz_reals;
-typedef struct {
-  int64_t count;
-  int64_t values[KZ_LIST_MAX];
-} kz_integers;
 
 enum { KZ_BOUNDARY_FEWEST_DECADES = 2, KZ_BOUNDARY_MOST_DECADES = 23 };
 enum { KZ_MOST_SHOCK_SIZES = 16 };
@@ -162,6 +152,7 @@ typedef struct {
   double start_theta, start_velocity; /* of the bifurcation diagram */
   int64_t transient, samples;         /* drive periods at each value: before the record, and recorded */
   double shock_scale;                 /* for resilience: see kz_shocks_plan */
+  int64_t phases;                     /* number of phases of release, for the measure phases */
 } kz_sweep_plan;
 
 /* Study `chart`: ends of the same starts over a plane of two keys of the pendulum mapping. */
@@ -175,56 +166,6 @@ typedef struct {
   kz_reals theta, velocity;        /* starts: rad, rad per drive radian; a single velocity belongs to all angles */
   int64_t max_period, max_periods; /* max_periods INT64_MIN = not given */
 } kz_chart_plan;
-
-/* The quantity that a ramp changes, and its form in time. */
-enum { KZ_RAMP_DAMPING = 0, KZ_RAMP_DRIVE = 1 };
-enum { KZ_RAMP_LINEAR = 0, KZ_RAMP_SMOOTH = 1 };
-
-/* The mapping `pendulum` as written, in one of three forms a, b, c; NaN = key not given. */
-typedef struct {
-  double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
-  double k, damping, m;                                                              /* b: k, beta, m */
-  double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
-  double length;                                  /* c: m, of a point mass, instead of radius and inertia */
-  double frequency;                               /* c: Hz, instead of pivot_frequency */
-  double amplitude;                               /* c: m, instead of pivot_amplitude */
-  double decay_time;                              /* c: s, 2 I/b, instead of friction or quality_factor */
-  double tilt, ellipse, torque, torque_amplitude; /* rad; ratio of the axes; both in units of I omega^2 */
-  double start_phase;                             /* of the scene's basin: phase of the drive at the release, rad */
-  double ramp_from, ramp_periods;                 /* in the units of its key; drive periods */
-  int32_t ramp_key, ramp_shape;                   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
-  int32_t waveform;                               /* KZ_SINE, ... */
-  kz_reals samples;                               /* for KZ_SAMPLES: the drive at equal times of a period, in units of m */
-  kz_harmonics harmonics;                         /* those that the scene adds */
-} kz_pendulum_keys;
-
-/* All three forms give `pendulum`. Other numbers are NaN if they are not defined (Q without damping, Omega at k <= 0). */
-typedef struct {
-  kz_pendulum_keys written;
-  kz_pendulum pendulum;
-  bool has_ramp;
-  double quality_factor, drive_frequency, drive_amplitude;
-  double pivot_frequency; /* rad s-1; NaN without SI */
-  kz_release release;     /* how the cells of a basin are released */
-} kz_parameters;
-
-/* m s-2; CGPM 1901. */
-#define KZ_STANDARD_GRAVITY 9.80665
-
-/* Computes all fields from `written`. KZ_REFUSED if k, beta or m is not finite; the fields are then not usable. */
-kz_status kz_parameters_resolve(kz_parameters *parameters);
-
-/* The largest kz_stiffness of a pendulum, and the largest speed of a start (rad per drive radian), that the program follows. Beyond them a
- * drive period takes more than 300,000 steps, or 10,000 turns. */
-#define KZ_MOST_STIFFNESS 1e7
-#define KZ_MOST_SPEED 1e4
-
-/* kz_drive_resolve adds the drive that the keys describe to `pendulum`, which has k, beta and m. kz_release_resolve fills *release. */
-void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
-const char *kz_drive_contradiction(const kz_pendulum_keys *written,
-                                   const kz_pendulum *pendulum); /* what contradicts; NULL = nothing */
-void kz_drive_print(const kz_parameters *parameters, FILE *out); /* a summary line: harmonics in use, and their error */
-void kz_release_resolve(const kz_parameters *parameters, kz_release *release);
 
 /* The mapping `numerics` as written. */
 typedef struct {
@@ -302,6 +243,8 @@ bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulu
 kz_release kz_sweep_release_at(const kz_scene *scene, double value);
 /* True if a key changes only how cells are released. */
 bool kz_sweep_is_of_release(int32_t parameter);
+/* True if other values of a key than 0 make a drive that is not k - m cos t. */
+bool kz_sweep_is_of_drive(int32_t parameter);
 
 /* Estimated cost of a study. */
 typedef struct {
@@ -329,6 +272,9 @@ extern const int kz_study_count;
 
 /* KZ_REFUSED if a study or method does not support the drive. */
 kz_status kz_drive_check(const kz_scene *scene);
+/* The same for the window of the scene's basin only, and for its chart only. */
+kz_status kz_drive_check_window(const kz_scene *scene);
+kz_status kz_drive_check_chart(const kz_scene *scene);
 /* KZ_REFUSED, with the message of the first study of the scene that does not pass its check. */
 kz_status kz_studies_check(const kz_scene *scene);
 

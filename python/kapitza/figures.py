@@ -68,6 +68,7 @@ _SCENES = {
     "josephson": [_SWEEP],
     "laboratory": [_LABORATORY],
     "manifolds-fig12": [_MANIFOLDS],
+    "phases-walk": [_SWEEP],
     "proof-fig12": [_PROVED],
     "proof-fig13": [_PROVED],
     "ramp": [_BASIN],

@@ -44,6 +44,7 @@ _BRANCHES = _over("branch", "branch_start", "branch_end", "branch_start_kind", "
 OPTIONAL = {
     "sweep": [
         Part(_over("value branch", "fraction", "fraction_low", "fraction_high") | _BRANCHES),
+        Part(_over("value", "alike", "alike_low", "alike_high"), ("phases",)),
         Part(_BRANCHES),
         Part({"flutter_amplitude": "value"},
              ("critical_value", "fit_slope", "fit_slope_stderr", "fit_exponent", "fit_exponent_error")),

@@ -236,9 +236,9 @@ static void print_text(const char *text, FILE *out) {
 }
 
 static void print_harmonic(const kz_harmonic *harmonic, FILE *out) {
-  fprintf(out, "{order: %" PRId64 ", amplitude: ", harmonic->order);
+  fprintf(out, "{\"order\": %" PRId64 ", \"amplitude\": ", harmonic->order);
   print_real(harmonic->amplitude, out);
-  fputs(", phase: ", out);
+  fputs(", \"phase\": ", out);
   print_real(harmonic->phase, out);
   fputc('}', out);
 }

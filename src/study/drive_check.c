@@ -5,6 +5,15 @@
 #include "kapitza/study.h"
 #include "sweep/sweep.h"
 
+static const char needs_strobe[] = "a window by centre and width needs starts at phase 0 and no ramp; give min and max";
+static const char needs_vertical[] =
+    "a window by centre and width needs a pivot that moves up and down as a sine; give min and max";
+static const char needs_pivot[] = "study chart needs a pivot that moves up and down as a sine; leave one of them out";
+
+static bool is_centred(const kz_scene *scene) {
+  return scene->has_basin && (scene->basin.theta.centre.text[0] || scene->basin.velocity.centre.text[0]);
+}
+
 /* What a release that takes time, by a phase or a ramp, does not go with; NULL = nothing. */
 static const char *needs_no_release(const kz_scene *scene) {
   const kz_basin_plan *plan = &scene->basin;
@@ -15,8 +24,7 @@ static const char *needs_no_release(const kz_scene *scene) {
   if (plan->proof) return "basin.proof needs starts at phase 0 and no ramp; leave one of them out";
   if (plan->undecided == KZ_UNDECIDED_DECIDE) return "basin.undecided decide needs starts at phase 0 and no ramp; choose flag";
   if (plan->has_boundary) return "basin.boundary needs starts at phase 0 and no ramp; leave one of them out";
-  if (plan->theta.centre.text[0] || plan->velocity.centre.text[0])
-    return "a window by centre and width needs starts at phase 0 and no ramp; give min and max";
+  if (is_centred(scene)) return needs_strobe;
   if (scene->has_tradeoff) return "study tradeoff needs starts at phase 0 and no ramp; leave one of them out";
   if (scene->has_orbit && scene->parameters.has_ramp) return "study orbit does not follow a ramp; leave one of them out";
   return NULL;
@@ -40,9 +48,12 @@ static const char *needs_cells(const kz_scene *scene) {
       (kz_sweep_is_of_release(scene->chart.x.parameter) || kz_sweep_is_of_release(scene->chart.y.parameter)))
     return "study chart does not follow a ramp; choose another parameter for the chart";
   if (!scene->has_sweep || !kz_sweep_is_of_release(scene->sweep.parameter)) return NULL;
-  if (scene->has_basin && scene->sweep.measure.count == 1 && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS))
-    return NULL;
-  return "a sweep over a ramp needs the study basin and measures basin_fractions only; give measure: [basin_fractions]";
+  bool of_cells = scene->has_basin;
+  for (int64_t i = 0; i < scene->sweep.measure.count; i++) {
+    const int64_t measure = scene->sweep.measure.values[i];
+    of_cells = of_cells && (measure == KZ_SWEEP_BASIN_FRACTIONS || measure == KZ_SWEEP_PHASES);
+  }
+  return of_cells ? NULL : "a sweep over a ramp needs the study basin and measures basin_fractions and phases only";
 }
 
 /* The keys that make the drive what it is, as a message begins. */
@@ -58,13 +69,12 @@ static const char *keys_of(const kz_scene *scene) {
 
 /* The first study or method that needs the sine; NULL = none. */
 static const char *needs_sine(const kz_scene *scene) {
-  if (scene->has_chart) return "study chart needs a pivot that moves up and down as a sine; leave one of them out";
+  if (scene->has_chart) return needs_pivot;
   if (scene->has_stability) return "study stability needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_potential) return "study potential needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM)
     return "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum";
-  if (scene->has_basin && (scene->basin.theta.centre.text[0] || scene->basin.velocity.centre.text[0]))
-    return "a window by centre and width needs a pivot that moves up and down as a sine; give min and max";
+  if (is_centred(scene)) return needs_vertical;
   if (scene->has_basin && scene->basin.undecided == KZ_UNDECIDED_DECIDE)
     return "basin.undecided decide needs a pivot that moves up and down as a sine; choose flag";
   if (scene->has_basin && scene->basin.proof)
@@ -85,6 +95,12 @@ static const char *needs_mirror(const kz_scene *scene) {
   return NULL;
 }
 
+/* What the measure phases of a sweep does not go with; NULL = nothing. */
+static const char *needs_all_phases(const kz_scene *scene) {
+  const bool wanted = scene->has_sweep && kz_sweep_measures(&scene->sweep, KZ_SWEEP_PHASES);
+  return wanted && scene->has_basin ? needs_no_release(scene) : NULL;
+}
+
 /* What basin.phases does not go with; NULL = nothing. */
 static const char *needs_one_phase(const kz_scene *scene) {
   if (!scene->has_basin || scene->basin.phases <= 0) return NULL;
@@ -97,6 +113,8 @@ static const char *needs_one_phase(const kz_scene *scene) {
 static kz_status check_release(const kz_scene *scene) {
   const char *phases = needs_one_phase(scene);
   if (phases) return kz_fail(KZ_REFUSED, "basin.phases: %s", phases);
+  const char *all = needs_all_phases(scene);
+  if (all) return kz_fail(KZ_REFUSED, "sweep.measure: phases releases at other phases than 0; %s", all);
   const bool ramp = scene->parameters.has_ramp;
   const char *wrong = ramp ? wrong_ramp(&scene->parameters) : NULL;
   if (wrong) return kz_fail(KZ_REFUSED, "pendulum.ramp.%s", wrong);
@@ -105,10 +123,31 @@ static kz_status check_release(const kz_scene *scene) {
   return why ? kz_fail(KZ_REFUSED, "%s: %s", ramp ? "pendulum.ramp" : "basin.start_phase", why) : KZ_OK;
 }
 
+/* Whether a sweep or a chart gives the drive other forms than the scene's. */
+static bool drive_is_varied(const kz_scene *scene) {
+  return (scene->has_sweep && kz_sweep_is_of_drive(scene->sweep.parameter)) ||
+         (scene->has_chart &&
+          (kz_sweep_is_of_drive(scene->chart.x.parameter) || kz_sweep_is_of_drive(scene->chart.y.parameter)));
+}
+
 kz_status kz_drive_check(const kz_scene *scene) {
   const kz_pendulum *p = &scene->parameters.pendulum;
-  const char *why = kz_is_sine(p) ? NULL : needs_sine(scene);
-  if (!why && !kz_is_mirrored(p)) why = needs_mirror(scene);
+  const bool varied = drive_is_varied(scene);
+  const char *why = kz_is_sine(p) && !varied ? NULL : needs_sine(scene);
+  if (!why && (!kz_is_mirrored(p) || varied)) why = needs_mirror(scene);
   if (why) return kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), why);
   return check_release(scene);
+}
+
+kz_status kz_drive_check_window(const kz_scene *scene) {
+  if (!is_centred(scene)) return KZ_OK;
+  if (!kz_is_sine(&scene->parameters.pendulum)) return kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), needs_vertical);
+  if (kz_release_strobes(&scene->parameters.release) > 0)
+    return kz_fail(KZ_REFUSED, "%s: %s", scene->parameters.has_ramp ? "pendulum.ramp" : "basin.start_phase", needs_strobe);
+  return KZ_OK;
+}
+
+kz_status kz_drive_check_chart(const kz_scene *scene) {
+  if (kz_is_sine(&scene->parameters.pendulum) && !drive_is_varied(scene)) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), needs_pivot);
 }

@@ -15,7 +15,7 @@ def draw(path, *arguments):
         return plot("sweep", path, *arguments)
 
 
-@pytest.mark.parametrize("view", ["fractions", "branches", "flutter", "releases", "strobe"])
+@pytest.mark.parametrize("view", ["fractions", "phases", "branches", "flutter", "releases", "strobe"])
 def test_every_view_is_drawn(swept, view):
     done = draw(swept, "--view", view, "-o", f"{view}.svg", "--dpi", "50")
     assert done.returncode == 0, done.stderr

@@ -1,54 +1,13 @@
-"""Drives beyond the sine: harmonics, wave forms, a tilted or elliptic path of the pivot, torque, the phase of release."""
+"""Drives beyond the sine: harmonics, wave forms, a tilted or elliptic path of the pivot, torque."""
 
 import json
 import math
-import subprocess
 
-import h5py
-import kapitza as kapitza_package
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT
-
-WINDOW = {"theta": {"count": 24}, "velocity": {"min": -2, "max": 2, "count": 24}}
-PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
-K, BETA, M = 1 / 121, 1 / 55, 0.3
-CORNERED = [(j, 4 / (math.pi * j) * (-1) ** (j // 2)) for j in (1, 3, 5, 7)]
-# Keys -> (a - k, b, torque) of theta'' + beta theta' + a sin theta - b cos theta = torque.
-RIGS = {
-    "sine": ({}, lambda t: (-M * math.cos(t), 0, 0)),
-    "harmonics": ({"harmonics": [{"order": 2, "amplitude": 0.1, "phase": math.pi / 6}, {"order": 1, "amplitude": 0.02}]},
-                  lambda t: (-0.32 * math.cos(t) - 0.1 * math.cos(2 * t + math.pi / 6), 0, 0)),
-    "square": ({"waveform": "square"}, lambda t: (-M * sum(share * math.cos(j * t) for j, share in CORNERED), 0, 0)),
-    "tilted": ({"tilt": math.pi / 36}, lambda t: (-M * math.cos(math.pi / 36) * math.cos(t), M * math.sin(math.pi / 36) * math.cos(t), 0)),
-    "ellipse": ({"ellipse": 0.2}, lambda t: (-M * math.cos(t), 0.2 * M * math.sin(t), 0)),
-    "torque": ({"torque": 0.004}, lambda t: (-M * math.cos(t), 0, 0.004)),
-}
-
-
-def step(slope, t, x, h):
-    """By Runge and Kutta."""
-    one = slope(t, x)
-    two = slope(t + h / 2, x + h / 2 * one)
-    three = slope(t + h / 2, x + h / 2 * two)
-    return x + h / 6 * (one + 2 * two + 2 * three + slope(t + h, x + h * three))
-
-
-def period(force, state, phase=0.0, steps=1500):
-    """One drive period from the phase `phase`, by Runge and Kutta."""
-    def slope(t, x):
-        a, b, torque = force(t)
-        return np.array([x[1], torque - BETA * x[1] - (K + a) * math.sin(x[0]) + b * math.cos(x[0])])
-    x, h = np.array(state, dtype=float), 2 * math.pi / steps
-    for i in range(steps):
-        x = step(slope, phase + i * h, x, h)
-    return x
-
-
-def run(kapitza, folder, scene, *options):
-    (folder / "rig.yaml").write_text(json.dumps(scene))
-    kapitza("run", "rig.yaml", *options, "--force", folder=folder)
-    return h5py.File(folder / "rig.h5")
+from conftest import ROOT
+from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, M, period, run, step
+from serving import Server
 
 
 @pytest.fixture(scope="module", params=RIGS)
@@ -159,66 +118,6 @@ def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque
     assert abs(math.remainder(x[0] - start[0], 2 * math.pi)) < 1e-9 and abs(x[1] - start[1]) < 1e-9
 
 
-LINEAR = {"key": "damping", "from": 0.06, "periods": 2.5}
-SMOOTH = {"key": "drive_amplitude", "from": 0.1, "periods": 3, "shape": "smooth"}
-
-
-def released(theta, velocity, phase, ramp, steps=1000):
-    """States at the strobe after which the drive has its final form, by Runge and Kutta."""
-    length = ramp["periods"] if ramp else 0
-
-    def slope(t, x):
-        s = min(1.0, t / (2 * math.pi * length)) if length else 1.0
-        rest = 1 - (s * s * (3 - 2 * s) if ramp and ramp.get("shape") == "smooth" else s)
-        beta = BETA + ((ramp["from"] - BETA) * rest if ramp and ramp["key"] == "damping" else 0)
-        m = M + ((ramp["from"] - M) * rest if ramp and ramp["key"] == "drive_amplitude" else 0)
-        return np.array([x[1], -beta * x[1] - (K - m * np.cos(t)) * np.sin(x[0])])
-    ends = sorted({2 * math.pi * n for n in range(1, max(1, math.ceil(length)) + 1)} | ({2 * math.pi * length} - {0.0}))
-    t, x = phase, np.array([theta, velocity])
-    for end in ends:
-        h = (end - t) / steps
-        for i in range(steps):
-            x = step(slope, t + i * h, x, h)
-        t = end
-    return x
-
-
-@pytest.mark.parametrize("phase, ramp", [(math.pi / 2, None), (0, LINEAR), (1.0, SMOOTH)])
-def test_released_cells_end_where_an_integration_up_to_the_strobe_leads(kapitza, tmp_path, phase, ramp):
-    pendulum = {**PENDULUM, **({"ramp": ramp} if ramp else {})}
-    scene = {"pendulum": pendulum, "basin": {**WINDOW, "start_phase": phase, "attractors": {"starts": 256}}}
-    file = run(kapitza, tmp_path, scene)
-    theta, velocity = np.meshgrid(file["basin/theta"][::3], file["basin/velocity"][::3])
-    x = released(theta.ravel(), velocity.ravel(), phase, ramp)
-    there = kapitza_package.where({"pendulum": PENDULUM, "basin": {**WINDOW, "attractors": {"starts": 256}}}, x[0], x[1])
-    names = np.append(file["attractors/name"].asstr()[:], "")[file["basin/attractor"][::3, ::3]].ravel()
-    settling = file["basin/settling_time"][::3, ::3].ravel()
-    assert (names == there["name"].to_numpy()).mean() > 0.98  # doubles of the integration above may cross a boundary
-    late = settling - there["settling_time"].to_numpy(dtype=float)
-    assert (late == (math.ceil(ramp["periods"]) if ramp else 1)).mean() > 0.9
-
-
-def test_what_ends_alike_at_all_phases(kapitza, tmp_path):
-    """Phase 0 is the basin itself, pi/2 that of start_phase; a common end is that of every phase. Same bytes for two ranks."""
-    scene = {"pendulum": PENDULUM, "basin": {**WINDOW, "method": "exact", "phases": 4, "attractors": {"starts": 256}}}
-    def shares(names, fractions):
-        return dict(zip(names.asstr()[:], fractions, strict=True))
-    other = run(kapitza, tmp_path, scene, "--set", "basin.start_phase=90 deg", "--set", "basin.phases=2")["attractors"]
-    turned = shares(other["name"], other["fraction"][:])
-    file = run(kapitza, tmp_path, scene)
-    group, labels = file["phases"], file["basin/attractor"][:]
-    assert np.allclose(group["phase"][:], [0, math.pi / 2, math.pi, 3 * math.pi / 2])
-    assert (group["fraction"][0] == file["attractors/fraction"][:]).all()
-    quarter = shares(file["attractors/name"], group["fraction"][1])
-    assert all(abs(quarter.get(name, 0) - share) < 0.005 for name, share in turned.items())  # flagged cells have two candidates
-    common, ends = group["common"][:], group["ends"][:]
-    assert ((common >= 0) == (ends == 1)).all() and (common == labels)[common >= 0].all()
-    assert group.attrs["share"] == (common >= 0).mean() and 0.02 < group.attrs["share"] < 0.3
-    kapitza("run", "rig.yaml", "-o", "two.h5", folder=tmp_path, ranks=2)
-    with h5py.File(tmp_path / "two.h5") as two:
-        assert all((two["phases"][name][:] == group[name][:]).all() for name in ("common", "ends", "fraction"))
-
-
 @pytest.mark.parametrize("name", ["tilted", "square"])
 def test_saddles_manifolds_and_orbits_are_of_the_drive(kapitza, tmp_path, name):
     """Unstable cycles obey the equation, manifolds begin at them, an orbit settles on an attractor."""
@@ -236,6 +135,17 @@ def test_saddles_manifolds_and_orbits_are_of_the_drive(kapitza, tmp_path, name):
     assert file["orbit"].attrs["settles_on"] == "down"
 
 
+@pytest.mark.parametrize("keys", [{"tilt": 0.1}, {"waveform": "square"}, {"torque": 0.004}])
+def test_an_edge_leads_to_a_saddle_of_the_drive(kapitza, tmp_path, keys):
+    """By tracking: one of the cycles that are found from lines of starts, and these obey the equation (above)."""
+    studies = {"attractors": {"velocity": {"min": -1, "max": 1}, "starts": 64}, "saddles": {"velocity": {"min": -1, "max": 1}},
+               "edge": {"first": {"theta": 0.1, "velocity": 0}, "second": {"theta": 3.1, "velocity": 0}, "periods": 40}}
+    file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, "quality_factor": 0.5, **keys}, **studies})
+    edge = file["edge"].attrs
+    assert (edge["first_end"], edge["second_end"], edge["period"]) == ("down", "inverted", 1) and edge["saddle"] >= 0
+    assert abs(edge["multiplier_1_re"] - file["saddles/multiplier_re"][edge["saddle"], 0]) < 1e-8
+
+
 def test_folding_changes_no_byte(kapitza, tmp_path):
     """A window that is its own mirror image is computed by half; with a row more nothing is folded."""
     basin = {"method": "exact", "theta": {"count": 24}, "attractors": {"starts": 256}}
@@ -243,41 +153,11 @@ def test_folding_changes_no_byte(kapitza, tmp_path):
     folded = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2, "count": 16}}})["basin"]
     folded = {name: folded[name][:] for name in ("attractor", "settling_time", "velocity")}
     whole = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2.25, "count": 17}}})["basin"]
-    assert (whole["velocity"][:16] == folded["velocity"]).all()
-    assert (whole["attractor"][:16] == folded["attractor"]).all()
+    for name, values in folded.items():
+        assert (whole[name][:16] == values).all(), name
 
 
-def test_releases_are_the_same_for_any_number_of_ranks_and_mirrored(kapitza, tmp_path):
-    scene = {"pendulum": {**PENDULUM, "ramp": SMOOTH}, "basin": {**WINDOW, "start_phase": 1, "attractors": {"starts": 256}}}
-    alone = run(kapitza, tmp_path, scene)
-    labels, mirror = alone["basin/attractor"][:], alone["attractors/mirror"][:]
-    assert (labels == np.append(mirror, -1)[labels[::-1, ::-1]]).mean() > 0.99
-    (tmp_path / "rig.yaml").write_text(json.dumps(scene))
-    kapitza("run", "rig.yaml", "-o", "two.h5", folder=tmp_path, ranks=2)
-    with h5py.File(tmp_path / "two.h5") as two:
-        for name in ("attractor", "settling_time", "evidence"):
-            assert (two["basin"][name][:] == alone["basin"][name][:]).all()
-
-
-def test_a_whole_turn_of_the_phase_and_a_ramp_of_no_length_change_nothing(kapitza, tmp_path):
-    scene = {"pendulum": PENDULUM, "basin": {**WINDOW, "attractors": {"starts": 256}}}
-    plain = run(kapitza, tmp_path, scene)["basin/attractor"][:]
-    for option in ("basin.start_phase=360 deg", "pendulum.ramp={key: damping, from: 0, periods: 0}"):
-        assert (plain == run(kapitza, tmp_path, scene, "--set", option)["basin/attractor"][:]).all()
-
-
-def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
-    """Its first value is the basin without a ramp; a damping that comes down from four times its value leaves fewer rotations."""
-    ramp = {"key": "damping", "from": 4 * BETA, "periods": 0}
-    sweep = {"parameter": "ramp.periods", "min": 0, "max": 20, "count": 2, "measure": ["basin_fractions"], "starts": 256}
-    basin = {**WINDOW, "method": "direct", "attractors": {"starts": 256}}
-    file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, "ramp": ramp}, "basin": basin, "sweep": sweep})
-    share, names = file["sweep/fraction"][:], file["sweep/branch_name"].asstr()[:]
-    share = share if share.shape[0] == len(names) else share.T
-    whole = dict(zip(file["attractors/name"].asstr()[:], file["attractors/fraction"][:], strict=True))
-    assert all(abs(whole[name] - share[i, 0]) < 1e-12 for i, name in enumerate(names))
-    rotating = [name.startswith("rotation") for name in names]
-    assert np.nansum(share[rotating, 1]) < 0.8 * np.nansum(share[rotating, 0])
+OVER_TILT = {"parameter": "tilt", "min": 0, "max": 0.2, "count": 2}
 
 
 @pytest.mark.parametrize("keys, study, named", [
@@ -287,6 +167,13 @@ def test_a_sweep_goes_along_a_ramp(kapitza, tmp_path):
     ({"tilt": 0.1}, {"stability": {"k": {"min": 0, "max": 0.1, "count": 3}, "m": {"min": 0, "max": 1, "count": 3}}},
      "pendulum.tilt: study stability"),
     ({"torque": 0.1}, {"potential": {"drive_amplitudes": [0.3]}}, "pendulum.torque: study potential"),
+    ({"tilt": 0.1}, {"basin": {**WINDOW, "method": "exact", "proof": True}}, "pendulum.tilt: basin.proof"),
+    ({"tilt": 0}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "measure": ["basin_fractions"]}}, "basin.method icm"),
+    ({"tilt": 0}, {"sweep": {**OVER_TILT, "measure": ["flutter_zone"]}}, "pendulum.tilt: sweep.measure flutter"),
+    ({"tilt": 0}, {"chart": {"x": OVER_TILT, "y": {"parameter": "drive_amplitude", "min": 0.1, "max": 0.2},
+                             "start": {"theta": [1]}}}, "pendulum.tilt: study chart"),
+    ({}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "parameter": "drive_amplitude", "measure": ["phases"]}},
+     "sweep.measure: phases"),
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.ramp: basin.method icm"),
     ({"ramp": LINEAR}, {"basin": {**WINDOW, "proof": True}}, "pendulum.ramp: basin.proof"),
     ({"ramp": LINEAR}, {"attractors": {"velocity": {"min": -1, "max": 1}}}, "pendulum.ramp: needs the study basin"),
@@ -308,17 +195,65 @@ def test_what_a_drive_does_not_allow_is_refused_by_name(kapitza, tmp_path, keys,
     assert named in done.stderr, done.stderr
 
 
-def test_frames_and_centred_windows_of_other_drives_are_refused(kapitza, tmp_path):
-    """Their reference orbits know the sine alone: labels would be silently wrong."""
-    tilted = ["--set", "pendulum.tilt=5 deg"]
-    centred = ["--set", 'basin.theta={centre: "1", width: 0.1, count: 4}']
-    small = ROOT / "scenes" / "small.yaml"
-    done = kapitza("check", small, *tilted, *centred, "--set", "basin.method=exact", folder=tmp_path, status=2)
+FRAMED = [({"tilt": math.pi / 36}, {}), ({"harmonics": [{"order": 2, "amplitude": 0.1, "phase": 0.5}], "torque": 0.002}, {}),
+          ({"ramp": SMOOTH}, {"start_phase": 1})]
+
+
+def ends(server, **keys):
+    """The first strobe point of each cell's attractor in a frame; NaN where it has not settled."""
+    _, ((header, planes),) = server.frame(24, 24, **keys)
+    strobe = [row["strobe"][0] for row in server.catalogues[header["catalogue"]]]
+    return np.array([*strobe, [np.nan, np.nan]])[np.minimum(planes["labels"], len(strobe))]
+
+
+@pytest.mark.parametrize("keys, basin", FRAMED)
+def test_frames_are_what_a_run_writes(kapitza, tmp_path, keys, basin):
+    """Of the engine that the explorer and kapitza.Engine use; `ready` has the keys as a request takes them back."""
+    scene = {"pendulum": {**PENDULUM, **keys}, "basin": {**WINDOW, **basin, "method": "exact", "attractors": {"starts": 256}}}
+    file = run(kapitza, tmp_path, scene)
+    points = np.column_stack([file["attractors/strobe_theta"][:, 0], file["attractors/strobe_velocity"][:, 0]])
+    with Server(tmp_path / "rig.yaml") as server:
+        pendulum = server.ready["pendulum"]
+        assert keys.items() <= pendulum.items() or pendulum["ramp"].items() >= keys["ramp"].items()
+        exact = ends(server, pendulum=pendulum)
+        assert np.allclose(exact, points[file["basin/attractor"][:]], rtol=0, atol=1e-10)
+        assert (abs(ends(server, pendulum=pendulum, quality="moving") - exact).max(axis=-1) < 1e-6).mean() > 0.95
+        pendulum["drive_amplitude"] = 0.301  # as by a slider: attractors are carried there
+        moving, exact = (ends(server, pendulum=pendulum, quality=quality) for quality in ("moving", "exact"))
+        assert (abs(moving - exact).max(axis=-1) < 1e-6).mean() > 0.95
+
+
+def test_what_knows_the_sine_alone_is_refused_on_request(kapitza, tmp_path):
+    """Reference orbits of deep windows, charts; an orbit that is released at a phase."""
+    small, axis = ROOT / "scenes" / "small.yaml", {"centre": "1", "width": 1e-9}
+    centred = {"theta": axis, "velocity": axis}
+    options = ["--set", "pendulum.tilt=5 deg", "--set", 'basin.theta={centre: "1", width: 0.1, count: 4}', "--set", "basin.method=exact"]
+    done = kapitza("check", small, *options, folder=tmp_path, status=2)
     assert "give min and max" in done.stderr
-    words = [PROGRAM, "serve", small, *tilted, "--set", "basin.method=exact"]
-    with subprocess.Popen(list(map(str, words)), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as engine:
-        engine.stdin.write('{"sequence": 1, "request": "catalogue"}\n')
-        engine.stdin.flush()
-        answers = [engine.stdout.readline() for _ in range(2)]
-        engine.stdin.close()
-    assert "as a sine" in answers[1]
+    with Server(small, "--set", "pendulum.tilt=5 deg", "--set", "basin.start_phase=1") as server:
+        axes = {"x": {"parameter": "drive_amplitude", "min": 0, "max": 1, "count": 4},
+                "y": {"parameter": "drive_frequency", "min": 5, "max": 6, "count": 4}}
+        said = [server.ask(name, **request)[-1][0] for name, request in
+                (("frame", {"rows": 8, "columns": 8, "window": centred}), ("chart", axes), ("orbit", {"theta": 0, "velocity": 0}),
+                 ("frame", {"rows": 8, "columns": 8, "window": centred, "pendulum": PENDULUM}))]
+        assert [header["answer"] for header in said] == ["error"] * 4
+        for words, header in zip(("up and down as a sine", "up and down as a sine", "begins at a strobe", "starts at phase 0"), said, strict=True):
+            assert words in header["message"]
+
+
+def test_the_pivot_moves_as_the_drive_says(kapitza, tmp_path):
+    """Its acceleration is the drive, by differences: of the orbit's file and of the answer to the explorer."""
+    for name in ("tilted", "square", "ellipse"):
+        keys, force = RIGS[name]
+        motion = {"start": {"theta": 0.1, "velocity": 0}, "periods": 1, "samples_per_period": 512}
+        orbit = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, "orbit": motion})["orbit"]
+        height, step = orbit["pivot"][:-1], 2 * math.pi / 512
+        aside = orbit["pivot_aside"][:-1] if name != "square" else 0 * height
+        for place, sign, part in ((height, 1, 0), (aside, -1, 1)):
+            acceleration = (np.roll(place, 1) - 2 * place + np.roll(place, -1)) / step**2
+            drive = [sign * force(i * step)[part] for i in range(512)]
+            assert np.allclose(acceleration, drive, atol=2e-3)
+        assert ("pivot_aside" in orbit) == (name != "square")
+    with Server(tmp_path / "rig.yaml", "--set", "basin.velocity={min: -2, max: 2}") as server:
+        (header, _), = server.ask("orbit", theta=0.1, velocity=0, periods=1, samples_per_period=512)
+        assert np.allclose(header["pivot"], np.column_stack([aside, height]), atol=1e-15)

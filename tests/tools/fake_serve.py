@@ -82,7 +82,8 @@ def other(request):
         n, start = request["samples_per_period"], float(request["theta"])
         times = [2 * math.pi * i / n for i in range(request["periods"] * n + 1)]
         values = [start * math.cos(t / 3) for t in times] + [-start / 3 * math.sin(t / 3) for t in times]
-        answer("orbit", sequence, struct.pack(f"<{len(values)}d", *values), samples=len(times), samples_per_period=n, m=m)
+        answer("orbit", sequence, struct.pack(f"<{len(values)}d", *values), samples=len(times), samples_per_period=n,
+               pivot=[[0, m * math.cos(t)] for t in times[:n]])
     elif name == "chart":
         rows, columns = request["y"]["count"], request["x"]["count"]
         cells = bytes((i // 20) % 3 for _ in range(rows) for i in range(columns))

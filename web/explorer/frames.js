@@ -1,5 +1,7 @@
 // Frames between page and program: what is asked for, what the bytes mean, the colours of a catalogue.
 
+import { isNeutral, isUnused } from "./drive.js";
+
 const MOST_MOVING = 250_000; // cells of a frame while things move
 const MOST_RESTING = 4_000_000;
 const UNSETTLED = "#ffffff";
@@ -22,10 +24,11 @@ export function requestOf(window, pendulum, canvas, { quality, levels, samples, 
   };
 }
 
-/** A pendulum as a scene has it: what reads as a number is one. */
+/** A pendulum as a scene has it: what reads as a number is one, and what changes nothing is left out. */
 export function asScene(pendulum) {
   const value = (text) => (typeof text === "string" && text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : text);
-  return Object.fromEntries(Object.entries(pendulum).map(([name, text]) => [name, value(text)]));
+  const given = Object.entries(pendulum).filter(([name, text]) => !isNeutral(name, text) && !isUnused(name, pendulum));
+  return Object.fromEntries(given.map(([name, text]) => [name, value(text)]));
 }
 
 /** The planes of an answer by name. */

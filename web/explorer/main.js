@@ -3,6 +3,7 @@
 import { Basins } from "./basins.js";
 import { Charts } from "./charts.js";
 import { listenControls } from "./controls.js";
+import { neutralFor } from "./drive.js";
 import { ask, signIn } from "./engine.js";
 import { listenKeys } from "./keyboard.js";
 import { addressOf, DEFAULTS, readAddress, State } from "./state.js";
@@ -14,7 +15,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 async function begin() {
   await signIn();
   const start = await ask("state");
-  const scene = textsOf(start.pendulum);
+  const scene = { ...neutralFor(start.pendulum), ...textsOf(start.pendulum) };
   const state = new State({
     ...DEFAULTS,
     title: start.title,

@@ -8,13 +8,13 @@ const TRACE = 2.5; // drive periods of the bob's and the phase point's traces
 const PAUSE = 1.5; // drive periods that the end is shown, before it begins anew
 
 export class Motion {
-  /** Of an answer to the request orbit: samples of theta and velocity, and the drive m. */
+  /** Of an answer to the request orbit: samples of theta and velocity, and the pivot's path over a drive period. */
   constructor(header, bytes, ending) {
     const numbers = new Float64Array(bytes.buffer);
     this.theta = numbers.slice(0, header.samples);
     this.velocity = numbers.slice(header.samples);
     this.perPeriod = header.samples_per_period;
-    this.m = header.m;
+    this.pivot = header.pivot;
     this.ending = ending;
     this.at = 0; // the sample shown
   }
@@ -39,8 +39,11 @@ export class Motion {
     return values[i] + (this.at - i) * (values[i + 1] - values[i]);
   }
 
+  /** [aside, height] of the pivot. */
   pivotAt(sample) {
-    return this.m * Math.cos((TURN * sample) / this.perPeriod);
+    const first = Math.floor(sample);
+    const [from, to] = [first, first + 1].map((i) => this.pivot[i % this.perPeriod]);
+    return from.map((value, i) => value + (sample - first) * (to[i] - value));
   }
 
   /** Samples of the trace that ends at the present one. */
@@ -69,30 +72,34 @@ export class Motion {
     const context = canvas.getContext("2d");
     const surface = new CanvasSurface(context, theme);
     const size = canvas.width;
-    const most = Math.abs(this.m);
+    const most = Math.max(...this.pivot.flat().map(Math.abs));
     const rod = size / 2 / (1.12 + most);
     const place = (x, y) => [size / 2 + rod * x, size / 2 - rod * y];
-    const bob = (angle, pivot) => place(Math.sin(angle), pivot - Math.cos(angle));
+    const bob = (angle, [aside, height]) => place(aside + Math.sin(angle), height - Math.cos(angle));
     const pivot = this.pivotAt(this.at);
     const angle = this.between(this.theta);
     context.clearRect(0, 0, size, size);
-    surface.line([place(0, -most), place(0, most)], theme.faint, 5);
+    surface.line(
+      [...this.pivot, this.pivot[0]].map((at) => place(...at)),
+      theme.faint,
+      5,
+    );
     surface.line(
       this.trace().map((i) => bob(this.theta[i], this.pivotAt(i))),
       theme.trace,
       1.5,
     );
-    surface.line([place(0, pivot), bob(angle, pivot)], theme.ink, 3);
-    surface.circle(...place(0, pivot), 4, theme.ink, theme.ink);
+    surface.line([place(...pivot), bob(angle, pivot)], theme.ink, 3);
+    surface.circle(...place(...pivot), 4, theme.ink, theme.ink);
     surface.circle(...bob(angle, pivot), 9, theme.mark, theme.paper);
     surface.text(`period ${this.period}`, 6, size - 8, "left", { size: 20 });
   }
 
-  /** Lines of time (drive radians), theta, velocity, pivot height. */
+  /** Lines of time (drive radians), theta, velocity, the pivot's height and how far it is aside. */
   toCsv() {
-    const lines = ["time_drive_radians,theta_rad,velocity_rad_per_drive_radian,pivot_height"];
+    const lines = ["time_drive_radians,theta_rad,velocity_rad_per_drive_radian,pivot_height,pivot_aside"];
     for (let i = 0; i <= this.last; i++)
-      lines.push([(TURN * i) / this.perPeriod, this.theta[i], this.velocity[i], this.pivotAt(i)].join(","));
+      lines.push([(TURN * i) / this.perPeriod, this.theta[i], this.velocity[i], ...this.pivotAt(i).reverse()].join(","));
     return `${lines.join("\n")}\n`;
   }
 }

@@ -1,7 +1,9 @@
 // A slider and a typed value for every number of the pendulum's mapping.
 
+import { formsOf, isNeutral, isOfDrive } from "./drive.js";
+
 const PARTS = /^\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/; // a number and its unit, if it has one
-const REACH = 4; // a slider goes from the scene's value / 4 to its 4-fold, in equal ratios
+const REACH = 4; // a slider goes from the scene's value / 4 to its 4-fold, in equal ratios; from 0 to -1 and 1, finer near 0
 
 /** Number and unit of a value as a scene has it ("0.3", "12 Hz"); null where it is none (words, lists). */
 export function numberOf(value) {
@@ -17,7 +19,7 @@ export function withUnit(number, unit) {
 export function valueAt(place, home) {
   if (place === 0) return home;
   const { number, unit } = numberOf(home);
-  const value = number === 0 ? place : number * REACH ** place;
+  const value = number === 0 ? place ** 3 : number * REACH ** place;
   return withUnit(Number(value.toPrecision(6)), unit);
 }
 
@@ -25,7 +27,7 @@ export function valueAt(place, home) {
 export function placeOf(value, home) {
   const { number } = numberOf(home);
   const at = numberOf(value)?.number ?? number;
-  const place = number === 0 ? at : at / number > 0 ? Math.log(at / number) / Math.log(REACH) : -1;
+  const place = number === 0 ? Math.cbrt(at) : at / number > 0 ? Math.log(at / number) / Math.log(REACH) : -1;
   return Math.max(-1, Math.min(1, place));
 }
 
@@ -34,6 +36,7 @@ export class Sliders {
   constructor(holder, scene, { change, say }) {
     this.scene = scene;
     this.rows = new Map();
+    this.drive = newDrive(scene);
     for (const name of Object.keys(scene).filter((key) => numberOf(scene[key]))) {
       const row = newRow(name);
       row.range.oninput = () => change(name, valueAt(Number(row.range.value), scene[name]));
@@ -43,8 +46,22 @@ export class Sliders {
       };
       row.range.ondblclick = () => change(name, scene[name]);
       this.rows.set(name, row);
-      holder.append(row.element);
+      (isOfDrive(name) ? this.drive : holder).append(row.element);
     }
+    if ("waveform" in scene) this.addForms(change);
+    if (this.drive.children.length > 1) holder.append(this.drive);
+  }
+
+  /** The list of wave forms. */
+  addForms(change) {
+    const { element, range, number } = newRow("waveform");
+    this.forms = document.createElement("select");
+    for (const form of formsOf(this.scene)) this.forms.append(new Option(form, form));
+    this.forms.id = number.id;
+    this.forms.onchange = () => change("waveform", this.forms.value);
+    range.remove();
+    number.replaceWith(this.forms);
+    this.drive.append(element);
   }
 
   get names() {
@@ -58,7 +75,18 @@ export class Sliders {
       if (document.activeElement !== number) number.value = pendulum[name];
       number.title = `the scene has ${this.scene[name]}`;
     }
+    if (this.forms) this.forms.value = pendulum.waveform;
   }
+}
+
+/** The part for drives beyond the sine, which is open where the scene has one. */
+function newDrive(scene) {
+  const part = document.createElement("details");
+  const summary = document.createElement("summary");
+  summary.textContent = "Other drives";
+  part.append(summary);
+  part.open = Object.keys(scene).some((name) => isOfDrive(name) && !isNeutral(name, scene[name]));
+  return part;
 }
 
 function newRow(name) {

@@ -12,14 +12,12 @@ STROBE, STROKE = style.KINDS["rotation +"], style.KINDS["rotation -"]
 
 def draw_path(axes: Axes, orbit: Orbit, *, colours: tuple[str, str, str] = (style.INK, STROBE, STROKE), legend: bool = True) -> Axes:
     """Where the bob goes, in lengths of the pendulum; the pivot's stroke is the thick line. Colours: of path, strobe points, stroke."""
-    pivot = orbit.data["pivot"].values
-    x, y = np.sin(orbit.theta), pivot - np.cos(orbit.theta)
-    axes.plot(x, y, color=colours[0], linewidth=0.9)
-    stroke = np.abs(pivot).max()
-    axes.plot([0, 0], [-stroke, stroke], color=colours[2], linewidth=2.5, solid_capstyle="round",
-              label="stroke of the pivot")
+    height = orbit.data["pivot"].values
+    aside = orbit.data["pivot_aside"].values if "pivot_aside" in orbit.data else np.zeros_like(height)
+    axes.plot(aside + np.sin(orbit.theta), height - np.cos(orbit.theta), color=colours[0], linewidth=0.9)
+    axes.plot(aside, height, color=colours[2], linewidth=2.5, solid_capstyle="round", label="stroke of the pivot")
     strobe = orbit.data["strobe_theta"].values
-    axes.plot(np.sin(strobe), pivot[0] - np.cos(strobe), "o", markersize=3.5, color=colours[1])
+    axes.plot(aside[0] + np.sin(strobe), height[0] - np.cos(strobe), "o", markersize=3.5, color=colours[1])
     axes.set_aspect("equal", adjustable="datalim")
     axes.set_xlabel("x / length")
     axes.set_ylabel("y / length")

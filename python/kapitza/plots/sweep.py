@@ -5,6 +5,7 @@
     kapitza-plot sweep blackburn-fig06-omega11.h5              releases from rest that stay
     kapitza-plot sweep blackburn-fig04-dots.h5                 where flutter ends
     kapitza-plot sweep bifurcation.h5                          strobe points, up and down
+    kapitza-plot sweep FILE --view phases                      how much ends alike at all phases of release
     kapitza-plot sweep FILE --view branches                    one view of a file that holds several
 """
 
@@ -59,6 +60,16 @@ def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str,
         axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     top = np.nanmax(np.degrees(sweep["release_angle_largest"].values))
     axes.set(xlabel=parameter_text(sweep), ylabel="release angle from inverted (deg)", ylim=(0, min(180, 1.35 * top)))
+    return axes
+
+
+def draw_alike(axes: Axes, sweep: xarray.Dataset, *, colour: str = UP) -> Axes:
+    """The share that ends alike at all phases of release over the parameter, with its 95 % interval."""
+    value, share, low, high = (sweep[name].values for name in ("value", "alike", "alike_low", "alike_high"))
+    axes.fill_between(value, 100 * low, 100 * high, color=colour, alpha=0.25, lw=0, label="95 % interval")
+    axes.plot(value, 100 * share, color=colour, marker="o", markersize=3, label=f"alike at all {sweep.attrs['phases']} phases")
+    axes.set(xlabel=parameter_text(sweep), ylabel="share of the starts (%)", xlim=(value[0], value[-1]), ylim=(0, None))
+    axes.legend(fontsize="small")
     return axes
 
 
@@ -134,6 +145,12 @@ def releases_figure(sweep: xarray.Dataset) -> Figure:
     return figure
 
 
+def phases_figure(sweep: xarray.Dataset) -> Figure:
+    figure = new_figure(8.6, 4.4)
+    draw_alike(figure.subplots(), sweep)
+    return figure
+
+
 def strobe_figure(sweep: xarray.Dataset) -> Figure:
     """The walk up above the walk down."""
     figure = new_figure(8.6, 7)
@@ -147,6 +164,7 @@ def strobe_figure(sweep: xarray.Dataset) -> Figure:
 # name, a variable that it needs, what makes its page
 VIEWS: list[tuple[str, str, Callable[[xarray.Dataset], Figure]]] = [
     ("fractions", "fraction", fractions_figure),
+    ("phases", "alike", phases_figure),
     ("branches", "branch_start", branches_figure),
     ("flutter", "flutter_amplitude", flutter_figure),
     ("zone", "flutter_onset", zone_figure),

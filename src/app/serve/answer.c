@@ -42,16 +42,27 @@ static void text(const char *name, const char *value) {
   putchar('"');
 }
 
-/* The keys of the pendulum that the scene gives; those of its ramp, which frames do not have, are left out. */
-static void print_pendulum(const kz_scene *scene) {
-  static const char mapping[] = "pendulum.";
+static bool is_given(const kz_key *key, const kz_scene *scene) {
+  if (key->type != KZ_KEY_MAPPING) return kz_value_is_set(key, scene);
+  return key->offset != KZ_NO_FIELD && *(const bool *)((const char *)scene + key->offset);
+}
+
+/* The keys of a mapping ("pendulum.") that the scene gives. */
+static void print_mapping(const char *mapping, const kz_scene *scene) {
   bool first = true;
-  fputs(", \"pendulum\": {", stdout);
+  putchar('{');
   for (const kz_key *key = kz_keys; key->path; key++) {
-    const char *name = key->path + strlen(mapping);
-    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !kz_value_is_set(key, scene)) continue;
-    printf("%s\"%s\": ", first ? "" : ", ", name);
-    kz_value_print(key, scene, stdout);
+    const char *name = key->path + strlen(mapping), *quote = key->type == KZ_KEY_WORD ? "\"" : "";
+    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !is_given(key, scene)) continue;
+    printf("%s\"%s\": %s", first ? "" : ", ", name, quote);
+    if (key->type == KZ_KEY_MAPPING) {
+      char inner[64];
+      snprintf(inner, sizeof inner, "%s.", key->path);
+      print_mapping(inner, scene);
+    } else {
+      kz_value_print(key, scene, stdout);
+    }
+    fputs(quote, stdout);
     first = false;
   }
   putchar('}');
@@ -71,7 +82,8 @@ kz_status kz_answer_ready(const kz_scene *scene) {
   text("program", KZ_VERSION);
   fputs(", ", stdout);
   text("title", scene->title);
-  print_pendulum(scene);
+  fputs(", \"pendulum\": ", stdout);
+  print_mapping("pendulum.", scene);
   fputs(", \"window\": {", stdout);
   print_axis("theta", &scene->basin.theta);
   fputs(", ", stdout);
@@ -170,6 +182,20 @@ kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const 
   return send();
 }
 
+/* The pivot's path over a drive period. */
+static void print_pivot(const kz_scene *scene) {
+  fputs(", \"pivot\": [", stdout);
+  for (int64_t i = 0; i < scene->orbit.samples_per_period; i++) {
+    char aside[32], height[32];
+    double place[2];
+    kz_pivot_at(&scene->parameters, (double)i / (double)scene->orbit.samples_per_period, place);
+    kz_scalar_print(place[0], aside);
+    kz_scalar_print(place[1], height);
+    printf("%s[%s, %s]", i > 0 ? ", " : "", aside, height);
+  }
+  putchar(']');
+}
+
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity) {
   const kz_orbit_plan *plan = &request->scene.orbit;
   const kz_pendulum *p = &request->scene.parameters.pendulum;
@@ -181,6 +207,7 @@ kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const doub
   number("damping", p->beta);
   fputs(", ", stdout);
   number("m", p->m);
+  print_pivot(&request->scene);
   end(2 * (size_t)samples * sizeof *theta);
   fwrite(theta, sizeof *theta, (size_t)samples, stdout);
   fwrite(velocity, sizeof *velocity, (size_t)samples, stdout);

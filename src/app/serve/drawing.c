@@ -33,6 +33,8 @@ static kz_status answer_catalogue(kz_drawing *d, const kz_request *request) {
 static kz_status answer_orbit(const kz_request *request) {
   int64_t samples;
   double *theta, *velocity;
+  if (kz_release_strobes(&request->scene.parameters.release) > 0)
+    return kz_fail(KZ_REFUSED, "request: orbit: a motion begins at a strobe, without basin.start_phase and pendulum.ramp");
   kz_status status = kz_orbit_record(&request->scene, &samples, &theta, &velocity);
   if (status == KZ_OK) status = kz_answer_orbit(request, samples, theta, velocity);
   free(theta);
@@ -83,6 +85,7 @@ static kz_status check_size(const kz_scene *scene) {
 kz_status kz_drawing_make(kz_drawing *drawing, kz_request *request, kz_status (*pause)(void *), void *context) {
   making m = {.drawing = drawing, .request = request, .pause = pause, .context = context};
   if (request->kind == KZ_REQUEST_CHART) {
+    KZ_TRY(kz_drive_check_chart(&request->scene));
     KZ_TRY(check_size(&request->scene));
     return kz_chart_draw(&request->scene, &request->levels, pause_making, show_chart, &m);
   }

@@ -2,7 +2,7 @@
 module kz_api_continue
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr, c_loc
   use kz_lanes_step_table, only: numerics_t
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_api_dynamics, only: make_dynamics
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: search_t, add_with_mirror, known
@@ -56,6 +56,7 @@ contains
     number = 0
     if (old%period == 0) return
     call close_cycle(search%fine, search%pendulum%beta, old%period, old%u(1), old%v(1), FARTHEST, new, found, blurred)
+    new%mirrored = is_mirrored(search%pendulum) /= 0
     if (found) call complete_attractor(new, found)
     if (.not. found) return
     if (known(attractors, new%period, new%u, new%v)) return

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "labelling/labeller.h"
+#include "labelling/starts.h"
 #include "numerics/cells.h"
 
 /* Where cells are when they are handed over to doubles. */
@@ -11,6 +12,21 @@ typedef struct {
   double state[2 * KZ_FRAME_TILE];
   int64_t spent[KZ_FRAME_TILE];
 } handed;
+
+/* Where n <= KZ_FRAME_TILE cells are then: half-turns and velocity; the periods that they have spent. */
+static void hand_over(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number, double *state,
+                      int64_t *spent) {
+  const int64_t columns = starts->plan->theta.count;
+  kz_start start[KZ_FRAME_TILE];
+  if (kz_release_strobes(&r->scene.parameters.release) == 0) {
+    for (int64_t i = 0; i < n; i++) kz_window_state(starts, number[i], state + 2 * i, spent + i);
+    return;
+  }
+  for (int64_t i = 0; i < n; i++)
+    start[i] = kz_start_at(starts->centre[0][number[i] % columns], starts->centre[1][number[i] / columns]);
+  kz_released_states(r->dynamics, n, start, state);
+  for (int64_t i = 0; i < n; i++) spent[i] = start[i].periods;
+}
 
 /* As method direct labels them. */
 static void follow(kz_resident *r, int64_t n, const handed *from, const int64_t *number, kz_frame_cell *cells) {
@@ -47,7 +63,7 @@ kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts,
                           kz_frame_cell *cells) {
   handed from;
   if (!kz_resident_moves(resident)) return decide(starts, n, number, cells);
-  for (int64_t i = 0; i < n; i++) kz_window_state(starts, number[i], from.state + 2 * i, from.spent + i);
+  hand_over(resident, starts, n, number, from.state, from.spent);
   follow(resident, n, &from, number, cells);
   return KZ_OK;
 }
@@ -125,8 +141,9 @@ kz_status kz_cells_discover(kz_resident *resident, const kz_window_starts *start
   double state[2 * MOST];
   int32_t label[MOST];
   const int64_t known = kz_dynamics_count(resident->dynamics), share = (n + MOST - 1) / MOST;
-  int64_t taken = 0, spent;
-  for (int64_t i = 0; i < n; i += share) kz_window_state(starts, number[i], state + 2 * taken++, &spent);
+  int64_t taken = 0, chosen[MOST], spent[MOST];
+  for (int64_t i = 0; i < n; i += share) chosen[taken++] = number[i];
+  hand_over(resident, starts, taken, chosen, state, spent);
   KZ_TRY(kz_discover(NULL, resident->dynamics, starts->plan->max_periods, taken, state, label));
   *born = kz_dynamics_count(resident->dynamics) > known;
   if (*born) kz_dynamics_update(resident->dynamics);

@@ -72,11 +72,7 @@ static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance
 }
 
 kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident) {
-  if (!kz_is_sine(&scene->parameters.pendulum)) /* images of windows, folded frames and continued attractors are the sine's */
-    return kz_fail(KZ_REFUSED,
-                   "pendulum: frames need a pivot that moves up and down as a sine; use kapitza run for this drive");
-  if (kz_release_strobes(&scene->parameters.release) > 0)
-    return kz_fail(KZ_REFUSED, "pendulum: frames need starts at phase 0 and no ramp; use kapitza run for this scene");
+  KZ_TRY(kz_drive_check_window(scene));
   kz_resident *near = NULL;
   const double tolerance = moving ? kz_moving_tolerance(scene) : 0;
   *resident = find(engine, scene, tolerance);

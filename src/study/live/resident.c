@@ -56,6 +56,7 @@ static kz_status search(kz_resident *r) {
   r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin.max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
   const kz_status status = kz_search_window(NULL, r->dynamics, &r->search, state, label);
+  kz_dynamics_set_release(r->dynamics, &r->scene.parameters.release);
   free(state);
   free(label);
   return status;
@@ -96,6 +97,11 @@ static bool same_pendulum(const kz_pendulum *a, const kz_pendulum *b) {
   return memcmp(a, b, sizeof *a) == 0;
 }
 
+static bool same_release(const kz_release *a, const kz_release *b) {
+  return a->phase == b->phase && a->periods == b->periods && a->damping == b->damping && a->drive == b->drive &&
+         a->smooth == b->smooth;
+}
+
 bool kz_resident_discover(kz_resident *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
@@ -117,15 +123,15 @@ static bool same_search(const kz_resident *resident, const kz_scene *scene) {
          mine->max_period == plan->max_period && mine->starts == plan->starts && mine->seed == plan->seed;
 }
 
-/* How far two pendulums are apart, of the size of their parameters; INFINITY where they differ in more than k, beta and m. */
+/* How far two pendulums are apart, of the size of their parameters; INFINITY where only one has mirror symmetry. */
 static double parted(const kz_pendulum *a, const kz_pendulum *b) {
-  kz_pendulum alike = *a;
-  alike.k = b->k;
-  alike.beta = b->beta;
-  alike.m = b->m;
-  const double size = fabs(a->k) + fabs(a->m) + a->beta;
-  if (!same_pendulum(&alike, b)) return INFINITY;
-  return (fabs(a->k - b->k) + fabs(a->m - b->m) + fabs(a->beta - b->beta)) / size;
+  double size = fabs(a->k) + fabs(a->m) + a->beta;
+  double difference = fabs(a->k - b->k) + fabs(a->m - b->m) + fabs(a->beta - b->beta) + fabs(a->torque - b->torque);
+  if (kz_is_mirrored(a) != kz_is_mirrored(b)) return INFINITY;
+  for (int j = 0; j < KZ_HARMONICS; j++)
+    for (int i = 0; i < 2; i++)
+      difference += fabs(a->vertical[j][i] - b->vertical[j][i]) + fabs(a->horizontal[j][i] - b->horizontal[j][i]);
+  return difference / size;
 }
 
 double kz_resident_distance(const kz_resident *resident, const kz_scene *scene) {
@@ -152,6 +158,7 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
   kz_dynamics_free(r->dynamics);
   r->dynamics = moved;
   r->n_strays = 0;
+  kz_dynamics_set_release(moved, &scene->parameters.release);
   if (lost > 0 || ++r->age >= OLDEST) {
     kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
     r->age = 0;
@@ -161,6 +168,7 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
 bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, double tolerance) {
   return resident->used > 0 && resident->tolerance == tolerance &&
          same_pendulum(&resident->scene.parameters.pendulum, &scene->parameters.pendulum) &&
+         same_release(&resident->scene.parameters.release, &scene->parameters.release) &&
          resident->scene.basin.max_periods == scene->basin.max_periods && same_search(resident, scene);
 }
 

@@ -4,14 +4,18 @@
 #include <stdlib.h>
 
 #include "engine.h"
-#include "numerics/cells.h"
+#include "labelling/labeller.h"
+#include "labelling/starts.h"
 
 /* Attractors that only these starts end on join. */
 static kz_status where_discover(kz_engine *engine, kz_resident *r, int64_t n, const kz_coordinate (*start)[2]) {
   double *state = kz_malloc(2 * (size_t)n * sizeof *state);
   int32_t *found = kz_malloc((size_t)n * sizeof *found);
   const int64_t known = kz_dynamics_count(r->dynamics);
-  for (int64_t i = 0; i < n; i++) kz_start_state(start[i][0].high, start[i][1].high, state + 2 * i);
+  for (int64_t i = 0; i < n; i++) {
+    kz_start first = kz_start_at(start[i][0].high, start[i][1].high);
+    kz_released_states(r->dynamics, 1, &first, state + 2 * i);
+  }
   const kz_status status = kz_discover(NULL, r->dynamics, r->search.max_periods, n, state, found);
   free(state);
   free(found);

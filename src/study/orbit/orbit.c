@@ -153,7 +153,11 @@ static kz_status model(kz_orbit *orbit, const kz_scene *scene, const kz_run *run
 }
 
 static kz_orbit begin(const kz_scene *scene) {
-  return (kz_orbit){.plan = &scene->orbit, .pendulum = scene->parameters.pendulum, .lyapunov = NAN, .lyapunov_error = NAN};
+  return (kz_orbit){.plan = &scene->orbit,
+                    .pendulum = scene->parameters.pendulum,
+                    .parameters = &scene->parameters,
+                    .lyapunov = NAN,
+                    .lyapunov_error = NAN};
 }
 
 static void end(kz_orbit *orbit) {

@@ -7,6 +7,7 @@
 typedef struct {
   const kz_orbit_plan *plan;
   kz_pendulum pendulum;
+  const kz_parameters *parameters;
   kz_model model;
   kz_cycle cycle; /* of a closed orbit; period 0 = open */
   kz_motion motion;

@@ -22,10 +22,20 @@ static double *ramp(double unit, int64_t parts, int64_t count) {
   return to;
 }
 
-static double *pivot(double m, int64_t samples, int64_t count) {
-  double *to = kz_malloc((size_t)count * sizeof *to);
-  for (int64_t i = 0; i < count; i++) to[i] = m * cos(2 * M_PI * (double)(i % samples) / (double)samples);
+/* The pivot's places along one axis: 0 = aside, 1 = height. */
+static double *pivot(const kz_parameters *parameters, int axis, int64_t samples, int64_t count) {
+  double *to = kz_malloc((size_t)count * sizeof *to), place[2];
+  for (int64_t i = 0; i < count; i++) {
+    kz_pivot_at(parameters, (double)(i % samples) / (double)samples, place);
+    to[i] = place[axis];
+  }
   return to;
+}
+
+static bool moves_aside(const kz_pendulum *p) {
+  for (int j = 0; j < p->harmonics; j++)
+    if (p->horizontal[j][0] != 0 || p->horizontal[j][1] != 0) return true;
+  return false;
 }
 
 /* Writes one array and frees it. */
@@ -42,7 +52,8 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
   KZ_TRY(put(store, "time", true, n, ramp(2 * M_PI, samples, n)));
   KZ_TRY(put(store, "theta", false, n, every(motion->theta, stride, n)));
   KZ_TRY(put(store, "velocity", false, n, every(motion->velocity, stride, n)));
-  KZ_TRY(put(store, "pivot", false, n, pivot(orbit->pendulum.m, samples, n)));
+  KZ_TRY(put(store, "pivot", false, n, pivot(orbit->parameters, 1, samples, n)));
+  if (moves_aside(&orbit->pendulum)) KZ_TRY(put(store, "pivot_aside", false, n, pivot(orbit->parameters, 0, samples, n)));
   n = motion->periods + 1;
   KZ_TRY(put(store, "strobe_time", true, n, ramp(2 * M_PI, 1, n)));
   KZ_TRY(put(store, "strobe_theta", false, n, every(motion->theta, motion->samples, n)));

@@ -31,15 +31,11 @@ typedef struct {
   int64_t max_periods;       /* after which a start counts as not settled; of the cells the basin's own number */
 } searching;
 
-static bool on_grid(const kz_scene *scene) {
-  return scene->has_basin && kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
-}
-
 static void begin(const kz_pendulum *pendulum, const kz_release *release, searching *s) {
   const kz_scene *scene = s->scene;
   s->n_starts = scene->sweep.starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
-  if (on_grid(scene)) s->n_cells = kz_unique_cells(&scene->basin);
+  if (kz_sweep_has_grid(scene)) s->n_cells = kz_unique_cells(&scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
   if (s->n_cells > 0) kz_dynamics_set_release(s->dynamics, release);
@@ -224,15 +220,19 @@ static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
   return status;
 }
 
-static kz_status search(searching *s, kz_sweep_catalogue *catalogue) {
+static kz_status search(searching *s, const kz_release *release, kz_sweep_catalogue *catalogue) {
+  const kz_sweep_plan *plan = &s->scene->sweep;
+  const int64_t periods = s->n_cells > 0 ? s->scene->basin.max_periods : s->max_periods;
   KZ_TRY(sweep_catalogue_discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
   catalogue->samples = count_hits(s);
   KZ_TRY(kz_ranks_agree(s->run->ranks, collect(s, catalogue)));
-  if (kz_sweep_measures(&s->scene->sweep, KZ_SWEEP_LIFETIME))
-    KZ_TRY(kz_sweep_lifetime(&s->scene->sweep, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));
-  return kz_sweep_measures(&s->scene->sweep, KZ_SWEEP_RESILIENCE) ? find_shocks(s, catalogue) : KZ_OK;
+  if (kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
+    KZ_TRY(kz_sweep_lifetime(plan, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));
+  if (kz_sweep_measures(plan, KZ_SWEEP_PHASES))
+    KZ_TRY(kz_sweep_phases(s->scene, s->run, s->dynamics, release, s->n_cells, periods, &catalogue->alike));
+  return kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE) ? find_shocks(s, catalogue) : KZ_OK;
 }
 
 typedef struct {
@@ -246,7 +246,7 @@ kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_
   if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, value), &pendulum) || pendulum.beta <= 0) return KZ_OK;
   const kz_release release = kz_sweep_release_at(scene, kz_sweep_value(&scene->sweep, value));
   begin(&pendulum, &release, &s);
-  const kz_status status = search(&s, catalogue);
+  const kz_status status = search(&s, &release, catalogue);
   end(&s);
   return status;
 }

@@ -9,6 +9,11 @@ bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
   return false;
 }
 
+bool kz_sweep_has_grid(const kz_scene *scene) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  return scene->has_basin && (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS) || kz_sweep_measures(plan, KZ_SWEEP_PHASES));
+}
+
 kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {
   void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
   kz_status status = kz_stage_run(run, stage, records);

@@ -16,17 +16,18 @@ bool kz_sweep_wanted(const kz_scene *scene) {
 
 kz_cost kz_sweep_cost(const kz_scene *scene) {
   const double values = (double)scene->sweep.values.count;
-  const bool grid = kz_sweep_measures(&scene->sweep, KZ_SWEEP_BASIN_FRACTIONS) && scene->has_basin;
+  const bool grid = kz_sweep_has_grid(scene);
+  const double times = kz_sweep_measures(&scene->sweep, KZ_SWEEP_PHASES) ? 1 + (double)scene->sweep.phases : 1;
   const double nodes = grid ? (double)scene->basin.table_theta * (double)scene->basin.table_velocity : 0;
   const double cells = grid ? (double)scene->basin.theta.count * (double)scene->basin.velocity.count : 0;
-  return (kz_cost){.cells = (int64_t)(cells * values),
+  return (kz_cost){.cells = (int64_t)(cells * values * times),
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
-                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + 2 * cells};
+                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + (times > 1 ? 24 : 2) * cells};
 }
 
 static bool has_branches(const kz_sweep_plan *plan) {
   bool wanted = false;
-  for (int64_t measure = 0; measure <= KZ_SWEEP_RESILIENCE; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
+  for (int64_t measure = 0; measure <= KZ_SWEEP_PHASES; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
   return wanted;
 }
 
@@ -42,6 +43,8 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
     status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
   if (status == KZ_OK && kz_rank(run->ranks) == 0 && kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
     status = kz_sweep_lifetime_write(plan, catalogue, store);
+  if (status == KZ_OK && kz_rank(run->ranks) == 0 && kz_sweep_measures(plan, KZ_SWEEP_PHASES))
+    status = kz_sweep_phases_write(plan, catalogue, store);
   kz_sweep_branches_free(&branches);
   free(catalogue);
   return kz_ranks_agree(run->ranks, status);

@@ -6,12 +6,13 @@
 #include "kapitza/study.h"
 
 /* The measures of a sweep: code, word in the scene, function that runs it, function that estimates its time. NULL = part of the branches,
- * which serve four measures. */
+ * which serve five measures. */
 #define KZ_SWEEP_MEASURES(MEASURE)                                                                        \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL, NULL)                                                  \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL, NULL)                                        \
   MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL, NULL)                                                      \
   MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL, NULL)                                                  \
+  MEASURE(KZ_SWEEP_PHASES, "phases", NULL, NULL)                                                          \
   MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter, kz_sweep_flutter_measure)    \
   MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range, kz_sweep_flutter_range_measure) \
   MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release, kz_sweep_release_measure)            \
@@ -21,6 +22,8 @@
 enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) };
 
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
+/* Whether the cells of the scene's basin are labelled at each value, else the starts of the sweep. */
+bool kz_sweep_has_grid(const kz_scene *scene);
 
 /* ---- walks: one cycle from value to value ---- */
 
@@ -72,6 +75,7 @@ typedef struct {
 typedef struct {
   int64_t count, samples; /* attractors; starts or cells that were followed */
   kz_lifetime lifetime;   /* of the starts, if it is measured */
+  int64_t alike;          /* samples that end alike at all phases, if it is measured */
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 } kz_sweep_catalogue;
 
@@ -79,6 +83,12 @@ typedef struct {
 kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
                             kz_lifetime *life);
 kz_status kz_sweep_lifetime_write(const kz_sweep_plan *plan, const kz_sweep_catalogue *catalogue, kz_store *store);
+
+/* How many of the first n_cells of the grid (0: of the starts), with their mirror images, end alike at all phases, by attractors and regions
+ * that are known; `release`: that of the value. And the variables of it. The first is collective. */
+kz_status kz_sweep_phases(const kz_scene *scene, const kz_run *run, kz_dynamics *dynamics, const kz_release *release,
+                          int64_t n_cells, int64_t max_periods, int64_t *alike);
+kz_status kz_sweep_phases_write(const kz_sweep_plan *plan, const kz_sweep_catalogue *catalogue, kz_store *store);
 
 /* Fills catalogue [values.count] on every rank. Collective. */
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue);

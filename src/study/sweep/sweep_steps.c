@@ -27,7 +27,7 @@ static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_motions *
   const kz_sweep_plan *plan = &scene->sweep;
   const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
   *motions = kz_motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
-  if (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) kz_motions_label_cells(&scene->basin, motions);
+  if (kz_sweep_has_grid(scene)) kz_motions_label_cells(&scene->basin, motions);
   snprintf(motions->where, sizeof motions->where, "at %s = %.6g, ", kz_sweep_parameters[plan->parameter].name, value);
   const bool damped_alone = !kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE) && !kz_sweep_measures(plan, KZ_SWEEP_STROBE);
   return kz_sweep_pendulum(scene, value, &motions->pendulum) && (motions->pendulum.beta > 0 || !damped_alone);

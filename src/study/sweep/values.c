@@ -47,6 +47,14 @@ bool kz_sweep_is_of_release(int32_t parameter) {
          kz_sweep_parameters[parameter].offset == offsetof(kz_pendulum_keys, ramp_from);
 }
 
+bool kz_sweep_is_of_drive(int32_t parameter) {
+  static const size_t drives[] = {offsetof(kz_pendulum_keys, tilt), offsetof(kz_pendulum_keys, ellipse),
+                                  offsetof(kz_pendulum_keys, torque), offsetof(kz_pendulum_keys, torque_amplitude)};
+  for (size_t i = 0; i < sizeof drives / sizeof drives[0]; i++)
+    if (kz_sweep_parameters[parameter].offset == drives[i]) return true;
+  return false;
+}
+
 /* The scene's parameters with n keys at other values; false where they are none. */
 static bool parameters_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value,
                           kz_parameters *parameters) {

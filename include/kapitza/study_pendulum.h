@@ -1,0 +1,74 @@
+/* study: the mapping `pendulum` of a scene as written, and the pendulum, its drive and its release that follow from it. */
+#ifndef KAPITZA_STUDY_PENDULUM_H
+#define KAPITZA_STUDY_PENDULUM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "kapitza/model.h"
+
+/* A list in a scene. */
+enum { KZ_LIST_MAX = 256 };
+typedef struct {
+  int64_t count;
+  double values[KZ_LIST_MAX];
+} kz_reals;
+typedef struct {
+  int64_t count;
+  int64_t values[KZ_LIST_MAX];
+} kz_integers;
+
+/* The quantity that a ramp changes, and its form in time. */
+enum { KZ_RAMP_DAMPING = 0, KZ_RAMP_DRIVE = 1 };
+enum { KZ_RAMP_LINEAR = 0, KZ_RAMP_SMOOTH = 1 };
+
+/* The mapping `pendulum` as written, in one of three forms a, b, c; NaN = key not given. */
+typedef struct {
+  double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
+  double k, damping, m;                                                              /* b: k, beta, m */
+  double mass, radius, inertia, friction, gravity, pivot_amplitude, pivot_frequency; /* c: SI, BSG Eq. (1) */
+  double length;                                  /* c: m, of a point mass, instead of radius and inertia */
+  double frequency;                               /* c: Hz, instead of pivot_frequency */
+  double amplitude;                               /* c: m, instead of pivot_amplitude */
+  double decay_time;                              /* c: s, 2 I/b, instead of friction or quality_factor */
+  double tilt, ellipse, torque, torque_amplitude; /* rad; ratio of the axes; both in units of I omega^2 */
+  double start_phase;                             /* of the scene's basin: phase of the drive at the release, rad */
+  double ramp_from, ramp_periods;                 /* in the units of its key; drive periods */
+  int32_t ramp_key, ramp_shape;                   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
+  int32_t waveform;                               /* KZ_SINE, ... */
+  kz_reals samples;                               /* for KZ_SAMPLES: the drive at equal times of a period, in units of m */
+  kz_harmonics harmonics;                         /* those that the scene adds */
+} kz_pendulum_keys;
+
+/* All three forms give `pendulum`. Other numbers are NaN if they are not defined (Q without damping, Omega at k <= 0). */
+typedef struct {
+  kz_pendulum_keys written;
+  kz_pendulum pendulum;
+  bool has_ramp;
+  double quality_factor, drive_frequency, drive_amplitude;
+  double pivot_frequency; /* rad s-1; NaN without SI */
+  kz_release release;     /* how the cells of a basin are released */
+} kz_parameters;
+
+/* m s-2; CGPM 1901. */
+#define KZ_STANDARD_GRAVITY 9.80665
+
+/* Computes all fields from `written`. KZ_REFUSED if k, beta or m is not finite; the fields are then not usable. */
+kz_status kz_parameters_resolve(kz_parameters *parameters);
+
+/* The largest kz_stiffness of a pendulum, and the largest speed of a start (rad per drive radian), that the program follows. Beyond them a
+ * drive period takes more than 300,000 steps, or 10,000 turns. */
+#define KZ_MOST_STIFFNESS 1e7
+#define KZ_MOST_SPEED 1e4
+
+/* kz_drive_resolve adds the drive that the keys describe to `pendulum`, which has k, beta and m. kz_release_resolve fills *release. */
+void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
+const char *kz_drive_contradiction(const kz_pendulum_keys *written,
+                                   const kz_pendulum *pendulum); /* what contradicts; NULL = nothing */
+void kz_drive_print(const kz_parameters *parameters, FILE *out); /* a summary line: harmonics in use, and their error */
+/* Place of the pivot at a phase of the drive (turns): {aside, height} in units of I/(M r). At rest with torque_amplitude. */
+void kz_pivot_at(const kz_parameters *parameters, double turns, double place[2]);
+void kz_release_resolve(const kz_parameters *parameters, kz_release *release);
+
+#endif

@@ -1,0 +1,51 @@
+"""Pendulums with other drives and releases for the tests, and a text-book integration of them."""
+
+import json
+import math
+
+import h5py
+import numpy as np
+
+WINDOW = {"theta": {"count": 24}, "velocity": {"min": -2, "max": 2, "count": 24}}
+PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+K, BETA, M = 1 / 121, 1 / 55, 0.3
+CORNERED = [(j, 4 / (math.pi * j) * (-1) ** (j // 2)) for j in (1, 3, 5, 7)]
+# Keys -> (a - k, b, torque) of theta'' + beta theta' + a sin theta - b cos theta = torque.
+RIGS = {
+    "sine": ({}, lambda t: (-M * math.cos(t), 0, 0)),
+    "harmonics": ({"harmonics": [{"order": 2, "amplitude": 0.1, "phase": math.pi / 6}, {"order": 1, "amplitude": 0.02}]},
+                  lambda t: (-0.32 * math.cos(t) - 0.1 * math.cos(2 * t + math.pi / 6), 0, 0)),
+    "square": ({"waveform": "square"}, lambda t: (-M * sum(share * math.cos(j * t) for j, share in CORNERED), 0, 0)),
+    "tilted": ({"tilt": math.pi / 36}, lambda t: (-M * math.cos(math.pi / 36) * math.cos(t), M * math.sin(math.pi / 36) * math.cos(t), 0)),
+    "ellipse": ({"ellipse": 0.2}, lambda t: (-M * math.cos(t), 0.2 * M * math.sin(t), 0)),
+    "torque": ({"torque": 0.004}, lambda t: (-M * math.cos(t), 0, 0.004)),
+}
+
+
+def step(slope, t, x, h):
+    """By Runge and Kutta."""
+    one = slope(t, x)
+    two = slope(t + h / 2, x + h / 2 * one)
+    three = slope(t + h / 2, x + h / 2 * two)
+    return x + h / 6 * (one + 2 * two + 2 * three + slope(t + h, x + h * three))
+
+
+def period(force, state, phase=0.0, steps=1500):
+    """One drive period from the phase `phase`, by Runge and Kutta."""
+    def slope(t, x):
+        a, b, torque = force(t)
+        return np.array([x[1], torque - BETA * x[1] - (K + a) * math.sin(x[0]) + b * math.cos(x[0])])
+    x, h = np.array(state, dtype=float), 2 * math.pi / steps
+    for i in range(steps):
+        x = step(slope, phase + i * h, x, h)
+    return x
+
+
+def run(kapitza, folder, scene, *options):
+    (folder / "rig.yaml").write_text(json.dumps(scene))
+    kapitza("run", "rig.yaml", *options, "--force", folder=folder)
+    return h5py.File(folder / "rig.h5")
+
+
+LINEAR = {"key": "damping", "from": 0.06, "periods": 2.5}
+SMOOTH = {"key": "drive_amplitude", "from": 0.1, "periods": 3, "shape": "smooth"}
