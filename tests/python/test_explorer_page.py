@@ -213,7 +213,7 @@ def test_a_change_of_the_pendulum_takes_its_motion_away(page):
     assert words == "…" and is_gone
     page.wait()
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))  # followed anew, with the new pendulum
-    assert page.run("explorer.basins.motion.m") == pytest.approx(0.3 * 4**0.2, rel=1e-5)
+    assert page.run("explorer.basins.motion.pivot[0]") == pytest.approx([0, 0.3 * 4**0.2], rel=1e-5)
 
 
 def test_a_slow_frame_can_be_cancelled(page):
@@ -227,8 +227,8 @@ def test_a_slow_frame_can_be_cancelled(page):
 
 def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
     assert page.run("innerHeight") == pytest.approx(690, abs=12)
-    bottoms = page.run("[...document.querySelectorAll('.slider')].map((row) => row.getBoundingClientRect().bottom)")
-    assert len(bottoms) == 3 and max(bottoms) < 690 and page.run("document.documentElement.scrollHeight") <= page.run("innerHeight")
+    bottoms = page.run("[...document.querySelectorAll('#sliders > *')].map((row) => row.getBoundingClientRect().bottom)")
+    assert len(bottoms) == 4 and max(bottoms) < 690 and page.run("document.documentElement.scrollHeight") <= page.run("innerHeight")
     places = "JSON.stringify(['legend', 'ending', 'pendulum', 'slider-m'].map((id) => $(id).getBoundingClientRect().top))"
     names = "JSON.stringify([...$('legend').rows].map((row) => row.dataset.name))"
     before = page.run(places), page.run(names)
@@ -236,6 +236,11 @@ def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
         page.slide("m", place)
         page.wait()
         assert (page.run(places), page.run(names)) == before
+    for tilt, form, sent in (("0.2", "square", {"tilt": 0.2, "waveform": "square"}), ("0", "sine", {})):  # what says nothing is not sent
+        page.choose("value-tilt", tilt)
+        page.choose("value-waveform", form)
+        pendulum = page.module("frames.js", "its.asScene(explorer.state.pendulum)")
+        assert {name: pendulum[name] for name in pendulum if name not in ("k", "damping", "m")} == sent
 
 
 def test_two_values_stand_side_by_side_with_linked_cursors(page):

@@ -63,13 +63,14 @@ def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str,
     return axes
 
 
-def draw_alike(axes: Axes, sweep: xarray.Dataset, *, colour: str = UP) -> Axes:
+def draw_alike(axes: Axes, sweep: xarray.Dataset, *, colours: str = UP, legend: bool = True) -> Axes:
     """The share that ends alike at all phases of release over the parameter, with its 95 % interval."""
     value, share, low, high = (sweep[name].values for name in ("value", "alike", "alike_low", "alike_high"))
-    axes.fill_between(value, 100 * low, 100 * high, color=colour, alpha=0.25, lw=0, label="95 % interval")
-    axes.plot(value, 100 * share, color=colour, marker="o", markersize=3, label=f"alike at all {sweep.attrs['phases']} phases")
+    axes.fill_between(value, 100 * low, 100 * high, color=colours, alpha=0.25, lw=0, label="95 % interval")
+    axes.plot(value, 100 * share, color=colours, marker="o", markersize=3, label=f"alike at all {sweep.attrs['phases']} phases")
     axes.set(xlabel=parameter_text(sweep), ylabel="share of the starts (%)", xlim=(value[0], value[-1]), ylim=(0, None))
-    axes.legend(fontsize="small")
+    if legend:
+        axes.legend(fontsize="small")
     return axes
 
 
