@@ -308,10 +308,9 @@ const kz_key kz_keys[] = {
     INTEGER("sweep.count", 2, 1e5, NULL, sweep.values.count, "Number of values, both ends included."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(sweep.measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
-        "of the starts; lifetime: mean settling time of long transients; resilience: smallest shocks that leave the "
-        "basins; phases: share of the same cells or starts that ends alike at all phases of release; flutter_amplitude: of the "
-        "period-2 cycle about inverted; flutter_zone: how far flutter reaches when m is raised; release_angle: from rest; "
-        "strobe: a bifurcation diagram.",
+        "of the starts; lifetime: mean settling time of long transients; resilience: smallest shocks that leave the basins; "
+        "phases: share of cells or starts that ends alike at all phases of release; flutter_amplitude: of the period-2 cycle "
+        "about inverted; flutter_zone: how far it reaches when m is raised; release_angle: from rest; strobe: bifurcations.",
         .unit = "", .words_from = kz_sweep_measure_words),
     MAPPING("sweep.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
     REAL("sweep.theta.min", "rad", -1e6, 1e6, "", sweep.theta.min, "Lower edge of the window."),
@@ -331,8 +330,7 @@ const kz_key kz_keys[] = {
     INTEGER("sweep.transient", 0, 1e7, "400", sweep.transient, "Drive periods of strobe at each value before the record."),
     REAL("sweep.shock_scale", "rad per drive radian", 1e-6, 1e6, "1", sweep.shock_scale,
          "Change of the velocity that counts as much as 1 rad in resilience."),
-    INTEGER("sweep.phases", 2, 64, "8", sweep.phases,
-            "Phases of the drive of the measure phases, spread evenly over a period."),
+    INTEGER("sweep.phases", 2, 64, "8", sweep.phases, "Phases of release for the measure phases, evenly over a period."),
     INTEGER("sweep.samples", 1, 1e5, "64", sweep.samples, "Strobe points of each walk at each value."),
 
     MAPPING("chart", "", AT(has_chart), "Study: where the same starts end, over a plane of two keys of the pendulum mapping."),
