@@ -25,6 +25,8 @@ myst_heading_anchors = 3
 myst_enable_extensions = ["dollarmath"]
 smartquotes = False  # theta'' is no quotation
 copybutton_exclude = ".linenos, .gp, .go"
+linkcheck_timeout = 20  # s
+linkcheck_retries = 2
 
 
 def name_versions(app, page, template, context, tree):
@@ -33,5 +35,13 @@ def name_versions(app, page, template, context, tree):
     context["versions"] = sorted(found, key=lambda name: [int(part) for part in re.findall(r"\d+", name)], reverse=True)
 
 
+def add_links_of_readme(app, page, source):
+    """README is not a page of the site. `scripts/docs --links` checks its links together with those of the index."""
+    if app.builder.name == "linkcheck" and page == "index":
+        links = re.findall(r"\]\((https?://[^)\s]+)\)", (ROOT / "README.md").read_text())
+        source[0] += "\n\n" + "\n".join(f"<{link}>" for link in links) + "\n"
+
+
 def setup(app):
     app.connect("html-page-context", name_versions)
+    app.connect("source-read", add_links_of_readme)

@@ -48,19 +48,20 @@ def _distance(one: pandas.Series, other: pandas.Series) -> float:
 
 @dataclass
 class Comparison:
-    """What differs between the basins of two results, `first` and `second`."""
+    """The differences between the basins of two results, `first` and `second`."""
 
     first: "Result"
     second: "Result"
 
     @cached_property
     def matched(self) -> dict[int, int]:
-        """Id in the first -> id in the second, of the attractors that both have."""
+        """A dict from the id in the first result to the id in the second one, for the attractors that both have."""
         return match_attractors(self.first.attractors, self.second.attractors)
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """A row for each attractor: name, first and second (its ids, missing where there is none), their fractions, and the difference."""
+        """A table with a row for each attractor: its name, its ids in both results (missing if it has none), its fractions in both, and
+        their difference."""
         mine, others = self.first.attractors, self.second.attractors
         shares = self.first.basins_fractions(), self.second.basins_fractions()
         rows = [(mine["name"][one], one, self.matched.get(one)) for one in mine.index]
@@ -73,7 +74,10 @@ class Comparison:
 
     @cached_property
     def differing(self) -> xarray.DataArray:
-        """Whether a cell of the first ends on another attractor in the second; ValueError where the grids are not the same."""
+        """True for every cell that ends on another attractor in the second result.
+
+        :raises ValueError: if the two grids are not the same
+        """
         labels, others = self.first.labels(), self.second.labels()
         if labels.shape != others.shape or any(not np.array_equal(labels[axis], others[axis]) for axis in labels.dims):
             raise ValueError("the two results have other windows or counts; their cells cannot be compared one by one")
@@ -86,7 +90,7 @@ class Comparison:
 
     @property
     def differing_share(self) -> float:
-        """The share of the cells that end elsewhere."""
+        """The share of the cells that end on another attractor."""
         return float(self.differing.mean())
 
     def tipping_probabilities(self) -> pandas.DataFrame:

@@ -48,7 +48,7 @@ class Engine:
         return f"<kapitza.Engine of {self.ready.get('title') or 'a scene'}: {state}>"
 
     def close(self) -> None:
-        """Ends the process."""
+        """Ends the process of the engine."""
         for pipe in (self._process.stdin, self._process.stdout):
             if pipe and not pipe.closed:
                 pipe.close()
@@ -60,12 +60,14 @@ class Engine:
 
     def frame(self, window: tuple[Any, Any, Any, Any] | Mapping[str, Any] | None = None, shape: tuple[int, int] = (250, 400),
               pendulum: Mapping[str, Any] | None = None, quality: str = "exact") -> np.ndarray:
-        """The label of every cell of a window: an integer array (rows, columns), the lowest velocity first; -1 = not settled.
+        """Labels every cell of a window: an integer array (rows, columns), the lowest velocity first; -1 = not settled.
 
-        window: (theta_min, theta_max, velocity_min, velocity_max), or {"theta": {"centre": "2.0512...", "width": 1e-20},
-        "velocity": ...} of any depth; None = that of the scene's basin. shape: (rows, columns). pendulum: another mapping
-        `pendulum`, whole. quality: "exact", or "moving" = quickly: a few cells in a thousand of a whole circle are
-        labelled otherwise, up to ten in a hundred of a deep window that is fractal throughout.
+        :param window: (theta_min, theta_max, velocity_min, velocity_max) in rad and rad per drive radian; or, for any depth, a mapping
+            such as `{"theta": {"centre": "2.0512", "width": 1e-20}, "velocity": ...}`; None = the window of the scene's basin
+        :param shape: (rows, columns)
+        :param pendulum: another mapping `pendulum`, complete; None = that of the scene
+        :param quality: "exact", or "moving", which is faster. With "moving" a few cells in a thousand of a whole circle have another
+            label, and up to ten in a hundred of a deep window that is fractal throughout
         """
         request: dict[str, Any] = {"request": "frame", "rows": shape[0], "columns": shape[1], "quality": quality}
         if window is not None:
@@ -77,20 +79,20 @@ class Engine:
 
     @property
     def attractors(self) -> pandas.DataFrame:
-        """The attractors that the labels of the last frame refer to, one row each. Before the first frame: those of the scene."""
+        """A table of the attractors that the labels of the last frame refer to. Before the first frame it has those of the scene."""
         if self._attractors is None:
             self._ask({"request": "catalogue"}, None)
         assert self._attractors is not None
         return self._attractors
 
     def where(self, theta: Any, velocity: Any, pendulum: Mapping[str, Any] | None = None) -> dict[str, Any]:
-        """Where one start ends: the columns of kapitza.where, as a dict."""
+        """Returns where one start ends: a dict with the columns of `kapitza.where`."""
         header, _ = self._ask({"request": "where", "theta": theta, "velocity": velocity}, pendulum)
         return {key: value for key, value in header.items() if key not in ("answer", "sequence", "final", "bytes")}
 
     def orbit(self, theta: Any, velocity: Any, periods: int = 100, pendulum: Mapping[str, Any] | None = None,
               samples_per_period: int = 64) -> pandas.DataFrame:
-        """One motion: columns time (drive radians), theta (rad, not wrapped), velocity (rad per drive radian)."""
+        """Models one motion: a table with the columns time (drive radians), theta (rad, not wrapped), velocity (rad per drive radian)."""
         header, payload = self._ask({"request": "orbit", "theta": theta, "velocity": velocity, "periods": periods,
                                      "samples_per_period": samples_per_period}, pendulum)
         values = np.frombuffer(payload, "<f8").reshape(2, header["samples"])

@@ -24,10 +24,15 @@ GIF_COLOURS = 128
 
 def film(scene: SceneLike, key: str, values: Iterable[Any], output: str | os.PathLike[str] = "film.mp4", *, rate: float = 12,
          ranks: int = 1, set: Mapping[str, Any] | None = None, centre: str = "inverted") -> Path:
-    """Writes a film of the scene's basins while one key takes the values, in turn, and returns its path.
+    """Makes a film of the scene's basins, with one picture for each value of a key, and returns its path.
 
-    key: such as "pendulum.drive_amplitude"; output: NAME.mp4 needs ffmpeg, and becomes NAME.gif where that is not installed;
-    rate: pictures a second; set: other keys to change.
+    :param key: the key that changes, such as "pendulum.drive_amplitude"
+    :param values: its values, in order
+    :param output: NAME.mp4 or NAME.gif; an MP4 needs ffmpeg, and becomes a GIF if ffmpeg is not installed
+    :param rate: pictures a second
+    :param ranks: number of MPI processes
+    :param set: other keys to change
+    :param centre: angle in the middle of the picture: "inverted" or "down"
     """
     def pictures() -> Iterable[Image.Image]:
         for value in values:

@@ -24,10 +24,10 @@ _PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?|request)): (?P<key>[a-z
 
 
 class SceneError(ValueError):
-    """A scene, or a command, that the program refuses; the text is the program's line.
+    """The program refuses a scene or a command. The text is the program's message.
 
-    `key`: the key of the scene that is at fault, None where no single one is. `value`: what the scene gives it, None where it is
-    missing. `place`: where it stands: `FILE:LINE:COLUMN`, "line LINE, column COLUMN" of a text, or the option that set it.
+    `key` is the key of the scene that is wrong, or None if it is not a single one. `value` is its value; None = the key is missing.
+    `place` is the place in the scene: `FILE:LINE:COLUMN`, "line LINE, column COLUMN" in a text, or the option that set the key.
     """
 
     def __init__(self, text: str, key: str | None = None, value: Any = None, place: str | None = None) -> None:
@@ -36,7 +36,7 @@ class SceneError(ValueError):
 
 
 class RunError(RuntimeError):
-    """A run that failed; the text is the program's line."""
+    """A run has failed. The text is the program's message."""
 
 
 def program() -> Path:

@@ -18,13 +18,17 @@ if TYPE_CHECKING:
 
 
 class BadFile(Exception):
-    """A file that cannot be used; the text says which and why, in one line."""
+    """A file cannot be used. The text is one line: which file, and why."""
 
 
 class Result:
-    """A complete result file of kapitza: `attributes` of the file, names of its `groups`, attributes of its `pendulum`.
+    """A complete result file of kapitza.
 
-    `summary`: what the run that made it printed; "" where the file was opened.
+    `attributes` has the attributes of the file, `groups` the names of its groups, and `pendulum` the numbers of the pendulum. `summary`
+    is what the run has printed; it is "" for a file that was opened by its name.
+
+    :param path: name of the file
+    :raises BadFile: if the file is not a complete result, or is damaged
     """
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -61,7 +65,7 @@ class Result:
 
     @cached_property
     def tree(self) -> xarray.DataTree:
-        """All groups. Values are read from the file when they are asked for; tree.close() closes it."""
+        """All groups as an xarray.DataTree, which reads values from the file when they are needed. `tree.close()` closes the file."""
         for name in self.groups:
             if wrong := self._elsewhere(name):
                 raise BadFile(f"{self.path}: {wrong}")
@@ -72,40 +76,47 @@ class Result:
 
     @property
     def title(self) -> str:
-        """The scene's title, or the file's name."""
+        """The title of the scene; the name of the file if the scene has no title."""
         title = self.attributes.get("title")
         return title if isinstance(title, str) and title else self.path.stem
 
     @property
     def scene(self) -> str:
-        """The scene as it was run, with every default: YAML that kapitza.run takes and that gives the same numbers."""
+        """The scene with every default, as YAML text. `kapitza.run` of it gives the same numbers."""
         return str(self.attributes.get("scene_resolved", ""))
 
     @cached_property
     def attractors(self) -> pandas.DataFrame:
-        """A row for each attractor, by id: name, period, winding, centre, mirror, fraction, multipliers, strobe points (lists), ..."""
+        """A table with a row for each attractor, in the order of ids: name, period, winding, centre, mirror, fraction, multipliers, strobe
+        points (lists) and so on."""
         return attractors_table(self.group("attractors"))
 
     @property
     def names(self) -> list[str]:
-        """The attractors' names by id; of two with one name each has its id behind it."""
+        """The names of the attractors, in the order of ids. If two attractors have the same name, the id is added to each of them."""
         from kapitza.style import names_with_ids
         return names_with_ids(self.attractors["name"])
 
     def labels(self) -> xarray.DataArray:
-        """The label of every start over velocity and theta: the id of its attractor, -1 = not settled.
+        """The label of every start, with the dimensions velocity and theta: the id of its attractor, -1 = not settled.
 
-        Attractors.jl calls it basins_of_attraction.
+        Attractors.jl calls this array `basins_of_attraction`.
         """
         return labels_array(self.group("basin"), self.group("attractors"))
 
     def basin(self, name: int | str) -> xarray.DataArray:
-        """Whether a start ends on the attractor of this id, or on one of this name."""
+        """True for every start that ends on this attractor, with the dimensions velocity and theta.
+
+        :param name: id or name of the attractor; a name may stand for several
+        """
         labels = self.labels()
         return labels.isin(self.ids(name)).rename(f"basin of {name}")
 
     def ids(self, name: int | str) -> list[int]:
-        """The ids of the attractors of a name; of "inverted 3-nodding (2)" or an id that one. KeyError where there is none."""
+        """The ids of all attractors of a name. A name with its id, such as "inverted 3-nodding (2)", or an id gives this one attractor.
+
+        :raises KeyError: if there is none
+        """
         table = self.attractors
         found = [index for index, (plain, full) in enumerate(zip(table["name"], self.names, strict=True)) if name in (plain, full, index)]
         if not found:
@@ -113,44 +124,53 @@ class Result:
         return found
 
     def basins_fractions(self) -> dict[int, float]:
-        """Id -> share of the starts; -1 = not settled."""
+        """A dict from the id of each attractor to its share of the starts; -1 = not settled."""
         values, counts = np.unique(self.labels().values, return_counts=True)
         return {int(value): float(count / counts.sum()) for value, count in zip(values, counts, strict=True)}
 
     def basin_entropy(self) -> tuple[float, float]:
-        """(Sb, Sbb): the basin entropy, and that of the boxes at boundaries."""
+        """The basin entropy, and the boundary basin entropy: the same for boxes with more than one label."""
         attributes = self.group("basin").attrs
         return float(attributes["basin_entropy"]), float(attributes["boundary_basin_entropy"])
 
     def uncertainty_exponent(self) -> tuple[float, float]:
-        """The uncertainty exponent of the boundaries, and the standard error of its fit."""
+        """The uncertainty exponent of the boundaries, and the standard error of the fitted line."""
         attributes = self.group("basin").attrs
         return float(attributes["uncertainty_exponent"]), float(attributes["uncertainty_exponent_stderr"])
 
     def convergence_times(self) -> xarray.DataArray:
-        """Drive periods that every start takes until it is trapped."""
+        """The number of drive periods until a trapping region holds each start, with the dimensions velocity and theta."""
         return self.group("basin")["settling_time"]
 
     def plot(self, kind: str | None = None, **options: Any) -> Any:
-        """The picture of a group as a matplotlib Figure. kind: a group of the file, by default its main one; options: those
-        of `kapitza-plot KIND`, such as centre="inverted", view="branches", si=True, width="86mm"."""
+        """Draws a group of the file and returns the matplotlib Figure.
+
+        :param kind: a kind of picture, such as "basin" or "orbit"; None = that of the main study of the file
+        :param options: options of `kapitza-plot KIND`, such as `centre="inverted"`, `si=True` or `width="86mm"`
+        """
         from kapitza.show import figure_of
         return figure_of(self, kind, options)
 
     def report(self, output: str | os.PathLike[str] | None = None) -> Path:
-        """Writes one self-contained HTML page on the result (by default beside it) and returns its path."""
+        """Writes a self-contained HTML page on the result and returns its path.
+
+        :param output: name of the page; None = the name of the result with .html
+        """
         from kapitza.report.page import report
         path = Path(output) if output is not None else self.path.with_suffix(".html")
         path.write_bytes(report(self).encode("utf-8", "replace"))
         return path
 
     def compare(self, other: "Result | str | os.PathLike[str]") -> "Comparison":
-        """The basins of this result beside those of another: attractors matched by their strobe points, shares, cells that differ."""
+        """Compares the basins of this result with those of another one, whose attractors are matched by their strobe points."""
         from kapitza.compare import Comparison
         return Comparison(self, other if isinstance(other, Result) else Result(other))
 
     def group(self, name: str) -> xarray.Dataset:
-        """The group, read whole; BadFile where the pictures could not be drawn from it."""
+        """Reads a group of the file completely.
+
+        :raises BadFile: if the file has no such group, or if the group is damaged or too large for the memory
+        """
         if name not in self.groups:
             held = ", ".join(group for group in self.groups if group != "pendulum") or "none"
             raise BadFile(f"{self.path}: holds no {name} (studies in it: {held})")

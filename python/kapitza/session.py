@@ -24,11 +24,18 @@ def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: i
         resume: bool = False, progress: bool = True, *, method: str | None = None, force: bool = False) -> Result:
     """Models every study of a scene and returns its Result.
 
-    scene: path of a scene file, YAML text, or a mapping. output: the result file; None = one that lasts as long as the session.
-    ranks: MPI processes. set: keys to change, such as {"basin.theta.count": 200}. resume: continue from output's checkpoint, or take a
-    complete output of this scene as it is. progress: whether a bar shows. method: basin.method. force: overwrite output.
-    Ctrl-C stops the run and keeps what is finished in the checkpoint of `output`. Raises SceneError if the program refuses the scene, and
-    RunError if the run fails later.
+    Ctrl-C stops the run. The checkpoint of `output` then keeps the finished work.
+
+    :param scene: path of a scene file, YAML text, or a mapping
+    :param output: name of the result file; None = a temporary file that is removed at the end of the session
+    :param ranks: number of MPI processes
+    :param set: keys to change, such as `{"basin.theta.count": 200}`
+    :param resume: continue from the checkpoint of `output`; if `output` is complete for this scene, read it
+    :param progress: whether to show a progress bar
+    :param method: `basin.method`: "exact", "direct" or "icm"
+    :param force: overwrite `output`
+    :raises SceneError: if the program refuses the scene
+    :raises RunError: if the run fails later
     """
     asked = Scene(scene, set, method)
     path = Path(output) if output is not None else new_path(f"{asked.stem}.h5")
@@ -83,8 +90,11 @@ def _interrupted(status: int, path: Path, named: bool) -> str:
 
 @dataclass(frozen=True)
 class Check:
-    """What a scene would model: `scene` with every default, `studies`, `cells`, `seconds` on one core (a lower bound where the
-    page says "more than"); `text`: the program's page."""
+    """What a run of a scene would model, and its cost. `text` is what the command `check` prints.
+
+    `scene` is YAML with every default, `studies` the names of the studies, and `cells` the number of cells. `seconds` is the estimated
+    time on one core; it is a lower bound if `text` says "more than".
+    """
 
     scene: str
     studies: list[str]
@@ -97,7 +107,12 @@ class Check:
 
 
 def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
-    """What a run of the scene would model and cost. Raises SceneError if a run would be refused. Nothing is modelled or written."""
+    """Returns what a run of the scene would model, and what it would cost. It models and writes nothing.
+
+    :param scene: path of a scene file, YAML text, or a mapping
+    :param set: keys to change
+    :raises SceneError: if the program refuses the scene
+    """
     asked = Scene(scene, set)
     text = ask(["check", asked.path, *asked.sets], asked)
     facts = {name: value for name, value in re.findall(r"^(studies|cells|estimated time) +(.*)$", text, re.MULTILINE)}
@@ -107,13 +122,18 @@ def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
 
 
 def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | None = None) -> pandas.DataFrame:
-    """Where starts end: a row for each start, in the order of the broadcast arrays `theta` (rad from down) and `velocity` (rad per
-    drive radian).
+    """Returns where starts end: a table with a row for each start.
 
-    Both take numbers, or texts such as "175 deg", "pi/2" and, of a scene in SI units, "3 rad/s"; up to 100,000 starts.
-    Columns: theta, velocity, attractor (-1: not settled), name, period (0: chaotic), winding, settling_time (drive periods), decided,
-    strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor, other_name; missing where there is none. Of a
-    scene in SI units also velocity_rad_per_s, settling_seconds, strobe_velocity_rad_per_s.
+    The columns are theta, velocity, attractor (id; -1 = not settled), name, period (0 = chaotic), winding, settling_time (drive periods),
+    decided, strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor and other_name. A value that does not
+    exist is missing. For a scene in SI units there are also velocity_rad_per_s, settling_seconds and strobe_velocity_rad_per_s.
+
+    :param scene: path of a scene file, YAML text, or a mapping
+    :param theta: angles in rad from down, or texts such as "175 deg" and "pi/2"; a number or an array
+    :param velocity: velocities in rad per drive radian, or, for a scene in SI units, texts such as "3 rad/s". The arrays are broadcast;
+        at most 100,000 starts
+    :param set: keys to change
+    :raises SceneError: if the program refuses the scene or a start
     """
     asked = Scene(scene, set)
     angles, velocities = (np.ravel(values) for values in np.broadcast_arrays(_starts(theta), _starts(velocity)))
@@ -130,10 +150,16 @@ def _starts(values: Any) -> np.ndarray:
 
 def orbit(scene: SceneLike, theta: Any = None, velocity: Any = None, *, attractor: int | str | None = None, periods: int | None = None,
           transient: int = 0, closed: bool = False, set: Mapping[str, Any] | None = None, progress: bool = True) -> Result:
-    """One motion of the scene's pendulum: result.group("orbit") has time, theta, velocity, strobe points, spectral lines.
+    """Models one motion of the scene's pendulum, from a start or along an attractor.
 
-    It starts at (theta, velocity), or runs along an attractor of the scene's basin (its id or name). periods: drive periods
-    that are recorded, after `transient` of them; closed: the cycle near the start instead of the motion from it.
+    `result.group("orbit")` has time, theta, velocity, strobe points and spectral lines.
+
+    :param theta: angle of the start, rad from down
+    :param velocity: velocity of the start, rad per drive radian
+    :param attractor: id or name of an attractor of the scene's basin, instead of a start
+    :param periods: number of recorded drive periods
+    :param transient: number of drive periods before the record
+    :param closed: record the cycle near the start instead of the motion from it
     """
     asked = Scene(scene, set)
     plan: dict[str, Any] = {"start": {"theta": theta, "velocity": velocity}, "transient": transient, "closed": closed}
@@ -162,10 +188,17 @@ def _attractor_id(scene: Scene, wanted: int | str) -> int:
 def sweep(scene: SceneLike, parameter: str, values: tuple[Any, Any], count: int = 50,
           measure: str | Iterable[str] = ("attractors", "basin_fractions"), *, ranks: int = 1,
           output: str | os.PathLike[str] | None = None, progress: bool = True, **keys: Any) -> Result:
-    """The attractors along one key of the pendulum, at `count` values from values[0] to values[1].
+    """Follows the attractors along one key of the pendulum.
 
-    measure: one or several of those of the study sweep (attractors, basin_fractions, flutter_amplitude, release_angle, strobe,
-    ...); keys: its other keys, such as starts=4096. result.group("sweep") has the numbers.
+    `result.group("sweep")` has the numbers.
+
+    :param parameter: key of the mapping `pendulum`, such as "drive_amplitude"
+    :param values: first and last value, both included
+    :param count: number of values
+    :param measure: one or several measures of the study `sweep`, such as "attractors", "basin_fractions" or "release_angle"
+    :param ranks: number of MPI processes
+    :param output: name of the result file; None = a temporary file
+    :param keys: further keys of the study `sweep`, such as `starts=4096`
     """
     asked = Scene(scene)
     plan = {"parameter": parameter, "min": values[0], "max": values[1], "count": count,

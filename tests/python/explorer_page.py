@@ -138,6 +138,18 @@ class Page:
     def state(self):
         return self.run("document.body.dataset.state")
 
+    def fits(self, width, height):
+        """Whether a window of this size, CSS pixels, cuts nothing off, and the controls end above the line at the bottom."""
+        screen = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+        controls, line = "$('film').closest('aside').getBoundingClientRect()", "document.querySelector('footer').getBoundingClientRect()"
+        film = "$('film').getBoundingClientRect()"
+        hidden = f"getComputedStyle($('film').closest('aside')).overflowY === 'auto' || {film}.bottom <= {line}.top + 1"
+        test = f"{controls}.bottom <= {line}.top + 1 && ({hidden}) && document.scrollingElement.scrollWidth <= {width}"
+        fits = wait_for(lambda: self.run(test))  # the picture takes its new size a moment later
+        self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+        return fits
+
     def press(self, name):
         self.run("$(arguments[0]).click()", name)
 

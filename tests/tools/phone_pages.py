@@ -1,6 +1,7 @@
-"""Opens every page of the site in Chromium on a phone's width, and says which pages are wider than the phone.
+"""Opens every page of the site in Chromium at a phone's width, and every twelfth page in two wider windows, and names the pages whose text
+is wider than the window.
 
-    phone_pages.py build/site/VERSION [--width 390] [--pictures FOLDER]      status 1 where a page has to be scrolled sideways
+    phone_pages.py build/site/VERSION [--width 390] [--pictures FOLDER]      status 1 if there is such a page
 
 Tables and blocks of code may scroll inside their own frames; the page itself may not.
 """
@@ -12,6 +13,7 @@ from pathlib import Path
 from selenium import webdriver
 
 HIGHEST = 2400  # of a picture, CSS pixels
+WINDOWS = (820, 1100)  # of a tablet and of a small screen, CSS pixels
 
 
 def browser(width):
@@ -36,6 +38,14 @@ def look(driver, page, pictures):
     return wide
 
 
+def text_ends(driver, page, window):
+    """The right edge of a page's text in a window, CSS pixels."""
+    driver.get(page.as_uri())
+    screen = {"width": window, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+    driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+    return driver.execute_script("return document.querySelector('article').getBoundingClientRect().right")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("site", type=Path)
@@ -44,10 +54,11 @@ def main():
     arguments = parser.parse_args()
     pages = sorted(page.resolve() for page in [arguments.site / "index.html", *arguments.site.glob("[!_]*/*.html")])
     with browser(arguments.width) as driver:
-        widths = {page: look(driver, page, arguments.pictures) for page in pages}
-    wide = {page: width for page, width in widths.items() if width > arguments.width}
-    for page, width in wide.items():
-        print(f"{page.relative_to(arguments.site.resolve())}: {width} px wide on a phone of {arguments.width} px")
+        widths = {(page, arguments.width): look(driver, page, arguments.pictures) for page in pages}
+        widths |= {(page, window): text_ends(driver, page, window) for window in WINDOWS for page in pages[::12]}
+    wide = {place: width for place, width in widths.items() if width > place[1]}
+    for (page, window), width in wide.items():
+        print(f"{page.relative_to(arguments.site.resolve())}: {width:.0f} px wide in a window of {window} px")
     print(f"{len(pages)} pages, {len(wide)} too wide")
     return 1 if wide or not pages else 0
 

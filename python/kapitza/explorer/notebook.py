@@ -39,12 +39,18 @@ class Shown:
 
 
 def explore(scene: SceneLike, *, set=None, height=760, port=0, base=None, origins=(), frames=None):
-    """Shows the basins of a scene in a cell of a notebook, to be zoomed, dragged and changed.
+    """Shows the explorer of a scene in a cell of a notebook.
 
-    scene: path of a scene or of a result, YAML text, or a mapping. set: {"pendulum.m": 0.4}. height: px. port: of the server on the
-    kernel's machine; 0 = any that is free. base: where a browser reaches it, with {port} in it; None = `http://127.0.0.1:{port}/`, or
-    behind JupyterHub its server proxy. origins: of that place, where it is not this machine (`https://hub.example.org`). frames: origins
-    whose pages may hold the cell; None = those of this machine, and `origins`. Returns what a cell shows; its close() ends it.
+    The returned object is shown by the cell; its method `close()` ends the explorer.
+
+    :param scene: path of a scene or of a result, YAML text, or a mapping
+    :param set: keys to change, such as `{"pendulum.m": 0.4}`
+    :param height: height of the cell, CSS pixels
+    :param port: port of the server on the kernel's machine; 0 = a free one
+    :param base: address at which the browser reaches the server, with `{port}` in it; None = `http://127.0.0.1:{port}/`, or the server
+        proxy of JupyterHub
+    :param origins: origins of that address if it is on another machine, such as `["https://hub.example.org"]`
+    :param frames: origins of pages that may contain the cell; None = this machine and `origins`
     """
     from .server import Explorer, Refused, Start  # with what draws: not for those who only import the package
     hub = os.environ.get("JUPYTERHUB_SERVICE_PREFIX")
