@@ -53,12 +53,12 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   for (int i = 0; i < kz_study_count; i++)
     if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);
   printf(
-      "\ncells            %lld\ndisk             %s\nmemory per rank  %s, on the first %s more, %s divided by the number of "
-      "ranks\nestimated time   ",
+      "\ncells            %lld\ndisk             %s\nmemory per rank  %s, %s more on rank 0, and a share of %s\n"
+      "estimated time   ",
       (long long)cost.cells, disk, memory, first, shared);
   if (!estimate->is_whole) fputs("more than ", stdout);
   print_duration(estimate->seconds);
-  puts(" on one core, divided by the number of ranks");
+  puts(" on one core; N ranks take an N-th of it");
 }
 
 static kz_status check_scene(const kz_options *options, const kz_scene *scene) {

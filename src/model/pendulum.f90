@@ -59,7 +59,7 @@ contains
     parts = [1.0_c_double, -cos(2*real(PI, c_double)*turn)]
   end function force_of_parameters
 
-  !> Whether two pendulums are the same numbers.
+  !> True if two pendulums have the same numbers.
   pure function is_same(one, other) result(same)
     !> a pendulum
     type(pendulum_t), intent(in) :: one
@@ -70,7 +70,7 @@ contains
     same = all(transfer(one, [0_c_int32_t]) == transfer(other, [0_c_int32_t])) ! to the bit
   end function is_same
 
-  !> A bound of |a(t)| + |b(t)| + |torque|.
+  !> An upper bound of |a(t)| + |b(t)| + |torque| over all t.
   pure function stiffness(pendulum) bind(C, name='kz_stiffness') result(bound)
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum
@@ -94,7 +94,7 @@ contains
     bound = bound + abs(pendulum%torque)
   end function exact_stiffness
 
-  !> 1 where the mirror image (-theta, -velocity) of a motion is one.
+  !> 1 if the mirror image (-theta, -velocity) of every motion is a motion too, else 0.
   pure function is_mirrored(pendulum) bind(C, name='kz_is_mirrored') result(mirrored)
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum
@@ -103,7 +103,7 @@ contains
     mirrored = 1 - pendulum%unmirrored
   end function is_mirrored
 
-  !> 1 where the drive is k - m cos t alone.
+  !> 1 if the drive is k - m cos t without further terms, else 0.
   pure function is_sine(pendulum) bind(C, name='kz_is_sine') result(sine)
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum
@@ -151,7 +151,7 @@ contains
     end do
   end subroutine force_at
 
-  !> theta'' at the drive's angle t, rad.
+  !> theta'' of a state at the time t of the drive, rad.
   pure function acceleration(pendulum, t, theta, velocity) result(rate)
     !> the pendulum
     type(pendulum_t), intent(in) :: pendulum

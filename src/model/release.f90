@@ -32,7 +32,7 @@ module kz_model_release
 
 contains
 
-  !> Strobes that have passed when the drive has its final form.
+  !> Number of the first strobe from which on the drive has its final form; 0 if it has this form from the release.
   pure function strobes_before(release) bind(C, name='kz_release_strobes') result(n)
     !> of the motions
     type(release_t), intent(in) :: release
@@ -42,14 +42,14 @@ contains
     if (release%phase > 0) n = max(1_c_int64_t, n)
   end function strobes_before
 
-  !> A drive period of the final form.
+  !> The stretch of a whole drive period with the final drive.
   pure function whole_period() result(stretch)
     type(stretch_t) :: stretch
 
     stretch = stretch_t(release=release_t(0, 0, 0, 1, 0))
   end function whole_period
 
-  !> From the release to the next strobe, or to the end of the ramp.
+  !> The stretch from the release to the next strobe, or to the end of the ramp.
   pure function first_stretch(release) result(stretch)
     !> of the motions
     type(release_t), intent(in) :: release
@@ -60,7 +60,7 @@ contains
     stretch = next_stretch(stretch)
   end function first_stretch
 
-  !> What follows, up to the next strobe or the end of the ramp.
+  !> The stretch after this one, up to the next strobe or the end of the ramp.
   pure function next_stretch(stretch) result(next)
     !> what has been followed
     type(stretch_t), intent(in) :: stretch
@@ -77,7 +77,7 @@ contains
     next%span = end - next%begin
   end function next_stretch
 
-  !> Whether a stretch begins before the drive has its final form and a strobe is reached.
+  !> True if a stretch begins before the drive has its final form and a strobe is reached.
   pure function is_open(stretch) result(open)
     !> a stretch
     type(stretch_t), intent(in) :: stretch
@@ -121,7 +121,7 @@ contains
     series(0) = series(0) + pendulum%beta
   end function damping_series
 
-  !> The drive in units of the final one.
+  !> The strength of the drive relative to the final one, as a polynomial in x, at `turn` + x width drive periods.
   pure function drive_series(stretch, turn, width) result(series)
     !> of the time
     type(stretch_t), intent(in) :: stretch

@@ -24,7 +24,7 @@ def estimates(kapitza, n, method):
     """Bytes: disk, of each rank, of the first besides, of all together besides."""
     text = kapitza("check", *words(n, method)).stdout
     disk = re.search(r"disk +([\d.]+) (\w+)", text)
-    memory = re.search(r"memory per rank +([\d.]+) (\w+), on the first ([\d.]+) (\w+) more, ([\d.]+) (\w+)", text)
+    memory = re.search(r"memory per rank +([\d.]+) (\w+), ([\d.]+) (\w+) more on rank 0, and a share of ([\d.]+) (\w+)", text)
     numbers = [*disk.groups(), *memory.groups()]
     return [float(number) * UNITS[unit] for number, unit in zip(numbers[::2], numbers[1::2], strict=True)]
 

@@ -20,7 +20,7 @@ contains
     handle = c_loc(make_dynamics(pendulum, numerics, int(max_period), .false.))
   end function create
 
-  !> Maps without attractors and regions.
+  !> Makes the maps of a pendulum, without attractors and regions.
   function make_dynamics(pendulum, numerics, max_period, moving) result(d)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum

@@ -30,7 +30,7 @@ module kz_api_handle
 
 contains
 
-  !> The dynamics behind a handle of C; null for a null one.
+  !> The dynamics behind a handle of C; null for a null handle.
   function of_handle(handle) result(d)
     !> what kz_dynamics_create returned
     type(c_ptr), intent(in) :: handle

@@ -60,7 +60,7 @@ contains
     end do
   end subroutine label_starts
 
-  !> A start is known to the last place of its double; where it is to be followed `precisely`, to that of the pair.
+  !> The orbit of a start. The start is known to the last place of its double, or, with `precisely`, to the last place of the pair.
   pure function orbit_of(start, precisely) result(orbit)
     !> rad, rad per drive radian
     type(start_t), intent(in) :: start

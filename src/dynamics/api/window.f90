@@ -15,7 +15,7 @@ module kz_api_window
 
 contains
 
-  !> Points of the additive recurrence of the plastic number, an even spread; the seed is its offset.
+  !> Starts spread evenly by the additive recurrence of the plastic number; the seed is the offset.
   subroutine starts(window, seed, n, state) bind(C, name='kz_dynamics_starts')
     !> rad and rad per drive radian
     type(window_t), intent(in) :: window

@@ -64,7 +64,7 @@ contains
     end if
   end function key
 
-  !> The whole catalogue as doubles; integers are exact in them.
+  !> The whole catalogue as doubles. Integers are exact in doubles.
   function packed(attractors) result(flat)
     !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
@@ -87,7 +87,7 @@ contains
     end do
   end function packed
 
-  !> Doubles that a catalogue of one cycle up to this period and its mirror image takes at most.
+  !> The largest number of doubles of a catalogue with one cycle of up to this period and its mirror image.
   pure function packed_cycle_size(max_period) result(n)
     !> longest period of a cycle, drive periods
     integer, intent(in) :: max_period
@@ -96,7 +96,7 @@ contains
     n = 1 + 2*(HEAD + 5*max_period)
   end function packed_cycle_size
 
-  !> The same of a chaotic attractor and its mirror image.
+  !> The largest number of doubles of a catalogue with one chaotic attractor and its mirror image.
   pure function packed_chaos_size() result(n)
     integer :: n
 
@@ -136,7 +136,7 @@ contains
     end do
   end function of_bits
 
-  !> The catalogue from the doubles that `packed` gives; doubles beyond it are ignored.
+  !> The catalogue from the doubles that `packed` returns; further doubles are ignored.
   subroutine unpack(flat, attractors)
     !> what `packed` returned
     real(dp), intent(in) :: flat(:)

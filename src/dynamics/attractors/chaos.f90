@@ -25,10 +25,9 @@ module kz_attractors_chaos
 
 contains
 
-  !> Follows a bundle of orbits from the physical state (u, v). Where none of them is ever trapped and they diverge, a chaotic
-  !> attractor is appended.
-  !> A long chaotic transient is none: one of its orbits is trapped at last. Where damping is so weak that areas hardly shrink
-  !> meanwhile, nothing can be told.
+  !> Follows a bundle of orbits from the physical state (u, v). If no trapping region holds any of them and they separate, it appends a
+  !> chaotic attractor. A long chaotic transient does not count, because one of its orbits is trapped in the end. With damping so weak
+  !> that areas hardly shrink, it appends nothing.
   subroutine find_chaos(search, regions, u, v, attractors)
     !> the flows and the longest period of the search
     type(search_t), intent(inout) :: search

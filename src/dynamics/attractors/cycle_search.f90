@@ -32,8 +32,8 @@ module kz_attractors_cycle_search
 
 contains
 
-  !> Looks at physical states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until one is found;
-  !> it is appended, with its mirror image.
+  !> Tries physical states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until it finds one. It
+  !> appends the cycle and its mirror image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
     !> the flows and the longest period of the search
     type(search_t), intent(inout) :: search
@@ -141,7 +141,7 @@ contains
     n = 1
   end function first_of_the_closest
 
-  !> Whether a cycle of this period through any of these states is among the attractors.
+  !> True if a cycle of this period through any of these states is among the attractors.
   pure function known(attractors, period, u, v)
     !> the catalogue
     type(attractor_t), intent(in) :: attractors(:)
@@ -164,7 +164,7 @@ contains
     known = .false.
   end function known
 
-  !> Completes an attractor (trapping ellipses, features) and appends it, and its mirror image where that is another one.
+  !> Completes an attractor (trapping ellipses, features) and appends it, and its mirror image if that is another one.
   subroutine add_with_mirror(search, attractor, attractors)
     !> the flows and the longest period of the search
     type(search_t), intent(inout) :: search
@@ -181,7 +181,7 @@ contains
     call append_with_mirror(attractor, attractors)
   end subroutine add_with_mirror
 
-  !> Appends a complete cycle or chaotic attractor, and its mirror image where that is another one.
+  !> Appends a complete cycle or chaotic attractor, and its mirror image if that is another one.
   subroutine append_with_mirror(attractor, attractors)
     !> what joins the catalogue; its number of the mirror image is set
     type(attractor_t), intent(inout) :: attractor
@@ -196,7 +196,7 @@ contains
     attractors(size(attractors))%mirror = size(attractors) - 1
   end subroutine append_with_mirror
 
-  !> One attractor more, its strobe points listed from the lowest.
+  !> Appends an attractor, with its strobe points in order from the lowest.
   subroutine append(attractors, attractor)
     !> the catalogue
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
@@ -209,7 +209,7 @@ contains
     call join(attractors, one)
   end subroutine append
 
-  !> Attractors join the end of a catalogue.
+  !> Appends attractors to a catalogue.
   subroutine join(attractors, more)
     !> the catalogue
     type(attractor_t), allocatable, intent(inout) :: attractors(:)

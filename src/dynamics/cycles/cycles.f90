@@ -35,9 +35,9 @@ module kz_cycles_cycles
 
 contains
 
-  !> Newton's method on the n-period map from (u, v), with a fine flow. `found` only where it converges within `max_distance` of
-  !> the start; the cycle, attracting or not, then has its true (minimal) period. `blurred` where it converges, but rounding
-  !> leaves open where to: too near a bifurcation.
+  !> Newton's method on the n-period map from (u, v), with a fine flow. `found`: it converges within `max_distance` of the start; the
+  !> cycle, attracting or not, then has its smallest period. `blurred`: it converges, but so near a bifurcation that rounding does not
+  !> define the point.
   subroutine close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
     !> a fine flow
     class(flow_t), intent(inout) :: flow
@@ -70,7 +70,7 @@ contains
     cycle%multiplier = eigenvalues(matrix, exp(-2*PI*beta*period))
   end subroutine close_cycle
 
-  !> Whether a closed cycle attracts; then its exponent and its symmetry become known.
+  !> True if a closed cycle attracts; it then sets the exponent and the symmetry of the attractor.
   subroutine complete_attractor(cycle, attracts)
     !> what close_cycle found
     type(attractor_t), intent(inout) :: cycle
@@ -112,7 +112,7 @@ contains
     matrix = tangent(:, :, 1)
   end subroutine orbit_of
 
-  !> Fills kernel_u and kernel_v.
+  !> Sets kernel_u and kernel_v from the strobe points.
   subroutine enter_points(flow, attractor)
     !> the flow whose coordinates are entered
     class(flow_t), intent(inout) :: flow
@@ -124,8 +124,7 @@ contains
     call states_to_map(flow, attractor%kernel_u, attractor%kernel_v)
   end subroutine enter_points
 
-  !> A cycle that is its own mirror image, x(1 + n/2) = -x(1), is made so to the bit: x(j + n/2) = -x(j), or exactly down or
-  !> inverted.
+  !> Makes a cycle that is its own mirror image, x(1 + n/2) = -x(1), exact: x(j + n/2) = -x(j) to the bit, or exactly down or inverted.
   subroutine symmetrise(cycle)
     !> points, winding, period; comes back symmetric where it is
     type(attractor_t), intent(inout) :: cycle
@@ -151,7 +150,7 @@ contains
     cycle%v(half + 1:) = -cycle%v(:half)
   end subroutine symmetrise
 
-  !> The image under (theta, v) -> (-theta, -v), to the bit.
+  !> The mirror image (-theta, -v) of an attractor, exact to the bit.
   pure function mirror_image(attractor) result(image)
     !> the attractor
     type(attractor_t), intent(in) :: attractor
@@ -167,7 +166,7 @@ contains
     if (allocated(attractor%kernel_v)) image%kernel_v = -attractor%kernel_v
   end function mirror_image
 
-  !> The strobe points rotated to begin with the lowest velocity, then the lowest angle (compared rounded to 1e-9).
+  !> The strobe points in order from that with the lowest velocity, then the lowest angle (compared rounded to 1e-9).
   subroutine listed_from_lowest(cycle)
     !> a cycle with its points in the order of time
     type(attractor_t), intent(inout) :: cycle

@@ -15,7 +15,7 @@ module kz_cycles_features
 
 contains
 
-  !> Fills mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic one that starts at (u, v).
+  !> Sets mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic orbit from (u, v).
   subroutine find_features(sampling_flow, pendulum, attractor, u, v, periods)
     !> a fine flow whose steps are not fused
     class(flow_t), intent(inout) :: sampling_flow

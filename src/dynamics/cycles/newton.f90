@@ -12,8 +12,8 @@ module kz_cycles_newton
 
 contains
 
-  !> x = (half-turns, velocity) becomes the fixed point of the n-period map near it: `found` where it is placed well enough,
-  !> `blurred` where the steps end at more than that.
+  !> Moves x = (half-turns, velocity) to the fixed point of the n-period map near it. `found`: its place is accurate enough. `blurred`:
+  !> the steps end, but rounding leaves the place open by more than that.
   subroutine newton(flow, n, max_distance, x, found, blurred)
     !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
@@ -85,7 +85,7 @@ contains
     end do
   end function uncertainty
 
-  !> residual = F^n(x) - x with whole turns taken out (rad), matrix = its derivative + 1.
+  !> residual = F^n(x) - x without whole turns (rad), matrix = the derivative of F^n.
   subroutine n_periods(flow, n, x, residual, matrix)
     !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
@@ -125,7 +125,7 @@ contains
     step = [d*residual(1) - b*residual(2), a*residual(2) - c*residual(1)]/(a*d - b*c)
   end function solved
 
-  !> The smallest divisor of n after which the orbit of x is back.
+  !> The smallest divisor of n after which the orbit of x returns to x.
   function minimal_period(flow, n, x) result(period)
     !> the map of one drive period, by integration
     class(flow_t), intent(inout) :: flow
@@ -144,7 +144,7 @@ contains
     period = n
   end function minimal_period
 
-  !> Eigenvalues of a 2 x 2 matrix of known determinant: larger modulus first, then + imaginary first.
+  !> Eigenvalues of a 2 x 2 matrix of known determinant: the larger modulus first, then the positive imaginary part first.
   pure function eigenvalues(matrix, determinant) result(values)
     !> derivative of the map, for (rad, rad per drive radian)
     real(dp), intent(in) :: matrix(2, 2)

@@ -26,7 +26,8 @@ module kz_cycles_shooting
 
 contains
 
-  !> The points become a closed orbit of as many periods near them, until a step is shorter than `close`.
+  !> Moves the points to the closed orbit near them with as many periods as points, by Newton steps until a step is shorter than
+  !> `close`.
   subroutine shoot(flow, close, orbit, closed)
     !> the map of one drive period in physical coordinates
     class(flow_t), intent(inout) :: flow
@@ -133,7 +134,7 @@ contains
     longest = maxval(hypot(steps(1::2), steps(2::2)))
   end function longest_of
 
-  !> The smallest divisor of the period of a closed orbit after which all its points are back.
+  !> The smallest divisor of the period of a closed orbit after which all points return.
   pure function smallest_period(x, one) result(period)
     !> its points: half-turns, rad per drive radian
     real(dp), intent(in) :: x(:, :)

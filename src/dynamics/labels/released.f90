@@ -31,7 +31,7 @@ module kz_labels_released
 
 contains
 
-  !> The errors of the stretches of a release, measured.
+  !> Measures the errors of the stretches of a release.
   subroutine make_released(released, release, pendulum, fastest)
     !> is made
     type(released_t), intent(out) :: released
@@ -71,7 +71,7 @@ contains
     released%error%noise(ubound(released%error%noise, 1)) = huge(1.0_dp)
   end subroutine make_released
 
-  !> Carries orbits; their age becomes that of the strobe.
+  !> Carries orbits through the release to the strobe, and sets their age to that of the strobe.
   subroutine carry_released(released, pendulum, precisely, orbit)
     !> what make_released gave
     type(released_t), intent(in) :: released

@@ -47,7 +47,7 @@ module kz_maps_map_table
 
 contains
 
-  !> An empty table whose inner part (where every stencil fits) reaches the velocity `max_velocity`.
+  !> Makes an empty table. Its inner part, where every stencil fits, reaches the velocity `max_velocity`.
   function make_table(n_circle, n_velocity, max_velocity) result(table)
     !> nodes on the whole circle
     integer, intent(in) :: n_circle
@@ -66,7 +66,7 @@ contains
     table%shift = 0
   end function make_table
 
-  !> The largest velocity where every stencil fits.
+  !> The largest velocity at which every stencil fits into the table.
   pure function inner_top(table) result(v)
     !> the map table
     type(table_t), intent(in) :: table
@@ -113,7 +113,7 @@ contains
     end do
   end subroutine table_row
 
-  !> Takes in all rows, as table_row gave them.
+  !> Sets the table from all rows, as table_row returns them.
   subroutine set_table_rows(table, rows)
     !> the map table
     type(table_t), intent(inout) :: table
@@ -124,7 +124,7 @@ contains
     call fill_ghosts(table, table%shift)
   end subroutine set_table_rows
 
-  !> The nodes below angle 0 and beyond pi are mirror images of own ones.
+  !> Sets the nodes below angle 0 and beyond pi, which are mirror images of other nodes.
   subroutine fill_ghosts(table, field)
     !> the table whose nodes they are
     type(table_t), intent(in) :: table
@@ -184,7 +184,7 @@ contains
     call displace(self, n, place)
   end subroutine interpolate
 
-  !> The cells of the table that hold the first n lanes.
+  !> Finds the cells of the table that hold the first n lanes.
   subroutine locate(self, n, place)
     !> the map
     class(table_map_t), intent(in) :: self

@@ -25,7 +25,7 @@ contains
     w = u - 2*anint(0.5_dp*u)
   end function wrapped
 
-  !> An angle in rad as half-turns in [-1, 1], right to the last place however many turns it has.
+  !> An angle in rad as half-turns in [-1, 1], accurate to the last place for any number of turns.
   elemental function half_turns(theta) result(u)
     !> rad
     real(dp), intent(in) :: theta
@@ -47,7 +47,7 @@ contains
     d = wrapped(a - b)
   end function angle_difference
 
-  !> From (u1, v1) to (u2, v2), rad and rad per drive radian together.
+  !> Distance of (u1, v1) and (u2, v2): rad and rad per drive radian together.
   elemental function separation(u1, v1, u2, v2) result(d)
     !> half-turns
     real(dp), intent(in) :: u1
@@ -62,7 +62,7 @@ contains
     d = hypot(PI*angle_difference(u1, u2), v1 - v2)
   end function separation
 
-  !> Whether (u1, v1) and (u2, v2) count as one state.
+  !> True if (u1, v1) and (u2, v2) count as one state.
   elemental function same_state(u1, v1, u2, v2) result(one)
     !> half-turns
     real(dp), intent(in) :: u1
@@ -90,7 +90,7 @@ contains
     w = u + MIDPERIOD*v
   end function midperiod_angle
 
-  !> As numbers are compared where an order depends on them: to 1e-9.
+  !> A number rounded to 1e-9, as it is compared where an order depends on it.
   elemental function rounded(x) result(n)
     !> a number of order 1
     real(dp), intent(in) :: x
@@ -99,7 +99,7 @@ contains
     n = anint(x*1e9_dp)
   end function rounded
 
-  !> Physical states become those of the flow's coordinates.
+  !> Turns physical states into those in the flow's coordinates.
   subroutine states_to_map(flow, u, v)
     !> the flow whose coordinates are entered
     class(flow_t), intent(inout) :: flow
@@ -111,7 +111,7 @@ contains
     call change_states(flow, .true., u, v)
   end subroutine states_to_map
 
-  !> And back.
+  !> Turns states in the flow's coordinates into physical ones.
   subroutine states_to_physical(flow, u, v)
     !> the flow whose coordinates are left
     class(flow_t), intent(inout) :: flow

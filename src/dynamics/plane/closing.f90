@@ -36,7 +36,7 @@ module kz_plane_closing
 
 contains
 
-  !> The cycles near the present states of the lanes 1 .. n; they begin with the longest period.
+  !> Finds the cycles near the present states of the lanes 1 .. n, and begins with the longest period.
   subroutine close_motions(batch, n, period, closed)
     !> pendulums and states
     type(mixed_batch_t), intent(inout) :: batch

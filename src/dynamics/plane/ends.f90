@@ -42,7 +42,7 @@ module kz_plane_ends
 
 contains
 
-  !> Follows all motions. They are taken from the end of the list, which comes back empty.
+  !> Follows all motions. It takes them from the end of the list, which is empty afterwards.
   subroutine find_ends(n_steps, max_period, motions, endings)
     !> steps of split6 in a drive period
     integer, intent(in) :: n_steps

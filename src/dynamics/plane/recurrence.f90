@@ -25,7 +25,7 @@ module kz_plane_recurrence
 
 contains
 
-  !> A past of nothing yet.
+  !> Makes an empty past.
   subroutine make_past(longest, past)
     !> drive periods that it reaches back
     integer, intent(in) :: longest

@@ -27,7 +27,7 @@ module kz_saddles_lines
 
 contains
 
-  !> The cycles of up to max_period periods with a point in the window that show on a line through the nodes.
+  !> Finds cycles of up to max_period periods, with a point in the window, along a line through the nodes.
   subroutine search_line(flow, max_period, node, window, most_starts, n_found, found, work)
     !> the map of one drive period in physical coordinates
     class(flow_t), intent(inout) :: flow

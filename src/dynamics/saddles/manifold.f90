@@ -25,7 +25,8 @@ module kz_saddles_manifold
 
 contains
 
-  !> One branch: points along it from the saddle on, until `length` or what fits is reached, or all of it is too fast.
+  !> Computes one branch: points along it from the saddle on, until its length is `length`, or the list is full, or all of it is too
+  !> fast.
   subroutine grow_manifold(flow, beta, period, x, side, spacing, length, fastest, n, point)
     !> the map of one drive period, or its inverse, in physical coordinates
     class(flow_t), intent(inout) :: flow

@@ -92,7 +92,7 @@ module kz_extended_pairs_level
 
 contains
 
-  !> The sum of two doubles nearest to a number: high, low.
+  !> The sum of two doubles, high and low, that is nearest to a number.
   pure function pair_of(x) result(pair)
     !> a number
     real(qp), intent(in) :: x
@@ -102,7 +102,7 @@ contains
     pair(2) = real(x - pair(1), c_double)
   end function pair_of
 
-  !> The number that a pair stands for.
+  !> The number of a pair.
   pure function quad_of(pair) result(x)
     !> high, low
     real(c_double), intent(in) :: pair(2)
@@ -111,7 +111,7 @@ contains
     x = real(pair(1), qp) + pair(2)
   end function quad_of
 
-  !> The tables of a period of n_steps steps. Coefficients that are small against the tolerance are doubles.
+  !> Makes the tables of a period of n_steps steps. Coefficients that are small compared with the tolerance are doubles.
   subroutine make_level(pendulum, series, n_steps, n_kick, fastest, tolerance, level)
     !> k, beta, m
     type(pendulum_t), intent(in) :: pendulum
@@ -236,7 +236,7 @@ contains
     end subroutine set_harmonic
   end subroutine set_displacement
 
-  !> One period of n lanes with one level's tables.
+  !> Advances n lanes by one period with the tables of one level.
   subroutine advance_level(level, n, lanes, turns)
     !> the tables
     type(level_t), intent(in) :: level

@@ -53,7 +53,7 @@ module kz_lanes_schemes
 
 contains
 
-  !> All entries of one step of a split scheme, in order.
+  !> The entries of one step of a split scheme, in order.
   pure function scheme_stages(scheme) result(stages)
     !> a row with a split form
     type(scheme_t), intent(in) :: scheme

@@ -48,7 +48,7 @@ contains
     end do
   end subroutine wrap
 
-  !> n lanes, rounded up to whole vectors.
+  !> The number of lanes n, rounded up to whole vectors.
   pure function vectors_of(n) result(lanes)
     !> lanes in use
     integer, intent(in) :: n

@@ -33,7 +33,7 @@ module kz_processed_batch
 
 contains
 
-  !> A batch with the tables of one period. Lanes faster than `fastest` are left to `fallback`.
+  !> Makes a batch with the tables of one period. `fallback` advances lanes that are faster than `fastest`.
   subroutine make_processed_batch(table, fastest, fallback, flow)
     !> its tables
     type(processed_t), intent(in) :: table

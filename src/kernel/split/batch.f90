@@ -19,7 +19,7 @@ module kz_split_batch
 
 contains
 
-  !> A batch with the tables of one period.
+  !> Makes a batch with the tables of one period.
   subroutine make_batch(period, flow)
     !> drifts and kicks of one period
     type(period_t), intent(in) :: period

@@ -40,7 +40,7 @@ module kz_split_mixed_batch
 
 contains
 
-  !> A batch without pendulums yet.
+  !> Makes a batch without pendulums.
   subroutine make_mixed_batch(n_steps, batch)
     !> steps of split6 in a drive period
     integer, intent(in) :: n_steps

@@ -26,7 +26,7 @@ module kz_split_stages
 
 contains
 
-  !> The tables of one period, rounded.
+  !> Makes the tables of one period, rounded to doubles.
   subroutine make_steps(period, steps)
     !> in quad precision
     type(period_t), intent(in) :: period
@@ -151,7 +151,7 @@ contains
     end subroutine runge_kutta
   end subroutine advance_steps
 
-  !> A period, and the derivative of the scheme itself: c(i, :, j), column j of the tangent map of lane i.
+  !> Advances a period, and computes the derivative of the scheme itself; c(i, :, j) = column j of the tangent map of lane i.
   subroutine advance_tangents(self, n, u, v, c)
     !> tables of a period
     type(steps_t), intent(in) :: self

@@ -107,7 +107,7 @@ static void print_open(const kz_orbit *orbit, FILE *summary) {
   else if (!p->chaotic)
     fprintf(summary, "; its spectrum shows no period");
   if (orbit->settles_on[0] && strcmp(orbit->settles_on, p->name) != 0)
-    fprintf(summary, "; it settles on: %s", orbit->settles_on);
+    fprintf(summary, "; it settles on %s", orbit->settles_on);
 }
 
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
@@ -117,11 +117,11 @@ void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
   else
     print_open(orbit, summary);
   if (p->dominant > 0)
-    fprintf(summary, ", largest line%s %.6g rad%s at %" PRId64 "/%" PRId64 " of the drive",
+    fprintf(summary, "; largest line%s %.6g rad%s at %" PRId64 "/%" PRId64 " of the drive frequency",
             p->chaotic ? " of the velocity" : "", p->amplitude[p->dominant], p->chaotic ? " per drive radian" : "", p->dominant,
             p->record_periods);
   if (!p->closed && isfinite(orbit->lyapunov))
-    fprintf(summary, ", largest Lyapunov exponent %.4f +- %.4f a period", orbit->lyapunov, orbit->lyapunov_error);
+    fprintf(summary, "; largest Lyapunov exponent %.4f +- %.4f per period", orbit->lyapunov, orbit->lyapunov_error);
   fprintf(summary, "\n");
 }
 

@@ -7,7 +7,7 @@ module kz_grown_aging
 
 contains
 
-  !> A grid whose cells keep their attractors where all their neighbours have the same one; ellipses are drawn anew.
+  !> A grid in which a cell keeps its attractor only if all its neighbours have the same one. Ellipses are drawn anew.
   function aged_regions(old, number) result(regions)
     !> regions of the other pendulum
     type(regions_t), intent(in) :: old

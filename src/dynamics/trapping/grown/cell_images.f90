@@ -34,7 +34,7 @@ module kz_grown_cell_images
 
 contains
 
-  !> Integrates the nodes of the grid, and one row and column more on every side, for the differences.
+  !> Integrates the nodes of the grid, and one more row and column on every side for the differences.
   subroutine make_images(regions, flow, images)
     !> the grid whose nodes are integrated
     type(regions_t), intent(in) :: regions
@@ -214,7 +214,7 @@ contains
     slack_y = maxval(images%slack_y(i:i + 1, l:l + 1))
   end subroutine corners_of
 
-  !> Range of x of the hull of four points between y = low and y = high: all segments between them, clipped.
+  !> Range of x of the convex hull of four points between y = low and y = high, from all segments between the points.
   pure subroutine extent(x, y, low, high, from, to)
     !> angles of the corners, in cells
     real(dp), intent(in) :: x(4)

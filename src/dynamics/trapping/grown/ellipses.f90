@@ -21,7 +21,7 @@ module kz_grown_ellipses
 
 contains
 
-  !> Fills attractor%form. Half of the points of a symmetric cycle follow from the other half.
+  !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half.
   subroutine find_ellipses(flow, fine, attractor, others)
     !> the map whose orbits are to be trapped
     class(flow_t), intent(inout) :: flow
@@ -41,7 +41,7 @@ contains
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
   end subroutine find_ellipses
 
-  !> Whether the trapping ellipse of strobe point j holds (u, v).
+  !> True if the trapping ellipse of strobe point j holds (u, v).
   pure function in_ellipse(attractor, j, u, v) result(inside)
     !> the attractor
     type(attractor_t), intent(in) :: attractor

@@ -38,7 +38,7 @@ module kz_grown_grid
 
 contains
 
-  !> An open grid of an even number of columns.
+  !> Makes an open grid with an even number of columns.
   function make_regions(n_circle, n_velocity, top, mirrored) result(regions)
     !> cells on the whole circle
     integer, intent(in) :: n_circle
@@ -62,7 +62,7 @@ contains
     call note_closed(regions)
   end function make_regions
 
-  !> Draws the ellipses and covers of the attractors that are new since the last time.
+  !> Adds the ellipses and covers of the attractors that are new since the last call.
   subroutine draw_attractors(regions, attractors)
     !> the trapping regions
     type(regions_t), intent(inout) :: regions
@@ -89,7 +89,7 @@ contains
     regions%mirror = attractors%mirror
   end subroutine draw_attractors
 
-  !> The bits of all cells from their labels: the map of open cells that stays in the cache.
+  !> Sets the bits of all cells from their labels: a small map of open cells that stays in the cache.
   subroutine note_closed(regions)
     !> the trapping regions
     type(regions_t), intent(inout) :: regions
@@ -108,7 +108,7 @@ contains
     end subroutine set_bit
   end subroutine note_closed
 
-  !> Number (from 1) of the cover's cell that holds (u, v); 0 outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
+  !> The number (from 1) of the cell of a cover that holds (u, v); 0 = outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
   pure function cover_cell(regions, u, v) result(cell)
     !> the trapping regions
     type(regions_t), intent(in) :: regions
@@ -247,7 +247,7 @@ contains
     if (a > 0 .and. fold < 0) a = regions%mirror(a)
   end function find_region
 
-  !> Whether one trapped cell holds all states within (du, dv) of (u, v).
+  !> True if one trapped cell holds all states within (du, dv) of (u, v).
   pure function cell_holds(regions, u, v, du, dv) result(inside)
     !> the trapping regions
     type(regions_t), intent(in) :: regions
@@ -291,7 +291,7 @@ contains
     a = 0
   end function overlap_at
 
-  !> The attractor one of whose ellipses holds (u, v), 0 = none: every ellipse is tested.
+  !> The attractor that has an ellipse around (u, v); 0 = none. It tests every ellipse.
   pure function ellipse_at(attractors, u, v) result(a)
     !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
@@ -309,7 +309,7 @@ contains
     a = 0
   end function ellipse_at
 
-  !> Brings cell (i, l), i any integer, to the stored half; `mirrored` where the stored one is its mirror image.
+  !> Moves cell (i, l), for any integer i, to the stored half; `mirrored` = the stored cell is its mirror image.
   pure subroutine fold_cell(regions, i, l, mirrored)
     !> the trapping regions
     type(regions_t), intent(in) :: regions

@@ -37,7 +37,7 @@ module kz_grown_growth
 
 contains
 
-  !> Grows over the images, which belong to the same grid.
+  !> Grows the regions over the images, which belong to the same grid.
   subroutine grow_regions(regions, attractors, images)
     !> the trapping regions
     type(regions_t), intent(inout) :: regions

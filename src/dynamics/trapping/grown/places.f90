@@ -14,8 +14,8 @@ module kz_grown_places
 
 contains
 
-  !> In vectors: the numbers (from 1) of the cells that hold n states, folded to the stored half, the last number for those outside;
-  !> 0 where the cell is open.
+  !> The numbers (from 1) of the cells that hold n states, folded to the stored half; 0 if the cell is open; the last number for states
+  !> outside. Uses vectors.
   pure subroutine look_up(mirrored, n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
     !> whether the stored half stands for the other one, too
     logical, intent(in) :: mirrored
@@ -82,7 +82,7 @@ contains
     if (w >= 0 .and. w <= 2 .and. y >= 0 .and. y < n_velocity) cell = min(int(w*per_u), n_theta - 1) + n_theta*int(y)
   end function whole_cell
 
-  !> An angle of [-1, 1] in [0, 2).
+  !> An angle in [-1, 1] as one in [0, 2).
   elemental function from_down(w) result(angle)
     !> half-turns
     real(dp), intent(in) :: w
@@ -103,7 +103,7 @@ contains
     w = w - 2*((0.5_dp*w + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
   end function wrapped_midperiod_angle
 
-  !> 1 where (u, v) lies in the half that is stored, -1 where its mirror image does.
+  !> 1 if (u, v) lies in the stored half, -1 if its mirror image does.
   elemental function side(u, v) result(fold)
     !> angle, half-turns
     real(dp), intent(in) :: u
