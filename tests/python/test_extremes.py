@@ -209,7 +209,7 @@ def test_fast_starts_are_warned_of_by_their_class(model):
 
 def test_coarse_tables_are_warned_of(model):
     _, _, text, attributes = model("basin.method=icm", "basin.icm={theta: 250, velocity: 250, interpolation: linear}")
-    assert "warning: one drive period of the map table" in text and 1e-4 < attributes["table_error"] < 0.1
+    assert "warning: the map table has an error of" in text and 1e-4 < attributes["table_error"] < 0.1
     _, _, text, attributes = model("basin.method=icm", "basin.icm={theta: 250, velocity: 250}")
     assert "warning" not in text and attributes["table_error"] < 1e-4
 
