@@ -93,6 +93,18 @@ def test_points_are_as_near_as_asked(fig12):
     assert np.abs(group["velocity"].values).max() <= 2
 
 
+def test_tails_that_are_stretched_far(kapitza, tmp_path):
+    """A saddle of Fig. 13 with the multiplier -31.7: straight lines of up to 1 rad joined its manifold's ends 16 rad from it."""
+    manifolds = {"saddles": [6], "kind": "stable", "length": 20, "spacing": SPACING}
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {**FIG12, "drive_amplitude": 0.46}, "manifolds": manifolds,
+                                                 "saddles": {**SADDLES, "max_period": 2}}))
+    kapitza("run", "s.yaml", folder=tmp_path)
+    group = Result(tmp_path / "s.h5").group("manifolds")
+    step = np.hypot(wrapped(np.diff(group["theta"].values)), np.diff(group["velocity"].values))
+    assert step[np.diff(group["polyline"].values) == 0].max() <= SPACING * (1 + 1e-9)
+    assert all(branch_of(group, 6, branch, 1)[1].max() >= 20 for branch in range(4))
+
+
 def test_mirror_images_are_exact(fig12):
     group = fig12[0].group("manifolds")
     mine = [branch_of(group, 0, branch, 1)[0] for branch in (0, 1)]

@@ -3,18 +3,31 @@
 module kz_saddles_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_cycles_newton, only: n_periods, eigenvalues
+  use kz_cycles_newton, only: newton, n_periods, eigenvalues
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private
   public :: grow_manifold
 
-  !> rad: where a branch begins; the manifold leaves its tangent there by the square of that.
-  real(dp), parameter :: FIRST = 1e-6_dp
+  !> rad: the manifold leaves its tangent by the square of the distance from the saddle, so that nearer points lie on it to rounding. The first
+  !> arc ends there.
+  real(dp), parameter :: NEARBY = 1e-8_dp
   !> Two segments may bend so much (rad), unless they are shorter than this share of the spacing.
   real(dp), parameter :: BEND = 0.3_dp, SHORTEST = 1/32.0_dp
+  !> Places nearer to each other differ in the last digits of a state alone.
+  real(dp), parameter :: NEAREST = 1e-11_dp
   !> Points of the first arc; drive periods after which a branch ends that stays short.
   integer, parameter :: FIRST_POINTS = 33, MOST_PERIODS = 1000
+
+  !> The saddle, and what the beginning of the first arc becomes beside it: after j periods the point x(:, j) + t(:, j). Starts of any nearness to
+  !> the saddle are so known without the periods that they spend beside it.
+  type :: cycle_t
+    integer :: q                        !< periods until the orbit, and the side, come back
+    real(dp) :: multiplier              !< over q periods
+    real(dp), allocatable :: x(:, :)    !< [2, 0:q-1]: half-turns, velocity
+    real(dp), allocatable :: turned(:)  !< [0:q]: half-turns that are taken off x(:, j)
+    real(dp), allocatable :: t(:, :)    !< [2, 0:q-1]: half-turns, velocity
+  end type cycle_t
 
   !> The arc that is grown: places along the first piece, and where they are after the same number of periods.
   type :: arc_t
@@ -48,27 +61,79 @@ contains
     integer, intent(out) :: n
     !> half-turns, velocity, arc length, number of the unbroken part
     real(dp), intent(out) :: point(:, :)
-    real(dp) :: direction(2), multiplier, extent, before
+    real(dp) :: extent, before
+    type(cycle_t) :: saddle
     type(arc_t) :: arc
-    integer :: q, periods, i
+    integer :: periods, i
+    logical :: resolved
 
-    call find_direction(flow, beta, period, x, q, direction, multiplier)
+    call make_cycle(flow, beta, period, x, side, saddle)
     allocate (arc%place(FIRST_POINTS))
     arc%place = [((i - 1)/real(FIRST_POINTS - 1, dp), i=1, FIRST_POINTS)]
     extent = 0
     n = 1
     point(:, 1) = [x, 0.0_dp, 0.0_dp]
-    do periods = 0, MOST_PERIODS, q
-      call place_arc(flow, periods, x, side*FIRST*direction, multiplier, arc)
-      call refine(flow, periods, x, side*FIRST*direction, multiplier, spacing, fastest, size(point, 2), arc)
+    do periods = 0, MOST_PERIODS, saddle%q
+      call place_arc(flow, periods, saddle, arc)
+      call refine(flow, periods, saddle, spacing, fastest, length - point(3, n), size(point, 2), arc)
       if (all(abs(arc%x(2, :)) > fastest)) return
       before = extent
       extent = PI*(maxval(arc%x(1, :)) - minval(arc%x(1, :))) + maxval(arc%x(2, :)) - minval(arc%x(2, :))
       if (extent < min(before, SHORTEST*spacing)) return ! it shrinks onto an attractor
-      call append(arc, fastest, length, n, point)
-      if (n == size(point, 2) .or. point(3, n) >= length) return
+      call append(arc, fastest, length, 2*spacing, n, point, resolved)
+      if (n == size(point, 2) .or. point(3, n) >= length .or. .not. resolved) return
     end do
   end subroutine grow_manifold
+
+  !> The orbit of a saddle, each of its points by Newton's method, and what a first step along the unstable direction becomes.
+  subroutine make_cycle(flow, beta, period, x, side, saddle)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(in) :: beta
+    integer, intent(in) :: period
+    real(dp), intent(in) :: x(2)
+    integer, intent(in) :: side
+    type(cycle_t), intent(out) :: saddle
+    real(dp) :: here(2), beside(2), tangent(2, 2, WIDTH)
+    integer :: j
+
+    call find_direction(flow, beta, period, x, saddle%q, beside, saddle%multiplier)
+    beside = side*beside*NEARBY/saddle%multiplier
+    allocate (saddle%x(2, 0:saddle%q - 1), saddle%t(2, 0:saddle%q - 1), saddle%turned(0:saddle%q))
+    here = x
+    saddle%turned(0) = 0
+    do j = 0, saddle%q - 1
+      saddle%x(:, j) = here
+      saddle%t(:, j) = beside/[PI, 1.0_dp]
+      call flow%put(1, here(1), here(2))
+      tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+      call flow%advance_tangent(1, tangent)
+      beside = matmul(tangent(:, :, 1), beside)
+      here = [flow%u(1) + 2*real(flow%turns(1), dp), flow%v(1)]
+      call settle_point(flow, period, x, mod(j + 1, period) == 0, here, saddle%turned(j + 1))
+      saddle%turned(j + 1) = saddle%turned(j + 1) + saddle%turned(j)
+    end do
+  end subroutine make_cycle
+
+  !> A state beside a point of a cycle becomes that point; `turned`: half-turns that are taken off.
+  subroutine settle_point(flow, period, x, is_first, here, turned)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: period
+    !> the first point, which is known
+    real(dp), intent(in) :: x(2)
+    logical, intent(in) :: is_first
+    real(dp), intent(inout) :: here(2)
+    real(dp), intent(out) :: turned
+    real(dp), parameter :: FARTHEST = 1e-3_dp
+    real(dp) :: point(2)
+    logical :: found, blurred
+
+    point = [angle_difference(here(1), 0.0_dp), here(2)]
+    call newton(flow, period, FARTHEST, point, found, blurred)
+    if (.not. found) point = [angle_difference(here(1), 0.0_dp), here(2)]
+    if (is_first) point = x
+    turned = 2*anint((here(1) - point(1))/2)
+    here = point
+  end subroutine settle_point
 
   !> The unit eigenvector (rad, rad per drive radian) of the multiplier that is larger than 1 over q periods: the period of the
   !> saddle, or twice that for a multiplier below -1.
@@ -95,15 +160,14 @@ contains
     multiplier = multiplier**2
   end subroutine find_direction
 
-  !> arc%x = the images after `periods` of the states x + first multiplier**place.
-  subroutine place_arc(flow, periods, x, first, multiplier, arc)
+  !> arc%x = the images after `periods` of the points t multiplier**place beside the saddle.
+  subroutine place_arc(flow, periods, saddle, arc)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: periods
-    real(dp), intent(in) :: x(2)
-    real(dp), intent(in) :: first(2)
-    real(dp), intent(in) :: multiplier
+    type(cycle_t), intent(in) :: saddle
     type(arc_t), intent(inout) :: arc
-    real(dp) :: start(2)
+    real(dp) :: start(2), turned(WIDTH)
+    integer :: left(WIDTH)
     integer :: from, lanes, i, period
 
     if (allocated(arc%x)) deallocate (arc%x)
@@ -111,27 +175,54 @@ contains
     do from = 1, size(arc%place), WIDTH
       lanes = min(WIDTH, size(arc%place) - from + 1)
       do i = 1, lanes
-        start = x + [first(1)/PI, first(2)]*multiplier**arc%place(from + i - 1)
+        call find_start(saddle, periods, arc%place(from + i - 1), start, turned(i), left(i))
         call flow%put(i, start(1), start(2))
       end do
-      do period = 1, periods
-        call flow%advance(lanes)
-      end do
-      do i = 1, lanes
-        arc%x(:, from + i - 1) = [flow%u(i) + 2*real(flow%turns(i), dp), flow%v(i)]
+      do period = 0, maxval(left(:lanes))
+        if (period > 0) call flow%advance(lanes)
+        do i = 1, lanes
+          if (left(i) == period) arc%x(:, from + i - 1) = [flow%u(i) + 2*real(flow%turns(i), dp) + turned(i), flow%v(i)]
+        end do
       end do
     end do
   end subroutine place_arc
 
-  !> Halves the pieces of the arc until none is too long or bends too much, or there are `most` points.
-  subroutine refine(flow, periods, x, first, multiplier, spacing, fastest, most, arc)
+  !> The last state beside the saddle of the orbit that begins at t multiplier**place, and how many periods are left.
+  subroutine find_start(saddle, periods, place, start, turned, left)
+    type(cycle_t), intent(in) :: saddle
+    integer, intent(in) :: periods
+    real(dp), intent(in) :: place
+    !> half-turns, velocity
+    real(dp), intent(out) :: start(2)
+    !> half-turns that the state has made before
+    real(dp), intent(out) :: turned
+    !> of `periods`
+    integer, intent(out) :: left
+    real(dp) :: change(2), next(2)
+    integer :: j
+
+    change = saddle%t(:, 0)*saddle%multiplier**place
+    do j = 1, periods
+      next = saddle%t(:, mod(j, saddle%q))*saddle%multiplier**(place + j/saddle%q)
+      if (norm2([PI, 1.0_dp]*next) > NEARBY) exit
+      change = next
+    end do
+    j = j - 1
+    start = saddle%x(:, mod(j, saddle%q)) + change
+    turned = saddle%turned(saddle%q)*(j/saddle%q) + saddle%turned(mod(j, saddle%q)) + 2*anint(start(1)/2)
+    start(1) = start(1) - 2*anint(start(1)/2)
+    left = periods - j
+  end subroutine find_start
+
+  !> Halves the pieces of the arc until none is too long or bends too much, or there are `most` points. Pieces behind the length that is left
+  !> to go stay as they are.
+  subroutine refine(flow, periods, saddle, spacing, fastest, left, most, arc)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: periods
-    real(dp), intent(in) :: x(2)
-    real(dp), intent(in) :: first(2)
-    real(dp), intent(in) :: multiplier
+    type(cycle_t), intent(in) :: saddle
     real(dp), intent(in) :: spacing
     real(dp), intent(in) :: fastest
+    real(dp), intent(in) :: left
     integer, intent(in) :: most
     type(arc_t), intent(inout) :: arc
     type(arc_t) :: more
@@ -139,20 +230,22 @@ contains
     integer :: i
 
     do
-      allocate (halve, source=to_halve(arc, spacing, fastest))
+      allocate (halve, source=to_halve(arc, spacing, fastest, left))
       if (.not. any(halve) .or. size(arc%place) + count(halve) > most) return
       more%place = pack([(0.5_dp*(arc%place(i) + arc%place(i + 1)), i=1, size(halve))], halve)
-      call place_arc(flow, periods, x, first, multiplier, more)
+      call place_arc(flow, periods, saddle, more)
       call merge_arcs(halve, more, arc)
       deallocate (halve)
     end do
   end subroutine refine
 
-  !> The pieces that are too long, or bend too much against a neighbour. Pieces outside the largest speed never do.
-  pure function to_halve(arc, spacing, fastest) result(halve)
+  !> The pieces that are too long, or bend too much against a neighbour. Pieces outside the largest speed, and those behind the length that is
+  !> left to go, never do.
+  pure function to_halve(arc, spacing, fastest, left) result(halve)
     type(arc_t), intent(in) :: arc
     real(dp), intent(in) :: spacing
     real(dp), intent(in) :: fastest
+    real(dp), intent(in) :: left
     logical :: halve(size(arc%place) - 1)
     real(dp) :: piece(2, size(arc%place) - 1), long(size(arc%place) - 1), turn
     integer :: i, n
@@ -168,7 +261,12 @@ contains
       halve(i:i + 1) = halve(i:i + 1) .or. long(i:i + 1) > SHORTEST*spacing
     end do
     halve = halve .and. min(abs(arc%x(2, :n)), abs(arc%x(2, 2:))) < fastest
-    halve = halve .and. arc%place(2:) - arc%place(:n) > 1e-13_dp
+    halve = halve .and. arc%place(2:) - arc%place(:n) > NEAREST
+    where (max(abs(arc%x(2, :n)), abs(arc%x(2, 2:))) > fastest) long = 0 ! not counted
+    do i = 2, n
+      long(i) = long(i) + long(i - 1)
+    end do
+    halve(2:) = halve(2:) .and. long(:n - 1) < left + spacing
   end function to_halve
 
   !> The points of `more` between those of `arc`, each in the middle of a piece that was halved.
@@ -196,25 +294,32 @@ contains
     arc = all
   end subroutine merge_arcs
 
-  !> The points of the arc below the largest speed, but for its first, which ended the arc before.
-  subroutine append(arc, fastest, length, n, point)
+  !> The points of the arc below the largest speed, but for its first, which ended the arc before. Neighbours that are too far apart end
+  !> the branch: doubles do not tell what lies between them.
+  subroutine append(arc, fastest, length, farthest, n, point, resolved)
     type(arc_t), intent(in) :: arc
     real(dp), intent(in) :: fastest
     real(dp), intent(in) :: length
+    real(dp), intent(in) :: farthest
     integer, intent(inout) :: n
     real(dp), intent(inout) :: point(:, :)
-    real(dp) :: arc_length, part
+    logical, intent(out) :: resolved
+    real(dp) :: arc_length, part, step
     integer :: i
 
     arc_length = point(3, n)
     part = point(4, n)
+    resolved = .true.
     do i = 2, size(arc%place)
       if (abs(arc%x(2, i)) > fastest) cycle
       if (n == size(point, 2) .or. arc_length >= length) return
       if (abs(arc%x(2, i - 1)) > fastest) then
         part = part + 1
       else
-        arc_length = arc_length + separation(arc%x(1, i), arc%x(2, i), point(1, n), point(2, n))
+        step = separation(arc%x(1, i), arc%x(2, i), point(1, n), point(2, n))
+        resolved = step <= farthest
+        if (.not. resolved) return
+        arc_length = arc_length + step
       end if
       n = n + 1
       point(:, n) = [angle_difference(arc%x(1, i), 0.0_dp), arc%x(2, i), arc_length, part]

@@ -181,8 +181,11 @@ static void print(const kz_manifolds_plan *plan, const work_list *list, const gr
   }
   fprintf(summary, "manifolds: %lld branches, %lld points\n", (long long)list->count, (long long)n);
   if (shorter > 0)
-    fprintf(summary, "%lld branches end before length = %g: they lead to an attractor, or beyond max_speed = %g\n",
-            (long long)shorter, plan->length, plan->max_speed);
+    fprintf(
+        summary,
+        "%lld branches end before length = %g: they lead to an attractor, or beyond max_speed = %g, or stretch so much that "
+        "double precision does not resolve them\n",
+        (long long)shorter, plan->length, plan->max_speed);
   if (full > 0)
     fprintf(summary, "%lld branches end at %d points before length = %g; give a larger spacing\n", (long long)full, MOST_POINTS,
             plan->length);
