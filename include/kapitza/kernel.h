@@ -112,10 +112,10 @@ void kz_linear_floquet(int64_t n, const double *k, const double *beta, const dou
 /* ---- reference ---- */
 
 /* Whole drive periods in quad precision (real128), by Taylor series of order 56 whose steps adapt to the motion. The method shares nothing
- * with the schemes above. Its error is some 1e-32 a period, and up to 1e-29 for a strong drive; that of double precision is 1e-16. Labels
+ * with the schemes above. Its error is some 1e-33 a period, and up to 1e-30 for a strong drive; that of double precision is 1e-16. Labels
  * are compared with it. */
 
-/* The number of steps a period that costs least. Any other number gives the same motion, to some 1e-32 a period. */
+/* The number of steps a period that costs least. Any other number gives the same motion, to some 1e-33 a period. */
 enum { KZ_REFERENCE_STEPS = 18 };
 
 /* A state in quad precision. Opaque: kz_reference_start fills it, kz_reference_read reads it. The caller owns it. */

@@ -2,8 +2,7 @@
 module kz_api_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_api_handle, only: dynamics_t, of_handle
-  use kz_extended_pairs, only: pair_of
-  use kz_extended_taylor, only: qp, PI_QUAD
+  use kz_extended_taylor, only: doubles_of, qp, PI_QUAD
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_levels, only: prepare_level, carrier_of, noise_of, is_useful, LEVEL_DOUBLE
   use kz_labels_orbits, only: ending_t, follow_orbits, DOUBTFUL, PENDING
@@ -71,11 +70,11 @@ contains
 
     if (precisely) then
       u = (real(start%theta(1), qp) + start%theta(2))/PI_QUAD
-      orbit%u = pair_of(u - 2*anint(u/2))
+      orbit%u = doubles_of(u - 2*anint(u/2), 3)
       orbit%v = start%velocity
-      orbit%lost = 1e-31_dp
+      orbit%lost = 4*real(epsilon(u), dp)
     else
-      orbit%u = [wrapped(start%theta(1)/PI), start%theta(2)/PI]
+      orbit%u = [wrapped(start%theta(1)/PI), start%theta(2)/PI, 0.0_dp]
       orbit%v = start%velocity
       orbit%lost = 2*epsilon(1.0_dp)
     end if

@@ -64,7 +64,7 @@ contains
     real(dp) :: error(3)
 
     start%theta = [PI*orbit%u(1), 0.0_dp]
-    if (precisely) start%theta = pair_of(PI_QUAD*quad_of(orbit%u))
+    if (precisely) start%theta = pair_of(PI_QUAD*quad_of(orbit%u(:2)))
     start%velocity = orbit%v
     start%periods = orbit%age
     error = orbit%p

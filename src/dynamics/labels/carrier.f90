@@ -12,7 +12,7 @@ module kz_labels_carrier
 
   !> An orbit at the end of a period.
   type :: orbit_t
-    real(dp) :: u(2) = 0  !< half-turns: the sum of two doubles
+    real(dp) :: u(3) = 0  !< half-turns: the sum of three doubles
     real(dp) :: v(2) = 0  !< rad per drive radian: the sum of two doubles
     real(dp) :: p(3) = 0  !< what its state may be off: theta theta, theta v, v v (rad, rad per drive radian),
     real(dp) :: lost = 0  !< and so much more in any direction
@@ -89,7 +89,7 @@ contains
     if (allocated(self%inner)) then
       call self%inner%take(lane, orbit%u, orbit%v)
     else
-      orbit%u = [self%u(lane), 0.0_dp]
+      orbit%u = [self%u(lane), 0.0_dp, 0.0_dp]
       orbit%v = [self%v(lane), 0.0_dp]
     end if
   end subroutine take

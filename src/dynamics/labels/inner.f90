@@ -2,7 +2,7 @@
 module kz_labels_inner
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
-  use kz_extended_taylor, only: drive_t, advance_period, qp, PI_QUAD
+  use kz_extended_taylor, only: drive_t, advance_period, doubles_of, qp, PI_QUAD
   use kz_labels_period_error, only: period_error_t, class_of
   use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
@@ -12,7 +12,7 @@ module kz_labels_inner
   !> States of lanes in a precision of their own.
   type, abstract :: inner_t
   contains
-    !> A state as sums of two doubles: u half-turns, v rad per drive radian.
+    !> A state as sums of doubles: u half-turns, v rad per drive radian.
     procedure(put_i), deferred :: put
     procedure(take_i), deferred :: take
     !> Lanes first .. n have been put.
@@ -30,7 +30,7 @@ module kz_labels_inner
       import :: inner_t, dp
       class(inner_t), intent(inout) :: self
       integer, intent(in) :: lane
-      real(dp), intent(in) :: u(2)
+      real(dp), intent(in) :: u(3)
       real(dp), intent(in) :: v(2)
     end subroutine put_i
 
@@ -38,7 +38,7 @@ module kz_labels_inner
       import :: inner_t, dp
       class(inner_t), intent(inout) :: self
       integer, intent(in) :: lane
-      real(dp), intent(out) :: u(2)
+      real(dp), intent(out) :: u(3)
       real(dp), intent(out) :: v(2)
     end subroutine take_i
 
@@ -122,7 +122,7 @@ contains
     integer, intent(in) :: n
     real(dp), intent(inout) :: u(CAPACITY)
     real(dp), intent(inout) :: v(CAPACITY)
-    real(dp) :: angle(2), speed(2)
+    real(dp) :: angle(3), speed(2)
     integer :: lane
 
     do lane = first, n
@@ -135,7 +135,7 @@ contains
   subroutine fine_put(self, lane, u, v)
     class(inner_fine_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(in) :: u(2)
+    real(dp), intent(in) :: u(3)
     real(dp), intent(in) :: v(2)
 
     call self%flow%put(lane, u(1), v(1))
@@ -144,12 +144,12 @@ contains
   subroutine fine_take(self, lane, u, v)
     class(inner_fine_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(out) :: u(2)
+    real(dp), intent(out) :: u(3)
     real(dp), intent(out) :: v(2)
 
     call self%shown%put(lane, self%flow%u(lane), self%flow%v(lane))
     call self%shown%to_physical(lane, first=lane)
-    u = [self%shown%u(lane), 0.0_dp]
+    u = [self%shown%u(lane), 0.0_dp, 0.0_dp]
     v = [self%shown%v(lane), 0.0_dp]
   end subroutine fine_take
 
@@ -203,20 +203,20 @@ contains
   subroutine pairs_put(self, lane, u, v)
     class(inner_pairs_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(in) :: u(2)
+    real(dp), intent(in) :: u(3)
     real(dp), intent(in) :: v(2)
 
-    self%u(lane, :) = u
+    self%u(lane, :) = u(:2)
     self%v(lane, :) = v
   end subroutine pairs_put
 
   subroutine pairs_take(self, lane, u, v)
     class(inner_pairs_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(out) :: u(2)
+    real(dp), intent(out) :: u(3)
     real(dp), intent(out) :: v(2)
 
-    u = self%u(lane, :)
+    u = [self%u(lane, :), 0.0_dp]
     v = self%v(lane, :)
   end subroutine pairs_take
 
@@ -255,20 +255,20 @@ contains
   subroutine quad_put(self, lane, u, v)
     class(inner_quad_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(in) :: u(2)
+    real(dp), intent(in) :: u(3)
     real(dp), intent(in) :: v(2)
 
-    self%theta(lane) = PI_QUAD*quad_of(u)
+    self%theta(lane) = PI_QUAD*(u(1) + quad_of(u(2:)))
     self%velocity(lane) = quad_of(v)
   end subroutine quad_put
 
   subroutine quad_take(self, lane, u, v)
     class(inner_quad_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(out) :: u(2)
+    real(dp), intent(out) :: u(3)
     real(dp), intent(out) :: v(2)
 
-    u = pair_of(self%theta(lane)/PI_QUAD)
+    u = doubles_of(self%theta(lane)/PI_QUAD, 3)
     v = pair_of(self%velocity(lane))
   end subroutine quad_take
 

@@ -48,7 +48,7 @@ contains
     real(c_double), intent(in) :: fastest
     real(c_double) :: error
     integer, parameter :: N = 128, MORE_STEPS = 8
-    real(c_double), parameter :: PI = real(PI_QUAD, c_double), MARGIN = 4, LEAST = 4e-32_c_double
+    real(c_double), parameter :: PI = real(PI_QUAD, c_double), MARGIN = 4, LEAST = 5e-34_c_double
     type(drive_t) :: other
     type(probes_t) :: probes, again
     real(c_double) :: speed(N), distance(N)

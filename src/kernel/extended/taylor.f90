@@ -8,30 +8,31 @@ module kz_extended_taylor
   use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
   implicit none
   private
-  public :: drive_t, make_drive, advance_period, qp
+  public :: drive_t, make_drive, advance_period, doubles_of, qp
 
   integer, parameter :: qp = real128
-  !> Steps a period with which every period is right to some 1e-32: KZ_REFERENCE_STEPS of kernel.h.
+  !> Steps a period with which every period is right to some 1e-33: KZ_REFERENCE_STEPS of kernel.h.
   integer, parameter, public :: TAYLOR_STEPS = 18
   real(qp), parameter, public :: PI_QUAD = acos(-1.0_qp)
   real(qp), parameter :: TWO_PI = 2*PI_QUAD
   !> How often steps may be halved.
   integer, parameter :: FINEST = 24
-  !> KZ_TAYLOR_LANES, KZ_TAYLOR_LAST of taylor_steps.h.
-  integer, parameter :: LANES = 8, LAST = 56
+  !> KZ_TAYLOR_LANES, KZ_TAYLOR_DEEP, KZ_TAYLOR_LAST of taylor_steps.h.
+  integer, parameter :: LANES = 8, DEEP = 4, LAST = 56
 
   !> kz_taylor_shared of taylor_steps.h.
   type, bind(C) :: shared_t
     real(dp) :: high(0:LAST - 1)
     real(dp) :: low(0:LAST - 1)
+    real(dp) :: rest(0:DEEP - 1)
   end type shared_t
 
   !> kz_taylor_force of taylor_steps.h.
   type, bind(C) :: force_t
     type(shared_t) :: along
     type(shared_t) :: across
-    real(dp) :: torque(2)
-    real(dp) :: damping(0:CUBIC, 2)
+    real(dp) :: torque(3)
+    real(dp) :: damping(0:CUBIC, 3)
     integer(c_int32_t) :: has_across
     integer(c_int32_t) :: has_ramp
   end type force_t
@@ -115,9 +116,9 @@ contains
     if (drive%stretch%changes) call put_on_ramp(drive, t0/TWO_PI, h, along, across, damping)
     force%along = round_series(along)
     force%across = round_series(-across)
-    force%torque = doubles_of(h*h*drive%pendulum%torque, 2)
+    force%torque = doubles_of(h*h*drive%pendulum%torque, 3)
     do i = 0, CUBIC
-      force%damping(i, :) = doubles_of(damping(i), 2)
+      force%damping(i, :) = doubles_of(damping(i), 3)
     end do
     force%has_across = merge(1_c_int32_t, 0_c_int32_t, drive%pendulum%unmirrored /= 0)
     force%has_ramp = merge(1_c_int32_t, 0_c_int32_t, drive%stretch%changes)
@@ -129,11 +130,14 @@ contains
 
     rounded%high = real(series, dp)
     rounded%low = real(series - rounded%high, dp)
+    rounded%rest = real(series(:DEEP - 1) - rounded%high(:DEEP - 1) - rounded%low(:DEEP - 1), dp)
   end function round_series
 
-  !> The largest first.
+  !> A number as a sum of n doubles, the largest first.
   pure function doubles_of(x, n) result(part)
+    !> a number
     real(qp), intent(in) :: x
+    !> 3 hold all its digits
     integer, intent(in) :: n
     real(dp) :: part(n)
     real(qp) :: rest

@@ -3,21 +3,23 @@
  * With w = h theta', s = sin theta, c = cos theta over t = t0 + h x, 0 <= x <= 1, the scaled coefficients obey
  *   (n+1) w_(n+1) = -sum_i (d_i w_(n-i) + f_i s_(n-i) + g_i c_(n-i)) (+ torque at n = 0),
  *   (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),
- * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_FINE are pairs of doubles (32 digits); those beyond, smaller than
- * 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles: steps add up without loss. */
+ * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
+ * two (32 digits); those beyond, smaller than 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles:
+ * steps add up without loss. */
 #include "taylor_steps.h"
 
 #include <stdbool.h>
 
-#include "pairs_arithmetic.h"
+#include "triples_arithmetic.h"
 
-enum { FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
+enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
 
 /* Largest coefficients at FINE and at LAST, relative to the motion's own size, which the orders below GENTLE tell. */
 static const double COARSE = 1e-16, TOLERANCE = 1e-33;
 
-/* The orders of w, s or c: pairs up to FINE, the high parts alone beyond. */
+/* The orders of w, s or c: triples up to DEEP, pairs up to FINE, the high parts alone beyond. */
 typedef struct {
+  triple deep[DEEP + 1];
   pair fine[FINE + 1];
   vector coarse[LAST + 1];
 } coefficients;
@@ -34,6 +36,10 @@ OPERATION void gain(pair *total, pair a, pair b) {
   total->low += t.low + fused(a.high, b.low, fused(a.low, b.high, fused(a.high, b.high, -p)));
 }
 
+OPERATION triple shared_triple(const kz_taylor_shared *x, int64_t i) {
+  return (triple){{same(x->high[i]), same(x->low[i]), same(x->rest[i])}};
+}
+
 OPERATION pair shared(const kz_taylor_shared *x, int64_t i) {
   return (pair){same(x->high[i]), same(x->low[i])};
 }
@@ -46,6 +52,12 @@ static const double inverses[][2] = {INVERSES(1),  INVERSES(9),  INVERSES(17), I
                                      INVERSES(33), INVERSES(41), INVERSES(49), INVERSE(57)};
 _Static_assert(sizeof inverses / sizeof *inverses == LAST + 1, "one for each order, and one beyond");
 
+/* 1/n: what its first two parts leave of 1, over n, is the third. */
+OPERATION triple inverse_triple(int64_t n) {
+  const double *i = inverses[n - 1], left = __builtin_fma(-i[1], (double)n, __builtin_fma(-i[0], (double)n, 1.0));
+  return (triple){{same(i[0]), same(i[1]), same(left / (double)n)}};
+}
+
 OPERATION pair inverse(int64_t n) {
   return (pair){same(inverses[n - 1][0]), same(inverses[n - 1][1])};
 }
@@ -53,6 +65,32 @@ OPERATION pair inverse(int64_t n) {
 OPERATION void set_order(coefficients *x, int64_t n, pair total) {
   x->fine[n] = multiply(quick_sum(total.high, total.low), inverse(n));
   x->coarse[n] = x->fine[n].high;
+}
+
+OPERATION void set_deep(coefficients *x, int64_t n, triple total) {
+  x->deep[n] = multiply_triples(in_order(total), inverse_triple(n));
+  x->fine[n] = upper(x->deep[n]);
+  x->coarse[n] = x->fine[n].high;
+}
+
+/* Order n + 1 from the orders up to n, in triples. */
+static void next_triple(int64_t n, const kz_taylor_force *force, series *x) {
+  const triple zero = {{same(0), same(0), same(0)}}, one = {{same(1), same(0), same(0)}};
+  triple of_w = zero, of_s = zero, of_c = zero;
+  for (int64_t i = 0; i <= n; i++) {
+    gain_triple(&of_w, shared_triple(&force->along, i), x->s.deep[n - i]);
+    gain_triple(&of_s, x->c.deep[i], x->w.deep[n - i]);
+    gain_triple(&of_c, x->s.deep[i], x->w.deep[n - i]);
+  }
+  for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++)
+    gain_triple(&of_w, (triple){{same(force->damping[0][i]), same(force->damping[1][i]), same(force->damping[2][i])}},
+                x->w.deep[n - i]);
+  for (int64_t i = 0; force->has_across && i <= n; i++) gain_triple(&of_w, shared_triple(&force->across, i), x->c.deep[n - i]);
+  if (force->has_across && n == 0)
+    gain_triple(&of_w, (triple){{same(-force->torque[0]), same(-force->torque[1]), same(-force->torque[2])}}, one);
+  set_deep(&x->w, n + 1, negative_triple(of_w));
+  set_deep(&x->s, n + 1, of_s);
+  set_deep(&x->c, n + 1, negative_triple(of_c));
 }
 
 /* Order n + 1 from the orders up to n, in pairs. */
@@ -66,8 +104,6 @@ static void next_pair(int64_t n, const kz_taylor_force *force, series *x) {
   for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++)
     gain(&of_w, (pair){same(force->damping[0][i]), same(force->damping[1][i])}, x->w.fine[n - i]);
   for (int64_t i = 0; force->has_across && i <= n; i++) gain(&of_w, shared(&force->across, i), x->c.fine[n - i]);
-  if (force->has_across && n == 0)
-    gain(&of_w, (pair){same(-force->torque[0]), same(-force->torque[1])}, (pair){same(1), same(0)});
   set_order(&x->w, n + 1, negative(of_w));
   set_order(&x->s, n + 1, of_s);
   set_order(&x->c, n + 1, negative(of_c));
@@ -90,11 +126,16 @@ static void next_double(int64_t n, const kz_taylor_force *force, series *x) {
 }
 
 /* The sum of the orders from 1 on, each divided by its number plus 1 where they are `integrated`; smallest terms first. */
-OPERATION pair sum_of(const coefficients *x, bool integrated) {
+OPERATION triple sum_of(const coefficients *x, bool integrated) {
   pair total = {same(0), same(0)};
   for (int64_t n = LAST; n > FINE; n--) total.high += x->coarse[n] * (integrated ? inverse(n + 1).high : same(1));
-  for (int64_t n = FINE; n >= 1; n--) total = loose_sum(total, integrated ? multiply(x->fine[n], inverse(n + 1)) : x->fine[n]);
-  return quick_sum(total.high, total.low);
+  for (int64_t n = FINE; n > DEEP; n--)
+    total = loose_sum(total, integrated ? multiply(x->fine[n], inverse(n + 1)) : x->fine[n]);
+  total = quick_sum(total.high, total.low);
+  triple whole = {{total.high, total.low, same(0)}};
+  for (int64_t n = DEEP; n >= 1; n--)
+    whole = add_triples(whole, integrated ? multiply_triples(x->deep[n], inverse_triple(n + 1)) : x->deep[n]);
+  return whole;
 }
 
 OPERATION vector modulus(vector x) {
@@ -127,11 +168,6 @@ OPERATION bool is_any(mask where) {
   return bits != 0;
 }
 
-/* A number of a vector of orbits: three doubles. */
-typedef struct {
-  vector part[3];
-} triple;
-
 OPERATION triple load(double (*x)[KZ_TAYLOR_LANES], int64_t first) {
   return (triple){{*(vector *)(x[0] + first), *(vector *)(x[1] + first), *(vector *)(x[2] + first)}};
 }
@@ -140,24 +176,14 @@ OPERATION void save(triple x, double (*to)[KZ_TAYLOR_LANES], int64_t first) {
   for (int i = 0; i < 3; i++) *(vector *)(to[i] + first) = x.part[i];
 }
 
-OPERATION triple add_pair(triple x, pair y) {
-  const pair a = sum(x.part[0], y.high), b = sum(x.part[1], y.low), c = sum(b.high, a.low);
-  const pair top = quick_sum(a.high, c.high), rest = quick_sum(top.low, x.part[2] + (b.low + c.low));
-  return (triple){{top.high, rest.high, rest.low}};
-}
-
 /* Rest where the mask is not set: what is lost does not overflow. */
 OPERATION triple keep(mask where, triple x) {
   for (int i = 0; i < 3; i++) x.part[i] = pick(where, x.part[i], same(0));
   return x;
 }
 
-/* The first two of its doubles: to 32 digits. */
-OPERATION pair upper(triple x) {
-  return (pair){x.part[0], x.part[1]};
-}
-
 OPERATION void begin(coefficients *x, triple start) {
+  x->deep[0] = start;
   x->fine[0] = upper(start);
   x->coarse[0] = start.part[0];
 }
@@ -166,18 +192,19 @@ OPERATION void begin(coefficients *x, triple start) {
 static mask advance(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int64_t first) {
   triple theta = load(state->theta, first), w = load(state->w, first), s = load(state->s, first), c = load(state->c, first);
   mask well = same(0) == same(0);
-  series x;
+  _Alignas(64) series x; /* a vector that crosses lines of the cache takes twice as long */
   for (int64_t step = 0; step < n && is_any(well); step++) {
     begin(&x.w, w);
     begin(&x.s, s);
     begin(&x.c, c);
-    for (int64_t i = 0; i < FINE; i++) next_pair(i, force + step, &x);
+    for (int64_t i = 0; i < DEEP; i++) next_triple(i, force + step, &x);
+    for (int64_t i = DEEP; i < FINE; i++) next_pair(i, force + step, &x);
     for (int64_t i = FINE; i < LAST; i++) next_double(i, force + step, &x);
     well &= is_complete(&x);
-    theta = add_pair(add_pair(add_pair(theta, upper(w)), (pair){w.part[2], same(0)}), sum_of(&x.w, true));
-    w = keep(well, add_pair(w, sum_of(&x.w, false)));
-    s = keep(well, add_pair(s, sum_of(&x.s, false)));
-    c = keep(well, add_pair(c, sum_of(&x.c, false)));
+    theta = add_triples(add_triples(theta, w), sum_of(&x.w, true));
+    w = keep(well, add_triples(w, sum_of(&x.w, false)));
+    s = keep(well, add_triples(s, sum_of(&x.s, false)));
+    c = keep(well, add_triples(c, sum_of(&x.c, false)));
   }
   save(theta, state->theta, first);
   save(w, state->w, first);

@@ -5,19 +5,19 @@
 
 #include <stdint.h>
 
-/* Number of orbits at once; highest order in pairs of doubles; highest order; powers of time in a damping that changes. */
-enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_RAMP = 4 };
+/* Number of orbits at once; highest order in sums of three doubles; in pairs of doubles; highest order; powers of time in a damping that changes. */
+enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_DEEP = 4, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_RAMP = 4 };
 
-/* A series in the time of a step, the same for all orbits: sums of two doubles. */
+/* A series in the time of a step, the same for all orbits: sums of two doubles, the first orders of three. */
 typedef struct {
-  double high[KZ_TAYLOR_LAST], low[KZ_TAYLOR_LAST];
+  double high[KZ_TAYLOR_LAST], low[KZ_TAYLOR_LAST], rest[KZ_TAYLOR_DEEP];
 } kz_taylor_shared;
 
 /* The force over a step h, as (h theta')' = -damping h theta' - along sin theta - across cos theta + torque in the time of the step. */
 typedef struct {
   kz_taylor_shared along, across;
-  double torque[2];
-  double damping[2][KZ_TAYLOR_RAMP]; /* high, low */
+  double torque[3];
+  double damping[3][KZ_TAYLOR_RAMP]; /* the largest parts first */
   int32_t has_across, has_ramp;      /* 1 if there are `across` and `torque`; 1 if the damping changes */
 } kz_taylor_force;
 

@@ -6,7 +6,7 @@
 /* rad: what the arithmetic of a level adds in a period, or less. */
 static const long double level_error[] = {
     [KZ_LEVEL_DOUBLE] = 1e-16L,   [KZ_LEVEL_FINE] = 1e-16L,     [KZ_LEVEL_PAIRS_16] = 1e-17L, [KZ_LEVEL_PAIRS_20] = 1e-21L,
-    [KZ_LEVEL_PAIRS_24] = 1e-25L, [KZ_LEVEL_PAIRS_28] = 1e-30L, [KZ_LEVEL_QUAD] = 1e-32L};
+    [KZ_LEVEL_PAIRS_24] = 1e-25L, [KZ_LEVEL_PAIRS_28] = 1e-30L, [KZ_LEVEL_QUAD] = 1e-33L};
 /* rad: images that are wider are bent too much for any estimate of the fourth degree. */
 static const long double widest = 1e-3L;
 /* Relative rounding of the coefficients of the first degree, a period, and of all that a pair of doubles holds. */
