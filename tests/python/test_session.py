@@ -75,7 +75,8 @@ def test_files_have_their_place_and_outputs_stay(result, tmp_path):
 
 
 INTERRUPTED = """
-import kapitza, sys
+import kapitza, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)  # tests in the background of a shell inherit that it is ignored
 try:
     kapitza.run(sys.argv[1], output="out.h5", set={"basin.theta.count": 6000, "basin.velocity.count": 6000}, progress=False)
 except KeyboardInterrupt as stop:
