@@ -14,7 +14,7 @@ const kz_command kz_commands[] = {
      "check SCENE; print what a run would model, and the time, memory and disk that it would take"},
     {"where", WHERE, " SCENE THETA VELOCITY", 2, 5, kz_app_where,
      "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
-     "digits; with - in their place starts are read as CSV from standard input; --boundary takes two starts"},
+     "digits; write - in their place to read starts as CSV from standard input; --boundary takes two starts"},
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view, "open the basins of a scene or of a result in the browser"},
     {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
      "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts"},
@@ -143,7 +143,7 @@ const kz_option kz_option_rows[] = {
     {"output", 'o', "FILE", RUN, set_output,
      "name of the result; default: the base name of SCENE with .h5, in the current folder", NULL},
     {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE | VIEW | SERVE, add_set,
-     "change or add a key of the scene; VALUE is YAML; of two values for one key the last counts", NULL},
+     "change or add a key of the scene; VALUE is YAML; if a key is given twice, the last value counts", NULL},
     {"resume", 257, NULL, RUN, set_resume, "continue from FILE.checkpoint if it exists", NULL},
     {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint", NULL},
     {"time-limit", 259, "T", RUN, set_time_limit,
