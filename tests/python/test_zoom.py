@@ -206,3 +206,12 @@ def test_windows_of_all_kinds(kapitza, tmp_path, theta, velocity, several):
         assert (labels >= 0).all() and (len(np.unique(labels)) > 1) == several and file["basin"].attrs["undecided"] == 0
         if "180" in theta:
             assert np.array_equal(mirror[labels], labels[::-1, ::-1])
+
+
+@pytest.mark.parametrize("settings, said", [(["basin.max_periods=20"], "The 16 that have not settled"),
+                                            (["pendulum.damping=0"], "without damping there are no attractors")], ids=["late", "undamped"])
+def test_a_reference_that_never_settles(kapitza, tmp_path, settings, said):
+    words = [word for setting in settings for word in ("--set", setting)]
+    done = kapitza("run", deep(tmp_path, BOUNDARY, "17", "1e-100", 4), *words, folder=tmp_path)
+    with h5py.File(tmp_path / "deep.h5") as file:
+        assert (file["basin/attractor"][:] == -1).all() and said in done.stdout

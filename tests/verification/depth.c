@@ -165,8 +165,21 @@ static void deep_windows_are_curves(void **state) {
   }
 }
 
+/* A window that the map folds: hardly any first degree is left of it, and the second tells that the fourth is not small. */
+static void folded_images_hand_nothing_over(void **state) {
+  kz_image image[] = {{.jet = {.linear = {{1e-20, 0}, {0, 1e-20}}}},
+                      {.jet = {.linear = {{1e-8, 0}, {0, 1e-8}}}},
+                      {.jet = {.linear = {{1e-9, 0}, {0, 1e-9}}, .bent = {{[3] = 1e-17}}}}};
+  const kz_images images = {.n = 2, .image = image};
+  (void)state;
+  assert_int_equal(kz_hand_over_at(&images, KZ_LEVEL_DOUBLE, 0.5).periods, 2);
+  image[2].jet.bent[0][0] = 1e-6L;
+  assert_int_equal(kz_hand_over_at(&images, KZ_LEVEL_DOUBLE, 0.5).periods, 1);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
+      cmocka_unit_test(folded_images_hand_nothing_over),
       cmocka_unit_test(deep_windows_are_curves),
       cmocka_unit_test(labels_are_those_of_own_orbits),
   };
