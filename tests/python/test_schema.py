@@ -47,11 +47,25 @@ def test_every_scene_passes_check_jsonschema(schema_text, tmp_path):
     "pendulum: {k: 0.01, damping: 0.1}\n" + BASIN,
     "pendulum: {k: 0.01, damping: 0.1, m: 0.5, quality_factor: 5}\n" + BASIN,
     "pendulum: {quality_factor: 0, drive_frequency: 11, drive_amplitude: 0.3}\n" + BASIN,
+    *(f"pendulum: {{k: 0.01, damping: 0.1, m: 0.5, {drive}}}\n{BASIN}" for drive in (
+        "tilt: steep", "ellipse: 11", "torque: 1e7", "torque_amplitude: [1]", "waveform: cosine", "waveform: samples, samples: [a]",
+        "ramp: {key: k, from: 1, periods: 2}", "ramp: {key: damping, from: 1}", "harmonics: [{order: 0, amplitude: 1}]",
+        "harmonics: [{order: 2, height: 1}]")),
+    PENDULUM + "basin: {velocity: {min: -1, max: 1}, start_phase: late}\n",
+    PENDULUM + "sweep: {parameter: m, min: 0, max: 1, count: 2, measure: [phases], phases: 1}\n",
 ])
 def test_what_the_table_refuses_the_schema_refuses(text, validator, tmp_path):
     (tmp_path / "scene.yaml").write_text(text)
     done = subprocess.run([PROGRAM, "check", tmp_path / "scene.yaml"], capture_output=True, text=True, timeout=60)
     assert done.returncode == 2 and not validator.is_valid(yaml.safe_load(text))
+
+
+def test_the_keys_of_all_drives_are_good(validator):
+    for drive in ("tilt: 5 deg, ellipse: 0.1, torque: 0.01, waveform: triangle", "waveform: samples, samples: [1, 0, -1, 0]",
+                  "harmonics: [{order: 2, amplitude: 0.1, phase: 90 deg}, {order: 3, amplitude: 0.1}]",
+                  "ramp: {key: drive_amplitude, from: 0, periods: 2.5, shape: smooth}"):
+        text = f"pendulum: {{k: 0.01, damping: 0.1, m: 0.5, {drive}}}\nbasin: {{velocity: {{min: -1, max: 1}}, start_phase: pi/2}}\n"
+        assert validator.is_valid(yaml.safe_load(text)), drive
 
 
 @pytest.mark.parametrize(("text", "good"), [("-90 deg", True), ("1.5", True), ("90 degrees", False), ("deg", False)])

@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -94,6 +95,21 @@ def test_cores_share_a_frame(quality, size):
         helped = int(Path(f"/proc/{server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()[8])  # pages that its children touched
         children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children").read_text()
     assert np.array_equal(labels[1], labels[2]) and helped > 0 and not children
+
+
+@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core")
+def test_a_helper_that_hangs_is_given_up():
+    """It is stopped as soon as it is there: its cells are made by the process itself, and no child is left."""
+    with Server(FIG12) as server:
+        children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children")
+        before = server.frame(110, 150, window=WINDOW)[1][-1][1]["labels"]
+        sequence = server.post("frame", rows=110, columns=150, window=WINDOW)
+        while not (helpers := children.read_text().split()):
+            pass
+        os.kill(int(helpers[0]), signal.SIGSTOP)
+        while (answer := server.receive())[0]["answer"] != "frame":
+            assert answer[0]["sequence"] == sequence
+        assert answer[1] == before.tobytes() and not children.read_text()
 
 
 def test_a_symmetric_window_has_mirrored_labels(server):

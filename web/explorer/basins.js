@@ -127,15 +127,17 @@ export class Basins {
     const order = ++this.followed;
     const pane = this.panes.find(({ name }) => name === start.pane) ?? this.panes[0];
     const request = { theta: start.theta, velocity: start.velocity, pendulum: asScene(pane.pendulum) };
+    let found = "";
     try {
       const [ending] = await pane.engine.answer({ request: "where", ...request });
       if (order !== this.followed) return;
+      found = `${signed(endingWords({ ...ending, ...start }))}\n`;
       const wanted = (ending.settling_time ?? 0) + 4 * (ending.period || 1) + 8;
       const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
       const [header, bytes] = await pane.engine.answer({ request: "orbit", ...request, periods, samples_per_period: SAMPLES });
       if (order === this.followed) this.play(pane, new Motion(header, bytes, { ...ending, ...start }));
     } catch (error) {
-      if (order === this.followed) element("ending").textContent = error.message;
+      if (order === this.followed) element("ending").textContent = found + error.message; // a motion is not shown for every release
     }
   }
 

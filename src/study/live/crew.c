@@ -1,5 +1,5 @@
 /* Helpers are children that live for one level of a frame: they have all that is known of the pendulum by birth, and write cells into
- * memory that all share. What a helper leaves undone, because it failed or was killed, this process does. */
+ * memory that all share. What a helper leaves undone, because it failed, hangs or was killed, this process does. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "crew.h"
 
@@ -11,9 +11,14 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { MOST_HELPERS = 15, LEAST_TILES = 4 /* for each helper: a birth takes a millisecond */ };
+/* A helper has at most one tile left when this process has none. It hangs if that takes so many seconds, and so many times as long as all
+ * tiles of this process took. */
+enum { LEAST_PATIENCE = 2, MORE_PATIENCE = 10 };
+enum { LONGEST_PAUSE = 500000 }; /* ns between two looks */
 
 typedef struct {
   int n_strays;
@@ -82,11 +87,45 @@ static void help(kz_crew *crew, pid_t parent, int helper, kz_resident *resident,
   _exit(0);
 }
 
+static double seconds(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Waits until a helper has ended. One that hangs is killed at the time `last`, and so is one whose frame is no longer wanted. */
+static kz_status wait_for(pid_t helper, const kz_frame *frame, double last) {
+  kz_status status = KZ_OK;
+  for (int64_t pause = 20000; waitpid(helper, NULL, WNOHANG) == 0; pause = pause < LONGEST_PAUSE ? 2 * pause : pause) {
+    status = frame->pause(frame->context);
+    if (status != KZ_OK || seconds() > last) {
+      kill(helper, SIGKILL);
+      waitpid(helper, NULL, 0);
+      break;
+    }
+    nanosleep(&(struct timespec){.tv_nsec = pause}, NULL);
+  }
+  return status;
+}
+
 /* What a helper that has ended has found on its way. */
 static void take_findings(kz_resident *resident, findings *found) {
   for (int i = 0; i < found->n_strays && resident->n_strays < KZ_STRAYS; i++)
     memcpy(resident->stray + 2 * resident->n_strays++, found->stray + 2 * i, 2 * sizeof *found->stray);
   found->n_strays = 0;
+}
+
+/* Follows those of n cells that helpers have left undone. */
+static kz_status follow_rest(kz_crew *crew, kz_resident *resident, const kz_window_starts *starts, int64_t n,
+                             const int64_t *number) {
+  int64_t pending[KZ_FRAME_TILE], taken = 0;
+  for (int64_t i = 0; i < n; i++) {
+    if (crew->cell[number[i]].state == KZ_CELL_PENDING) pending[taken++] = number[i];
+    if (taken == 0 || (taken < KZ_FRAME_TILE && i < n - 1)) continue;
+    KZ_TRY(kz_cells_follow(resident, starts, taken, pending, crew->cell));
+    taken = 0;
+  }
+  return KZ_OK;
 }
 
 kz_status kz_crew_follow(kz_crew *crew, kz_resident *resident, const kz_frame *frame, const kz_window_starts *starts, int64_t n,
@@ -102,13 +141,14 @@ kz_status kz_crew_follow(kz_crew *crew, kz_resident *resident, const kz_frame *f
     if (helper[born] < 0) break; /* fewer helpers, then */
     born++;
   }
+  const double begin = seconds();
   kz_status status = follow_tiles(crew, resident, frame, starts, n, number);
+  const double end = seconds(), last = end + LEAST_PATIENCE + MORE_PATIENCE * (end - begin);
   for (int i = 0; i < born; i++) {
     if (status != KZ_OK) kill(helper[i], SIGKILL);
-    waitpid(helper[i], NULL, 0);
+    const kz_status heard = wait_for(helper[i], frame, last);
+    if (status == KZ_OK) status = heard;
     take_findings(resident, crew->found + i);
   }
-  for (int64_t i = 0; born > 0 && status == KZ_OK && i < n; i++) /* what was left undone */
-    if (crew->cell[number[i]].state == KZ_CELL_PENDING) status = kz_cells_follow(resident, starts, 1, number + i, crew->cell);
-  return status;
+  return born > 0 && status == KZ_OK ? follow_rest(crew, resident, starts, n, number) : status;
 }
