@@ -34,7 +34,9 @@ static kz_status answer_orbit(const kz_request *request) {
   int64_t samples;
   double *theta, *velocity;
   if (kz_release_strobes(&request->scene.parameters.release) > 0)
-    return kz_fail(KZ_REFUSED, "request: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp");
+    return kz_fail(
+        KZ_REFUSED,
+        "request: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp");
   kz_status status = kz_orbit_record(&request->scene, &samples, &theta, &velocity);
   if (status == KZ_OK) status = kz_answer_orbit(request, samples, theta, velocity);
   free(theta);
