@@ -118,23 +118,29 @@ contains
     real(c_double), intent(inout) :: by(:, :, :)
     real(c_double) :: old_u(CAPACITY), old_v(CAPACITY)
     integer(c_int64_t) :: old_turns(CAPACITY)
-    integer :: i, j
+    integer :: first, last, each, own, i, j
 
     old_u = self%u
     old_v = self%v
     old_turns = self%turns
-    do i = 1, size(lane)
-      associate (start_u => u(lane(i)), start_v => v(lane(i)))
-        call self%put(1, start_u, start_v)
+    each = 1 + size(by, 2)
+    do first = 1, size(lane), WIDTH/each
+      last = min(size(lane), first + WIDTH/each - 1)
+      do i = first, last
+        own = 1 + each*(i - first)
+        call self%put(own, u(lane(i)), v(lane(i)))
         do j = 1, size(by, 2)
-          call self%put(1 + j, start_u + by(1, j, i)/PI, start_v + by(2, j, i))
+          call self%put(own + j, u(lane(i)) + by(1, j, i)/PI, v(lane(i)) + by(2, j, i))
         end do
-      end associate
-      call self%advance(1 + size(by, 2))
-      do j = 1, size(by, 2)
-        by(:, j, i) = [PI*(self%u(1 + j) - self%u(1)), self%v(1 + j) - self%v(1)]
       end do
-      by(1, :, i) = by(1, :, i) - 2*PI*anint(by(1, :, i)/(2*PI))
+      call self%advance(each*(last - first + 1))
+      do i = first, last
+        own = 1 + each*(i - first)
+        do j = 1, size(by, 2)
+          by(:, j, i) = [PI*(self%u(own + j) - self%u(own)), self%v(own + j) - self%v(own)]
+        end do
+        by(1, :, i) = by(1, :, i) - 2*PI*anint(by(1, :, i)/(2*PI))
+      end do
     end do
     self%u = old_u
     self%v = old_v
