@@ -20,7 +20,7 @@ FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 BETWEEN = {"k = 0.1": (K01, "-2.3672", "-2.3671", "17"), "Fig. 12": (FIG12, "-0.27", "-0.26", "1.42")}
 COUNT = 101
 ALONE = 2  # cells of a window whose orbits are followed without the common one too
-DIGITS = {"k = 0.1": 304, "Fig. 12": 104}
+DIGITS = 104
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,7 @@ def boundary(kapitza, tmp_path_factory):
         pendulum, one, other, velocity = BETWEEN[name]
         window = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}}
         (folder / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "basin": window}))
-        said = kapitza("where", "s.yaml", one, velocity, other, velocity, "--boundary", DIGITS[name], folder=folder).stdout
+        said = kapitza("where", "s.yaml", one, velocity, other, velocity, "--boundary", DIGITS, folder=folder).stdout
         return [re.search(rf"^{axis} +(\S+)", said, re.M)[1] for axis in ("theta", "velocity")]
 
     return find
@@ -60,18 +60,17 @@ def referee(path, centre, depth, cells):
     offsets = [[Fraction(2 * i + 1 - COUNT, 2 * COUNT * 10**depth) for i in (column, row)] for row, column in decided]
     middle = [Fraction(text) for text in centre]
     ends = own_orbit.ends_beside(pendulum, middle, offsets, strobes, depth + 3)
-    for end, offset in zip(ends[:ALONE if depth <= 100 else 0], offsets, strict=False):  # with all its digits
+    for end, offset in zip(ends[:ALONE], offsets, strict=False):  # with all its digits
         assert end == own_orbit.end_of(pendulum, [a + b for a, b in zip(middle, offset, strict=True)], strobes, depth + 3)
     wrong = [(*cell, end, labels[cell]) for cell, end in zip(decided, ends, strict=True) if end != labels[cell]]
     return len(decided), wrong, len(set(ends))
 
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
-@pytest.mark.parametrize("depth", [7, 20, 25, 50, 100, 300])
+@pytest.mark.timeout(7200)
+@pytest.mark.parametrize("depth", [7, 20, 25, 50, 100])
 @pytest.mark.parametrize("name", BETWEEN)
 def test_own_orbits_contradict_no_label(kapitza, tmp_path, boundary, name, depth):
-    if depth > DIGITS[name]:
-        pytest.skip("the orbit of its reference alone takes an hour")
     centre = boundary(name)
     decided, wrong, seen = referee(run_window(kapitza, tmp_path, name, centre, depth), centre, depth, 50)
     print(f"{name}, 1e-{depth}: {decided} of 50 decided, wrong {wrong}, attractors {seen}")
