@@ -148,10 +148,11 @@ def test_an_edge_leads_to_a_saddle_of_the_drive(kapitza, tmp_path, keys):
     assert abs(edge["multiplier_1_re"] - file["saddles/multiplier_re"][edge["saddle"], 0]) < 1e-8
 
 
-def test_folding_changes_no_byte(kapitza, tmp_path):
-    """A window that is its own mirror image is computed by half; with a row more nothing is folded."""
+@pytest.mark.parametrize("keys", [{"waveform": "triangle"}, {"drive_amplitude": 0, "torque_amplitude": 0.5}])
+def test_folding_changes_no_byte(kapitza, tmp_path, keys):
+    """A window that is its own mirror image is computed by half, if the pendulum has mirror images; with a row more nothing is folded."""
     basin = {"method": "exact", "theta": {"count": 24}, "attractors": {"starts": 256}}
-    scene = {"pendulum": {**PENDULUM, "waveform": "triangle"}}
+    scene = {"pendulum": {**PENDULUM, **keys}}
     folded = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2, "count": 16}}})["basin"]
     folded = {name: folded[name][:] for name in ("attractor", "settling_time", "velocity")}
     whole = run(kapitza, tmp_path, {**scene, "basin": {**basin, "velocity": {"min": -2, "max": 2.25, "count": 17}}})["basin"]
