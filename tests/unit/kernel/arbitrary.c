@@ -87,7 +87,7 @@ static void errors_of_quads_are_not_understated(void **state) {
       largest = fmax(largest, missed(pendulums + p, starts[i][0], starts[i][1]) / hypot(M_PI, starts[i][1]));
     print_message("m %g: %.1e, told %.1e\n", pendulums[p].m, largest, told);
     assert_true(largest <= told);
-    assert_true(told < (p == 0 ? 1e-30 : 1e-31));
+    assert_true(told < (p == 0 ? 1e-30 : 1e-32)); /* of the second, 1e-31 left half as many cells again undecided */
   }
 }
 
