@@ -46,7 +46,7 @@ void kz_dynamics_update(kz_dynamics *dynamics);
 enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
 /* Follows n starts, state [n][2], until a trapping region holds them, at most max_periods. label [n] = number of the attractor, 0 = not
  * settled. periods [n] = first period inside a trapping region, or max_periods. State [i] of a start that has not settled becomes its last
- * state. */
+ * state, that of another one where it was left, in the map's own coordinates. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
                         int64_t *periods);
 
@@ -56,6 +56,12 @@ void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_
                                   const double *low, int32_t *label, int64_t *periods);
 
 /* ---- labels with errors ---- */
+
+/* Settling times that vary smoothly with the start, for pictures: time [n], in drive periods, at which the motions come into the trapping ellipse
+ * of a strobe point of their attractor, interpolated by its exponent. Motions have label [n] and are at state [n][2], as kz_dynamics_follow
+ * leaves them, after time [n] periods, in and out; they are followed for at most 200 more. The time stays as it is where the label is below 1, the
+ * attractor has no ellipse, or the motion is not in it by then. */
+void kz_dynamics_smooth_times(kz_dynamics *dynamics, int64_t n, const int32_t *label, const double *state, double *time);
 
 /* Where an orbit begins. */
 typedef struct {
@@ -89,6 +95,8 @@ typedef struct {
   int32_t level;   /* the level that decided; KZ_LEVELS = none */
   int64_t periods; /* first period inside a trapping region; the number of periods followed if there is none */
   double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
+  int64_t age;     /* drive periods after which the orbit was left */
+  double state[2]; /* where it was then, as kz_dynamics_follow leaves states */
 } kz_decision;
 
 /* Labels n starts at one level: decision [n]. `before` is the level at which they were doubtful. Each orbit carries its error. It uses the

@@ -38,11 +38,11 @@ typedef struct {
   int64_t *track; /* [count]: a number that stays with an attractor while the pendulum changes */
 } kz_live_catalogue;
 
-enum { KZ_PLANE_LABELS, KZ_PLANE_SETTLING_TIME, KZ_PLANE_DOUBT, KZ_PLANE_OTHER, KZ_PLANES };
+enum { KZ_PLANE_LABELS, KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME, KZ_PLANE_DOUBT, KZ_PLANE_OTHER, KZ_PLANES };
 enum { KZ_NO_LABEL = 255 }; /* not settled, or no attractor */
 enum { KZ_DOUBT_NONE = 0, KZ_DOUBT_OPEN = 1, KZ_DOUBT_UNSEEN = 2 };
 
-/* A level of a frame, which has every `level`-th cell (docs/reference/serve.md). The planes labels, other and doubt have bytes, settling times
+/* A level of a frame, which has every `level`-th cell (docs/reference/serve.md). The planes labels, other and doubt have bytes, times
  * are float; the pointer of a plane that was not requested is NULL. */
 typedef struct {
   int64_t level, rows, columns;

@@ -235,7 +235,7 @@ def test_a_laboratory_has_all_drives():
     drives = [{"tilt": "5 deg"}, {"ellipse": 0.2, "torque": 0.001}, {"waveform": "samples", "samples": [1, 0.3, -1, -0.3]},
               {"harmonics": [{"order": 2, "amplitude": 0.05, "phase": "90 deg"}]}, {"ramp": LINEAR}]
     with kapitza_package.Engine({"pendulum": laboratory, "basin": {**WINDOW, "attractors": {"starts": 64}}}) as engine:
-        shown = [[engine.frame(shape=(12, 16), pendulum={**form, **drive}, quality="moving") for form in (laboratory, plain)]
+        shown = [[engine.frame(shape=(12, 16), pendulum={**form, **drive}, quality="exact") for form in (laboratory, plain)]
                  for drive in drives]
     assert all((both[0] == both[1]).mean() > 0.98 for both in shown)
     assert all((one[0] != other[0]).any() for one, other in itertools.combinations(shown, 2))

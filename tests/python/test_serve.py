@@ -67,6 +67,15 @@ def test_a_level_shows_cells_of_the_frame(server):
     assert [header["final"] for header, _ in frames] == [False, False, False, True]
 
 
+def test_smooth_times_have_no_steps(server):
+    """Whole periods are steps of 1; the second difference of a smooth time is small, and it is the same in a moving frame."""
+    window = {"theta": {"min": 0.3, "max": 0.4}, "velocity": {"min": 0.02, "max": 0.08}}
+    times = [server.frame(40, 60, ("labels", "smooth_time"), window=window, quality=quality)[1][-1][1]["smooth_time"]
+             for quality in ("exact", "moving")]
+    assert np.ptp(times[0]) > 5 and all(np.max(np.abs(np.diff(times[0], 2, axis=axis))) < 0.1 for axis in (0, 1))
+    assert np.allclose(times[0], times[1], rtol=0, atol=0.01)
+
+
 def test_a_moving_frame_is_rougher_by_one_cell_in_a_hundred_at_most(server):
     server.frame(100, 160, quality="moving")  # attractors that it lacks are looked for behind it
     exact, moving = (ends(server, *server.frame(100, 160, quality=quality)[1][-1]) for quality in ("exact", "moving"))

@@ -116,7 +116,7 @@ def test_a_result_tells_what_it_holds(result):
     assert "inverted" in repr(result) and "20 velocity x 24 theta" in repr(result) and "k = 0.00826446" in repr(result)
     page = result._repr_html_()
     assert page.count("<tr>") == 1 + min(len(table), 12) and "data:image/png" in page
-    with pytest.raises(KeyError, match="there are"):
+    with pytest.raises(KeyError, match="the names are"):
         result.basin("nobody")
     for options, words in (({"breadth": "86mm"}, "unrecognized arguments: --breadth"), ({"width": "86"}, "width: 86 is not a width")):
         with pytest.raises(ValueError, match=words):

@@ -150,7 +150,7 @@ def test_every_method_has_its_line():
 
 def test_a_trade_needs_a_basin(kapitza, tmp_path):
     (tmp_path / "scene.yaml").write_text("pendulum: {k: 0, damping: 0.05, m: 0.5}\ntradeoff: {samples: 50}\n")
-    assert "tradeoff: has no window" in kapitza("check", "scene.yaml", folder=tmp_path, status=2).stderr
+    assert "tradeoff: needs a window; add a basin study" in kapitza("check", "scene.yaml", folder=tmp_path, status=2).stderr
 
 
 def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):

@@ -65,6 +65,7 @@ def frame(request):
         line = bytes(label(low + width * (2 * level * j + level) / (2 * request["columns"]), pendulum["m"]) for j in range(columns))
         planes = request.get("planes", ["labels"])
         parts = {"labels": line, "settling_time": struct.pack(f"<{columns}f", *(9.0 * x for x in line)),
+                 "smooth_time": struct.pack(f"<{columns}f", *(9.0 * x + 0.5 for x in line)),
                  "doubt": bytes(x == 2 for x in line), "other": bytes(0 if x == 2 else 255 for x in line)}
         answer("frame", sequence, b"".join(parts[name] * rows for name in planes), level == levels[-1], level=level, rows=rows,
                columns=columns, planes=planes, catalogue=int(1000 * pendulum["m"]), quality=request.get("quality", "exact"))

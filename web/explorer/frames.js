@@ -10,7 +10,7 @@ const UNSETTLED = "#ffffff";
 export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest, shade }) {
   const most = quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING;
   const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
-  const times = quality === "exact" || shade !== "none" ? ["settling_time"] : [];
+  const times = [...(quality === "exact" ? ["settling_time"] : []), ...(shade !== "none" ? ["smooth_time"] : [])];
   const planes = ["labels", ...times, ...(quality === "exact" ? ["doubt", "other"] : [])];
   return {
     request: "frame",
@@ -37,7 +37,7 @@ export function decoded(header, bytes) {
   const planes = {};
   let at = 0;
   for (const name of header.planes) {
-    const size = name === "settling_time" ? 4 : 1;
+    const size = name.endsWith("_time") ? 4 : 1;
     const part = bytes.slice(at, at + size * cells);
     planes[name] = size === 4 ? new Float32Array(part.buffer) : part;
     at += size * cells;

@@ -50,11 +50,11 @@ const DOUBLINGS = 10; // of the settling time, until it is as dark as it gets
 export function frameOf(header, planes, window, palette) {
   const { rows, columns } = header;
   const cells = new Uint8Array(4 * rows * columns);
-  const { labels, settling_time: times, doubt, other } = planes;
+  const { labels, settling_time: times, smooth_time: shades, doubt, other } = planes;
   let doubtful = 0;
   for (let i = 0; i < labels.length; i++) {
     cells[4 * i] = labels[i];
-    if (times) cells[4 * i + 1] = Math.min(255, (255 / DOUBLINGS) * Math.log2(1 + (times[i] || 0)));
+    if (shades) cells[4 * i + 1] = Math.min(255, (255 / DOUBLINGS) * Math.log2(1 + (shades[i] || 0)));
     if (doubt && doubt[i] === 1) cells[4 * i + 2] = 255;
     doubtful += cells[4 * i + 2] === 255;
     if (other) cells[4 * i + 3] = other[i];
@@ -64,7 +64,7 @@ export function frameOf(header, planes, window, palette) {
     columns,
     level: header.level,
     doubtful: doubt && doubtful,
-    times,
+    times: times ?? shades,
     labels,
     cells,
     window,

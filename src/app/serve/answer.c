@@ -153,7 +153,7 @@ kz_status kz_answer_catalogue(int64_t sequence, bool final, const kz_live_catalo
 }
 
 kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_level *level) {
-  static const char *const names[] = {"labels", "settling_time", "doubt", "other"};
+  static const char *const names[] = {"labels", "settling_time", "smooth_time", "doubt", "other"};
   const char *quality = request->quality == KZ_QUALITY_MOVING ? "moving" : "exact";
   const size_t cells = (size_t)(level->rows * level->columns);
   size_t bytes = 0;

@@ -5,6 +5,7 @@ module kz_api_follow
   use kz_lanes_map, only: map_t
   use kz_api_handle, only: dynamics_t, of_handle
   use kz_labels_label, only: follow
+  use kz_labels_smooth, only: smooth_times
   use kz_maps_map_table, only: table_map_t, make_table_map
   use kz_labels_reference_map, only: reference_map_t, make_reference_map
   implicit none
@@ -52,6 +53,18 @@ contains
     state(1, :) = unpack(u, label == 0, state(1, :))
     state(2, :) = unpack(v, label == 0, state(2, :))
   end subroutine leave_open
+
+  subroutine smooth_settling(handle, n, label, state, time) bind(C, name='kz_dynamics_smooth_times')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    integer(c_int32_t), intent(in) :: label(n)
+    real(dp), intent(in) :: state(2, n)
+    real(dp), intent(inout) :: time(n)
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    call smooth_times(d%flow, d%attractors, label, state, time)
+  end subroutine smooth_settling
 
   subroutine follow_reference(handle, n_steps, n, max_periods, start, low, label, periods) &
     bind(C, name='kz_dynamics_follow_reference')

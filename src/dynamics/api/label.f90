@@ -30,6 +30,8 @@ module kz_api_label
     integer(c_int32_t) :: level
     integer(c_int64_t) :: periods
     real(dp) :: error
+    integer(c_int64_t) :: age
+    real(dp) :: state(2)
   end type decision_t
 
 contains
@@ -55,7 +57,7 @@ contains
     call label_orbits(d, int(level), int(before), max_periods, orbit, ending)
     do i = 1, n
       decision(i) = decision_t(ending(i)%label, 0, merge(max(level, 0_c_int32_t), int(NONE, c_int32_t), ending(i)%decided), &
-                               ending(i)%periods, ending(i)%error)
+                               ending(i)%periods, ending(i)%error, ending(i)%age, ending(i)%state)
     end do
   end subroutine label_starts
 

@@ -29,6 +29,8 @@ module kz_labels_orbits
     logical :: decided = .false.          !< no error changes the label
     integer(c_int64_t) :: periods = 0     !< first period inside a trapping region, or those followed
     real(dp) :: error = 0                 !< how far the orbit may be off then, rad
+    integer(c_int64_t) :: age = 0         !< periods after which it was left
+    real(dp) :: state(2) = 0              !< where it was then, in the map's coordinates
   end type ending_t
 
   !> What lanes carry besides their states.
@@ -219,7 +221,7 @@ contains
 
       periods = lanes%age(lane)
       if (label > 0 .and. label == lanes%first(lane)) periods = lanes%since(lane)
-      ending(lanes%number(lane)) = ending_t(label, decided, periods, SAFETY*sqrt(p(1) + p(3)))
+      ending(lanes%number(lane)) = ending_t(label, decided, periods, SAFETY*sqrt(p(1) + p(3)), lanes%age(lane), [carrier%u(lane), carrier%v(lane)])
     end subroutine settle
   end subroutine follow_orbits
 

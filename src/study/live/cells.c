@@ -28,23 +28,34 @@ static void hand_over(const kz_resident *r, const kz_window_starts *starts, int6
   for (int64_t i = 0; i < n; i++) spent[i] = start[i].periods;
 }
 
+/* The smooth settling times of n cells that were left at these states after these times. */
+static void smooth(const kz_resident *r, int64_t n, const int32_t *label, const double *state, double *time,
+                   const int64_t *number, kz_frame_cell *cells) {
+  kz_dynamics_smooth_times(r->dynamics, n, label, state, time);
+  for (int64_t i = 0; i < n; i++) cells[number[i]].smooth = (float)time[i];
+}
+
 /* As method direct labels them. */
 static void follow(kz_resident *r, int64_t n, const handed *from, const int64_t *number, kz_frame_cell *cells) {
   int32_t label[KZ_FRAME_TILE];
   int64_t periods[KZ_FRAME_TILE];
-  double state[2 * KZ_FRAME_TILE];
+  double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
   memcpy(state, from->state, (size_t)n * 2 * sizeof *state);
   kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, n, r->periods, state, label, periods);
   for (int64_t i = 0; i < n; i++) {
-    cells[number[i]] =
-        (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)(from->spent[i] + periods[i]), .state = KZ_CELL_FOLLOWED};
+    time[i] = (double)(from->spent[i] + periods[i]);
+    cells[number[i]] = (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)time[i], .state = KZ_CELL_FOLLOWED};
     if (label[i] == 0 && r->n_strays < KZ_STRAYS) memcpy(r->stray + 2 * r->n_strays++, state + 2 * i, 2 * sizeof *state);
   }
+  if (r->smooth) smooth(r, n, label, state, time, number, cells);
 }
 
 /* As method exact labels them. */
-static kz_status decide(const kz_window_starts *starts, int64_t n, const int64_t *number, kz_frame_cell *cells) {
+static kz_status decide(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                        kz_frame_cell *cells) {
   kz_decision decision[KZ_FRAME_TILE];
+  int32_t label[KZ_FRAME_TILE]; /* 0: where the cell was left is not known */
+  double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
   const kz_labeller labeller = kz_window_labeller(starts, false);
   KZ_TRY(kz_label(&labeller, n, number, decision));
   for (int64_t i = 0; i < n; i++) {
@@ -55,14 +66,18 @@ static kz_status decide(const kz_window_starts *starts, int64_t n, const int64_t
                                        .other = (int16_t)(pending ? d->other : 0),
                                        .periods = (float)d->periods,
                                        .state = pending ? KZ_CELL_UNDECIDED : KZ_CELL_DECIDED};
+    label[i] = pending ? 0 : d->label;
+    time[i] = (double)(pending ? d->periods : d->age);
+    memcpy(state + 2 * i, d->state, sizeof d->state);
   }
+  if (r->smooth) smooth(r, n, label, state, time, number, cells);
   return KZ_OK;
 }
 
 kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_frame_cell *cells) {
   handed from;
-  if (!kz_resident_moves(resident)) return decide(starts, n, number, cells);
+  if (!kz_resident_moves(resident)) return decide(resident, starts, n, number, cells);
   hand_over(resident, starts, n, number, from.state, from.spent);
   follow(resident, n, &from, number, cells);
   return KZ_OK;

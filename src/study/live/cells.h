@@ -8,9 +8,9 @@
 /* State of a cell of a frame. */
 enum { KZ_CELL_PENDING = 0, KZ_CELL_FOLLOWED = 1, KZ_CELL_DECIDED = 2, KZ_CELL_UNDECIDED = 3 };
 typedef struct {
-  int16_t label; /* number of kz_dynamics, 0 = not settled */
-  int16_t other; /* of an undecided cell: the second candidate, 0 = none */
-  float periods;
+  int16_t label;         /* number of kz_dynamics, 0 = not settled */
+  int16_t other;         /* of an undecided cell: the second candidate, 0 = none */
+  float periods, smooth; /* settling times: whole, and smooth where the resident is asked for it */
   uint8_t state;
 } kz_frame_cell;
 

@@ -33,7 +33,7 @@ static double seconds(void) {
 }
 
 size_t kz_plane_bytes(int plane) {
-  return plane == KZ_PLANE_SETTLING_TIME ? sizeof(float) : 1;
+  return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME ? sizeof(float) : 1;
 }
 
 static void frame_allocate(making *m) {
@@ -112,6 +112,7 @@ static void put(const making *m, int64_t f, int64_t at, void *const plane[KZ_PLA
   if (plane[KZ_PLANE_DOUBT]) ((uint8_t *)plane[KZ_PLANE_DOUBT])[at] = doubt_of(cell);
   if (plane[KZ_PLANE_SETTLING_TIME])
     ((float *)plane[KZ_PLANE_SETTLING_TIME])[at] = cell->label > 0 ? cell->periods : (float)NAN;
+  if (plane[KZ_PLANE_SMOOTH_TIME]) ((float *)plane[KZ_PLANE_SMOOTH_TIME])[at] = cell->label > 0 ? cell->smooth : (float)NAN;
 }
 
 static kz_status show(making *m, int64_t level) {
@@ -122,8 +123,8 @@ static kz_status show(making *m, int64_t level) {
                          .catalogue = &m->resident->catalogue};
   void *plane[KZ_PLANES] = {NULL};
   size_t end = 0;
-  static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME, KZ_PLANE_LABELS, KZ_PLANE_DOUBT,
-                                       KZ_PLANE_OTHER};
+  static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME,
+                                       KZ_PLANE_LABELS, KZ_PLANE_DOUBT, KZ_PLANE_OTHER};
   for (int p = 0; p < KZ_PLANES; p++) {
     if (!m->frame->plane[order[p]]) continue;
     plane[order[p]] = (char *)m->buffer + end;
@@ -164,6 +165,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   KZ_TRY(kz_engine_resident(engine, scene, frame->moving, &m.resident));
   const bool was_busy = m.resident->busy;
   m.resident->busy = true;
+  m.resident->smooth = frame->plane[KZ_PLANE_SMOOTH_TIME];
   const kz_status status = make(&m);
   m.resident->busy = was_busy;
   kz_samples_free(&m.samples);

@@ -14,6 +14,7 @@ typedef struct {
   kz_scene scene;   /* pendulum, numerics, and the basin whose window was searched; no title */
   double tolerance; /* rad: error of a period for moving frames; 0 = labels are decided */
   bool busy;        /* a frame of it is being made */
+  bool smooth;      /* its cells get smooth settling times */
   int64_t used;     /* counter of its last use: larger = later */
   int64_t periods;  /* largest number of drive periods for which cells are followed */
   kz_dynamics *dynamics;

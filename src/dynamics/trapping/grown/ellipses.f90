@@ -10,7 +10,7 @@ module kz_grown_ellipses
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: find_ellipses, in_ellipse
+  public :: find_ellipses, in_ellipse, ellipse_square
 
   !> Radii of rings, rad; where none up to LATEST is carried inside, none is looked for beyond.
   real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 2.0_dp, GROWTH = 2.0_dp
@@ -52,13 +52,28 @@ contains
     !> velocity, rad per drive radian
     real(dp), intent(in) :: v
     logical :: inside
+
+    inside = ellipse_square(attractor, j, u, v) < 1
+  end function in_ellipse
+
+  !> The square of (u, v) in the norm of that ellipse, 1 on its rim; huge where there is none.
+  pure function ellipse_square(attractor, j, u, v) result(square)
+    !> the attractor
+    type(attractor_t), intent(in) :: attractor
+    !> strobe point, from 1
+    integer, intent(in) :: j
+    !> angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: u
+    !> velocity, rad per drive radian
+    real(dp), intent(in) :: v
+    real(dp) :: square
     real(dp) :: du, dv
 
     du = angle_difference(u, attractor%kernel_u(j))
     dv = v - attractor%kernel_v(j)
-    inside = attractor%form(1, j)*du**2 + 2*attractor%form(2, j)*du*dv + attractor%form(3, j)*dv**2 < 1 &
-             .and. attractor%form(1, j) > 0
-  end function in_ellipse
+    square = attractor%form(1, j)*du**2 + 2*attractor%form(2, j)*du*dv + attractor%form(3, j)*dv**2
+    if (.not. attractor%form(1, j) > 0) square = huge(square)
+  end function ellipse_square
 
   !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking
   !> shows above rounding and above the distance by which the map's own cycle misses the fine one.
