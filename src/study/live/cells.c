@@ -7,13 +7,10 @@
 #include "labelling/starts.h"
 #include "numerics/cells.h"
 
-/* Where cells are when they are handed over to doubles. */
-typedef struct {
-  double state[2 * KZ_FRAME_TILE];
-  int64_t spent[KZ_FRAME_TILE];
-} handed;
+/* Periods after which a cell is late: most cells of a whole circle take fewer. */
+enum { SOON = 24 };
 
-/* Where n <= KZ_FRAME_TILE cells are then: half-turns and velocity; the periods that they have spent. */
+/* Where n <= KZ_FRAME_TILE cells are handed over to doubles: half-turns and velocity; the periods that they have spent. */
 static void hand_over(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number, double *state,
                       int64_t *spent) {
   const int64_t columns = starts->plan->theta.count;
@@ -35,25 +32,48 @@ static void smooth(const kz_resident *r, int64_t n, const int32_t *label, const 
   for (int64_t i = 0; i < n; i++) cells[number[i]].smooth = (float)time[i];
 }
 
-/* As method direct labels them. */
-static void follow(kz_resident *r, int64_t n, const handed *from, const int64_t *number, kz_frame_cell *cells) {
-  int32_t label[KZ_FRAME_TILE];
-  int64_t periods[KZ_FRAME_TILE];
-  double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
-  memcpy(state, from->state, (size_t)n * 2 * sizeof *state);
-  kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, n, r->periods, state, label, periods);
-  for (int64_t i = 0; i < n; i++) {
-    time[i] = (double)(from->spent[i] + periods[i]);
-    cells[number[i]] = (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)time[i], .state = KZ_CELL_FOLLOWED};
-    if (label[i] == 0 && r->n_strays < KZ_STRAYS) memcpy(r->stray + 2 * r->n_strays++, state + 2 * i, 2 * sizeof *state);
-  }
-  if (r->smooth) smooth(r, n, label, state, time, number, cells);
+static void add_late(kz_travellers *late, int64_t number, int64_t spent, const double *state) {
+  late->number[late->n] = number;
+  late->spent[late->n] = spent;
+  memcpy(late->state + 2 * late->n++, state, 2 * sizeof *state);
 }
 
-/* As method exact labels them. */
+/* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is NULL. */
+static void follow(kz_resident *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
+  int32_t label[2 * KZ_FRAME_TILE];
+  int64_t periods[2 * KZ_FRAME_TILE];
+  double time[2 * KZ_FRAME_TILE], *state = from->state;
+  kz_dynamics_follow(r->dynamics, KZ_FOLLOW_DIRECT, from->n, most, state, label, periods);
+  for (int64_t i = 0; i < from->n; i++) {
+    const int64_t number = from->number[i], spent = from->spent[i] + periods[i];
+    time[i] = (double)spent;
+    if (label[i] == 0 && late) {
+      add_late(late, number, spent, state + 2 * i);
+      continue;
+    }
+    cells[number] = (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)spent, .state = KZ_CELL_FOLLOWED};
+    if (label[i] == 0 && r->n_strays < KZ_STRAYS) memcpy(r->stray + 2 * r->n_strays++, state + 2 * i, 2 * sizeof *state);
+  }
+  if (r->smooth) smooth(r, from->n, label, state, time, from->number, cells);
+}
+
+void kz_cells_finish(kz_resident *resident, kz_travellers *late, kz_frame_cell *cells) {
+  if (late->n > 0) follow(resident, resident->periods - SOON, late, NULL, cells);
+  late->n = 0;
+}
+
+static void follow_moving(kz_resident *r, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
+  if (r->periods <= SOON) {
+    follow(r, r->periods, from, NULL, cells);
+    return;
+  }
+  follow(r, SOON, from, late, cells);
+  if (late->n > KZ_FRAME_TILE) kz_cells_finish(r, late, cells);
+}
+
+/* As method exact labels them. decision [n]: a buffer. */
 static kz_status decide(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                        kz_frame_cell *cells) {
-  kz_decision decision[KZ_FRAME_TILE];
+                        kz_decision *decision, kz_frame_cell *cells) {
   int32_t label[KZ_FRAME_TILE]; /* 0: where the cell was left is not known */
   double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
   const kz_labeller labeller = kz_window_labeller(starts, false);
@@ -74,12 +94,23 @@ static kz_status decide(const kz_resident *r, const kz_window_starts *starts, in
   return KZ_OK;
 }
 
+static kz_status decide_tile(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                             kz_frame_cell *cells) {
+  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
+  const kz_status status = decide(r, starts, n, number, decision, cells);
+  free(decision);
+  return status;
+}
+
 kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                          kz_frame_cell *cells) {
-  handed from;
-  if (!kz_resident_moves(resident)) return decide(resident, starts, n, number, cells);
-  hand_over(resident, starts, n, number, from.state, from.spent);
-  follow(resident, n, &from, number, cells);
+                          kz_travellers *late, kz_frame_cell *cells) {
+  if (!kz_resident_moves(resident)) return decide_tile(resident, starts, n, number, cells);
+  kz_travellers *from = kz_malloc(sizeof *from);
+  from->n = n;
+  memcpy(from->number, number, (size_t)n * sizeof *number);
+  hand_over(resident, starts, n, number, from->state, from->spent);
+  follow_moving(resident, from, late, cells);
+  free(from);
   return KZ_OK;
 }
 
@@ -107,16 +138,29 @@ static int64_t list_wanted(kz_samples *samples, int64_t n, const int64_t *number
   return wanted;
 }
 
+/* Samples of the curve that cells need, tile by tile. */
+static kz_status follow_samples(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t wanted,
+                                kz_travellers *from, kz_travellers *late) {
+  late->n = 0;
+  for (int64_t done = 0; done < wanted; done += KZ_FRAME_TILE) {
+    const int64_t *sample = samples->wanted + done;
+    KZ_TRY(frame->pause(frame->context));
+    from->n = wanted - done < KZ_FRAME_TILE ? wanted - done : KZ_FRAME_TILE;
+    memcpy(from->number, sample, (size_t)from->n * sizeof *sample);
+    for (int64_t i = 0; i < from->n; i++)
+      kz_window_curve_state(&samples->curve, sample[i], from->state + 2 * i, from->spent + i);
+    follow_moving(resident, from, late, samples->cell);
+  }
+  kz_cells_finish(resident, late, samples->cell);
+  return KZ_OK;
+}
+
 kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
                             kz_frame_cell *cells) {
-  const int64_t wanted = list_wanted(samples, n, number);
-  handed from;
-  for (int64_t done = 0; done < wanted; done += KZ_FRAME_TILE) {
-    const int64_t part = wanted - done < KZ_FRAME_TILE ? wanted - done : KZ_FRAME_TILE, *sample = samples->wanted + done;
-    KZ_TRY(frame->pause(frame->context));
-    for (int64_t i = 0; i < part; i++) kz_window_curve_state(&samples->curve, sample[i], from.state + 2 * i, from.spent + i);
-    follow(resident, part, &from, sample, samples->cell);
-  }
+  kz_travellers *tile = kz_malloc(2 * sizeof *tile);
+  const kz_status status = follow_samples(resident, frame, samples, list_wanted(samples, n, number), tile, tile + 1);
+  free(tile);
+  KZ_TRY(status);
   for (int64_t i = 0; i < n; i++) cells[number[i]] = samples->cell[kz_window_curve_sample(&samples->curve, number[i])];
   return KZ_OK;
 }

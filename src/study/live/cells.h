@@ -15,15 +15,23 @@ typedef struct {
 } kz_frame_cell;
 
 /* Largest number of cells that are followed together. */
-enum { KZ_FRAME_TILE = 1024 };
+enum { KZ_FRAME_TILE = 2048 };
+
+/* Cells of a moving frame on their way: where they are (half-turns, rad per drive radian), and the periods that they have spent. */
+typedef struct {
+  int64_t n, number[2 * KZ_FRAME_TILE], spent[2 * KZ_FRAME_TILE];
+  double state[4 * KZ_FRAME_TILE];
+} kz_travellers;
 
 /* Makes the starts of a frame's cells, at any depth; it reuses the images of the last frame if possible. The caller frees them if the status
  * is KZ_OK. */
 kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts);
 
-/* Follows n <= KZ_FRAME_TILE cells; number [n] = their numbers in the frame, theta fastest. */
+/* Follows n <= KZ_FRAME_TILE cells; number [n] = their numbers in the frame, theta fastest. Those of a moving frame that take long join `late`,
+ * which holds none at first: a few slow cells would leave most lanes empty. kz_cells_finish follows them to their ends. */
 kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                          kz_frame_cell *cells);
+                          kz_travellers *late, kz_frame_cell *cells);
+void kz_cells_finish(kz_resident *resident, kz_travellers *late, kz_frame_cell *cells);
 
 /* Samples along the curve that a deep window becomes: they label the cells of a moving frame. */
 typedef struct {

@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MOST_HELPERS = 15, LEAST_TILES = 4 /* for each helper: a birth takes a millisecond */ };
+enum { MOST_HELPERS = 15, LEAST_TILES = 2 /* for each helper: a birth takes a millisecond */ };
 /* A helper has at most one tile left when this process has none. It hangs if that takes so many seconds, and so many times as long as all
  * tiles of this process took. */
 enum { LEAST_PATIENCE = 2, MORE_PATIENCE = 10 };
@@ -64,14 +64,23 @@ kz_frame_cell *kz_crew_cells(kz_crew *crew) {
   return crew->cell;
 }
 
-static kz_status follow_tiles(kz_crew *crew, kz_resident *resident, const kz_frame *frame, const kz_window_starts *starts,
-                              int64_t n, const int64_t *number) {
+static kz_status follow_next_tiles(kz_crew *crew, kz_resident *resident, const kz_frame *frame, const kz_window_starts *starts,
+                                   int64_t n, const int64_t *number, kz_travellers *late) {
   for (int64_t done; (done = KZ_FRAME_TILE * crew->next++) < n;) {
     if (frame) KZ_TRY(frame->pause(frame->context));
     const int64_t part = n - done < KZ_FRAME_TILE ? n - done : KZ_FRAME_TILE;
-    KZ_TRY(kz_cells_follow(resident, starts, part, number + done, crew->cell));
+    KZ_TRY(kz_cells_follow(resident, starts, part, number + done, late, crew->cell));
   }
+  kz_cells_finish(resident, late, crew->cell);
   return KZ_OK;
+}
+
+static kz_status follow_tiles(kz_crew *crew, kz_resident *resident, const kz_frame *frame, const kz_window_starts *starts,
+                              int64_t n, const int64_t *number) {
+  kz_travellers *late = kz_calloc(1, sizeof *late);
+  const kz_status status = follow_next_tiles(crew, resident, frame, starts, n, number, late);
+  free(late);
+  return status;
 }
 
 /* A helper's life: it says nothing, and ends with its parent. */
@@ -116,16 +125,15 @@ static void take_findings(kz_resident *resident, findings *found) {
 }
 
 /* Follows those of n cells that helpers have left undone. */
-static kz_status follow_rest(kz_crew *crew, kz_resident *resident, const kz_window_starts *starts, int64_t n,
-                             const int64_t *number) {
-  int64_t pending[KZ_FRAME_TILE], taken = 0;
-  for (int64_t i = 0; i < n; i++) {
-    if (crew->cell[number[i]].state == KZ_CELL_PENDING) pending[taken++] = number[i];
-    if (taken == 0 || (taken < KZ_FRAME_TILE && i < n - 1)) continue;
-    KZ_TRY(kz_cells_follow(resident, starts, taken, pending, crew->cell));
-    taken = 0;
-  }
-  return KZ_OK;
+static kz_status follow_rest(kz_crew *crew, kz_resident *resident, const kz_frame *frame, const kz_window_starts *starts,
+                             int64_t n, const int64_t *number) {
+  int64_t *pending = kz_malloc((size_t)n * sizeof *pending), left = 0;
+  for (int64_t i = 0; i < n; i++)
+    if (crew->cell[number[i]].state == KZ_CELL_PENDING) pending[left++] = number[i];
+  crew->next = 0;
+  const kz_status status = follow_tiles(crew, resident, frame, starts, left, pending);
+  free(pending);
+  return status;
 }
 
 kz_status kz_crew_follow(kz_crew *crew, kz_resident *resident, const kz_frame *frame, const kz_window_starts *starts, int64_t n,
@@ -150,5 +158,5 @@ kz_status kz_crew_follow(kz_crew *crew, kz_resident *resident, const kz_frame *f
     if (status == KZ_OK) status = heard;
     take_findings(resident, crew->found + i);
   }
-  return born > 0 && status == KZ_OK ? follow_rest(crew, resident, starts, n, number) : status;
+  return born > 0 && status == KZ_OK ? follow_rest(crew, resident, frame, starts, n, number) : status;
 }

@@ -21,6 +21,7 @@ typedef struct {
   kz_crew *crew;
   kz_frame_cell *cell; /* [total] the crew's */
   int64_t *pending;    /* [total] numbers of the cells that a level follows */
+  bool *listed;        /* [own] cells that a level has followed, or is about to */
   void *buffer;        /* of a level's planes */
   bool searched;       /* attractors have been looked for among its cells */
   double begin;
@@ -42,20 +43,12 @@ static void frame_allocate(making *m) {
   m->crew = kz_crew_create(m->total, kz_spare_cores());
   m->cell = kz_crew_cells(m->crew);
   m->pending = kz_malloc((size_t)m->total * sizeof *m->pending);
+  m->listed = kz_calloc((size_t)m->own, sizeof *m->listed);
   m->buffer = kz_malloc((size_t)m->total * bytes + sizeof(float));
 }
 
-/* Numbers of the pending cells of a level, those of the second half as their mirror images. */
 static int64_t list_pending(making *m, int64_t level) {
-  const int64_t columns = m->scene->basin.theta.count, rows = m->scene->basin.velocity.count;
-  int64_t n = 0;
-  for (int64_t i = 0; i < kz_level_size(level, rows); i++)
-    for (int64_t j = 0; j < kz_level_size(level, columns); j++) {
-      const int64_t f = kz_level_place(level, i, rows) * columns + kz_level_place(level, j, columns);
-      const int64_t g = f < m->own ? f : m->total - 1 - f;
-      if (m->cell[g].state == KZ_CELL_PENDING) m->pending[n++] = g;
-    }
-  return n;
+  return kz_level_pending(level, m->scene->basin.velocity.count, m->scene->basin.theta.count, m->own, m->listed, m->pending);
 }
 
 static kz_status follow(making *m, int64_t n) {
@@ -172,6 +165,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   kz_window_starts_free(&m.starts);
   kz_crew_free(m.crew);
   free(m.pending);
+  free(m.listed);
   free(m.buffer);
   return status;
 }

@@ -1,0 +1,53 @@
+/* Cells of a frame, level by level: each own cell is followed once, at the first level that shows it or its mirror image. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "live/levels.h"
+
+/* Whether all cells that a level shows, or their mirror images, have been listed. */
+static bool is_shown(int64_t level, int64_t rows, int64_t columns, int64_t own, const int *times) {
+  for (int64_t i = 0; i < kz_level_size(level, rows); i++)
+    for (int64_t j = 0; j < kz_level_size(level, columns); j++) {
+      const int64_t f = kz_level_place(level, i, rows) * columns + kz_level_place(level, j, columns);
+      if (times[f < own ? f : rows * columns - 1 - f] == 0) return false;
+    }
+  return true;
+}
+
+static void check(int64_t rows, int64_t columns, int64_t own) {
+  bool *listed = calloc((size_t)own, sizeof *listed);
+  int *times = calloc((size_t)own, sizeof *times);
+  int64_t *number = calloc((size_t)(rows * columns), sizeof *number);
+  for (int64_t level = 8; level >= 1; level /= 2) {
+    const int64_t n = kz_level_pending(level, rows, columns, own, listed, number);
+    for (int64_t i = 0; i < n; i++) {
+      assert_in_range(number[i], 0, own - 1);
+      times[number[i]]++;
+    }
+    assert_true(is_shown(level, rows, columns, own, times));
+  }
+  for (int64_t i = 0; i < own; i++) assert_int_equal(times[i], 1);
+  free(listed);
+  free(times);
+  free(number);
+}
+
+static void each_own_cell_is_followed_once(void **state) {
+  (void)state;
+  static const int64_t counts[] = {1, 2, 7, 16, 25};
+  enum { N = sizeof counts / sizeof *counts };
+  for (int i = 0; i < N; i++)
+    for (int j = 0; j < N; j++) {
+      check(counts[i], counts[j], counts[i] * counts[j]);
+      check(counts[i], counts[j], (counts[i] * counts[j] + 1) / 2);
+    }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(each_own_cell_is_followed_once)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
