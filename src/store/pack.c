@@ -2,12 +2,34 @@
 
 #include <limits.h>
 #include <stdlib.h>
+#include <string.h>
 #include <zlib.h>
 
 /* Byte b of item i goes to place b n + i. */
-static void shuffle(const unsigned char *items, size_t item, size_t n, unsigned char *out) {
+static inline __attribute__((always_inline)) void move_bytes(const unsigned char *items, size_t item, size_t n,
+                                                             unsigned char *restrict out) {
   for (size_t b = 0; b < item; ++b)
     for (size_t i = 0; i < n; ++i) out[b * n + i] = items[i * item + b];
+}
+
+/* Sizes that are known beforehand are moved in vectors. */
+static void shuffle(const unsigned char *items, size_t item, size_t n, unsigned char *out) {
+  switch (item) {
+    case 1:
+      memcpy(out, items, n);
+      break;
+    case 2:
+      move_bytes(items, 2, n, out);
+      break;
+    case 4:
+      move_bytes(items, 4, n, out);
+      break;
+    case 16:
+      move_bytes(items, 16, n, out);
+      break; /* labelled cells */
+    default:
+      move_bytes(items, item, n, out);
+  }
 }
 
 /* Where bytes come in runs, looking for nothing else takes half the time and packs better. */

@@ -92,7 +92,7 @@ contains
     integer, intent(in) :: before
     integer(c_int64_t), intent(in) :: most
     type(orbit_t), intent(inout) :: orbit(:)
-    type(ending_t), intent(out) :: ending(:)
+    type(ending_t), intent(inout) :: ending(:)
     type(carrier_t) :: carrier
     type(orbit_t), allocatable :: some(:)
     type(ending_t), allocatable :: found(:)
@@ -102,12 +102,14 @@ contains
 
     call prepare_level(d%levels, LEVEL_DOUBLE, d%search%pendulum, d%numerics, d%flow, d%regions%top)
     now = max(level, LEVEL_DOUBLE)
-    if (.not. is_useful(d%levels, now)) ending%label = DOUBTFUL
+    if (.not. is_useful(d%levels, now)) then
+      ending%label = DOUBTFUL
+      return
+    end if
     do
       next = merge(before, now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
       handover = huge(handover)
-      if (.not. any(ending%label == PENDING)) return
       call prepare_level(d%levels, now, d%search%pendulum, d%numerics, d%flow, d%regions%top)
       if (now > LEVEL_DOUBLE) then
         call prepare_level(d%levels, next, d%search%pendulum, d%numerics, d%flow, d%regions%top)
@@ -123,7 +125,9 @@ contains
         orbit(place) = some
         ending(place) = found
       end if
+      if (now == LEVEL_DOUBLE) return ! nothing is handed over from there
       place = pack([(i, i=1, size(orbit))], ending%label == PENDING)
+      if (size(place) == 0) return
       now = next
     end do
   end subroutine label_orbits

@@ -3,7 +3,7 @@
 module kz_labels_carrier
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_labels_inner, only: inner_t
-  use kz_labels_period_error, only: period_error_t, class_of
+  use kz_labels_period_error, only: period_error_t, class_of, noise_at
   use kz_labels_spread, only: add_ellipse
   use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
@@ -12,11 +12,11 @@ module kz_labels_carrier
 
   !> An orbit at the end of a period.
   type :: orbit_t
-    real(dp) :: u(3) = 0  !< half-turns: the sum of three doubles
-    real(dp) :: v(2) = 0  !< rad per drive radian: the sum of two doubles
-    real(dp) :: p(3) = 0  !< what its state may be off: theta theta, theta v, v v (rad, rad per drive radian),
-    real(dp) :: lost = 0  !< and so much more in any direction
-    integer(c_int64_t) :: age = 0 !< periods since it was released
+    real(dp) :: u(3)  !< half-turns: the sum of three doubles
+    real(dp) :: v(2)  !< rad per drive radian: the sum of two doubles
+    real(dp) :: p(3)  !< what its state may be off: theta theta, theta v, v v (rad, rad per drive radian),
+    real(dp) :: lost  !< and so much more in any direction
+    integer(c_int64_t) :: age !< periods since it was released
   end type orbit_t
 
   type :: carrier_t
@@ -142,13 +142,13 @@ contains
     integer, intent(in) :: n
     integer :: lane
 
-    do lane = 1, n
-      if (allocated(self%inner)) then
+    if (allocated(self%inner)) then
+      do lane = 1, n
         self%noise(lane) = self%inner%noise(self%v(lane))
-      else
-        self%noise(lane) = self%error%noise(class_of(self%error, self%v(lane)))
-      end if
-    end do
+      end do
+    else
+      call noise_at(self%error, n, self%v(:n), self%noise)
+    end if
     call self%flow%advance_linear(n, self%tangent)
     if (allocated(self%inner)) then
       call self%inner%advance(n)

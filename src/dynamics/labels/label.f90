@@ -3,7 +3,7 @@
 module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_lanes_map, only: map_t, WIDTH, CAPACITY
-  use kz_labels_lanes, only: queued_lanes_t
+  use kz_labels_lanes, only: queued_lanes_t, list_done
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
@@ -36,7 +36,7 @@ contains
     integer(c_int64_t), intent(inout) :: periods(:)
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
-    integer :: region(WIDTH), lane
+    integer :: region(WIDTH), done(WIDTH), list(WIDTH), n_done, lane, i
 
     next = 1
     do lane = 1, WIDTH
@@ -47,10 +47,13 @@ contains
       lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
       call find_regions(regions, attractors, lanes%active, map%u(:lanes%active), map%v(:lanes%active), region)
       call visit_covers(map, regions, lanes, region)
-      do lane = lanes%active, 1, -1
-        if (region(lane) == 0 .and. lanes%age(lane) < lanes%most(lane)) cycle
-        call settle(lane, region(lane))
-        call occupy(lane)
+      do lane = 1, lanes%active
+        done(lane) = merge(0, 1, region(lane) == 0 .and. lanes%age(lane) < lanes%most(lane))
+      end do
+      call list_done(lanes%active, done, list, n_done)
+      do i = 1, n_done
+        call settle(list(i), region(list(i)))
+        call occupy(list(i))
       end do
     end do
   contains

@@ -5,7 +5,7 @@ module kz_labels_orbits
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_bending, only: measure_bending, SAFETY
-  use kz_labels_lanes, only: queued_lanes_t
+  use kz_labels_lanes, only: queued_lanes_t, list_done
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors
   use kz_lanes_map, only: WIDTH, CAPACITY, PI
@@ -62,12 +62,12 @@ contains
     logical, intent(in) :: guess
     !> [n] in and out
     type(orbit_t), intent(inout) :: orbit(:)
-    !> [n]
-    type(ending_t), intent(out) :: ending(:)
+    !> [n] as they are made, in; out
+    type(ending_t), intent(inout) :: ending(:)
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
     real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), bent(WIDTH)
-    integer :: region(WIDTH), lane
+    integer :: region(WIDTH), done(WIDTH), list(WIDTH), n_done, lane, i
     logical :: with_covers
 
     next = 1
@@ -84,11 +84,14 @@ contains
       call bend(lanes%active)
       call spread_errors(lanes%active, carrier%tangent, carrier%noise, bent, lanes%p, trace)
       call find_regions(regions, attractors, lanes%active, carrier%u(:lanes%active), carrier%v(:lanes%active), region)
-      do lane = lanes%active, 1, -1
-        lanes%age(lane) = lanes%age(lane) + 1
-        if (region(lane) == 0 .and. trace(lane) < largest .and. lanes%age(lane) < most .and. .not. with_covers) cycle
-        if (is_open(lane, region(lane), trace(lane))) cycle
-        call occupy(lane)
+      lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
+      do lane = 1, lanes%active
+        done(lane) = merge(0, 1, region(lane) == 0 .and. trace(lane) < largest .and. lanes%age(lane) < most .and. .not. with_covers)
+      end do
+      call list_done(lanes%active, done, list, n_done)
+      do i = 1, n_done
+        if (is_open(list(i), region(list(i)), trace(list(i)))) cycle
+        call occupy(list(i))
       end do
     end do
   contains

@@ -9,7 +9,7 @@ module kz_labels_period_error
   use kz_model_release, only: stretch_t, whole_period
   implicit none
   private
-  public :: period_error_t, speed_probes_t, make_speed_probes, measure_period, class_of
+  public :: period_error_t, speed_probes_t, make_speed_probes, measure_period, class_of, noise_at
 
   !> Classes of speed.
   integer, parameter, public :: CLASSES = 16
@@ -68,6 +68,25 @@ contains
     class = CLASSES
     if (abs(v)*error%per_speed < CLASSES) class = int(abs(v)*error%per_speed)
   end function class_of
+
+  !> The noise of a map at many speeds, in vectors.
+  pure subroutine noise_at(error, n, v, noise)
+    !> of a map
+    type(period_error_t), intent(in) :: error
+    !> lanes
+    integer, intent(in) :: n
+    !> rad per drive radian
+    real(dp), intent(in) :: v(n)
+    !> rad
+    real(dp), intent(inout) :: noise(WIDTH)
+    real(dp) :: class
+    integer :: i
+
+    do i = 1, n
+      class = abs(v(i))*error%per_speed
+      noise(i) = error%noise(int(merge(class, real(CLASSES, dp), class < CLASSES)))
+    end do
+  end subroutine noise_at
 
   !> The noise of a map.
   subroutine measure_period(flow, probes, error)

@@ -10,6 +10,7 @@
 
 #include "accuracy/accuracy.h"
 #include "boundary.h"
+#include "lifetime.h"
 #include "resilience/resilience.h"
 #include "numerics/table_check.h"
 #include "phases.h"
@@ -77,7 +78,7 @@ static kz_status find_shocks(const kz_scene *scene, const kz_window_labels *labe
 }
 
 static kz_status write_window(const kz_scene *scene, kz_window_labels *labelling, kz_proof *proof, kz_catalogue *catalogue,
-                              sample *s, kz_store *store, FILE *summary) {
+                              sample *s, kz_transients *transients, kz_store *store, FILE *summary) {
   const kz_run *run = labelling->run;
   KZ_TRY(kz_label_window(labelling));
   kz_proof_sample proved_sample = {.starts = 0};
@@ -90,14 +91,15 @@ static kz_status write_window(const kz_scene *scene, kz_window_labels *labelling
                       .store = store,
                       .n_sample = s->n,
                       .sample = s->cell,
-                      .sample_label = s->label};
+                      .sample_label = s->label,
+                      .transients = transients};
   KZ_TRY(kz_cells_write(&chunks));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK));
   if (proof)
     KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_proof_write(proof, catalogue, labelling->tiles.cells, &chunks.counts,
                                                              &proved_sample, store, summary)
                                             : KZ_OK));
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_lifetime_write(scene, store, summary) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_lifetime_write(&scene->basin, transients, store, summary) : KZ_OK));
   KZ_TRY(kz_boundary_find(scene, labelling, catalogue, store, summary));
   KZ_TRY(kz_phases_find(scene, labelling, catalogue, store, summary));
   return find_shocks(scene, labelling, catalogue, store, summary);
@@ -114,18 +116,21 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_catalogue catalogue = {0};
   kz_proof *proof;
   sample s = {0};
+  kz_transients transients;
+  kz_transients_make(plan, &transients);
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_dynamics_set_release(labelling.dynamics, &scene->parameters.release);
   kz_status status = kz_ranks_agree(run->ranks, kz_proof_plan(scene, &proof));
   if (status == KZ_OK) {
     const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
     labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &motions);
-    status = write_window(scene, &labelling, proof, &catalogue, &s, store, summary);
+    status = write_window(scene, &labelling, proof, &catalogue, &s, &transients, store, summary);
   }
   kz_dynamics_free(labelling.dynamics);
   kz_window_labels_free(&labelling);
   kz_proof_free(proof);
   kz_catalogue_free(&catalogue);
+  kz_transients_free(&transients);
   free(s.cell);
   free(s.label);
   free(s.followed);

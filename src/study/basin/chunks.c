@@ -18,14 +18,14 @@ static int count_variables(const kz_basin_plan *plan) {
   return plan->method == KZ_METHOD_EXACT ? VARIABLES : VARIABLES - 1;
 }
 
-/* A chunk of each variable, packed; a message has one or two of them. */
+/* A chunk of each variable, packed, and settling times as they are; a message has one or two of them. */
 typedef struct {
-  int64_t tile;
+  int64_t tile, transients;
   uint64_t bytes[VARIABLES];
 } head;
 
 static size_t message_room(int64_t cells) {
-  size_t buffer = sizeof(head);
+  size_t buffer = sizeof(head) + (size_t)cells * KZ_TRANSIENT_BYTES;
   for (int v = 0; v < VARIABLES; v++) buffer += kz_pack_bytes((size_t)cells, items[v]);
   return 2 * buffer;
 }
@@ -54,7 +54,8 @@ static void count(kz_chunks *c, int64_t tile) {
 }
 
 static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
-  const size_t n = (size_t)kz_tile_capacity(&c->labelling->tiles);
+  const kz_tiles *tiles = &c->labelling->tiles;
+  const size_t n = (size_t)kz_tile_capacity(tiles);
   const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence, c->others};
   head h = {.tile = tile};
   char *end = message + *bytes + sizeof h;
@@ -63,6 +64,9 @@ static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *b
       return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
     end += h.bytes[v];
   }
+  h.transients =
+      kz_transients_pick(c->labelling->plan, kz_tile_first(tiles, tile), kz_tile_count(tiles, tile), c->ids, c->periods, end);
+  end += (size_t)h.transients * KZ_TRANSIENT_BYTES;
   memcpy(message + *bytes, &h, sizeof h);
   *bytes = (size_t)(end - message);
   return KZ_OK;
@@ -174,6 +178,8 @@ static kz_status take(void *context, const void *message, size_t bytes) {
     KZ_TRY(write_chunks(c, &h, at + sizeof h));
     at += sizeof h;
     for (int v = 0; v < VARIABLES; v++) at += h.bytes[v];
+    if (c->transients) kz_transients_add(c->transients, h.transients, at);
+    at += (size_t)h.transients * KZ_TRANSIENT_BYTES;
   }
   return KZ_OK;
 }

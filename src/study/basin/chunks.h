@@ -4,6 +4,7 @@
 
 #include "attractors/catalogue.h"
 #include "label.h"
+#include "lifetime.h"
 #include "measures.h"
 
 typedef struct {
@@ -11,10 +12,11 @@ typedef struct {
   kz_catalogue *catalogue; /* out: its fractions */
   kz_store *store;         /* NULL on all ranks but rank 0 */
   int64_t n_sample;
-  const int64_t *sample; /* [n_sample] cells whose labels the caller needs */
-  int64_t *sample_label; /* [n_sample] in: 0; out: numbers of kz_dynamics */
-  kz_counts counts;      /* in: 0; out: of all cells */
-  int16_t *ids;          /* one tile; this and the next three are buffers */
+  const int64_t *sample;     /* [n_sample] cells whose labels the caller needs */
+  int64_t *sample_label;     /* [n_sample] in: 0; out: numbers of kz_dynamics */
+  kz_counts counts;          /* in: 0; out: of all cells */
+  kz_transients *transients; /* in: none; out: of all cells, on rank 0 */
+  int16_t *ids;              /* one tile; this and the next three are buffers */
   uint32_t *periods;
   uint8_t *evidence;
   int16_t *others;   /* second candidates */

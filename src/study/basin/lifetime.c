@@ -1,38 +1,57 @@
 /* How long the transients of a window last. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "boundary.h"
+#include "lifetime.h"
 #include "numerics/cells.h"
 
 enum {
   CELLS = 1 << 18, /* that are looked at, about */
-  BLOCK = 1 << 14, /* cells read at once, or a row */
   ENOUGH = 30      /* ends that make a mean worth telling */
 };
 
-/* The settling times of every step-th row of those that are not mirror images: how many, and how many cells are open. */
-static kz_status read_times(const kz_basin_plan *plan, kz_store *store, double *time, int64_t *n, int64_t *n_open) {
-  const int64_t columns = plan->theta.count, own = (kz_unique_cells(plan) + columns - 1) / columns;
-  const int64_t step = 1 + columns * own / CELLS,
-                several = BLOCK / columns / step * step; /* rows of a block; 0: one row is enough */
-  const int64_t rows = several > 0 ? several : 1, stride = several > 0 ? several : step;
-  int16_t *label = kz_malloc((size_t)(rows * columns) * sizeof *label);
-  uint32_t *periods = kz_malloc((size_t)(rows * columns) * sizeof *periods);
-  kz_status status = KZ_OK;
-  for (int64_t row = 0; status == KZ_OK && row < own; row += stride) {
-    const int64_t here = own - row < rows ? own - row : rows;
-    status = kz_store_rows(store, "basin", "attractor", row, here, label);
-    if (status == KZ_OK) status = kz_store_rows(store, "basin", "settling_time", row, here, periods);
-    for (int64_t i = 0; status == KZ_OK && i < here * columns; i++) {
-      if (i / columns % step != 0) continue;
-      *n_open += label[i] < 0;
-      if (label[i] >= 0) time[(*n)++] = periods[i];
+/* In the place of the periods of a cell that has not settled. */
+static const uint32_t OPEN = UINT32_MAX;
+
+/* Rows that are not mirror images. */
+static int64_t own_rows(const kz_basin_plan *plan) {
+  return (kz_unique_cells(plan) + plan->theta.count - 1) / plan->theta.count;
+}
+
+void kz_transients_make(const kz_basin_plan *plan, kz_transients *transients) {
+  const int64_t columns = plan->theta.count;
+  *transients = (kz_transients){.time = kz_malloc((size_t)(CELLS + 2 * columns) * sizeof *transients->time)};
+}
+
+void kz_transients_free(kz_transients *transients) {
+  free(transients->time);
+}
+
+int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label, const uint32_t *periods,
+                           void *picked) {
+  const int64_t columns = plan->theta.count, own = own_rows(plan), step = 1 + columns * own / CELLS;
+  int64_t count = 0;
+  for (int64_t f = first, end; f < first + n && f / columns < own; f = end) {
+    const int64_t next_row = (f / columns + 1) * columns;
+    end = next_row < first + n ? next_row : first + n;
+    for (int64_t i = f - first; i < end - first && f / columns % step == 0; i++) {
+      const uint32_t time = label[i] < 0 ? OPEN : periods[i];
+      memcpy((char *)picked + KZ_TRANSIENT_BYTES * count++, &time, sizeof time);
     }
   }
-  free(label);
-  free(periods);
-  return status;
+  return count;
+}
+
+void kz_transients_add(kz_transients *transients, int64_t n, const void *picked) {
+  for (int64_t i = 0; i < n; i++) {
+    uint32_t time;
+    memcpy(&time, (const char *)picked + KZ_TRANSIENT_BYTES * i, sizeof time);
+    if (time == OPEN)
+      transients->n_open++;
+    else
+      transients->time[transients->n++] = time;
+  }
 }
 
 /* In words, where motions are still open. */
@@ -56,20 +75,11 @@ static void print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
   fprintf(summary, "\n");
 }
 
-kz_status kz_lifetime_write(const kz_scene *scene, kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = &scene->basin;
-  const int64_t columns = plan->theta.count;
-  int64_t n = 0, n_open = 0;
-  double *time = kz_malloc((size_t)(CELLS + 2 * columns) * sizeof *time);
-  kz_status status = read_times(plan, store, time, &n, &n_open);
-  if (status == KZ_OK) {
-    const kz_lifetime life = kz_lifetime_tail(n, time, n_open, (double)plan->max_periods);
-    print(&life, plan->max_periods, summary);
-    status = kz_store_real(store, "basin", "lifetime", life.mean);
-    if (status == KZ_OK) status = kz_store_real(store, "basin", "lifetime_low", life.low);
-    if (status == KZ_OK) status = kz_store_real(store, "basin", "lifetime_high", life.high);
-    if (status == KZ_OK) status = kz_store_real(store, "basin", "lifetime_after", life.from);
-  }
-  free(time);
-  return status;
+kz_status kz_lifetime_write(const kz_basin_plan *plan, kz_transients *t, kz_store *store, FILE *summary) {
+  const kz_lifetime life = kz_lifetime_tail(t->n, t->time, t->n_open, (double)plan->max_periods);
+  print(&life, plan->max_periods, summary);
+  KZ_TRY(kz_store_real(store, "basin", "lifetime", life.mean));
+  KZ_TRY(kz_store_real(store, "basin", "lifetime_low", life.low));
+  KZ_TRY(kz_store_real(store, "basin", "lifetime_high", life.high));
+  return kz_store_real(store, "basin", "lifetime_after", life.from);
 }

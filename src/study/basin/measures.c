@@ -32,11 +32,11 @@ void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_coun
 /* n cells beside those to their left and right. */
 static void compare(int64_t n, const int16_t *label, const int16_t *left, const int16_t *right, int64_t *compared,
                     int64_t *uncertain) {
-  int64_t known = 0, differ = 0;
-  for (int64_t i = 0; i < n; i++) {
-    const bool settled = label[i] >= 0 && left[i] >= 0 && right[i] >= 0;
+  int32_t known = 0, differ = 0;
+  for (int64_t i = 0; i < n; i++) { /* over vectors: without a branch */
+    const int16_t settled = (int16_t)(label[i] | left[i] | right[i]) >= 0;
     known += settled;
-    differ += settled && (left[i] != label[i] || right[i] != label[i]);
+    differ += settled & ((left[i] != label[i]) | (right[i] != label[i]));
   }
   *compared += known;
   *uncertain += differ;

@@ -5,6 +5,7 @@ module kz_grown_grid
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: in_ellipse
   use kz_grown_places, only: look_up, side, from_down, wrapped_midperiod_angle, WORD
+  use kz_lanes_map, only: WIDTH
   use kz_maps_states, only: angle_difference, midperiod_angle, MIDPERIOD
   implicit none
   private
@@ -210,7 +211,7 @@ contains
     type(regions_t), intent(in) :: regions
     !> the catalogue, numbered from 1
     type(attractor_t), intent(in) :: attractors(:)
-    !> states
+    !> states, at most WIDTH
     integer, intent(in) :: n
     !> angles, half-turns in [-1, 1]
     real(dp), intent(in) :: u(n)
@@ -218,33 +219,41 @@ contains
     real(dp), intent(in) :: v(n)
     !> attractor from 1, 0 = none
     integer, intent(out) :: label(n)
-    integer :: i
+    integer :: closed(WIDTH), n_closed, i
 
     call look_up(regions%mirrored, regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%closed, n, u, v, label)
-    do i = 1, n
-      if (label(i) > 0) label(i) = find_region(regions, attractors, label(i) - 1, u(i), v(i))
+    n_closed = 0
+    do i = 1, n ! without a branch: which cells are closed cannot be foreseen
+      closed(n_closed + 1) = i
+      n_closed = n_closed + min(1, abs(label(i)))
+    end do
+    do i = 1, n_closed
+      associate (at => closed(i))
+        label(at) = find_region(regions, regions%label, attractors, label(at), u(at), v(at))
+      end associate
     end do
   end subroutine find_regions
 
-  !> The attractor whose region holds (u, v), which lies in that cell of the stored half, or outside.
-  function find_region(regions, attractors, cell, u, v) result(a)
+  !> The attractor whose region holds (u, v), which lies in the cell of that number of look_up.
+  function find_region(regions, label, attractors, number, u, v) result(a)
     type(regions_t), intent(in) :: regions
+    !> of the regions, in the order of numbers
+    integer, intent(in) :: label(*)
     type(attractor_t), intent(in) :: attractors(:)
-    integer, intent(in) :: cell
+    integer, intent(in) :: number
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     integer :: a
     real(dp) :: fold
 
-    fold = 1
-    if (regions%mirrored) fold = side(wrapped_midperiod_angle(u, v), v)
-    if (cell == size(regions%label)) then
+    fold = sign(1, number)
+    if (abs(number) > size(regions%label)) then
       a = ellipse_at(attractors(:regions%n_drawn), fold*u, fold*v)
     else
-      a = regions%label(mod(cell, regions%n_theta), cell/regions%n_theta)
+      a = label(abs(number))
       if (a < 0) a = overlap_at(regions, attractors, -a, fold*u, fold*v)
     end if
-    if (a > 0 .and. fold < 0) a = regions%mirror(a)
+    if (a > 0 .and. number < 0) a = regions%mirror(a)
   end function find_region
 
   !> True if one trapped cell holds all states within (du, dv) of (u, v).

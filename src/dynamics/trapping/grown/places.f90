@@ -14,8 +14,8 @@ module kz_grown_places
 
 contains
 
-  !> The numbers (from 1) of the cells that hold n states, folded to the stored half; 0 if the cell is open; the last number for states
-  !> outside. Uses vectors.
+  !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image; 0 if the cell is open; the
+  !> last number for states outside. Uses vectors.
   pure subroutine look_up(mirrored, n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
     !> whether the stored half stands for the other one, too
     logical, intent(in) :: mirrored
@@ -35,10 +35,10 @@ contains
     real(dp), intent(in) :: u(n)
     !> velocities, rad per drive radian
     real(dp), intent(in) :: v(n)
-    !> number of the cell, from 1; 0 = open
+    !> +- number of the cell, from 1; 0 = open
     integer, intent(out) :: cell(n)
-    real(dp) :: w, y, c, per_v, outside, columns, rows
-    integer :: i
+    real(dp) :: w, y, c, fold, per_v, outside, columns, rows
+    integer :: i, number
 
     columns = n_theta
     rows = n_velocity
@@ -46,22 +46,24 @@ contains
     per_v = rows/(2*top)
     if (.not. mirrored) then
       do i = 1, n
-        cell(i) = whole_cell(n_theta, n_velocity, per_u, top, u(i), v(i))
+        cell(i) = 1 + whole_cell(n_theta, n_velocity, per_u, top, u(i), v(i))
       end do
     else
       do i = 1, n
         w = u(i) + MIDPERIOD*v(i)
         w = w - 2*((0.5_dp*w + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
-        y = (side(w, v(i))*v(i) + top)*per_v
+        fold = side(w, v(i))
+        y = (fold*v(i) + top)*per_v
         c = aint(abs(w)*per_u)
         c = merge(c, columns - 1, c < columns) + columns*aint(y)
         c = merge(c, outside, y >= 0)
         c = merge(c, outside, y < rows)
-        cell(i) = int(merge(c, outside, abs(w) <= 1)) ! a lost state is outside
+        cell(i) = int(fold*(1 + merge(c, outside, abs(w) <= 1))) ! a lost state is outside
       end do
     end if
     do i = 1, n
-      cell(i) = iand(ishft(closed(ishft(cell(i), -5)), -iand(cell(i), WORD - 1)), 1)*(cell(i) + 1)
+      number = abs(cell(i)) - 1
+      cell(i) = iand(ishft(closed(ishft(number, -5)), -iand(number, WORD - 1)), 1)*cell(i)
     end do
   end subroutine look_up
 
