@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 #include "kapitza/study_where.h"
-#include "scene.h"
+#include "scene/scene.h"
 
 /* Instruction sets that this build uses, as bits; the program's entry refuses a CPU that lacks one of them. */
 #define KZ_INSTRUCTION_LIST(X) \

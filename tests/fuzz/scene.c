@@ -1,6 +1,6 @@
 /* The scene parser under libFuzzer (tests/fuzz/run): any bytes are read or refused, and what is read comes back from its own
  * text. */
-#include "scene.h"
+#include "scene/scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "scene.h"
+#include "scene/scene.h"
 
 /* To be freed. */
 static inline char *resolved(const kz_scene *scene) {

@@ -16,7 +16,7 @@
 #include "window/curve.h"
 #include "window/images.h"
 #include "window/own_orbit.h"
-#include "scene.h"
+#include "scene/scene.h"
 
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
 #define FIG12 "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"

@@ -2,7 +2,7 @@
 #ifndef KAPITZA_APP_REQUEST_H
 #define KAPITZA_APP_REQUEST_H
 
-#include "../scene.h"
+#include "../scene/scene.h"
 #include "kapitza/study_live.h"
 
 enum {

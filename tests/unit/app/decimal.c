@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "scene.h"
+#include "scene/scene.h"
 
 static const char text[] =
     "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\nbasin:\n  method: exact\n";

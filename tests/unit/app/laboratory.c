@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "kapitza/study.h"
-#include "scene.h"
+#include "scene/scene.h"
 
 static const char TEXT[] = "pendulum: {k: 0, damping: 0.05, m: 0.5}\nbasin: {velocity: {min: -1, max: 1}}\n";
 

@@ -5,7 +5,7 @@
 #include <cmocka.h>
 
 #include "../../tools/resolved.h"
-#include "scene.h"
+#include "scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>

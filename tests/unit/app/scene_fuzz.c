@@ -10,7 +10,7 @@
 
 #include "../../tools/part.h"
 #include "../../tools/resolved.h"
-#include "scene.h"
+#include "scene/scene.h"
 
 enum { LONGEST = 4096 };
 
