@@ -41,6 +41,10 @@ void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
 void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 /* Adds the ellipses and covers of new attractors to the regions; on a fine grid the regions then grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
+/* Extends the regions by what n orbits tell: state [n][2] physical starts, each followed until it is trapped, for `most` periods at most,
+ * all together for `budget`. A cell joins an attractor if all orbits that visited it end there, and visited only such cells from then on. It
+ * is only likely that such cells trap: they are for moving pictures of weakly damped pendulums, whose regions do not grow. */
+void kz_dynamics_learn_regions(kz_dynamics *dynamics, int64_t n, const double *state, int64_t most, int64_t budget);
 
 /* Ways to follow a start: by the scene's map, or by interpolation of the map table with 2 or 6 nodes an axis. */
 enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };

@@ -137,9 +137,27 @@ def test_attractors_keep_their_tracks_when_a_slider_moves(server):
     assert len(shared) >= 4 and all(tracks[attractor["track"]] == attractor["name"] for attractor in shared)
 
 
+def test_an_attractor_that_is_born_under_a_slider_is_found_at_the_next_frame(server):
+    """From 0.3 to 0.33 at once, requests without a pause: a cycle of four periods is new there, and none of its cells stays open."""
+    server.frame(50, 80, quality="moving")
+    frames = [server.frame(50, 80, pendulum={**OTHER, "drive_amplitude": 0.33}, quality="moving")[1] for _ in range(2)]
+    first, second = (np.mean(planes["labels"] == 255) for (_, planes), in frames)
+    assert first > 0.04 and second < 0.002
+
+
 def test_weaker_damping_gets_more_periods_than_the_scene_has(server):
-    _, frames = server.frame(20, 30, pendulum={**OTHER, "quality_factor": 60}, quality="moving")
-    assert np.mean(frames[-1][1]["labels"] == 255) < 0.2
+    """And not as many as its motions take to settle, 900 on average: orbits have told regions that trap earlier."""
+    _, frames = server.frame(20, 30, ("labels", "settling_time"), pendulum={**OTHER, "quality_factor": 60}, quality="moving")
+    planes = frames[-1][1]
+    assert np.mean(planes["labels"] == 255) < 0.2
+    assert 60 < np.nanmean(planes["settling_time"]) < 450
+
+
+def test_a_moving_frame_of_weak_damping_shows_the_same_basins(server):
+    """Lace finer than a cell is another lace; what fills cells is the same, rotations to either side included."""
+    weak = {**OTHER, "quality_factor": 20}
+    exact, moving = (ends(server, *server.frame(24, 36, pendulum=weak, quality=quality)[1][-1]) for quality in ("exact", "moving"))
+    assert np.mean(np.any(abs(exact - moving) > 1e-4, axis=-1)) < 0.2
 
 
 def test_where_answers_as_the_command_does(server):

@@ -113,11 +113,9 @@ static kz_status answer_all(server *s) {
   while (!s->quits) {
     KZ_TRY(listen(s, false));
     if (!s->waiting && s->inbox.ended) return KZ_OK;
-    if (!s->waiting && !s->quits) {
-      kz_engine_rest(s->drawing.engine);
-      KZ_TRY(listen(s, true));
-    }
+    if (!s->waiting && !s->quits) KZ_TRY(listen(s, true));
     if (!s->quits && s->waiting) KZ_TRY(draw_next(s));
+    kz_engine_rest(s->drawing.engine); /* also where requests never cease, as those of a dragged slider */
   }
   return KZ_OK;
 }

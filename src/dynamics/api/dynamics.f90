@@ -9,6 +9,9 @@ module kz_api_dynamics
   private
   public :: make_dynamics
 
+  !> Of the fine steps, what places the cycles of a pendulum that a slider moves: to 1e-9 rad.
+  integer, parameter :: MOVING_PART = 4
+
 contains
 
   function create(pendulum, numerics, max_period) bind(C, name='kz_dynamics_create') result(handle)
@@ -31,6 +34,7 @@ contains
     !> whether a slider moves the pendulum
     logical, intent(in) :: moving
     type(dynamics_t), pointer :: d
+    type(numerics_t) :: fine
 
     allocate (d)
     d%numerics = numerics
@@ -42,8 +46,10 @@ contains
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)
-    call make_flow(pendulum, fine_numerics(pendulum), .true., d%search%fine)
-    call make_flow(pendulum, fine_numerics(pendulum), .false., d%search%sampling_flow)
+    fine = fine_numerics(pendulum)
+    call make_flow(pendulum, fine, .false., d%search%sampling_flow)
+    if (moving) fine%steps_per_period = fine%steps_per_period/MOVING_PART
+    call make_flow(pendulum, fine, .true., d%search%fine)
     allocate (d%attractors(0))
   end function make_dynamics
 

@@ -1,11 +1,11 @@
 !> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
 module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, PI
+  use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
   use kz_grown_ellipses, only: find_ellipses
-  use kz_cycles_newton, only: n_periods, eigenvalues
+  use kz_cycles_newton, only: newton, n_periods, eigenvalues
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: ellipse_at
   use kz_maps_states, only: separation, same_state
@@ -29,6 +29,10 @@ module kz_attractors_cycle_search
   !> Where the map of the recurrence stretches by more than this, no attracting cycle is near: about one that a fold bears or a
   !> period doubling ends, the map is like x -> 1 - a x**2, a <= 2, whose slope is at most 4.
   real(dp), parameter :: STRETCHED = 10
+  !> What Newton's method with the scene's steps tells of that with fine ones: no attracting cycle, a known one, or neither for certain.
+  integer, parameter :: NOTHING = 0, KNOWN_ONE = 1, UNSURE = 2
+  !> So far may the scene's cycle lie from the one of fine steps, rad; and so much more than 1 is the multiplier of one that surely repels.
+  real(dp), parameter :: BESIDE = 1e-5_dp, SURELY = 1.01_dp
 
 contains
 
@@ -85,7 +89,8 @@ contains
     real(dp) :: distance(ubound(u, 1))
     type(attractor_t) :: candidate
     logical :: found, blurred
-    integer :: tries, n
+    real(dp) :: farthest
+    integer :: tries, n, promise
 
     n = ubound(u, 1)
     if (ellipse_at(attractors, u(n), v(n)) > 0) return
@@ -104,8 +109,11 @@ contains
       found = .false.
       if (n_blurred(period) >= BLURRED_TRIES) return
       if (repels(search, period, u(0), v(0))) return
-      call close_cycle(search%fine, search%pendulum%beta, period, start(1), start(2), max(0.1_dp, 20*distance(period)), candidate, &
-                        found, blurred)
+      farthest = max(0.1_dp, 20*distance(period))
+      promise = promise_of(search, period, start, farthest, attractors)
+      found = promise == KNOWN_ONE
+      if (promise /= UNSURE) return
+      call close_cycle(search%fine, search%pendulum%beta, period, start(1), start(2), farthest, candidate, found, blurred)
       candidate%mirrored = is_mirrored(search%pendulum) /= 0
       if (found) call complete_attractor(candidate, found)
       if (blurred) n_blurred(period) = n_blurred(period) + 1
@@ -114,21 +122,55 @@ contains
     end subroutine try
   end subroutine try_recurrences
 
-  !> Whether a cycle of n periods near (u, v) would repel. Recurrences on a chaotic set lead to such cycles without end: their map, once
-  !> with the scene's steps, costs hundreds of times less than Newton's method with fine ones.
+  !> Whether a cycle of n periods near (u, v), in the coordinates of the scene's map, would repel. Recurrences on a chaotic set lead to such
+  !> cycles without end: their map costs dozens of times less than Newton's method.
   function repels(search, n, u, v)
     type(search_t), intent(inout) :: search
     integer, intent(in) :: n
     real(dp), intent(in) :: u
     real(dp), intent(in) :: v
     logical :: repels
-    real(dp) :: residual(2), matrix(2, 2)
+    real(dp) :: tangent(2, 2, WIDTH)
     complex(dp) :: multiplier(2)
+    integer :: i
 
-    call n_periods(search%flow, n, [u, v], residual, matrix)
-    multiplier = eigenvalues(matrix, exp(-2*PI*search%pendulum%beta*n))
+    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    call search%flow%put(1, u, v)
+    do i = 1, n
+      call search%flow%advance_tangent(1, tangent)
+    end do
+    multiplier = eigenvalues(tangent(:, :, 1), exp(-2*PI*search%pendulum%beta*n))
     repels = abs(multiplier(1)) > STRETCHED
   end function repels
+
+  !> Where damping is weak, slow spirals come back near themselves all the time, and hundreds of them lead to the same cycle. Newton's
+  !> method with the scene's steps costs a small part of that with fine ones, and goes the same way.
+  function promise_of(search, n, start, farthest, attractors) result(promise)
+    type(search_t), intent(inout) :: search
+    integer, intent(in) :: n
+    real(dp), intent(in) :: start(2)
+    real(dp), intent(in) :: farthest
+    type(attractor_t), intent(in) :: attractors(:)
+    integer :: promise
+    real(dp) :: x(2), residual(2), matrix(2, 2)
+    complex(dp) :: multiplier(2)
+    logical :: found, blurred
+    integer :: a
+
+    x = start
+    call newton(search%flow, n, farthest, x, found, blurred)
+    promise = merge(UNSURE, NOTHING, found .or. blurred)
+    if (.not. found) return
+    call n_periods(search%flow, n, x, residual, matrix)
+    multiplier = eigenvalues(matrix, exp(-2*PI*search%pendulum%beta*n))
+    if (abs(multiplier(1)) > SURELY) promise = NOTHING
+    if (abs(multiplier(1)) >= 1) return
+    do a = 1, size(attractors)
+      if (attractors(a)%period == 0) cycle
+      if (mod(n, attractors(a)%period) /= 0) cycle
+      if (any(separation(attractors(a)%u, attractors(a)%v, x(1), x(2)) < BESIDE)) promise = KNOWN_ONE
+    end do
+  end function promise_of
 
   !> The shortest recurrence among those within a factor 3 of the closest: its multiples come back about as near.
   pure function first_of_the_closest(distance) result(n)

@@ -75,9 +75,11 @@ contains
       start(:, i) = x + ROUNDING*(i - BESIDE/2)*[1, -1]
       call flow%put(i, start(1, i), start(2, i))
     end do
+    call flow%to_map(BESIDE)
     do i = 1, n
       call flow%advance(BESIDE)
     end do
+    call flow%to_physical(BESIDE)
     farthest = 0
     do i = 1, BESIDE
       residual = [PI*angle_difference(flow%u(i), start(1, i)), flow%v(i) - start(2, i)]
@@ -91,7 +93,7 @@ contains
     class(flow_t), intent(inout) :: flow
     !> drive periods of the map
     integer, intent(in) :: n
-    !> state: half-turns, rad per drive radian
+    !> physical state: half-turns, rad per drive radian
     real(dp), intent(in) :: x(2)
     !> image less state: rad, rad per drive radian
     real(dp), intent(out) :: residual(2)
@@ -102,9 +104,11 @@ contains
 
     call flow%put(1, x(1), x(2))
     tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    call flow%to_map(1, tangent)
     do i = 1, n
       call flow%advance_tangent(1, tangent)
     end do
+    call flow%to_physical(1, tangent)
     residual = [PI*angle_difference(flow%u(1), x(1)), flow%v(1) - x(2)]
     matrix = tangent(:, :, 1)
   end subroutine n_periods

@@ -14,7 +14,6 @@ enum {
   FIRST_LENGTH = 128,  /* periods of the first round; a round that finds nothing doubles it */
   TILE = 256,          /* starts per tile */
   CHUNK = 64,          /* states per search, at most what kz_dynamics_find_cycle takes */
-  CHUNKS = 16,         /* searches per round */
   PILOT_STARTS = 512,  /* starts that are followed before regions grow */
   WORTH_CELLS = 40000, /* that are to be labelled: for fewer, regions do not grow */
   FEWEST_CELLS = 200,  /* of the regions' grid along an axis: in coarser ones hardly anything grows */
@@ -33,7 +32,7 @@ typedef struct {
   int64_t periods, n, *pending; /* pending [n]: which starts are followed */
   double *state;                /* [all] */
   int32_t *label;               /* [all] */
-  int64_t all;
+  int64_t all, sought;          /* how many of the pending ones a round looks for cycles from */
 } following;
 
 typedef struct {
@@ -129,7 +128,7 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
   seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
   kz_status status = KZ_OK;
   s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* and behind it a record of the stage */
-  for (int64_t first = 0; status == KZ_OK && first < f->n && first < CHUNKS * CHUNK; first += CHUNK) {
+  for (int64_t first = 0; status == KZ_OK && first < f->n && first < f->sought; first += CHUNK) {
     s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
     for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
     memset(s.found, 0, (size_t)s.size * sizeof(double));
@@ -187,12 +186,17 @@ kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, i
   return status;
 }
 
-kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
-  following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
+static kz_status discover_from(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n,
+                               double *state, int32_t *label) {
+  following f = {.dynamics = dynamics, .all = n, .sought = sought, .state = state, .label = label};
   list_all(&f);
   const kz_status status = search_discover(run, &f, max_periods);
   free(f.pending);
   return status;
+}
+
+kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
+  return discover_from(run, dynamics, KZ_SEARCH_MOST_SOUGHT, max_periods, n, state, label);
 }
 
 int64_t kz_regions_cells(int64_t cells) {
@@ -215,16 +219,18 @@ kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_se
                 rest = search->starts - pilots;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, search->max_velocity);
-  KZ_TRY(kz_discover(run, dynamics, search->max_periods, pilots, state, label));
+  KZ_TRY(discover_from(run, dynamics, search->sought, search->max_periods, pilots, state, label));
   kz_regions_grow(dynamics, search->cells, search->max_velocity);
   if (search->table_theta > 0)
     KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
-  return rest > 0 ? kz_discover(run, dynamics, search->max_periods, rest, state + 2 * pilots, label + pilots) : KZ_OK;
+  if (rest == 0) return KZ_OK;
+  return discover_from(run, dynamics, search->sought, search->max_periods, rest, state + 2 * pilots, label + pilots);
 }
 
 kz_search kz_search_of_basin(const kz_basin_plan *plan) {
   return (kz_search){.window = kz_window_of(&plan->theta, &plan->velocity),
                      .starts = plan->starts,
+                     .sought = KZ_SEARCH_MOST_SOUGHT,
                      .seed = plan->seed,
                      .max_periods = plan->max_periods,
                      .cells = plan->theta.count * plan->velocity.count,
@@ -235,6 +241,7 @@ kz_search kz_search_of_basin(const kz_basin_plan *plan) {
 kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods) {
   return (kz_search){.window = kz_window_of(&plan->theta, &plan->velocity),
                      .starts = plan->starts,
+                     .sought = KZ_SEARCH_MOST_SOUGHT,
                      .seed = plan->seed,
                      .max_periods = max_periods};
 }

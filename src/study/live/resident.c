@@ -6,24 +6,30 @@
 
 #include "numerics/cells.h"
 #include "numerics/processed.h"
+#include "numerics/settling.h"
 
 /* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not, which at any depth are
  * some 1e-7 wide when they are handed over; and the starts of the search. */
 static const double COARSE = 1e-6, FINE = 1e-10, SMALL = 3e-5;
-enum { MOVING_STARTS = 1024 };
+enum { MOVING_STARTS = 1024, MOVING_SOUGHT = 64 };
 /* Trapping regions that pay for frames, whatever their size: those of so many cells. */
 enum { CELLS = 130000 };
 /* rad: strobe points that moved by more between two catalogues belong to different attractors. */
 static const double NEAR = 0.5;
 
-/* Carried to a pendulum whose parameters differ by more of their sum, a moving resident would lose too much; its numerics are chosen anew
- * beyond this; and its trapping regions are grown anew after so many pendulums. */
-static const double FARTHEST = 0.3, RECHOSEN = 0.1;
+/* Carried to a pendulum whose parameters differ by more of their sum, or whose damping differs by more of itself, a moving resident would lose
+ * too much; its numerics are chosen anew beyond this; and its trapping regions are made anew beyond REGROWN or RESETTLED, or after OLDEST
+ * pendulums. (Of regions carried from epsilon = 0.300 to 0.301, 0.302 and 0.33 at once, Fig. 12, 0.4, 1.6 and 8 % of the labels were wrong.) */
+static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.004, RESETTLED = 0.1;
 /* rad: how near strays must come back to themselves. */
 static const double CLOSENESS = 0.02;
 enum { OLDEST = 5, MOVING_CELLS = 192 };
 /* Of moving frames: drive periods that cells are followed, at least, and lifetimes 1/(2 pi beta). */
 static const double LEAST_PERIODS = 400, LIFETIMES = 24;
+/* Orbits that tell trapping regions of moving frames: their number, drive periods that they spend together, about, and periods that motions
+ * take on average where it pays. More orbits do not save more: measured at Q = 20, 50 and 200 of Fig. 12, whose frames take 4 times less. */
+static const double ORBITS = 2048, WEAK = 60;
+enum { VISITS = 500000 };
 
 double kz_moving_tolerance(const kz_scene *scene) {
   const kz_axis *theta = &scene->basin.theta, *velocity = &scene->basin.velocity;
@@ -49,6 +55,17 @@ static void choose_numerics(kz_resident *r) {
       kz_processed_or_split(pendulum, KZ_METHOD_DIRECT, r->tolerance, kz_fastest_motion(pendulum, &r->search.window, 0));
 }
 
+/* Extends the trapping regions of moving frames by what orbits tell, where damping is so weak that it pays. */
+static void learn(kz_resident *r) {
+  const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
+  if (!kz_resident_moves(r) || mean < WEAK) return;
+  const int64_t n = (int64_t)fmin(ORBITS, VISITS / mean);
+  double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
+  kz_dynamics_starts(&r->search.window, r->search.seed, n, state);
+  kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
+  free(state);
+}
+
 static kz_status search(kz_resident *r) {
   const size_t n = (size_t)r->search.starts;
   double *state = kz_malloc(2 * n * sizeof *state);
@@ -59,6 +76,7 @@ static kz_status search(kz_resident *r) {
   kz_dynamics_set_release(r->dynamics, &r->scene.parameters.release);
   free(state);
   free(label);
+  if (status == KZ_OK) learn(r);
   return status;
 }
 
@@ -69,12 +87,16 @@ static int64_t periods_of(const kz_scene *scene, bool moving) {
 
 kz_status kz_resident_make(const kz_scene *scene, double tolerance, kz_resident *resident) {
   const bool moving = tolerance > 0;
-  *resident = (kz_resident){.scene = *scene, .tolerance = tolerance, .chosen = scene->parameters.pendulum};
+  *resident = (kz_resident){.scene = *scene, .tolerance = tolerance};
+  resident->chosen = resident->grown = scene->parameters.pendulum;
   resident->periods = periods_of(scene, moving);
   resident->scene.title = NULL;
   resident->search = kz_search_of(scene);
   resident->search.cells = CELLS;
-  if (moving && resident->search.starts > MOVING_STARTS) resident->search.starts = MOVING_STARTS;
+  if (moving) {
+    if (resident->search.starts > MOVING_STARTS) resident->search.starts = MOVING_STARTS;
+    resident->search.sought = MOVING_SOUGHT; /* what they miss is born between frames */
+  }
   if (scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
   choose_numerics(resident);
   return search(resident);
@@ -134,11 +156,17 @@ static double parted(const kz_pendulum *a, const kz_pendulum *b) {
   return difference / size;
 }
 
+/* How far the damping of two pendulums is apart, of the larger one. */
+static double damped_apart(const kz_pendulum *a, const kz_pendulum *b) {
+  return fabs(a->beta - b->beta) / fmax(a->beta, b->beta);
+}
+
 double kz_resident_distance(const kz_resident *resident, const kz_scene *scene) {
   if (resident->used == 0 || !kz_resident_moves(resident) || !resident->dynamics || resident->busy) return INFINITY;
   if (!(scene->parameters.pendulum.beta > 0) || !same_search(resident, scene)) return INFINITY;
-  const double distance = parted(&resident->scene.parameters.pendulum, &scene->parameters.pendulum);
-  return distance < FARTHEST ? distance : INFINITY;
+  const kz_pendulum *own = &resident->scene.parameters.pendulum, *other = &scene->parameters.pendulum;
+  const double distance = parted(own, other);
+  return distance < FARTHEST && damped_apart(own, other) < FARTHEST ? distance : INFINITY;
 }
 
 void kz_resident_move(kz_resident *r, const kz_scene *scene) {
@@ -159,8 +187,11 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
   r->dynamics = moved;
   r->n_strays = 0;
   kz_dynamics_set_release(moved, &scene->parameters.release);
-  if (lost > 0 || ++r->age >= OLDEST) {
+  const bool far = parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > RESETTLED;
+  if (lost > 0 || far || ++r->age >= OLDEST) {
     kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
+    learn(r);
+    r->grown = *pendulum;
     r->age = 0;
   }
 }

@@ -20,7 +20,8 @@ typedef struct {
   kz_dynamics *dynamics;
   kz_search search;
   kz_images *images;  /* of the last window that needed them; NULL = none yet */
-  kz_pendulum chosen; /* the pendulum for which the numerics were chosen */
+  kz_pendulum chosen; /* the pendulum for which the numerics were chosen, */
+  kz_pendulum grown;  /* and that for which the trapping regions were made */
   int age;            /* number of pendulums since the trapping regions were grown */
   int n_strays;
   double stray[2 * KZ_STRAYS]; /* [n_strays][2] half-turns and velocity */

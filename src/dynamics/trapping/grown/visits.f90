@@ -1,0 +1,191 @@
+!> Trapping regions told by orbits. Where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that have been
+!> followed to their ends tell where motions go. A cell joins an attractor if all orbits that visited it end there, and visited only such
+!> cells from then on. It is likely, not certain, that such a cell traps: good enough for a picture that moves.
+module kz_grown_visits
+  use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
+  use kz_cycles_cycles, only: attractor_t
+  use kz_grown_grid, only: regions_t, find_regions, note_closed
+  use kz_grown_places, only: from_down, side, wrapped_midperiod_angle
+  use kz_lanes_map, only: flow_t, WIDTH
+  implicit none
+  private
+  public :: learn_regions
+
+  !> Orbits that visit a cell before it is believed.
+  integer, parameter :: FEWEST_ORBITS = 4
+  !> Of a cell: its orbits end on different attractors or on none, or leave the cells of their attractor once more.
+  integer, parameter :: MIXED = -1
+
+  !> The visits of orbits, one orbit after the other.
+  type :: visits_t
+    integer(int32), allocatable :: cell(:) !< of the stored half, from 1; negative: of a mirror image; 0: outside of the grid
+    integer, allocatable :: last(:)        !< of each orbit from 0, which is none: its last visit
+    integer, allocatable :: ends(:)        !< of each orbit: the attractor, 0 = none
+    integer :: orbits = 0
+  end type visits_t
+
+contains
+
+  !> Follows orbits until each is trapped, and extends the regions by what they tell. It ends early when the orbits together have spent
+  !> `budget` periods.
+  subroutine learn_regions(regions, attractors, flow, state, most, budget)
+    !> the trapping regions of all attractors
+    type(regions_t), intent(inout) :: regions
+    !> the catalogue, numbered from 1
+    type(attractor_t), intent(in) :: attractors(:)
+    !> the map of one drive period
+    class(flow_t), intent(inout) :: flow
+    !> [2, n] physical states: half-turns, rad per drive radian
+    real(dp), intent(in) :: state(:, :)
+    !> most periods of an orbit
+    integer, intent(in) :: most
+    !> most periods of all orbits
+    integer, intent(in) :: budget
+    type(visits_t) :: visits
+    integer, allocatable :: label(:, :), orbits(:, :)
+
+    allocate (label, mold=regions%label)
+    call follow(regions, attractors, flow, state, most, budget, visits)
+    allocate (orbits, mold=regions%label)
+    call believe(visits, regions%mirror, size(label), label, orbits)
+    call drop_leaks(visits, size(label), label)
+    where (regions%label <= 0 .and. label > 0 .and. orbits >= FEWEST_ORBITS) regions%label = label
+    call note_closed(regions)
+  end subroutine learn_regions
+
+  !> Lanes take the starts in turn.
+  subroutine follow(regions, attractors, flow, state, most, budget, visits)
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(in) :: state(:, :)
+    integer, intent(in) :: most
+    integer, intent(in) :: budget
+    type(visits_t), intent(out) :: visits
+    integer(int32), allocatable :: path(:, :)
+    integer :: age(WIDTH), region(WIDTH), lane, active, next
+
+    allocate (path(most, WIDTH), visits%cell(budget), visits%last(0:size(state, 2)), visits%ends(size(state, 2)))
+    visits%last(0) = 0
+    next = 1
+    active = 0
+    do lane = 1, WIDTH
+      call let_in
+    end do
+    do while (active > 0)
+      call find_regions(regions, attractors, active, flow%u(:active), flow%v(:active), region)
+      do lane = active, 1, -1
+        if (region(lane) == 0 .and. age(lane) < most) then
+          age(lane) = age(lane) + 1
+          path(age(lane), lane) = place_of(regions, flow%u(lane), flow%v(lane))
+        else
+          if (visits%last(visits%orbits) + age(lane) > budget) return
+          call add_orbit(visits, path(:age(lane), lane), region(lane))
+          call leave
+        end if
+      end do
+      call flow%advance(active)
+    end do
+  contains
+    !> The next start takes the first free lane.
+    subroutine let_in
+      if (next > size(state, 2)) return
+      active = active + 1
+      age(active) = 0
+      call flow%put(active, state(1, next), state(2, next))
+      call flow%to_map(active, first=active)
+      next = next + 1
+    end subroutine let_in
+
+    !> The last active lane takes the place of this one.
+    subroutine leave
+      if (lane < active) then
+        call flow%move(active, lane)
+        path(:age(active), lane) = path(:age(active), active)
+        age(lane) = age(active)
+      end if
+      active = active - 1
+      call let_in
+    end subroutine leave
+  end subroutine follow
+
+  subroutine add_orbit(visits, path, end)
+    type(visits_t), intent(inout) :: visits
+    integer(int32), intent(in) :: path(:)
+    integer, intent(in) :: end
+    integer :: first
+
+    first = visits%last(visits%orbits) + 1
+    visits%orbits = visits%orbits + 1
+    visits%last(visits%orbits) = first + size(path) - 1
+    visits%cell(first:visits%last(visits%orbits)) = path
+    visits%ends(visits%orbits) = end
+  end subroutine add_orbit
+
+  !> The cell that holds (u, v), as visits_t has it.
+  pure function place_of(regions, u, v) result(cell)
+    type(regions_t), intent(in) :: regions
+    real(dp), intent(in) :: u
+    real(dp), intent(in) :: v
+    integer(int32) :: cell
+    real(dp) :: w, x, y, fold
+
+    w = wrapped_midperiod_angle(u, v)
+    fold = merge(side(w, v), 1.0_dp, regions%mirrored)
+    x = 0.5_dp*regions%n_circle*merge(abs(w), from_down(w), regions%mirrored)
+    y = (fold*v + regions%top)*(regions%n_velocity/(2*regions%top))
+    cell = 0
+    if (.not. (x <= regions%n_theta .and. y >= 0 .and. y < regions%n_velocity)) return
+    cell = int(fold)*(1 + min(int(x), regions%n_theta - 1) + regions%n_theta*int(y))
+  end function place_of
+
+  !> label(c) = the attractor of all orbits that visited cell c, if they are enough.
+  subroutine believe(visits, mirror, n, label, orbits)
+    type(visits_t), intent(in) :: visits
+    integer, intent(in) :: mirror(:)
+    integer, intent(in) :: n
+    integer, intent(out) :: label(n)
+    integer, intent(out) :: orbits(n)
+    integer, allocatable :: latest(:)
+    integer :: orbit, i, c, a
+
+    allocate (latest(n), source=0)
+    orbits = 0
+    label = 0
+    do orbit = 1, visits%orbits
+      do i = visits%last(orbit - 1) + 1, visits%last(orbit)
+        c = abs(visits%cell(i))
+        if (c == 0) cycle
+        if (latest(c) /= orbit) orbits(c) = orbits(c) + 1
+        latest(c) = orbit
+        a = visits%ends(orbit)
+        if (a > 0 .and. visits%cell(i) < 0) a = mirror(a)
+        if (a == 0 .or. (label(c) /= 0 .and. label(c) /= a)) a = MIXED
+        label(c) = a
+      end do
+    end do
+  end subroutine believe
+
+  !> A cell from which an orbit comes to a mixed one is not believed.
+  subroutine drop_leaks(visits, n, label)
+    type(visits_t), intent(in) :: visits
+    integer, intent(in) :: n
+    integer, intent(inout) :: label(n)
+    integer :: orbit, i, c
+    logical :: open(0:n), leaks(0:n), leaking
+
+    open(0) = .true.
+    open(1:) = label == MIXED
+    leaks = open
+    do orbit = 1, visits%orbits
+      leaking = .false.
+      do i = visits%last(orbit), visits%last(orbit - 1) + 1, -1
+        c = abs(visits%cell(i))
+        leaking = leaking .or. open(c)
+        leaks(c) = leaks(c) .or. leaking
+      end do
+    end do
+    where (leaks(1:)) label = MIXED
+  end subroutine drop_leaks
+
+end module kz_grown_visits
