@@ -31,7 +31,17 @@ static void test_cycles(void **state) {
   assert_int_equal(known, 5);
 }
 
+/* Slow spirals come near themselves all the time, and most of them lead to the same cycles. Fine steps are for those that are new. (It took
+ * 114 periods a state here for the same twelve.) */
+static void test_slow_spirals(void **state) {
+  (void)state;
+  int64_t known;
+  assert_true(kz_test_newton_periods(&(kz_pendulum){1.0 / 121, 1.0 / 660, 0.3}, 270, 0.32, &known) < 20 * STATES);
+  assert_int_equal(known, 12);
+}
+
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_chaos), cmocka_unit_test(test_cycles)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_chaos), cmocka_unit_test(test_cycles),
+                                     cmocka_unit_test(test_slow_spirals)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
