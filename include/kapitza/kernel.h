@@ -196,6 +196,17 @@ void kz_arbitrary_free(kz_arbitrary *orbit);
  * with the motion. KZ_FAILED if the motion is too fast for 2^14 steps a period. */
 kz_status kz_arbitrary_advance(kz_arbitrary *orbit, int64_t bits, int degree, kz_jet *jet);
 
+/* The same orbit on a line of starts: start + x * width, where `width` is that of each coordinate. It keeps its tangent itself, to
+ * `tangent_bits` as long as its own bits are as many, and *jet becomes its neighbourhood in x; y is not used. */
+kz_arbitrary *kz_arbitrary_on_line(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits,
+                                   int64_t tangent_bits, kz_jet *jet);
+/* Keeps the present state and tangent of an orbit on a line as its mark; at first that is its start. */
+void kz_arbitrary_mark(kz_arbitrary *orbit);
+/* The orbit on a line that begins at the mark of `orbit`, at x = share of the line that its neighbourhood then was; the new line's x is
+ * counted from there in units of 2^exponent. at_mark: the jet of that time. The caller frees it, like any orbit. */
+kz_arbitrary *kz_arbitrary_beside(const kz_arbitrary *orbit, const kz_jet *at_mark, __float128 share, int exponent,
+                                  int64_t bits, int64_t tangent_bits, kz_jet *jet);
+
 /* The state as pairs of doubles, high + low: theta in rad, in [-pi, pi] without whole turns; velocity in rad per drive radian. */
 void kz_arbitrary_read(const kz_arbitrary *orbit, double theta[2], double velocity[2]);
 

@@ -20,20 +20,19 @@ FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 BETWEEN = {"k = 0.1": (K01, "-2.3672", "-2.3671", "17"), "Fig. 12": (FIG12, "-0.27", "-0.26", "1.42")}
 COUNT = 101
 ALONE = 2  # cells of a window whose orbits are followed without the common one too
-DIGITS = 104
 
 
 @pytest.fixture(scope="module")
 def boundary(kapitza, tmp_path_factory):
-    """boundary(name) -> a point of a boundary, as decimal texts."""
+    """boundary(name, digits) -> a point of a boundary, as decimal texts."""
     folder = tmp_path_factory.mktemp("boundary")
 
     @functools.cache
-    def find(name):
+    def find(name, digits):
         pendulum, one, other, velocity = BETWEEN[name]
         window = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}}
         (folder / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "basin": window}))
-        said = kapitza("where", "s.yaml", one, velocity, other, velocity, "--boundary", DIGITS, folder=folder).stdout
+        said = kapitza("where", "s.yaml", one, velocity, other, velocity, "--boundary", digits, folder=folder).stdout
         return [re.search(rf"^{axis} +(\S+)", said, re.M)[1] for axis in ("theta", "velocity")]
 
     return find
@@ -71,7 +70,7 @@ def referee(path, centre, depth, cells):
 @pytest.mark.parametrize("depth", [7, 20, 25, 50, 100])
 @pytest.mark.parametrize("name", BETWEEN)
 def test_own_orbits_contradict_no_label(kapitza, tmp_path, boundary, name, depth):
-    centre = boundary(name)
+    centre = boundary(name, depth + 4)
     decided, wrong, seen = referee(run_window(kapitza, tmp_path, name, centre, depth), centre, depth, 50)
     print(f"{name}, 1e-{depth}: {decided} of 50 decided, wrong {wrong}, attractors {seen}")
     assert decided >= 45 and not wrong and seen > 1

@@ -139,13 +139,13 @@ basin: {theta: {count: 100}, velocity: {min: -20, max: 20, count: 100}, attracto
 
 
 def test_a_boundary_point_of_any_digits(kapitza, tmp_path):
-    """Starts 1e-40 to either side of it end as it says, and the digits of a coarser point are its first ones."""
+    """Starts 2e-55 to either side of it, followed by their own orbits, end as it says. The digits of a coarser point are its first ones."""
     (tmp_path / "k01.yaml").write_text(K01)
     ends = ["k01.yaml", "-2.367", "17", "-2.3672", "17"]
-    point = json.loads(kapitza("where", *ends, "--boundary", "40", "--json", folder=tmp_path).stdout)
-    assert point["velocity"].startswith("17.0") and len(point["theta"]) == 43
-    getcontext().prec = 60
-    beside = "".join(f"{Decimal(point['theta']) + step},17\n" for step in (Decimal("2e-39"), -Decimal("2e-39")))
+    point = json.loads(kapitza("where", *ends, "--boundary", "56", "--json", folder=tmp_path).stdout)
+    assert point["velocity"].startswith("17.0") and len(point["theta"]) == 59
+    getcontext().prec = 80
+    beside = "".join(f"{Decimal(point['theta']) + step},17\n" for step in (Decimal("2e-55"), -Decimal("2e-55")))
     found = [json.loads(line) for line in kapitza("where", "k01.yaml", "-", "--json", folder=tmp_path, text=beside).stdout.splitlines()]
     assert {row["attractor"] for row in found} <= set(range(10)) and found[0]["attractor"] != found[1]["attractor"]
     assert all(row["decided"] for row in found)
@@ -162,3 +162,9 @@ def test_a_boundary_point_of_any_digits(kapitza, tmp_path):
 def test_what_is_no_boundary_is_refused(kapitza, tmp_path, arguments, words):
     (tmp_path / "k01.yaml").write_text(K01)
     assert words in kapitza("where", "k01.yaml", *arguments, folder=tmp_path, status=2).stderr
+
+
+def test_a_boundary_deeper_than_the_periods_allow_is_not_found(kapitza, tmp_path):
+    (tmp_path / "k01.yaml").write_text(K01)
+    ends = ["k01.yaml", "-2.367", "17", "-2.3672", "17", "--set", "basin.max_periods=30"]
+    assert "settle within 30 periods (max_periods" in kapitza("where", *ends, "--boundary", "40", folder=tmp_path, status=1).stderr

@@ -43,7 +43,8 @@ static long double sum_of(int64_t n, const row x) {
 
 /* What a step's polynomials are made from. */
 typedef struct {
-  int64_t n; /* orders */
+  int64_t n;   /* orders */
+  int columns; /* 2, or 1: y is not used */
   long double h, damping;
   row gain, lift; /* g, w */
   row x[2];       /* P1: of x and of y */
@@ -64,7 +65,7 @@ static void move(const parts *p, const row source, kz_jet *jet, int place, long 
 
 static void move_second(parts *p, kz_jet *jet) {
   static const int factor[3][2] = {{0, 0}, {0, 1}, {1, 1}};
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < (p->columns > 1 ? 3 : 1); i++) {
     row source = {0};
     memset(p->square[i], 0, sizeof p->square[i]);
     add_product(p->n, i == 1 ? 1 : 0.5L, p->x[factor[i][0]], p->x[factor[i][1]], p->square[i]);
@@ -76,11 +77,12 @@ static void move_second(parts *p, kz_jet *jet) {
 /* The third degree: its source is P1 (w P2 + g (P1^2 / 2) / 3); coefficient i has i factors of y. */
 static void move_third(const parts *p, kz_jet *jet) {
   row pull[3] = {0};
-  for (int i = 0; i < 3; i++) {
+  const int quadratic = p->columns > 1 ? 3 : 1, cubic = p->columns > 1 ? 4 : 1;
+  for (int i = 0; i < quadratic; i++) {
     add_product(p->n, 1, p->lift, p->second[i], pull[i]);
     add_product(p->n, 1.0L / 3, p->gain, p->square[i], pull[i]);
   }
-  for (int i = 0; i < 4; i++) {
+  for (int i = 0; i < cubic; i++) {
     row source = {0};
     if (i < 3) add_product(p->n, 1, p->x[0], pull[i], source);
     if (i > 0) add_product(p->n, 1, p->x[1], pull[i - 1], source);
@@ -93,28 +95,31 @@ static int64_t larger(int64_t a, int64_t b) {
 }
 
 /* The orders that long doubles see. */
-static int64_t orders_of(const kz_series *s, int64_t tangent_orders) {
+static int64_t orders_of(const kz_series *s, int64_t tangent_orders, int columns) {
   enum { BITS = 72, MORE = 8 };
   int64_t whole[2], n = tangent_orders;
   bool is_small = true;
-  for (int axis = 0; axis < 2; axis++)
+  for (int axis = 0; axis < columns; axis++)
     whole[axis] = larger(kz_number_exponent(s->angle[axis]), kz_number_exponent(s->rate[axis]));
   for (; n > 1 && is_small; n--) {
     is_small = kz_number_exponent(s->gain + n - 1) < -BITS;
-    for (int axis = 0; axis < 2; axis++) is_small = is_small && kz_number_exponent(s->angle[axis] + n - 1) < whole[axis] - BITS;
+    for (int axis = 0; axis < columns; axis++)
+      is_small = is_small && kz_number_exponent(s->angle[axis] + n - 1) < whole[axis] - BITS;
   }
   return n + MORE < KZ_BENT_ORDERS ? n + MORE : KZ_BENT_ORDERS;
 }
 
-void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, kz_jet *jet) {
-  parts p = {
-      .n = orders_of(series, tangent_orders), .h = kz_number_long(&steps->h), .damping = kz_number_long(&steps->damping)};
+void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet) {
+  parts p = {.n = orders_of(series, tangent_orders, columns),
+             .columns = columns,
+             .h = kz_number_long(&steps->h),
+             .damping = kz_number_long(&steps->damping)};
   row force = {0}, sine = {0};
   read_series(series->gain, tangent_orders - 1, p.n, p.gain);
   read_series(series->force, steps->force_orders, p.n, force);
   read_series(series->sine, tangent_orders, p.n, sine);
   add_product(p.n, 1, force, sine, p.lift);
-  for (int axis = 0; axis < 2; axis++) read_series(series->angle[axis], tangent_orders, p.n, p.x[axis]);
+  for (int axis = 0; axis < columns; axis++) read_series(series->angle[axis], tangent_orders, p.n, p.x[axis]);
   move_second(&p, jet);
   move_third(&p, jet);
 }

@@ -14,6 +14,8 @@ struct kz_arbitrary {
   kz_series series;
   kz_number *workspace; /* of all series */
   kz_place place;       /* at the beginning of a period */
+  kz_place mark;        /* of an orbit on a line: at the beginning of an earlier one */
+  int64_t tangent_bits; /* of an orbit on a line, which keeps its tangent; 0 = jets hold it */
 };
 
 /* Orders that steps of the first length take where the motion is gentle; steps that take more are halved. */
@@ -21,11 +23,18 @@ static int64_t orders_for(int64_t bits) {
   return (int64_t)(0.62 * (double)bits) + 20;
 }
 
-static void each_number(kz_arbitrary *o, void (*action)(kz_number *)) {
-  kz_number *const all[] = {&o->place.theta,    &o->place.velocity, &o->place.sine,    &o->place.cosine,
-                            &o->place.angle[0], &o->place.angle[1], &o->place.rate[0], &o->place.rate[1],
-                            &o->steps.h,        &o->steps.damping,  &o->steps.gravity};
+static void each_of_place(kz_place *p, void (*action)(kz_number *)) {
+  kz_number *const all[] = {&p->theta,    &p->velocity, &p->sine,    &p->cosine,
+                            &p->angle[0], &p->angle[1], &p->rate[0], &p->rate[1]};
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) action(all[i]);
+}
+
+static void each_number(kz_arbitrary *o, void (*action)(kz_number *)) {
+  each_of_place(&o->place, action);
+  each_of_place(&o->mark, action);
+  action(&o->steps.h);
+  action(&o->steps.damping);
+  action(&o->steps.gravity);
 }
 
 static int64_t numbers_of(const kz_arbitrary *o) {
@@ -39,7 +48,7 @@ static void share_room(kz_arbitrary *o) {
   for (int i = 0; i <= SERIES; i++) *all[i] = o->workspace + i * (s->orders + 2);
 }
 
-kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits) {
+static kz_arbitrary *allocate_orbit(const kz_pendulum *pendulum, int64_t bits) {
   kz_arbitrary *o = kz_calloc(1, sizeof *o);
   o->pendulum = *pendulum;
   o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
@@ -47,6 +56,11 @@ kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordina
   o->workspace = kz_numbers_make(numbers_of(o));
   share_room(o);
   each_number(o, kz_number_init);
+  return o;
+}
+
+kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits) {
+  kz_arbitrary *o = allocate_orbit(pendulum, bits);
   kz_number_of(&start[0], &o->place.theta, o->bits);
   kz_number_of(&start[1], &o->place.velocity, o->bits);
   return o;
@@ -79,7 +93,7 @@ static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *
     if (degree > 1) {
       tangent = kz_series_expand_tangent(&o->series, &o->steps, &o->place);
       if (tangent == 0) return false;
-      kz_bent_advance(&o->series, &o->steps, tangent, jet);
+      kz_bent_advance(&o->series, &o->steps, tangent, o->place.columns, jet);
     }
     kz_series_sum(&o->series, &o->steps, orders, tangent, bits, &o->place);
   }
@@ -100,10 +114,16 @@ static void wrap(kz_arbitrary *o, int64_t bits) {
   kz_number_clear(&factor);
 }
 
-static void set_tangent(kz_place *place, const kz_jet *jet) {
+/* The tangent in the digits of jets, or in those that the orbit keeps as long as it has so many itself. */
+static void begin_tangent(kz_arbitrary *o, int64_t bits, const kz_jet *jet) {
+  const int64_t kept = o->tangent_bits < bits ? o->tangent_bits : bits;
+  o->place.tangent_bits = kept > KZ_TANGENT_BITS ? kept : KZ_TANGENT_BITS;
+  o->place.columns = o->tangent_bits > 0 ? 1 : 2;
+  if (o->tangent_bits > 0) return;
+  if (o->tangent_bits > 0) return;
   for (int axis = 0; axis < 2; axis++) {
-    kz_number_of_quad(jet ? jet->linear[0][axis] : 0, place->angle + axis);
-    kz_number_of_quad(jet ? jet->linear[1][axis] : 0, place->rate + axis);
+    kz_number_of_quad(jet ? jet->linear[0][axis] : 0, o->place.angle + axis);
+    kz_number_of_quad(jet ? jet->linear[1][axis] : 0, o->place.rate + axis);
   }
 }
 
@@ -120,7 +140,7 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
   kz_jet bent = {.bent = {{0}}};
   bool done = false;
   wrap(o, o->bits);
-  set_tangent(&o->place, degree > 1 ? jet : NULL);
+  begin_tangent(o, fine, degree > 1 ? jet : NULL);
   copy_place(&o->place, &before);
   for (int64_t halvings = 0; !done && halvings <= HALVINGS; halvings++) {
     kz_steps_make(&o->steps, &o->pendulum, o->series.orders, o->bits + 32, (int64_t)FEWEST_STEPS << halvings);
@@ -128,9 +148,7 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
     if (degree > 0) bent = *jet;
     done = advance_in_steps(o, fine, degree, &bent);
   }
-  kz_number *const copies[] = {&before.theta,    &before.velocity, &before.sine,    &before.cosine,
-                               &before.angle[0], &before.angle[1], &before.rate[0], &before.rate[1]};
-  for (size_t i = 0; i < sizeof copies / sizeof *copies; i++) kz_number_clear(copies[i]);
+  each_of_place(&before, kz_number_clear);
   if (!done) return kz_fail(KZ_FAILED, "a motion is too fast for an orbit of %lld bits", (long long)fine);
   wrap(o, fine);
   if (degree > 0) *jet = bent;
@@ -174,4 +192,57 @@ kz_status kz_arbitrary_restore(kz_arbitrary *o, const char *text) {
   const size_t half = kz_arbitrary_size(o) / 2;
   if (kz_number_read(text, &o->place.theta) && kz_number_read(text + half, &o->place.velocity)) return KZ_OK;
   return kz_fail(KZ_FAILED, "the state of an orbit that was kept cannot be read");
+}
+
+kz_arbitrary *kz_arbitrary_on_line(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits,
+                                   int64_t tangent_bits, kz_jet *jet) {
+  kz_arbitrary *o = kz_arbitrary_create(pendulum, start, bits);
+  const kz_coordinate unit[2] = {{.centre = start[0].width}, {.centre = start[1].width}};
+  o->tangent_bits = tangent_bits;
+  kz_number_of(&unit[0], o->place.angle, tangent_bits);
+  kz_number_of(&unit[1], o->place.rate, tangent_bits);
+  *jet = (kz_jet){.bent = {{0}}};
+  get_tangent(&o->place, jet);
+  kz_arbitrary_mark(o);
+  return o;
+}
+
+void kz_arbitrary_mark(kz_arbitrary *o) {
+  copy_place(&o->place, &o->mark);
+}
+
+/* x += share (slope + share (second + share third)); slope becomes the derivative at `share`, of the line in 2^-exponent times its unit. */
+static void move_along(kz_number *x, kz_number *slope, const long double *bent, __float128 share, int exponent, int64_t bits) {
+  kz_number part, by;
+  kz_number_init(&part);
+  kz_number_init(&by);
+  kz_number_of_quad(share, &by);
+  kz_number_multiply(&part, slope, &by, bits);
+  kz_number_add(x, x, &part, bits);
+  kz_number_of_quad((bent[0] + bent[3] * share) * share * share, &part);
+  kz_number_add(x, x, &part, bits);
+  kz_number_of_quad((2 * bent[0] + 3 * bent[3] * share) * share, &part);
+  kz_number_add(slope, slope, &part, bits);
+  kz_number_of_double(ldexp(1, exponent), &by);
+  kz_number_multiply(slope, slope, &by, bits);
+  kz_number_clear(&part);
+  kz_number_clear(&by);
+}
+
+kz_arbitrary *kz_arbitrary_beside(const kz_arbitrary *parent, const kz_jet *at_mark, __float128 share, int exponent,
+                                  int64_t bits, int64_t tangent_bits, kz_jet *jet) {
+  kz_arbitrary *o = allocate_orbit(&parent->pendulum, bits);
+  o->tangent_bits = tangent_bits;
+  copy_place(&parent->mark, &o->place);
+  move_along(&o->place.theta, o->place.angle, at_mark->bent[0], share, exponent, o->bits);
+  move_along(&o->place.velocity, o->place.rate, at_mark->bent[1], share, exponent, o->bits);
+  *jet = (kz_jet){.bent = {{0}}};
+  get_tangent(&o->place, jet);
+  for (int axis = 0; axis < 2; axis++) {
+    const long double third = at_mark->bent[axis][3];
+    jet->bent[axis][0] = ldexpl(at_mark->bent[axis][0] + 3 * third * (long double)share, 2 * exponent);
+    jet->bent[axis][3] = ldexpl(third, 3 * exponent);
+  }
+  kz_arbitrary_mark(o);
+  return o;
 }

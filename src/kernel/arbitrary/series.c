@@ -106,10 +106,10 @@ static int64_t exponent_of_two(const kz_number *a, const kz_number *b) {
   return larger(kz_number_exponent(a), kz_number_exponent(b));
 }
 
-static void expand_tangent_order(kz_series *series, const kz_steps *steps, int64_t n, int64_t bits) {
+static void expand_tangent_order(kz_series *series, const kz_steps *steps, int columns, int64_t n, int64_t bits) {
   kz_number damped;
   kz_number_init(&damped);
-  for (int axis = 0; axis < 2; axis++) {
+  for (int axis = 0; axis < columns; axis++) {
     kz_number *x = series->angle[axis], *y = series->rate[axis];
     kz_number_set(x + n + 1, y + n);
     divide(x + n + 1, n, bits);
@@ -122,9 +122,9 @@ static void expand_tangent_order(kz_series *series, const kz_steps *steps, int64
 }
 
 int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place) {
-  const int64_t bits = KZ_TANGENT_BITS;
+  const int64_t bits = place->tangent_bits;
   int64_t whole = INT32_MIN, size[2];
-  for (int axis = 0; axis < 2; axis++) {
+  for (int axis = 0; axis < place->columns; axis++) {
     kz_number_set(series->angle[axis], place->angle + axis);
     kz_number_multiply(series->rate[axis], place->rate + axis, &steps->h, bits);
     whole = larger(whole, exponent_of_two(series->angle[axis], series->rate[axis]));
@@ -134,10 +134,10 @@ int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const
     const int64_t first = larger(0, n - steps->force_orders);
     const int64_t left = bits_left(bits, larger(size[0], size[1]) - whole + 3);
     kz_number_dot(series->gain + n, NULL, false, series->cosine + first, series->force + (n - first), n - first + 1, left);
-    expand_tangent_order(series, steps, n, left);
+    expand_tangent_order(series, steps, place->columns, n, left);
     size[1] = size[0];
     size[0] = INT32_MIN;
-    for (int axis = 0; axis < 2; axis++)
+    for (int axis = 0; axis < place->columns; axis++)
       size[0] = larger(size[0], exponent_of_two(series->angle[axis] + n + 1, series->rate[axis] + n + 1));
     if (larger(size[0], size[1]) < whole - bits) return n + 1;
   }
@@ -173,10 +173,10 @@ void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t order
   kz_number_add(&place->velocity, &place->velocity, &change, bits + 8);
   sum(series->sine, 0, orders, bits + 8, &place->sine);
   sum(series->cosine, 0, orders, bits + 8, &place->cosine);
-  for (int axis = 0; axis < 2 && tangent_orders > 0; axis++) {
-    sum(series->angle[axis], 0, tangent_orders, KZ_TANGENT_BITS, place->angle + axis);
-    sum(series->rate[axis], 0, tangent_orders, KZ_TANGENT_BITS, &change);
-    kz_number_divide(place->rate + axis, &change, &steps->h, KZ_TANGENT_BITS);
+  for (int axis = 0; axis < place->columns && tangent_orders > 0; axis++) {
+    sum(series->angle[axis], 0, tangent_orders, place->tangent_bits, place->angle + axis);
+    sum(series->rate[axis], 0, tangent_orders, place->tangent_bits, &change);
+    kz_number_divide(place->rate + axis, &change, &steps->h, place->tangent_bits);
   }
   kz_number_clear(&change);
 }

@@ -4,7 +4,7 @@
 
 #include "number.h"
 
-/* Bits of the neighbourhood's first degree, and workspace for the series of its higher ones, which are long doubles. */
+/* Bits of the neighbourhood's first degree in a jet, and workspace for the series of its higher ones, which are long doubles. */
 enum { KZ_TANGENT_BITS = 118, KZ_BENT_ORDERS = 120 };
 
 /* Steps of one length. */
@@ -26,14 +26,16 @@ typedef struct {
 /* The orbit at the beginning of a step, and at its end. */
 typedef struct {
   kz_number theta, velocity, sine, cosine;
-  kz_number angle[2], rate[2]; /* derivatives of theta and v by x and y */
+  kz_number angle[2], rate[2]; /* derivatives of theta and v by x and y, */
+  int64_t tangent_bits;        /* to so many bits */
+  int columns;                 /* 2, or 1: of x alone */
 } kz_place;
 
 /* Steps of a period's n-th part. */
 void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders, int64_t bits, int64_t n);
 /* The series of the step that begins at t = 2 pi i / n, from `place`. Returns its last order, 0 where it does not converge. */
 int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, const kz_place *place, int64_t bits);
-/* The tangent's series, after those of the orbit; returns as well. */
+/* The tangent's series, after those of the orbit; returns the last order, 0 where it does not converge. */
 int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place);
 /* Moves `place` to the end of the step; with its derivatives where tangent_orders > 0. */
 void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t tangent_orders, int64_t bits,
@@ -42,6 +44,6 @@ void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t order
 /* Moves the first degree alone, in long doubles, with the series of an orbit to so many orders; false where it does not converge. */
 bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet);
 /* Moves the higher degrees of a neighbourhood through the step. */
-void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, kz_jet *jet);
+void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet);
 
 #endif

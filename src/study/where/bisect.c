@@ -1,5 +1,7 @@
-/* Bisection in windows about the point found so far: each is as narrow as the last one could tell, some 1e20 times narrower, and its points
- * are handed over by its own reference orbit. */
+/* Bisection to any number of digits. The labels of a piece of the line between the two starts tell the boundary to some sixteen digits of the
+ * piece, because they are found in quad precision. Further digits come from a smaller piece about the boundary, whose orbit begins at a later
+ * image of the first one, and so on. From period 0 on, the program follows a new orbit only when the number of digits has grown by
+ * about a half. */
 #include "bisect.h"
 
 #include <math.h>
@@ -8,21 +10,24 @@
 #include <string.h>
 
 #include "labelling/labeller.h"
-#include "numerics/cells.h"
 #include "window/images.h"
 
 /* Those within fill the lanes of an orbit in quad precision. */
-enum { POINTS = 9, MOST_WIDENINGS = 6 };
-/* Shares of a window's width: how near the boundary is looked for in it, the next window's width in those of the bracket that is found, and
- * the width of one that missed it. */
-static const double nearest = 1e-21, roomy = 4, wider = 100;
+enum { POINTS = 9, MOST_WIDENINGS = 6, WIDENING = 7, MOST_PARTS = 256 };
+/* Shares of a piece's width: how near the boundary is looked for by its labels, and the next piece's width in those of the bracket that is
+ * found. */
+static const double nearest = 1e-21, roomy = 4;
 
-/* A piece of the line between the two starts: a window whose points have the same share along both axes. */
+/* The boundary's place, and the bracket about it, in units of the width of the largest piece; the labels on both sides. */
+typedef struct {
+  double part[MOST_PARTS], bracket; /* the place is the sum of the parts */
+  int n;
+  int32_t label[2];
+} spot;
+
+/* A piece of the line, with points on it. */
 typedef struct {
   const kz_question *question;
-  __float128 way[2]; /* from the first start to the second */
-  double width;      /* share of the way */
-  kz_axis axis[2];
   kz_images *images;
   kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
   __float128 share[POINTS];
@@ -31,12 +36,8 @@ typedef struct {
 
 static kz_status start_point(void *context, int64_t i, int32_t level, kz_start *start) {
   const piece *p = context;
-  kz_hand_over_start(&p->hand_over[level < 0 ? KZ_LEVEL_DOUBLE : level], p->share[i], p->share[i], start);
+  kz_hand_over_start(&p->hand_over[level < 0 ? KZ_LEVEL_DOUBLE : level], p->share[i], 0, start);
   return KZ_OK;
-}
-
-static kz_coordinate coordinate_of(const piece *p, int axis, double share) {
-  return (kz_coordinate){.centre = p->axis[axis].centre.text, .width = p->axis[axis].width.text, .share = share};
 }
 
 /* Labels the points from the first to the last one, evenly spread; what quad precision leaves open stays so. */
@@ -60,21 +61,26 @@ static void close_in(piece *p, int i) {
   p->decision[POINTS - 1] = p->decision[i + 1];
 }
 
-/* The pair of neighbours nearest to the middle of which both are decided, and differently: the number of the first; -1: none. */
-static int meeting(const piece *p) {
-  int found = -1;
-  for (int i = 0; i + 1 < POINTS; i++) {
-    const int32_t a = p->decision[i].label, b = p->decision[i + 1].label;
-    if (a > 0 && b > 0 && a != b && (found < 0 || abs(2 * i + 2 - POINTS) < abs(2 * found + 2 - POINTS))) found = i;
-  }
-  return found;
+/* Periods until the points i and i + 1 have settled, if both are decided, and differently; else INT64_MAX. */
+static int64_t periods_of(const piece *p, int i) {
+  const kz_decision *a = p->decision + i, *b = a + 1;
+  if (a->label <= 0 || b->label <= 0 || a->label == b->label) return INT64_MAX;
+  return a->periods > b->periods ? a->periods : b->periods;
 }
 
-static void open_piece(piece *p) {
-  const kz_question *q = p->question;
-  for (int i = 0; i < 2; i++)
-    snprintf(p->axis[i].width.text, sizeof p->axis[i].width.text, "%.25Le", (long double)p->way[i] * p->width);
-  p->images = kz_images_create(&q->scene->parameters.pendulum, &p->axis[0], &p->axis[1]);
+/* The neighbours between which the labels change: those that settle soonest, because the boundary between them takes the shortest orbit, and of
+ * these the ones nearest to the middle. The number of the first; -1: none. */
+static int meeting(const piece *p) {
+  int found = -1;
+  int64_t fewest = INT64_MAX;
+  for (int j = 0; j + 1 < POINTS; j++) {
+    const int i = (POINTS - 1) / 2 + (j % 2 ? -(j + 1) / 2 : j / 2); /* from the middle on */
+    const int64_t periods = periods_of(p, i);
+    if (periods >= fewest) continue;
+    fewest = periods;
+    found = i;
+  }
+  return found;
 }
 
 static kz_status follow_piece(piece *p) {
@@ -84,7 +90,7 @@ static kz_status follow_piece(piece *p) {
   return KZ_OK;
 }
 
-/* Closes in on a change of the labels, as finely as the window tells or as is asked for; *found: whether there is one. Then it lies between the
+/* Closes in on a change of the labels, as finely as the piece tells or as is asked for; *found: whether there is one. Then it lies between the
  * ends. */
 static kz_status search_piece(piece *p, double finest, bool *found) {
   *found = false;
@@ -101,69 +107,132 @@ static kz_status search_piece(piece *p, double finest, bool *found) {
   return KZ_OK;
 }
 
-/* The window's centre moves by a share of its width. */
-static kz_status move_centre(piece *p, __float128 share, int64_t digits) {
-  const double part[2] = {(double)share, (double)(share - (double)share)};
-  for (int i = 0; i < 4; i++) {
-    const kz_coordinate moved = coordinate_of(p, i / 2, part[i % 2]);
-    char text[KZ_DECIMAL_LENGTH];
-    KZ_TRY(kz_coordinate_text(&moved, digits, text, sizeof text));
-    strcpy(p->axis[i / 2].centre.text, text);
-  }
+static kz_status say_lost(const kz_question *q) {
+  return kz_fail(
+      KZ_FAILED,
+      "--boundary: beside the boundary no starts on both sides settle within %lld periods (max_periods of the scene); "
+      "allow more periods, or give other starts",
+      (long long)q->max_periods);
+}
+
+/* Notes where the boundary lies in a piece whose width is 2^exponent of the largest one's. */
+static kz_status note(const piece *p, int exponent, spot *s) {
+  const __float128 middle = (p->share[0] + p->share[POINTS - 1]) / 2;
+  if (s->n + 2 > MOST_PARTS) return say_lost(p->question);
+  s->part[s->n++] = ldexp((double)middle, exponent);
+  s->part[s->n++] = ldexp((double)(middle - (double)middle), exponent);
+  s->bracket = ldexp((double)(p->share[POINTS - 1] - p->share[0]), exponent);
+  for (int side = 0; side < 2; side++) s->label[side] = p->decision[side * (POINTS - 1)].label;
   return KZ_OK;
 }
 
-static kz_status begin(piece *p, int64_t digits) {
+static int64_t digits_of(double share) {
+  return (int64_t)ceil(-log10(share));
+}
+
+static kz_status narrow(piece *p, int exponent, double finest, spot *s, bool *found);
+
+/* Goes on in a smaller piece about the bracket of this one. A piece without a boundary is made wider. */
+static kz_status narrow_within(const piece *p, int exponent, double finest, spot *s) {
+  const __float128 middle = (p->share[0] + p->share[POINTS - 1]) / 2;
+  int narrower = ilogb(roomy * (double)(p->share[POINTS - 1] - p->share[0])) + 1;
+  for (int widenings = 0; widenings <= MOST_WIDENINGS; widenings++, narrower += WIDENING) {
+    const double finer = ldexp(finest, -narrower);
+    piece smaller = {.question = p->question, .images = kz_images_beside(p->images, middle, narrower, digits_of(finer))};
+    bool found;
+    const kz_status status = narrow(&smaller, exponent + narrower, finer, s, &found);
+    kz_images_free(smaller.images);
+    if (status != KZ_OK || found) return status;
+  }
+  return say_lost(p->question);
+}
+
+/* Finds the boundary in a piece to `finest` of its width. */
+static kz_status narrow(piece *p, int exponent, double finest, spot *s, bool *found) {
+  KZ_TRY(search_piece(p, fmax(nearest, finest), found));
+  if (!*found) return KZ_OK;
+  KZ_TRY(note(p, exponent, s));
+  return ldexp(s->bracket, -exponent) > finest ? narrow_within(p, exponent, finest, s) : KZ_OK;
+}
+
+/* The line: a point on it, and the way from the first start to the second. */
+typedef struct {
+  kz_decimal point[2], width[2]; /* width: of the present piece */
+  __float128 way[2];
+} line;
+
+static kz_status begin(const kz_question *q, int64_t digits, line *l) {
   enum { MORE = 40 };
   for (int i = 0; i < 2; i++) {
-    const kz_coordinate *first = &p->question->start[0][i], *second = &p->question->start[1][i];
-    p->way[i] = kz_coordinate_difference(second, first, 4 * (digits + MORE));
-    KZ_TRY(kz_coordinate_text(first, digits + MORE, p->axis[i].centre.text, sizeof p->axis[i].centre.text));
-    snprintf(p->axis[i].width.text, sizeof p->axis[i].width.text, "%.25Le", (long double)p->way[i]);
+    const kz_coordinate *first = &q->start[0][i], *second = &q->start[1][i];
+    l->way[i] = kz_coordinate_difference(second, first, 4 * (digits + MORE));
+    KZ_TRY(kz_coordinate_text(first, digits + MORE, l->point[i].text, sizeof l->point[i].text));
   }
-  return move_centre(p, 0.5, digits + MORE);
-}
-
-/* The next window: about the ends of the bracket that was found, or wider than the one that has missed the boundary. */
-static kz_status go_on(piece *p, bool found, int64_t digits, kz_bisection *bisection) {
-  const __float128 bracket = p->share[POINTS - 1] - p->share[0];
-  if (!found) {
-    p->width *= wider;
-    return KZ_OK;
-  }
-  KZ_TRY(move_centre(p, p->share[0] + bracket / 2, digits));
-  p->width *= roomy * (double)bracket;
-  for (int side = 0; side < 2; side++) bisection->label[side] = p->decision[side * (POINTS - 1)].label;
   return KZ_OK;
 }
 
-static kz_status narrow(piece *p, int64_t digits, kz_bisection *bisection) {
-  const double way = fmax(fabs((double)p->way[0]), fabs((double)p->way[1])), enough = pow(10, -(double)digits) / way;
-  int widenings = 0;
-  while (p->width > enough) {
+static void set_width(line *l, long double width) {
+  for (int i = 0; i < 2; i++) snprintf(l->width[i].text, sizeof l->width[i].text, "%.25Le", (long double)l->way[i] * width);
+}
+
+static kz_coordinate coordinate_of(const line *l, int i, double share) {
+  return (kz_coordinate){.centre = l->point[i].text, .width = l->width[i].text, .share = share};
+}
+
+/* The point moves by a share of the width. */
+static kz_status move(line *l, double share, int64_t digits) {
+  for (int i = 0; i < 2; i++) {
+    const kz_coordinate moved = coordinate_of(l, i, share);
+    char text[KZ_DECIMAL_LENGTH];
+    KZ_TRY(kz_coordinate_text(&moved, digits, text, sizeof text));
+    strcpy(l->point[i].text, text);
+  }
+  return KZ_OK;
+}
+
+/* Share of a piece's width to which its boundary is looked for: smaller in a narrower piece, whose orbit takes longer. */
+static double finest_share(long double width) {
+  static const long double first = 1e-16L, last = 1e-250L, growth = 0.6L; /* the last one is far above the smallest doubles */
+  if (kz_arbitrary_bits() < KZ_MOST_BITS) return (double)first;
+  return (double)fmaxl(last, fminl(first, powl(width, growth)));
+}
+
+static kz_status narrow_line(const kz_question *q, line *l, long double width, double finest, spot *s, bool *found) {
+  set_width(l, width);
+  const kz_coordinate point[2] = {coordinate_of(l, 0, 0), coordinate_of(l, 1, 0)};
+  piece p = {.question = q, .images = kz_images_on_line(&q->scene->parameters.pendulum, point, digits_of(finest))};
+  const kz_status status = narrow(&p, 0, finest, s, found);
+  kz_images_free(p.images);
+  return status;
+}
+
+static kz_status narrow_all(const kz_question *q, line *l, int64_t digits, kz_bisection *bisection) {
+  const long double way = fmaxl(fabsl((long double)l->way[0]), fabsl((long double)l->way[1]));
+  const long double enough = powl(10, -(long double)digits) / way;
+  long double width = 1;
+  for (int widenings = 0; width > enough;) {
+    spot s = {.n = 0};
     bool found;
-    open_piece(p);
-    const kz_status status = search_piece(p, fmax(nearest, enough / p->width / roomy), &found);
-    kz_images_free(p->images);
-    KZ_TRY(status);
-    if (!found && ++widenings > MOST_WIDENINGS)
-      return kz_fail(KZ_FAILED,
-                     "--boundary: no start that settles was found on one side of theta = %.40s...; give other starts",
-                     p->axis[0].centre.text);
-    KZ_TRY(go_on(p, found, digits + 20, bisection));
+    KZ_TRY(narrow_line(q, l, width, fmax(finest_share(width), (double)(enough / width) / roomy), &s, &found));
+    if (!found && ++widenings > MOST_WIDENINGS) return say_lost(q);
+    for (int i = 0; i < s.n; i++) KZ_TRY(move(l, s.part[i], digits + 20));
+    if (found) memcpy(bisection->label, s.label, sizeof s.label);
+    width *= found ? roomy * s.bracket : ldexp(1, WIDENING);
   }
   return KZ_OK;
 }
 
-static kz_status round_to(const kz_axis *axis, int64_t digits, char *text) {
-  const kz_coordinate centre = {.centre = axis->centre.text};
-  return kz_coordinate_text(&centre, digits, text, KZ_DECIMAL_LENGTH);
+static kz_status round_to(const kz_decimal *point, int64_t digits, char *text) {
+  const kz_coordinate coordinate = {.centre = point->text};
+  return kz_coordinate_text(&coordinate, digits, text, KZ_DECIMAL_LENGTH);
 }
 
 kz_status kz_bisect(const kz_question *question, int64_t digits, kz_bisection *bisection) {
-  piece p = {.question = question, .width = 1};
-  KZ_TRY(begin(&p, digits));
-  KZ_TRY(narrow(&p, digits, bisection));
-  KZ_TRY(round_to(&p.axis[0], digits, bisection->theta));
-  return round_to(&p.axis[1], digits, bisection->velocity);
+  line l;
+  KZ_TRY(begin(question, digits, &l));
+  set_width(&l, 1);
+  KZ_TRY(move(&l, 0.5, digits + 40));
+  KZ_TRY(narrow_all(question, &l, digits, bisection));
+  KZ_TRY(round_to(&l.point[0], digits, bisection->theta));
+  return round_to(&l.point[1], digits, bisection->velocity);
 }

@@ -47,6 +47,13 @@ static long double error_of(const kz_images *images, int64_t n, const sizes *s) 
          image->lost * whole + state;
 }
 
+bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits) {
+  enum { MORE = 3 };
+  const sizes s = sizes_of(&images->image[n].jet, 0.5);
+  const long double rounding = bent_error * (long double)(images->before + n) * (s.square + s.cube);
+  return left_out(&s) + rounding <= powl(10, -(long double)(digits + MORE)) * s.linear;
+}
+
 static int64_t last_image(const kz_images *images, int32_t level, double reach) {
   int64_t last = 0;
   for (int64_t n = 1; n <= images->n; n++) {
@@ -62,8 +69,10 @@ kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reac
   const int64_t n = last_image(images, level, reach);
   const kz_image *image = images->image + n;
   const sizes s = sizes_of(&image->jet, reach);
-  kz_hand_over h = {
-      .image = image, .periods = n, .in_quads = n == 0 || level >= KZ_LEVEL_PAIRS_16, .error = (double)error_of(images, n, &s)};
+  kz_hand_over h = {.image = image,
+                    .periods = images->before + n,
+                    .in_quads = n == 0 || level >= KZ_LEVEL_PAIRS_16,
+                    .error = (double)error_of(images, n, &s)};
   for (int axis = 0; axis < 2; axis++) {
     for (int i = 0; i < 2; i++) h.linear[axis][i] = (double)image->jet.linear[axis][i];
     for (int i = 0; i < KZ_BENT; i++) h.bent[axis][i] = (double)image->jet.bent[axis][i];

@@ -7,8 +7,9 @@
 
 #include "numerics/cells.h"
 
-/* Bits that the orbit keeps below the size of the window's image: its error is then some 1e-27 of that size. */
-enum { GUARD = 90 };
+/* Bits that the orbit keeps below the size of the window's image: its error is then some 1e-27 of that size. Of a line, bits beyond the digits
+ * of x that the orbit and its tangent keep. */
+enum { GUARD = 90, MARK_GUARD = 50, TANGENT_GUARD = 40 };
 /* rad: the image's size, above which a cubic serves no level. */
 static const long double widest = 1e-3L;
 
@@ -32,24 +33,70 @@ static long double size_of(const kz_jet *jet) {
 }
 
 /* Bits behind the point for an image of this size. */
-static int64_t bits_for(long double size) {
-  const int64_t bits = (int64_t)ceill(-log2l(size)) + GUARD;
+static int64_t bits_for(long double size, int64_t guard) {
+  const int64_t bits = (int64_t)ceill(-log2l(size)) + guard;
   return bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
 }
 
-kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
+static kz_images *allocate_images(const kz_pendulum *pendulum) {
   enum { FIRST_CAPACITY = 64 };
   kz_images *images = kz_calloc(1, sizeof *images);
   images->holders = 1;
   images->pendulum = *pendulum;
   images->capacity = FIRST_CAPACITY;
-  kz_image *first = images->image = kz_calloc(FIRST_CAPACITY, sizeof *images->image);
+  images->image = kz_calloc(FIRST_CAPACITY, sizeof *images->image);
+  return images;
+}
+
+/* The most bits of this build, where it has fewer. */
+static int64_t at_most(int64_t bits) {
+  const int64_t most = kz_arbitrary_bits();
+  return bits < most ? bits : most;
+}
+
+kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
+  kz_images *images = allocate_images(pendulum);
+  kz_image *first = images->image;
   take_axis(theta, &images->centre[0], &images->width[0]);
   take_axis(velocity, &images->centre[1], &images->width[1]);
   for (int i = 0; i < 2; i++) first->jet.linear[i][i] = images->width[i];
-  const int64_t bits = bits_for(size_of(&first->jet)), most = kz_arbitrary_bits();
-  images->bits = bits < most ? bits : most;
+  images->bits = at_most(bits_for(size_of(&first->jet), GUARD));
   images->orbit = kz_arbitrary_create(pendulum, images->centre, images->bits);
+  kz_arbitrary_read(images->orbit, first->theta, first->velocity);
+  return images;
+}
+
+/* Bits of so many digits, and some more. */
+static int64_t bits_of(int64_t digits, int64_t more) {
+  return (int64_t)ceil((double)digits / log10(2)) + more;
+}
+
+/* Bits that the orbit keeps below the size of an image: of a line that is marked still, the digits of x too. */
+static int64_t guard_of(const kz_images *images) {
+  const int64_t guard = bits_of(images->digits, MARK_GUARD);
+  return guard > GUARD ? guard : GUARD;
+}
+
+kz_images *kz_images_on_line(const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits) {
+  kz_images *images = allocate_images(pendulum);
+  kz_image *first = images->image;
+  const long double size = fabsl(strtold(point[0].width, NULL)) + fabsl(strtold(point[1].width, NULL));
+  images->digits = digits;
+  images->bits = at_most(bits_for(size / 2, guard_of(images)));
+  images->orbit = kz_arbitrary_on_line(pendulum, point, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
+  kz_arbitrary_read(images->orbit, first->theta, first->velocity);
+  return images;
+}
+
+kz_images *kz_images_beside(const kz_images *parent, __float128 share, int exponent, int64_t digits) {
+  kz_images *images = allocate_images(&parent->pendulum);
+  kz_image *first = images->image;
+  const kz_jet *jet = &parent->image[parent->marked].jet;
+  images->digits = digits;
+  images->before = parent->before + parent->marked;
+  images->bits = at_most(bits_for(ldexpl(size_of(jet), exponent), guard_of(images)));
+  images->orbit =
+      kz_arbitrary_beside(parent->orbit, jet, share, exponent, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
   return images;
 }
@@ -91,24 +138,36 @@ void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_ima
   images->finished = finished;
 }
 
+/* Marks the last image; the first one that is too bent for it ends the marking. */
+static void mark(kz_images *images) {
+  if (!kz_image_is_straight(images, images->n, images->digits)) {
+    images->digits = 0;
+    return;
+  }
+  kz_arbitrary_mark(images->orbit);
+  images->marked = images->n;
+}
+
 static kz_status add_image(kz_images *images) {
   make_room(images, images->n + 1);
   const kz_image *last = images->image + images->n;
   kz_image *next = images->image + images->n + 1;
-  const int64_t needed = bits_for(size_of(&last->jet)), bits = needed < images->bits ? needed : images->bits;
+  const int64_t needed = bits_for(size_of(&last->jet), guard_of(images)), bits = needed < images->bits ? needed : images->bits;
   memset(next, 0, sizeof *next);
   next->jet = last->jet;
   KZ_TRY(kz_arbitrary_advance(images->orbit, bits, 3, &next->jet));
   kz_arbitrary_read(images->orbit, next->theta, next->velocity);
   next->lost = last->lost + (double)(exp2l((long double)(4 - bits)) / size_of(&next->jet));
   images->n++;
+  if (images->digits > 0) mark(images);
   return KZ_OK;
 }
 
 kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods) {
   for (int64_t i = 0; i < most && !images->finished; i++) {
     const kz_image *last = images->image + images->n;
-    images->finished = images->n >= max_periods || !(size_of(&last->jet) < widest) || is_trapped(last, dynamics);
+    images->finished =
+        images->before + images->n >= max_periods || !(size_of(&last->jet) < widest) || is_trapped(last, dynamics);
     if (!images->finished) KZ_TRY(add_image(images));
   }
   return KZ_OK;
@@ -116,7 +175,8 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
 
 double kz_images_left(const kz_images *images) {
   const long double first = size_of(&images->image->jet), now = size_of(&images->image[images->n].jet);
-  const double growth = (double)log2l(now / first) / (double)images->n, share = (double)KZ_FEWEST_BITS / (double)bits_for(now);
+  const double growth = (double)log2l(now / first) / (double)images->n,
+               share = (double)KZ_FEWEST_BITS / (double)bits_for(now, GUARD);
   if (images->finished || !(growth > 0) || !(now < widest)) return 0;
   return (double)log2l(widest / now) / growth * (1 + share + share * share) / 3;
 }

@@ -22,8 +22,11 @@ typedef struct {
   kz_pendulum pendulum;
   kz_coordinate centre[2]; /* theta, velocity; this struct owns their texts */
   __float128 width[2];
-  int64_t bits; /* of the orbit in its first periods */
-  int64_t n;    /* image [0 .. n] */
+  int64_t bits;   /* of the orbit in its first periods */
+  int64_t before; /* periods before image 0 */
+  int64_t digits; /* images of a line: of x, that images need to be marked; 0 = no image is marked any more */
+  int64_t marked; /* the last image that is marked */
+  int64_t n;      /* image [0 .. n] */
   int64_t capacity;
   kz_image *image;
   bool finished; /* no later image is useful: the window has become wide, or is trapped as a whole */
@@ -32,6 +35,11 @@ typedef struct {
 
 /* Makes the images of the window of two axes, with its image after 0 periods only. */
 kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity);
+/* Makes the images of a line, of the points centre + x * width of two coordinates, for points whose x have so many digits. They are marked as
+ * long as the polynomial is right to these digits. y is not used. */
+kz_images *kz_images_on_line(const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits);
+/* Makes the images of a piece of that line from the marked image on: x is counted from `share` in units of 2^exponent of the old one. */
+kz_images *kz_images_beside(const kz_images *images, __float128 share, int exponent, int64_t digits);
 /* Adds a holder and returns `images`. kz_images_free removes a holder, and the last one frees them; it accepts NULL. */
 kz_images *kz_images_hold(kz_images *images);
 void kz_images_free(kz_images *images);
@@ -67,6 +75,9 @@ typedef struct {
   double linear[2][2], bent[2][KZ_BENT];
   double error; /* rad, of a start */
 } kz_hand_over;
+
+/* True if the polynomial of image n is right to so many digits of x. */
+bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits);
 
 /* The hand-over by the last image whose polynomial is as accurate as the level's own arithmetic, for shares up to `reach`. */
 kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reach);
