@@ -8,6 +8,7 @@
 
 #include "find.h"
 #include "kapitza/kernel.h"
+#include "part.h"
 
 static inline const kz_numerics *numerics(void) {
   static kz_numerics numerics = {.steps_per_period = 16};
@@ -17,14 +18,6 @@ static inline const kz_numerics *numerics(void) {
 static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
 
 enum { STARTS = 1024 };
-
-/* The sanitizers make everything ten times slower: a part of the starts shows them the same code. */
-#ifdef __SANITIZE_ADDRESS__
-enum { PART = 20 };
-#else
-enum { PART = 1 };
-
-#endif
 
 /* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow with every
  * attractor. */

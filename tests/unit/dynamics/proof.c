@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "../../tools/part.h"
 #include "kapitza/dynamics.h"
 
 /* Fig. 12's pendulum and its rotation of one turn a period (tests/literature). */
@@ -71,7 +72,7 @@ static int end_of(const kz_flow *flow, double theta, double velocity) {
 /* Starts of the window: those that end elsewhere are not proved, nearly all others are, and so are their mirror images. */
 static void starts_end_where_they_are_said_to(void **state) {
   (void)state;
-  enum { N = 2000 };
+  enum { N = PART > 1 ? 400 : 2000 };
   kz_proof *proof = region_of_rotations();
   static kz_proof_start start[N], image[N];
   static uint8_t number[N], image_number[N];
