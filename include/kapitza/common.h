@@ -34,6 +34,8 @@ void kz_message_clear(void);
 double kz_clock(void);
 /* Seconds of processor time of this thread, independent of other processes. */
 double kz_processor_clock(void);
+/* The same of all threads of the process. */
+double kz_process_clock(void);
 
 /* ---- words ---- */
 

@@ -141,21 +141,6 @@ void kz_reference_read(int64_t n, const kz_reference_state *states, double *thet
  * drive radian): the measured difference of two numbers of steps, with a margin. */
 double kz_reference_error(const kz_pendulum *pendulum, double fastest);
 
-/* ---- pairs ---- */
-
-/* Whole drive periods in pairs of doubles, high + low: some 32 digits, many states at once, at a twentieth of the cost of the reference.
- * A handle has tables of the processed splitting. Its number of steps keeps the error of a period (rad, angle and velocity together),
- * measured against the reference, at `tolerance` or less for speeds up to `fastest` (rad per drive radian); *error is the measured error.
- * The reference's series advance faster states, and all states if no number of steps is enough. Opaque; free with kz_pairs_free. */
-typedef struct kz_pairs kz_pairs;
-kz_pairs *kz_pairs_create(const kz_pendulum *pendulum, double tolerance, double fastest, double *error);
-void kz_pairs_free(kz_pairs *pairs);
-
-/* Advances n states through `periods` whole periods. half_turns [n][2]: theta/pi, high and low, comes back wrapped to [-1, 1];
- * velocity [n][2] in rad per drive radian; turns [n] gains the net number of turns. A state's result does not depend on its
- * neighbours; the mirror image goes to the mirror image, to the bit. */
-void kz_pairs_advance(const kz_pairs *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity, int64_t *turns);
-
 /* ---- any precision ---- */
 
 /* Whole drive periods in any number of digits, by Taylor series. Beside the orbit of a centre they can carry its neighbourhood: the images

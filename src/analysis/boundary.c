@@ -1,7 +1,6 @@
 /* Boundaries of basins in numbers: uncertain pairs, boxes that hold several labels, which labels share their boundary. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "kapitza/analysis.h"
 

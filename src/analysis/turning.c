@@ -1,5 +1,4 @@
 /* Turning points of a sampled motion. */
-#include <math.h>
 
 #include "kapitza/analysis.h"
 

@@ -1,6 +1,5 @@
 /* What a scene costs, against what this node has. */
 #include <math.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include "app.h"

@@ -15,3 +15,7 @@ double kz_clock(void) {
 double kz_processor_clock(void) {
   return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
+
+double kz_process_clock(void) {
+  return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+}

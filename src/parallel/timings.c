@@ -1,18 +1,10 @@
 /* Where the time went, stage by stage: for people at the end, for programs as JSON lines. */
 #include "timings.h"
 
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double processor_seconds(clockid_t whose) {
-  struct timespec now;
-  clock_gettime(whose, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 kz_stopwatch kz_stopwatch_start(void) {
-  return (kz_stopwatch){kz_clock(), processor_seconds(CLOCK_THREAD_CPUTIME_ID), processor_seconds(CLOCK_PROCESS_CPUTIME_ID)};
+  return (kz_stopwatch){kz_clock(), kz_processor_clock(), kz_process_clock()};
 }
 
 void kz_work_begin(kz_work *work, const kz_ranks *ranks, const char *stage) {
@@ -100,7 +92,7 @@ double kz_ranks_seconds(const kz_ranks *ranks) {
 }
 
 double kz_ranks_outside(const kz_ranks *ranks) {
-  return processor_seconds(CLOCK_PROCESS_CPUTIME_ID) - ranks->staged;
+  return kz_process_clock() - ranks->staged;
 }
 
 void kz_ranks_set_log(kz_ranks *ranks, FILE *log) {

@@ -1,7 +1,6 @@
 /* The drive of a pendulum from the keys that describe it: wave form, further harmonics, tilt, ellipse, torque, phase of release. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "kapitza/study.h"
 

@@ -1,6 +1,5 @@
 /* What a study cannot ask of a pendulum whose drive is more than k - m cos t: refused by name. */
 #include <math.h>
-#include <stdio.h>
 
 #include "kapitza/study.h"
 #include "sweep/sweep.h"

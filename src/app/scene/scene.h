@@ -127,6 +127,8 @@ void kz_unit_names(const char *of, char *text, size_t bytes);
 int kz_control_bytes(const char *c);
 /* The shortest decimal text that reads back as `value`, in text [32]. */
 void kz_scalar_print(double value, char *text);
+/* The text in double quotes; what may stand in one needs no other escapes than those of these and of backslashes. */
+void kz_text_print(const char *text, FILE *out);
 
 /* The field of a key in `scene`. clear: marks it as not given. read: reads it from a node; returns what is wrong, or NULL; *culprit = the node,
  * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports clear only. */

@@ -18,12 +18,6 @@ static void indent(int depth, FILE *out) {
   fprintf(out, "\n%*s", 2 * depth, "");
 }
 
-static void write_string(const char *text, FILE *out) {
-  fputc('"', out);
-  for (; *text; text++) fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
-  fputc('"', out);
-}
-
 static void write_words(const char *words, FILE *out) {
   fputs("{\"enum\": [", out);
   for (const char *word = words; *word;) {
@@ -99,12 +93,12 @@ static void write_key(const kz_key *key, FILE *out) {
   if (key->fallback && key->fallback[0]) {
     fputs(", \"default\": ", out);
     if (key->type == KZ_KEY_WORD || (word_too && strcmp(key->fallback, key->words) == 0))
-      write_string(key->fallback, out);
+      kz_text_print(key->fallback, out);
     else
       fputs(key->fallback, out);
   }
   fputs(", \"description\": ", out);
-  write_string(key->help, out);
+  kz_text_print(key->help, out);
   if (key->unit[0]) fprintf(out, ", \"unit\": \"%s\"", key->unit);
   fputc('}', out);
 }
@@ -165,7 +159,7 @@ static void write_studies(const kz_key *keys, FILE *out) {
 static void write_mapping(const kz_key *keys, const char *parent, const char *help, int depth, FILE *out) {
   const char *between = "";
   fputs("{\"type\": \"object\", \"description\": ", out);
-  write_string(help, out);
+  kz_text_print(help, out);
   fputs(", \"additionalProperties\": false, ", out);
   write_required(keys, parent, 0, out);
   fputs(", \"properties\": {", out);

@@ -228,8 +228,7 @@ static void print_real(double value, FILE *out) {
   fputs(text, out);
 }
 
-/* In double quotes; what may stand in a text needs no other escapes. */
-static void print_text(const char *text, FILE *out) {
+void kz_text_print(const char *text, FILE *out) {
   fputc('"', out);
   for (; *text; text++) fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
   fputc('"', out);
@@ -265,7 +264,7 @@ void kz_value_print(const kz_key *key, const void *scene, FILE *out) {
       fputs(*(const bool *)field ? "true" : "false", out);
       break;
     case KZ_KEY_TEXT:
-      print_text(*(char *const *)field, out);
+      kz_text_print(*(char *const *)field, out);
       break;
     case KZ_KEY_WORD:
       print_word(key, *(const int32_t *)field, out);
@@ -283,7 +282,7 @@ void kz_value_print(const kz_key *key, const void *scene, FILE *out) {
       print_real(*(const double *)field, out);
       break;
     case KZ_KEY_DECIMAL:
-      print_text(((const kz_decimal *)field)->text, out);
+      kz_text_print(((const kz_decimal *)field)->text, out);
       break;
     default:
       print_list(key, field, out);

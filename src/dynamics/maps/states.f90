@@ -1,11 +1,10 @@
 !> States of the stroboscopic map, (half-turns, rad per drive radian): their distance, and when two count as one.
 module kz_maps_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_extended_taylor, only: qp, PI_QUAD
   use kz_lanes_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: wrapped, half_turns, states_to_map, states_to_physical, angle_difference, separation, same_state, midperiod_angle, rounded, &
+  public :: wrapped, states_to_map, states_to_physical, angle_difference, separation, same_state, midperiod_angle, rounded, &
             MIDPERIOD
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
@@ -24,17 +23,6 @@ contains
 
     w = u - 2*anint(0.5_dp*u)
   end function wrapped
-
-  !> An angle in rad as half-turns in [-1, 1], accurate to the last place for any number of turns.
-  elemental function half_turns(theta) result(u)
-    !> rad
-    real(dp), intent(in) :: theta
-    real(dp) :: u
-    real(qp) :: exact
-
-    exact = theta/PI_QUAD
-    u = real(exact - 2*anint(0.5_qp*exact), dp)
-  end function half_turns
 
   !> Shortest difference of two angles in half-turns, in [-1, 1].
   elemental function angle_difference(a, b) result(d)

@@ -90,17 +90,13 @@ static void move_third(const parts *p, kz_jet *jet) {
   }
 }
 
-static int64_t larger(int64_t a, int64_t b) {
-  return a > b ? a : b;
-}
-
 /* The orders that long doubles see. */
 static int64_t orders_of(const kz_series *s, int64_t tangent_orders, int columns) {
   enum { BITS = 72, MORE = 8 };
   int64_t whole[2], n = tangent_orders;
   bool is_small = true;
   for (int axis = 0; axis < columns; axis++)
-    whole[axis] = larger(kz_number_exponent(s->angle[axis]), kz_number_exponent(s->rate[axis]));
+    whole[axis] = kz_larger(kz_number_exponent(s->angle[axis]), kz_number_exponent(s->rate[axis]));
   for (; n > 1 && is_small; n--) {
     is_small = kz_number_exponent(s->gain + n - 1) < -BITS;
     for (int axis = 0; axis < columns; axis++)
@@ -133,7 +129,7 @@ static int64_t last_order(const kz_number *series, int64_t last) {
 
 bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet) {
   enum { FEWEST = 24, MORE = 8 };
-  const int64_t n = larger(FEWEST, larger(last_order(series->cosine, orders), last_order(series->speed, orders))) + MORE;
+  const int64_t n = kz_larger(FEWEST, kz_larger(last_order(series->cosine, orders), last_order(series->speed, orders))) + MORE;
   parts p = {
       .n = n < KZ_BENT_ORDERS ? n : KZ_BENT_ORDERS, .h = kz_number_long(&steps->h), .damping = kz_number_long(&steps->damping)};
   row force = {0}, cosine = {0}, none = {0}, x;

@@ -1,7 +1,6 @@
 /* Numbers of any precision: what is not in the inner loops. */
 #include "number.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,10 +5,6 @@
  * A neighbour at the distance (x, y / h): (n + 1) x_(n+1) = y_n, (n + 1) y_(n+1) = -beta h y_n - sum (f c)_j x_(n-j). */
 #include "step.h"
 
-static int64_t larger(int64_t a, int64_t b) {
-  return a > b ? a : b;
-}
-
 void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders, int64_t bits, int64_t n) {
   kz_number value;
   if (steps->n == n) return;
@@ -62,7 +58,7 @@ static void divide(kz_number *x, int64_t n, int64_t bits) {
 
 static void expand_order(kz_series *series, const kz_steps *steps, int64_t n, int64_t bits) {
   kz_number *b = series->speed, *s = series->sine, *c = series->cosine;
-  const int64_t first = larger(0, n - steps->force_orders);
+  const int64_t first = kz_larger(0, n - steps->force_orders);
   kz_number damped;
   kz_number_dot(s + n + 1, NULL, false, c, b + n, n + 1, bits);
   divide(s + n + 1, n, bits);
@@ -93,17 +89,17 @@ int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, co
   kz_number_set(series->sine, &place->sine);
   kz_number_set(series->cosine, &place->cosine);
   for (int64_t n = 0; n < series->orders; n++) {
-    expand_order(series, steps, n, bits_left(bits, larger(size[0], size[1])));
+    expand_order(series, steps, n, bits_left(bits, kz_larger(size[0], size[1])));
     size[1] = size[0];
-    size[0] = larger(kz_number_exponent(series->speed + n + 1),
-                     larger(kz_number_exponent(series->sine + n + 1), kz_number_exponent(series->cosine + n + 1)));
+    size[0] = kz_larger(kz_number_exponent(series->speed + n + 1),
+                        kz_larger(kz_number_exponent(series->sine + n + 1), kz_number_exponent(series->cosine + n + 1)));
     if (size[0] < enough && size[1] < enough) return end_series(series, n + 1);
   }
   return 0;
 }
 
 static int64_t exponent_of_two(const kz_number *a, const kz_number *b) {
-  return larger(kz_number_exponent(a), kz_number_exponent(b));
+  return kz_larger(kz_number_exponent(a), kz_number_exponent(b));
 }
 
 static void expand_tangent_order(kz_series *series, const kz_steps *steps, int columns, int64_t n, int64_t bits) {
@@ -127,19 +123,19 @@ int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const
   for (int axis = 0; axis < place->columns; axis++) {
     kz_number_set(series->angle[axis], place->angle + axis);
     kz_number_multiply(series->rate[axis], place->rate + axis, &steps->h, bits);
-    whole = larger(whole, exponent_of_two(series->angle[axis], series->rate[axis]));
+    whole = kz_larger(whole, exponent_of_two(series->angle[axis], series->rate[axis]));
   }
   size[0] = size[1] = whole;
   for (int64_t n = 0; n < series->orders; n++) {
-    const int64_t first = larger(0, n - steps->force_orders);
-    const int64_t left = bits_left(bits, larger(size[0], size[1]) - whole + 3);
+    const int64_t first = kz_larger(0, n - steps->force_orders);
+    const int64_t left = bits_left(bits, kz_larger(size[0], size[1]) - whole + 3);
     kz_number_dot(series->gain + n, NULL, false, series->cosine + first, series->force + (n - first), n - first + 1, left);
     expand_tangent_order(series, steps, place->columns, n, left);
     size[1] = size[0];
     size[0] = INT32_MIN;
     for (int axis = 0; axis < place->columns; axis++)
-      size[0] = larger(size[0], exponent_of_two(series->angle[axis] + n + 1, series->rate[axis] + n + 1));
-    if (larger(size[0], size[1]) < whole - bits) return n + 1;
+      size[0] = kz_larger(size[0], exponent_of_two(series->angle[axis] + n + 1, series->rate[axis] + n + 1));
+    if (kz_larger(size[0], size[1]) < whole - bits) return n + 1;
   }
   return 0;
 }

@@ -31,6 +31,10 @@ typedef struct {
   int columns;                 /* 2, or 1: of x alone */
 } kz_place;
 
+static inline int64_t kz_larger(int64_t a, int64_t b) {
+  return a > b ? a : b;
+}
+
 /* Steps of a period's n-th part. */
 void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders, int64_t bits, int64_t n);
 /* The series of the step that begins at t = 2 pi i / n, from `place`. Returns its last order, 0 where it does not converge. */

@@ -2,7 +2,6 @@
  * of the step on bounds of the numbers' sizes. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "majorant.h"
 #include "sets.h"

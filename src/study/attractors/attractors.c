@@ -7,7 +7,6 @@
 #include "numerics/cells.h"
 #include "search.h"
 #include "numerics/step_check.h"
-#include "numerics/settling.h"
 
 typedef struct {
   const kz_attractors_plan *plan;

@@ -78,7 +78,7 @@ typedef struct {
   int32_t *dominant;
 } matrices;
 
-static double *nan_filled(int64_t n) {
+double *kz_nan_filled(int64_t n) {
   double *values = kz_malloc((size_t)(n + 1) * sizeof *values);
   for (int64_t i = 0; i < n; i++) values[i] = NAN;
   return values;
@@ -131,12 +131,12 @@ static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
   kz_flow *flow = kz_flow_create(pendulum, &fine);
-  x->theta = nan_filled(n * x->phases);
-  x->velocity = nan_filled(n * x->phases);
-  x->re = nan_filled(2 * n);
-  x->im = nan_filled(2 * n);
-  x->amplitude = nan_filled(n * x->lines);
-  x->phase = nan_filled(n * x->lines);
+  x->theta = kz_nan_filled(n * x->phases);
+  x->velocity = kz_nan_filled(n * x->phases);
+  x->re = kz_nan_filled(2 * n);
+  x->im = kz_nan_filled(2 * n);
+  x->amplitude = kz_nan_filled(n * x->lines);
+  x->phase = kz_nan_filled(n * x->lines);
   x->dominant = kz_calloc((size_t)n + 1, sizeof *x->dominant);
   kz_status status = fill_matrices(catalogue, flow, x);
   if (status == KZ_OK) status = write_matrices(x, store);

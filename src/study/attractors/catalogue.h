@@ -20,6 +20,9 @@ int64_t kz_catalogue_longest(const kz_catalogue *catalogue);
 /* Writes group /attractors, with the lines of every closed orbit; `fraction` only `with_fraction`. */
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store);
 
+/* n NaNs; the caller frees them. */
+double *kz_nan_filled(int64_t n);
+
 /* Prints the table of attractors. */
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
 

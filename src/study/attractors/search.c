@@ -8,7 +8,6 @@
 
 #include "labelling/map_table.h"
 #include "numerics/cells.h"
-#include "numerics/settling.h"
 
 enum {
   FIRST_LENGTH = 128,  /* periods of the first round; a round that finds nothing doubles it */

@@ -2,7 +2,6 @@
  * are labelled, and parts of what comes after are done. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "accuracy/accuracy.h"
 #include "attractors/catalogue.h"
@@ -12,7 +11,6 @@
 #include "pairs.h"
 #include "phases.h"
 #include "proof.h"
-#include "shocks_write.h"
 
 /* s a cell, as measured: its record, its measures, its place in the file. */
 static const double WRITE_SECONDS = 1.2e-7;

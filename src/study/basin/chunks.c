@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/cells.h"
 #include "kapitza/store.h"
 
 enum { VARIABLES = 4 };

@@ -1,9 +1,7 @@
 /* Labelling one batch of cells, and a whole tile. */
 #include "label_parts.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "kapitza/store.h"
 

@@ -47,7 +47,8 @@ int kz_distances_of(const kz_basin_plan *plan) {
   return (int)plan->boundary.decades + 1;
 }
 
-double kz_distance_of(const kz_basin_plan *plan, int d) {
+/* Distance d, rad. */
+static double distance_of(const kz_basin_plan *plan, int d) {
   return pow(10, log10(plan->boundary.farthest) - d);
 }
 
@@ -71,7 +72,7 @@ kz_status kz_pairs_check(const kz_basin_plan *plan) {
   const double least = within  ? fmax(nearest_of_images * narrower_side(plan), DBL_MIN)
                        : exact ? nearest_of_pairs
                                : nearest_of_doubles,
-               nearest = kz_distance_of(plan, (int)plan->boundary.decades);
+               nearest = distance_of(plan, (int)plan->boundary.decades);
   const int most = (int)floor(log10(rounding * plan->boundary.farthest / least));
   if (!plan->has_boundary || rounding * nearest >= least) return KZ_OK;
   const char *what = within  ? "the images of this window do"
@@ -96,7 +97,7 @@ static void spread(const kz_basin_plan *plan, int64_t i, point *p) {
   const double angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
   *p = (point){.share = {fmod(0.5 + (double)i * 0.75487766624669276, 1), fmod(0.5 + (double)i * 0.56984029099805327, 1)}};
   for (int d = 0; d < kz_distances_of(plan); d++) {
-    const double distance = kz_distance_of(plan, d);
+    const double distance = distance_of(plan, d);
     p[1 + d] = (point){{p->share[0], p->share[1]}, {distance * cos(angle), distance * sin(angle)}};
   }
 }
@@ -203,7 +204,7 @@ kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labe
   pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status = kz_stage_run(labelling->run, &stage, records);
   for (int d = 0; d < kz_distances_of(plan); d++) {
-    uncertain[d] = (kz_uncertain){.distance = kz_distance_of(plan, d)};
+    uncertain[d] = (kz_uncertain){.distance = distance_of(plan, d)};
     for (int64_t tile = 0; status == KZ_OK && tile < stage.n_tiles; tile++) {
       uncertain[d].pairs += records[tile].pairs[d];
       uncertain[d].uncertain += records[tile].uncertain[d];

@@ -7,9 +7,8 @@
 
 enum { KZ_PAIR_DISTANCES = KZ_BOUNDARY_MOST_DECADES + 1 };
 
-/* How many distances the plan asks for, and distance d, rad. */
+/* How many distances the plan asks for. */
 int kz_distances_of(const kz_basin_plan *plan);
-double kz_distance_of(const kz_basin_plan *plan, int d);
 
 /* KZ_OK where the numbers behind the labels tell the nearest pairs apart. */
 kz_status kz_pairs_check(const kz_basin_plan *plan);

@@ -19,9 +19,6 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof);
 kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_proof *proof, kz_proved *proved);
 /* Largest number of drive periods for which a start is followed, at least 2000 whatever basin.max_periods is. */
 int64_t kz_proof_periods(const kz_basin_plan *plan);
-/* Follows the starts of all cells into the region, in kept stages, and sets the fields `proof` and `proved` of the cells. Cells whose label
- * is an attractor that is not proved are left out. Collective. */
-kz_status kz_prove_cells(kz_window_labels *labelling, const kz_proof *proof, const kz_proved *proved);
 
 /* Random real starts of the window. */
 typedef struct {

@@ -172,7 +172,9 @@ static kz_status prove_part(kz_window_labels *l, part *p) {
   return kz_ranks_agree(run->ranks, status);
 }
 
-kz_status kz_prove_cells(kz_window_labels *l, const kz_proof *proof, const kz_proved *proved) {
+/* Follows the starts of all cells into the region, in kept stages, and sets the fields `proof` and `proved` of the cells. Cells whose label
+ * is an attractor that is not proved are left out. Collective. */
+static kz_status prove_cells(kz_window_labels *l, const kz_proof *proof, const kz_proved *proved) {
   const kz_tiles *tiles = &l->tiles;
   const int64_t capacity = kz_tile_capacity(tiles), at_once = capacity < MOST_CELLS ? MOST_CELLS / capacity : 1;
   const int64_t most = capacity * (at_once < tiles->own ? at_once : tiles->own);
@@ -201,6 +203,6 @@ kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof
   *sample = (kz_proof_sample){.high = 1};
   KZ_TRY(kz_prove_regions(labelling->run, labelling->dynamics, proof, &proved));
   if (!proved.any) return KZ_OK;
-  KZ_TRY(kz_prove_cells(labelling, proof, &proved));
+  KZ_TRY(prove_cells(labelling, proof, &proved));
   return kz_prove_sample(labelling->run, labelling->plan, proof, sample);
 }

@@ -10,12 +10,6 @@ typedef struct {
   double *theta, *velocity, *multiplier;
 } columns;
 
-static double *nan_filled(int64_t n) {
-  double *values = kz_malloc((size_t)(n + 1) * sizeof *values);
-  for (int64_t i = 0; i < n; i++) values[i] = NAN;
-  return values;
-}
-
 static void fill(const kz_catalogue *catalogue, const kz_proof *proof, columns *c) {
   for (int64_t i = 0; i < catalogue->count; i++) {
     const kz_entry *e = &catalogue->entries[i];
@@ -33,9 +27,9 @@ static void fill(const kz_catalogue *catalogue, const kz_proof *proof, columns *
 static kz_status write_attractors(const kz_catalogue *catalogue, const kz_proof *proof, kz_store *store) {
   columns c = {.phases = kz_catalogue_longest(catalogue)};
   c.proved = kz_calloc((size_t)catalogue->count + 1, sizeof *c.proved);
-  c.theta = nan_filled(catalogue->count * c.phases);
-  c.velocity = nan_filled(catalogue->count * c.phases);
-  c.multiplier = nan_filled(catalogue->count * 2);
+  c.theta = kz_nan_filled(catalogue->count * c.phases);
+  c.velocity = kz_nan_filled(catalogue->count * c.phases);
+  c.multiplier = kz_nan_filled(catalogue->count * 2);
   fill(catalogue, proof, &c);
   kz_status status = kz_store_variable(store, "attractors", "proved", c.proved);
   if (status == KZ_OK) status = kz_store_variable(store, "attractors", "strobe_theta_half_width", c.theta);

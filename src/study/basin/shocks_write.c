@@ -1,6 +1,5 @@
 /* The file's group /shocks, and its part of the summary. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "shocks_write.h"
 

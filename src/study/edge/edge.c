@@ -5,11 +5,8 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "attractors/catalogue.h"
 #include "attractors/search.h"
-#include "labelling/starts.h"
 #include "track.h"
 
 typedef struct {

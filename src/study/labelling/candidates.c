@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "numerics/cells.h"
 #include "labeller.h"
 #include "starts.h"
 

@@ -1,7 +1,5 @@
 #include "doubt.h"
 
-#include <math.h>
-
 #include "numerics/cells.h"
 
 enum { SAMPLE = 7300, TILE = KZ_DOUBT_TILE }; /* cells; the sample tells 5 % to +-0.5 points */

@@ -1,7 +1,6 @@
 #include "labeller.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 enum {
   BATCH = 16384, /* starts that are followed together */

@@ -1,7 +1,6 @@
 /* A frame level by level: cells of a level that are pending are followed in tiles, then the level is shown. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "cells.h"

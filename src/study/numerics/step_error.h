@@ -2,8 +2,6 @@
 #ifndef KAPITZA_STUDY_STEP_ERROR_H
 #define KAPITZA_STUDY_STEP_ERROR_H
 
-#include <stdbool.h>
-
 #include "kapitza/kernel.h"
 
 /* Classes of speeds: the fastest half of all speeds is the last class, the faster half of the rest the class before, and so on. */

@@ -1,5 +1,4 @@
 /* A motion by itself, without what the study tells of it. */
-#include <stdlib.h>
 
 #include "kapitza/study_live.h"
 #include "motion.h"

@@ -1,7 +1,6 @@
 #include "settles_on.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "attractors/search.h"
 

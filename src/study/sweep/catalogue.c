@@ -10,7 +10,6 @@
 #include "attractors/search.h"
 #include "labelling/labeller.h"
 #include "labelling/starts.h"
-#include "numerics/settling.h"
 #include "sweep.h"
 
 enum {

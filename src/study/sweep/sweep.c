@@ -1,7 +1,6 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
 #include "sweep.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #define BARRED(code, word, run, measure) "|" word

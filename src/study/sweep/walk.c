@@ -1,6 +1,5 @@
 /* One cycle carried along a parameter, and what happens at its ends. */
 #include <math.h>
-#include <string.h>
 
 #include "sweep.h"
 

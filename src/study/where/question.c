@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "labelling/labeller.h"
-#include "numerics/cells.h"
 #include "window/own_orbit.h"
 
 /* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */

@@ -1,5 +1,4 @@
 /* Where starts end: the catalogue of the scene's window, then every start in as much precision as it takes. One rank alone. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,4 @@
 /* Cells that are proved by following them: the set of a cell is advanced, period by period, until the region of one attractor holds it. */
-#include <math.h>
 
 #include "proof.h"
 

@@ -6,10 +6,16 @@
 
 static const double SLACK = 1e-5, FLAT = 1e-3, LARGEST = 100; /* cells; LARGEST: of an image, from its centre */
 
-kz_parallelogram kz_proof_image(const kz_proof *proof, const kz_enclosure *set) {
+/* A parallelogram in units of cells: centre + a p + b q, |p|, |q| <= 1; x from theta = -pi, y from velocity = -top. */
+typedef struct {
+  double centre[2], a[2], b[2];
+} parallelogram;
+
+/* A parallelogram that contains a set. */
+static parallelogram image_of(const kz_proof *proof, const kz_enclosure *set) {
   double half[2];
   kz_proof_half_cell(proof, half);
-  kz_parallelogram image;
+  parallelogram image;
   const double centre[2] = {set->theta[0] + M_PI, set->velocity[0] + proof->top};
   for (int i = 0; i < 2; i++) {
     image.centre[i] = centre[i] / (2 * half[i]);
@@ -19,7 +25,8 @@ kz_parallelogram kz_proof_image(const kz_proof *proof, const kz_enclosure *set) 
   return image;
 }
 
-bool kz_proof_within(const kz_proof *proof, const kz_parallelogram *image) {
+/* False if a parallelogram is too large to be covered by cells, or reaches beyond the grid's velocities. */
+static bool is_within(const kz_proof *proof, const parallelogram *image) {
   const double x = fabs(image->a[0]) + fabs(image->b[0]), y = fabs(image->a[1]) + fabs(image->b[1]) + SLACK;
   return x + y < LARGEST && 2 * (x + 1) < (double)proof->columns && image->centre[1] - y >= 0 &&
          image->centre[1] + y <= (double)proof->rows;
@@ -51,14 +58,14 @@ static bool row_has(const kz_proof *proof, int64_t row, int64_t from, int64_t to
   return true;
 }
 
-static void set_corners(const kz_parallelogram *p, double corner[5][2]) {
+static void set_corners(const parallelogram *p, double corner[5][2]) {
   static const int side[5][2] = {{1, 1}, {1, -1}, {-1, -1}, {-1, 1}, {1, 1}};
   for (int c = 0; c < 5; c++)
     for (int i = 0; i < 2; i++) corner[c][i] = p->centre[i] + side[c][0] * p->a[i] + side[c][1] * p->b[i];
 }
 
 /* One that meets four cells at most: these have the same label. */
-static uint8_t cover_small(const kz_proof *proof, const kz_parallelogram *p, double x, double y) {
+static uint8_t cover_small(const kz_proof *proof, const parallelogram *p, double x, double y) {
   const double top = (double)(proof->rows - 1);
   const int64_t left = (int64_t)floor(p->centre[0] - x), right = (int64_t)floor(p->centre[0] + x);
   const int64_t low = (int64_t)fmax(floor(p->centre[1] - y), 0), high = (int64_t)fmin(floor(p->centre[1] + y), top);
@@ -68,7 +75,8 @@ static uint8_t cover_small(const kz_proof *proof, const kz_parallelogram *p, dou
   return one ? label : 0;
 }
 
-uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *p) {
+/* The attractor of all cells that a parallelogram within the grid touches; 0 if they do not have the same one. */
+static uint8_t cover(const kz_proof *proof, const parallelogram *p) {
   const double width = fabs(p->a[0]) + fabs(p->b[0]) + 2 * SLACK, height = fabs(p->a[1]) + fabs(p->b[1]) + 2 * SLACK;
   if (width < 0.5 && height < 0.5) return cover_small(proof, p, width, height);
   const int64_t top = proof->rows - 1, middle = (int64_t)fmin(floor(p->centre[1]), (double)top);
@@ -99,8 +107,8 @@ bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], c
 }
 
 uint8_t kz_proof_holds(const kz_proof *proof, const kz_enclosure *set) {
-  const kz_parallelogram image = kz_proof_image(proof, set);
-  const uint8_t label = kz_proof_within(proof, &image) ? kz_proof_cover(proof, &image) : 0;
+  const parallelogram image = image_of(proof, set);
+  const uint8_t label = is_within(proof, &image) ? cover(proof, &image) : 0;
   for (int i = 0; label == 0 && i < proof->n_parts; i++) {
     const kz_proof_part *part = &proof->part[i];
     if (fabs(set->velocity[0] - part->centre[1]) < part->half[1] && kz_ellipse_holds(&part->ellipse, part->centre, set))

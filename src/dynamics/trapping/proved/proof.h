@@ -23,11 +23,6 @@ struct kz_proof {
   kz_proof_part part[2 * KZ_PROOF_MOST];
 };
 
-/* A parallelogram in units of cells: centre + a p + b q, |p|, |q| <= 1; x from theta = -pi, y from velocity = -top. */
-typedef struct {
-  double centre[2], a[2], b[2];
-} kz_parallelogram;
-
 /* half [2] = half the width of a cell: rad, rad per drive radian. */
 void kz_proof_half_cell(const kz_proof *proof, double half[2]);
 /* state [2] = centre of cell f, exactly mirrored: rad, rad per drive radian. */
@@ -35,12 +30,6 @@ void kz_proof_centre(const kz_proof *proof, int64_t f, double state[2]);
 /* Gives all cells inside a part the number of its attractor. */
 void kz_proof_draw(kz_proof *proof, const kz_proof_part *part);
 
-/* A parallelogram that contains a set. */
-kz_parallelogram kz_proof_image(const kz_proof *proof, const kz_enclosure *set);
-/* False if a parallelogram is too large to be covered by cells, or reaches beyond the grid's velocities. */
-bool kz_proof_within(const kz_proof *proof, const kz_parallelogram *image);
-/* The attractor of all cells that a parallelogram within the grid touches; 0 if they do not have the same one. */
-uint8_t kz_proof_cover(const kz_proof *proof, const kz_parallelogram *image);
 /* The attractor whose region contains a set; 0 if none does. */
 uint8_t kz_proof_holds(const kz_proof *proof, const kz_enclosure *set);
 /* True if a set lies inside an ellipse. */

@@ -1,5 +1,5 @@
-!> The C interface of the pairs of doubles: include/kapitza/kernel.h.
-module kz_extended_pairs_api
+!> Whole drive periods in pairs of doubles, for tests in C.
+module kz_test_pairs
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_lanes_map, only: WIDTH
   use kz_extended_pairs, only: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs
@@ -9,7 +9,7 @@ module kz_extended_pairs_api
 
 contains
 
-  function pairs_create(pendulum, tolerance, fastest, error) bind(C, name='kz_pairs_create') result(handle)
+  function pairs_create(pendulum, tolerance, fastest, error) bind(C, name='kz_test_pairs_create') result(handle)
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), value :: tolerance
     real(c_double), value :: fastest
@@ -28,7 +28,7 @@ contains
     handle = c_loc(pairs)
   end function pairs_create
 
-  subroutine pairs_free(handle) bind(C, name='kz_pairs_free')
+  subroutine pairs_free(handle) bind(C, name='kz_test_pairs_free')
     type(c_ptr), value :: handle
     type(pairs_t), pointer :: pairs
 
@@ -36,7 +36,7 @@ contains
     if (associated(pairs)) deallocate (pairs)
   end subroutine pairs_free
 
-  subroutine pairs_advance(handle, n, periods, half_turns, velocity, turns) bind(C, name='kz_pairs_advance')
+  subroutine pairs_advance(handle, n, periods, half_turns, velocity, turns) bind(C, name='kz_test_pairs_advance')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n
     integer(c_int64_t), value :: periods
@@ -64,4 +64,4 @@ contains
     end do
   end subroutine pairs_advance
 
-end module kz_extended_pairs_api
+end module kz_test_pairs
