@@ -11,7 +11,7 @@ static kz_slope slope_between(const kz_uncertain *far, const kz_uncertain *near)
   const double decades = log(far->distance / near->distance);
   if (far->uncertain == 0 || near->pairs == 0 || far->pairs == 0) return s;
   const double far_share = (double)far->uncertain / (double)far->pairs;
-  /* With none seen the share is below 3 in so many pairs, at 95 %: a lower end alone. */
+  /* If no pair was uncertain, the share is below 3 / pairs with 95 % confidence. So only the lower end of the slope is known. */
   if (near->uncertain == 0) {
     s.low = log(far_share * (double)near->pairs / 3) / decades;
     s.high = INFINITY;

@@ -187,7 +187,7 @@ static double angle_residual(double m, void *context) {
   return at->k - at->nu * at->nu - 0.25 * m * m * (1 / creal(up) + 1 / creal(down));
 }
 
-/* Between curve 1 (angle 0) and curve 2 (angle pi) the angle only rises. */
+/* The Floquet angle increases with m from curve 1 (angle 0) to curve 2 (angle pi). */
 static double angle_curve(double k, double nu) {
   if (k > nu * nu) return NAN;
   if (k == nu * nu) return 0;

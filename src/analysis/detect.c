@@ -1,9 +1,9 @@
-/* What the lines of an orbit tell: the dominant line, the period, the symmetry. */
+/* Properties of an orbit from its lines: the dominant line, the period, the symmetry. */
 #include <math.h>
 
 #include "kapitza/analysis.h"
 
-/* Shares of the largest line from which on a line matters. */
+/* Lines below this share of the largest one are ignored: of closed orbits, of open records. */
 static const double MATTERS_CLOSED = 1e-9, MATTERS_OPEN = 1e-3;
 /* A peak of an open record is trusted to this many bins. */
 static const double PEAK_TOLERANCE = 0.03;
@@ -18,7 +18,7 @@ int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude) {
   return dominant;
 }
 
-/* Lines above this matter; at rest none does. */
+/* Amplitude below which lines are ignored; INFINITY at rest, which has no lines. */
 static double least_line(int64_t n_lines, const double *amplitude, double share) {
   int64_t dominant = kz_spectrum_dominant(n_lines, amplitude);
   return dominant ? fmax(KZ_LINE_FLOOR, share * amplitude[dominant]) : INFINITY;

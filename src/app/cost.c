@@ -1,10 +1,10 @@
-/* What a scene costs, against what this node has. */
+/* Compares the memory that a scene needs with the memory of this node. */
 #include <math.h>
 #include <unistd.h>
 
 #include "app.h"
 
-/* What a rank of any scene takes: the program, MPI, HDF5. */
+/* Bytes that each rank needs for the program, MPI and HDF5, whatever the scene. */
 static const double PROCESS_BYTES = 3.7e7;
 
 kz_cost kz_cost_of(const kz_scene *scene) {

@@ -12,7 +12,7 @@ enum { PATIENCE = 15 };
 /* s: starting MPI and writing a file. */
 static const double STARTING = 0.06;
 
-/* What the child tells after each study. */
+/* The message of the child after each study. */
 typedef struct {
   double seconds; /* of the studies so far */
   kz_status status;
@@ -39,7 +39,7 @@ static void measure_as_child(const kz_scene *scene, int pipe) {
   _exit(0);
 }
 
-/* The last thing that the child tells. */
+/* The last message of the child. */
 static told hear(pid_t child, int pipe) {
   told t, last = {0};
   while (read(pipe, &t, sizeof t) == sizeof t) last = t;

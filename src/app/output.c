@@ -1,4 +1,4 @@
-/* FILE and its companions, before modelling: nothing stays written here. */
+/* Checks FILE and the files beside it before modelling. These checks leave no file behind. */
 #include <errno.h>
 #include <libgen.h>
 #include <limits.h>
@@ -42,8 +42,8 @@ static bool is_same_file(const struct stat *file, const char *path) {
   return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
 }
 
-/* What stands under FILE and its companions may only be regular files, and none of them the scene. *exists: FILE itself is there,
- * be it a link that leads nowhere. */
+/* Refuses FILE or a file beside it if it is not a regular file, or if it is the scene. *exists = true if FILE exists, even as a link to
+ * nothing. */
 static kz_status check_names(const char *path, const char *scene, bool *exists) {
   static const char *const suffixes[] = {".checkpoint", ".part", ".truth", ".truth.part", ""};
   for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {

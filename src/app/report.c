@@ -1,4 +1,4 @@
-/* What the program says about itself and about a scene: check, keys, --version. */
+/* Reports about a scene or about the program: check, keys, --version. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-/* The command run: one job from the scene's text to the complete file. All ranks walk through it together. */
+/* The command run, from the text of the scene to the complete file. All ranks call these functions together. */
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@
 typedef struct {
   const kz_options *options;
   kz_run run;
-  bool first; /* rank 0: reads, writes and speaks */
+  bool first; /* rank 0: reads, writes and prints */
   char *text; /* of the scene, `length` bytes and a NUL */
   uint64_t length;
   kz_scene scene;
@@ -45,7 +45,7 @@ static kz_status read_scene(job *j) {
   return j->resolved && j->fingerprint ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", o->scene);
 }
 
-/* One scene, one program, one name of the result: whatever command line each rank was given. */
+/* Refuses to run unless all ranks have the same command line, scene, program and name of the result. */
 static kz_status agree_on_scene(job *j) {
   KZ_TRY(kz_options_agree(j->options, j->run.ranks));
   KZ_TRY(share_text(j));
@@ -55,13 +55,13 @@ static kz_status agree_on_scene(job *j) {
   return kz_ranks_compare(j->run.ranks, j->path, "name of the result");
 }
 
-/* *complete: there is nothing left to do. */
+/* *complete = true if the result of this scene is complete already. */
 static kz_status check_output(job *j, bool *complete) {
   KZ_TRY(kz_ranks_agree(j->run.ranks, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
   return kz_ranks_broadcast(j->run.ranks, complete, sizeof *complete);
 }
 
-/* All that can be refused before modelling. */
+/* Makes every check that is possible before modelling, and prints the warnings. */
 static kz_status prepare(job *j, bool *complete) {
   KZ_TRY(agree_on_scene(j));
   KZ_TRY(check_output(j, complete));
@@ -92,7 +92,7 @@ static kz_status open_log(job *j) {
   return KZ_OK;
 }
 
-/* What was said on the way, and how it ended. */
+/* Writes the end of the run, its status and its times, to the log. */
 static kz_status close_log(job *j, kz_status status) {
   const double seconds = kz_ranks_seconds(j->run.ranks);
   char code[16], outside[32];
@@ -232,7 +232,7 @@ static kz_status finish(job *j, kz_status status) {
   return status;
 }
 
-/* The checkpoint of this very run has nothing more to tell; one of another run stays. */
+/* Removes the checkpoint of this run, which is not needed any more; the checkpoint of another run stays. */
 static kz_status leave_complete(job *j) {
   char name[PATH_MAX + 16];
   if (!j->first) return KZ_OK;

@@ -1,4 +1,4 @@
-/* The last words of the program. */
+/* The message with which the program ends. */
 #include "app.h"
 
 /* One line whatever the message holds: control characters become '?'. */

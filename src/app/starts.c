@@ -9,11 +9,11 @@
 
 enum { MOST_STARTS = 100000 };
 
-/* As far as the scene's windows go. */
+/* Largest angle and velocity, as for the windows of a scene. */
 static const double MOST[2] = {1e6, KZ_MOST_SPEED};
 static const char *const NAMES[2] = {"THETA", "VELOCITY"};
 
-/* Whether a number has more digits than it takes to tell doubles apart. */
+/* Whether a number has more digits than are needed to distinguish doubles. */
 static bool is_long(const char *text) {
   const char *c = text + strspn(text, "+-0.");
   int digits = 0;

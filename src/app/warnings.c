@@ -1,4 +1,4 @@
-/* What a user should hear before a scene is modelled: keys that do nothing, motions that hardly settle. */
+/* Warnings before a scene is modelled: keys without effect, motions that hardly settle. */
 #include "app.h"
 
 void kz_warnings_print(const kz_scene *scene, FILE *out) {

@@ -116,7 +116,7 @@ static void print_json(const kz_coordinate start[2], const kz_ending *e, double 
   puts("}");
 }
 
-/* The first strobe point stands for the orbit; what there is not stays empty. */
+/* A row has the first strobe point of the orbit; columns without a value stay empty. */
 static void print_csv(const kz_coordinate start[2], const kz_ending *e, double omega) {
   print_number(start[0].high);
   putchar(',');

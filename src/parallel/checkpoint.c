@@ -1,4 +1,4 @@
-/* What one rank knows of its checkpoint. */
+/* The checkpoint as one rank has opened it. */
 #include "checkpoint.h"
 
 #include <stdio.h>

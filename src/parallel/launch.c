@@ -1,4 +1,4 @@
-/* What can be known without starting MPI. */
+/* How this process was started, found out without MPI. */
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>

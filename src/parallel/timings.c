@@ -1,4 +1,4 @@
-/* Where the time went, stage by stage: for people at the end, for programs as JSON lines. */
+/* Times of the stages: a table for people at the end, JSON lines for programs. */
 #include "timings.h"
 
 #include <string.h>

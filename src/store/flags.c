@@ -1,4 +1,4 @@
-/* What the values of a variable mean, as attributes of CF. */
+/* The meanings of the values of a variable, as attributes of CF. */
 #include <stdlib.h>
 
 #include "store.h"

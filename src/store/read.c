@@ -1,4 +1,4 @@
-/* What is already in the file: how one study learns from another. */
+/* Reads variables that an earlier study of the run has written to the file. */
 #include "store.h"
 
 static hid_t open_dataset(kz_store *store, const char *group, const char *name) {

@@ -54,7 +54,7 @@ static void fourier(const kz_pendulum_keys *written, int j, double form[2]) {
   if (j <= highest_of_samples(&written->samples)) harmonic_of(&written->samples, j, form);
 }
 
-/* How far the harmonics are from samples less their mean: largest difference. */
+/* The largest difference between the harmonics and the samples less their mean. */
 static double distance_from_samples(const kz_reals *samples) {
   double rest[KZ_LIST_MAX], mean = 0, largest = 0, form[2];
   const int highest = highest_of_samples(samples);
@@ -71,10 +71,10 @@ static double distance_from_samples(const kz_reals *samples) {
   return largest;
 }
 
-/* What is left of the Bessel functions beyond the last harmonic, at most. */
+/* Largest Bessel function that may be left out beyond the last harmonic. */
 static const double BESSEL_LEFT = 1e-9;
 
-/* What an oscillating torque T cos t makes of a free pendulum: g = amplitude cos(t + phase), g'' + beta g' = T cos t. */
+/* The motion of a free pendulum under an oscillating torque T cos t: g = amplitude cos(t + phase), g'' + beta g' = T cos t. */
 static void swing_of(double torque_amplitude, double beta, double *amplitude, double *phase) {
   *amplitude = torque_amplitude / hypot(1, beta);
   *phase = atan2(-beta, -1);

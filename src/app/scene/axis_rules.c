@@ -29,7 +29,7 @@ static bool is_exact(const kz_basin_plan *plan) {
   return isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
 }
 
-/* A window by its middle: of cells that doubles cannot tell apart, method exact, and digits enough in this build. */
+/* A window given by its centre. If doubles cannot distinguish its cells, the method must be exact, and this build must have enough digits. */
 static void check_centred(kz_reading *reading, const kz_basin_plan *plan, const kz_axis *axis, const char *path) {
   static const double least_of_quads = 1e-25;
   char name[128];

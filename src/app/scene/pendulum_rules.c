@@ -1,4 +1,4 @@
-/* Rules of the mapping pendulum: what a laboratory must say, and k, beta and m from what is written. */
+/* Rules of the mapping pendulum: which keys a pendulum in a laboratory needs, and how k, beta and m follow from them. */
 #include "pendulum_rules.h"
 
 #include <math.h>
@@ -23,7 +23,7 @@ static void lack(char *list, size_t bytes, bool missing, const char *what) {
   if (missing) snprintf(list + strlen(list), bytes - strlen(list), "%s%s", list[0] ? "; " : "", what);
 }
 
-/* All that is missing, in one message, each with what would do instead. */
+/* One message that names all missing keys, each with the keys that could replace it. */
 static void check_complete(kz_reading *reading, const kz_pendulum_keys *w) {
   char list[700] = "";
   const size_t n = sizeof list;
@@ -40,7 +40,7 @@ static void check_complete(kz_reading *reading, const kz_pendulum_keys *w) {
   if (list[0]) kz_complain(reading, NULL, "pendulum.amplitude", "the pendulum lacks: %s", list);
 }
 
-/* Two keys that give the same. */
+/* Refuses two keys that give the same quantity. */
 static void check_once(kz_reading *reading, double one, const char *name, double other, const char *other_name) {
   char path[64];
   snprintf(path, sizeof path, "pendulum.%s", other_name);
@@ -64,7 +64,7 @@ static void check_laboratory(kz_reading *reading, const kz_pendulum_keys *w) {
               kz_shortest(w->inertia).text, kz_shortest(kz_point_inertia(w)).text);
 }
 
-/* Samples and the word for them come together. */
+/* The list of samples and the wave form "samples" need each other. */
 static void check_samples(kz_reading *reading, const kz_pendulum_keys *w) {
   enum { FEWEST = 4 };
   const kz_node *list = kz_tree_find(reading->root, "pendulum.samples");
@@ -79,7 +79,7 @@ static void check_samples(kz_reading *reading, const kz_pendulum_keys *w) {
 
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
   kz_pendulum_keys *written = &scene->parameters.written;
-  if (!kz_tree_child(reading->root, "pendulum")) { /* stability alone does without */
+  if (!kz_tree_child(reading->root, "pendulum")) { /* a scene with the study stability alone needs no pendulum */
     scene->parameters.pendulum = (kz_pendulum){NAN, NAN, NAN};
     scene->parameters.quality_factor = scene->parameters.drive_frequency = scene->parameters.drive_amplitude = NAN;
     scene->parameters.pivot_frequency = NAN;

@@ -1,4 +1,4 @@
-/* The walk through the tree by the table of keys. */
+/* Reads the tree of a scene into kz_scene, key by key of the table. */
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ static void print_place(const kz_node *node, bool at_name, char *text, size_t by
     snprintf(text, bytes, "%s", node->source);
 }
 
-/* The deepest mapping that is there on the way to `path`. */
+/* The deepest mapping on the way to `path` that the scene has. */
 static const kz_node *nearest_mapping(const kz_node *root, const char *path) {
   const kz_node *node = root;
   char name[64];
@@ -143,7 +143,7 @@ static void read_child(kz_reading *reading, const kz_node *mapping, const kz_nod
     read_key(reading, key, child);
 }
 
-/* Ends at the first complaint: what follows in the document cannot come before it. */
+/* Stops at the first complaint, because later parts of the document cannot come before it. */
 static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent) {
   for (const kz_node *child = mapping->first; child && child->order < reading->first; child = child->next)
     read_child(reading, mapping, child, parent);

@@ -27,7 +27,7 @@ static void table_rules(kz_reading *reading, kz_scene *scene) {
   scene->basin.table_is_idle = given && isnan(scene->basin.accuracy) && scene->basin.method != KZ_METHOD_ICM;
 }
 
-/* Own orbits in as many digits as it takes. */
+/* undecided: decide needs method exact and a build with FLINT. */
 static void undecided_rules(kz_reading *reading, kz_scene *scene) {
   const kz_node *node = kz_tree_find(reading->root, "basin.undecided");
   if (!scene->has_basin || scene->basin.undecided == KZ_UNDECIDED_FLAG) return;
@@ -37,7 +37,7 @@ static void undecided_rules(kz_reading *reading, kz_scene *scene) {
     kz_complain(reading, node, "basin.undecided", "decide needs a build with FLINT (Arb); leave it out");
 }
 
-/* Sizes of shocks go up, as an axis does. */
+/* The sizes of shocks must increase. */
 static void shocks_rules(kz_reading *reading, kz_scene *scene) {
   const kz_reals *sizes = &scene->basin.shocks.sizes;
   const kz_node *node = kz_tree_find(reading->root, "basin.shocks.sizes");
@@ -88,7 +88,7 @@ static void orbit_refuse(kz_reading *reading, const char *name, const char *why)
   if (node) kz_complain(reading, node, name, "%s", why);
 }
 
-/* The keys that an attractor answers itself. */
+/* Refuses keys that contradict orbit.attractor. */
 static void orbit_attractor_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin && !scene->has_attractors)
     orbit_refuse(reading, "orbit.attractor", "needs a list of attractors; add a basin or attractors study to the scene");
@@ -146,7 +146,7 @@ static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
   if (follows && !reading->message[0]) check_stiffness(reading, &scene->parameters.pendulum, "pendulum");
 }
 
-/* A value that was written with a unit, as so many of the parameter's own. */
+/* Converts a value that was written with a unit to the unit of the parameter. */
 static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value) {
   const char *unit = kz_sweep_parameters[parameter].unit;
   const kz_node *node = kz_tree_find(reading->root, path);
@@ -235,7 +235,7 @@ static void symmetry_rules(kz_reading *reading, kz_scene *scene) {
       !isnan(written->tilt) || !isnan(written->ellipse) || !isnan(written->torque) || !isnan(written->torque_amplitude);
 }
 
-/* What the resolved pendulum does not allow an orbit. */
+/* Refuses orbits for which the motion is too fast or the model does not hold. */
 static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_orbit || reading->message[0]) return;
   const double steps = kz_orbit_steps(scene), k = scene->parameters.pendulum.k;
@@ -249,7 +249,7 @@ static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
                 "effective averages over a fast drive, abs(k) < 1, but k = %.9g; use another model or a faster drive", k);
 }
 
-/* As long as the weakest damping needs, where the scene does not say. */
+/* Sets basin.max_periods, if the scene does not, from the weakest damping. */
 static void settling_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin || reading->message[0] || scene->basin.max_periods != KZ_UNSET_INTEGER) return;
   scene->basin.max_periods = kz_settling_scene(scene);

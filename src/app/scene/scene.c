@@ -33,7 +33,7 @@ static bool is_result(const char *text, size_t length) {
   return length >= sizeof signature - 1 && memcmp(text, signature, sizeof signature - 1) == 0;
 }
 
-/* Why what was read cannot be a scene, as the end of a message; else NULL. */
+/* Why these bytes cannot be a scene, as the end of a message; NULL if they can. */
 static const char *not_a_scene(size_t length, FILE *file) {
   if (ferror(file)) return strerror(errno);
   return length > MAX_BYTES ? "has more than 1000000 bytes, too many for a scene" : NULL;

@@ -1,4 +1,4 @@
-/* Values of the table's types: cleared, read from a node, printed. */
+/* Values of the types of the table: cleared, read from a node, printed. */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>

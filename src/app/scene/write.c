@@ -1,4 +1,4 @@
-/* The table turned outwards: a scene as YAML, and the reference of all keys. */
+/* Output of the table of keys: a scene as YAML, and the reference of all keys. */
 #include <math.h>
 #include <string.h>
 

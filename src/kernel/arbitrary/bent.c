@@ -41,7 +41,7 @@ static long double sum_of(int64_t n, const row x) {
   return sum;
 }
 
-/* What a step's polynomials are made from. */
+/* The series from which the polynomials of a step are made. */
 typedef struct {
   int64_t n;   /* orders */
   int columns; /* 2, or 1: y is not used */
@@ -90,7 +90,7 @@ static void move_third(const parts *p, kz_jet *jet) {
   }
 }
 
-/* The orders that long doubles see. */
+/* The orders that contribute to long doubles. */
 static int64_t orders_of(const kz_series *s, int64_t tangent_orders, int columns) {
   enum { BITS = 72, MORE = 8 };
   int64_t whole[2], n = tangent_orders;
@@ -120,7 +120,7 @@ void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tan
   move_third(&p, jet);
 }
 
-/* The last order of a series that long doubles see. */
+/* The last order of a series that contributes to long doubles. */
 static int64_t last_order(const kz_number *series, int64_t last) {
   enum { BITS = 76 };
   while (last > 0 && kz_number_exponent(series + last) < -BITS) last--;

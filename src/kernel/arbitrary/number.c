@@ -1,4 +1,4 @@
-/* Numbers of any precision: what is not in the inner loops. */
+/* Numbers of any precision: functions outside the inner loops. */
 #include "number.h"
 
 #include <math.h>

@@ -92,8 +92,8 @@ OPERATION pair multiply(pair x, pair y) {
   return quick_sum(p.high, p.low);
 }
 
-/* x y + c, c [2] the same in every lane: a step of Horner's scheme. The parts may overlap by some bits. What depends on x.low comes last:
- * a chain of steps waits for the high parts alone. */
+/* x y + c, c [2] the same in every lane: a step of Horner's scheme. The parts may overlap by some bits. Terms with x.low come last, because
+ * a chain of steps waits only for the high parts. */
 OPERATION pair horner(pair x, pair y, const double *c) {
   const vector p = x.high * y.high, rest = fused(x.high, y.low, fused(x.high, y.high, -p));
   const pair s = sum(same(c[0]), p);

@@ -75,7 +75,7 @@ static bool is_lost(const kz_enclosure *set) {
   return !isfinite(set->reach[0] + set->reach[1]);
 }
 
-/* The step of the centres, and what takes whole turns out of them. */
+/* The step of the centres, and the function that removes their whole turns. */
 typedef struct {
   void (*step)(const kz_speed_class *, int32_t, kz_sets *, int, vector (*)[KZ_ORDER_JACOBIAN]);
   void (*wrap)(kz_sets *);

@@ -21,7 +21,7 @@ void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t
 void kz_quad_constants_make(const kz_pendulum *pendulum, int32_t n_steps, int32_t n, __float128 *damping, __float128 *step,
                             __float128 *torque);
 
-/* What a step is bounded by. */
+/* The bounds of a step. */
 typedef struct {
   const kz_pendulum *pendulum;
   int n_majorants, order;

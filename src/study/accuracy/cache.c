@@ -15,7 +15,7 @@ static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
   return sum;
 }
 
-/* What the labels depend on, one line. */
+/* The key of the cache: everything that the labels depend on, in one line. */
 static void print_key(const kz_reference_labels *reference, char *key, size_t bytes) {
   const kz_basin_plan *p = reference->plan;
   uint64_t attractors = checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
@@ -31,7 +31,7 @@ static void print_key(const kz_reference_labels *reference, char *key, size_t by
            (unsigned long long)attractors);
 }
 
-/* The whole file as text, freed by the caller; NULL where it cannot be had. */
+/* The whole file as text, which the caller frees; NULL if it cannot be read. */
 static char *read_all(const char *path) {
   FILE *in = fopen(path, "r");
   char *text = NULL;
@@ -81,7 +81,7 @@ static kz_status cannot_write(const char *path) {
   return kz_fail(KZ_FAILED, "%s: cannot be written", path);
 }
 
-/* A file of our own; one that a killed run left, or a link, is not written into. */
+/* Creates a file of this process alone. It does not write into a link or into a file that a killed run has left. */
 static FILE *create(const char *path) {
   unlink(path);
   const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

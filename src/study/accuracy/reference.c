@@ -107,7 +107,7 @@ typedef struct {
   int64_t known; /* labels that were in the cache */
 } reference_job;
 
-/* How far from each of n cells a label differs, along the axes, in double precision. */
+/* The distance from each of n cells, along the axes, at which the label differs, in double precision. */
 static void find_distances(const reference_job *h, int64_t n, const int64_t *cell, kz_reference_label *labels) {
   const kz_basin_plan *plan = h->reference->plan;
   double state[8 * TILE];
@@ -173,7 +173,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* What rank 0 found in the cache, on every rank. */
+/* Gives the labels that rank 0 has found in the cache to every rank. */
 static kz_status share_known(const kz_run *run, const char *path, kz_reference_labels *reference, int64_t *known) {
   *known = kz_rank(run->ranks) == 0 && path ? kz_reference_labels_recall(path, reference) : 0;
   KZ_TRY(kz_ranks_broadcast(run->ranks, known, sizeof *known));

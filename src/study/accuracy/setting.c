@@ -62,7 +62,7 @@ static void follow_cells(const measurement *g, int64_t n, int32_t *label) {
   }
 }
 
-/* The largest difference between the counts of one attractor among labels and among true ones. */
+/* The largest difference between the number of cells of one attractor among the labels and among the reference labels. */
 static int64_t largest_count_error(const kz_reference_labels *reference, const int32_t *label, int64_t *surplus,
                                    int64_t known) {
   int64_t largest = 0;
@@ -115,7 +115,7 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
   return KZ_OK;
 }
 
-/* With its own dynamics; at least n cells are labelled. */
+/* Measures the time with dynamics of its own on at least n cells. */
 static kz_status measure_cells(const kz_setting *setting, const kz_reference_labels *reference, int64_t n,
                                kz_measured *measured) {
   measurement g = {.setting = setting, .reference = reference};

@@ -68,7 +68,7 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
           100 * (double)m->count_error / (double)reference->samples, trade->seconds[i], 1e6 * m->cell);
 }
 
-/* What the settings of method exact leave undecided. */
+/* Prints how many cells the settings of method exact leave undecided. */
 static void tell_undecided(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   for (int64_t i = 0; i < trade->count; i++)
     if (trade->settings[i]->method == KZ_METHOD_EXACT)

@@ -77,7 +77,7 @@ static kz_status follow_stretch(const kz_run *run, following *f) {
   return status;
 }
 
-/* The same for any number of periods, in stretches: what is done is kept, and a stop request is heard. */
+/* The same for any number of periods, in stretches: finished stretches are kept, and a stop request ends the search between two of them. */
 static kz_status follow_pending(const kz_run *run, following *f, int64_t periods) {
   const int64_t share = periods / STRETCHES, stretch = share > STRETCH ? share : STRETCH;
   for (int64_t done = 0; done < periods && f->n > 0; done += f->periods) {
@@ -137,7 +137,7 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
   return status;
 }
 
-/* What no cycle has taken: chaotic attractors, found one by one from the first pending start. */
+/* Starts that end on no cycle: chaotic attractors are found one by one, each from the first pending start. */
 static kz_status find_chaos(const kz_run *run, following *f) {
   seeking s = {.dynamics = f->dynamics, .size = kz_dynamics_chaos_size()};
   kz_status status = KZ_OK;

@@ -1,4 +1,4 @@
-/* What a search for attractors takes: one from few starts is timed, then what one start more takes, and a node of the map table. */
+/* The time of a search for attractors: that of a search from a few starts, of each further start, and of each node of the map table. */
 #include <math.h>
 
 #include "labelling/map_table.h"
@@ -10,7 +10,7 @@ static int64_t smaller(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-/* Seconds that as many other starts take to settle where the attractors are known. */
+/* Seconds that as many further starts take to settle once the attractors are known. */
 static kz_status measure_settling(kz_dynamics *dynamics, const kz_search *search, int64_t n, double *seconds) {
   double state[2 * KZ_SEARCH_FEW];
   int32_t label[KZ_SEARCH_FEW];

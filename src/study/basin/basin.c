@@ -26,7 +26,7 @@ static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_wi
   kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
 
-/* The sample behind the share of doubtful labels. */
+/* The sample from which the share of doubtful labels is estimated. */
 typedef struct {
   int64_t n, *cell, *label; /* [n] */
   int32_t *followed;        /* [n, whole tiles], rank 0 */
@@ -41,7 +41,7 @@ static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dy
   return kz_doubt_follow(plan, run, dynamics, s->followed);
 }
 
-/* What is known besides the cells. Rank 0. */
+/* Writes everything but the cells. Rank 0. */
 static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, const sample *s, FILE *summary) {
   kz_dynamics *dynamics = chunks->labelling->dynamics;
   const bool table = scene->basin.method == KZ_METHOD_ICM;

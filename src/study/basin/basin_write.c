@@ -126,7 +126,7 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
             1 / (M_PI * scene->parameters.pendulum.beta));
 }
 
-/* What may be done about undecided cells. */
+/* Prints what a user can do about undecided cells. */
 static const char *advice(const kz_basin_plan *plan) {
   if (plan->undecided == KZ_UNDECIDED_DECIDE)
     return "the largest number of digits that was tried does not tell where they end.";

@@ -10,7 +10,7 @@ enum {
   STRIP = 1 << (KZ_BOX_LEVELS - 1),
   SHOWN = 4 /* the level of boxes that the summary shows: 16 cells */
 };
-/* A basin holds all of the boundary where it is in so many of the boxes. */
+/* A basin has all of the boundary if it is in at least this share of the boxes. */
 static const double ALL = 0.99;
 
 static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE *summary) {

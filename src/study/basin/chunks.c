@@ -77,7 +77,7 @@ static int16_t id_of(const kz_chunks *c, int16_t label, bool mirrored) {
   return (int16_t)(mirrored && id >= 0 ? c->catalogue->entries[id].mirror : id);
 }
 
-/* Two ids change places and become those of the mirror images. */
+/* Exchanges two ids and replaces both by the ids of the mirror images. */
 static void swap_mirrored(const kz_chunks *c, int16_t *a, int16_t *b) {
   const int16_t former = *a;
   *a = (int16_t)(*b < 0 ? *b : c->catalogue->entries[*b].mirror);
@@ -106,7 +106,7 @@ static void fill(kz_chunks *c, int64_t tile) {
   }
 }
 
-/* What is proved replaces the labels of the own cells of a tile; those that it refutes count with their mirror images. */
+/* Proved labels replace the labels of the own cells of a tile. Refuted cells are counted with their mirror images. */
 static void take_proofs(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t first = kz_tile_first(tiles, tile), n = kz_tile_own(tiles, tile);
@@ -121,7 +121,7 @@ static void take_proofs(kz_chunks *c, int64_t tile) {
   }
 }
 
-/* The tile becomes its mirror image. */
+/* Replaces the tile by its mirror image. */
 static void mirror(kz_chunks *c, int64_t n) {
   for (int64_t i = 0, j = n - 1; i <= j; i++, j--) {
     const uint32_t periods = c->periods[i];

@@ -7,7 +7,7 @@
 
 enum {
   MOST_DECIDED = 100000
-}; /* cells of a window whose pending ones are decided, each by its own orbit, though nobody asked */
+}; /* windows of at most so many cells: own orbits decide their pending cells even if basin.undecided is flag */
 
 /* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_pack has them. */
 typedef struct {

@@ -3,7 +3,7 @@
 
 typedef struct {
   const char *name; /* of its stages; the first one's are those of all cells */
-  int64_t tile;     /* cells that it takes at a time */
+  int64_t tile;     /* cells that are followed together */
   uint8_t evidence; /* of what it labels */
 } level;
 

@@ -8,7 +8,7 @@
 
 enum {
   CELLS = 1 << 18, /* that are looked at, about */
-  ENOUGH = 30      /* ends that make a mean worth telling */
+  ENOUGH = 30      /* fewer ends give no mean */
 };
 
 /* In the place of the periods of a cell that has not settled. */
@@ -54,7 +54,7 @@ void kz_transients_add(kz_transients *transients, int64_t n, const void *picked)
   }
 }
 
-/* In words, where motions are still open. */
+/* The note for cases where motions have not settled. */
 static void print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
   if (life->open == 0) return;
   if (life->ended >= ENOUGH)

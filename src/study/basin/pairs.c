@@ -132,8 +132,8 @@ static kz_status follow_plainly(const pairing *p, int64_t n, pair_tile *t) {
   return KZ_OK;
 }
 
-/* In quad precision without regard to the error: that is an error of the start, far below the smallest distance. Left out, pairs that no level
- * decides would be missed among the uncertain. */
+/* Labels in quad precision, whose error is ignored: it acts like a change of the start that is far below the smallest distance. Without
+ * these labels, pairs that no level decides would be missed among the uncertain. */
 static kz_status follow_in_quads(const pairing *p, int64_t i, pair_tile *t) {
   kz_start s;
   KZ_TRY(start_at(t, i, KZ_LEVEL_QUAD, &s));

@@ -56,7 +56,7 @@ typedef struct {
   int64_t n, *cell, *place;
 } asked;
 
-/* One level: its labels go to found, and those cells stay that it leaves doubtful. */
+/* Labels cells at one level: the labels go to `found`, and the cells that the level leaves doubtful stay. */
 static kz_status ask_level(kz_window_labels *l, int round, asked *a, kz_cell_label *found) {
   const int64_t size = tile_size(l);
   char name[32];
@@ -84,7 +84,7 @@ static kz_status ask_level(kz_window_labels *l, int round, asked *a, kz_cell_lab
   return status;
 }
 
-/* From a level on, until each of n cells is decided, or none decides: found [n]. */
+/* Labels n cells, from a level on, until each is decided or no level is left: found [n]. */
 static kz_status escalate(kz_window_labels *l, int level, int round, int64_t n, int64_t *cell, kz_cell_label *found) {
   const kz_labeller labeller = kz_cells_labeller(l);
   asked a = {n, cell, kz_malloc((size_t)n * sizeof *a.place + 1)};

@@ -1,5 +1,5 @@
-/* How much of a window ends alike whenever it is released: every cell is labelled at phases of the drive that are spread evenly over a
- * period. Attractors and trapping regions are the same at all of them. A piece of work is some cells at one phase. */
+/* The share of a window that ends on the same attractor whatever the phase of release: every cell is labelled at phases of the drive that
+ * are spread evenly over a period. Attractors and trapping regions are the same at all of them. A tile is some cells at one phase. */
 #include "phases.h"
 
 #include <math.h>

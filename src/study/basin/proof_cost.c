@@ -1,4 +1,4 @@
-/* What a proof costs: the region is made, some cells are followed. */
+/* The cost of a proof: the region is made, and some cells are followed. */
 #include <stdlib.h>
 
 #include "numerics/cells.h"

@@ -24,7 +24,7 @@ static kz_status states_of(const kz_window_labels *l, int64_t n, const int64_t *
   return KZ_OK;
 }
 
-/* What the starts over the window end on, or `again` unsettled cells, evenly chosen, is found and counted. */
+/* Finds and counts the attractors that the starts of the window, or later the `again` evenly chosen unsettled cells, end on. */
 static kz_status rounds_discover(kz_window_labels *l, bool again) {
   const kz_basin_plan *plan = l->plan;
   const int64_t all = again ? l->before[l->tiles.own] : 0, n = again && all < plan->starts ? all : plan->starts;
@@ -62,7 +62,7 @@ static kz_status label_tiles(kz_window_labels *l) {
   return kz_stage_run(l->run, &stage, NULL);
 }
 
-/* Before cells are labelled by a table alone. What basin.accuracy chose is chosen by its labels. */
+/* The check of a map table that alone labels the cells. Nothing is checked if basin.accuracy chose the setting, which compares labels. */
 static kz_status check_table(const kz_window_labels *l) {
   if (l->plan->method != KZ_METHOD_ICM || !isnan(l->plan->accuracy)) return KZ_OK;
   return kz_steps_check_table(l->plan, kz_dynamics_table_error(l->dynamics, kz_stencil(l->plan->interpolation)));

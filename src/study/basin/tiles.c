@@ -37,7 +37,7 @@ kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target) {
   const kz_basin_plan *plan = &scene->basin;
   kz_tiles tiles = {.rows = plan->velocity.count, .columns = plan->theta.count, .unique_cells = kz_unique_cells(plan)};
   tiles.cells = tiles.rows * tiles.columns;
-  const int64_t enough = kz_tile_cells(scene, MOST_CELLS); /* where nothing settles; nearly all do, long before */
+  const int64_t enough = kz_tile_cells(scene, MOST_CELLS); /* as if no motion settled; nearly all settle long before */
   const bool mirrored = tiles.unique_cells < tiles.cells;
   choose(&tiles, lower(target, enough), lower(64 * enough, MOST_CELLS), mirrored);
   tiles.across = (tiles.columns + tiles.chunk[1] - 1) / tiles.chunk[1];

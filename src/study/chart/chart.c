@@ -28,7 +28,7 @@ static int64_t tiles_of(const kz_chart_plan *plan) {
   return (points_of(plan) + KZ_CHART_POINTS - 1) / KZ_CHART_POINTS;
 }
 
-/* The pendulum of a point; false where it has none, or no damping. */
+/* The pendulum of a point; false if there is none, or if it has no damping. */
 static bool pendulum_of(const kz_scene *scene, int64_t point, kz_pendulum *pendulum) {
   const kz_chart_plan *plan = &scene->chart;
   const int64_t columns = plan->x.values.count;

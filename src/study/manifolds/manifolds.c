@@ -120,7 +120,7 @@ static kz_status make_tasks(const kz_manifolds_plan *plan, kz_store *store, work
   return KZ_OK;
 }
 
-/* The list of rank 0 on every rank. Collective. */
+/* Sends the list of rank 0 to every rank. Collective. */
 static kz_status share_tasks(const kz_run *run, work_list *list) {
   KZ_TRY(kz_ranks_broadcast(run->ranks, &list->count, sizeof list->count));
   const size_t bytes = (size_t)list->count * sizeof *list->tasks;

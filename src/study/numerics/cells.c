@@ -108,7 +108,7 @@ double kz_cell_size(const kz_basin_plan *plan) {
   return fmin(width(&plan->theta), width(&plan->velocity));
 }
 
-/* Half of what is added to a window whose cells doubles cannot tell apart. */
+/* Half of the width that is added to a window whose cells doubles cannot distinguish. */
 static double margin(const kz_axis *axis) {
   static const double around = 5e-7;
   return kz_axis_is_deep(axis) ? around : 0;

@@ -14,7 +14,7 @@ static const double MARGIN = 1.05;
  * would be doubtful. Measured: 1 makes whole runs a sixth longer, and 30 is not reached by most pendulums. */
 static const double EXACT_PART = 0.1;
 
-/* What one numerics has to serve. */
+/* The motions for which one numerics must be accurate. */
 typedef struct {
   kz_pendulum pendulum[SWEEP_VALUES];
   int count;
@@ -74,7 +74,7 @@ static int32_t larger(int32_t a, int32_t b) {
   return a > b ? a : b;
 }
 
-/* One numerics for all pendulums: the most steps and terms that one of them needs. */
+/* One numerics for all pendulums: it has the most steps and terms that any of them needs. */
 static bool serve(const demand *d, kz_numerics *numerics) {
   const kz_numerics asked = *numerics;
   double error;

@@ -5,7 +5,7 @@
 #include "cells.h"
 #include "processed.h"
 
-/* Samples a period that turning points and spectra need, whatever the scene wants to see. */
+/* Samples a period that turning points and spectra need, however few are written. */
 enum { LEAST_SAMPLES = 96 };
 
 kz_motions kz_motions_of_basin(const kz_scene *scene) {

@@ -11,7 +11,7 @@
 #include "labelling/labeller.h"
 #include "window/images.h"
 
-/* Those within fill the lanes of an orbit in quad precision. */
+/* The points between the ends fill the lanes of an orbit in quad precision. */
 enum { POINTS = 9, MOST_WIDENINGS = 6, WIDENING = 7, MOST_PARTS = 256 };
 /* Shares of a piece's width: how near the boundary is looked for by its labels, and the next piece's width in those of the bracket that is
  * found. */

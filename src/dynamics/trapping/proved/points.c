@@ -6,7 +6,7 @@
 
 enum { POOL = 2048 };              /* starts under way: many, so that those of a class of speeds fill the lanes */
 static const double WIDEST = 0.03; /* of a set's sides: a wider one does not reach an attractor as a whole */
-/* Of a set's longer side: what the next coarser precision is too coarse for. */
+/* A precision is too coarse for sets whose longer side is shorter than this, rad. */
 static const double SMALLEST[] = {[KZ_ENCLOSE_DOUBLES] = 1e-7, [KZ_ENCLOSE_PAIRS] = 1e-26};
 
 typedef struct {
