@@ -40,8 +40,17 @@ OPERATION vector fused(vector a, vector b, vector c) {
 #endif
 }
 
+/* x in every lane. (x + {0} would be an addition.) */
 OPERATION vector same(double x) {
-  return x + (vector){0};
+#if defined __AVX512F__
+  return (vector)_mm512_set1_pd(x);
+#elif defined __FMA__
+  return (vector)_mm256_set1_pd(x);
+#else
+  vector all = {0};
+  for (int i = 0; i < LANES; i++) all[i] = x;
+  return all;
+#endif
 }
 
 /* a where the mask is set, else b. */
