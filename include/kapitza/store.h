@@ -75,8 +75,12 @@ size_t kz_pack_bytes(size_t n, size_t item);
 /* Packs n numbers of `item` bytes each, neighbours of which are often equal, into `packed` [kz_pack_bytes]. Returns the number of bytes,
  * which depends on the numbers only; 0 if zlib has no memory. */
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed);
-/* Unpacks `packed` [bytes] to numbers [n]; false if it does not contain n such numbers. */
-bool kz_unpack(const void *packed, size_t bytes, size_t n, size_t item, void *numbers);
+
+/* For memory alone, in less time: n items of at most 32 bytes each, many bytes of which are 0, into `packed` [kz_pack_bytes]. Returns as
+ * kz_pack_into. */
+size_t kz_squeeze(const void *items, size_t n, size_t item, void *packed);
+/* The reverse, to items [n]; false if `packed` [bytes] does not contain n such items. */
+bool kz_unsqueeze(const void *packed, size_t bytes, size_t n, size_t item, void *items);
 
 /* The root attribute `fingerprint` of PATH, which the caller frees; NULL if PATH is not a complete file of this program. */
 char *kz_store_fingerprint(const char *path);

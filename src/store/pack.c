@@ -2,7 +2,6 @@
 
 #include <limits.h>
 #include <stdlib.h>
-#include <string.h>
 #include <zlib.h>
 
 /* Byte b of item i goes to place b n + i. */
@@ -13,23 +12,15 @@ static inline __attribute__((always_inline)) void move_bytes(const unsigned char
 }
 
 /* Sizes that are known beforehand are moved in vectors. */
-static void shuffle(const unsigned char *items, size_t item, size_t n, unsigned char *out) {
-  switch (item) {
-    case 1:
-      memcpy(out, items, n);
-      break;
-    case 2:
-      move_bytes(items, 2, n, out);
-      break;
-    case 4:
-      move_bytes(items, 4, n, out);
-      break;
-    case 16:
-      move_bytes(items, 16, n, out);
-      break; /* labelled cells */
-    default:
-      move_bytes(items, item, n, out);
-  }
+void kz_shuffle(const void *items, size_t item, size_t n, unsigned char *out) {
+  if (item == 2)
+    move_bytes(items, 2, n, out);
+  else if (item == 4)
+    move_bytes(items, 4, n, out);
+  else if (item == 16) /* labelled cells */
+    move_bytes(items, 16, n, out);
+  else
+    move_bytes(items, item, n, out);
 }
 
 /* Where bytes come in runs, looking for nothing else takes half the time and packs better. */
@@ -55,7 +46,7 @@ static kz_status deflate_all(unsigned char *in, size_t n, int strategy, void **p
 kz_status kz_pack(const void *items, size_t item, size_t n, bool in_runs, void **packed, size_t *bytes) {
   unsigned char *shuffled = kz_malloc(item * n + 1);
   *packed = NULL;
-  shuffle(items, item, n, shuffled);
+  kz_shuffle(items, item, n, shuffled);
   const kz_status status = deflate_all(shuffled, item * n, in_runs ? Z_RLE : Z_DEFAULT_STRATEGY, packed, bytes);
   free(shuffled);
   return status;

@@ -13,4 +13,7 @@ enum { KZ_PACK_LEVEL = 4 }; /* of deflate; what the file says of it */
  * often equal, as labels are. *packed is freed by the caller. */
 kz_status kz_pack(const void *items, size_t item, size_t n, bool in_runs, void **packed, size_t *bytes);
 
+/* Byte b of item i goes to out [item * n] at b n + i. */
+void kz_shuffle(const void *items, size_t item, size_t n, unsigned char *out);
+
 #endif

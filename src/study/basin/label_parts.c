@@ -9,7 +9,7 @@ enum {
   MOST_DECIDED = 100000
 }; /* windows of at most so many cells: own orbits decide their pending cells even if basin.undecided is flag */
 
-/* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_pack has them. */
+/* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_squeeze has them. */
 typedef struct {
   uint64_t bytes; /* all */
   int64_t n_reached, n_pending, n_doubtful;
@@ -100,7 +100,7 @@ kz_status kz_tile_labels_pack(const kz_window_labels *l, int64_t tile, void *rec
     h->n_pending += l->cell[i].label == 0;
     h->n_doubtful += l->cell[i].label == KZ_DOUBTFUL;
   }
-  const size_t bytes = kz_pack_into(l->cell, (size_t)n, sizeof *l->cell, number + h->n_reached);
+  const size_t bytes = kz_squeeze(l->cell, (size_t)n, sizeof *l->cell, number + h->n_reached);
   h->bytes = sizeof *h + (size_t)h->n_reached * sizeof *number + bytes;
   return bytes > 0 ? KZ_OK : kz_fail(KZ_FAILED, "no memory to pack a tile of %lld cells", (long long)n);
 }
@@ -119,7 +119,7 @@ kz_status kz_tile_labels_unpack(kz_window_labels *l, const kz_local_record *kept
   const head *h = kept->data;
   const char *packed = (const char *)(h + 1) + (size_t)h->n_reached * sizeof(int32_t);
   const size_t bytes = kept->bytes - (size_t)(packed - (const char *)kept->data);
-  if (kz_unpack(packed, bytes, (size_t)kz_tile_own(&l->tiles, kept->tile), sizeof *l->cell, l->cell)) return KZ_OK;
+  if (kz_unsqueeze(packed, bytes, (size_t)kz_tile_own(&l->tiles, kept->tile), sizeof *l->cell, l->cell)) return KZ_OK;
   return kz_fail(KZ_FAILED, "a packed tile of %lld cells is damaged, or memory ran out",
                  (long long)kz_tile_own(&l->tiles, kept->tile));
 }

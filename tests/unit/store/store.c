@@ -259,6 +259,25 @@ static void what_the_table_lacks_is_an_error(void **state) {
 }
 
 /* A limit on the size of files stands for a full disk: both end the write early. */
+/* Items of which some bytes are 0 in all, or all are; what is cut short or belongs to another number of items is refused. */
+static void squeezed_items_come_back(void **state) {
+  (void)state;
+  enum { N = 777, MOST = 24 };
+  static const size_t items[] = {1, 2, 7, 16, MOST};
+  static unsigned char item[N * MOST], back[N * MOST], packed[2 * N * MOST + 128];
+  for (int zeros = 1; zeros <= 9; zeros += 4)
+    for (size_t i = 0; i < sizeof items / sizeof *items; i++) {
+      for (size_t b = 0; b < N * items[i]; b++)
+        item[b] = (unsigned char)(b % items[i] % (size_t)zeros == 0 && zeros < 9 ? b / items[i] / 50 : 0);
+      const size_t bytes = kz_squeeze(item, N, items[i], packed);
+      assert_in_range(bytes, 1, kz_pack_bytes(N, items[i]));
+      assert_true(kz_unsqueeze(packed, bytes, N, items[i], back));
+      assert_memory_equal(item, back, N * items[i]);
+      assert_false(kz_unsqueeze(packed, bytes - 1, N, items[i], back));
+      if (zeros < 9) assert_false(kz_unsqueeze(packed, bytes, N - 1, items[i], back));
+    }
+}
+
 static void a_full_disk_is_one_clear_error(void **state) {
   (void)state;
   static double theta[N_THETA], velocity[N_VELOCITY];
@@ -291,6 +310,7 @@ int main(void) {
       cmocka_unit_test_teardown(a_discarded_file_leaves_nothing, clear),
       cmocka_unit_test_teardown(a_wrong_path_is_refused, clear),
       cmocka_unit_test_teardown(what_the_table_lacks_is_an_error, clear),
+      cmocka_unit_test_teardown(squeezed_items_come_back, clear),
       cmocka_unit_test_teardown(a_full_disk_is_one_clear_error, clear),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
