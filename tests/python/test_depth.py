@@ -18,6 +18,7 @@ import own_orbit
 K01 = {"k": 0.1, "damping": 0.1, "m": 0.4}
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 BETWEEN = {"k = 0.1": (K01, "-2.3672", "-2.3671", "17"), "Fig. 12": (FIG12, "-0.27", "-0.26", "1.42")}
+WINDOWS = [*((name, depth, 50) for name in BETWEEN for depth in (7, 20, 25, 50, 100)), ("k = 0.1", 300, 10)]
 COUNT = 101
 ALONE = 2  # cells of a window whose orbits are followed without the common one too
 
@@ -67,10 +68,9 @@ def referee(path, centre, depth, cells):
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
 @pytest.mark.timeout(7200)
-@pytest.mark.parametrize("depth", [7, 20, 25, 50, 100])
-@pytest.mark.parametrize("name", BETWEEN)
-def test_own_orbits_contradict_no_label(kapitza, tmp_path, boundary, name, depth):
+@pytest.mark.parametrize("name, depth, cells", WINDOWS)
+def test_own_orbits_contradict_no_label(kapitza, tmp_path, boundary, name, depth, cells):
     centre = boundary(name, depth + 4)
-    decided, wrong, seen = referee(run_window(kapitza, tmp_path, name, centre, depth), centre, depth, 50)
-    print(f"{name}, 1e-{depth}: {decided} of 50 decided, wrong {wrong}, attractors {seen}")
-    assert decided >= 45 and not wrong and seen > 1
+    decided, wrong, seen = referee(run_window(kapitza, tmp_path, name, centre, depth), centre, depth, cells)
+    print(f"{name}, 1e-{depth}: {decided} of {cells} decided, wrong {wrong}, attractors {seen}")
+    assert decided >= 0.9 * cells and not wrong and seen > 1
