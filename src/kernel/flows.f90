@@ -15,7 +15,7 @@ module kz_kernel_flows
   private
   public :: make_flow, make_moving_flow, make_stretch_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
 
-  !> What published values are computed with, whatever the scene says: split6, 96 steps.
+  !> Numerics of all published values, whatever the scene says: split6, 96 steps.
   type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96)
 
 contains

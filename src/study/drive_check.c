@@ -1,4 +1,4 @@
-/* What a study cannot ask of a pendulum whose drive is more than k - m cos t: refused by name. */
+/* Refuses, by name, studies and keys that need the drive k - m cos t if the scene has another drive. */
 #include <math.h>
 
 #include "kapitza/study.h"
@@ -13,7 +13,7 @@ static bool is_centred(const kz_scene *scene) {
   return scene->has_basin && (scene->basin.theta.centre.text[0] || scene->basin.velocity.centre.text[0]);
 }
 
-/* What a release that takes time, by a phase or a ramp, does not go with; NULL = nothing. */
+/* The complaint about what contradicts a release at another phase or during a ramp; NULL = none. */
 static const char *needs_no_release(const kz_scene *scene) {
   const kz_basin_plan *plan = &scene->basin;
   if (!scene->has_basin) return "needs the study basin; add it to the scene";
@@ -29,7 +29,7 @@ static const char *needs_no_release(const kz_scene *scene) {
   return NULL;
 }
 
-/* What is wrong with a ramp; NULL = nothing. */
+/* The complaint about a ramp; NULL = none. */
 static const char *wrong_ramp(const kz_parameters *parameters) {
   const kz_pendulum_keys *written = &parameters->written;
   if (written->ramp_key == KZ_RAMP_DAMPING && written->ramp_from < 0) return "from: is below 0; a damping must be at least 0";
@@ -55,7 +55,7 @@ static const char *needs_cells(const kz_scene *scene) {
   return of_cells ? NULL : "a sweep over a ramp needs the study basin and measures basin_fractions and phases only";
 }
 
-/* The keys that make the drive what it is, as a message begins. */
+/* The keys that define the drive, as the beginning of a message. */
 static const char *keys_of(const kz_scene *scene) {
   const kz_pendulum_keys *written = &scene->parameters.written;
   if (!isnan(written->tilt)) return "pendulum.tilt";
@@ -94,13 +94,13 @@ static const char *needs_mirror(const kz_scene *scene) {
   return NULL;
 }
 
-/* What the measure phases of a sweep does not go with; NULL = nothing. */
+/* The complaint about what contradicts the measure phases of a sweep; NULL = none. */
 static const char *needs_all_phases(const kz_scene *scene) {
   const bool wanted = scene->has_sweep && kz_sweep_measures(&scene->sweep, KZ_SWEEP_PHASES);
   return wanted && scene->has_basin ? needs_no_release(scene) : NULL;
 }
 
-/* What basin.phases does not go with; NULL = nothing. */
+/* The complaint about what contradicts basin.phases; NULL = none. */
 static const char *needs_one_phase(const kz_scene *scene) {
   if (!scene->has_basin || scene->basin.phases <= 0) return NULL;
   if (scene->basin.method != KZ_METHOD_EXACT) return "needs basin.method exact; choose that method";

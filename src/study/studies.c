@@ -1,4 +1,4 @@
-/* What a scene can ask for, in the order in which it is modelled: one row per study. */
+/* The studies, one row each, in the order in which they run. */
 #include "accuracy/tradeoff.h"
 #include "attractors/attractors.h"
 #include "basin/basin.h"

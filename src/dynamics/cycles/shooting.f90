@@ -8,7 +8,7 @@ module kz_cycles_shooting
   private
   public :: shoot, smallest_period, closed_orbit_t
 
-  !> What is known of an orbit beside its points.
+  !> Results of the iteration beside the points of the orbit.
   type :: closed_orbit_t
     real(dp) :: step = huge(1.0_dp) !< the longest step of a point in the last iteration, rad: how well it is closed
     real(dp) :: blur = huge(1.0_dp) !< how far the rounding of the map may move a point, rad

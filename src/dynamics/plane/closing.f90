@@ -14,7 +14,7 @@ module kz_plane_closing
   real(dp), parameter :: SHORT = 1e-9_dp, FAR = 1e-2_dp, BACK = 1e-7_dp
   integer, parameter :: DOWN = 0, INVERTED = 1, ROTATING = 2, ELSEWHERE = 3
 
-  !> What became of a motion.
+  !> The result of following a motion.
   type :: closed_t
     logical :: found = .false.      !< it comes back, and the method found where
     logical :: attracts = .false.

@@ -19,7 +19,7 @@ module kz_saddles_lines
   !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
   real(dp), parameter :: CLOSE = 1e-7_dp, ONE = 1e-5_dp, EDGE = 1e-9_dp
 
-  !> What a search takes.
+  !> The work that a search has done.
   type :: work_t
     integer :: starts = 0 !< whose orbits were followed
     integer :: seeds = 0  !< orbits that were closed, or not

@@ -30,7 +30,7 @@ module kz_extended_pairs
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
   real(c_double), parameter :: ROUNDING = 4e-31_c_double
-  !> What the Taylor series may miss in a period of states that are faster than was expected, of hypot(pi, v).
+  !> Largest error of the Taylor series in a period of states that are faster than was expected, of hypot(pi, v).
   real(c_double), parameter :: UNMEASURED = 1e-28_c_double
 
   type :: pairs_t
@@ -42,7 +42,7 @@ module kz_extended_pairs
     type(drive_t) :: drive
   end type pairs_t
 
-  !> What does not depend on the tolerance, once it is made.
+  !> Parts of the tables that do not depend on the tolerance. They are made once.
   type :: pair_series_t
     type(series_t), allocatable :: series
     type(probes_t), allocatable :: slow !< of the first table

@@ -82,7 +82,7 @@ static kz_status write_group(const kz_edge *edge, const double *orbit, kz_store 
   return KZ_OK;
 }
 
-/* What lies between which basins. */
+/* Writes the group edge, and prints the edge state and the attractors on its two sides. */
 static kz_status publish(const edge_job *e, const kz_edge *edge, const double *orbit, kz_store *store, FILE *summary) {
   char first[KZ_NAME_LENGTH], second[KZ_NAME_LENGTH], name[KZ_NAME_LENGTH] = "no cycle", full[KZ_NAME_LENGTH + 10] = "";
   int64_t saddle;

@@ -49,7 +49,7 @@ static void bisect(pair *p) {
   }
 }
 
-/* One period of both sides; ln of how much they have parted. */
+/* Advances both sides by one period; returns ln of the growth of their distance. */
 static double advance(pair *p) {
   const double before = distance(p->side[0], p->side[1]);
   double theta[2] = {p->side[0][0], p->side[1][0]}, velocity[2] = {p->side[0][1], p->side[1][1]};

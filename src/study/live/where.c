@@ -1,4 +1,4 @@
-/* A click: where starts end, by what the engine knows. */
+/* The ends of starts by what the engine knows, for a click in the explorer. */
 #include "where/question.h"
 
 #include <stdlib.h>

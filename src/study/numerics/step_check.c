@@ -39,7 +39,7 @@ bool kz_motions_find_steps(const kz_motions *m, kz_numerics *numerics) {
   return kz_steps_enough(&m->pendulum, m->fastest, m->refuse_above, most, numerics);
 }
 
-/* What would help, as the end of a message. */
+/* The advice at the end of a message. */
 static void advice(const kz_motions *m, size_t bytes, char *text) {
   kz_numerics numerics;
   if (kz_motions_find_steps(m, &numerics))

@@ -4,9 +4,9 @@
 
 #include "kapitza/dynamics.h"
 
-static const double ROUNDING = 1e-13; /* rad: hardly more than rounding is the error of a period below it */
+static const double ROUNDING = 1e-13; /* rad: an error of a period below this is hardly more than rounding */
 
-/* What is searched for: numerics whose steps are tried. */
+/* The numerics whose steps are searched. */
 typedef struct {
   const kz_pendulum *pendulum;
   double fastest;

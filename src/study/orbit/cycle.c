@@ -1,4 +1,4 @@
-/* Closed orbits: which period, and where exactly. */
+/* Closed orbits: their period and their exact place. */
 #include <math.h>
 
 #include "kapitza/dynamics.h"

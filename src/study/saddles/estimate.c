@@ -1,4 +1,4 @@
-/* What a search of cycles takes: a part of its lines is tried with short periods, which tells how the effort grows with the period. */
+/* The time of a search for cycles: a part of its lines is tried with short periods, and this shows how the effort grows with the period. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -9,7 +9,7 @@
 
 enum {
   ROUNDS = 8, /* at most */
-  QUIET = 2   /* rounds without a new cycle: where the sums are not 0, more lines do not help */
+  QUIET = 2   /* rounds without a new cycle, after which the search ends even if the sums are not 0 */
 };
 bool kz_saddles_wanted(const kz_scene *scene) {
   return scene->has_saddles;

@@ -8,13 +8,13 @@
 bool kz_saddles_wanted(const kz_scene *scene);
 kz_cost kz_saddles_cost(const kz_scene *scene);
 kz_status kz_saddles_measure(const kz_scene *scene, double *seconds);
-/* How many cycles a search would find, roughly. */
+/* A rough estimate of the number of cycles that a search would find. */
 double kz_saddles_expected(const kz_scene *scene);
 kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
-/* The unstable ones among the cycles and the index sums: group /saddles. */
+/* Writes the unstable cycles and the index sums to group /saddles. */
 kz_status kz_saddles_write(const kz_cycle_list *cycles, const kz_index_sums *sums, kz_store *store);
-/* What was found, for people. */
+/* Prints the cycles that were found, and the index sums. */
 void kz_saddles_print(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums, FILE *summary);
 
 #endif

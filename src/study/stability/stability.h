@@ -28,7 +28,7 @@ typedef struct {
   double *curves; /* [task][2][k]: the curve; for a subharmonic order the exact curve and the formula */
 } kz_chart;
 
-/* The groups' variables and attributes, and a few words for people. On rank 0. */
+/* Writes the variables and attributes of the groups, and prints the summary. Rank 0. */
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store);
 void kz_chart_summarise(const kz_chart *chart, FILE *summary);
 

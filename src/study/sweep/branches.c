@@ -6,7 +6,7 @@
 
 #include "sweep.h"
 
-/* A walk from a node to its neighbour value, and how it went. */
+/* A walk from a node to the neighbour value, and its result. */
 typedef struct {
   int64_t node;
   int32_t forward;
@@ -96,7 +96,7 @@ static void join(const walking *w, const task *t, const outcome *out, int64_t *a
     there = *added = b->n_nodes - 1;
   }
   int64_t *back = t->forward ? &b->nodes[there].previous : &b->nodes[there].next;
-  if (*back >= 0) return; /* another cycle came first: this one ends without a place */
+  if (*back >= 0) return; /* another cycle has arrived there before */
   *back = t->node;
   *(t->forward ? &b->nodes[t->node].next : &b->nodes[t->node].previous) = there;
 }
@@ -158,12 +158,12 @@ static kz_status walk_all(walking *w, const kz_run *run, bool forward) {
   return status;
 }
 
-/* How unlike two chaotic attractors are: their mean angles and velocities (point.theta, point.velocity). */
+/* The distance between two chaotic attractors, by their mean angles and velocities (point.theta, point.velocity). */
 static double unlike(const kz_branch_point *a, const kz_branch_point *b) {
   return fabs(remainder(a->theta - b->theta, 2 * M_PI)) + fabs(a->velocity - b->velocity);
 }
 
-/* Chaotic attractors have no cycle to carry: each joins the one of the next value that is most like it. */
+/* Chaotic attractors have no cycle that continuation could carry: each joins the nearest one of the next value. */
 static void join_chaotic(kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     int64_t best = -1;

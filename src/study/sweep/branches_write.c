@@ -86,7 +86,7 @@ static kz_status write_names(const writing *w) {
   return status;
 }
 
-/* What stands in the cell (value, branch) of a matrix. */
+/* The entry (value, branch) of a matrix. */
 typedef double (*cell_fn)(const kz_sweep_node *node, int64_t samples);
 
 static double amplitude_of(const kz_sweep_node *node, int64_t samples) {

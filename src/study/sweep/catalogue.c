@@ -1,5 +1,5 @@
-/* What attracts at each value of a sweep, and how much of the starts or of the cells each attractor takes. A value may
- * take long: all ranks work on it collective, and what they have done is kept. */
+/* The attractors at each value of a sweep, and the share of the starts or of the cells that each takes. A value may take long: all ranks
+ * work on it together, and finished work is kept. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -145,7 +145,7 @@ static kz_status return_to_birth(flutter_job *f) {
   return status;
 }
 
-/* From a critical value to all the flutter that it begins; *reaches = that comes to the range. */
+/* Follows all the flutter that begins at a critical value; *reaches = whether it comes to the range. */
 static kz_status follow(flutter_job *f, bool *reaches) {
   for (f->side = 1; f->side >= -1; f->side -= 2) {
     KZ_TRY(run_stage(f, "flutter's beginning", begin, 1, sizeof f->begun, &f->begun));

@@ -1,4 +1,4 @@
-/* What the measures of a sweep share: which are asked for, a stage of one record a value. */
+/* Functions that the measures of a sweep share: which are asked for, and a stage with one record a value. */
 #include <stdlib.h>
 
 #include "sweep.h"

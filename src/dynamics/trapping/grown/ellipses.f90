@@ -14,7 +14,7 @@ module kz_grown_ellipses
 
   !> Radii of rings, rad; where none up to LATEST is carried inside, none is looked for beyond.
   real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 2.0_dp, GROWTH = 2.0_dp
-  !> What rounding does to a ring, in units of the map's: it must shrink by more to be seen to shrink.
+  !> Effect of rounding on a ring, in units of the rounding of the map: a ring counts as shrinking only if it shrinks by more.
   real(dp), parameter :: ROUNDING = 18
   !> Rings tried between the centre and the final boundary.
   integer, parameter :: N_RINGS = 16
