@@ -22,7 +22,7 @@ typedef struct {
 kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
 void kz_dynamics_free(kz_dynamics *dynamics);
 
-/* The dynamics of a nearby pendulum, made from `dynamics`; free it too. Newton's method continues the attractors. The trapping regions are
+/* The dynamics of a nearby pendulum, made from `dynamics`; free it too. Newton's method continues the cycles; a chaotic attractor stays where no orbit on it is trapped. The trapping regions are
  * the old ones without their outermost cells, so it is only likely that they trap: they are for moving pictures, until
  * kz_dynamics_fine_regions makes new ones. *lost = number of attractors that could not be continued, mirror images not counted. */
 kz_dynamics *kz_dynamics_continue(const kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_numerics *numerics,

@@ -145,6 +145,15 @@ def test_an_attractor_that_is_born_under_a_slider_is_found_at_the_next_frame(ser
     assert first > 0.04 and second < 0.002
 
 
+def test_a_chaotic_attractor_is_carried_along_a_slider(server):
+    """A tilted drive, half of whose starts end in chaos: none of them stays open at the next values."""
+    for tilt in (0.1, 0.101, 0.102):
+        catalogue, frames = server.frame(40, 60, pendulum={"k": 0.1, "damping": 0.1, "m": 0.4, "tilt": tilt}, quality="moving")
+        labels = frames[-1][1]["labels"]
+        chaotic = [attractor["id"] for attractor in catalogue["attractors"] if attractor["kind"] == "chaotic"]
+        assert len(chaotic) == 1 and 0.4 < np.mean(labels == chaotic[0]) < 0.55 and np.mean(labels == 255) < 0.01
+
+
 def test_weaker_damping_gets_more_periods_than_the_scene_has(server):
     """And not as many as its motions take to settle, 900 on average: orbits have told regions that trap earlier."""
     _, frames = server.frame(20, 30, ("labels", "settling_time"), pendulum={**OTHER, "quality_factor": 60}, quality="moving")

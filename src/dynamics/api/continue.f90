@@ -5,6 +5,7 @@ module kz_api_continue
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_api_dynamics, only: make_dynamics
   use kz_api_handle, only: dynamics_t, of_handle
+  use kz_attractors_chaos, only: carry_chaos
   use kz_attractors_cycle_search, only: search_t, add_with_mirror, known
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor
   use kz_grown_aging, only: aged_regions
@@ -26,25 +27,31 @@ contains
     type(c_ptr) :: moved
     type(dynamics_t), pointer :: from, d
     integer, allocatable :: number(:)
-    integer :: a
+    integer :: a, n_known
 
     from => of_handle(handle)
     d => make_dynamics(pendulum, numerics, from%search%max_period, .true.)
     allocate (number(size(from%attractors)), source=0)
     lost = 0
     do a = 1, size(from%attractors)
-      if (from%attractors(a)%mirror < a) cycle
+      if (from%attractors(a)%mirror < a .or. from%attractors(a)%period == 0) cycle
       call carry(d%search, from%attractors(a), d%attractors, number(a))
       if (number(a) == 0) lost = lost + 1
       if (number(a) > 0) number(from%attractors(a)%mirror) = d%attractors(number(a))%mirror
     end do
     d%regions = aged_regions(from%regions, number)
     call draw_attractors(d%regions, d%attractors)
+    do a = 1, size(from%attractors)
+      if (from%attractors(a)%mirror < a .or. from%attractors(a)%period > 0) cycle
+      n_known = size(d%attractors)
+      call carry_chaos(d%search, d%regions, from%attractors(a), d%attractors)
+      if (size(d%attractors) == n_known) lost = lost + 1
+    end do
+    call draw_attractors(d%regions, d%attractors)
     moved = c_loc(d)
   end function continued
 
-  !> Appends the attractor that continues `old`, and its mirror image; number = 0 where there is none, or none that is new. Chaotic ones do
-  !> not continue.
+  !> Appends the cycle that continues `old`, and its mirror image; number = 0 where there is none, or none that is new.
   subroutine carry(search, old, attractors, number)
     type(search_t), intent(inout) :: search
     type(attractor_t), intent(in) :: old
@@ -54,7 +61,6 @@ contains
     logical :: found, blurred
 
     number = 0
-    if (old%period == 0) return
     call close_cycle(search%fine, search%pendulum%beta, old%period, old%u(1), old%v(1), FARTHEST, new, found, blurred)
     new%mirrored = is_mirrored(search%pendulum) /= 0
     if (found) call complete_attractor(new, found)

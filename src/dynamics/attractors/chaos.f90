@@ -6,17 +6,19 @@ module kz_attractors_chaos
   use kz_cycles_cycles, only: attractor_t
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
-  use kz_attractors_cycle_search, only: search_t, add_with_mirror
+  use kz_attractors_cycle_search, only: search_t, append_with_mirror
   use kz_model_pendulum, only: is_mirrored
   implicit none
   private
-  public :: find_chaos
+  public :: find_chaos, carry_chaos
 
   !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
   integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, FEATURE_PERIODS = 500
   !> Before all that: neighbours of a chaotic orbit part so much within so many periods. Where they do not, an orbit is only slow.
   integer, parameter :: PARTING_PERIODS = 2000
   real(dp), parameter :: PARTED = 100
+  !> Periods for which a cover carried to another pendulum is visited anew, and those before.
+  integer, parameter :: CARRIED_VISITS = 1500, CARRIED_SETTLE = 100
   !> An exponent counts as positive if it exceeds so many standard errors.
   real(dp), parameter :: CONFIDENCE = 5
   !> Orbits are examined only where damping shrinks areas by at least exp(-SHRUNK) meanwhile: else conservative chaos looks the
@@ -40,8 +42,9 @@ contains
     !> the catalogue, which gains what is found
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     type(attractor_t) :: attractor
-    integer, allocatable :: visits_of(:)
-    integer :: region(WIDTH), period, lane
+    logical, allocatable :: visited(:)
+    logical :: trapped
+    integer :: lane
 
     if (2*PI*search%pendulum%beta*(SETTLE + VISITS) < SHRUNK) return
     if (.not. neighbours_part(search%flow, u, v)) return
@@ -49,38 +52,109 @@ contains
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
     end do
     call search%flow%to_map(WIDTH)
-    allocate (visits_of(COVER**2), source=0)
-    do period = 1, SETTLE + VISITS
-      call search%flow%advance(WIDTH)
-      call find_regions(regions, attractors, WIDTH, search%flow%u(:WIDTH), search%flow%v(:WIDTH), region)
-      if (any(region > 0)) return
-      if (period <= SETTLE) cycle
-      do lane = 1, WIDTH
-        call visit(search%flow%u(lane), search%flow%v(lane))
-      end do
-    end do
+    call visit(search%flow, regions, attractors, SETTLE, VISITS, visited, trapped)
+    if (trapped) return
     call exponent(search%flow, WIDTH, EXPONENT_PERIODS, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
-    call set_cover(attractor, visits_of)
+    call set_cover(attractor, visited)
     call search%flow%to_physical(1)
     call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
       attractor%mean_velocity = 0
     end if
-    call add_with_mirror(search, attractor, attractors)
-    if (attractor%mirrored .and. .not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
-  contains
-    subroutine visit(u_now, v_now)
-      real(dp), intent(in) :: u_now
-      real(dp), intent(in) :: v_now
-      integer :: cell
-
-      cell = cover_cell(regions, u_now, v_now)
-      if (cell > 0) visits_of(cell) = visits_of(cell) + 1
-    end subroutine visit
+    call append_chaos(attractor, attractors)
   end subroutine find_chaos
+
+  !> Carries a chaotic attractor to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
+  !> longer orbits would visit: right enough for pictures that move. It appends nothing where a trapping region holds one of the orbits.
+  subroutine carry_chaos(search, regions, old, attractors)
+    !> the flows of the pendulum
+    type(search_t), intent(inout) :: search
+    !> its trapping regions
+    type(regions_t), intent(in) :: regions
+    !> the attractor
+    type(attractor_t), intent(in) :: old
+    !> the catalogue, which gains it and its mirror image
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    type(attractor_t) :: attractor
+    logical, allocatable :: visited(:)
+    integer, allocatable :: inner(:)
+    logical :: trapped
+    integer :: lane, cell
+
+    call find_inner(old%cover, inner)
+    do lane = 1, WIDTH
+      cell = inner(1 + (lane - 1)*size(inner)/WIDTH) - 1
+      call search%flow%put(lane, 2*(mod(cell, COVER) + 0.5_dp)/COVER - 1, regions%top*(2*(cell/COVER + 0.5_dp)/COVER - 1))
+    end do
+    call visit(search%flow, regions, attractors, CARRIED_SETTLE, CARRIED_VISITS, visited, trapped)
+    if (trapped) return
+    attractor = old
+    attractor%mirrored = is_mirrored(search%pendulum) /= 0
+    call widen(visited)
+    call set_cover(attractor, visited)
+    call append_chaos(attractor, attractors)
+  end subroutine carry_chaos
+
+  !> The cells of a cover whose four neighbours belong to it too; all, where there are none.
+  pure subroutine find_inner(cover_cells, inner)
+    integer, intent(in) :: cover_cells(:)
+    integer, allocatable, intent(out) :: inner(:)
+    logical, allocatable :: covered(:)
+    integer :: i
+
+    allocate (covered(1 - COVER:COVER**2 + COVER), source=.false.)
+    covered(cover_cells) = .true.
+    inner = pack(cover_cells, [(all(covered(cover_cells(i) + [-COVER, -1, 1, COVER])), i=1, size(cover_cells))])
+    if (size(inner) == 0) inner = cover_cells
+  end subroutine find_inner
+
+  !> Marks the four neighbours of every marked cell. (The first and last columns are neighbours across the circle.)
+  pure subroutine widen(marked)
+    logical, intent(inout) :: marked(COVER, COVER)
+    logical, allocatable :: before(:, :)
+
+    allocate (before, source=marked)
+    marked = before .or. cshift(before, 1, 1) .or. cshift(before, -1, 1)
+    marked(:, 2:) = marked(:, 2:) .or. before(:, :COVER - 1)
+    marked(:, :COVER - 1) = marked(:, :COVER - 1) .or. before(:, 2:)
+  end subroutine widen
+
+  subroutine append_chaos(attractor, attractors)
+    type(attractor_t), intent(inout) :: attractor
+    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+
+    call append_with_mirror(attractor, attractors)
+    if (attractor%mirrored .and. .not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
+  end subroutine append_chaos
+
+  !> Follows the lanes of a flow, and marks the cells of the cover that they visit after the first periods; trapped = a trapping region
+  !> holds one of them.
+  subroutine visit(flow, regions, attractors, settle, periods, visited, trapped)
+    class(flow_t), intent(inout) :: flow
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    integer, intent(in) :: settle
+    integer, intent(in) :: periods
+    logical, allocatable, intent(out) :: visited(:)
+    logical, intent(out) :: trapped
+    integer :: region(WIDTH), period, lane, cell
+
+    allocate (visited(COVER**2), source=.false.)
+    do period = 1, settle + periods
+      call flow%advance(WIDTH)
+      call find_regions(regions, attractors, WIDTH, flow%u(:WIDTH), flow%v(:WIDTH), region)
+      trapped = any(region > 0)
+      if (trapped) return
+      if (period <= settle) cycle
+      do lane = 1, WIDTH
+        cell = cover_cell(regions, flow%u(lane), flow%v(lane))
+        if (cell > 0) visited(cell) = .true.
+      end do
+    end do
+  end subroutine visit
 
   !> Whether neighbours of the orbit from (u, v) part.
   function neighbours_part(flow, u, v) result(part)
@@ -97,13 +171,11 @@ contains
   end function neighbours_part
 
   !> The cover: all visited cells. An attractor whose cover meets its own mirror image in most cells is that image.
-  subroutine set_cover(attractor, visits_of)
+  subroutine set_cover(attractor, visited)
     type(attractor_t), intent(inout) :: attractor
-    integer, intent(in) :: visits_of(COVER**2)
-    logical, allocatable :: visited(:)
+    logical, intent(inout) :: visited(COVER**2)
     integer :: cell
 
-    allocate (visited, source=visits_of > 0)
     attractor%symmetric = attractor%mirrored .and. 2*count(visited .and. visited(COVER**2:1:-1)) > count(visited)
     if (attractor%symmetric) visited = visited .or. visited(COVER**2:1:-1)
     attractor%cover = pack([(cell, cell=1, COVER**2)], visited)

@@ -1,8 +1,10 @@
-!> The series of pendulums along a slider, k or m: its coefficients are polynomials of degree ORDER/2 in either, so that as many nodes and
-!> one more give them for every value, but for rounding.
+!> The series of pendulums along a slider, interpolated from those made before. Its coefficients are polynomials of degree ORDER/2 in all terms
+!> of the force, and rational in the damping, with poles at distances l/n from the real axis, l >= 1, n < ORDER. Every key of a pendulum moves
+!> it along a curve: as many nodes as the degree and one more give the series on a line of forces but for rounding; fewer, and those of
+!> other curves, as well as the distances to the nodes and the pendulum itself tell.
 module kz_processed_slider
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_model_pendulum, only: pendulum_t, is_same
+  use kz_model_pendulum, only: pendulum_t, is_same, stiffness, MOST_HARMONICS
   use kz_processed_tables, only: series_t, make_processed_series, ORDER
   implicit none
   private
@@ -11,8 +13,14 @@ module kz_processed_slider
   integer, parameter :: NODES = ORDER/2 + 1
   !> Rounding of the nodes grows by the sum of the weights: 1e-15 becomes 1e-11 at most, which no moving frame sees.
   real(rk), parameter :: HEAVIEST = 1e4_rk
+  !> By so much of its force may a pendulum lie beside the curve through the nodes.
+  real(rk), parameter :: BESIDE = 1e-10_rk
+  !> What interpolation may leave: the product of the distances to the nodes. A step takes a force times less than 1, and a pole is no
+  !> nearer than this.
+  real(rk), parameter :: REMAINDER = 1e-9_rk, NEAREST_POLE = 1.0_rk/ORDER
+  integer, parameter :: N_NUMBERS = 4 + 4*MOST_HARMONICS
 
-  !> Pendulums that differ in k alone, or in m alone, and their series; the next one that is made takes the place `oldest`.
+  !> Pendulums and their series; the next one that is made takes the place `oldest`.
   type(pendulum_t), save :: place(NODES)
   type(series_t), allocatable, save :: node(:)
   integer, save :: n_nodes = 0, oldest = 1
@@ -25,79 +33,80 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     !> what does not depend on the number of steps
     type(series_t), intent(out) :: series
-    real(rk) :: weight(NODES)
+    real(rk) :: weight(n_nodes)
+    logical :: reach
     integer :: i
 
-    if (.not. on_the_line(pendulum)) n_nodes = 0
+    reach = .false.
+    if (n_nodes > 0) then
+      if (place(1)%harmonics /= pendulum%harmonics .or. place(1)%unmirrored /= pendulum%unmirrored) n_nodes = 0
+    end if
     do i = 1, n_nodes
       if (.not. is_same(place(i), pendulum)) cycle
       series = node(i)
       return
     end do
-    if (n_nodes == NODES) then
-      weight = weights(position(place, pendulum), position(pendulum, place(1)))
-      if (sum(abs(weight)) <= HEAVIEST) then
-        call add_nodes(weight, series)
-        return
-      end if
+    if (n_nodes > 1) call weigh(pendulum, weight, reach)
+    if (reach) then
+      call add_nodes(weight, series)
+    else
+      call make_processed_series(pendulum, series)
+      call remember(pendulum, series)
     end if
-    call make_processed_series(pendulum, series)
-    call remember(pendulum, series)
   end subroutine make_slid_series
 
-  !> Whether the pendulum and all nodes differ in one of k and m alone.
-  function on_the_line(pendulum) result(there)
+  !> Lagrange's weights of the nodes along that number of the pendulum in which they differ most. `reach`: they give its series.
+  subroutine weigh(pendulum, weight, reach)
     type(pendulum_t), intent(in) :: pendulum
-    logical :: there
-    type(pendulum_t) :: moved
-    integer :: i
-    logical :: by_k, by_m
+    real(rk), intent(out) :: weight(n_nodes)
+    logical, intent(out) :: reach
+    real(rk) :: at(N_NUMBERS, n_nodes), wanted(N_NUMBERS), apart(n_nodes)
+    integer :: i, along
 
-    by_k = .true.
-    by_m = .true.
+    wanted = numbers_of(pendulum)
     do i = 1, n_nodes
-      moved = place(i)
-      moved%k = pendulum%k
-      by_k = by_k .and. is_same(moved, pendulum)
-      moved = place(i)
-      moved%m = pendulum%m
-      by_m = by_m .and. is_same(moved, pendulum)
+      at(:, i) = numbers_of(place(i))
+      apart(i) = sum(abs(at(:, i) - wanted)) + abs(at(2, i) - wanted(2))/NEAREST_POLE
     end do
-    there = by_k .or. by_m
-  end function on_the_line
+    along = maxloc(maxval(at, 2) - minval(at, 2), 1)
+    weight = lagrange(at(along, :), wanted(along))
+    reach = sum(abs(weight)) <= HEAVIEST ! false for the NaN of nodes that are the same there
+    if (reach) reach = all(abs(matmul(at, weight) - wanted) <= BESIDE*(stiffness(pendulum) + pendulum%beta))
+    if (reach) reach = product(apart) <= REMAINDER .or. (n_nodes == NODES .and. all(abs(at(2, :) - wanted(2)) <= 0))
+  end subroutine weigh
 
-  !> Where a pendulum lies along the line that it shares with another one; only one of the two terms varies there.
-  elemental function position(pendulum, other) result(x)
+  !> k, the damping, m, and the other numbers of the equation.
+  pure function numbers_of(pendulum) result(numbers)
     type(pendulum_t), intent(in) :: pendulum
-    type(pendulum_t), intent(in) :: other
-    real(rk) :: x
+    real(rk) :: numbers(N_NUMBERS)
 
-    x = merge(pendulum%k, pendulum%m, abs(pendulum%k - other%k) > 0)
-  end function position
+    numbers(:4) = [pendulum%k, pendulum%beta, pendulum%m, pendulum%torque]
+    numbers(5:4 + 2*MOST_HARMONICS) = reshape(pendulum%vertical, [2*MOST_HARMONICS])
+    numbers(5 + 2*MOST_HARMONICS:) = reshape(pendulum%horizontal, [2*MOST_HARMONICS])
+  end function numbers_of
 
-  !> Lagrange's weights at x.
-  pure function weights(nodes_at, x) result(weight)
-    real(rk), intent(in) :: nodes_at(NODES)
+  pure function lagrange(nodes_at, x) result(weight)
+    real(rk), intent(in) :: nodes_at(:)
     real(rk), intent(in) :: x
-    real(rk) :: weight(NODES)
+    real(rk) :: weight(size(nodes_at))
     integer :: i, j
 
     weight = 1
-    do i = 1, NODES
-      do j = 1, NODES
+    do i = 1, size(nodes_at)
+      do j = 1, size(nodes_at)
         if (j /= i) weight(i) = weight(i)*(x - nodes_at(j))/(nodes_at(i) - nodes_at(j))
       end do
     end do
-  end function weights
+  end function lagrange
 
   subroutine add_nodes(weight, series)
-    real(rk), intent(in) :: weight(NODES)
+    real(rk), intent(in) :: weight(:)
     type(series_t), intent(out) :: series
     integer :: i
 
     series = node(1)
     call multiply(series, weight(1))
-    do i = 2, NODES
+    do i = 2, size(weight)
       series%kick_cosine = series%kick_cosine + weight(i)*node(i)%kick_cosine
       series%kick_sine = series%kick_sine + weight(i)*node(i)%kick_sine
       series%slope = series%slope + weight(i)*node(i)%slope

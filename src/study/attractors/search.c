@@ -187,7 +187,8 @@ kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, i
 
 static kz_status discover_from(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n,
                                double *state, int32_t *label) {
-  following f = {.dynamics = dynamics, .all = n, .sought = sought, .state = state, .label = label};
+  following f = {
+      .dynamics = dynamics, .all = n, .sought = sought > 0 ? sought : KZ_SEARCH_MOST_SOUGHT, .state = state, .label = label};
   list_all(&f);
   const kz_status status = search_discover(run, &f, max_periods);
   free(f.pending);
@@ -195,7 +196,7 @@ static kz_status discover_from(const kz_run *run, kz_dynamics *dynamics, int64_t
 }
 
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
-  return discover_from(run, dynamics, KZ_SEARCH_MOST_SOUGHT, max_periods, n, state, label);
+  return discover_from(run, dynamics, 0, max_periods, n, state, label);
 }
 
 int64_t kz_regions_cells(int64_t cells) {
@@ -229,7 +230,6 @@ kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_se
 kz_search kz_search_of_basin(const kz_basin_plan *plan) {
   return (kz_search){.window = kz_window_of(&plan->theta, &plan->velocity),
                      .starts = plan->starts,
-                     .sought = KZ_SEARCH_MOST_SOUGHT,
                      .seed = plan->seed,
                      .max_periods = plan->max_periods,
                      .cells = plan->theta.count * plan->velocity.count,
@@ -240,7 +240,6 @@ kz_search kz_search_of_basin(const kz_basin_plan *plan) {
 kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods) {
   return (kz_search){.window = kz_window_of(&plan->theta, &plan->velocity),
                      .starts = plan->starts,
-                     .sought = KZ_SEARCH_MOST_SOUGHT,
                      .seed = plan->seed,
                      .max_periods = max_periods};
 }

@@ -12,7 +12,7 @@
 typedef struct {
   kz_window window;
   int64_t starts, seed, max_periods;
-  int64_t sought;                      /* starts from which a round looks for cycles, at most */
+  int64_t sought;                      /* starts from which a round looks for cycles, at most; 0 = KZ_SEARCH_MOST_SOUGHT */
   int64_t cells;                       /* number of cells to label later: more cells get a finer grid of trapping regions */
   int64_t table_theta, table_velocity; /* nodes of the map table; 0 = none */
   double max_velocity;                 /* kz_dynamics_max_velocity */

@@ -55,11 +55,18 @@ static void choose_numerics(kz_resident *r) {
       kz_processed_or_split(pendulum, KZ_METHOD_DIRECT, r->tolerance, kz_fastest_motion(pendulum, &r->search.window, 0));
 }
 
+static bool has_chaos(const kz_resident *r) {
+  kz_attractor attractor = {.period = 1};
+  for (int64_t a = 1; a <= kz_dynamics_count(r->dynamics) && attractor.period > 0; a++)
+    kz_dynamics_attractor(r->dynamics, a, &attractor);
+  return attractor.period == 0;
+}
+
 /* Extends the trapping regions of moving frames by what orbits tell, where damping is so weak that it pays. */
 static void learn(kz_resident *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
-  if (!kz_resident_moves(r) || mean < WEAK) return;
-  const int64_t n = (int64_t)fmin(ORBITS, VISITS / mean);
+  if (!kz_resident_moves(r) || (mean < WEAK && !has_chaos(r))) return;
+  const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_chaos(r) ? (double)r->periods : 0));
   double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
   kz_dynamics_starts(&r->search.window, r->search.seed, n, state);
   kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
@@ -124,6 +131,14 @@ static bool same_release(const kz_release *a, const kz_release *b) {
          a->smooth == b->smooth;
 }
 
+/* Looks for a chaotic attractor from a stray. */
+static void find_chaos(kz_resident *r) {
+  double *found = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
+  kz_dynamics_find_chaos(r->dynamics, r->stray, found);
+  kz_dynamics_adopt(r->dynamics, found);
+  free(found);
+}
+
 bool kz_resident_discover(kz_resident *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
@@ -132,6 +147,7 @@ bool kz_resident_discover(kz_resident *r) {
     kz_dynamics_adopt(r->dynamics, found + 1);
   }
   free(found);
+  if (kz_dynamics_count(r->dynamics) == known && r->n_strays == KZ_STRAYS) find_chaos(r);
   r->n_strays = 0;
   if (kz_dynamics_count(r->dynamics) == known) return false;
   kz_dynamics_update(r->dynamics);
@@ -193,6 +209,8 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
     learn(r);
     r->grown = *pendulum;
     r->age = 0;
+  } else if (has_chaos(r)) {
+    learn(r);
   }
 }
 

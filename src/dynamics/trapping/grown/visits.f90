@@ -4,7 +4,7 @@
 module kz_grown_visits
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_grid, only: regions_t, find_regions, note_closed
+  use kz_grown_grid, only: regions_t, chaos_region, find_regions, note_closed
   use kz_grown_places, only: from_down, side, wrapped_midperiod_angle
   use kz_lanes_map, only: flow_t, WIDTH
   implicit none
@@ -53,7 +53,7 @@ contains
     call note_closed(regions)
   end subroutine learn_regions
 
-  !> Lanes take the starts in turn.
+  !> Lanes take the starts in turn. An orbit that nothing has trapped after all its periods ends on the chaotic attractor where it is.
   subroutine follow(regions, attractors, flow, state, most, budget, visits)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
@@ -80,6 +80,7 @@ contains
           path(age(lane), lane) = place_of(regions, flow%u(lane), flow%v(lane))
         else
           if (visits%last(visits%orbits) + age(lane) > budget) return
+          if (region(lane) == 0 .and. size(regions%covered) > 0) region(lane) = chaos_region(regions, flow%u(lane), flow%v(lane))
           call add_orbit(visits, path(:age(lane), lane), region(lane))
           call leave
         end if

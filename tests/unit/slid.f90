@@ -1,0 +1,46 @@
+!> Periods of pendulums along a slider, by series that come from neighbours and by their own, for tests.
+module kz_test_slid
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_kernel_flows, only: make_flow, make_moving_flow
+  use kz_lanes_schemes, only: PROCESSED_ROW
+  use kz_model_pendulum, only: pendulum_t
+  use kz_lanes_step_table, only: numerics_t
+  implicit none
+  private
+
+contains
+
+  !> The largest difference of one period of these pendulums, one after the other, rad.
+  function slid_error(n, pendulum) bind(C, name='kz_test_slid_error') result(largest)
+    integer(c_int64_t), value :: n
+    type(pendulum_t), intent(in) :: pendulum(n)
+    real(dp) :: largest
+    type(numerics_t), parameter :: NUMERICS = numerics_t(PROCESSED_ROW, 16, fastest=3)
+    class(flow_t), allocatable :: moving, own
+    integer :: i
+
+    largest = 0
+    do i = 1, int(n)
+      call make_moving_flow(pendulum(i), NUMERICS, moving)
+      call make_flow(pendulum(i), NUMERICS, .true., own)
+      call advance(moving)
+      call advance(own)
+      largest = max(largest, PI*maxval(abs(moving%u(:WIDTH) - own%u(:WIDTH))), maxval(abs(moving%v(:WIDTH) - own%v(:WIDTH))))
+    end do
+  end function slid_error
+
+  !> States of a small part of the plane, so that none is wrapped otherwise than its partner.
+  subroutine advance(flow)
+    class(flow_t), intent(inout) :: flow
+    integer :: lane
+
+    do lane = 1, WIDTH
+      call flow%put(lane, 0.01_dp*lane, 0.02_dp*lane - 0.6_dp)
+    end do
+    call flow%to_map(WIDTH)
+    call flow%advance(WIDTH)
+    call flow%to_physical(WIDTH)
+  end subroutine advance
+
+end module kz_test_slid
