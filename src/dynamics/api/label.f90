@@ -10,7 +10,7 @@ module kz_api_label
   use kz_maps_states, only: wrapped
   implicit none
   private
-  public :: start_t, orbit_of
+  public :: start_t, begin_orbit
 
   !> Of dynamics.h: the scene's numerics, where doubtful orbits are followed on; no level.
   integer, parameter :: LEVEL_GUESS = -1, NONE = 8
@@ -52,7 +52,7 @@ contains
     d => of_handle(handle)
     allocate (orbit(n), ending(n))
     do i = 1, n
-      orbit(i) = orbit_of(start(i), level > LEVEL_DOUBLE)
+      call begin_orbit(start(i), level > LEVEL_DOUBLE, orbit(i))
     end do
     call label_orbits(d, int(level), int(before), max_periods, orbit, ending)
     do i = 1, n
@@ -62,12 +62,13 @@ contains
   end subroutine label_starts
 
   !> The orbit of a start. The start is known to the last place of its double, or, with `precisely`, to the last place of the pair.
-  pure function orbit_of(start, precisely) result(orbit)
+  pure subroutine begin_orbit(start, precisely, orbit)
     !> rad, rad per drive radian
     type(start_t), intent(in) :: start
     !> to all digits of its pairs, else to those of doubles
     logical, intent(in) :: precisely
-    type(orbit_t) :: orbit
+    !> the orbit
+    type(orbit_t), intent(out) :: orbit
     real(qp) :: u
 
     if (precisely) then
@@ -83,7 +84,7 @@ contains
     orbit%lost = orbit%lost*(max(abs(start%theta(1)), PI) + abs(start%velocity(1)))
     orbit%age = start%periods
     orbit%p = start%error
-  end function orbit_of
+  end subroutine begin_orbit
 
   !> Orbits begin at a level and go down from level to level as their errors grow.
   subroutine label_orbits(d, level, before, most, orbit, ending)

@@ -2,7 +2,7 @@
 module kz_api_release
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_api_handle, only: dynamics_t, of_handle
-  use kz_api_label, only: start_t, orbit_of
+  use kz_api_label, only: start_t, begin_orbit
   use kz_extended_pairs, only: pair_of, quad_of
   use kz_extended_taylor, only: qp
   use kz_labels_carrier, only: orbit_t
@@ -48,7 +48,7 @@ contains
     precisely = level > LEVEL_FINE
     allocate (orbit(n))
     do i = 1, n
-      orbit(i) = orbit_of(start(i), precisely)
+      call begin_orbit(start(i), precisely, orbit(i))
     end do
     call carry_released(d%released, d%search%pendulum, precisely, orbit)
     do i = 1, n

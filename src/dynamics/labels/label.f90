@@ -3,7 +3,7 @@
 module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_lanes_map, only: map_t, WIDTH, CAPACITY
-  use kz_labels_lanes, only: queued_lanes_t, list_done
+  use kz_labels_lanes, only: queued_lanes_t, list_flagged
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
@@ -47,10 +47,10 @@ contains
       lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
       call find_regions(regions, attractors, lanes%active, map%u(:lanes%active), map%v(:lanes%active), region)
       call visit_covers(map, regions, lanes, region)
-      do lane = 1, lanes%active
-        done(lane) = merge(0, 1, region(lane) == 0 .and. lanes%age(lane) < lanes%most(lane))
-      end do
-      call list_done(lanes%active, done, list, n_done)
+      done(:lanes%active) = min(1, region(:lanes%active))
+      if (maxval(lanes%age(:lanes%active) - lanes%most(:lanes%active)) >= 0) &
+        where (lanes%age(:lanes%active) >= lanes%most(:lanes%active)) done(:lanes%active) = 1
+      call list_flagged(lanes%active, done, list, n_done)
       do i = 1, n_done
         call settle(list(i), region(list(i)))
         call occupy(list(i))

@@ -4,7 +4,7 @@ module kz_labels_lanes
   use kz_lanes_map, only: WIDTH, CAPACITY
   implicit none
   private
-  public :: queued_lanes_t, list_done
+  public :: queued_lanes_t, list_flagged
 
   !> A state belongs to a chaotic attractor once it has stayed in its cover for so many periods.
   integer, parameter :: STAY = 64
@@ -31,24 +31,24 @@ module kz_labels_lanes
 
 contains
 
-  !> Lists the lanes of 1 .. n that something has happened to, the last first. (Without a branch: which they are cannot be foreseen.)
-  pure subroutine list_done(n, done, lane, n_done)
+  !> Lists the lanes of 1 .. n that are flagged, the last first. (Without a branch: which they are cannot be foreseen.)
+  pure subroutine list_flagged(n, flag, lane, n_flagged)
     !> lanes
     integer, intent(in) :: n
     !> 1 for those lanes, else 0
-    integer, intent(in) :: done(WIDTH)
+    integer, intent(in) :: flag(WIDTH)
     !> their numbers
     integer, intent(out) :: lane(WIDTH)
     !> how many there are
-    integer, intent(out) :: n_done
+    integer, intent(out) :: n_flagged
     integer :: i
 
-    n_done = 0
+    n_flagged = 0
     do i = n, 1, -1
-      lane(n_done + 1) = i
-      n_done = n_done + done(i)
+      lane(n_flagged + 1) = i
+      n_flagged = n_flagged + flag(i)
     end do
-  end subroutine list_done
+  end subroutine list_flagged
 
   subroutine wait(self, lane)
     class(queued_lanes_t), intent(inout) :: self

@@ -5,9 +5,9 @@ module kz_labels_orbits
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_bending, only: measure_bending, SAFETY
-  use kz_labels_lanes, only: queued_lanes_t, list_done
+  use kz_labels_lanes, only: queued_lanes_t, list_flagged
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_spread, only: spread_errors
+  use kz_labels_spread, only: spread_errors, flag_large, flag_done
   use kz_lanes_map, only: WIDTH, CAPACITY, PI
   use kz_maps_states, only: angle_difference
   implicit none
@@ -85,10 +85,9 @@ contains
       call spread_errors(lanes%active, carrier%tangent, carrier%noise, bent, lanes%p, trace)
       call find_regions(regions, attractors, lanes%active, carrier%u(:lanes%active), carrier%v(:lanes%active), region)
       lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
-      do lane = 1, lanes%active
-        done(lane) = merge(0, 1, region(lane) == 0 .and. trace(lane) < largest .and. lanes%age(lane) < most .and. .not. with_covers)
-      end do
-      call list_done(lanes%active, done, list, n_done)
+      call flag_done(lanes%active, region, trace, largest, done)
+      if (with_covers .or. maxval(lanes%age(:lanes%active)) >= most) done = 1
+      call list_flagged(lanes%active, done, list, n_done)
       do i = 1, n_done
         if (is_open(list(i), region(list(i)), trace(list(i)))) cycle
         call occupy(list(i))
@@ -98,17 +97,13 @@ contains
     !> What is not linear in the period, where errors are large.
     subroutine bend(n)
       integer, intent(in) :: n
-      integer :: large(WIDTH), count, i
+      integer :: large(WIDTH), lane(WIDTH), n_large
 
       bent = 0
-      if (all(lanes%p(:n, 1) + lanes%p(:n, 3) < LINEAR**2)) return
-      count = 0
-      do i = 1, n
-        if (lanes%p(i, 1) + lanes%p(i, 3) < LINEAR**2) cycle
-        count = count + 1
-        large(count) = i
-      end do
-      call measure_bending(carrier, large(:count), u, v, lanes%p, bent)
+      call flag_large(n, lanes%p, LINEAR**2, large)
+      if (sum(large(:n)) == 0) return
+      call list_flagged(n, large, lane, n_large)
+      call measure_bending(carrier, lane(:n_large), u, v, lanes%p, bent)
     end subroutine bend
 
     !> An orbit that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.

@@ -4,7 +4,7 @@ module kz_labels_spread
   use kz_lanes_map, only: WIDTH
   implicit none
   private
-  public :: spread_errors, add_ellipse
+  public :: spread_errors, add_ellipse, flag_large, flag_done
 
 contains
 
@@ -45,6 +45,42 @@ contains
       trace(i) = p(i, 1) + p(i, 3)
     end do
   end subroutine spread_errors
+
+  !> 1 for the lanes whose P has at least a trace, or is lost; else 0.
+  pure subroutine flag_large(n, p, trace, large)
+    !> lanes
+    integer, intent(in) :: n
+    !> (WIDTH, 3)
+    real(dp), intent(in) :: p(WIDTH, 3)
+    !> the bound
+    real(dp), intent(in) :: trace
+    !> flags
+    integer, intent(inout) :: large(WIDTH)
+    integer :: i
+
+    do i = 1, n
+      large(i) = int(merge(0.0_dp, 1.0_dp, p(i, 1) + p(i, 3) < trace))
+    end do
+  end subroutine flag_large
+
+  !> 1 for the lanes that are in a region, or whose P has at least a trace, or is lost; else 0.
+  pure subroutine flag_done(n, region, trace, largest, done)
+    !> lanes
+    integer, intent(in) :: n
+    !> 0 = in none
+    integer, intent(in) :: region(WIDTH)
+    !> of P
+    real(dp), intent(in) :: trace(WIDTH)
+    !> the bound
+    real(dp), intent(in) :: largest
+    !> flags
+    integer, intent(inout) :: done(WIDTH)
+    integer :: i
+
+    do i = 1, n
+      done(i) = min(1, region(i) + int(merge(0.0_dp, 1.0_dp, trace(i) < largest)))
+    end do
+  end subroutine flag_done
 
   !> The smallest ellipse that holds the sum of P and of a disc.
   pure subroutine add_ellipse(radius, p)
