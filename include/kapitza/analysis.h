@@ -156,7 +156,7 @@ typedef struct {
   const char *name;  /* exact_1 ... of the result file */
   const char *asked; /* the name by which a scene asks for it: NAME for NAME_upper, else the name itself */
   double (*value)(double k, double beta, double turn);
-  double (*turn)(void); /* returns m where the curve turns back; NULL for a curve that does not need it */
+  int turning; /* the exact curve, 3 or 5, at whose turn m is `turn`; 0 = the curve does not need it */
 } kz_curve;
 extern const kz_curve kz_curves[];
 extern const int kz_curve_count;

@@ -21,33 +21,17 @@ static double root_of(double x) {
 #define UNUSED __attribute__((unused))
 #define CURVE(name) static double name(double k, double beta UNUSED, double turn UNUSED)
 
-CURVE(exact_1) {
-  return kz_mathieu_m(1, k, turn, 0);
-}
-CURVE(exact_2) {
-  return kz_mathieu_m(2, k, turn, 0);
-}
-CURVE(exact_3) {
-  return kz_mathieu_m(3, k, turn, 0);
-}
-CURVE(exact_3_upper) {
-  return kz_mathieu_m(3, k, turn, 1);
-}
-CURVE(exact_4) {
-  return kz_mathieu_m(4, k, turn, 0);
-}
-CURVE(exact_5) {
-  return kz_mathieu_m(5, k, turn, 0);
-}
-CURVE(exact_5_upper) {
-  return kz_mathieu_m(5, k, turn, 1);
-}
-static double turn_3(void) {
-  return kz_mathieu_turn(3);
-}
-static double turn_5(void) {
-  return kz_mathieu_turn(5);
-}
+#define EXACT(name, curve, beyond_turn)               \
+  CURVE(name) {                                       \
+    return kz_mathieu_m(curve, k, turn, beyond_turn); \
+  }
+EXACT(exact_1, 1, 0)
+EXACT(exact_2, 2, 0)
+EXACT(exact_3, 3, 0)
+EXACT(exact_3_upper, 3, 1)
+EXACT(exact_4, 4, 0)
+EXACT(exact_5, 5, 0)
+EXACT(exact_5_upper, 5, 1)
 
 static double cosine_cut(double k) {
   return 2 * root_of(k * (k - 1) * (k - 4) / (3 * k - 8));
@@ -123,36 +107,36 @@ CURVE(butikov_damped_2) {
   return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
-#define ROW(name, turn) {#name, #name, name, turn}
-#define UPPER(name, turn) {#name "_upper", #name, name##_upper, turn}
+#define ROW(name, turning) {#name, #name, name, turning}
+#define UPPER(name, turning) {#name "_upper", #name, name##_upper, turning}
 const kz_curve kz_curves[] = {
-    ROW(exact_1, NULL),              /* k <= 0: 4k = a_0(2m) */
-    ROW(exact_2, NULL),              /* k <= 1/4: 4k = b_1(2m) */
-    ROW(exact_3, turn_3),            /* 1/4 <= k <= 0.6304: 4k = a_1(2m) */
-    UPPER(exact_3, turn_3),          /* k <= 0.6304: 4k = a_1(2m), beyond its turn */
-    ROW(exact_4, NULL),              /* k <= 1: 4k = b_2(2m) */
-    ROW(exact_5, turn_5),            /* 1 <= k <= 2.0313: 4k = a_2(2m) */
-    UPPER(exact_5, turn_5),          /* k <= 2.0313: 4k = a_2(2m), beyond its turn */
-    ROW(butikov_1, NULL),            /* k <= 0: BUT (3) */
-    ROW(butikov_2, NULL),            /* k <= 1/4: BUT (4) */
-    ROW(butikov_3, NULL),            /* 1/4 <= k <= 13/20: BUT (5), minus */
-    UPPER(butikov_3, NULL),          /* k <= 13/20: BUT (5), plus */
-    ROW(butikov_4, NULL),            /* k <= 1: BUT (6) */
-    ROW(butikov_5, NULL),            /* 1 <= k < 8/3: BUT (7) */
-    ROW(butikov_4_refined, NULL),    /* k <= 1: BUT (17) */
-    ROW(butikov_5_refined, NULL),    /* 1 <= k <= 2.042: BUT (19), minus */
-    UPPER(butikov_5_refined, NULL),  /* k <= 2.042: BUT (19), plus */
-    ROW(blackburn_lower, NULL),      /* k <= 0: BSG (5) */
-    ROW(blackburn_upper, NULL),      /* k <= 0: BSG (6) */
-    ROW(blackburn_down_upper, NULL), /* 0 <= k <= 1/4: BSG (6), hanging */
-    ROW(damped_0, NULL),             /* k <= 0: multiplier 1, continues curve 1 */
-    ROW(damped_1, turn_3),           /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */
-    UPPER(damped_1, turn_3),         /* the same, beyond its turn */
-    ROW(damped_2, turn_5),           /* where tongue 2 is: multiplier 1, continues curves 4 and 5 */
-    UPPER(damped_2, turn_5),         /* the same, beyond its turn */
-    ROW(butikov_damped_1, NULL),     /* k <= 9/4 and a real root: BUT (25), corrected */
-    UPPER(butikov_damped_1, NULL),   /* the same: its larger root */
-    ROW(butikov_damped_2, NULL),     /* k <= 8/3 and a real root: BUT (26), corrected */
+    ROW(exact_1, 0),              /* k <= 0: 4k = a_0(2m) */
+    ROW(exact_2, 0),              /* k <= 1/4: 4k = b_1(2m) */
+    ROW(exact_3, 3),              /* 1/4 <= k <= 0.6304: 4k = a_1(2m) */
+    UPPER(exact_3, 3),            /* k <= 0.6304: 4k = a_1(2m), beyond its turn */
+    ROW(exact_4, 0),              /* k <= 1: 4k = b_2(2m) */
+    ROW(exact_5, 5),              /* 1 <= k <= 2.0313: 4k = a_2(2m) */
+    UPPER(exact_5, 5),            /* k <= 2.0313: 4k = a_2(2m), beyond its turn */
+    ROW(butikov_1, 0),            /* k <= 0: BUT (3) */
+    ROW(butikov_2, 0),            /* k <= 1/4: BUT (4) */
+    ROW(butikov_3, 0),            /* 1/4 <= k <= 13/20: BUT (5), minus */
+    UPPER(butikov_3, 0),          /* k <= 13/20: BUT (5), plus */
+    ROW(butikov_4, 0),            /* k <= 1: BUT (6) */
+    ROW(butikov_5, 0),            /* 1 <= k < 8/3: BUT (7) */
+    ROW(butikov_4_refined, 0),    /* k <= 1: BUT (17) */
+    ROW(butikov_5_refined, 0),    /* 1 <= k <= 2.042: BUT (19), minus */
+    UPPER(butikov_5_refined, 0),  /* k <= 2.042: BUT (19), plus */
+    ROW(blackburn_lower, 0),      /* k <= 0: BSG (5) */
+    ROW(blackburn_upper, 0),      /* k <= 0: BSG (6) */
+    ROW(blackburn_down_upper, 0), /* 0 <= k <= 1/4: BSG (6), hanging */
+    ROW(damped_0, 0),             /* k <= 0: multiplier 1, continues curve 1 */
+    ROW(damped_1, 3),             /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */
+    UPPER(damped_1, 3),           /* the same, beyond its turn */
+    ROW(damped_2, 5),             /* where tongue 2 is: multiplier 1, continues curves 4 and 5 */
+    UPPER(damped_2, 5),           /* the same, beyond its turn */
+    ROW(butikov_damped_1, 0),     /* k <= 9/4 and a real root: BUT (25), corrected */
+    UPPER(butikov_damped_1, 0),   /* the same: its larger root */
+    ROW(butikov_damped_2, 0),     /* k <= 8/3 and a real root: BUT (26), corrected */
 };
 const int kz_curve_count = sizeof kz_curves / sizeof kz_curves[0];
 
@@ -172,7 +156,7 @@ double kz_damping_at(const kz_damping *damping, double k) {
 }
 
 void kz_curve_values(const kz_curve *curve, const kz_damping *damping, int64_t n, const double *k, double *m) {
-  double turn = curve->turn ? curve->turn() : 0;
+  const double turn = curve->turning ? kz_mathieu_turn(curve->turning) : 0;
   for (int64_t i = 0; i < n; i++) m[i] = curve->value(k[i], kz_damping_at(damping, k[i]), turn);
 }
 
