@@ -158,8 +158,7 @@ def test_keys_do_what_hands_do(page):
     for key in ("Backspace", "Backspace", "h"):
         page.key(key)
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi)
-    page.key("c")
-    page.key("m")
+    _ = page.key("c"), page.key("m")
     assert page.run("document.querySelectorAll('.pane').length") == 3
 
 
@@ -175,6 +174,8 @@ def test_dive_goes_to_a_boundary_between_two_starts(page):
     page.wait()
     width = page.run("explorer.state.window.theta.width")
     assert len(page.shares()) > 1 and width < 1e-3 and page.run("$('dive').getAttribute('aria-pressed')") == "false"
+    _ = page.press("dive"), page.key("Escape")
+    assert page.run("[$('dive').getAttribute('aria-pressed'), $('status').textContent.includes('Dive')]") == ["false", False]
 
 
 # ---- what is shown ----
@@ -182,8 +183,7 @@ def test_dive_goes_to_a_boundary_between_two_starts(page):
 
 def test_a_reload_keeps_the_view_and_the_address_has_no_token(page, striped):
     page.wheel(0.3, 0.6, -900)
-    page.slide("m", 0.4)
-    page.choose("units", "degrees")
+    _ = page.slide("m", 0.4), page.choose("units", "degrees")
     page.wait()
     window, shares = page.window(), page.shares()
     assert wait_for(lambda: "units=degrees" in page.driver.current_url and "pendulum.m" in page.driver.current_url)
@@ -303,7 +303,7 @@ def test_pictures_tables_and_films_are_saved(page, folder):
     page.choose("film-count", "3")
     with zipfile.ZipFile(page.saved("film-png", folder / "film.zip", 60)) as film:
         assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(3)]
-    assert page.saved("film-webm", folder / "film.webm", 60).read_bytes()[:4] == b"\x1a\x45\xdf\xa3"
+    assert page.saved("film-webm", folder / "film.webm", 60).stat().st_size > 2000  # a head without pictures has 110 bytes
 
 
 # ---- with the program itself ----

@@ -231,8 +231,9 @@ function wordsAt(pane, across, up) {
   if (!found) return "";
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? "not settled" : frame.catalogue.attractors[frame.labels[cell]].name;
-  const time = frame.times && Number.isFinite(frame.times[cell]) ? ` after ${Math.round(frame.times[cell])} periods` : "";
+  const time = frame.times && Number.isFinite(frame.times[cell]) ? ` after ${periodWords(Math.round(frame.times[cell]))}` : "";
   return name + time + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");
 }
 
+const periodWords = (periods) => `${periods} drive period${periods === 1 ? "" : "s"}`;
 const brief = (text) => (text.length > 26 ? `${text.slice(0, 12)}…${text.slice(-12)}` : text);

@@ -28,6 +28,7 @@ export class Dive {
     this.basins.onClick = null;
     this.mark([]);
     element("dive").setAttribute("aria-pressed", "false");
+    this.basins.say(this.basins.panes[0]); // what the status line said before
   }
 
   mark(starts) {
@@ -46,16 +47,19 @@ export class Dive {
     if (this.starts.length < 2) return this.say("Dive: click a start that ends on another attractor.");
     if (this.starts[0].end === end) {
       this.starts.pop();
+      this.mark(this.starts);
       return this.say("Dive: both starts end on the same attractor. Click another one.");
     }
     this.basins.onClick = null;
     this.diving = true;
+    let failure = null;
     try {
       await this.go(order, await this.boundary(order, pane));
     } catch (error) {
-      this.say(error.message);
+      failure = error.message;
     }
     if (order === this.order) this.stop();
+    if (failure) this.say(failure);
   }
 
   async endOf(pane, { theta, velocity }) {

@@ -105,13 +105,18 @@ async function recorded(bitmaps, [width, height]) {
   const recorder = new MediaRecorder(stream, { mimeType: "video/webm", videoBitsPerSecond: 8e6 });
   const parts = [];
   recorder.ondataavailable = (event) => parts.push(event.data);
+  let started = false;
+  recorder.onstart = () => (started = true);
   const ended = new Promise((resolve) => (recorder.onstop = resolve));
-  recorder.start();
-  for (const bitmap of bitmaps) {
+  const show = async (bitmap) => {
     context.drawImage(bitmap, 0, 0);
     stream.getVideoTracks()[0].requestFrame();
     await pause(1000 / RATE);
-  }
+  };
+  recorder.start();
+  while (!started) await show(bitmaps[0]); // it starts with a picture, and loses those before
+  for (const bitmap of bitmaps) await show(bitmap);
+  await pause(500); // the last pictures are still under way
   recorder.stop();
   await ended;
   return new Blob(parts, { type: "video/webm" });

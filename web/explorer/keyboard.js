@@ -19,7 +19,10 @@ export function listenKeys(state, basins) {
     "-": () => basins.zoom(ZOOM),
     Enter: () => basins.click(basins.active, 0.5, 0.5),
     " ": () => press("play"),
-    Escape: () => press("cancel"),
+    Escape: () => {
+      if (document.getElementById("dive").getAttribute("aria-pressed") === "true") press("dive");
+      press("cancel");
+    },
     Backspace: () => press("back"),
     h: () => press("home"),
     d: () => press("dive"),

@@ -72,9 +72,9 @@ export function degrees(digits) {
   return Decimal.from(360).over(turn(digits + 10), digits + 10);
 }
 
-/** With a true minus sign. */
+/** With true minus signs; a hyphen between a digit and a letter stays one ("6-nodding"). */
 export function signed(text) {
-  return text.replace(/-/g, "−");
+  return text.replace(/-(?![a-z])/g, "−");
 }
 
 export function shortened(text) {
