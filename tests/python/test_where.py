@@ -139,13 +139,16 @@ basin: {theta: {count: 100}, velocity: {min: -20, max: 20, count: 100}, attracto
 
 
 def test_a_boundary_point_of_any_digits(kapitza, tmp_path):
-    """Starts 2e-55 to either side of it, followed by their own orbits, end as it says. The digits of a coarser point are its first ones."""
+    """It lies on the line. Starts 2e-55 beside it, followed by their own orbits, end as it says. A coarser point has its digits."""
     (tmp_path / "k01.yaml").write_text(K01)
-    ends = ["k01.yaml", "-2.367", "17", "-2.3672", "17"]
+    ends = ["k01.yaml", "-2.3672", "17", "-2.367", "17.00001"]
     point = json.loads(kapitza("where", *ends, "--boundary", "56", "--json", folder=tmp_path).stdout)
     assert point["velocity"].startswith("17.0") and len(point["theta"]) == 59
     getcontext().prec = 80
-    beside = "".join(f"{Decimal(point['theta']) + step},17\n" for step in (Decimal("2e-55"), -Decimal("2e-55")))
+    theta, velocity = Decimal(point["theta"]), Decimal(point["velocity"])
+    slope = (Decimal(17.00001) - 17) / (Decimal(-2.367) - Decimal(-2.3672))
+    assert abs(velocity - 17 - slope * (theta - Decimal(-2.3672))) < Decimal("2e-56")
+    beside = "".join(f"{theta + step},{velocity + slope * step}\n" for step in (Decimal("2e-55"), -Decimal("2e-55")))
     found = [json.loads(line) for line in kapitza("where", "k01.yaml", "-", "--json", folder=tmp_path, text=beside).stdout.splitlines()]
     assert {row["attractor"] for row in found} <= set(range(10)) and found[0]["attractor"] != found[1]["attractor"]
     assert all(row["decided"] for row in found)

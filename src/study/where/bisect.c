@@ -5,7 +5,7 @@
 #include "bisect.h"
 
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "labelling/labeller.h"
@@ -154,39 +154,47 @@ static kz_status narrow(piece *p, int exponent, double finest, spot *s, bool *fo
   return ldexp(s->bracket, -exponent) > finest ? narrow_within(p, exponent, finest, s) : KZ_OK;
 }
 
-/* The line: a point on it, and the way from the first start to the second. */
+/* The line: the middle of the present piece, and its width, the way from its first point to its last one. */
 typedef struct {
-  kz_decimal point[2], width[2]; /* width: of the present piece */
-  __float128 way[2];
+  kz_decimal point[2], width[2];
 } line;
 
+enum { MORE_DIGITS = 20 }; /* of the line, beyond those that are asked for */
+
+/* to = from + share * width, with so many digits behind the point; from "" = 0. `to` may be either of them. */
+static kz_status add(const kz_decimal *from, const kz_decimal *width, double share, int64_t digits, kz_decimal *to) {
+  const kz_coordinate sum = {.centre = from->text[0] ? from->text : NULL, .width = width->text, .share = share};
+  char text[KZ_DECIMAL_LENGTH];
+  KZ_TRY(kz_coordinate_text(&sum, digits + MORE_DIGITS, text, sizeof text));
+  strcpy(to->text, text);
+  return KZ_OK;
+}
+
 static kz_status begin(const kz_question *q, int64_t digits, line *l) {
-  enum { MORE = 40 };
   for (int i = 0; i < 2; i++) {
     const kz_coordinate *first = &q->start[0][i], *second = &q->start[1][i];
-    l->way[i] = kz_coordinate_difference(second, first, 4 * (digits + MORE));
-    KZ_TRY(kz_coordinate_text(first, digits + MORE, l->point[i].text, sizeof l->point[i].text));
+    const __float128 way = kz_coordinate_difference(second, first, 4 * (digits + MORE_DIGITS));
+    const kz_coordinate width = {.high = (double)way, .low = (double)(way - (double)way)};
+    KZ_TRY(kz_coordinate_text(first, digits + MORE_DIGITS, l->point[i].text, sizeof l->point[i].text));
+    KZ_TRY(kz_coordinate_text(&width, digits + MORE_DIGITS, l->width[i].text, sizeof l->width[i].text));
+    KZ_TRY(add(&l->point[i], &l->width[i], 0.5, digits, &l->point[i]));
   }
   return KZ_OK;
 }
 
-static void set_width(line *l, long double width) {
-  for (int i = 0; i < 2; i++) snprintf(l->width[i].text, sizeof l->width[i].text, "%.25Le", (long double)l->way[i] * width);
-}
-
-static kz_coordinate coordinate_of(const line *l, int i, double share) {
-  return (kz_coordinate){.centre = l->point[i].text, .width = l->width[i].text, .share = share};
-}
-
-/* The point moves by a share of the width. */
-static kz_status move(line *l, double share, int64_t digits) {
-  for (int i = 0; i < 2; i++) {
-    const kz_coordinate moved = coordinate_of(l, i, share);
-    char text[KZ_DECIMAL_LENGTH];
-    KZ_TRY(kz_coordinate_text(&moved, digits, text, sizeof text));
-    strcpy(l->point[i].text, text);
+/* The piece becomes that about the boundary, `narrower` times its width. */
+static kz_status follow_line(line *l, const spot *s, double narrower, int64_t digits) {
+  static const kz_decimal zero = {.text = ""};
+  for (int axis = 0; axis < 2; axis++) {
+    for (int i = 0; i < s->n; i++) KZ_TRY(add(&l->point[axis], &l->width[axis], s->part[i], digits, &l->point[axis]));
+    KZ_TRY(add(&zero, &l->width[axis], narrower, digits, &l->width[axis]));
   }
   return KZ_OK;
+}
+
+/* The longer side of the piece, rad or rad per drive radian. */
+static long double size_of(const line *l) {
+  return fmaxl(fabsl(strtold(l->width[0].text, NULL)), fabsl(strtold(l->width[1].text, NULL)));
 }
 
 /* Share of a piece's width to which its boundary is looked for: smaller in a narrower piece, whose orbit takes longer. */
@@ -196,9 +204,9 @@ static double finest_share(long double width) {
   return (double)fmaxl(last, fminl(first, powl(width, growth)));
 }
 
-static kz_status narrow_line(const kz_question *q, line *l, long double width, double finest, spot *s, bool *found) {
-  set_width(l, width);
-  const kz_coordinate point[2] = {coordinate_of(l, 0, 0), coordinate_of(l, 1, 0)};
+static kz_status narrow_line(const kz_question *q, const line *l, double finest, spot *s, bool *found) {
+  const kz_coordinate point[2] = {{.centre = l->point[0].text, .width = l->width[0].text},
+                                  {.centre = l->point[1].text, .width = l->width[1].text}};
   piece p = {.question = q, .images = kz_images_on_line(&q->scene->parameters.pendulum, point, digits_of(finest))};
   const kz_status status = narrow(&p, 0, finest, s, found);
   kz_images_free(p.images);
@@ -206,17 +214,15 @@ static kz_status narrow_line(const kz_question *q, line *l, long double width, d
 }
 
 static kz_status narrow_all(const kz_question *q, line *l, int64_t digits, kz_bisection *bisection) {
-  const long double way = fmaxl(fabsl((long double)l->way[0]), fabsl((long double)l->way[1]));
-  const long double enough = powl(10, -(long double)digits) / way;
-  long double width = 1;
-  for (int widenings = 0; width > enough;) {
+  const long double whole = size_of(l), enough = powl(10, -(long double)digits);
+  for (int widenings = 0; size_of(l) > enough;) {
+    const long double size = size_of(l);
     spot s = {.n = 0};
     bool found;
-    KZ_TRY(narrow_line(q, l, width, fmax(finest_share(width), (double)(enough / width) / roomy), &s, &found));
+    KZ_TRY(narrow_line(q, l, fmax(finest_share(size / whole), (double)(enough / size) / roomy), &s, &found));
     if (!found && ++widenings > MOST_WIDENINGS) return say_lost(q);
-    for (int i = 0; i < s.n; i++) KZ_TRY(move(l, s.part[i], digits + 20));
     if (found) memcpy(bisection->label, s.label, sizeof s.label);
-    width *= found ? roomy * s.bracket : ldexp(1, WIDENING);
+    KZ_TRY(follow_line(l, &s, found ? roomy * s.bracket : ldexp(1, WIDENING), digits));
   }
   return KZ_OK;
 }
@@ -229,8 +235,6 @@ static kz_status round_to(const kz_decimal *point, int64_t digits, char *text) {
 kz_status kz_bisect(const kz_question *question, int64_t digits, kz_bisection *bisection) {
   line l;
   KZ_TRY(begin(question, digits, &l));
-  set_width(&l, 1);
-  KZ_TRY(move(&l, 0.5, digits + 40));
   KZ_TRY(narrow_all(question, &l, digits, bisection));
   KZ_TRY(round_to(&l.point[0], digits, bisection->theta));
   return round_to(&l.point[1], digits, bisection->velocity);
