@@ -33,7 +33,7 @@ OPERATION void run(bool mirrored, int64_t n_stages, const float *row, float last
   for (int64_t s = 0; s < n_stages; s++, row += 1 + 2 * TERMS) {
     const vector r = ((const vector *)angle)[s], q = r * r;
     const expansion odd = expand(row + 1, q);
-    vector first = odd.value, second = r * odd.slope, third = (odd.slope + 4 * q * odd.bend) / 3;
+    vector first = odd.value, second = r * odd.slope, third = (1 / 3.0f) * (odd.slope + 4 * q * odd.bend);
     if (!mirrored) {
       const expansion even = expand(row + 1 + TERMS, q);
       first += r * even.value;
