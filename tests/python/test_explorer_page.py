@@ -252,7 +252,7 @@ def test_two_values_stand_side_by_side_with_linked_cursors(page):
     assert "|" in page.run("$('pointer').textContent") and len(page.run("[...$('legend').rows[0].cells]")) == 4
     page.press("compare")
     page.wait()
-    assert page.run("document.querySelectorAll('.pane').length") == 1
+    assert page.run("document.querySelectorAll('.pane').length") == 1 and "|" not in page.run("$('pointer').textContent")
 
 
 def test_a_click_on_the_chart_sets_the_pendulum(page):

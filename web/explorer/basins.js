@@ -168,12 +168,19 @@ export class Basins {
     return same ? [...this.overlays].map((name) => this.state.overlays[name]) : [];
   }
 
-  /** Linked cursors, and what lies under this one. */
+  /** Linked cursors; `at`: shares of the window, null where the pointer has left. */
   point(pane, at) {
     for (const other of this.panes) {
       other.plain.cursor = other === pane ? null : at;
       if (this.panes.length > 1) other.draw();
     }
+    this.pointed = at;
+    this.writePointed();
+  }
+
+  /** What lies under the pointer, also when other frames come there. */
+  writePointed() {
+    const at = this.pointed;
     const words = at ? this.panes.map((each) => wordsAt(each, ...at)).join("  |  ") : "";
     const start = at && this.startAt(...at);
     element("pointer").textContent = at ? signed(`θ ${brief(start.theta)}  velocity ${brief(start.velocity)}  ${words}`) : "";
@@ -206,6 +213,7 @@ export class Basins {
   }
 
   writeNow() {
+    this.writePointed();
     writeLegend(element("legend"), rowsOf(this.panes.map((pane) => pane.top)));
     const { theta, velocity } = this.state.window;
     const depth = this.state.home.theta.width / theta.width;
