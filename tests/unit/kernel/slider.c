@@ -7,7 +7,7 @@
 
 #include "kapitza/kernel.h"
 
-enum { VALUES = 14 };
+enum { VALUES = 11 };
 double kz_test_slid_error(int64_t n, const kz_pendulum *pendulum);
 
 /* Pendulum i of a slider: its force, its damping, both, the direction of its drive. */
