@@ -21,6 +21,8 @@ module kz_attractors_chaos
   integer, parameter :: CARRIED_VISITS = 1500, CARRIED_SETTLE = 100
   !> An exponent counts as positive if it exceeds so many standard errors.
   real(dp), parameter :: CONFIDENCE = 5
+  !> A small one is measured again over so many periods: tangents of quasi-periodic motions grow too, by a factor that has a limit.
+  integer, parameter :: SLOW_PERIODS = 8000
   !> Orbits are examined only where damping shrinks areas by at least exp(-SHRUNK) meanwhile: else conservative chaos looks the
   !> same.
   real(dp), parameter :: SHRUNK = 30
@@ -29,7 +31,7 @@ contains
 
   !> Follows a bundle of orbits from the physical state (u, v). If no trapping region holds any of them and they separate, it appends a
   !> chaotic attractor. A long chaotic transient does not count, because one of its orbits is trapped in the end. With damping so weak
-  !> that areas hardly shrink, it appends nothing.
+  !> that areas hardly shrink, or if the orbits stay beyond the regions, it appends nothing.
   subroutine find_chaos(search, regions, u, v, attractors)
     !> the flows and the longest period of the search
     type(search_t), intent(inout) :: search
@@ -53,8 +55,8 @@ contains
     end do
     call search%flow%to_map(WIDTH)
     call visit(search%flow, regions, attractors, SETTLE, VISITS, visited, trapped)
-    if (trapped) return
-    call exponent(search%flow, WIDTH, EXPONENT_PERIODS, attractor%lyapunov, attractor%lyapunov_error)
+    if (trapped .or. .not. any(visited)) return
+    call measure_exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call set_cover(attractor, visited)
@@ -90,7 +92,7 @@ contains
       call search%flow%put(lane, 2*(mod(cell, COVER) + 0.5_dp)/COVER - 1, regions%top*(2*(cell/COVER + 0.5_dp)/COVER - 1))
     end do
     call visit(search%flow, regions, attractors, CARRIED_SETTLE, CARRIED_VISITS, visited, trapped)
-    if (trapped) return
+    if (trapped .or. .not. any(visited)) return
     attractor = old
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call widen(visited)
@@ -180,6 +182,20 @@ contains
     if (attractor%symmetric) visited = visited .or. visited(COVER**2:1:-1)
     attractor%cover = pack([(cell, cell=1, COVER**2)], visited)
   end subroutine set_cover
+
+  !> Largest Lyapunov exponent per period of the orbits in all lanes, with its standard error; 0 where it is small at first and falls on.
+  subroutine measure_exponent(flow, mean, error)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(out) :: mean
+    real(dp), intent(out) :: error
+    real(dp) :: first
+
+    call exponent(flow, WIDTH, EXPONENT_PERIODS, mean, error)
+    if (EXPONENT_PERIODS*mean > 2*log(PARTED)) return
+    first = mean
+    call exponent(flow, WIDTH, SLOW_PERIODS, mean, error)
+    if (mean < 0.5_dp*first) mean = 0
+  end subroutine measure_exponent
 
   !> Largest Lyapunov exponent per period of the orbits in the lanes 1 .. n, with its standard error over them.
   subroutine exponent(flow, n, periods, mean, error)
