@@ -69,8 +69,11 @@ contains
       apart(i) = sum(abs(at(:, i) - wanted)) + abs(at(2, i) - wanted(2))/NEAREST_POLE
     end do
     along = maxloc(maxval(at, 2) - minval(at, 2), 1)
+    weight = 0
+    reach = are_apart(at(along, :))
+    if (.not. reach) return
     weight = lagrange(at(along, :), wanted(along))
-    reach = sum(abs(weight)) <= HEAVIEST ! false for the NaN of nodes that are the same there
+    reach = sum(abs(weight)) <= HEAVIEST
     if (reach) reach = all(abs(matmul(at, weight) - wanted) <= BESIDE*(stiffness(pendulum) + pendulum%beta))
     if (reach) reach = product(apart) <= REMAINDER .or. (n_nodes == NODES .and. all(abs(at(2, :) - wanted(2)) <= 0))
   end subroutine weigh
@@ -84,6 +87,18 @@ contains
     numbers(5:4 + 2*MOST_HARMONICS) = reshape(pendulum%vertical, [2*MOST_HARMONICS])
     numbers(5 + 2*MOST_HARMONICS:) = reshape(pendulum%horizontal, [2*MOST_HARMONICS])
   end function numbers_of
+
+  !> Whether no two numbers are the same.
+  pure function are_apart(x)
+    real(rk), intent(in) :: x(:)
+    logical :: are_apart
+    integer :: i
+
+    are_apart = .true.
+    do i = 2, size(x)
+      are_apart = are_apart .and. all(abs(x(:i - 1) - x(i)) > 0)
+    end do
+  end function are_apart
 
   pure function lagrange(nodes_at, x) result(weight)
     real(rk), intent(in) :: nodes_at(:)
