@@ -14,10 +14,6 @@ kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start
   return KZ_OK;
 }
 
-kz_start kz_start_at(double theta, double velocity) {
-  return (kz_start){.theta = {theta, 0}, .velocity = {velocity, 0}};
-}
-
 static int64_t item_at(const int64_t *item, int64_t i) {
   return item ? item[i] : i;
 }

@@ -25,7 +25,9 @@ typedef struct {
 /* A kz_start_fn whose context is an array of starts; an item is an index in it. */
 kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start);
 /* The exact start (theta in rad, velocity in rad per drive radian). */
-kz_start kz_start_at(double theta, double velocity);
+static inline kz_start kz_start_at(double theta, double velocity) {
+  return (kz_start){.theta = {theta, 0}, .velocity = {velocity, 0}};
+}
 
 /* Labels n items at one level; `before` is the level at which they were doubtful. decision [n] as in kz_dynamics_label. */
 kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,

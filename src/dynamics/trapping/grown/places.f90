@@ -5,7 +5,7 @@ module kz_grown_places
   use kz_maps_states, only: MIDPERIOD
   implicit none
   private
-  public :: look_up, wrapped_midperiod_angle, side, from_down
+  public :: look_up, number_cells, wrapped_midperiod_angle, side, from_down
 
   !> Cells in a word of bits.
   integer, parameter, public :: WORD = bit_size(0_int32)
@@ -14,8 +14,7 @@ module kz_grown_places
 
 contains
 
-  !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image; 0 if the cell is open; the
-  !> last number for states outside. Uses vectors.
+  !> The numbers of the cells that hold n states, as number_cells has them; 0 if the cell is open. Uses vectors.
   pure subroutine look_up(mirrored, n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
     !> whether the stored half stands for the other one, too
     logical, intent(in) :: mirrored
@@ -37,8 +36,38 @@ contains
     real(dp), intent(in) :: v(n)
     !> +- number of the cell, from 1; 0 = open
     integer, intent(out) :: cell(n)
-    real(dp) :: w, y, c, fold, per_v, outside, columns, rows
     integer :: i, number
+
+    call number_cells(mirrored, n_theta, n_velocity, per_u, top, n, u, v, cell)
+    do i = 1, n
+      number = abs(cell(i)) - 1
+      cell(i) = iand(ishft(closed(ishft(number, -5)), -iand(number, WORD - 1)), 1)*cell(i)
+    end do
+  end subroutine look_up
+
+  !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image; outside of the grid the number
+  !> behind the last. Uses vectors.
+  pure subroutine number_cells(mirrored, n_theta, n_velocity, per_u, top, n, u, v, cell)
+    !> whether the stored half stands for the other one, too
+    logical, intent(in) :: mirrored
+    !> stored columns of the grid
+    integer, intent(in) :: n_theta
+    !> rows of the grid
+    integer, intent(in) :: n_velocity
+    !> columns in a half-turn
+    real(dp), intent(in) :: per_u
+    !> largest velocity of the grid, rad per drive radian
+    real(dp), intent(in) :: top
+    !> states
+    integer, intent(in) :: n
+    !> angles, half-turns in [-1, 1]
+    real(dp), intent(in) :: u(n)
+    !> velocities, rad per drive radian
+    real(dp), intent(in) :: v(n)
+    !> +- number of the cell
+    integer, intent(out) :: cell(n)
+    real(dp) :: w, y, c, fold, per_v, outside, columns, rows
+    integer :: i
 
     columns = n_theta
     rows = n_velocity
@@ -61,11 +90,7 @@ contains
         cell(i) = int(fold*(1 + merge(c, outside, abs(w) <= 1))) ! a lost state is outside
       end do
     end if
-    do i = 1, n
-      number = abs(cell(i)) - 1
-      cell(i) = iand(ishft(closed(ishft(number, -5)), -iand(number, WORD - 1)), 1)*cell(i)
-    end do
-  end subroutine look_up
+  end subroutine number_cells
 
   !> The cell (from 0) of a grid over the whole circle that holds (u, v); the number of cells outside.
   pure function whole_cell(n_theta, n_velocity, per_u, top, u, v) result(cell)

@@ -5,7 +5,7 @@ module kz_grown_visits
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, chaos_region, find_regions, note_closed
-  use kz_grown_places, only: from_down, side, wrapped_midperiod_angle
+  use kz_grown_places, only: number_cells
   use kz_lanes_map, only: flow_t, WIDTH
   implicit none
   private
@@ -63,7 +63,7 @@ contains
     integer, intent(in) :: budget
     type(visits_t), intent(out) :: visits
     integer(int32), allocatable :: path(:, :)
-    integer :: age(WIDTH), region(WIDTH), lane, active, next
+    integer :: age(WIDTH), region(WIDTH), number(WIDTH), lane, active, next
 
     allocate (path(most, WIDTH), visits%cell(budget), visits%last(0:size(state, 2)), visits%ends(size(state, 2)))
     visits%last(0) = 0
@@ -74,10 +74,13 @@ contains
     end do
     do while (active > 0)
       call find_regions(regions, attractors, active, flow%u(:active), flow%v(:active), region)
+      call number_cells(regions%mirrored, regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, active, &
+                        flow%u(:active), flow%v(:active), number)
+      where (abs(number(:active)) > size(regions%label)) number(:active) = 0
       do lane = active, 1, -1
         if (region(lane) == 0 .and. age(lane) < most) then
           age(lane) = age(lane) + 1
-          path(age(lane), lane) = place_of(regions, flow%u(lane), flow%v(lane))
+          path(age(lane), lane) = number(lane)
         else
           if (visits%last(visits%orbits) + age(lane) > budget) return
           if (region(lane) == 0 .and. size(regions%covered) > 0) region(lane) = chaos_region(regions, flow%u(lane), flow%v(lane))
@@ -122,23 +125,6 @@ contains
     visits%cell(first:visits%last(visits%orbits)) = path
     visits%ends(visits%orbits) = end
   end subroutine add_orbit
-
-  !> The cell that holds (u, v), as visits_t has it.
-  pure function place_of(regions, u, v) result(cell)
-    type(regions_t), intent(in) :: regions
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
-    integer(int32) :: cell
-    real(dp) :: w, x, y, fold
-
-    w = wrapped_midperiod_angle(u, v)
-    fold = merge(side(w, v), 1.0_dp, regions%mirrored)
-    x = 0.5_dp*regions%n_circle*merge(abs(w), from_down(w), regions%mirrored)
-    y = (fold*v + regions%top)*(regions%n_velocity/(2*regions%top))
-    cell = 0
-    if (.not. (x <= regions%n_theta .and. y >= 0 .and. y < regions%n_velocity)) return
-    cell = int(fold)*(1 + min(int(x), regions%n_theta - 1) + regions%n_theta*int(y))
-  end function place_of
 
   !> label(c) = the attractor of all orbits that visited cell c, if they are enough.
   subroutine believe(visits, mirror, n, label, orbits)
