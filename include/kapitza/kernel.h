@@ -28,6 +28,11 @@ typedef struct {
 } kz_scheme;
 int32_t kz_scheme_count(void);
 void kz_scheme_row(int32_t row, kz_scheme *scheme);
+static inline kz_scheme kz_scheme_at(int32_t row) {
+  kz_scheme scheme;
+  kz_scheme_row(row, &scheme);
+  return scheme;
+}
 /* The row of that name; -1 if there is none. */
 int32_t kz_scheme_find(const char *name);
 

@@ -150,6 +150,16 @@ typedef struct {
                       and may run stages, whose kept records last until its tile is finished */
 } kz_stage;
 
+/* A kept stage whose records all ranks receive; one whose records rank 0 alone receives. */
+static inline kz_stage kz_stage_for_all(const char *name, int64_t n_tiles, size_t record_bytes, kz_tile_fn work,
+                                        void *context) {
+  return (kz_stage){name, n_tiles, record_bytes, work, context, .keep = true, .everywhere = true};
+}
+static inline kz_stage kz_stage_for_rank0(const char *name, int64_t n_tiles, size_t record_bytes, kz_tile_fn work,
+                                          void *context) {
+  return (kz_stage){name, n_tiles, record_bytes, work, context, .keep = true};
+}
+
 /* Runs a stage and fills `records` [n_tiles][record_bytes] on the ranks that receive them; the others may pass NULL. The first failing rank
  * stops the others, and all return its status. KZ_STOPPED: a signal or the time limit came before the last tile was begun; finished kept
  * records are on the disk. Kept stages must come in the same order in every run. If `run` is NULL or has no ranks, this process does all

@@ -261,12 +261,15 @@ typedef struct {
  * one core, from samples of the work; not collective. */
 typedef struct {
   const char *name;
-  bool (*wanted)(const kz_scene *scene);
+  size_t wanted; /* offset of the bool of kz_scene that says whether the scene asks for it */
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
   kz_status (*measure)(const kz_scene *scene, double *seconds);
 } kz_study;
+static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
+  return *(const bool *)((const char *)scene + study->wanted);
+}
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 

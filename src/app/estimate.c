@@ -21,7 +21,7 @@ typedef struct {
 
 static kz_status measure_next(const kz_scene *scene, int study, double *seconds) {
   double some = 0;
-  if (!kz_studies[study].wanted(scene)) return KZ_OK;
+  if (!kz_study_is_wanted(&kz_studies[study], scene)) return KZ_OK;
   KZ_TRY(kz_studies[study].measure(scene, &some));
   *seconds += some;
   return KZ_OK;

@@ -51,7 +51,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   kz_drive_print(&scene->parameters, stdout);
   fputs("studies         ", stdout);
   for (int i = 0; i < kz_study_count; i++)
-    if (kz_studies[i].wanted(scene)) printf(" %s", kz_studies[i].name);
+    if (kz_study_is_wanted(&kz_studies[i], scene)) printf(" %s", kz_studies[i].name);
   printf(
       "\ncells            %lld\ndisk             %s\nmemory per rank  %s, %s more on rank 0, and a share of %s\n"
       "estimated time   ",

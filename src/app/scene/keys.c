@@ -55,10 +55,8 @@ static const char *scheme_words(void) {
   static char words[512];
   words[0] = '\0';
   for (int32_t row = 0; row < kz_scheme_count(); row++) {
-    kz_scheme scheme;
-    kz_scheme_row(row, &scheme);
     if (row > 0) strncat(words, "|", sizeof words - strlen(words) - 1);
-    strncat(words, scheme.name, sizeof words - strlen(words) - 1);
+    strncat(words, kz_scheme_at(row).name, sizeof words - strlen(words) - 1);
   }
   return words;
 }

@@ -51,13 +51,7 @@ static kz_status escalate(walk *w, const kz_run *run, double accuracy, kz_choice
   kz_measured measured[2];
   for (w->first = 0; w->first < w->count && !choice->setting; w->first += step) {
     const int64_t left = w->count - w->first;
-    kz_stage stage = {.name = "settings",
-                      .n_tiles = left < step ? left : step,
-                      .record_bytes = sizeof *measured,
-                      .work = try_config,
-                      .context = w,
-                      .keep = true,
-                      .everywhere = true};
+    const kz_stage stage = kz_stage_for_all("settings", left < step ? left : step, sizeof *measured, try_config, w);
     KZ_TRY(kz_stage_run(run, &stage, measured));
     for (int64_t i = 0; i < stage.n_tiles && !choice->setting; i++) {
       choice->tried++;

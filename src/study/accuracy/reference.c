@@ -183,13 +183,8 @@ static kz_status share_known(const kz_run *run, const char *path, kz_reference_l
 static kz_status follow_samples(kz_reference_labels *reference, const kz_run *run, const char *path, kz_dynamics *dynamics) {
   reference_job h = {.reference = reference, .dynamics = dynamics};
   KZ_TRY(share_known(run, path, reference, &h.known));
-  kz_stage stage = {.name = "reference labels",
-                    .n_tiles = (reference->samples + TILE - 1) / TILE,
-                    .record_bytes = TILE * sizeof(kz_reference_label),
-                    .work = label_tile,
-                    .context = &h,
-                    .keep = true,
-                    .everywhere = true};
+  const kz_stage stage = kz_stage_for_all("reference labels", (reference->samples + TILE - 1) / TILE,
+                                          TILE * sizeof(kz_reference_label), label_tile, &h);
   kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK) memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);

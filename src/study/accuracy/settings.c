@@ -64,10 +64,8 @@ void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
 static double period_kicks(const kz_setting *setting) {
   /* Of the processed splitting: what a step costs, steps at 1e-4 for a gentle drive, and the order by which they grow. */
   static const double step = 0.4, steps = 14, order = 14;
-  kz_scheme scheme;
   if (setting->steps == KZ_AUTO) return step * steps * pow(1e-4 / setting->tolerance, 1 / order);
-  kz_scheme_row(kz_scheme_find(setting->scheme), &scheme);
-  return (double)scheme.kicks * setting->steps;
+  return (double)kz_scheme_at(kz_scheme_find(setting->scheme)).kicks * setting->steps;
 }
 
 double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods) {

@@ -16,10 +16,6 @@ typedef struct {
   const kz_trade *trade;
 } measuring;
 
-bool kz_tradeoff_wanted(const kz_scene *scene) {
-  return scene->has_tradeoff;
-}
-
 static int64_t count_settings(const kz_tradeoff_plan *plan) {
   return plan->settings.count > 0 ? plan->settings.count : kz_setting_count;
 }
@@ -92,13 +88,7 @@ static void rate(const kz_reference_labels *reference, kz_trade *trade) {
 }
 
 static kz_stage stage_of(measuring *m) {
-  return (kz_stage){.name = "settings",
-                    .n_tiles = m->trade->count,
-                    .record_bytes = sizeof(kz_measured),
-                    .work = measure_tile,
-                    .context = m,
-                    .keep = true,
-                    .everywhere = true};
+  return kz_stage_for_all("settings", m->trade->count, sizeof(kz_measured), measure_tile, m);
 }
 
 static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {

@@ -24,7 +24,6 @@ kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade
 /* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
 char *kz_reference_path(const kz_store *store);
 
-bool kz_tradeoff_wanted(const kz_scene *scene);
 kz_cost kz_tradeoff_cost(const kz_scene *scene);
 kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds);
 kz_status kz_tradeoff_check(const kz_scene *scene);

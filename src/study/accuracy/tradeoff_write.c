@@ -11,9 +11,7 @@
 
 static const char *scheme_name(const kz_numerics *numerics) {
   static char names[8][sizeof((kz_scheme *)0)->name];
-  kz_scheme scheme;
-  kz_scheme_row(numerics->scheme, &scheme);
-  return strcpy(names[numerics->scheme], scheme.name);
+  return strcpy(names[numerics->scheme], kz_scheme_at(numerics->scheme).name);
 }
 
 static kz_status write_configs(const kz_trade *trade, kz_store *store) {

@@ -17,10 +17,6 @@ typedef struct {
   int64_t max_periods;
 } finding;
 
-bool kz_attractors_wanted(const kz_scene *scene) {
-  return scene->has_attractors;
-}
-
 kz_cost kz_attractors_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * (double)scene->attractors.starts};
 }

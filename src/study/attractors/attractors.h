@@ -4,7 +4,6 @@
 
 #include "kapitza/study.h"
 
-bool kz_attractors_wanted(const kz_scene *scene);
 kz_cost kz_attractors_cost(const kz_scene *scene);
 kz_status kz_attractors_measure(const kz_scene *scene, double *seconds);
 kz_status kz_attractors_check(const kz_scene *scene);

@@ -58,13 +58,7 @@ static void list_pending(following *f) {
 
 /* Follows the pending starts for f->periods; those that are trapped get their label. */
 static kz_status follow_stretch(const kz_run *run, following *f) {
-  kz_stage stage = {.name = "attractors",
-                    .n_tiles = (f->n + TILE - 1) / TILE,
-                    .record_bytes = sizeof(followed),
-                    .work = follow_tile,
-                    .context = f,
-                    .keep = true,
-                    .everywhere = true};
+  const kz_stage stage = kz_stage_for_all("attractors", (f->n + TILE - 1) / TILE, sizeof(followed), follow_tile, f);
   followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
   kz_status status = kz_stage_run(run, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
@@ -109,13 +103,7 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
 
 /* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: a buffer. */
 static kz_status seek(const kz_run *run, seeking *s, double *record) {
-  const kz_stage stage = {.name = s->n > 0 ? "cycles" : "chaos",
-                          .n_tiles = 1,
-                          .record_bytes = (size_t)s->size * sizeof(double),
-                          .work = seek_tile,
-                          .context = s,
-                          .keep = true,
-                          .everywhere = true};
+  const kz_stage stage = kz_stage_for_all(s->n > 0 ? "cycles" : "chaos", 1, (size_t)s->size * sizeof(double), seek_tile, s);
   KZ_TRY(kz_stage_run(run, &stage, record));
   memcpy(s->found, record, (size_t)s->size * sizeof(double));
   kz_dynamics_adopt(s->dynamics, s->found + (s->n > 0 ? 1 : 0));

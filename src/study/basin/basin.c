@@ -166,7 +166,3 @@ kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
   return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, run, store, summary);
 }
-
-bool kz_basin_wanted(const kz_scene *scene) {
-  return scene->has_basin;
-}

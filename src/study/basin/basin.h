@@ -32,7 +32,6 @@ double kz_basin_warn_steps(const kz_scene *scene, FILE *summary);
 /* The plan of basin.shocks, for all strobe points. */
 kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan);
 
-bool kz_basin_wanted(const kz_scene *scene);
 kz_cost kz_basin_cost(const kz_scene *scene);
 kz_status kz_basin_check(const kz_scene *scene);
 kz_status kz_basin_measure(const kz_scene *scene, double *seconds);

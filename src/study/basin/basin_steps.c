@@ -10,8 +10,7 @@
 
 static void print_numerics(const kz_scene *scene, FILE *summary) {
   const kz_numerics *numerics = &scene->numerics;
-  kz_scheme scheme;
-  kz_scheme_row(numerics->scheme, &scheme);
+  const kz_scheme scheme = kz_scheme_at(numerics->scheme);
   fprintf(summary, "Integrator: %s%s, %d steps per drive period", scheme.name,
           kz_is_processed(numerics->scheme) ? " splitting" : "", (int)numerics->steps_per_period);
   if (kz_is_processed(scene->asked.scheme) && !kz_is_processed(numerics->scheme) && isnan(scene->basin.accuracy))

@@ -74,11 +74,9 @@ static kz_status write_measures(const kz_basin_plan *plan, const kz_window_summa
 
 static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   const kz_basin_plan *plan = &scene->basin;
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
   KZ_TRY(kz_store_text(store, "basin", "method", kz_method_names[plan->method]));
   KZ_TRY(kz_store_integer(store, "basin", "max_periods", plan->max_periods));
-  KZ_TRY(kz_store_text(store, "basin", "scheme", scheme.name));
+  KZ_TRY(kz_store_text(store, "basin", "scheme", kz_scheme_at(scene->numerics.scheme).name));
   KZ_TRY(kz_store_integer(store, "basin", "steps_per_period", scene->numerics.steps_per_period));
   KZ_TRY(kz_store_real(store, "basin", "tolerance", scene->asked.tolerance));
   KZ_TRY(kz_store_text(store, "basin", "interpolation", kz_interpolation_names[plan->interpolation]));

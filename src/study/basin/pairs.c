@@ -182,13 +182,7 @@ static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *lab
 }
 
 static kz_stage stage_of(pairing *p) {
-  return (kz_stage){.name = "pairs",
-                    .n_tiles = (p->plan->boundary.pairs + STARTS - 1) / STARTS,
-                    .record_bytes = sizeof(pair_record),
-                    .work = count_tile,
-                    .context = p,
-                    .keep = true,
-                    .everywhere = true};
+  return kz_stage_for_all("pairs", (p->plan->boundary.pairs + STARTS - 1) / STARTS, sizeof(pair_record), count_tile, p);
 }
 
 kz_status kz_pairs_measure(const kz_basin_plan *plan, const kz_window_labels *labelling, double *seconds) {

@@ -63,13 +63,8 @@ static kz_status ask_level(kz_window_labels *l, int round, asked *a, kz_cell_lab
   snprintf(name, sizeof name, "%s %d", kz_level_name(l->level), round);
   l->pending = a->cell;
   l->n_pending = a->n;
-  const kz_stage stage = {.name = name,
-                          .n_tiles = (a->n + size - 1) / size,
-                          .record_bytes = (size_t)size * sizeof(kz_cell_label),
-                          .work = label_pending,
-                          .context = l,
-                          .keep = true,
-                          .everywhere = true};
+  const kz_stage stage =
+      kz_stage_for_all(name, (a->n + size - 1) / size, (size_t)size * sizeof(kz_cell_label), label_pending, l);
   kz_cell_label *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   const kz_status status = kz_stage_run(l->run, &stage, label);
   int64_t left = 0;

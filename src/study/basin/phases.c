@@ -121,12 +121,7 @@ kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labellin
                          kz_store *store, FILE *summary) {
   if (scene->basin.phases <= 0) return KZ_OK;
   phases p = phases_of(scene, labelling->dynamics);
-  const kz_stage stage = {.name = "phases",
-                          .n_tiles = p.blocks * scene->basin.phases,
-                          .record_bytes = BLOCK * sizeof(int16_t),
-                          .work = phase_tile,
-                          .context = &p,
-                          .keep = true};
+  const kz_stage stage = kz_stage_for_rank0("phases", p.blocks * scene->basin.phases, BLOCK * sizeof(int16_t), phase_tile, &p);
   int16_t *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(labelling->run, &stage, label);
   if (status == KZ_OK && store) status = write_group(&p, label, catalogue, store, summary);

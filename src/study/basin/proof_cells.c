@@ -99,13 +99,7 @@ static void take(part *p, int64_t i, uint8_t number, uint8_t evidence) {
 static kz_status prove_in_doubles(const kz_run *run, part *p) {
   const kz_tiles *tiles = &p->labelling->tiles;
   const size_t capacity = (size_t)kz_tile_capacity(tiles);
-  kz_stage stage = {.name = "proof in doubles",
-                    .n_tiles = p->to - p->from,
-                    .record_bytes = capacity,
-                    .work = follow_tile,
-                    .context = p,
-                    .keep = true,
-                    .everywhere = true};
+  const kz_stage stage = kz_stage_for_all("proof in doubles", p->to - p->from, capacity, follow_tile, p);
   uint8_t *record = kz_malloc((size_t)stage.n_tiles * capacity);
   const kz_status status = kz_stage_run(run, &stage, record);
   p->n_left = 0;
@@ -122,13 +116,8 @@ static kz_status prove_in_doubles(const kz_run *run, part *p) {
 }
 
 static kz_status prove_left(const kz_run *run, const finer_stage *finer, part *p) {
-  const kz_stage stage = {.name = finer->stage,
-                          .n_tiles = (p->n_left + finer->tile - 1) / finer->tile,
-                          .record_bytes = (size_t)finer->tile,
-                          .work = follow_left,
-                          .context = p,
-                          .keep = true,
-                          .everywhere = true};
+  const kz_stage stage =
+      kz_stage_for_all(finer->stage, (p->n_left + finer->tile - 1) / finer->tile, (size_t)finer->tile, follow_left, p);
   p->finer = finer;
   uint8_t *record = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   const kz_status status = kz_stage_run(run, &stage, record);

@@ -66,13 +66,8 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
 
 kz_status kz_prove_sample(const kz_run *run, const kz_basin_plan *plan, const kz_proof *proof, kz_proof_sample *sample) {
   job j = {.plan = plan, .proof = proof, .starts = kz_proof_sample_starts(plan)};
-  kz_stage stage = {.name = "proof of real starts",
-                    .n_tiles = (j.starts + TILE - 1) / TILE,
-                    .record_bytes = sizeof(int64_t),
-                    .work = follow_tile,
-                    .context = &j,
-                    .keep = true,
-                    .everywhere = true};
+  const kz_stage stage =
+      kz_stage_for_all("proof of real starts", (j.starts + TILE - 1) / TILE, sizeof(int64_t), follow_tile, &j);
   int64_t *record = kz_calloc((size_t)stage.n_tiles, sizeof *record);
   const kz_status status = kz_stage_run(run, &stage, record);
   *sample = (kz_proof_sample){.starts = j.starts};

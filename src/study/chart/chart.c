@@ -16,10 +16,6 @@ typedef struct {
   kz_chart_ending ending[KZ_CHART_POINTS];
 } tile_record;
 
-bool kz_chart_wanted(const kz_scene *scene) {
-  return scene->has_chart;
-}
-
 static int64_t points_of(const kz_chart_plan *plan) {
   return plan->x.values.count * plan->y.values.count;
 }

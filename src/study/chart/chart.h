@@ -7,7 +7,6 @@
 
 enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one without damping */
 
-bool kz_chart_wanted(const kz_scene *scene);
 kz_cost kz_chart_cost(const kz_scene *scene);
 kz_status kz_chart_measure(const kz_scene *scene, double *seconds);
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);

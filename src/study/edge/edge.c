@@ -17,10 +17,6 @@ typedef struct {
   int32_t *label;
 } edge_job;
 
-bool kz_edge_wanted(const kz_scene *scene) {
-  return scene->has_edge;
-}
-
 kz_cost kz_edge_cost(const kz_scene *scene) {
   const kz_search search = kz_search_of(scene);
   const double points = (double)scene->edge.periods + 1;
@@ -122,7 +118,7 @@ static void edge_allocate(edge_job *e) {
 
 static kz_status follow(edge_job *e, const kz_run *run, kz_store *store, FILE *summary) {
   const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)e->scene->edge.periods + 1) * sizeof(double);
-  const kz_stage stage = {.name = "edge", .n_tiles = 1, .record_bytes = bytes, .work = edge_tile, .context = e, .keep = true};
+  const kz_stage stage = kz_stage_for_rank0("edge", 1, bytes, edge_tile, e);
   edge_allocate(e);
   e->search.max_velocity = kz_dynamics_max_velocity(e->dynamics, &e->search.window);
   KZ_TRY(kz_search_window(run, e->dynamics, &e->search, e->state, e->label));

@@ -4,7 +4,6 @@
 
 #include "kapitza/study.h"
 
-bool kz_edge_wanted(const kz_scene *scene);
 kz_cost kz_edge_cost(const kz_scene *scene);
 kz_status kz_edge_measure(const kz_scene *scene, double *seconds);
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);

@@ -49,12 +49,7 @@ kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, cons
 }
 
 static kz_stage stage_of(sample *s) {
-  return (kz_stage){.name = "doubt",
-                    .n_tiles = (kz_doubt_cells(s->plan) + TILE - 1) / TILE,
-                    .record_bytes = TILE * sizeof(int32_t),
-                    .work = follow_tile,
-                    .context = s,
-                    .keep = true};
+  return kz_stage_for_rank0("doubt", (kz_doubt_cells(s->plan) + TILE - 1) / TILE, TILE * sizeof(int32_t), follow_tile, s);
 }
 
 kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds) {

@@ -21,13 +21,8 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
                             double max_velocity) {
   table t = {dynamics, n_velocity};
   kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
-  kz_stage stage = {.name = "map table",
-                    .n_tiles = (n_velocity + ROWS - 1) / ROWS,
-                    .record_bytes = ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double),
-                    .work = table_tile,
-                    .context = &t,
-                    .keep = true,
-                    .everywhere = true};
+  const kz_stage stage = kz_stage_for_all("map table", (n_velocity + ROWS - 1) / ROWS,
+                                          ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double), table_tile, &t);
   double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);

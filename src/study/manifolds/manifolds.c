@@ -26,10 +26,6 @@ typedef struct {
   double point[4 * MOST_POINTS];
 } grown;
 
-bool kz_manifolds_wanted(const kz_scene *scene) {
-  return scene->has_manifolds;
-}
-
 kz_cost kz_manifolds_cost(const kz_scene *scene) {
   const kz_manifolds_plan *plan = &scene->manifolds;
   const double branches = 4 * (plan->saddles.count > 0 ? (double)plan->saddles.count : 4),

@@ -168,9 +168,7 @@ int32_t kz_stepping(int32_t method, int32_t interpolation) {
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {
   static const double tile_kicks = 4e9; /* some seconds, where all cells take max_periods */
   enum { FEWEST = 16 };
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  const double kicks = (double)scheme.kicks * scene->numerics.steps_per_period;
+  const double kicks = (double)kz_scheme_at(scene->numerics.scheme).kicks * scene->numerics.steps_per_period;
   const double enough = tile_kicks / (kicks * (double)scene->basin.max_periods);
   return (int64_t)fmax(FEWEST, fmin((double)most, FEWEST * floor(enough / FEWEST)));
 }

@@ -21,9 +21,7 @@ kz_motions kz_motions_of_basin(const kz_scene *scene) {
 /* The scheme's own number of steps, or more for small cells; `enough`: or more for any cells. */
 static void choose_steps(kz_scene *scene, bool enough) {
   kz_numerics chosen;
-  kz_scheme scheme;
-  kz_scheme_row(scene->numerics.scheme, &scheme);
-  scene->numerics.steps_per_period = scheme.default_steps;
+  scene->numerics.steps_per_period = kz_scheme_at(scene->numerics.scheme).default_steps;
   if (!scene->has_basin || !isnan(scene->basin.accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
   const kz_motions motions = kz_motions_of_basin(scene);
   if ((enough || motions.refuse_above < KZ_STEPS_REFUSED) && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
@@ -59,10 +57,9 @@ static int32_t orbit_scheme(const kz_scene *scene) {
 double kz_orbit_steps(const kz_scene *scene) {
   const double start = isfinite(scene->orbit.velocity) ? fabs(scene->orbit.velocity) : 0;
   const double speed = 1 + 2 * swing(&scene->parameters.pendulum) + start;
-  kz_scheme scheme;
-  kz_scheme_row(orbit_scheme(scene), &scheme);
-  const double asked = scene->asked.steps_per_period == KZ_AUTO ? scheme.default_steps : scene->asked.steps_per_period;
-  return multiple(samples_of(scene), fmax(asked, scheme.default_steps * speed / 2));
+  const int32_t steps = kz_scheme_at(orbit_scheme(scene)).default_steps;
+  const double asked = scene->asked.steps_per_period == KZ_AUTO ? steps : scene->asked.steps_per_period;
+  return multiple(samples_of(scene), fmax(asked, steps * speed / 2));
 }
 
 kz_numerics kz_orbit_numerics(const kz_scene *scene) {

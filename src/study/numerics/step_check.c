@@ -68,13 +68,11 @@ kz_status kz_motions_check(const kz_motions *m) {
   const int worst = kz_worst_class(&classes);
   if (classes.error[worst] <= m->refuse_above) return KZ_OK;
   char what[120], help[160];
-  kz_scheme scheme;
-  kz_scheme_row(m->numerics.scheme, &scheme);
   describe_error(m, classes.error[worst], sizeof what, what);
   advice(m, sizeof help, help);
   return kz_fail(KZ_REFUSED, "%s: %swith numerics.steps_per_period = %d of %s, motions at speeds from %.3g to %.3g %s; %s",
-                 m->keys, m->where, (int)m->numerics.steps_per_period, scheme.name, classes.speed[worst],
-                 classes.speed[worst + 1], what, help);
+                 m->keys, m->where, (int)m->numerics.steps_per_period, kz_scheme_at(m->numerics.scheme).name,
+                 classes.speed[worst], classes.speed[worst + 1], what, help);
 }
 
 void kz_motions_warn(const kz_motions *m, const kz_speed_errors *classes, FILE *summary) {

@@ -17,12 +17,6 @@ double kz_steps_by_stiffness(const kz_pendulum *pendulum, double gentle) {
   return gentle * ceil(sqrt(fmax(1, kz_stiffness(pendulum))));
 }
 
-static int32_t order_of(const kz_numerics *numerics) {
-  kz_scheme scheme;
-  kz_scheme_row(numerics->scheme, &scheme);
-  return scheme.order;
-}
-
 static double error_of(int32_t steps, void *context) {
   const trial *t = context;
   t->numerics->steps_per_period = steps;
@@ -33,7 +27,8 @@ static double error_of(int32_t steps, void *context) {
 bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
   trial t = {pendulum, fastest, numerics};
   int32_t tried;
-  return kz_steps_search(error_of, &t, order_of(numerics), tolerance, numerics->steps_per_period, most, &tried) <= tolerance;
+  return kz_steps_search(error_of, &t, kz_scheme_at(numerics->scheme).order, tolerance, numerics->steps_per_period, most,
+                         &tried) <= tolerance;
 }
 
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
@@ -46,14 +41,12 @@ int32_t kz_steps_scaled(const kz_pendulum *pendulum, const kz_numerics *numerics
   const double speed[] = {0, fastest};
   double error;
   kz_step_errors(pendulum, numerics, 1, speed, &error);
-  const double steps =
-      ceil(kz_expected_steps(numerics->steps_per_period, fmax(error, ROUNDING), tolerance, order_of(numerics)));
+  const double steps = ceil(
+      kz_expected_steps(numerics->steps_per_period, fmax(error, ROUNDING), tolerance, kz_scheme_at(numerics->scheme).order));
   return (int32_t)fmin(fmax(steps, least), most);
 }
 
 kz_numerics kz_steps_plain(void) {
   const int32_t split6 = kz_scheme_find("split6");
-  kz_scheme scheme;
-  kz_scheme_row(split6, &scheme);
-  return (kz_numerics){.scheme = split6, .steps_per_period = scheme.default_steps};
+  return (kz_numerics){.scheme = split6, .steps_per_period = kz_scheme_at(split6).default_steps};
 }

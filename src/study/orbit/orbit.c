@@ -16,10 +16,6 @@ enum { AHEAD_STEPS = 1500 };
 /* Periods of the transient between two looks at stop requests: a few seconds. */
 enum { STRETCH = 100000 };
 
-bool kz_orbit_wanted(const kz_scene *scene) {
-  return scene->has_orbit;
-}
-
 kz_status kz_orbit_check(const kz_scene *scene) {
   const double start = scene->orbit.velocity;
   kz_motions motions = kz_motions_of(scene, isfinite(start) ? fabs(start) : 0, "numerics.steps_per_period|orbit.start|orbit");

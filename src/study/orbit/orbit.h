@@ -23,7 +23,6 @@ kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store);
 /* A line for people. */
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
 
-bool kz_orbit_wanted(const kz_scene *scene);
 kz_cost kz_orbit_cost(const kz_scene *scene);
 kz_status kz_orbit_measure(const kz_scene *scene, double *seconds);
 kz_status kz_orbit_check(const kz_scene *scene);

@@ -16,10 +16,6 @@ typedef struct {
   uint8_t stable[KZ_LIST_MAX];
 } curves;
 
-bool kz_potential_wanted(const kz_scene *scene) {
-  return scene->has_potential;
-}
-
 kz_cost kz_potential_cost(const kz_scene *scene) {
   double points = (double)scene->potential.drive_amplitudes.count * (double)scene->potential.theta_count;
   return (kz_cost){.disk_bytes = 24 * points, .rank0_bytes = 24 * points};

@@ -90,13 +90,7 @@ static kz_status search(const kz_run *run, searching *s, int64_t n, int64_t *own
   int64_t n_own = 0;
   for (int64_t i = 0; i < n; i++)
     if (image_of(point, i) == i) own[n_own++] = i;
-  const kz_stage stage = {.name = "shocks",
-                          .n_tiles = n_own,
-                          .record_bytes = sizeof *point,
-                          .work = resilience_tile,
-                          .context = s,
-                          .keep = true,
-                          .everywhere = true};
+  const kz_stage stage = kz_stage_for_all("shocks", n_own, sizeof *point, resilience_tile, s);
   kz_status status = kz_stage_run(run, &stage, found);
   for (int64_t i = 0; status == KZ_OK && i < n_own; i++) point[own[i]] = found[i];
   for (int64_t i = 0; status == KZ_OK && i < n; i++)

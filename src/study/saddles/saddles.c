@@ -11,10 +11,6 @@ enum {
   ROUNDS = 8, /* at most */
   QUIET = 2   /* rounds without a new cycle, after which the search ends even if the sums are not 0 */
 };
-bool kz_saddles_wanted(const kz_scene *scene) {
-  return scene->has_saddles;
-}
-
 /* Everything about the cycles that were found. Rank 0. */
 static void list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_list *cycles, kz_index_sums *sums) {
   const int64_t max_period = scene->saddles.max_period;

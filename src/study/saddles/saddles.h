@@ -5,7 +5,6 @@
 #include "cycles.h"
 #include "kapitza/study.h"
 
-bool kz_saddles_wanted(const kz_scene *scene);
 kz_cost kz_saddles_cost(const kz_scene *scene);
 kz_status kz_saddles_measure(const kz_scene *scene, double *seconds);
 /* A rough estimate of the number of cycles that a search would find. */

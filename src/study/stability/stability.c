@@ -22,10 +22,6 @@ static int64_t tiles_of(int64_t count, int64_t size) {
   return (count + size - 1) / size;
 }
 
-bool kz_stability_wanted(const kz_scene *scene) {
-  return scene->has_stability;
-}
-
 kz_cost kz_stability_cost(const kz_scene *scene) {
   const kz_stability_plan *plan = &scene->stability;
   double points = (double)plan->k.count * (double)plan->m.count;

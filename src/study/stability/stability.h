@@ -5,7 +5,6 @@
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
 
-bool kz_stability_wanted(const kz_scene *scene);
 kz_cost kz_stability_cost(const kz_scene *scene);
 kz_status kz_stability_measure(const kz_scene *scene, double *seconds);
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);

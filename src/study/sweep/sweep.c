@@ -9,10 +9,6 @@ const char *kz_sweep_measure_words(void) {
   return words + 1;
 }
 
-bool kz_sweep_wanted(const kz_scene *scene) {
-  return scene->has_sweep;
-}
-
 kz_cost kz_sweep_cost(const kz_scene *scene) {
   const double values = (double)scene->sweep.values.count;
   const bool grid = kz_sweep_has_grid(scene);

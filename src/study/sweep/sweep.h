@@ -148,7 +148,6 @@ kz_status kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *n
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
 
 /* One row of kz_studies. */
-bool kz_sweep_wanted(const kz_scene *scene);
 kz_cost kz_sweep_cost(const kz_scene *scene);
 kz_status kz_sweep_measure(const kz_scene *scene, double *seconds);
 kz_status kz_sweep_check(const kz_scene *scene);
