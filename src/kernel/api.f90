@@ -25,8 +25,7 @@ module kz_kernel_api
 
 contains
 
-  function scheme_count() bind(C, name='kz_scheme_count') result(n)
-    integer(c_int32_t) :: n
+  integer(c_int32_t) function scheme_count() bind(C, name='kz_scheme_count') result(n)
 
     n = size(SCHEMES)
   end function scheme_count
@@ -60,10 +59,9 @@ contains
     end do
   end function c_text
 
-  function flow_create(pendulum, numerics) bind(C, name='kz_flow_create') result(handle)
+  type(c_ptr) function flow_create(pendulum, numerics) bind(C, name='kz_flow_create') result(handle)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
-    type(c_ptr) :: handle
     type(flows_t), pointer :: flows
     integer :: status
 
@@ -85,10 +83,8 @@ contains
 
   subroutine advance(handle, n, periods, theta, velocity, turns) bind(C, name='kz_advance')
     type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: periods
-    real(c_double), intent(inout) :: theta(n)
-    real(c_double), intent(inout) :: velocity(n)
+    integer(c_int64_t), value :: n, periods
+    real(c_double), intent(inout) :: theta(n), velocity(n)
     integer(c_int64_t), intent(inout) :: turns(n)
     type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
@@ -111,10 +107,8 @@ contains
 
   subroutine advance_tangent(handle, n, periods, theta, velocity, turns, matrix) bind(C, name='kz_advance_tangent')
     type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: periods
-    real(c_double), intent(inout) :: theta(n)
-    real(c_double), intent(inout) :: velocity(n)
+    integer(c_int64_t), value :: n, periods
+    real(c_double), intent(inout) :: theta(n), velocity(n)
     integer(c_int64_t), intent(inout) :: turns(n)
     real(c_double), intent(out) :: matrix(2, 2, n)
     type(flows_t), pointer :: flows
@@ -146,8 +140,7 @@ contains
   subroutine load(flow, lanes, theta, velocity)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: lanes
-    real(c_double), intent(in) :: theta(*)
-    real(c_double), intent(in) :: velocity(*)
+    real(c_double), intent(in) :: theta(*), velocity(*)
     integer :: i
 
     do i = 1, lanes
@@ -161,8 +154,7 @@ contains
   subroutine unload(flow, lanes, theta, velocity, turns)
     class(flow_t), intent(in) :: flow
     integer, intent(in) :: lanes
-    real(c_double), intent(inout) :: theta(*)
-    real(c_double), intent(inout) :: velocity(*)
+    real(c_double), intent(inout) :: theta(*), velocity(*)
     integer(c_int64_t), intent(inout) :: turns(*)
 
     theta(:lanes) = flow%u(:lanes)*PI
@@ -172,12 +164,9 @@ contains
 
   subroutine sample(handle, periods, samples, theta, velocity, theta_out, velocity_out) bind(C, name='kz_sample')
     type(c_ptr), value :: handle
-    integer(c_int64_t), value :: periods
-    integer(c_int64_t), value :: samples
-    real(c_double), value :: theta
-    real(c_double), value :: velocity
-    real(c_double), intent(out) :: theta_out(0:periods*samples)
-    real(c_double), intent(out) :: velocity_out(0:periods*samples)
+    integer(c_int64_t), value :: periods, samples
+    real(c_double), value :: theta, velocity
+    real(c_double), intent(out) :: theta_out(0:periods*samples), velocity_out(0:periods*samples)
     type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
     integer(c_int64_t) :: period, first, last, turns

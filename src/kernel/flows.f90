@@ -21,10 +21,8 @@ module kz_kernel_flows
 contains
 
   !> FINE, with more steps where the torque is large.
-  pure function fine_numerics(pendulum) result(numerics)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    type(numerics_t) :: numerics
+  pure type(numerics_t) function fine_numerics(pendulum) result(numerics)
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
 
     numerics = FINE
     numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_c_double, stiffness(pendulum))))
@@ -33,10 +31,8 @@ contains
   !> With which numerics motions are shown within a period: the scene's, or fine steps in place of the processed splitting, whose
   !> states are physical at the strobe alone. Steps are a multiple of the scene's.
   pure function sampling_numerics(pendulum, numerics) result(sampling)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period
-    type(numerics_t), intent(in) :: numerics
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     type(numerics_t) :: sampling, fine
 
     sampling = numerics
@@ -50,14 +46,11 @@ contains
   !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
   !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
   recursive subroutine make_flow(pendulum, numerics, fused, flow)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period
-    type(numerics_t), intent(in) :: numerics
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
-    !> the map of one drive period
-    class(flow_t), allocatable, intent(out) :: flow
+    class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
     type(period_t) :: period
     type(series_t), allocatable :: series
 
@@ -73,12 +66,9 @@ contains
 
   !> The same for a pendulum that is moved by a slider, a little beside the last one: its series comes from theirs.
   subroutine make_moving_flow(pendulum, numerics, flow)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period
-    type(numerics_t), intent(in) :: numerics
-    !> the map of one drive period
-    class(flow_t), allocatable, intent(out) :: flow
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
+    class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
     type(series_t), allocatable :: series
 
     if (SCHEMES(numerics%scheme + 1)%form /= PROCESSED) then
@@ -92,12 +82,9 @@ contains
 
   !> The map of a stretch, by fine steps of split6.
   subroutine make_stretch_flow(pendulum, stretch, flow)
-    !> as it is after a ramp
-    type(pendulum_t), intent(in) :: pendulum
-    !> a part of a drive period
-    type(stretch_t), intent(in) :: stretch
-    !> from its beginning to its end
-    class(flow_t), allocatable, intent(out) :: flow
+    type(pendulum_t), intent(in) :: pendulum !< as it is after a ramp
+    type(stretch_t), intent(in) :: stretch !< a part of a drive period
+    class(flow_t), allocatable, intent(out) :: flow !< from its beginning to its end
     type(numerics_t) :: numerics
     type(period_t) :: period
 
@@ -110,14 +97,10 @@ contains
 
   !> The map of one drive period, and the same with twice the steps, and all terms: their difference is the error of a period.
   subroutine make_flow_and_finer(pendulum, numerics, flow, finer)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period
-    type(numerics_t), intent(in) :: numerics
-    !> the map of one drive period
-    class(flow_t), allocatable, intent(out) :: flow
-    !> with twice the steps
-    class(flow_t), allocatable, intent(out) :: finer
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
+    class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
+    class(flow_t), allocatable, intent(out) :: finer !< with twice the steps
     type(numerics_t) :: halved
     type(series_t), allocatable :: series
 
@@ -135,18 +118,12 @@ contains
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
   recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> the series of the pendulum
-    type(series_t), intent(in) :: series
-    !> scheme, steps a period
-    type(numerics_t), intent(in) :: numerics
-    !> the map of one drive period
-    class(flow_t), allocatable, intent(out) :: flow
-    !> the drift is fitted up to this speed; the fastest, if left out
-    real(c_double), intent(in), optional :: fitted
-    !> steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
-    integer, intent(in), optional :: refined
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(series_t), intent(in) :: series !< the series of the pendulum
+    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
+    class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
+    real(c_double), intent(in), optional :: fitted !< the drift is fitted up to this speed; the fastest, if left out
+    integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
     type(numerics_t) :: fine
     type(processed_t) :: table
     class(flow_t), allocatable :: fallback

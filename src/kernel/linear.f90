@@ -37,14 +37,10 @@ contains
   !> Solutions at t = pi for n points.
   subroutine half_periods(n, k, beta, m, half) bind(C, name='kz_linear_half_period')
     integer(c_int64_t), value :: n
-    !> stiffness [n]
-    real(c_double), intent(in) :: k(n)
-    !> damping [n]
-    real(c_double), intent(in) :: beta(n)
-    !> drive [n]
-    real(c_double), intent(in) :: m(n)
-    !> the four numbers [n]
-    type(half_period_t), intent(out) :: half(n)
+    real(c_double), intent(in) :: k(n) !< stiffness [n]
+    real(c_double), intent(in) :: beta(n) !< damping [n]
+    real(c_double), intent(in) :: m(n) !< drive [n]
+    type(half_period_t), intent(out) :: half(n) !< the four numbers [n]
     integer(c_int64_t) :: first
     integer :: lanes
 
@@ -57,18 +53,12 @@ contains
   !> Largest multiplier, its angle and the stability of n points.
   subroutine floquet(n, k, beta, m, log_multiplier, angle, stable) bind(C, name='kz_linear_floquet')
     integer(c_int64_t), value :: n
-    !> stiffness [n]
-    real(c_double), intent(in) :: k(n)
-    !> damping [n]
-    real(c_double), intent(in) :: beta(n)
-    !> drive [n]
-    real(c_double), intent(in) :: m(n)
-    !> natural log of the largest |multiplier| [n]
-    real(c_double), intent(out) :: log_multiplier(n)
-    !> Floquet angle / 2 pi [n]
-    real(c_double), intent(out) :: angle(n)
-    !> 1 = stable [n]
-    integer(c_int8_t), intent(out) :: stable(n)
+    real(c_double), intent(in) :: k(n) !< stiffness [n]
+    real(c_double), intent(in) :: beta(n) !< damping [n]
+    real(c_double), intent(in) :: m(n) !< drive [n]
+    real(c_double), intent(out) :: log_multiplier(n) !< natural log of the largest |multiplier| [n]
+    real(c_double), intent(out) :: angle(n) !< Floquet angle / 2 pi [n]
+    integer(c_int8_t), intent(out) :: stable(n) !< 1 = stable [n]
     type(half_period_t) :: half(WIDTH)
     integer(c_int64_t) :: first, j
     integer :: lanes, i
@@ -88,10 +78,8 @@ contains
   !> edge, as at k = n**2/4, m = 0.
   pure subroutine classify(half, beta, rounding, log_multiplier, angle, stable)
     type(half_period_t), intent(in) :: half
-    real(rk), intent(in) :: beta
-    real(rk), intent(in) :: rounding
-    real(rk), intent(out) :: log_multiplier
-    real(rk), intent(out) :: angle
+    real(rk), intent(in) :: beta, rounding
+    real(rk), intent(out) :: log_multiplier, angle
     integer(c_int8_t), intent(out) :: stable
     real(rk) :: plus, minus, growth
 
@@ -112,29 +100,23 @@ contains
   end subroutine classify
 
   !> The rounding error of a product of two solutions near their zeros.
-  pure function rounding_of(k, beta, m) result(rounding)
-    real(rk), intent(in) :: k
-    real(rk), intent(in) :: beta
-    real(rk), intent(in) :: m
-    real(rk) :: rounding
+  pure real(rk) function rounding_of(k, beta, m) result(rounding)
+    real(rk), intent(in) :: k, beta, m
 
     rounding = (4*epsilon(1.0_rk)*(1 + abs(k) + 0.25_rk*beta**2 + abs(m)))**2
   end function rounding_of
 
   !> The product, or 0 where it is below its rounding error.
-  pure function beyond(product, rounding) result(sure)
-    real(rk), intent(in) :: product
-    real(rk), intent(in) :: rounding
-    real(rk) :: sure
+  pure real(rk) function beyond(product, rounding) result(sure)
+    real(rk), intent(in) :: product, rounding
 
     sure = merge(product, 0.0_rk, abs(product) > rounding)
   end function beyond
 
   !> mu with sinh(mu/2)**2 = square 4**exponent.
-  pure function growth_of(square, exponent) result(growth)
+  pure real(rk) function growth_of(square, exponent) result(growth)
     real(rk), intent(in) :: square
     integer(c_int64_t), intent(in) :: exponent
-    real(rk) :: growth
 
     if (exponent == 0 .and. square < 1e30_rk) then
       growth = 2*asinh(sqrt(square))
@@ -146,9 +128,7 @@ contains
   !> One batch through half a period; its steps suit its hardest lane.
   subroutine half_batch(lanes, k, beta, m, half)
     integer, intent(in) :: lanes
-    real(rk), intent(in) :: k(*)
-    real(rk), intent(in) :: beta(*)
-    real(rk), intent(in) :: m(*)
+    real(rk), intent(in) :: k(*), beta(*), m(*)
     type(half_period_t), intent(out) :: half(*)
     real(rk) :: kappa(WIDTH), drive(WIDTH), h
     type(solutions_t) :: y
@@ -173,10 +153,8 @@ contains
 
   !> Taylor coefficients of cos(t + h x) in x.
   pure function cosine_series(t, h) result(series)
-    real(rk), intent(in) :: t
-    real(rk), intent(in) :: h
-    real(rk) :: series(0:ORDER + 3)
-    real(rk) :: scale
+    real(rk), intent(in) :: t, h
+    real(rk) :: series(0:ORDER + 3), scale
     integer :: j
 
     scale = 1
@@ -187,9 +165,8 @@ contains
   end function cosine_series
 
   !> Terms of that series that a double can see.
-  pure function cosine_terms(h) result(terms)
+  pure integer function cosine_terms(h) result(terms)
     real(rk), intent(in) :: h
-    integer :: terms
     real(rk) :: size
 
     size = 1
@@ -203,9 +180,7 @@ contains
   !> W(x) = (A, B; A', B') times the middle's, det W = 1.
   subroutine step(y, stiffness, drive, cosine, terms)
     type(solutions_t), intent(inout) :: y
-    real(rk), intent(in) :: stiffness(WIDTH)
-    real(rk), intent(in) :: drive(WIDTH)
-    real(rk), intent(in) :: cosine(0:ORDER + 3)
+    real(rk), intent(in) :: stiffness(WIDTH), drive(WIDTH), cosine(0:ORDER + 3)
     integer, intent(in) :: terms
     real(rk), dimension(WIDTH) :: a_even, a_odd, da_even, da_odd, b_even, b_odd, db_even, db_odd, at, slope
     integer :: j
@@ -224,9 +199,7 @@ contains
   !> The solution with first coefficients (1, 0) or (0, 1): sums of its even and odd terms at x = 1 and of their derivatives.
   subroutine series_sums(which, stiffness, drive, cosine, terms, even, odd, d_even, d_odd)
     integer, intent(in) :: which
-    real(rk), intent(in) :: stiffness(WIDTH)
-    real(rk), intent(in) :: drive(WIDTH)
-    real(rk), intent(in) :: cosine(0:ORDER + 3)
+    real(rk), intent(in) :: stiffness(WIDTH), drive(WIDTH), cosine(0:ORDER + 3)
     integer, intent(in) :: terms
     real(rk), dimension(WIDTH), intent(out) :: even, odd, d_even, d_odd
     real(rk) :: a(WIDTH, -3:ORDER + 1), forced(WIDTH)

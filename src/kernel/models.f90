@@ -25,10 +25,7 @@ module kz_kernel_models
     !> model.h
     pure function slow_pull(k, beta, m, cosine) bind(C, name='kz_slow_pull') result(pull)
       import :: c_double
-      real(c_double), value :: k
-      real(c_double), value :: beta
-      real(c_double), value :: m
-      real(c_double), value :: cosine
+      real(c_double), value :: k, beta, m, cosine
       real(c_double) :: pull
     end function slow_pull
   end interface
@@ -37,22 +34,14 @@ contains
 
   subroutine sample_model(code, pendulum, periods, samples, theta, velocity, theta_out, velocity_out) &
     bind(C, name='kz_sample_model')
-    !> MATHIEU or EFFECTIVE
-    integer(c_int32_t), value :: code
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> drive periods
-    integer(c_int64_t), value :: periods
-    !> samples per period
-    integer(c_int64_t), value :: samples
-    !> start, rad
-    real(c_double), value :: theta
-    !> start, rad per drive radian
-    real(c_double), value :: velocity
-    !> angles at t = 2 pi s/samples, s = 0 .. periods*samples
-    real(c_double), intent(out) :: theta_out(0:periods*samples)
-    !> velocities there
-    real(c_double), intent(out) :: velocity_out(0:periods*samples)
+    integer(c_int32_t), value :: code !< MATHIEU or EFFECTIVE
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    integer(c_int64_t), value :: periods !< drive periods
+    integer(c_int64_t), value :: samples !< samples per period
+    real(c_double), value :: theta !< start, rad
+    real(c_double), value :: velocity !< start, rad per drive radian
+    real(c_double), intent(out) :: theta_out(0:periods*samples) !< angles at t = 2 pi s/samples, s = 0 .. periods*samples
+    real(c_double), intent(out) :: velocity_out(0:periods*samples) !< velocities there
     type(model_t) :: model
     real(c_double) :: x(2)
     integer(c_int64_t) :: s
@@ -100,8 +89,7 @@ contains
   !> x = (theta, velocity) from the end of step `from` to the end of step `to` of a period.
   subroutine advance(model, from, to, x)
     type(model_t), intent(in) :: model
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
     real(c_double), intent(inout) :: x(2)
     integer :: s, first
 
@@ -113,10 +101,9 @@ contains
     end do
   end subroutine advance
 
-  pure function restoring(model, theta) result(force)
+  pure real(c_double) function restoring(model, theta) result(force)
     type(model_t), intent(in) :: model
     real(c_double), intent(in) :: theta
-    real(c_double) :: force
 
     force = theta
     if (model%code == EFFECTIVE) &

@@ -43,13 +43,11 @@ module kz_kernel_processed_choice
 contains
 
   !> kz_numerics_choose of kernel.h.
-  function choose(pendulum, tolerance, fastest, numerics, error) bind(C, name='kz_numerics_choose') result(status)
+  integer(c_int32_t) function choose(pendulum, tolerance, fastest, numerics, error) bind(C, name='kz_numerics_choose') result(status)
     type(pendulum_t), intent(in) :: pendulum
-    real(c_double), value :: tolerance
-    real(c_double), value :: fastest
+    real(c_double), value :: tolerance, fastest
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
-    integer(c_int32_t) :: status
     logical :: halting(size(ieee_usual))
     type(splitting_t) :: trial
     type(drive_t) :: drive
@@ -83,20 +81,18 @@ contains
   end function choose
 
   !> Whether a pendulum is too stiff, or a motion too fast, for any number of steps; numbers that are none are.
-  pure function out_of_reach(pendulum, fastest) result(out)
+  pure logical function out_of_reach(pendulum, fastest) result(out)
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), intent(in) :: fastest
-    logical :: out
     real(c_double), parameter :: STEP = 2*PI/MOST_STEPS
 
     out = .not. (STEP*fastest <= LONGEST_TURN .and. STEP*sqrt(stiffness(pendulum)) <= LONGEST_SWING)
   end function out_of_reach
 
   !> The largest error of one period of n steps, rad.
-  function measure_splitting(trial, n) result(error)
+  real(c_double) function measure_splitting(trial, n) result(error)
     class(splitting_t), intent(inout) :: trial
     integer, intent(in) :: n
-    real(c_double) :: error
     class(flow_t), allocatable :: flow
     type(numerics_t) :: unbounded
     real(c_double) :: distance
@@ -151,17 +147,14 @@ contains
   end subroutine compare_terms
 
   !> How many steps of a candidate cost less than what is chosen.
-  pure function cheaper_steps(chosen, candidate) result(steps)
-    type(numerics_t), intent(in) :: chosen
-    type(numerics_t), intent(in) :: candidate
-    integer :: steps
+  pure integer function cheaper_steps(chosen, candidate) result(steps)
+    type(numerics_t), intent(in) :: chosen, candidate
 
     steps = (chosen%steps_per_period*operations(chosen) - 1)/operations(candidate)
   end function cheaper_steps
 
-  pure function operations(numerics) result(n)
+  pure integer function operations(numerics) result(n)
     type(numerics_t), intent(in) :: numerics
-    integer :: n
 
     n = numerics%drift_terms + numerics%kick_terms + OTHER_OPERATIONS
   end function operations

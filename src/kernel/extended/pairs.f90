@@ -66,20 +66,14 @@ contains
   !> Tables for a pendulum whose error of one period is at most a tolerance. Speeds that no table reaches are left to the Taylor
   !> series: the error is never larger.
   subroutine make_pairs(pendulum, tolerance, fastest, pairs, shared, like_steps, like_error)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> of one period, angle and velocity together, rad
-    real(c_double), intent(in) :: tolerance
-    !> speeds that tables shall serve, rad per drive radian
-    real(c_double), intent(in) :: fastest
-    !> the tables
-    type(pairs_t), intent(out) :: pairs
-    !> of other tables of the pendulum
-    type(pair_series_t), intent(inout) :: shared
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    real(c_double), intent(in) :: tolerance !< of one period, angle and velocity together, rad
+    real(c_double), intent(in) :: fastest !< speeds that tables shall serve, rad per drive radian
+    type(pairs_t), intent(out) :: pairs !< the tables
+    type(pair_series_t), intent(inout) :: shared !< of other tables of the pendulum
     !> steps of a table for slow states whose error is known: the number to begin with follows from them; 0 = there is none
     integer, intent(in) :: like_steps
-    !> rad
-    real(c_double), intent(in) :: like_error
+    real(c_double), intent(in) :: like_error !< rad
     type(level_t), allocatable :: levels(:)
     logical :: halting(size(ieee_usual))
     integer :: n
@@ -114,17 +108,15 @@ contains
     if (pairs%fastest < fastest) pairs%series_error = measure_quad(pairs%drive, fastest)
   end subroutine make_pairs
 
-  pure function multiple(steps) result(n)
+  pure integer function multiple(steps) result(n)
     real(c_double), intent(in) :: steps
-    integer :: n
 
     n = STRIDE*ceiling(steps/STRIDE)
   end function multiple
 
   !> As many coefficients of a kick as a tolerance needs, or some more.
-  pure function expected_kicks(tolerance) result(n)
+  pure integer function expected_kicks(tolerance) result(n)
     real(c_double), intent(in) :: tolerance
-    integer :: n
 
     n = min(MOST_PAIR_KICKS, ceiling(7 - 0.39_c_double*log10(tolerance)))
   end function expected_kicks
@@ -132,8 +124,7 @@ contains
   !> Of the probes of the table after a slower one.
   pure function speeds_of(slower) result(speed)
     type(level_t), intent(in) :: slower
-    real(c_double) :: speed(N_PROBES)
-    real(c_double) :: fastest
+    real(c_double) :: speed(N_PROBES), fastest
     integer :: i
 
     fastest = max(SLOWEST, RATIO*slower%fastest)
@@ -197,14 +188,10 @@ contains
 
   !> Advances n lanes by one period; a state that is lost becomes NaN.
   subroutine advance_pairs(pairs, n, lanes, turns)
-    !> the tables
-    type(pairs_t), intent(in) :: pairs
-    !> lanes in use
-    integer, intent(in) :: n
-    !> physical states
-    type(pair_lanes_t), intent(inout) :: lanes
-    !> gain the net number of turns, counterclockwise +
-    integer(c_int64_t), intent(inout) :: turns(WIDTH)
+    type(pairs_t), intent(in) :: pairs !< the tables
+    integer, intent(in) :: n !< lanes in use
+    type(pair_lanes_t), intent(inout) :: lanes !< physical states
+    integer(c_int64_t), intent(inout) :: turns(WIDTH) !< gain the net number of turns, counterclockwise +
     integer :: l, of_level(WIDTH), lane
 
     do lane = 1, n

@@ -70,10 +70,7 @@ module kz_extended_pairs_level
     subroutine pairs_stages(mirrored, n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
       import :: c_double, c_int32_t, c_int64_t, pair_lanes_t, WIDTH
       integer(c_int32_t), value :: mirrored
-      integer(c_int64_t), value :: n_stages
-      integer(c_int64_t), value :: n_drift
-      integer(c_int64_t), value :: n_kick
-      integer(c_int64_t), value :: n_pairs
+      integer(c_int64_t), value :: n_stages, n_drift, n_kick, n_pairs
       real(c_double), intent(in) :: row(*)
       integer(c_int32_t), intent(in) :: ordered(*)
       real(c_double), intent(in) :: decay(2)
@@ -94,8 +91,7 @@ contains
 
   !> The sum of two doubles, high and low, that is nearest to a number.
   pure function pair_of(x) result(pair)
-    !> a number
-    real(qp), intent(in) :: x
+    real(qp), intent(in) :: x !< a number
     real(c_double) :: pair(2)
 
     pair(1) = real(x, c_double)
@@ -103,30 +99,21 @@ contains
   end function pair_of
 
   !> The number of a pair.
-  pure function quad_of(pair) result(x)
-    !> high, low
-    real(c_double), intent(in) :: pair(2)
-    real(qp) :: x
+  pure real(qp) function quad_of(pair) result(x)
+    real(c_double), intent(in) :: pair(2) !< high, low
 
     x = real(pair(1), qp) + pair(2)
   end function quad_of
 
   !> Makes the tables of a period of n_steps steps. Coefficients that are small compared with the tolerance are doubles.
   subroutine make_level(pendulum, series, n_steps, n_kick, fastest, tolerance, level)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> the series of the pendulum
-    type(series_t), intent(in) :: series
-    !> steps a period
-    integer, intent(in) :: n_steps
-    !> coefficients of a kick
-    integer, intent(in) :: n_kick
-    !> rad per drive radian: the largest speed that the tables shall serve
-    real(c_double), intent(in) :: fastest
-    !> error of a period, rad
-    real(c_double), intent(in) :: tolerance
-    !> the tables; the error is still to be measured
-    type(level_t), intent(out) :: level
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(series_t), intent(in) :: series !< the series of the pendulum
+    integer, intent(in) :: n_steps !< steps a period
+    integer, intent(in) :: n_kick !< coefficients of a kick
+    real(c_double), intent(in) :: fastest !< rad per drive radian: the largest speed that the tables shall serve
+    real(c_double), intent(in) :: tolerance !< error of a period, rad
+    type(level_t), intent(out) :: level !< the tables; the error is still to be measured
     type(processed_t) :: table
     integer :: j, n, half, part
 
@@ -156,8 +143,7 @@ contains
 
   !> The odd or the even coefficients of all stages; whether kicks are ordered, of the odd ones.
   subroutine set_rows(exact, last, odd, level, row)
-    real(qp), intent(in) :: exact(:, :)
-    real(qp), intent(in) :: last(:)
+    real(qp), intent(in) :: exact(:, :), last(:)
     logical, intent(in) :: odd
     type(level_t), intent(inout) :: level
     real(c_double), intent(inout) :: row(:, :)
@@ -191,18 +177,16 @@ contains
   end subroutine set_drift
 
   !> How many of the first of some contributions to a period need more than double precision.
-  pure function number_of_pairs(contribution, tolerance) result(n)
+  pure integer function number_of_pairs(contribution, tolerance) result(n)
     real(qp), intent(in) :: contribution(:)
     real(c_double), intent(in) :: tolerance
-    integer :: n
 
     n = findloc(abs(contribution)*epsilon(1.0_c_double) > NEGLIGIBLE*tolerance, .true., 1, back=.true.)
   end function number_of_pairs
 
   pure subroutine set_displacement(processor, fastest, tolerance, displacement)
     type(processor_t), intent(in) :: processor
-    real(c_double), intent(in) :: fastest
-    real(c_double), intent(in) :: tolerance
+    real(c_double), intent(in) :: fastest, tolerance
     type(displacement_t), intent(out) :: displacement
     real(qp) :: largest
     integer :: j, part
@@ -238,14 +222,10 @@ contains
 
   !> Advances n lanes by one period with the tables of one level.
   subroutine advance_level(level, n, lanes, turns)
-    !> the tables
-    type(level_t), intent(in) :: level
-    !> lanes in use
-    integer, intent(in) :: n
-    !> physical states
-    type(pair_lanes_t), intent(inout) :: lanes
-    !> [n] the net number of turns
-    real(c_double), intent(out) :: turns(WIDTH)
+    type(level_t), intent(in) :: level !< the tables
+    integer, intent(in) :: n !< lanes in use
+    type(pair_lanes_t), intent(inout) :: lanes !< physical states
+    real(c_double), intent(out) :: turns(WIDTH) !< [n] the net number of turns
 
     call pairs_displace(level%to_kernel, int(n, c_int64_t), lanes)
     call pairs_stages(merge(1_c_int32_t, 0_c_int32_t, level%mirrored), int(level%n_steps, c_int64_t), int(level%n_drift, c_int64_t), int(level%n_kick, c_int64_t), &

@@ -16,12 +16,9 @@ contains
 
   !> A probe of each speed; angles are spread evenly over the circle.
   subroutine make_probes(drive, speed, probes)
-    !> of the pendulum
-    type(drive_t), intent(in) :: drive
-    !> [n] rad per drive radian
-    real(c_double), intent(in) :: speed(:)
-    !> starts and images
-    type(probes_t), intent(out) :: probes
+    type(drive_t), intent(in) :: drive !< of the pendulum
+    real(c_double), intent(in) :: speed(:) !< [n] rad per drive radian
+    type(probes_t), intent(out) :: probes !< starts and images
     real(c_double), parameter :: GOLDEN = 0.61803398874989484820_c_double
     real(qp), allocatable :: theta(:), velocity(:)
     integer(c_int64_t), allocatable :: turns(:)
@@ -41,12 +38,9 @@ contains
 
   !> What the Taylor series may miss in a period, of hypot(pi, v): rounding, which a period of a strong drive makes larger. Measured
   !> between two numbers of steps.
-  function measure_quad(drive, fastest) result(error)
-    !> of the pendulum
-    type(drive_t), intent(in) :: drive
-    !> speeds up to this one, rad per drive radian
-    real(c_double), intent(in) :: fastest
-    real(c_double) :: error
+  real(c_double) function measure_quad(drive, fastest) result(error)
+    type(drive_t), intent(in) :: drive !< of the pendulum
+    real(c_double), intent(in) :: fastest !< speeds up to this one, rad per drive radian
     integer, parameter :: N = 128, MORE_STEPS = 8
     real(c_double), parameter :: PI = real(PI_QUAD, c_double), MARGIN = 4, LEAST = 5e-34_c_double
     type(drive_t) :: other

@@ -18,8 +18,7 @@ contains
 
   subroutine start(n, theta, velocity, low, states) bind(C, name='kz_reference_start')
     integer(c_int64_t), value :: n
-    real(c_double), intent(in) :: theta(n)
-    real(c_double), intent(in) :: velocity(n)
+    real(c_double), intent(in) :: theta(n), velocity(n)
     real(c_double), intent(in), optional :: low(2, n)
     type(reference_state_t), intent(out) :: states(n)
 
@@ -35,8 +34,7 @@ contains
   subroutine advance(pendulum, n_steps, n, periods, states) bind(C, name='kz_reference_advance')
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int32_t), value :: n_steps
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: periods
+    integer(c_int64_t), value :: n, periods
     type(reference_state_t), intent(inout) :: states(n)
     type(drive_t) :: drive
     real(qp) :: theta(n), velocity(n)
@@ -57,8 +55,7 @@ contains
   subroutine read_states(n, states, theta, velocity, turns) bind(C, name='kz_reference_read')
     integer(c_int64_t), value :: n
     type(reference_state_t), intent(in) :: states(n)
-    real(c_double), intent(out) :: theta(n)
-    real(c_double), intent(out) :: velocity(n)
+    real(c_double), intent(out) :: theta(n), velocity(n)
     integer(c_int64_t), intent(out) :: turns(n)
 
     theta = real(states%theta, c_double)
@@ -66,10 +63,9 @@ contains
     turns = states%turns
   end subroutine read_states
 
-  function reference_error(pendulum, fastest) bind(C, name='kz_reference_error') result(error)
+  real(c_double) function reference_error(pendulum, fastest) bind(C, name='kz_reference_error') result(error)
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), value :: fastest
-    real(c_double) :: error
     type(drive_t) :: drive
 
     call make_drive(drive, pendulum, TAYLOR_STEPS)

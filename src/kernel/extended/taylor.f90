@@ -69,14 +69,10 @@ contains
 
   !> The drive of a pendulum for n_steps steps a period, or in a stretch of it.
   pure subroutine make_drive(drive, pendulum, n_steps, stretch)
-    !> the series of the drive for each step
-    type(drive_t), intent(out) :: drive
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
-    !> Steps a period where the motion is gentle.
-    integer, intent(in) :: n_steps
-    !> left out: a whole period
-    type(stretch_t), intent(in), optional :: stretch
+    type(drive_t), intent(out) :: drive !< the series of the drive for each step
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
+    integer, intent(in) :: n_steps !< Steps a period where the motion is gentle.
+    type(stretch_t), intent(in), optional :: stretch !< left out: a whole period
     integer :: i
 
     drive%stretch = whole_period()
@@ -93,20 +89,17 @@ contains
   end subroutine make_drive
 
   !> rad, after a number of halvings.
-  pure function step_of(drive, halvings) result(h)
+  pure real(qp) function step_of(drive, halvings) result(h)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: halvings
-    real(qp) :: h
 
     h = TWO_PI*drive%stretch%span/drive%n_steps/2**halvings
   end function step_of
 
   !> The force over a step h from t0, rad.
-  pure function force_of_step(drive, t0, h) result(force)
+  pure type(force_t) function force_of_step(drive, t0, h) result(force)
     type(drive_t), intent(in) :: drive
-    real(qp), intent(in) :: t0
-    real(qp), intent(in) :: h
-    type(force_t) :: force
+    real(qp), intent(in) :: t0, h
     real(qp) :: along(0:LAST - 1), across(0:LAST - 1), damping(0:CUBIC)
     integer :: i
 
@@ -124,9 +117,8 @@ contains
     force%has_ramp = merge(1_c_int32_t, 0_c_int32_t, drive%stretch%changes)
   end function force_of_step
 
-  pure function round_series(series) result(rounded)
+  pure type(shared_t) function round_series(series) result(rounded)
     real(qp), intent(in) :: series(0:LAST - 1)
-    type(shared_t) :: rounded
 
     rounded%high = real(series, dp)
     rounded%low = real(series - rounded%high, dp)
@@ -135,10 +127,8 @@ contains
 
   !> A number as a sum of n doubles, the largest first.
   pure function doubles_of(x, n) result(part)
-    !> a number
-    real(qp), intent(in) :: x
-    !> 3 hold all its digits
-    integer, intent(in) :: n
+    real(qp), intent(in) :: x !< a number
+    integer, intent(in) :: n !< 3 hold all its digits
     real(dp) :: part(n)
     real(qp) :: rest
     integer :: i
@@ -153,10 +143,8 @@ contains
   !> The damping and the drive as they are on the ramp.
   pure subroutine put_on_ramp(drive, turn, h, along, across, damping)
     type(drive_t), intent(in) :: drive
-    real(qp), intent(in) :: turn
-    real(qp), intent(in) :: h
-    real(qp), intent(inout) :: along(0:)
-    real(qp), intent(inout) :: across(0:)
+    real(qp), intent(in) :: turn, h
+    real(qp), intent(inout) :: along(0:), across(0:)
     real(qp), intent(out) :: damping(0:CUBIC)
     real(qp) :: scale(0:CUBIC)
 
@@ -181,14 +169,10 @@ contains
 
   !> One whole drive period from t = 0, or the stretch. A state that no step is fine enough for becomes NaN.
   pure subroutine advance_period(drive, theta, velocity, turns)
-    !> what make_drive gave
-    type(drive_t), intent(in) :: drive
-    !> Angles, rad; come back wrapped.
-    real(qp), intent(inout) :: theta(:)
-    !> Velocities, rad per drive radian.
-    real(qp), intent(inout) :: velocity(:)
-    !> Gain the net number of turns.
-    integer(int64), intent(inout) :: turns(:)
+    type(drive_t), intent(in) :: drive !< what make_drive gave
+    real(qp), intent(inout) :: theta(:) !< Angles, rad; come back wrapped.
+    real(qp), intent(inout) :: velocity(:) !< Velocities, rad per drive radian.
+    integer(int64), intent(inout) :: turns(:) !< Gain the net number of turns.
     logical :: waiting(size(theta))
     integer :: halvings, first
 
@@ -213,11 +197,9 @@ contains
   pure subroutine advance_waiting(drive, halvings, theta, velocity, waiting, first)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: halvings
-    real(qp), intent(inout) :: theta(:)
-    real(qp), intent(inout) :: velocity(:)
+    real(qp), intent(inout) :: theta(:), velocity(:)
     logical, intent(inout) :: waiting(:)
-    !> Comes back as where to go on.
-    integer, intent(inout) :: first
+    integer, intent(inout) :: first !< Comes back as where to go on.
     real(qp) :: lane_theta(LANES), lane_velocity(LANES)
     logical :: carried(LANES)
     integer :: state(LANES), n, i
@@ -249,10 +231,8 @@ contains
   pure subroutine advance_lanes(drive, halvings, theta, velocity, carried)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: halvings
-    real(qp), intent(inout) :: theta(LANES)
-    real(qp), intent(inout) :: velocity(LANES)
-    !> Which lanes are in use; set to false where a series did not converge.
-    logical, intent(inout) :: carried(LANES)
+    real(qp), intent(inout) :: theta(LANES), velocity(LANES)
+    logical, intent(inout) :: carried(LANES) !< Which lanes are in use; set to false where a series did not converge.
     type(state_t) :: state
     integer(c_int32_t) :: well(LANES)
     real(qp) :: h

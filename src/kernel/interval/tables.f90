@@ -14,12 +14,8 @@ contains
   !> Steps of h = 2 pi / n_steps: h beta, h / n and 1 / n, and the powers of s = 0 .. 1 in h a(t + h s), t the beginning of a step.
   subroutine interval_tables(pendulum, n_steps, order, damping, step, inverse, torque) bind(C, name='kz_interval_constants')
     type(pendulum_t), intent(in) :: pendulum
-    integer(c_int32_t), value :: n_steps
-    integer(c_int32_t), value :: order
-    real(c_double), intent(out) :: damping(2)
-    real(c_double), intent(out) :: step(2, order)
-    real(c_double), intent(out) :: inverse(2, order)
-    real(c_double), intent(out) :: torque(2, order, n_steps)
+    integer(c_int32_t), value :: n_steps, order
+    real(c_double), intent(out) :: damping(2), step(2, order), inverse(2, order), torque(2, order, n_steps)
     real(real128) :: h, along(order), across(order)
     integer :: i, n
 
@@ -40,11 +36,8 @@ contains
   !> kz_quad_constants_make of speed_class.c: h beta, h, powers of s as above, n of them.
   subroutine quad_constants(pendulum, n_steps, n, damping, step, torque) bind(C, name='kz_quad_constants_make')
     type(pendulum_t), intent(in) :: pendulum
-    integer(c_int32_t), value :: n_steps
-    integer(c_int32_t), value :: n
-    real(c_float128), intent(out) :: damping
-    real(c_float128), intent(out) :: step
-    real(c_float128), intent(out) :: torque(n, n_steps)
+    integer(c_int32_t), value :: n_steps, n
+    real(c_float128), intent(out) :: damping, step, torque(n, n_steps)
     real(real128) :: across(n)
     integer :: i
 

@@ -71,8 +71,7 @@ module kz_lanes_map
       import :: flow_t, c_double
       class(flow_t), intent(inout) :: self
       integer, intent(in) :: n
-      real(c_double), intent(out) :: u(n)
-      real(c_double), intent(out) :: v(n)
+      real(c_double), intent(out) :: u(n), v(n)
     end subroutine sample_i
   end interface
 
@@ -109,12 +108,9 @@ contains
   !> By the map of the neighbours themselves.
   subroutine displace_by_states(self, lane, u, v, by)
     class(flow_t), intent(inout) :: self
-    !> [n] lanes of u and v
-    integer, intent(in) :: lane(:)
-    !> states before the period, half-turns
-    real(c_double), intent(in) :: u(:)
-    !> rad per drive radian
-    real(c_double), intent(in) :: v(:)
+    integer, intent(in) :: lane(:) !< [n] lanes of u and v
+    real(c_double), intent(in) :: u(:) !< states before the period, half-turns
+    real(c_double), intent(in) :: v(:) !< rad per drive radian
     real(c_double), intent(inout) :: by(:, :, :)
     real(c_double) :: old_u(CAPACITY), old_v(CAPACITY)
     integer(c_int64_t) :: old_turns(CAPACITY)
@@ -149,14 +145,10 @@ contains
 
   !> Puts a state into a lane.
   subroutine put_state(self, lane, u, v)
-    !> the map
-    class(map_t), intent(inout) :: self
-    !> from 1 to CAPACITY
-    integer, intent(in) :: lane
-    !> angle, half-turns in [-1, 1]
-    real(c_double), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(c_double), intent(in) :: v
+    class(map_t), intent(inout) :: self !< the map
+    integer, intent(in) :: lane !< from 1 to CAPACITY
+    real(c_double), intent(in) :: u !< angle, half-turns in [-1, 1]
+    real(c_double), intent(in) :: v !< velocity, rad per drive radian
 
     self%u(lane) = u
     self%v(lane) = v
@@ -168,8 +160,7 @@ contains
     class(map_t), intent(inout) :: self
     integer, intent(in) :: lane
     integer(c_int64_t), intent(in) :: number
-    real(c_double), intent(in) :: u
-    real(c_double), intent(in) :: v
+    real(c_double), intent(in) :: u, v
 
     associate (unused => number)
     end associate
@@ -178,12 +169,8 @@ contains
 
   !> Copies the state of a lane to another one.
   subroutine move_state(self, from, to)
-    !> the map
-    class(map_t), intent(inout) :: self
-    !> lane, from 1
-    integer, intent(in) :: from
-    !> lane, from 1
-    integer, intent(in) :: to
+    class(map_t), intent(inout) :: self !< the map
+    integer, intent(in) :: from, to !< lane, from 1
 
     self%u(to) = self%u(from)
     self%v(to) = self%v(from)

@@ -55,8 +55,7 @@ contains
 
   !> The entries of one step of a split scheme, in order.
   pure function scheme_stages(scheme) result(stages)
-    !> a row with a split form
-    type(scheme_t), intent(in) :: scheme
+    type(scheme_t), intent(in) :: scheme !< a row with a split form
     type(stage_t) :: stages(2*scheme%kicks + 1)
     integer :: n
 
@@ -69,10 +68,8 @@ contains
 
   !> The whole palindrome of length n, summing to 1, from its given first entries.
   pure function palindrome(given, n) result(whole)
-    !> the first (n - 1)/2 entries
-    real(qp), intent(in) :: given(:)
-    !> length of the whole
-    integer, intent(in) :: n
+    real(qp), intent(in) :: given(:) !< the first (n - 1)/2 entries
+    integer, intent(in) :: n !< length of the whole
     real(qp) :: whole(n)
     integer :: half
 

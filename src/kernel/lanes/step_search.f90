@@ -25,10 +25,8 @@ module kz_lanes_step_search
     !> The error of a period of n steps, rad; huge() where it diverges.
     function measure(trial, n) result(error)
       import :: trial_t, c_double
-      !> the integrator
-      class(trial_t), intent(inout) :: trial
-      !> steps
-      integer, intent(in) :: n
+      class(trial_t), intent(inout) :: trial !< the integrator
+      integer, intent(in) :: n !< steps
       real(c_double) :: error
     end function measure
 
@@ -54,18 +52,12 @@ contains
   !> Tries numbers of steps from `fewest` on, each the one that the order expects from the error of the former, until an error is at most
   !> the tolerance. Where `most` steps, or any, do not reach it, the last error is above the tolerance.
   subroutine search_steps(trial, tolerance, fewest, most, n, error)
-    !> the integrator; comes back with n steps
-    class(trial_t), intent(inout) :: trial
-    !> rad, of one drive period
-    real(c_double), intent(in) :: tolerance
-    !> first number of steps
-    integer, intent(in) :: fewest
-    !> last one allowed
-    integer, intent(in) :: most
-    !> the last number tried; 0 where fewest exceeds most
-    integer, intent(out) :: n
-    !> its error, rad
-    real(c_double), intent(out) :: error
+    class(trial_t), intent(inout) :: trial !< the integrator; comes back with n steps
+    real(c_double), intent(in) :: tolerance !< rad, of one drive period
+    integer, intent(in) :: fewest !< first number of steps
+    integer, intent(in) :: most !< last one allowed
+    integer, intent(out) :: n !< the last number tried; 0 where fewest exceeds most
+    real(c_double), intent(out) :: error !< its error, rad
     real(c_double) :: former, wanted
     integer :: next, former_n
 
@@ -85,30 +77,23 @@ contains
   end subroutine search_steps
 
   !> kz_expected_steps of kernel.h.
-  pure function expected_steps(n, error, tolerance, order) bind(C, name='kz_expected_steps') result(steps)
-    !> a number of steps
-    integer(c_int32_t), value :: n
-    !> its error, rad
-    real(c_double), value :: error
-    !> the error that is asked for, rad
-    real(c_double), value :: tolerance
-    !> of convergence
-    integer(c_int32_t), value :: order
-    real(c_double) :: steps
+  pure real(c_double) function expected_steps(n, error, tolerance, order) bind(C, name='kz_expected_steps') result(steps)
+    integer(c_int32_t), value :: n !< a number of steps
+    real(c_double), value :: error !< its error, rad
+    real(c_double), value :: tolerance !< the error that is asked for, rad
+    integer(c_int32_t), value :: order !< of convergence
 
     steps = n*(error/tolerance)**(1.0_c_double/order)
   end function expected_steps
 
   !> kz_steps_search of kernel.h.
-  function c_search(function, context, order, tolerance, fewest, most, n) bind(C, name='kz_steps_search') result(error)
+  real(c_double) function c_search(function, context, order, tolerance, fewest, most, n) bind(C, name='kz_steps_search') result(error)
     type(c_funptr), value :: function
     type(c_ptr), value :: context
     integer(c_int32_t), value :: order
     real(c_double), value :: tolerance
-    integer(c_int32_t), value :: fewest
-    integer(c_int32_t), value :: most
+    integer(c_int32_t), value :: fewest, most
     integer(c_int32_t), intent(out) :: n
-    real(c_double) :: error
     real(c_double), parameter :: CAUTION = 1.125_c_double !< so few tries that a hopeless case is refused quickly
     type(c_trial_t) :: trial
     integer :: tried
@@ -121,10 +106,9 @@ contains
     n = tried
   end function c_search
 
-  function measure_in_c(trial, n) result(error)
+  real(c_double) function measure_in_c(trial, n) result(error)
     class(c_trial_t), intent(inout) :: trial
     integer, intent(in) :: n
-    real(c_double) :: error
 
     error = trial%function(int(n, c_int32_t), trial%context)
   end function measure_in_c

@@ -46,16 +46,12 @@ contains
   !> The tables of one period, or of a stretch of it. `fused` merges neighbouring entries of neighbouring steps; without it every step is complete in
   !> itself.
   subroutine make_period(pendulum, numerics, fused, period, stretch)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> scheme, steps a period
-    type(numerics_t), intent(in) :: numerics
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
-    !> drifts and kicks of one period
-    type(period_t), intent(out) :: period
-    !> whose drive may be on a ramp; left out: a whole period
-    type(stretch_t), intent(in), optional :: stretch
+    type(period_t), intent(out) :: period !< drifts and kicks of one period
+    type(stretch_t), intent(in), optional :: stretch !< whose drive may be on a ramp; left out: a whole period
     type(stretch_t) :: part
 
     part = whole_period()
@@ -126,8 +122,7 @@ contains
     end if
   contains
     subroutine append(weight, turn)
-      real(qp), intent(in) :: weight
-      real(qp), intent(in) :: turn
+      real(qp), intent(in) :: weight, turn
 
       n = n + 1
       period%drift(n) = shift
@@ -185,9 +180,8 @@ contains
   end subroutine damp_along
 
   !> (1 - exp(-x))/x without cancellation.
-  pure function mean_decay(x) result(mean)
+  pure real(qp) function mean_decay(x) result(mean)
     real(qp), intent(in) :: x
-    real(qp) :: mean
     integer :: i
 
     if (abs(x) > 1) then
@@ -214,8 +208,7 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     type(stretch_t), intent(in) :: part
     integer, intent(in) :: n
-    real(qp), intent(in) :: weight
-    real(qp), intent(in) :: turn
+    real(qp), intent(in) :: weight, turn
     real(qp) :: a, b, drive(0:CUBIC)
 
     call force_at(pendulum, turn, cosine_of(turn), a, b)
@@ -232,9 +225,8 @@ contains
   end subroutine set_kick
 
   !> cos(2 pi turn). Quad precision's own cosine is slow, and one pendulum after another asks for the same ones: they are kept.
-  function cosine_of(turn) result(cosine)
+  real(qp) function cosine_of(turn) result(cosine)
     real(qp), intent(in) :: turn
-    real(qp) :: cosine
     integer, parameter :: KEPT = 8192
     real(qp), save :: kept_turn(KEPT) = -1
     real(qp), save :: kept_cosine(KEPT)

@@ -29,12 +29,9 @@ contains
 
   !> Brings the angles of some lanes back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
   subroutine wrap(flow, first, last)
-    !> the flow
-    class(flow_t), intent(inout) :: flow
-    !> lane, from 1
-    integer, intent(in) :: first
-    !> lane
-    integer, intent(in) :: last
+    class(flow_t), intent(inout) :: flow !< the flow
+    integer, intent(in) :: first !< lane, from 1
+    integer, intent(in) :: last !< lane
     integer(ik), parameter :: NO_TURNS = transfer(ROUND_TO_INTEGER, 0_ik)
     real(rk) :: nan, shifted, turn
     integer :: i
@@ -49,10 +46,8 @@ contains
   end subroutine wrap
 
   !> The number of lanes n, rounded up to whole vectors.
-  pure function vectors_of(n) result(lanes)
-    !> lanes in use
-    integer, intent(in) :: n
-    integer :: lanes
+  pure integer function vectors_of(n) result(lanes)
+    integer, intent(in) :: n !< lanes in use
 
     lanes = VECTOR*((n + VECTOR - 1)/VECTOR)
   end function vectors_of

@@ -35,14 +35,10 @@ contains
 
   !> Makes a batch with the tables of one period. `fallback` advances lanes that are faster than `fastest`.
   subroutine make_processed_batch(table, fastest, fallback, flow)
-    !> its tables
-    type(processed_t), intent(in) :: table
-    !> rad per drive radian
-    real(rk), intent(in) :: fastest
-    !> the flow of faster lanes; it is taken over
-    class(flow_t), allocatable, intent(inout) :: fallback
-    !> the map of one drive period
-    class(flow_t), allocatable, intent(out) :: flow
+    type(processed_t), intent(in) :: table !< its tables
+    real(rk), intent(in) :: fastest !< rad per drive radian
+    class(flow_t), allocatable, intent(inout) :: fallback !< the flow of faster lanes; it is taken over
+    class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
     type(processed_batch_t), allocatable :: batch
 
     allocate (batch)
@@ -85,8 +81,7 @@ contains
   subroutine processed_displace(self, lane, u, v, by)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane(:)
-    real(rk), intent(in) :: u(:)
-    real(rk), intent(in) :: v(:)
+    real(rk), intent(in) :: u(:), v(:)
     real(rk), intent(inout) :: by(:, :, :)
     integer(c_int64_t) :: control
     integer :: first, i
@@ -127,8 +122,7 @@ contains
   subroutine take_images(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(rk), intent(inout) :: u(WIDTH)
-    real(rk), intent(inout) :: v(WIDTH)
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
 
     if (count(abs(v(:n)) > self%fastest .or. self%physical(:n)) > 0) then
       call fall_back(self, n, u, v)
@@ -144,8 +138,7 @@ contains
   subroutine fall_back(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(rk), intent(inout) :: u(WIDTH)
-    real(rk), intent(inout) :: v(WIDTH)
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
     integer :: lane(WIDTH), i, fast
 
     if (.not. allocated(self%fallback)) return ! where errors are measured: a motion that is lost stays lost
@@ -167,8 +160,7 @@ contains
   subroutine change_fast_lanes(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(rk), intent(inout) :: u(WIDTH)
-    real(rk), intent(inout) :: v(WIDTH)
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
     logical :: fast
     integer :: i
 
@@ -225,8 +217,7 @@ contains
   subroutine processed_put(self, lane, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(rk), intent(in) :: u
-    real(rk), intent(in) :: v
+    real(rk), intent(in) :: u, v
 
     call put_state(self, lane, u, v)
     self%physical(lane) = .not. abs(self%v(lane)) <= self%fastest
@@ -234,8 +225,7 @@ contains
 
   subroutine processed_move(self, from, to)
     class(processed_batch_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     call move_state(self, from, to)
     self%physical(to) = self%physical(from)
@@ -271,8 +261,7 @@ contains
   subroutine change_lanes(self, processor, from, n, matrix)
     class(processed_batch_t), intent(inout) :: self
     type(processor_t), intent(in) :: processor
-    integer, intent(in) :: from
-    integer, intent(in) :: n
+    integer, intent(in) :: from, n
     real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
     real(rk) :: u(WIDTH), v(WIDTH)
     integer(c_int64_t) :: control
@@ -296,8 +285,7 @@ contains
   subroutine change_tangents(self, processor, from, n, matrix)
     class(processed_batch_t), intent(in) :: self
     type(processor_t), intent(in) :: processor
-    integer, intent(in) :: from
-    integer, intent(in) :: n
+    integer, intent(in) :: from, n
     real(rk), intent(inout) :: matrix(2, 2, WIDTH)
     integer :: lane
 
@@ -311,8 +299,7 @@ contains
   subroutine processed_sample(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(rk), intent(out) :: u(n)
-    real(rk), intent(out) :: v(n)
+    real(rk), intent(out) :: u(n), v(n)
 
     call self%to_physical(1)
     call self%fallback%put(1, self%u(1), self%v(1))

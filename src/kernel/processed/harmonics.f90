@@ -14,10 +14,8 @@ contains
   !> sin(pi j r)/(r (1 - r**2)) as polynomials in r**2 of n coefficients, interpolated at the Chebyshev nodes of [0, 1]: the
   !> kick is 0 at the two rest positions, exactly.
   pure function sine_polynomials(n) result(polynomial)
-    !> coefficients
-    integer, intent(in) :: n
-    real(qp) :: polynomial(HARMONICS, n)
-    real(qp) :: node(n), root(n)
+    integer, intent(in) :: n !< coefficients
+    real(qp) :: polynomial(HARMONICS, n), node(n), root(n)
     integer :: j
 
     node = nodes_of(n)
@@ -29,10 +27,8 @@ contains
 
   !> cos(pi j r) as polynomials in r**2 of n coefficients, interpolated likewise.
   pure function cosine_polynomials(n) result(polynomial)
-    !> coefficients
-    integer, intent(in) :: n
-    real(qp) :: polynomial(0:HARMONICS, n)
-    real(qp) :: node(n)
+    integer, intent(in) :: n !< coefficients
+    real(qp) :: polynomial(0:HARMONICS, n), node(n)
     integer :: j
 
     node = nodes_of(n)
@@ -52,8 +48,7 @@ contains
 
   !> The polynomial with these values, by divided differences.
   pure function through(node, value) result(polynomial)
-    real(qp), intent(in) :: node(:)
-    real(qp), intent(in) :: value(:)
+    real(qp), intent(in) :: node(:), value(:)
     real(qp) :: polynomial(size(node)), difference(size(node))
     integer :: k, n
 

@@ -15,13 +15,10 @@ module kz_processed_processor
     subroutine change_lanes(mirrored, theta, velocity, n, sine, cosine, u, v) bind(C, name='kz_processed_change')
       import :: c_int32_t, c_int64_t, c_double
       integer(c_int32_t), value :: mirrored
-      real(c_double), intent(in) :: theta(*)
-      real(c_double), intent(in) :: velocity(*)
+      real(c_double), intent(in) :: theta(*), velocity(*)
       integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: sine(*)
-      real(c_double), intent(in) :: cosine(*)
-      real(c_double), intent(inout) :: u(*)
-      real(c_double), intent(inout) :: v(*)
+      real(c_double), intent(in) :: sine(*), cosine(*)
+      real(c_double), intent(inout) :: u(*), v(*)
     end subroutine change_lanes
   end interface
 
@@ -29,14 +26,9 @@ contains
 
   !> (u, v) + processor(u, v) of n states, at most WIDTH.
   subroutine change_coordinates(processor, n, u, v)
-    !> the change
-    type(processor_t), intent(in) :: processor
-    !> states
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(n)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(n)
+    type(processor_t), intent(in) :: processor !< the change
+    integer, intent(in) :: n !< states
+    real(rk), intent(inout) :: u(n), v(n) !< half-turns; rad per drive radian
     real(rk), dimension(WIDTH) :: x, y, s, c
     integer :: lanes
 
@@ -55,8 +47,7 @@ contains
   subroutine sine_and_cosine(n, u, s, c)
     integer, intent(in) :: n
     real(rk), intent(in) :: u(n)
-    real(rk), intent(out) :: s(n)
-    real(rk), intent(out) :: c(n)
+    real(rk), intent(out) :: s(n), c(n)
     real(rk) :: r
     integer :: i
 
@@ -69,12 +60,8 @@ contains
 
   !> The derivative of (u, v) + processor(u, v) by (theta, v), angles in rad.
   function change_derivative(processor, u, v) result(derivative)
-    !> the change
-    type(processor_t), intent(in) :: processor
-    !> half-turns
-    real(rk), intent(in) :: u
-    !> rad per drive radian
-    real(rk), intent(in) :: v
+    type(processor_t), intent(in) :: processor !< the change
+    real(rk), intent(in) :: u, v !< half-turns; rad per drive radian
     real(rk) :: derivative(2, 2)
     real(rk), parameter :: PI = 3.14159265358979323846_rk
     real(rk) :: s(1), c(1), theta(2), velocity(2), by_u(2), by_v(2)
@@ -101,9 +88,7 @@ contains
   pure function slopes(coefficient, j, s, c, v, odd) result(slope)
     real(rk), intent(in) :: coefficient(0:)
     integer, intent(in) :: j
-    real(rk), intent(in) :: s
-    real(rk), intent(in) :: c
-    real(rk), intent(in) :: v
+    real(rk), intent(in) :: s, c, v
     integer, intent(in) :: odd
     real(rk) :: slope(2)
     integer :: n

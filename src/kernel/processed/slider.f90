@@ -29,10 +29,8 @@ contains
 
   !> The series of a pendulum: from its nodes, or where they do not reach made anew, and then it is a node.
   subroutine make_slid_series(pendulum, series)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> what does not depend on the number of steps
-    type(series_t), intent(out) :: series
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(series_t), intent(out) :: series !< what does not depend on the number of steps
     real(rk) :: weight(n_nodes)
     logical :: reach
     integer :: i
@@ -89,9 +87,8 @@ contains
   end function numbers_of
 
   !> Whether no two numbers are the same.
-  pure function are_apart(x)
+  pure logical function are_apart(x)
     real(rk), intent(in) :: x(:)
-    logical :: are_apart
     integer :: i
 
     are_apart = .true.
@@ -101,8 +98,7 @@ contains
   end function are_apart
 
   pure function lagrange(nodes_at, x) result(weight)
-    real(rk), intent(in) :: nodes_at(:)
-    real(rk), intent(in) :: x
+    real(rk), intent(in) :: nodes_at(:), x
     real(rk) :: weight(size(nodes_at))
     integer :: i, j
 

@@ -26,14 +26,11 @@ module kz_processed_stages
     !> The stages of a period for the lanes 1 .. n, or some more; the reduced angles, if asked (stages.c).
     subroutine run_stages(mirrored, n_drift, n_kick, n_stages, row, n, u, v, kept) bind(C, name='kz_processed_kicks')
       import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
-      integer(c_int32_t), value :: mirrored
-      integer(c_int32_t), value :: n_drift
-      integer(c_int32_t), value :: n_kick
+      integer(c_int32_t), value :: mirrored, n_drift, n_kick
       integer(c_int64_t), value :: n_stages
       real(c_double), intent(in) :: row(*)
       integer(c_int64_t), value :: n
-      real(c_double), intent(inout) :: u(WIDTH)
-      real(c_double), intent(inout) :: v(WIDTH)
+      real(c_double), intent(inout) :: u(WIDTH), v(WIDTH)
       real(c_float), intent(out), optional :: kept(WIDTH, *)
     end subroutine run_stages
 
@@ -43,8 +40,7 @@ module kz_processed_stages
       integer(c_int32_t), value :: mirrored
       integer(c_int64_t), value :: n_stages
       real(c_float), intent(in) :: row(*)
-      real(c_float), value :: last
-      real(c_float), value :: decay
+      real(c_float), value :: last, decay
       real(c_float), intent(in) :: kept(WIDTH, *)
       integer(c_int64_t), value :: n
       real(c_float), intent(out) :: c(WIDTH, 4)
@@ -56,8 +52,7 @@ module kz_processed_stages
       integer(c_int32_t), value :: mirrored
       integer(c_int64_t), value :: n_stages
       real(c_float), intent(in) :: row(*)
-      real(c_float), value :: last
-      real(c_float), value :: decay
+      real(c_float), value :: last, decay
       real(c_float), intent(in) :: angle(GROUP, *)
       real(c_float), intent(inout) :: by(GROUP, 2, POINTS)
     end subroutine run_displaced
@@ -67,10 +62,8 @@ contains
 
   !> The stages of a period.
   subroutine make_stages(table, stages)
-    !> its tables
-    type(processed_t), intent(in) :: table
-    !> the stages
-    type(stages_t), intent(out) :: stages
+    type(processed_t), intent(in) :: table !< its tables
+    type(stages_t), intent(out) :: stages !< the stages
     integer :: i, n
 
     stages%table = table
@@ -91,8 +84,7 @@ contains
   pure function slope_of(kick, odd) result(slope)
     real(rk), intent(in) :: kick(:)
     logical, intent(in) :: odd
-    real(rk) :: slope(TERMS)
-    real(rk) :: node(TERMS), value(TERMS), c, derivative
+    real(rk) :: slope(TERMS), node(TERMS), value(TERMS), c, derivative
     integer :: i, j
 
     do i = 1, TERMS
@@ -117,16 +109,10 @@ contains
 
   !> One period of n lanes, and its derivative in single precision: of the angle by angle and velocity, of the velocity by both, rad.
   subroutine linear_stages(self, n, u, v, tangent)
-    !> tables of a period
-    type(stages_t), intent(inout) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(WIDTH)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(WIDTH)
-    !> (WIDTH, 4)
-    real(rk), intent(inout) :: tangent(WIDTH, 4)
+    type(stages_t), intent(inout) :: self !< tables of a period
+    integer, intent(in) :: n !< lanes
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
+    real(rk), intent(inout) :: tangent(WIDTH, 4) !< (WIDTH, 4)
     real(c_float) :: c(WIDTH, 4)
     integer(c_int64_t) :: steps
 
@@ -142,12 +128,9 @@ contains
 
   !> What neighbours of some lanes, at most GROUP, differ by from their images in the period that linear_stages has moved last.
   subroutine displaced_stages(self, lane, by)
-    !> tables of a period
-    type(stages_t), intent(inout) :: self
-    !> [n] lanes
-    integer, intent(in) :: lane(:)
-    !> (2, POINTS, n): before it, and after it: rad, velocity times exp(beta t)
-    real(rk), intent(inout) :: by(:, :, :)
+    type(stages_t), intent(inout) :: self !< tables of a period
+    integer, intent(in) :: lane(:) !< [n] lanes
+    real(rk), intent(inout) :: by(:, :, :) !< (2, POINTS, n): before it, and after it: rad, velocity times exp(beta t)
     real(c_float) :: c(GROUP, 2, POINTS)
     integer :: i, s
 
@@ -171,14 +154,9 @@ contains
 
   !> One period of n lanes.
   subroutine advance_stages(self, n, u, v)
-    !> tables of a period
-    type(stages_t), intent(in) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(WIDTH)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(WIDTH)
+    type(stages_t), intent(in) :: self !< tables of a period
+    integer, intent(in) :: n !< lanes
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
 
     call move_stages(self%table, n, u, v)
   end subroutine advance_stages
@@ -187,8 +165,7 @@ contains
   subroutine move_stages(table, n, u, v, kept)
     type(processed_t), intent(in) :: table
     integer, intent(in) :: n
-    real(rk), intent(inout) :: u(WIDTH)
-    real(rk), intent(inout) :: v(WIDTH)
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
     real(c_float), intent(out), optional :: kept(WIDTH, *)
     real(rk) :: step(WIDTH), even(WIDTH)
     integer :: i, j
@@ -215,16 +192,11 @@ contains
 
   !> The derivative along the stages from the lanes' present states; c(i, :, j): column j, angles in half-turns.
   subroutine tangent_stages(self, n, start_u, start_v, c)
-    !> tables of a period
-    type(stages_t), intent(in) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(in) :: start_u(n)
-    !> velocity times exp(beta t)
-    real(rk), intent(in) :: start_v(n)
-    !> columns of the tangent map, lane by lane
-    real(rk), intent(inout) :: c(WIDTH, 2, 2)
+    type(stages_t), intent(in) :: self !< tables of a period
+    integer, intent(in) :: n !< lanes
+    real(rk), intent(in) :: start_u(n) !< half-turns
+    real(rk), intent(in) :: start_v(n) !< velocity times exp(beta t)
+    real(rk), intent(inout) :: c(WIDTH, 2, 2) !< columns of the tangent map, lane by lane
     real(rk), dimension(n) :: u, v, r, q, kick, slope, even, even_slope
     integer :: s, j, m
 

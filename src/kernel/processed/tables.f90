@@ -21,10 +21,8 @@ contains
 
   !> The series of a pendulum, right to 1e-15 of the force itself.
   subroutine make_processed_series(pendulum, series)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> what does not depend on the number of steps
-    type(series_t), intent(out) :: series
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(series_t), intent(out) :: series !< what does not depend on the number of steps
 
     if (allocated(made)) then
       if (.not. is_same(pendulum, pendulum_made)) deallocate (made)

@@ -24,10 +24,8 @@ contains
   !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
   !> step h counts h**q, so little precision is enough for high ones.
   subroutine make_mixed_series(pendulum, series)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> what does not depend on the number of steps
-    type(series_t), intent(out) :: series
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(series_t), intent(out) :: series !< what does not depend on the number of steps
     type(series_r64_t), allocatable :: rounded
     type(series_r128_t), allocatable :: leading
 

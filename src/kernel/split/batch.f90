@@ -21,10 +21,8 @@ contains
 
   !> Makes a batch with the tables of one period.
   subroutine make_batch(period, flow)
-    !> drifts and kicks of one period
-    type(period_t), intent(in) :: period
-    !> the map of that period
-    class(flow_t), allocatable, intent(out) :: flow
+    type(period_t), intent(in) :: period !< drifts and kicks of one period
+    class(flow_t), allocatable, intent(out) :: flow !< the map of that period
     type(batch_t), allocatable :: batch
 
     allocate (batch)
@@ -74,8 +72,7 @@ contains
   subroutine sample(self, n, u, v)
     class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(c_double), intent(out) :: u(n)
-    real(c_double), intent(out) :: v(n)
+    real(c_double), intent(out) :: u(n), v(n)
     integer(c_int64_t) :: control
     integer :: i, stride
 

@@ -42,10 +42,8 @@ contains
 
   !> Makes a batch without pendulums.
   subroutine make_mixed_batch(n_steps, batch)
-    !> steps of split6 in a drive period
-    integer, intent(in) :: n_steps
-    !> its tables that all pendulums share
-    type(mixed_batch_t), intent(out) :: batch
+    integer, intent(in) :: n_steps !< steps of split6 in a drive period
+    type(mixed_batch_t), intent(out) :: batch !< its tables that all pendulums share
     type(stage_t) :: stages(2*KICKS + 1)
     real(rk) :: clock, step
     integer :: i, s
@@ -68,8 +66,7 @@ contains
   subroutine set_pendulum(self, lane, pendulum)
     class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     real(rk) :: half(DRIFTS)
 
     half = 0.5_rk*pendulum%beta*self%time
@@ -82,8 +79,7 @@ contains
 
   subroutine move(self, from, to)
     class(mixed_batch_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     call move_state(self, from, to)
     self%k(to) = self%k(from)
@@ -106,10 +102,8 @@ contains
 
   subroutine one_step(self, step, n, u, v)
     class(mixed_batch_t), intent(in) :: self
-    integer, intent(in) :: step
-    integer, intent(in) :: n
-    real(rk), intent(inout) :: u(WIDTH)
-    real(rk), intent(inout) :: v(WIDTH)
+    integer, intent(in) :: step, n
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
     real(rk) :: of_k, of_m
     integer :: s, i
 
@@ -156,11 +150,8 @@ contains
   !> A step, and its derivative c(i, :, j): column j of the tangent map of lane i.
   subroutine tangent_step(self, step, n, u, v, c)
     class(mixed_batch_t), intent(in) :: self
-    integer, intent(in) :: step
-    integer, intent(in) :: n
-    real(rk), intent(inout) :: u(WIDTH)
-    real(rk), intent(inout) :: v(WIDTH)
-    real(rk), intent(inout) :: c(WIDTH, 2, 2)
+    integer, intent(in) :: step, n
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH), c(WIDTH, 2, 2)
     real(rk) :: of_k, of_m, kick, drift, decay
     integer :: s, i
 

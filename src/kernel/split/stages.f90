@@ -28,10 +28,8 @@ contains
 
   !> Makes the tables of one period, rounded to doubles.
   subroutine make_steps(period, steps)
-    !> in quad precision
-    type(period_t), intent(in) :: period
-    !> in double precision
-    type(steps_t), intent(out) :: steps
+    type(period_t), intent(in) :: period !< in quad precision
+    type(steps_t), intent(out) :: steps !< in double precision
 
     steps%split = period%split
     steps%n_steps = period%n_steps
@@ -52,18 +50,11 @@ contains
 
   !> Steps of a period. The drift that ends a period belongs to its last step.
   subroutine advance_steps(self, from, to, n, u, v)
-    !> tables of a period
-    type(steps_t), intent(in) :: self
-    !> step, from 1
-    integer, intent(in) :: from
-    !> step
-    integer, intent(in) :: to
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(WIDTH)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(WIDTH)
+    type(steps_t), intent(in) :: self !< tables of a period
+    integer, intent(in) :: from !< step, from 1
+    integer, intent(in) :: to !< step
+    integer, intent(in) :: n !< lanes
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
     integer :: first
 
     if (.not. self%split) then
@@ -80,8 +71,7 @@ contains
     if (to == self%n_steps) call last_drift
   contains
     subroutine kicks(first, last)
-      integer, intent(in) :: first
-      integer, intent(in) :: last
+      integer, intent(in) :: first, last
       real(rk) :: drift, decay, kick
       integer :: s, i
 
@@ -98,8 +88,7 @@ contains
 
     !> Where the pendulum is not mirrored.
     subroutine shifted_kicks(first, last)
-      integer, intent(in) :: first
-      integer, intent(in) :: last
+      integer, intent(in) :: first, last
       real(rk) :: drift, decay, kick, shift, push
       integer :: s, i
 
@@ -125,8 +114,7 @@ contains
     end subroutine last_drift
 
     subroutine runge_kutta(first, last)
-      integer, intent(in) :: first
-      integer, intent(in) :: last
+      integer, intent(in) :: first, last
       real(rk) :: h, half, f0, f1, f2, a1, a2, a3, a4, v2, v3, v4
       integer :: s, i
 
@@ -153,16 +141,10 @@ contains
 
   !> Advances a period, and computes the derivative of the scheme itself; c(i, :, j) = column j of the tangent map of lane i.
   subroutine advance_tangents(self, n, u, v, c)
-    !> tables of a period
-    type(steps_t), intent(in) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> half-turns
-    real(rk), intent(inout) :: u(WIDTH)
-    !> rad per drive radian
-    real(rk), intent(inout) :: v(WIDTH)
-    !> c(i, :, j): column j of the tangent map of lane i
-    real(rk), intent(inout) :: c(WIDTH, 2, 2)
+    type(steps_t), intent(in) :: self !< tables of a period
+    integer, intent(in) :: n !< lanes
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
+    real(rk), intent(inout) :: c(WIDTH, 2, 2) !< c(i, :, j): column j of the tangent map of lane i
     integer :: s
 
     if (self%split) then
@@ -239,11 +221,8 @@ contains
   !> A step of x' = y, y' = -beta y - slope x of each lane, with the slope of each stage.
   pure subroutine rk4_column(n, h, beta, slope, x, y)
     integer, intent(in) :: n
-    real(rk), intent(in) :: h
-    real(rk), intent(in) :: beta
-    real(rk), intent(in) :: slope(WIDTH, 4)
-    real(rk), intent(inout) :: x(WIDTH)
-    real(rk), intent(inout) :: y(WIDTH)
+    real(rk), intent(in) :: h, beta, slope(WIDTH, 4)
+    real(rk), intent(inout) :: x(WIDTH), y(WIDTH)
     real(rk) :: half, a1, a2, a3, a4, y2, y3, y4
     integer :: i
 
