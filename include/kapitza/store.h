@@ -1,5 +1,5 @@
-/* store: the result file (HDF5, readable as netCDF-4; layer 2). One table of this layer states the name, type, units and long name of
- * every dataset. One rank writes the file, with the serial library.
+/* store: the result file (HDF5, readable as netCDF-4; layer 2). Tables that the caller gives state the name, type, units and
+ * long name of every dataset. One rank writes the file, with the serial library.
  *
  * The file is written as PATH.part and renamed to PATH when it is complete. */
 #ifndef KAPITZA_STORE_H
@@ -14,11 +14,30 @@
 
 typedef struct kz_store kz_store;
 
+enum { KZ_MAX_DIMENSIONS = 3, KZ_MAX_FLAGS = 12 };
+
+typedef enum { KZ_REAL, KZ_INT8, KZ_UINT8, KZ_INT16, KZ_INT32, KZ_UINT32, KZ_TEXT } kz_kind;
+
+typedef struct {
+  const char *name; /* "#" at its end stands for a number */
+  kz_kind kind;
+  const char *dimensions[KZ_MAX_DIMENSIONS + 1]; /* NULL-ended; a scale is its own dimension */
+  const char *units, *long_name; /* units "@NAME": the value of the group's attribute NAME, written before; "1|WORDS": unit 1
+                                  * of UDUNITS, and ", in WORDS" is added to the long name */
+  const char *flags[KZ_MAX_FLAGS + 1]; /* meanings of 0, 1, 2, ...; NULL-ended */
+} kz_variable;
+
+/* A group of the file and its variables, of which the last has no name. */
+typedef struct {
+  const char *name;
+  const kz_variable *variables;
+} kz_group;
+
 /* Name and version of the HDF5 library. */
 const char *kz_store_library(void);
 
-/* Creates PATH.part. KZ_REFUSED if it cannot be written. */
-kz_status kz_store_create(const char *path, kz_store **store);
+/* Creates PATH.part, which may hold the variables of `groups`, of which the last has no name. KZ_REFUSED if it cannot be written. */
+kz_status kz_store_create(const char *path, const kz_group *groups, kz_store **store);
 /* PATH. */
 const char *kz_store_path(const kz_store *store);
 /* Flushes and closes the file, and renames it to PATH (fsync before the rename). Frees the store in every case. After a failure (KZ_FAILED,

@@ -272,6 +272,8 @@ static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *sce
 }
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
+/* What a result file may hold, for kz_store_create. */
+extern const kz_group kz_groups[];
 
 /* KZ_REFUSED if a study or method does not support the drive. */
 kz_status kz_drive_check(const kz_scene *scene);

@@ -184,7 +184,7 @@ static kz_status write_pendulum(job *j) {
 static kz_status open_outputs(job *j) {
   j->summary = open_memstream(&j->words, &j->n_words);
   if (!j->summary) return kz_fail(KZ_FAILED, "out of memory for the summary");
-  KZ_TRY(kz_store_create(j->path, &j->store));
+  KZ_TRY(kz_store_create(j->path, kz_groups, &j->store));
   KZ_TRY(write_root(j));
   return write_pendulum(j);
 }

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kapitza/store.h"
 #include "pack.h"
-#include "table.h"
 
 static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20;
 

@@ -36,11 +36,12 @@ static kz_status try_path(kz_store *store, const char *path) {
   return KZ_OK;
 }
 
-kz_status kz_store_create(const char *path, kz_store **store) {
+kz_status kz_store_create(const char *path, const kz_group *groups, kz_store **store) {
   *store = NULL;
   KZ_TRY(kz_hdf5_start());
   *store = kz_calloc(1, sizeof **store);
   (*store)->file = H5I_INVALID_HID;
+  (*store)->groups = groups;
   kz_status status = try_path(*store, path);
   if (status == KZ_OK) status = create_file(*store);
   if (status == KZ_OK) return KZ_OK;

@@ -4,11 +4,11 @@
 
 #include "hdf5_call.h"
 #include "kapitza/store.h"
-#include "table.h"
 
 struct kz_store {
   char *path, *part; /* PATH and PATH.part */
   hid_t file;        /* PATH.part */
+  const kz_group *groups;
 };
 
 /* Opens the group of that name ("/" = root) and creates it if necessary; the caller closes it. */

@@ -96,12 +96,24 @@ static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, co
   return status;
 }
 
+/* The same name; "#" at the end of a row's name stands for a number. */
+static bool is_name(const char *row, const char *name) {
+  const size_t stem = strcspn(row, "#");
+  if (row[stem] == '\0') return strcmp(row, name) == 0;
+  return strncmp(row, name, stem) == 0 && name[stem] != '\0' && strspn(name + stem, "0123456789") == strlen(name + stem);
+}
+
 /* The table's row, under the name asked for. */
-static kz_status find(const char *group, const char *name, kz_variable *row) {
-  const kz_variable *found = kz_variable_find(group + (group[0] == '/'), name);
-  if (found) *row = *found;
-  row->name = name;
-  return found ? KZ_OK : kz_fail(KZ_FAILED, "the result file has no variable %s/%s", group, name);
+static kz_status find(const kz_store *store, const char *group, const char *name, kz_variable *row) {
+  for (const kz_group *g = store->groups; g->name; g++)
+    if (strcmp(g->name, group + (group[0] == '/')) == 0)
+      for (const kz_variable *v = g->variables; v->name; v++)
+        if (is_name(v->name, name)) {
+          *row = *v;
+          row->name = name;
+          return KZ_OK;
+        }
+  return kz_fail(KZ_FAILED, "the result file has no variable %s/%s", group, name);
 }
 
 /* 0, 1, 2, ... for a dimension without coordinates. */
@@ -115,7 +127,7 @@ static kz_status write_index(hid_t group, const kz_variable *row, hsize_t length
 
 kz_status kz_store_dimension(kz_store *store, const char *group, const char *name, int64_t length, const void *values) {
   kz_variable row;
-  KZ_TRY(find(group, name, &row));
+  KZ_TRY(find(store, group, name, &row));
   if (!values && row.kind != KZ_INT32) return kz_fail(KZ_FAILED, "the dimension %s/%s needs its values", group, name);
   hid_t folder, dataset = H5I_INVALID_HID;
   KZ_TRY(kz_store_group(store, group, &folder));
@@ -162,7 +174,7 @@ static kz_status write_variable(hid_t group, const kz_variable *row, const hsize
 static kz_status add_variable(kz_store *store, const char *group, const char *name, const hsize_t *chunk, const void *data) {
   kz_variable row;
   hid_t folder;
-  KZ_TRY(find(group, name, &row));
+  KZ_TRY(find(store, group, name, &row));
   KZ_TRY(kz_store_group(store, group, &folder));
   const kz_status status = write_variable(folder, &row, chunk, data);
   H5Gclose(folder);

@@ -29,4 +29,7 @@ kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds);
 kz_status kz_tradeoff_check(const kz_scene *scene);
 kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
+/* What the study writes. */
+extern const kz_variable kz_tradeoff_variables[];
+
 #endif

@@ -37,4 +37,7 @@ kz_status kz_basin_check(const kz_scene *scene);
 kz_status kz_basin_measure(const kz_scene *scene, double *seconds);
 kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
+/* What the study writes. */
+extern const kz_variable kz_basin_variables[], kz_phases_variables[], kz_boundary_variables[], kz_shocks_variables[];
+
 #endif

@@ -23,4 +23,7 @@ static inline double kz_chart_velocity(const kz_chart_plan *plan, int64_t place)
   return plan->velocity.values[plan->velocity.count == 1 ? 0 : place];
 }
 
+/* What the study writes. */
+extern const kz_variable kz_chart_variables[];
+
 #endif

@@ -28,4 +28,7 @@ kz_status kz_orbit_measure(const kz_scene *scene, double *seconds);
 kz_status kz_orbit_check(const kz_scene *scene);
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
+/* What the study writes. */
+extern const kz_variable kz_orbit_variables[];
+
 #endif

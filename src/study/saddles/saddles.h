@@ -16,4 +16,7 @@ kz_status kz_saddles_write(const kz_cycle_list *cycles, const kz_index_sums *sum
 /* Prints the cycles that were found, and the index sums. */
 void kz_saddles_print(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums, FILE *summary);
 
+/* What the study writes. */
+extern const kz_variable kz_saddles_variables[];
+
 #endif

@@ -31,4 +31,7 @@ typedef struct {
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store);
 void kz_chart_summarise(const kz_chart *chart, FILE *summary);
 
+/* What the study writes. */
+extern const kz_variable kz_stability_variables[];
+
 #endif

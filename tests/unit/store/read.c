@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "kapitza/store.h"
+#include "groups.h"
 
 static char folder[] = "/tmp/kapitza-read-XXXXXX";
 static kz_store *store;
@@ -21,7 +21,7 @@ static int begin(void **state) {
   const int32_t period[2] = {3, 7};
   if (!mkdtemp(folder)) return -1;
   snprintf(path, sizeof path, "%s/a.h5", folder);
-  if (kz_store_create(path, &store) != KZ_OK) return -1;
+  if (kz_store_create(path, groups, &store) != KZ_OK) return -1;
   return kz_store_dimension(store, "attractors", "attractor", 2, NULL) != KZ_OK ||
          kz_store_dimension(store, "attractors", "phase", 3, NULL) != KZ_OK ||
          kz_store_variable(store, "attractors", "period", period) != KZ_OK ||

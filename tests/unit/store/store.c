@@ -15,7 +15,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "kapitza/store.h"
+#include "groups.h"
 
 static char folder[] = "/tmp/kapitza-store-XXXXXX";
 static char path[64], part[72];
@@ -44,7 +44,7 @@ static int clear(void **state) {
 
 static kz_store *begin(void) {
   kz_store *store = NULL;
-  assert_int_equal(kz_store_create(path, &store), KZ_OK);
+  assert_int_equal(kz_store_create(path, groups, &store), KZ_OK);
   return store;
 }
 
@@ -242,7 +242,7 @@ static void a_wrong_path_is_refused(void **state) {
   kz_store *store = NULL;
   char missing[96];
   snprintf(missing, sizeof missing, "%s/missing/a.h5", folder);
-  assert_int_equal(kz_store_create(missing, &store), KZ_REFUSED);
+  assert_int_equal(kz_store_create(missing, groups, &store), KZ_REFUSED);
   assert_non_null(strstr(kz_message(), "No such file or directory"));
   assert_null(store);
 }
@@ -253,12 +253,16 @@ static void what_the_table_lacks_is_an_error(void **state) {
   kz_store *store = begin();
   assert_int_equal(kz_store_variable(store, "basin", "colour", &value), KZ_FAILED);
   kz_message_clear();
+  assert_int_equal(kz_store_dimension(store, "basin", "theta", 1, &value), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "basin", "curve_12", &value), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "basin", "curve_x", &value), KZ_FAILED);
+  assert_int_equal(kz_store_variable(store, "basin", "curve_", &value), KZ_FAILED);
+  kz_message_clear();
   assert_int_equal(kz_store_variable(store, "basin", "attractor", &value), KZ_FAILED);
   assert_non_null(strstr(kz_message(), "velocity"));
   kz_store_discard(store);
 }
 
-/* A limit on the size of files stands for a full disk: both end the write early. */
 /* Items of which some bytes are 0 in all, or all are; what is cut short or belongs to another number of items is refused. */
 static void squeezed_items_come_back(void **state) {
   (void)state;
@@ -278,6 +282,7 @@ static void squeezed_items_come_back(void **state) {
     }
 }
 
+/* A limit on the size of files stands for a full disk: both end the write early. */
 static void a_full_disk_is_one_clear_error(void **state) {
   (void)state;
   static double theta[N_THETA], velocity[N_VELOCITY];

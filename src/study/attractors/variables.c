@@ -1,0 +1,34 @@
+/* Variables of the group attractors of the result file. */
+#include "kapitza/store_variables.h"
+#include "attractors.h"
+
+/* clang-format off */
+const kz_variable kz_attractors_variables[] = {
+    {"attractor", KZ_INT32, {"attractor"}, NONE, "id of the attractor"},
+    {"phase", KZ_INT32, {"phase"}, NONE, "place of the strobe point along the orbit"},
+    {"pair", KZ_INT32, {"pair"}, NONE, "place of the Floquet multiplier, larger modulus first"},
+    {"line", KZ_INT32, {"line"}, NONE, "spectral line j: frequency j/period of the drive's"},
+    {"period", KZ_INT32, {"attractor"}, PERIODS, "period of the orbit; 0 = aperiodic (chaotic)"},
+    {"winding", KZ_INT32, {"attractor"}, NONE, "net turns in one period of the orbit, + counterclockwise"},
+    {"centre", KZ_INT8, {"attractor"}, NONE, "what the orbit moves about", {CENTRES}},
+    {"name", KZ_TEXT, {"attractor"}, NONE, "name of the attractor; names may repeat"},
+    {"symmetric", KZ_INT8, {"attractor"}, NONE, "whether the orbit is its own mirror image", {"no", "yes"}},
+    {"mirror", KZ_INT32, {"attractor"}, NONE, "id of the mirror image under (theta, velocity) -> -(theta, velocity)"},
+    {"amplitude", KZ_REAL, {"attractor"}, ANGLE, "largest angle from the centre over continuous time"},
+    {"strobe_theta", KZ_REAL, {"attractor", "phase"}, ANGLE, "angle of the strobe point from down"},
+    {"strobe_velocity", KZ_REAL, {"attractor", "phase"}, VELOCITY, "angular velocity of the strobe point"},
+    {"proved", KZ_INT8, {"attractor"}, NONE, "whether the orbit is proved to exist and to attract", {"no", "yes"}},
+    {"strobe_theta_half_width", KZ_REAL, {"attractor", "phase"}, ANGLE, "proved bound on strobe_theta's error"},
+    {"strobe_velocity_half_width", KZ_REAL, {"attractor", "phase"}, VELOCITY, "proved bound on strobe_velocity's error"},
+    {"multiplier_half_width", KZ_REAL, {"attractor", "pair"}, NONE, "proved bound on the multiplier's error"},
+    {"multiplier_re", KZ_REAL, {"attractor", "pair"}, NONE, "Floquet multiplier over one period of the orbit, real part"},
+    {"multiplier_im", KZ_REAL, {"attractor", "pair"}, NONE, "Floquet multiplier over one period of the orbit, imaginary part"},
+    {"lyapunov", KZ_REAL, {"attractor"}, RATE, "largest Lyapunov exponent"},
+    {"lyapunov_error", KZ_REAL, {"attractor"}, RATE, "standard error of the largest Lyapunov exponent"},
+    {"fraction", KZ_REAL, {"attractor"}, NONE, "share of the grid's cells"},
+    {"line_amplitude", KZ_REAL, {"attractor", "line"}, ANGLE, "amplitude of the spectral line; line 0 = |mean|"},
+    {"line_phase", KZ_REAL, {"attractor", "line"}, ANGLE, "phase of the spectral line at the first strobe point"},
+    {"dominant_line", KZ_INT32, {"attractor"}, NONE, "number of the largest spectral line; 0 = at rest"},
+    {0},
+};
+/* clang-format on */

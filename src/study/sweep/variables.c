@@ -1,0 +1,56 @@
+/* Variables of the group sweep of the result file. */
+#include "kapitza/store_variables.h"
+#include "sweep.h"
+
+#define OWN "@parameter_units" /* of the swept key */
+#define END_KINDS "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"
+
+/* clang-format off */
+const kz_variable kz_sweep_variables[] = {
+    {"value", KZ_REAL, {"value"}, OWN, "value of the swept key of the pendulum"},
+    {"branch", KZ_INT32, {"branch"}, NONE, "number of the branch"},
+    {"branch_name", KZ_TEXT, {"branch"}, NONE, "name of the attractor where the branch begins"},
+    {"branch_period", KZ_INT32, {"branch"}, PERIODS, "period of the orbit; 0 = aperiodic (chaotic)"},
+    {"branch_winding", KZ_INT32, {"branch"}, NONE, "net turns in one period of the orbit, + counterclockwise"},
+    {"branch_centre", KZ_INT8, {"branch"}, NONE, "what the orbit moves about where the branch begins", {CENTRES}},
+    {"branch_symmetric", KZ_INT8, {"branch"}, NONE, "whether the orbit is its own mirror image", {"no", "yes"}},
+    {"branch_mirror", KZ_INT32, {"branch"}, NONE, "number of the branch of mirror images; -1 = not seen"},
+    {"branch_start", KZ_REAL, {"branch"}, OWN, "lowest value at which the branch exists and attracts"},
+    {"branch_end", KZ_REAL, {"branch"}, OWN, "highest value at which the branch exists and attracts"},
+    {"branch_start_kind", KZ_INT8, {"branch"}, NONE, "how the branch begins", {END_KINDS}},
+    {"branch_end_kind", KZ_INT8, {"branch"}, NONE, "how the branch ends", {END_KINDS}},
+    {"branch_amplitude", KZ_REAL, {"value", "branch"}, ANGLE, "largest angle from the centre; NaN = not there"},
+    {"branch_multiplier", KZ_REAL, {"value", "branch"}, NONE, "modulus of the largest Floquet multiplier"},
+    {"branch_theta", KZ_REAL, {"value", "branch"}, ANGLE, "angle of one strobe point from down"},
+    {"branch_velocity", KZ_REAL, {"value", "branch"}, VELOCITY, "angular velocity of the same strobe point"},
+    {"lifetime", KZ_REAL, {"value"}, PERIODS, "mean time from lifetime_after on until a motion settles; NaN = none settled"},
+    {"lifetime_low", KZ_REAL, {"value"}, PERIODS, "lower end of its 95 % interval"},
+    {"lifetime_high", KZ_REAL, {"value"}, PERIODS, "upper end of its 95 % interval"},
+    {"lifetime_after", KZ_REAL, {"value"}, PERIODS, "time from which the mean lifetime is counted"},
+    {"lifetime_open", KZ_REAL, {"value"}, NONE, "starts that had not settled in the end"},
+    {"alike", KZ_REAL, {"value"}, NONE, "share of the cells or starts that end alike at all phases of release"},
+    {"alike_low", KZ_REAL, {"value"}, NONE, "lower end of its 95 % interval (Wilson)"},
+    {"alike_high", KZ_REAL, {"value"}, NONE, "upper end of its 95 % interval (Wilson)"},
+    {"shock_angle", KZ_REAL, {"value", "branch"}, ANGLE, "smallest change of the angle that leaves the basin"},
+    {"shock_kick", KZ_REAL, {"value", "branch"}, VELOCITY, "smallest change of the velocity that leaves the basin"},
+    {"shock_size", KZ_REAL, {"value", "branch"}, ANGLE, "size of the smallest shock that leaves the basin"},
+    {"fraction", KZ_REAL, {"value", "branch"}, NONE, "share of the cells or starts; NaN = not there"},
+    {"fraction_low", KZ_REAL, {"value", "branch"}, NONE, "lower end of the 95 % interval of the share (Wilson)"},
+    {"fraction_high", KZ_REAL, {"value", "branch"}, NONE, "upper end of the 95 % interval of the share (Wilson)"},
+    {"flutter_amplitude", KZ_REAL, {"value"}, ANGLE, "largest angle from inverted of the attracting flutter"},
+    {"flutter_onset", KZ_REAL, {"value"}, NONE, "drive m at which the inverted state gives way to flutter"},
+    {"flutter_asymmetry", KZ_REAL, {"value"}, NONE, "drive m at which flutter loses its mirror symmetry"},
+    {"flutter_end", KZ_REAL, {"value"}, NONE, "drive m at which the cycles that follow double their period"},
+    {"flutter_release_end", KZ_REAL, {"value"}, NONE, "lowest drive m at which a release of 1 degree fails"},
+    {"release_angle", KZ_REAL, {"value"}, ANGLE, "angle from inverted at which a release from rest first fails"},
+    {"release_angle_scan", KZ_REAL, {"value"}, ANGLE, "the same by a scan in whole degrees, refined by bisection"},
+    {"release_angle_largest", KZ_REAL, {"value"}, ANGLE, "end of the last interval of releases that stay"},
+    {"release", KZ_REAL, {"release"}, ANGLE, "angle from inverted of a release from rest"},
+    {"release_stays", KZ_UINT8, {"value", "release"}, NONE, "whether the release stays about inverted", {"no", "yes"}},
+    {"sample", KZ_INT32, {"sample"}, PERIODS, "strobe points of the walk up, then of the walk down"},
+    {"sample_walk", KZ_INT8, {"sample"}, NONE, "direction of the walk along the values", {"up", "down"}},
+    {"strobe_theta", KZ_REAL, {"value", "sample"}, ANGLE, "angle of the strobe point from down"},
+    {"strobe_velocity", KZ_REAL, {"value", "sample"}, VELOCITY, "angular velocity of the strobe point"},
+    {0},
+};
+/* clang-format on */
