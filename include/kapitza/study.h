@@ -285,8 +285,10 @@ kz_status kz_studies_check(const kz_scene *scene);
 
 /* Drive periods within which nearly all motions are trapped, at least 2000; also 2000 if it would be more than a million. */
 int64_t kz_settling_periods(double beta);
+/* The mean number of periods until a motion is trapped; beta > 0. */
+double kz_settling_mean(double beta);
 
-/* The same for the weakest damping in a scene, of its pendulum and its sweep. */
+/* kz_settling_periods for the weakest damping in a scene, of its pendulum and its sweep. */
 int64_t kz_settling_scene(const kz_scene *scene);
 
 /* Prints a warning for each study whose max_periods leaves most motions unsettled; it names the key to change. */

@@ -1,6 +1,6 @@
 /* The studies, one row each, in the order in which they run, and the groups of the result file. */
-#include "accuracy/tradeoff.h"
-#include "attractors/attractors.h"
+#include "accuracy/accuracy.h"
+#include "attractors/catalogue.h"
 #include "basin/basin.h"
 #include "chart/chart.h"
 #include "edge/edge.h"

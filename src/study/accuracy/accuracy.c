@@ -5,7 +5,6 @@
 
 #include "numerics/cells.h"
 #include "numerics/share.h"
-#include "tradeoff.h"
 
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double MARGIN = 3;

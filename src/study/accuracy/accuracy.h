@@ -1,8 +1,50 @@
-/* basin.accuracy: the program chooses method, table and numerics. */
+/* Settings: ways to label the cells of a window, from fast to accurate; what each costs by count, and how wrong its labels are. The choice of
+ * basin.accuracy among them; the study `tradeoff`. */
 #ifndef KAPITZA_STUDY_ACCURACY_H
 #define KAPITZA_STUDY_ACCURACY_H
 
-#include "setting.h"
+#include "reference.h"
+
+typedef struct {
+  const char *label;
+  int32_t method;        /* KZ_METHOD_ICM, ... */
+  const char *scheme;    /* of the kernel's table */
+  int32_t steps;         /* per period; KZ_AUTO = as many as `tolerance` needs, for the processed splitting */
+  double tolerance;      /* rad: error of one drive period */
+  int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
+  int64_t nodes;         /* of the map table, an axis; not used by KZ_METHOD_DIRECT */
+  bool candidate;        /* true: basin.accuracy may choose it; no other setting is both as fast and as accurate */
+} kz_setting;
+
+/* The table. Labels that end in -1992 name the methods of the first published maps of these basins. */
+extern const kz_setting kz_settings[];
+extern const int kz_setting_count;
+/* The row of method exact. */
+extern const kz_setting *const kz_setting_exact;
+
+/* The numerics of a setting, for the cells of a basin of this pendulum. */
+kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, const kz_basin_plan *plan);
+/* The scene with the setting in place of its method, icm and numerics. */
+void kz_setting_apply(const kz_setting *setting, kz_scene *scene);
+
+/* The cost of a setting for `cells` cells of `mean_periods` periods each, counted in kicks of one trajectory, so that it does not depend on a
+ * clock. */
+double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods);
+
+/* One setting on the sampled cells. */
+typedef struct {
+  int64_t wrong;       /* decided cells of the sample whose label differs from the reference */
+  int64_t undecided;   /* cells that method exact does not decide */
+  int64_t inside;      /* wrong cells without another label next to them */
+  int64_t distance;    /* median distance of the wrong cells from another label, in cells; 0 if none is wrong */
+  int64_t count_error; /* the largest surplus or lack of cells of one attractor */
+  double set_up;       /* processor seconds for map table and trapping regions */
+  double cell;         /* processor seconds a cell */
+} kz_measured;
+
+/* Labels the sample on this rank, and further cells up to `timed` to measure the time. */
+kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
+                             kz_measured *measured);
 
 /* What was chosen and why. */
 typedef struct {
@@ -19,5 +61,31 @@ kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *
 
 /* Estimates the processor time of the choice from samples and adds it to *seconds. Not collective. */
 kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds);
+
+/* Settings measured on one sample of reference labels. */
+typedef struct {
+  int64_t count;
+  const kz_setting **settings; /* [count] */
+  kz_numerics *numerics;       /* [count] resolved */
+  kz_measured *measured;       /* [count] */
+  double *seconds;             /* [count] for the whole grid of the basin, without the search for attractors */
+  double *wrong;               /* [count] */
+  int8_t *pareto;              /* [count] */
+  double best_wrong;           /* the lowest share of a setting in double precision; NaN without one */
+} kz_trade;
+
+/* Group /tradeoff and its table in the summary. Rank 0. */
+kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary);
+
+/* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
+char *kz_reference_path(const kz_store *store);
+
+kz_cost kz_tradeoff_cost(const kz_scene *scene);
+kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds);
+kz_status kz_tradeoff_check(const kz_scene *scene);
+kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+
+/* What the study writes. */
+extern const kz_variable kz_tradeoff_variables[];
 
 #endif

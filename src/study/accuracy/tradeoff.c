@@ -1,13 +1,14 @@
 /* Study `tradeoff`: many settings on the cells of one basin, each with its time and its share of wrong labels.
  *
  * reference labels of a sample -> one tile per setting, done by one rank alone -> table, file. */
-#include "tradeoff.h"
+#include "accuracy.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "numerics/cells.h"
+#include "numerics/share.h"
 
 enum { TIMED = 16384 }; /* cells that are enough for a measured time */
 

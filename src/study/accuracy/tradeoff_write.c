@@ -3,9 +3,10 @@
 #include <string.h>
 
 #include "numerics/cells.h"
+#include "numerics/share.h"
 #include "numerics/steps.h"
 #include "kapitza/kernel.h"
-#include "tradeoff.h"
+#include "accuracy.h"
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)
 

@@ -1,6 +1,6 @@
 /* Variables of the group tradeoff of the result file. */
 #include "kapitza/store_variables.h"
-#include "tradeoff.h"
+#include "accuracy.h"
 
 /* clang-format off */
 const kz_variable kz_tradeoff_variables[] = {

@@ -1,6 +1,4 @@
 /* Study `attractors`: the catalogue of a window of starts, without a grid. */
-#include "attractors.h"
-
 #include <stdlib.h>
 
 #include "catalogue.h"

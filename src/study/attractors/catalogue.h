@@ -1,4 +1,4 @@
-/* The catalogue of attractors as users see it: their order, their names, their group in the file. */
+/* The catalogue of attractors as users see it: their order, their names, their group in the file. The study `attractors`. */
 #ifndef KAPITZA_STUDY_CATALOGUE_H
 #define KAPITZA_STUDY_CATALOGUE_H
 
@@ -8,6 +8,7 @@
 #include "kapitza/analysis.h"
 #include "kapitza/dynamics.h"
 #include "kapitza/store.h"
+#include "kapitza/study.h"
 #include "kapitza/study_live.h"
 
 /* Makes the catalogue of the attractors whose reached [number] is not 0, and of their mirror images. The caller frees it. */
@@ -25,5 +26,13 @@ double *kz_nan_filled(int64_t n);
 
 /* Prints the table of attractors. */
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
+
+kz_cost kz_attractors_cost(const kz_scene *scene);
+kz_status kz_attractors_measure(const kz_scene *scene, double *seconds);
+kz_status kz_attractors_check(const kz_scene *scene);
+kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+
+/* What the study writes. */
+extern const kz_variable kz_attractors_variables[];
 
 #endif

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "labelling/map_table.h"
 #include "numerics/cells.h"
 
 enum {
@@ -19,6 +18,7 @@ enum {
   MOST_CELLS = 500,    /* finer ones trap hardly more */
   STRETCH = 1024,      /* periods of a tile at least */
   STRETCHES = 64,      /* of a round, about */
+  TABLE_ROWS = 4,      /* of a map table, per tile */
   CHAOS_TRIES = 4,
   CHAOS_PERIODS = 512 /* to see which pending starts a chaotic attractor's cover captures */
 };
@@ -199,6 +199,33 @@ void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity) 
   if (coarse == 0) return;
   kz_dynamics_fine_regions(dynamics, coarse, max_velocity);
   if (fine > coarse && kz_dynamics_trapped_share(dynamics) < few) kz_dynamics_fine_regions(dynamics, fine, max_velocity);
+}
+
+typedef struct {
+  kz_dynamics *dynamics;
+  int64_t n_velocity;
+} table;
+
+static kz_status table_tile(void *context, int64_t tile, void *record) {
+  const table *t = context;
+  int64_t size = kz_dynamics_table_row_size(t->dynamics);
+  for (int64_t row = tile * TABLE_ROWS; row < (tile + 1) * TABLE_ROWS && row < t->n_velocity; row++)
+    kz_dynamics_table_row(t->dynamics, row, (double *)record + (row - tile * TABLE_ROWS) * size);
+  return KZ_OK;
+}
+
+kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity,
+                            double max_velocity) {
+  table t = {dynamics, n_velocity};
+  kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
+  const kz_stage stage =
+      kz_stage_for_all("map table", (n_velocity + TABLE_ROWS - 1) / TABLE_ROWS,
+                       TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double), table_tile, &t);
+  double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  kz_status status = kz_stage_run(run, &stage, rows);
+  if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);
+  free(rows);
+  return status;
 }
 
 kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {

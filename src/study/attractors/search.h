@@ -36,6 +36,10 @@ kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_peri
  * settled. In kept stages. Collective. */
 kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
 
+/* Builds the table of n_theta x n_velocity nodes up to velocity `max_velocity` on every rank. Collective; `run` NULL = this
+ * rank alone. */
+kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
+
 /* Does the search with at most KZ_SEARCH_FEW starts in this process, to estimate its time: *n of them, state and label [KZ_SEARCH_FEW] as above.
  * Makes a map table of few nodes. The processor time of the whole search is added to *seconds. Not collective. */
 enum { KZ_SEARCH_FEW = 256, KZ_SEARCH_MOST_SOUGHT = 1024 /* starts that a round looks for cycles from */ };

@@ -1,7 +1,6 @@
 /* The time of a search for attractors: that of a search from a few starts, of each further start, and of each node of the map table. */
 #include <math.h>
 
-#include "labelling/map_table.h"
 #include "search.h"
 
 enum { FEW_NODES = 200 }; /* an axis, of the table that is timed */

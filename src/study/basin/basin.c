@@ -12,7 +12,7 @@
 #include "boundary.h"
 #include "lifetime.h"
 #include "resilience/resilience.h"
-#include "numerics/table_check.h"
+#include "numerics/step_check.h"
 #include "phases.h"
 #include "proof_write.h"
 #include "shocks_write.h"

@@ -3,7 +3,6 @@
 
 #include "accuracy/reference.h"
 #include "basin.h"
-#include "numerics/processed.h"
 #include "numerics/resolve.h"
 #include "pairs.h"
 #include "proof.h"

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "labelling/labeller.h"
-#include "labelling/starts.h"
 #include "numerics/cells.h"
 
 enum {

@@ -2,8 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "labelling/starts.h"
-#include "numerics/table_check.h"
+#include "labelling/labeller.h"
+#include "numerics/step_check.h"
 #include "label_parts.h"
 #include "window/reference.h"
 

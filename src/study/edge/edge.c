@@ -7,7 +7,6 @@
 #include <stdlib.h>
 
 #include "attractors/search.h"
-#include "track.h"
 
 typedef struct {
   const kz_scene *scene;

@@ -1,7 +1,8 @@
-/* Study `edge`. */
+/* Study `edge`: the map advances a pair of states on the two sides of a basin's edge. */
 #ifndef KAPITZA_STUDY_EDGE_H
 #define KAPITZA_STUDY_EDGE_H
 
+#include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
 kz_cost kz_edge_cost(const kz_scene *scene);
@@ -10,5 +11,20 @@ kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store,
 
 /* What the study writes. */
 extern const kz_variable kz_edge_variables[];
+
+/* The cycle or chaotic set on the edge. */
+typedef struct {
+  int32_t first_end, second_end; /* attractors on the two sides at the end: numbers of kz_dynamics, 0 = not settled */
+  int32_t period, winding;       /* of the cycle on the edge; period 0 = none was found */
+  int32_t centre;                /* as of attractors */
+  double theta[KZ_EDGE_MOST_PERIOD], velocity[KZ_EDGE_MOST_PERIOD]; /* its strobe points */
+  double multiplier_re[2], multiplier_im[2];
+  double exponent;   /* at which the two sides separate, per drive period */
+  int64_t n_periods; /* for which the edge was followed */
+} kz_edge;
+
+/* Bisects between the plan's two starts and follows the edge of the first one's basin; it bisects again whenever the sides have separated.
+ * orbit [plan->periods + 1][2] = states on the edge, rad and rad per drive radian. KZ_REFUSED if both starts end on the same attractor. */
+kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t max_periods, kz_edge *edge, double *orbit);
 
 #endif

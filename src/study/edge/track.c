@@ -1,10 +1,10 @@
 /* J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96 (2006) 174101: edge tracking. */
-#include "track.h"
+#include "edge.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "labelling/starts.h"
+#include "labelling/labeller.h"
 
 enum { PIECES = 16, ROUNDS = 16 };
 /* rad: sides are brought so near, and bisected again when they are so far apart. */

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "labeller.h"
-#include "starts.h"
 
 enum { BATCH = 64 };
 

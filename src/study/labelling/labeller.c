@@ -2,10 +2,20 @@
 
 #include <stdlib.h>
 
+#include "numerics/cells.h"
+
 enum {
   BATCH = 16384, /* starts that are followed together */
+  STATES = 4096, /* the same of states alone */
   FEW = 24       /* are followed in quad precision for less than the tables of the pairs of doubles take */
 };
+
+/* States of a batch, and where they end. */
+typedef struct {
+  double state[2 * BATCH];
+  int32_t label[BATCH];
+  int64_t periods[BATCH];
+} followed;
 
 kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start) {
   const kz_start *starts = context;
@@ -39,6 +49,27 @@ kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64
   for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
     status = label_batch(l, level, before, n - done < BATCH ? n - done : BATCH, item, done, start, decision + done);
   free(start);
+  return status;
+}
+
+static kz_status follow_batch(const kz_labeller *l, int32_t stepping, int64_t n, const int64_t *item, int64_t first,
+                              followed *f, kz_decision *decision) {
+  kz_start start;
+  for (int64_t i = 0; i < n; i++) {
+    KZ_TRY(l->start(l->context, item_at(item, first + i), KZ_LEVEL_DOUBLE, &start));
+    kz_start_state(start.theta[0], start.velocity[0], f->state + 2 * i);
+  }
+  kz_dynamics_follow(l->dynamics, stepping, n, l->max_periods, f->state, f->label, f->periods);
+  for (int64_t i = 0; i < n; i++) decision[i] = (kz_decision){.label = f->label[i], .periods = f->periods[i]};
+  return KZ_OK;
+}
+
+kz_status kz_label_states(const kz_labeller *l, int32_t stepping, int64_t n, const int64_t *item, kz_decision *decision) {
+  followed *f = kz_malloc(sizeof *f);
+  kz_status status = KZ_OK;
+  for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
+    status = follow_batch(l, stepping, n - done < BATCH ? n - done : BATCH, item, done, f, decision + done);
+  free(f);
   return status;
 }
 
@@ -82,4 +113,35 @@ kz_status kz_label(const kz_labeller *l, int64_t n, const int64_t *item, kz_deci
   free(place);
   free(found);
   return status;
+}
+
+void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
+                      int64_t *periods) {
+  double state[2 * STATES];
+  for (int64_t done = 0; done < n; done += STATES) {
+    const int64_t part = n - done < STATES ? n - done : STATES;
+    for (int64_t i = 0; i < part; i++) kz_start_state(start[2 * (done + i)], start[2 * (done + i) + 1], state + 2 * i);
+    kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, part, max_periods, state, end + done, periods + done);
+  }
+}
+
+void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
+                      int64_t *periods) {
+  kz_start *exact = kz_malloc((size_t)n * sizeof *exact + 1);
+  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision + 1);
+  const kz_labeller labeller = {.dynamics = dynamics, .max_periods = max_periods, .start = kz_start_of_array, .context = exact};
+  for (int64_t i = 0; i < n; i++) exact[i] = kz_start_at(start[2 * i], start[2 * i + 1]);
+  (void)kz_label(&labeller, n, NULL, decision); /* starts of an array cannot fail */
+  for (int64_t i = 0; i < n; i++) {
+    end[i] = decision[i].label;
+    periods[i] = decision[i].periods;
+    if (end[i] == KZ_DOUBTFUL) kz_follow_starts(dynamics, max_periods, 1, start + 2 * i, end + i, periods + i);
+  }
+  free(exact);
+  free(decision);
+}
+
+void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state) {
+  kz_dynamics_release(dynamics, KZ_LEVEL_DOUBLE, n, start);
+  for (int64_t i = 0; i < n; i++) kz_start_state(start[i].theta[0], start[i].velocity[0], state + 2 * i);
 }

@@ -32,6 +32,8 @@ static inline kz_start kz_start_at(double theta, double velocity) {
 /* Labels n items at one level; `before` is the level at which they were doubtful. decision [n] as in kz_dynamics_label. */
 kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,
                       kz_decision *decision);
+/* Labels n items by their states alone, without errors, as kz_dynamics_follow follows them: label and periods of decision [n]. */
+kz_status kz_label_states(const kz_labeller *labeller, int32_t stepping, int64_t n, const int64_t *item, kz_decision *decision);
 
 /* The level that follows `level` if `pending` items are left; KZ_LEVELS = none. A few items go to quad precision at once, because they take
  * less time there than the tables of the pairs of doubles. */
@@ -43,5 +45,16 @@ kz_status kz_label_candidates(const kz_labeller *labeller, int64_t n, const int6
 
 /* Labels n items by one level after the other until each is decided. An item that no level decides has KZ_DOUBTFUL and level KZ_LEVELS. */
 kz_status kz_label(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_decision *decision);
+
+/* Follows n starts, start [n][2] (rad, rad per drive radian), by direct integration. end [n] = number of the attractor in kz_dynamics, 0 = not
+ * settled; periods [n] = drive periods until then. */
+void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
+                      int64_t *periods);
+/* The same by the precision levels. A start that no level decides gets the end by direct integration. */
+void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
+                      int64_t *periods);
+
+/* Moves n starts from their release to the strobe at which labelling begins. state [n][2] = half-turns and velocity there. */
+void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state);
 
 #endif

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "labelling/labeller.h"
-#include "labelling/starts.h"
 #include "numerics/cells.h"
 
 /* Periods after which a cell is late: most cells of a whole circle take fewer. */

@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "numerics/cells.h"
-#include "numerics/processed.h"
-#include "numerics/settling.h"
+#include "numerics/resolve.h"
 
 /* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not, which at any depth are
  * some 1e-7 wide when they are handed over; and the starts of the search. */

@@ -5,7 +5,6 @@
 
 #include "engine.h"
 #include "labelling/labeller.h"
-#include "labelling/starts.h"
 
 /* Attractors that only these starts end on join. */
 static kz_status where_discover(kz_engine *engine, kz_resident *r, int64_t n, const kz_coordinate (*start)[2]) {

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "kapitza/dynamics.h"
-#include "saddles/lines.h"
 #include "saddles/saddles.h"
 
 enum { MOST_POINTS = 32768 }; /* of a branch */

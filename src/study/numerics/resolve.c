@@ -3,10 +3,119 @@
 #include <math.h>
 
 #include "cells.h"
-#include "processed.h"
 
-/* Samples a period that turning points and spectra need, however few are written. */
-enum { LEAST_SAMPLES = 96 };
+enum {
+  SWEEP_VALUES = 9,  /* of a sweep that are tried, both ends included */
+  LEAST_SAMPLES = 96 /* a period, that turning points and spectra need, however few are written */
+};
+
+/* How much faster than the sampled starts, after one drive period, others may become. */
+static const double MARGIN = 1.05;
+/* Method exact takes a smaller error than the tolerance, by this factor, where rounding allows: its steps cost less than the cells that
+ * would be doubtful. Measured: 1 makes whole runs a sixth longer, and 30 is not reached by most pendulums. */
+static const double EXACT_PART = 0.1;
+
+/* The motions for which one numerics must be accurate. */
+typedef struct {
+  kz_pendulum pendulum[SWEEP_VALUES];
+  int count;
+  double fastest, tolerance; /* rad per drive radian; rad */
+} demand;
+
+bool kz_is_processed(int32_t scheme) {
+  return scheme == kz_scheme_find("processed");
+}
+
+double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows) {
+  const kz_numerics numerics = kz_steps_plain();
+  kz_dynamics *dynamics = kz_dynamics_create(pendulum, &numerics, 1);
+  if (!dynamics) return INFINITY;
+  double fastest = MARGIN * kz_dynamics_max_velocity(dynamics, window);
+  if (rows > 5) { /* two rows of nodes beyond the states on either side */
+    const double top = fastest * (double)(rows - 1) / (double)(rows - 5);
+    const kz_window nodes = {window->theta_min, window->theta_max, -top, top};
+    fastest = MARGIN * kz_dynamics_max_velocity(dynamics, &nodes);
+  }
+  kz_dynamics_free(dynamics);
+  return fastest;
+}
+
+/* Windows of the scene's studies, at the pendulum numbered `last`. */
+static void add_window(demand *d, const kz_axis *theta, const kz_axis *velocity, int64_t rows) {
+  const kz_window window = kz_motions_window(theta, velocity);
+  d->fastest = fmax(d->fastest, kz_fastest_motion(d->pendulum + d->count - 1, &window, rows));
+}
+
+static void add_basin(demand *d, const kz_basin_plan *plan) {
+  add_window(d, &plan->theta, &plan->velocity, plan->method == KZ_METHOD_ICM ? plan->table_velocity : 0);
+  if (plan->method != KZ_METHOD_EXACT) d->tolerance = fmin(d->tolerance, kz_steps_tolerance(plan));
+}
+
+static void add_pendulum(demand *d, const kz_scene *scene) {
+  if (!(scene->parameters.pendulum.beta > 0) || !(scene->has_basin || scene->has_attractors)) return;
+  d->pendulum[d->count++] = scene->parameters.pendulum;
+  if (scene->has_basin) add_basin(d, &scene->basin);
+  if (scene->has_attractors) add_window(d, &scene->attractors.theta, &scene->attractors.velocity, 0);
+}
+
+static void add_sweep(demand *d, const kz_scene *scene) {
+  const kz_sweep_plan *plan = &scene->sweep;
+  const int64_t n = plan->values.count < SWEEP_VALUES - 1 ? plan->values.count : SWEEP_VALUES - 1;
+  for (int64_t i = 0; i < n; i++) {
+    const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
+    if (!kz_sweep_pendulum(scene, value, d->pendulum + d->count)) continue;
+    d->count++;
+    add_window(d, &plan->theta, &plan->velocity, 0);
+    if (scene->has_basin) add_basin(d, &scene->basin);
+  }
+  d->fastest = fmax(d->fastest, fabs(plan->start_velocity));
+}
+
+static int32_t larger(int32_t a, int32_t b) {
+  return a > b ? a : b;
+}
+
+/* One numerics for all pendulums: it has the most steps and terms that any of them needs. */
+static bool serve(const demand *d, kz_numerics *numerics) {
+  const kz_numerics asked = *numerics;
+  double error;
+  for (int i = 0; i < d->count; i++) {
+    kz_numerics one = asked;
+    if (kz_numerics_choose(d->pendulum + i, d->tolerance, d->fastest, &one, &error) != KZ_OK) return false;
+    one.steps_per_period = larger(one.steps_per_period, numerics->steps_per_period);
+    one.drift_terms = larger(one.drift_terms, numerics->drift_terms);
+    one.kick_terms = larger(one.kick_terms, numerics->kick_terms);
+    *numerics = one;
+  }
+  return d->count > 0;
+}
+
+static bool serve_method(const demand *d, int32_t method, kz_numerics *numerics) {
+  demand finer = *d;
+  kz_numerics fine = *numerics;
+  finer.tolerance *= EXACT_PART;
+  if (method != KZ_METHOD_EXACT || !serve(&finer, &fine)) return serve(d, numerics);
+  *numerics = fine;
+  return true;
+}
+
+/* Sets scene->numerics. False if the processed splitting is not accurate enough for the scene's motions, or if nothing is labelled. */
+static bool choose_processed(kz_scene *scene) {
+  demand d = {.tolerance = scene->asked.tolerance};
+  kz_numerics numerics = {.scheme = scene->asked.scheme, .steps_per_period = scene->asked.steps_per_period};
+  if (scene->has_basin && !isnan(scene->basin.accuracy)) return false;
+  add_pendulum(&d, scene);
+  if (scene->has_sweep) add_sweep(&d, scene);
+  if (!serve_method(&d, scene->has_basin ? scene->basin.method : KZ_METHOD_DIRECT, &numerics)) return false;
+  scene->numerics = numerics;
+  return true;
+}
+
+kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, int32_t method, double tolerance, double fastest) {
+  demand d = {.pendulum = {*pendulum}, .count = 1, .fastest = fastest, .tolerance = tolerance};
+  kz_numerics numerics = {0};
+  return serve_method(&d, method, &numerics) ? numerics : kz_steps_plain();
+}
 
 kz_motions kz_motions_of_basin(const kz_scene *scene) {
   kz_motions motions =
@@ -30,7 +139,7 @@ static void choose_steps(kz_scene *scene, bool enough) {
 void kz_numerics_resolve(kz_scene *scene) {
   const kz_numerics_keys *asked = &scene->asked;
   const bool processed = kz_is_processed(asked->scheme);
-  if (processed && kz_processed_choose(scene)) return;
+  if (processed && choose_processed(scene)) return;
   scene->numerics = (kz_numerics){.scheme = processed ? kz_scheme_find("split6") : asked->scheme,
                                   .steps_per_period = asked->steps_per_period};
   if (processed || asked->steps_per_period == KZ_AUTO) choose_steps(scene, processed);

@@ -1,8 +1,8 @@
 /* How long motions take to settle. Damping shrinks areas by e in 1/(2 pi beta) periods, its lifetime; the weaker it is, the
  * smaller are the trapping regions and the more lifetimes it takes to get there. */
-#include "settling.h"
-
 #include <math.h>
+
+#include "kapitza/study.h"
 
 /* Mean number of lifetimes until a motion is trapped: that times the logarithm of the lifetime. Measured at Q = 5, 20, 50, 200,
  * 1000 (Omega = 11 and 8): 3.4, 5.9, 7.5, 10.9, 14.3 lifetimes of 9, 25, 88, 350, 1751 periods; 999 of 1000 are trapped within

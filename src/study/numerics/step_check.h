@@ -1,5 +1,5 @@
 /* Whether the steps are fine enough for the motions of a study, tested before anything is labelled: step doubling on a sample of
- * every class of speeds. Not collective. */
+ * every class of speeds. And whether a map table is fine enough for its cells. Not collective. */
 #ifndef KAPITZA_STUDY_STEP_CHECK_H
 #define KAPITZA_STUDY_STEP_CHECK_H
 
@@ -37,5 +37,11 @@ kz_status kz_motions_check(const kz_motions *motions);
 kz_speed_errors kz_motions_errors(const kz_motions *motions);
 /* A line for each class of speeds whose error exceeds `warn_above`, and what would help. */
 void kz_motions_warn(const kz_motions *motions, const kz_speed_errors *classes, FILE *summary);
+
+/* KZ_REFUSED if `table_error`, the error of one period by the map table (rad), exceeds a cell; the message gives a number of nodes that is
+ * enough. */
+kz_status kz_steps_check_table(const kz_basin_plan *plan, double table_error);
+/* Prints a warning if it exceeds kz_steps_tolerance. */
+void kz_steps_warn_table(const kz_basin_plan *plan, double table_error, FILE *summary);
 
 #endif

@@ -1,8 +1,24 @@
-/* The number of steps a drive period that keeps its error, measured by step_error.h, small enough. Not collective. */
+/* The error of a drive period by classes of speeds, and the number of steps that keeps it small enough. Not collective. */
 #ifndef KAPITZA_STUDY_STEPS_H
 #define KAPITZA_STUDY_STEPS_H
 
-#include "step_error.h"
+#include "kapitza/kernel.h"
+
+/* Classes of speeds: the fastest half of all speeds is the last class, the faster half of the rest the class before, and so on. */
+enum { KZ_SPEED_CLASSES = 8 };
+
+typedef struct {
+  double speed[KZ_SPEED_CLASSES + 1]; /* rad per drive radian, from 0 */
+  double error[KZ_SPEED_CLASSES];     /* rad, of one drive period, an upper estimate; DBL_MAX = diverges */
+} kz_speed_errors;
+
+/* Errors by step doubling, on a sample of states with speeds up to `fastest` (rad per drive radian), or up to those of rotations and falls
+ * if these are larger. */
+kz_speed_errors kz_step_error_classes(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest);
+
+/* The class of the largest error, and that error, rad. */
+int kz_worst_class(const kz_speed_errors *classes);
+double kz_worst_error(const kz_speed_errors *classes);
 
 /* The number of steps that resolves the fastest oscillation of this pendulum as well as `gentle` steps do for a weak drive. */
 double kz_steps_by_stiffness(const kz_pendulum *pendulum, double gentle);

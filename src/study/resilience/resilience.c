@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "labelling/starts.h"
+#include "labelling/labeller.h"
 
 typedef struct {
   kz_dynamics *dynamics;

@@ -1,13 +1,45 @@
-/* How far each attractor's motion is from the edge of its basin, at every strobe point. */
+/* The smallest shocks that push a motion out of its basin: a sudden change of angle, of velocity, or of both; and how far each attractor's
+ * motion is from the edge of its basin, at every strobe point. */
 #ifndef KAPITZA_STUDY_RESILIENCE_H
 #define KAPITZA_STUDY_RESILIENCE_H
 
 #include "attractors/catalogue.h"
 #include "kapitza/parallel.h"
 #include "kapitza/study.h"
-#include "shocks.h"
 
-/* The settings, the same for all points. */
+/* Finds where n starts, start [n][2] (rad, rad per drive radian), end: end [n], after periods [n] drive periods. */
+typedef void (*kz_ends_fn)(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods);
+
+/* The problem: shocks of one state. The size of a shock (dtheta, dv) is hypot(dtheta, dv / scale). */
+typedef struct {
+  kz_ends_fn ends;
+  void *context;
+  double from[2];  /* the state: rad, rad per drive radian */
+  int32_t own;     /* its end without a shock */
+  double scale;    /* velocity that counts as much as 1 rad, rad per drive radian */
+  double farthest; /* largest change of the velocity, rad per drive radian */
+} kz_shock_problem;
+
+/* A shock; end = the end after it; size NaN = none was found. */
+typedef struct {
+  double theta, velocity, size; /* rad, rad per drive radian, rad */
+  int32_t end;
+} kz_shock;
+
+/* Harmless shocks among evenly spread ones of at most `size`. */
+typedef struct {
+  int64_t harmless, shocks;
+  double return_time; /* mean number of drive periods after a harmless shock until the end is certain */
+} kz_harmless;
+
+/* The smallest shocks: [0] of the angle alone, [1] of the velocity alone (size: the change itself, rad or rad per drive radian), [2]
+ * of both. Lines and discs are searched on ever finer grids, until a finer one finds nothing nearer; then the boundary between the
+ * nearest points is bisected to rounding, and its distance minimised along it. */
+void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]);
+
+void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless);
+
+/* The settings of a search, the same for all points. */
 typedef struct {
   double scale, farthest; /* as in kz_shock_problem */
   int64_t n_sizes;

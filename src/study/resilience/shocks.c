@@ -1,4 +1,4 @@
-#include "shocks.h"
+#include "resilience.h"
 
 #include <math.h>
 #include <stdbool.h>

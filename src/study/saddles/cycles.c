@@ -1,4 +1,4 @@
-#include "cycles.h"
+#include "saddles.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* A round of the search: the window is crossed by parallel lines of starts, whose pieces are the tiles. */
-#include "lines.h"
+#include "saddles.h"
 
 #include <math.h>
 #include <stdlib.h>

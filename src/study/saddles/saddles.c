@@ -5,8 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "lines.h"
-
 enum {
   ROUNDS = 8, /* at most */
   QUIET = 2   /* rounds without a new cycle, after which the search ends even if the sums are not 0 */
@@ -57,4 +55,71 @@ kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *sto
   kz_cycle_list_free(&cycles);
   free(sums.entries);
   return status;
+}
+
+/* ---- the time of a search: a part of its lines is tried with short periods, and this shows how the effort grows with the period ---- */
+
+/* Pieces that are tried, with so many starts at most; how often a cycle is found, and in how many pieces; messages and records of
+ * pieces that a rank holds. */
+enum { SAMPLE_PIECES = 24, SAMPLE_STARTS = 20000, REPEATS = 32, PIECES_OF_A_CYCLE = 8, PIECES_AT_ONCE = 5 };
+/* s: what the sample of the longest period that is tried takes at least; as measured, a cycle of the catalogue. Bytes of that; all rounds
+ * in units of the lines of constant angle: two rounds take 1.3, three 1.9. */
+static const double SAMPLE_SECONDS = 0.05, CYCLE_SECONDS = 2.8e-4, CYCLE_BYTES = 2000, ALL_ROUNDS = 1.5;
+
+typedef struct {
+  double seconds; /* of all lines of constant angle */
+  double sampled; /* of those tried */
+  double cycles;
+} effort;
+
+static effort sample(const kz_scene *scene, int64_t max_period, double *found) {
+  kz_saddles_plan plan = scene->saddles;
+  plan.max_period = max_period;
+  const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, &plan, 1);
+  const int64_t all = lines.count * lines.pieces, n = all < SAMPLE_PIECES ? all : SAMPLE_PIECES;
+  const double share = (double)n / (double)all;
+  effort sum = {0};
+  const double start = kz_processor_clock();
+  for (int64_t i = 0; i < n; i++) {
+    int64_t work[2];
+    sum.cycles += (double)kz_lines_search(&lines, (2 * i + 1) * all / (2 * n), SAMPLE_STARTS, found, work) / (REPEATS * share);
+  }
+  sum.sampled = kz_processor_clock() - start;
+  sum.seconds = sum.sampled / share;
+  return sum;
+}
+
+/* Of all lines of constant angle. Periods are added until the effort shows how it grows. */
+static effort estimate(const kz_scene *scene) {
+  const int64_t longest = scene->saddles.max_period;
+  double *found = kz_malloc(kz_piece_bytes(&scene->saddles));
+  effort now = {0}, before = {0};
+  int64_t period = 0;
+  while (period < longest && now.sampled < SAMPLE_SECONDS) {
+    before = now;
+    now = sample(scene, ++period, found);
+  }
+  free(found);
+  if (period == longest || before.seconds <= 0) return now;
+  const double growth = pow(fmax(1, now.seconds / before.seconds), (double)(longest - period));
+  return (effort){.seconds = growth * now.seconds, .cycles = growth * now.cycles};
+}
+
+kz_cost kz_saddles_cost(const kz_scene *scene) {
+  const kz_saddles_plan *plan = &scene->saddles;
+  const effort all = estimate(scene);
+  const double cycles = fmin(all.cycles, KZ_SADDLES_MOST), bytes = PIECES_OF_A_CYCLE * (double)kz_cycle_bytes(plan);
+  return (kz_cost){.disk_bytes = 1e5 + cycles * bytes,
+                   .memory_bytes = PIECES_AT_ONCE * (double)kz_piece_bytes(plan),
+                   .rank0_bytes = cycles * (CYCLE_BYTES + bytes)};
+}
+
+kz_status kz_saddles_measure(const kz_scene *scene, double *seconds) {
+  const effort all = estimate(scene);
+  *seconds += ALL_ROUNDS * all.seconds + CYCLE_SECONDS * fmin(all.cycles, KZ_SADDLES_MOST);
+  return KZ_OK;
+}
+
+double kz_saddles_expected(const kz_scene *scene) {
+  return fmin(estimate(scene).cycles, KZ_SADDLES_MOST);
 }

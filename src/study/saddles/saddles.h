@@ -1,9 +1,72 @@
-/* Study `saddles`. */
+/* Study `saddles`: lines of starts that cross a window, and the search for cycles along them; all known cycles of the strobe map up to a
+ * period, attracting or not, and their index sums. */
 #ifndef KAPITZA_STUDY_SADDLES_H
 #define KAPITZA_STUDY_SADDLES_H
 
-#include "cycles.h"
+#include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+
+/* Lines of constant angle, or rows of constant velocity; each is cut into `pieces` pieces, and a piece is a tile. */
+typedef struct {
+  const kz_pendulum *pendulum;
+  const kz_saddles_plan *plan;
+  bool rows;
+  kz_axis along, across;
+  int64_t count, pieces;
+} kz_lines;
+
+/* Cycles in the form of kz_dynamics_search_line, each once, in the order of periods and speeds. The caller frees `cycle`. */
+typedef struct {
+  int64_t count;
+  double *cycle;
+} kz_found;
+
+size_t kz_cycle_bytes(const kz_saddles_plan *plan);
+/* Largest number of bytes that one piece can give. */
+size_t kz_piece_bytes(const kz_saddles_plan *plan);
+
+/* The lines of a round 0, 1, ...: rows, lines of constant angle, then both with half the distance, and so on. */
+kz_lines kz_lines_of(const kz_pendulum *pendulum, const kz_saddles_plan *plan, int round);
+/* Searches one piece by kz_dynamics_search_line: found [kz_piece_bytes], work [2]; returns the number of cycles. */
+int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts, double *found, int64_t work[2]);
+/* Searches all pieces in a kept stage and adds their cycles to *found on rank 0. Collective. */
+kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *name, kz_found *found);
+
+/* A cycle of the catalogue. */
+typedef struct {
+  kz_attractor row;
+  bool unstable;
+  int32_t saddle; /* id among the unstable cycles; -1 = it attracts */
+  int32_t mirror; /* saddle of its mirror image */
+  char name[KZ_NAME_LENGTH];
+  double theta[KZ_SADDLES_MAX_PERIOD], velocity[KZ_SADDLES_MAX_PERIOD]; /* strobe points */
+} kz_listed_cycle;
+
+/* In the order of attractors of the file. */
+typedef struct {
+  int64_t count, n_unstable;
+  kz_listed_cycle *entries;
+} kz_cycle_list;
+
+/* Makes the list of the cycles of a catalogue; the caller frees it. */
+void kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list);
+void kz_cycle_list_free(kz_cycle_list *list);
+
+/* The index of each fixed point of F^(n * period) on a cycle: the sign of (1 - mu1^n)(1 - mu2^n). */
+int kz_cycle_index(const kz_attractor *cycle, int64_t n);
+
+/* The fixed points of F^period with this winding: their number, and the sum of their indices. */
+typedef struct {
+  int32_t period, winding, points, index;
+} kz_index_sum;
+typedef struct {
+  int64_t count, open; /* open: sums that are not 0 */
+  kz_index_sum *entries;
+} kz_index_sums;
+
+/* Makes the sums for every period up to max_period and every winding of a known cycle; the caller frees sums->entries. The theorem is in
+ * docs/explanation/theory.md. */
+void kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums);
 
 kz_cost kz_saddles_cost(const kz_scene *scene);
 kz_status kz_saddles_measure(const kz_scene *scene, double *seconds);

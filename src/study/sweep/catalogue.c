@@ -9,7 +9,6 @@
 #include "resilience/resilience.h"
 #include "attractors/search.h"
 #include "labelling/labeller.h"
-#include "labelling/starts.h"
 #include "sweep.h"
 
 enum {

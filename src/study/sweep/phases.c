@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "labelling/labeller.h"
-#include "labelling/starts.h"
 #include "numerics/cells.h"
 #include "numerics/share.h"
 #include "sweep.h"

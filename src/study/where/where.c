@@ -5,7 +5,6 @@
 #include "numerics/cells.h"
 #include "attractors/search.h"
 #include "labelling/labeller.h"
-#include "labelling/starts.h"
 #include "bisect.h"
 
 typedef struct {

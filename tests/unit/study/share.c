@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "accuracy/setting.h"
+#include "accuracy/accuracy.h"
 #include "numerics/share.h"
 
 /* Wilson's limits solve (share - p)^2 = z^2 p (1 - p)/n. */

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "resilience/shocks.h"
+#include "resilience/resilience.h"
 
 /* Another end inside of an ellipse about (2, 1), below v = -1.7, in a small disc, and in a thin strip at theta = -2.5. */
 static int32_t end_at(double theta, double velocity, bool small) {
