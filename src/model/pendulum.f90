@@ -33,18 +33,14 @@ module kz_model_pendulum
 contains
 
   elemental function sine_force_r64(k, m, cosine) result(force)
-    real(real64), intent(in) :: k
-    real(real64), intent(in) :: m
-    real(real64), intent(in) :: cosine
+    real(real64), intent(in) :: k, m, cosine
     real(real64) :: force
 
     force = k - m*cosine
   end function sine_force_r64
 
   elemental function sine_force_r128(k, m, cosine) result(force)
-    real(real128), intent(in) :: k
-    real(real128), intent(in) :: m
-    real(real128), intent(in) :: cosine
+    real(real128), intent(in) :: k, m, cosine
     real(real128) :: force
 
     force = k - m*cosine
@@ -52,8 +48,7 @@ contains
 
   !> The derivatives of a(t) by k and by m at t = 2 pi * turn: a = k a_k + m a_m where the drive is m cos t alone.
   pure function force_of_parameters(turn) result(parts)
-    !> drive periods
-    real(c_double), intent(in) :: turn
+    real(c_double), intent(in) :: turn !< drive periods
     real(c_double) :: parts(2)
 
     parts = [1.0_c_double, -cos(2*real(PI, c_double)*turn)]
@@ -61,10 +56,7 @@ contains
 
   !> True if two pendulums have the same numbers.
   pure function is_same(one, other) result(same)
-    !> a pendulum
-    type(pendulum_t), intent(in) :: one
-    !> a pendulum
-    type(pendulum_t), intent(in) :: other
+    type(pendulum_t), intent(in) :: one, other !< a pendulum
     logical :: same
 
     same = all(transfer(one, [0_c_int32_t]) == transfer(other, [0_c_int32_t])) ! to the bit
@@ -72,8 +64,7 @@ contains
 
   !> An upper bound of |a(t)| + |b(t)| + |torque| over all t.
   pure function stiffness(pendulum) bind(C, name='kz_stiffness') result(bound)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
     real(c_double) :: bound
 
     bound = real(exact_stiffness(pendulum), c_double)
@@ -81,8 +72,7 @@ contains
 
   !> The same in quad precision.
   pure function exact_stiffness(pendulum) result(bound)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
     real(qp) :: bound
     integer :: j
 
@@ -96,8 +86,7 @@ contains
 
   !> 1 if the mirror image (-theta, -velocity) of every motion is a motion too, else 0.
   pure function is_mirrored(pendulum) bind(C, name='kz_is_mirrored') result(mirrored)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
     integer(c_int32_t) :: mirrored
 
     mirrored = 1 - pendulum%unmirrored
@@ -105,8 +94,7 @@ contains
 
   !> 1 if the drive is k - m cos t without further terms, else 0.
   pure function is_sine(pendulum) bind(C, name='kz_is_sine') result(sine)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
     integer(c_int32_t) :: sine
 
     sine = merge(1, 0, pendulum%harmonics == 0 .and. pendulum%unmirrored == 0)
@@ -114,8 +102,7 @@ contains
 
   !> Highest harmonic of the drive, at least 1.
   pure function highest_harmonic(pendulum) result(highest)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
     integer(c_int32_t) :: highest
 
     highest = max(1_c_int32_t, pendulum%harmonics)
@@ -123,16 +110,11 @@ contains
 
   !> a(t) and b(t) at t = 2 pi * turn.
   pure subroutine force_at(pendulum, turn, cosine, a, b)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
-    !> drive periods
-    real(qp), intent(in) :: turn
-    !> cos(t), which other pendulums need too
-    real(qp), intent(in) :: cosine
-    !> of sin theta
-    real(qp), intent(out) :: a
-    !> of -cos theta
-    real(qp), intent(out) :: b
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
+    real(qp), intent(in) :: turn !< drive periods
+    real(qp), intent(in) :: cosine !< cos(t), which other pendulums need too
+    real(qp), intent(out) :: a !< of sin theta
+    real(qp), intent(out) :: b !< of -cos theta
     real(qp) :: sine, c, s, former
     integer :: j
 
@@ -153,14 +135,10 @@ contains
 
   !> theta'' of a state at the time t of the drive, rad.
   pure function acceleration(pendulum, t, theta, velocity) result(rate)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
-    !> drive time, rad
-    real(c_double), intent(in) :: t
-    !> rad
-    real(c_double), intent(in) :: theta
-    !> rad per drive radian
-    real(c_double), intent(in) :: velocity
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
+    real(c_double), intent(in) :: t !< drive time, rad
+    real(c_double), intent(in) :: theta !< rad
+    real(c_double), intent(in) :: velocity !< rad per drive radian
     real(c_double) :: rate
     integer :: j
 
@@ -174,18 +152,12 @@ contains
 
   !> Taylor coefficients of factor*a(t) and factor*b(t) about t0, in (t - t0)/h, orders 0, 1, ..
   pure subroutine force_series(pendulum, t0, h, factor, a, b)
-    !> the pendulum
-    type(pendulum_t), intent(in) :: pendulum
-    !> drive time, rad
-    real(qp), intent(in) :: t0
-    !> step, rad
-    real(qp), intent(in) :: h
-    !> h**2 in a scaled equation
-    real(qp), intent(in) :: factor
-    !> of sin theta
-    real(qp), intent(out) :: a(0:)
-    !> of -cos theta
-    real(qp), intent(out) :: b(0:)
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
+    real(qp), intent(in) :: t0 !< drive time, rad
+    real(qp), intent(in) :: h !< step, rad
+    real(qp), intent(in) :: factor !< h**2 in a scaled equation
+    real(qp), intent(out) :: a(0:) !< of sin theta
+    real(qp), intent(out) :: b(0:) !< of -cos theta
     integer :: j
 
     a = 0
@@ -201,10 +173,7 @@ contains
   !> series += coefficients of cosine*cos(j t) + sine*sin(j t).
   pure subroutine add_harmonic(j, cosine, sine, t0, h, series)
     integer, intent(in) :: j
-    real(qp), intent(in) :: cosine
-    real(qp), intent(in) :: sine
-    real(qp), intent(in) :: t0
-    real(qp), intent(in) :: h
+    real(qp), intent(in) :: cosine, sine, t0, h
     real(qp), intent(inout) :: series(0:)
     real(qp) :: c, s, of_cosine(0:3), of_sine(0:3), scale(2)
     integer :: n

@@ -34,8 +34,7 @@ contains
 
   !> Number of the first strobe from which on the drive has its final form; 0 if it has this form from the release.
   pure function strobes_before(release) bind(C, name='kz_release_strobes') result(n)
-    !> of the motions
-    type(release_t), intent(in) :: release
+    type(release_t), intent(in) :: release !< of the motions
     integer(c_int64_t) :: n
 
     n = ceiling(release%periods, c_int64_t)
@@ -51,8 +50,7 @@ contains
 
   !> The stretch from the release to the next strobe, or to the end of the ramp.
   pure function first_stretch(release) result(stretch)
-    !> of the motions
-    type(release_t), intent(in) :: release
+    type(release_t), intent(in) :: release !< of the motions
     type(stretch_t) :: stretch
 
     stretch = stretch_t(release=release, span=0)
@@ -62,8 +60,7 @@ contains
 
   !> The stretch after this one, up to the next strobe or the end of the ramp.
   pure function next_stretch(stretch) result(next)
-    !> what has been followed
-    type(stretch_t), intent(in) :: stretch
+    type(stretch_t), intent(in) :: stretch !< what has been followed
     type(stretch_t) :: next
     real(qp) :: end, ramp
 
@@ -79,8 +76,7 @@ contains
 
   !> True if a stretch begins before the drive has its final form and a strobe is reached.
   pure function is_open(stretch) result(open)
-    !> a stretch
-    type(stretch_t), intent(in) :: stretch
+    type(stretch_t), intent(in) :: stretch !< a stretch
     logical :: open
 
     open = stretch%begin < strobes_before(stretch%release)
@@ -89,8 +85,7 @@ contains
   !> What is left of the ramp, 1 .. 0, as a polynomial in x, at `turn` + x width drive periods. Smooth ramps go as 1 - 3 s**2 + 2 s**3.
   pure function rest_of(stretch, turn, width) result(series)
     type(stretch_t), intent(in) :: stretch
-    real(qp), intent(in) :: turn
-    real(qp), intent(in) :: width
+    real(qp), intent(in) :: turn, width
     real(qp) :: series(0:CUBIC)
     real(qp) :: s, d
 
@@ -107,14 +102,9 @@ contains
 
   !> beta as a polynomial in x, at `turn` + x width drive periods.
   pure function damping_series(stretch, pendulum, turn, width) result(series)
-    !> of the time
-    type(stretch_t), intent(in) :: stretch
-    !> as it is after the ramp
-    type(pendulum_t), intent(in) :: pendulum
-    !> drive periods
-    real(qp), intent(in) :: turn
-    !> drive periods
-    real(qp), intent(in) :: width
+    type(stretch_t), intent(in) :: stretch !< of the time
+    type(pendulum_t), intent(in) :: pendulum !< as it is after the ramp
+    real(qp), intent(in) :: turn, width !< drive periods
     real(qp) :: series(0:CUBIC)
 
     series = (real(stretch%release%damping, qp) - pendulum%beta)*rest_of(stretch, turn, width)
@@ -123,12 +113,8 @@ contains
 
   !> The strength of the drive relative to the final one, as a polynomial in x, at `turn` + x width drive periods.
   pure function drive_series(stretch, turn, width) result(series)
-    !> of the time
-    type(stretch_t), intent(in) :: stretch
-    !> drive periods
-    real(qp), intent(in) :: turn
-    !> drive periods
-    real(qp), intent(in) :: width
+    type(stretch_t), intent(in) :: stretch !< of the time
+    real(qp), intent(in) :: turn, width !< drive periods
     real(qp) :: series(0:CUBIC)
 
     series = (real(stretch%release%drive, qp) - 1)*rest_of(stretch, turn, width)

@@ -17,8 +17,7 @@ module kz_api_catalogue
 contains
 
   subroutine adopt(handle, flat) bind(C, name='kz_dynamics_adopt')
-    type(c_ptr), value :: handle
-    type(c_ptr), value :: flat
+    type(c_ptr), value :: handle, flat
     type(dynamics_t), pointer :: d
     real(dp), pointer :: values(:)
     type(attractor_t), allocatable :: new(:)
@@ -104,8 +103,7 @@ contains
   subroutine attractor_points(handle, number, theta, velocity) bind(C, name='kz_dynamics_strobe')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: number
-    real(dp), intent(inout) :: theta(*)
-    real(dp), intent(inout) :: velocity(*)
+    real(dp), intent(inout) :: theta(*), velocity(*)
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)

@@ -12,8 +12,7 @@ contains
     integer(c_int32_t), value :: n_steps
     integer(c_int64_t), value :: n
     type(pendulum_t), intent(in) :: pendulum(n)
-    !> half-turns, rad per drive radian
-    real(dp), intent(in) :: start(2)
+    real(dp), intent(in) :: start(2) !< half-turns, rad per drive radian
     integer(c_int32_t), value :: max_period
     integer(c_int64_t), intent(in) :: max_periods(n)
     type(ending_t), intent(out) :: endings(n)

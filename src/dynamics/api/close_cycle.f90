@@ -14,22 +14,14 @@ contains
 
   function close_near(pendulum, numerics, n, max_distance, theta, velocity, re, im) &
     bind(C, name='kz_dynamics_close_cycle') result(period)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> of the strobe map
-    type(numerics_t), intent(in) :: numerics
-    !> a period that closes the cycle
-    integer(c_int64_t), value :: n
-    !> farthest that the cycle may lie from the start
-    real(dp), value :: max_distance
-    !> start, then the cycle's point; rad
-    real(dp), intent(inout) :: theta
-    !> the same, rad per drive radian
-    real(dp), intent(inout) :: velocity
-    !> real parts of the multipliers
-    real(dp), intent(out) :: re(2)
-    !> imaginary parts
-    real(dp), intent(out) :: im(2)
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< of the strobe map
+    integer(c_int64_t), value :: n !< a period that closes the cycle
+    real(dp), value :: max_distance !< farthest that the cycle may lie from the start
+    real(dp), intent(inout) :: theta !< start, then the cycle's point; rad
+    real(dp), intent(inout) :: velocity !< the same, rad per drive radian
+    real(dp), intent(out) :: re(2) !< real parts of the multipliers
+    real(dp), intent(out) :: im(2) !< imaginary parts
     integer(c_int64_t) :: period
     class(flow_t), allocatable :: flow
     type(attractor_t) :: cycle

@@ -22,8 +22,7 @@ contains
     type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
-    !> attractors that are there no more, their mirror images not counted
-    integer(c_int64_t), intent(out) :: lost
+    integer(c_int64_t), intent(out) :: lost !< attractors that are there no more, their mirror images not counted
     type(c_ptr) :: moved
     type(dynamics_t), pointer :: from, d
     integer, allocatable :: number(:)

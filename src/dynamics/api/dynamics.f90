@@ -25,14 +25,10 @@ contains
 
   !> Makes the maps of a pendulum, without attractors and regions.
   function make_dynamics(pendulum, numerics, max_period, moving) result(d)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> of the map that labels
-    type(numerics_t), intent(in) :: numerics
-    !> of the cycles that a search looks for
-    integer, intent(in) :: max_period
-    !> whether a slider moves the pendulum
-    logical, intent(in) :: moving
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< of the map that labels
+    integer, intent(in) :: max_period !< of the cycles that a search looks for
+    logical, intent(in) :: moving !< whether a slider moves the pendulum
     type(dynamics_t), pointer :: d
     type(numerics_t) :: fine
 

@@ -19,8 +19,7 @@ contains
   subroutine follow_starts(handle, stepping, n, max_periods, state, label, periods) bind(C, name='kz_dynamics_follow')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: stepping
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: max_periods
+    integer(c_int64_t), value :: n, max_periods
     real(dp), intent(inout) :: state(2, n)
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
@@ -70,8 +69,7 @@ contains
     bind(C, name='kz_dynamics_follow_reference')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: n_steps
-    integer(c_int64_t), value :: n
-    integer(c_int64_t), value :: max_periods
+    integer(c_int64_t), value :: n, max_periods
     real(dp), intent(in) :: start(2, n)
     type(c_ptr), value :: low
     integer(c_int32_t), intent(out) :: label(n)

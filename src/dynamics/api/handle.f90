@@ -32,8 +32,7 @@ contains
 
   !> The dynamics behind a handle of C; null for a null handle.
   function of_handle(handle) result(d)
-    !> what kz_dynamics_create returned
-    type(c_ptr), intent(in) :: handle
+    type(c_ptr), intent(in) :: handle !< what kz_dynamics_create returned
     type(dynamics_t), pointer :: d
 
     call c_f_pointer(handle, d)

@@ -38,8 +38,7 @@ contains
 
   subroutine label_starts(handle, level, before, n, start, max_periods, decision) bind(C, name='kz_dynamics_label')
     type(c_ptr), value :: handle
-    integer(c_int32_t), value :: level
-    integer(c_int32_t), value :: before
+    integer(c_int32_t), value :: level, before
     integer(c_int64_t), value :: n
     type(start_t), intent(in) :: start(n)
     integer(c_int64_t), value :: max_periods
@@ -63,12 +62,9 @@ contains
 
   !> The orbit of a start. The start is known to the last place of its double, or, with `precisely`, to the last place of the pair.
   pure subroutine begin_orbit(start, precisely, orbit)
-    !> rad, rad per drive radian
-    type(start_t), intent(in) :: start
-    !> to all digits of its pairs, else to those of doubles
-    logical, intent(in) :: precisely
-    !> the orbit
-    type(orbit_t), intent(out) :: orbit
+    type(start_t), intent(in) :: start !< rad, rad per drive radian
+    logical, intent(in) :: precisely !< to all digits of its pairs, else to those of doubles
+    type(orbit_t), intent(out) :: orbit !< the orbit
     real(qp) :: u
 
     if (precisely) then
@@ -89,8 +85,7 @@ contains
   !> Orbits begin at a level and go down from level to level as their errors grow.
   subroutine label_orbits(d, level, before, most, orbit, ending)
     type(dynamics_t), intent(inout), target :: d
-    integer, intent(in) :: level
-    integer, intent(in) :: before
+    integer, intent(in) :: level, before
     integer(c_int64_t), intent(in) :: most
     type(orbit_t), intent(inout) :: orbit(:)
     type(ending_t), intent(inout) :: ending(:)

@@ -17,12 +17,10 @@ module kz_api_manifold
 contains
 
   function grow(pendulum, branch, most, point) bind(C, name='kz_manifold_grow') result(n)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(branch_t), intent(in) :: branch
     integer(c_int64_t), value :: most
-    !> rad, rad per drive radian, rad, number of the part
-    real(dp), intent(out) :: point(4, most)
+    real(dp), intent(out) :: point(4, most) !< rad, rad per drive radian, rad, number of the part
     integer(c_int64_t) :: n
     class(flow_t), allocatable :: flow
     type(pendulum_t) :: turned

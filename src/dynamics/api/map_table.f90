@@ -13,8 +13,7 @@ contains
 
   subroutine table_create(handle, n_theta, n_velocity, top) bind(C, name='kz_dynamics_table_create')
     type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n_theta
-    integer(c_int64_t), value :: n_velocity
+    integer(c_int64_t), value :: n_theta, n_velocity
     real(dp), value :: top
     type(dynamics_t), pointer :: d
 
@@ -44,8 +43,7 @@ contains
   end subroutine integrate_row
 
   subroutine table_set(handle, rows) bind(C, name='kz_dynamics_table_set')
-    type(c_ptr), value :: handle
-    type(c_ptr), value :: rows
+    type(c_ptr), value :: handle, rows
     type(dynamics_t), pointer :: d
     real(dp), pointer :: values(:, :, :)
 

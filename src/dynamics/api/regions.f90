@@ -53,8 +53,7 @@ contains
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: state(2, n)
-    integer(c_int64_t), value :: most
-    integer(c_int64_t), value :: budget
+    integer(c_int64_t), value :: most, budget
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)

@@ -27,22 +27,14 @@ contains
 
   function search_cycles(pendulum, max_period, n_nodes, node, window, most_starts, most, found, work) &
     bind(C, name='kz_dynamics_search_line') result(n)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    integer(c_int64_t), value :: max_period
-    integer(c_int64_t), value :: n_nodes
-    !> rad, rad per drive radian
-    real(dp), intent(in) :: node(2, n_nodes)
-    !> least and largest angle, least and largest velocity
-    real(dp), intent(in) :: window(4)
-    !> with more the search ends
-    integer(c_int64_t), value :: most_starts
-    !> cycles that fit
-    integer(c_int64_t), value :: most
-    !> period, largest speed, points (half-turns, velocity)
-    real(dp), intent(out) :: found(2 + 2*max_period, most)
-    !> starts followed, orbits closed or not
-    integer(c_int64_t), intent(out) :: work(2)
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    integer(c_int64_t), value :: max_period, n_nodes
+    real(dp), intent(in) :: node(2, n_nodes) !< rad, rad per drive radian
+    real(dp), intent(in) :: window(4) !< least and largest angle, least and largest velocity
+    integer(c_int64_t), value :: most_starts !< with more the search ends
+    integer(c_int64_t), value :: most !< cycles that fit
+    real(dp), intent(out) :: found(2 + 2*max_period, most) !< period, largest speed, points (half-turns, velocity)
+    integer(c_int64_t), intent(out) :: work(2) !< starts followed, orbits closed or not
     integer(c_int64_t) :: n
     class(flow_t), allocatable :: flow
     type(numerics_t) :: numerics
@@ -59,10 +51,8 @@ contains
 
   subroutine add_cycles(handle, max_period, n, found) bind(C, name='kz_dynamics_add_cycles')
     type(c_ptr), value :: handle
-    integer(c_int64_t), value :: max_period
-    integer(c_int64_t), value :: n
-    !> as kz_dynamics_search_line gives them
-    real(dp), intent(in) :: found(2 + 2*max_period, n)
+    integer(c_int64_t), value :: max_period, n
+    real(dp), intent(in) :: found(2 + 2*max_period, n) !< as kz_dynamics_search_line gives them
     type(dynamics_t), pointer :: d
     type(attractor_t) :: new
     type(attractor_t), allocatable :: batch(:)
@@ -89,10 +79,8 @@ contains
   !> The cycle of the map of published values near an orbit; `is_placed` where rounding leaves its place open by little.
   subroutine place_cycle(d, orbit, cycle, is_placed)
     type(dynamics_t), intent(inout) :: d
-    !> half-turns, rad per drive radian
-    real(dp), intent(in) :: orbit(:, :)
-    !> its points, multipliers, winding
-    type(attractor_t), intent(out) :: cycle
+    real(dp), intent(in) :: orbit(:, :) !< half-turns, rad per drive radian
+    type(attractor_t), intent(out) :: cycle !< its points, multipliers, winding
     logical, intent(out) :: is_placed
     real(dp) :: x(2, size(orbit, 2))
     type(closed_orbit_t) :: closed
@@ -115,8 +103,7 @@ contains
   !> A batch joins the catalogue: to lengthen it for every cycle would take a time that grows with the square of their number.
   subroutine join_batch(attractors, batch)
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    !> its mirror images are numbered from its own beginning; empty afterwards
-    type(attractor_t), allocatable, intent(inout) :: batch(:)
+    type(attractor_t), allocatable, intent(inout) :: batch(:) !< its mirror images are numbered from its own beginning; empty afterwards
 
     batch%mirror = batch%mirror + size(attractors)
     call join(attractors, batch)
@@ -126,8 +113,7 @@ contains
 
   !> Whether a cycle is the same as one of the last of a catalogue: those with as many periods and as large a speed come together.
   pure function is_known(attractors, cycle) result(known)
-    type(attractor_t), intent(in) :: attractors(:)
-    type(attractor_t), intent(in) :: cycle
+    type(attractor_t), intent(in) :: attractors(:), cycle
     logical :: known
     integer :: i, first
 

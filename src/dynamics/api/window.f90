@@ -17,14 +17,10 @@ contains
 
   !> Starts spread evenly by the additive recurrence of the plastic number; the seed is the offset.
   subroutine starts(window, seed, n, state) bind(C, name='kz_dynamics_starts')
-    !> rad and rad per drive radian
-    type(window_t), intent(in) :: window
-    !> any number
-    integer(c_int64_t), value :: seed
-    !> starts
-    integer(c_int64_t), value :: n
-    !> half-turns in [-1, 1], rad per drive radian
-    real(dp), intent(out) :: state(2, n)
+    type(window_t), intent(in) :: window !< rad and rad per drive radian
+    integer(c_int64_t), value :: seed !< any number
+    integer(c_int64_t), value :: n !< starts
+    real(dp), intent(out) :: state(2, n) !< half-turns in [-1, 1], rad per drive radian
     real(dp), parameter :: PLASTIC = 1.32471795724474602596_dp, GOLDEN = 0.61803398874989484820_dp
     integer(c_int64_t) :: i
     real(dp) :: share(2), offset(2)

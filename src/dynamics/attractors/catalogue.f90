@@ -20,8 +20,7 @@ contains
   !> order(r) = number of the attractor of rank r: by centre, period (0 last), |winding|/period, + before -, first strobe
   !> velocity, first strobe angle, each compared rounded to 1e-9; chaotic ones by mean velocity, larger first, then mean angle.
   function order_of(attractors) result(order)
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     integer :: order(size(attractors))
     real(dp) :: keys(6, size(attractors))
     integer :: i, j, moving
@@ -40,8 +39,7 @@ contains
   end function order_of
 
   pure function before(a, b)
-    real(dp), intent(in) :: a(6)
-    real(dp), intent(in) :: b(6)
+    real(dp), intent(in) :: a(6), b(6)
     logical :: before
     integer :: i
 
@@ -66,8 +64,7 @@ contains
 
   !> The whole catalogue as doubles. Integers are exact in doubles.
   function packed(attractors) result(flat)
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     real(dp), allocatable :: flat(:), bits(:)
     integer :: i, covered
 
@@ -89,8 +86,7 @@ contains
 
   !> The largest number of doubles of a catalogue with one cycle of up to this period and its mirror image.
   pure function packed_cycle_size(max_period) result(n)
-    !> longest period of a cycle, drive periods
-    integer, intent(in) :: max_period
+    integer, intent(in) :: max_period !< longest period of a cycle, drive periods
     integer :: n
 
     n = 1 + 2*(HEAD + 5*max_period)
@@ -138,10 +134,8 @@ contains
 
   !> The catalogue from the doubles that `packed` returns; further doubles are ignored.
   subroutine unpack(flat, attractors)
-    !> what `packed` returned
-    real(dp), intent(in) :: flat(:)
-    !> the catalogue
-    type(attractor_t), allocatable, intent(out) :: attractors(:)
+    real(dp), intent(in) :: flat(:) !< what `packed` returned
+    type(attractor_t), allocatable, intent(out) :: attractors(:) !< the catalogue
     integer :: i, p, n, covered
 
     allocate (attractors(nint(flat(1))))

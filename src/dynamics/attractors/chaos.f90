@@ -33,16 +33,11 @@ contains
   !> chaotic attractor. A long chaotic transient does not count, because one of its orbits is trapped in the end. With damping so weak
   !> that areas hardly shrink, or if the orbits stay beyond the regions, it appends nothing.
   subroutine find_chaos(search, regions, u, v, attractors)
-    !> the flows and the longest period of the search
-    type(search_t), intent(inout) :: search
-    !> the trapping regions: a bundle that they trap is not chaotic
-    type(regions_t), intent(in) :: regions
-    !> start, half-turns
-    real(dp), intent(in) :: u
-    !> start, rad per drive radian
-    real(dp), intent(in) :: v
-    !> the catalogue, which gains what is found
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    type(search_t), intent(inout) :: search !< the flows and the longest period of the search
+    type(regions_t), intent(in) :: regions !< the trapping regions: a bundle that they trap is not chaotic
+    real(dp), intent(in) :: u !< start, half-turns
+    real(dp), intent(in) :: v !< start, rad per drive radian
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     type(attractor_t) :: attractor
     logical, allocatable :: visited(:)
     logical :: trapped
@@ -72,14 +67,10 @@ contains
   !> Carries a chaotic attractor to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
   !> longer orbits would visit: right enough for pictures that move. It appends nothing where a trapping region holds one of the orbits.
   subroutine carry_chaos(search, regions, old, attractors)
-    !> the flows of the pendulum
-    type(search_t), intent(inout) :: search
-    !> its trapping regions
-    type(regions_t), intent(in) :: regions
-    !> the attractor
-    type(attractor_t), intent(in) :: old
-    !> the catalogue, which gains it and its mirror image
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    type(search_t), intent(inout) :: search !< the flows of the pendulum
+    type(regions_t), intent(in) :: regions !< its trapping regions
+    type(attractor_t), intent(in) :: old !< the attractor
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains it and its mirror image
     type(attractor_t) :: attractor
     logical, allocatable :: visited(:)
     integer, allocatable :: inner(:)
@@ -138,8 +129,7 @@ contains
     class(flow_t), intent(inout) :: flow
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    integer, intent(in) :: settle
-    integer, intent(in) :: periods
+    integer, intent(in) :: settle, periods
     logical, allocatable, intent(out) :: visited(:)
     logical, intent(out) :: trapped
     integer :: region(WIDTH), period, lane, cell
@@ -161,8 +151,7 @@ contains
   !> Whether neighbours of the orbit from (u, v) part.
   function neighbours_part(flow, u, v) result(part)
     class(flow_t), intent(inout) :: flow
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u, v
     logical :: part
     real(dp) :: mean, error
 
@@ -186,8 +175,7 @@ contains
   !> Largest Lyapunov exponent per period of the orbits in all lanes, with its standard error; 0 where it is small at first and falls on.
   subroutine measure_exponent(flow, mean, error)
     class(flow_t), intent(inout) :: flow
-    real(dp), intent(out) :: mean
-    real(dp), intent(out) :: error
+    real(dp), intent(out) :: mean, error
     real(dp) :: first
 
     call exponent(flow, WIDTH, EXPONENT_PERIODS, mean, error)
@@ -200,10 +188,8 @@ contains
   !> Largest Lyapunov exponent per period of the orbits in the lanes 1 .. n, with its standard error over them.
   subroutine exponent(flow, n, periods, mean, error)
     class(flow_t), intent(inout) :: flow
-    integer, intent(in) :: n
-    integer, intent(in) :: periods
-    real(dp), intent(out) :: mean
-    real(dp), intent(out) :: error
+    integer, intent(in) :: n, periods
+    real(dp), intent(out) :: mean, error
     real(dp) :: tangent(2, 2, WIDTH), growth(WIDTH), length
     integer :: period, lane
 

@@ -39,20 +39,14 @@ contains
   !> Tries physical states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until it finds one. It
   !> appends the cycle and its mirror image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
-    !> the flows and the longest period of the search
-    type(search_t), intent(inout) :: search
-    !> states to look from, half-turns
-    real(dp), intent(in) :: u(:)
-    !> their velocities, rad per drive radian
-    real(dp), intent(in) :: v(:)
-    !> how near an orbit must come back to itself, rad
-    real(dp), intent(in) :: closeness
-    !> in and out: the state to go on from; size(u) + 1 where all have been looked at
-    integer, intent(inout) :: next
+    type(search_t), intent(inout) :: search !< the flows and the longest period of the search
+    real(dp), intent(in) :: u(:) !< states to look from, half-turns
+    real(dp), intent(in) :: v(:) !< their velocities, rad per drive radian
+    real(dp), intent(in) :: closeness !< how near an orbit must come back to itself, rad
+    integer, intent(inout) :: next !< in and out: the state to go on from; size(u) + 1 where all have been looked at
     !> in and out: for every period up to max_period, how often its cycle has been found blurred among these states; 0 at first
     integer, intent(inout) :: n_blurred(:)
-    !> the catalogue, which gains what is found
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     real(dp) :: orbit_u(size(u), 0:search%max_period), orbit_v(size(u), 0:search%max_period)
     integer :: lane, n, n_known
 
@@ -77,14 +71,10 @@ contains
   !> Polishes the closest recurrences of one orbit until one gives an attracting cycle.
   subroutine try_recurrences(search, start, u, v, closeness, n_blurred, attractors)
     type(search_t), intent(inout) :: search
-    !> its first state in physical coordinates
-    real(dp), intent(in) :: start(2)
-    !> the orbit in those of the scene's map
-    real(dp), intent(in) :: u(0:)
-    real(dp), intent(in) :: v(0:)
-    real(dp), intent(in) :: closeness
-    !> for every period: how often its cycle has been found blurred
-    integer, intent(inout) :: n_blurred(:)
+    real(dp), intent(in) :: start(2) !< its first state in physical coordinates
+    real(dp), intent(in) :: u(0:) !< the orbit in those of the scene's map
+    real(dp), intent(in) :: v(0:), closeness
+    integer, intent(inout) :: n_blurred(:) !< for every period: how often its cycle has been found blurred
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     real(dp) :: distance(ubound(u, 1))
     type(attractor_t) :: candidate
@@ -127,8 +117,7 @@ contains
   function repels(search, n, u, v)
     type(search_t), intent(inout) :: search
     integer, intent(in) :: n
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u, v
     logical :: repels
     real(dp) :: tangent(2, 2, WIDTH)
     complex(dp) :: multiplier(2)
@@ -148,8 +137,7 @@ contains
   function promise_of(search, n, start, farthest, attractors) result(promise)
     type(search_t), intent(inout) :: search
     integer, intent(in) :: n
-    real(dp), intent(in) :: start(2)
-    real(dp), intent(in) :: farthest
+    real(dp), intent(in) :: start(2), farthest
     type(attractor_t), intent(in) :: attractors(:)
     integer :: promise
     real(dp) :: x(2), residual(2), matrix(2, 2)
@@ -185,14 +173,10 @@ contains
 
   !> True if a cycle of this period through any of these states is among the attractors.
   pure function known(attractors, period, u, v)
-    !> the catalogue
-    type(attractor_t), intent(in) :: attractors(:)
-    !> drive periods
-    integer, intent(in) :: period
-    !> physical states, half-turns
-    real(dp), intent(in) :: u(:)
-    !> their velocities, rad per drive radian
-    real(dp), intent(in) :: v(:)
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue
+    integer, intent(in) :: period !< drive periods
+    real(dp), intent(in) :: u(:) !< physical states, half-turns
+    real(dp), intent(in) :: v(:) !< their velocities, rad per drive radian
     logical :: known
     integer :: a, j
 
@@ -208,12 +192,9 @@ contains
 
   !> Completes an attractor (trapping ellipses, features) and appends it, and its mirror image if that is another one.
   subroutine add_with_mirror(search, attractor, attractors)
-    !> the flows and the longest period of the search
-    type(search_t), intent(inout) :: search
-    !> the attractor: points, multipliers, symmetry; comes back complete
-    type(attractor_t), intent(inout) :: attractor
-    !> the catalogue, which gains it
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    type(search_t), intent(inout) :: search !< the flows and the longest period of the search
+    type(attractor_t), intent(inout) :: attractor !< the attractor: points, multipliers, symmetry; comes back complete
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains it
 
     if (attractor%period > 0) then
       call enter_points(search%flow, attractor)
@@ -225,10 +206,8 @@ contains
 
   !> Appends a complete cycle or chaotic attractor, and its mirror image if that is another one.
   subroutine append_with_mirror(attractor, attractors)
-    !> what joins the catalogue; its number of the mirror image is set
-    type(attractor_t), intent(inout) :: attractor
-    !> the catalogue
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+    type(attractor_t), intent(inout) :: attractor !< what joins the catalogue; its number of the mirror image is set
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
 
     attractor%mirror = size(attractors) + 1
     if (attractor%mirrored .and. .not. attractor%symmetric) attractor%mirror = size(attractors) + 2
@@ -240,10 +219,8 @@ contains
 
   !> Appends an attractor, with its strobe points in order from the lowest.
   subroutine append(attractors, attractor)
-    !> the catalogue
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    !> what joins it
-    type(attractor_t), intent(in) :: attractor
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
+    type(attractor_t), intent(in) :: attractor !< what joins it
     type(attractor_t) :: one(1)
 
     one(1) = attractor
@@ -253,10 +230,8 @@ contains
 
   !> Appends attractors to a catalogue.
   subroutine join(attractors, more)
-    !> the catalogue
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    !> what joins it
-    type(attractor_t), intent(in) :: more(:)
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
+    type(attractor_t), intent(in) :: more(:) !< what joins it
     type(attractor_t), allocatable :: longer(:)
     integer :: n, i
 

@@ -26,14 +26,10 @@ module kz_cycles_continuation
 contains
 
   function continue_cycle(pendulum, from, max_distance, to) bind(C, name='kz_branch_continue') result(found)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> the cycle at other parameters
-    type(branch_point_t), intent(in) :: from
-    !> farthest that the new strobe point may lie from the old one, rad
-    real(dp), value :: max_distance
-    !> the cycle at these
-    type(branch_point_t), intent(inout) :: to
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(branch_point_t), intent(in) :: from !< the cycle at other parameters
+    real(dp), value :: max_distance !< farthest that the new strobe point may lie from the old one, rad
+    type(branch_point_t), intent(inout) :: to !< the cycle at these
     integer(c_int32_t) :: found
     class(flow_t), allocatable :: flow
     type(branch_point_t) :: point
@@ -54,12 +50,9 @@ contains
   end function continue_cycle
 
   function same_cycle(pendulum, a, b) bind(C, name='kz_branch_same') result(same)
-    !> k, beta, m of both
-    type(pendulum_t), intent(in) :: pendulum
-    !> a cycle
-    type(branch_point_t), intent(in) :: a
-    !> and perhaps the same
-    type(branch_point_t), intent(in) :: b
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m of both
+    type(branch_point_t), intent(in) :: a !< a cycle
+    type(branch_point_t), intent(in) :: b !< and perhaps the same
     integer(c_int32_t) :: same
     class(flow_t), allocatable :: flow
     integer :: i
@@ -120,8 +113,7 @@ contains
     class(flow_t), intent(inout) :: flow
     type(branch_point_t), intent(in) :: cycle
     real(dp), intent(in) :: x(2)
-    real(dp), intent(out) :: residual(2)
-    real(dp), intent(out) :: matrix(2, 2)
+    real(dp), intent(out) :: residual(2), matrix(2, 2)
 
     call n_periods(flow, map_periods(cycle), x, residual, matrix)
     if (cycle%symmetric == 0) return
@@ -160,8 +152,7 @@ contains
 
   subroutine set_pair(values, re, im)
     complex(dp), intent(in) :: values(2)
-    real(dp), intent(out) :: re(2)
-    real(dp), intent(out) :: im(2)
+    real(dp), intent(out) :: re(2), im(2)
 
     re = real(values, dp)
     im = aimag(values)

@@ -39,24 +39,15 @@ contains
   !> cycle, attracting or not, then has its smallest period. `blurred`: it converges, but so near a bifurcation that rounding does not
   !> define the point.
   subroutine close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
-    !> a fine flow
-    class(flow_t), intent(inout) :: flow
-    !> damping
-    real(dp), intent(in) :: beta
-    !> a period that closes the cycle
-    integer, intent(in) :: n
-    !> start, half-turns
-    real(dp), intent(in) :: u
-    !> start, rad per drive radian
-    real(dp), intent(in) :: v
-    !> farthest that the cycle may lie from the start, rad
-    real(dp), intent(in) :: max_distance
-    !> the cycle: points, multipliers, period, winding
-    type(attractor_t), intent(out) :: cycle
-    !> whether a cycle was found
-    logical, intent(out) :: found
-    !> whether it was left undecided by rounding
-    logical, intent(out) :: blurred
+    class(flow_t), intent(inout) :: flow !< a fine flow
+    real(dp), intent(in) :: beta !< damping
+    integer, intent(in) :: n !< a period that closes the cycle
+    real(dp), intent(in) :: u !< start, half-turns
+    real(dp), intent(in) :: v !< start, rad per drive radian
+    real(dp), intent(in) :: max_distance !< farthest that the cycle may lie from the start, rad
+    type(attractor_t), intent(out) :: cycle !< the cycle: points, multipliers, period, winding
+    logical, intent(out) :: found !< whether a cycle was found
+    logical, intent(out) :: blurred !< whether it was left undecided by rounding
     real(dp) :: x(2), matrix(2, 2)
     integer :: period
 
@@ -72,10 +63,8 @@ contains
 
   !> True if a closed cycle attracts; it then sets the exponent and the symmetry of the attractor.
   subroutine complete_attractor(cycle, attracts)
-    !> what close_cycle found
-    type(attractor_t), intent(inout) :: cycle
-    !> its larger multiplier lies inside the unit circle
-    logical, intent(out) :: attracts
+    type(attractor_t), intent(inout) :: cycle !< what close_cycle found
+    logical, intent(out) :: attracts !< its larger multiplier lies inside the unit circle
 
     attracts = abs(cycle%multiplier(1)) < 1
     if (.not. attracts) return
@@ -85,16 +74,11 @@ contains
 
   !> Strobe points, winding and monodromy of the closed orbit through x.
   subroutine orbit_of(flow, period, x, cycle, matrix)
-    !> the map of one drive period, by integration
-    class(flow_t), intent(inout) :: flow
-    !> drive periods
-    integer, intent(in) :: period
-    !> the first strobe point: half-turns, rad per drive radian
-    real(dp), intent(in) :: x(2)
-    !> takes the points and the winding
-    type(attractor_t), intent(inout) :: cycle
-    !> derivative of the map over the period
-    real(dp), intent(out) :: matrix(2, 2)
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    integer, intent(in) :: period !< drive periods
+    real(dp), intent(in) :: x(2) !< the first strobe point: half-turns, rad per drive radian
+    type(attractor_t), intent(inout) :: cycle !< takes the points and the winding
+    real(dp), intent(out) :: matrix(2, 2) !< derivative of the map over the period
     real(dp) :: tangent(2, 2, WIDTH)
     integer :: i
 
@@ -114,10 +98,8 @@ contains
 
   !> Sets kernel_u and kernel_v from the strobe points.
   subroutine enter_points(flow, attractor)
-    !> the flow whose coordinates are entered
-    class(flow_t), intent(inout) :: flow
-    !> u and v, in; kernel_u and kernel_v, out
-    type(attractor_t), intent(inout) :: attractor
+    class(flow_t), intent(inout) :: flow !< the flow whose coordinates are entered
+    type(attractor_t), intent(inout) :: attractor !< u and v, in; kernel_u and kernel_v, out
 
     attractor%kernel_u = attractor%u
     attractor%kernel_v = attractor%v
@@ -126,8 +108,7 @@ contains
 
   !> Makes a cycle that is its own mirror image, x(1 + n/2) = -x(1), exact: x(j + n/2) = -x(j) to the bit, or exactly down or inverted.
   subroutine symmetrise(cycle)
-    !> points, winding, period; comes back symmetric where it is
-    type(attractor_t), intent(inout) :: cycle
+    type(attractor_t), intent(inout) :: cycle !< points, winding, period; comes back symmetric where it is
     integer :: n, half
 
     n = cycle%period
@@ -152,8 +133,7 @@ contains
 
   !> The mirror image (-theta, -v) of an attractor, exact to the bit.
   pure function mirror_image(attractor) result(image)
-    !> the attractor
-    type(attractor_t), intent(in) :: attractor
+    type(attractor_t), intent(in) :: attractor !< the attractor
     type(attractor_t) :: image
 
     image = attractor
@@ -168,8 +148,7 @@ contains
 
   !> The strobe points in order from that with the lowest velocity, then the lowest angle (compared rounded to 1e-9).
   subroutine listed_from_lowest(cycle)
-    !> a cycle with its points in the order of time
-    type(attractor_t), intent(inout) :: cycle
+    type(attractor_t), intent(inout) :: cycle !< a cycle with its points in the order of time
     integer :: i, first
 
     first = 1

@@ -17,18 +17,12 @@ contains
 
   !> Sets mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic orbit from (u, v).
   subroutine find_features(sampling_flow, pendulum, attractor, u, v, periods)
-    !> a fine flow whose steps are not fused
-    class(flow_t), intent(inout) :: sampling_flow
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> its period and points, in; its features, out
-    type(attractor_t), intent(inout) :: attractor
-    !> start, half-turns
-    real(dp), intent(in) :: u
-    !> start, rad per drive radian
-    real(dp), intent(in) :: v
-    !> drive periods of the orbit
-    integer, intent(in) :: periods
+    class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(attractor_t), intent(inout) :: attractor !< its period and points, in; its features, out
+    real(dp), intent(in) :: u !< start, half-turns
+    real(dp), intent(in) :: v !< start, rad per drive radian
+    integer, intent(in) :: periods !< drive periods of the orbit
     real(dp), allocatable :: angle(:), velocity(:)
     integer(c_int64_t) :: turns
     integer :: i
@@ -52,8 +46,7 @@ contains
   subroutine place(attractor, pendulum, angle, velocity)
     type(attractor_t), intent(inout) :: attractor
     type(pendulum_t), intent(in) :: pendulum
-    real(dp), intent(in) :: angle(0:)
-    real(dp), intent(in) :: velocity(0:)
+    real(dp), intent(in) :: angle(0:), velocity(0:)
     real(dp) :: nearest
 
     attractor%centre = ROTATING
@@ -69,9 +62,7 @@ contains
   !> Largest |theta - centre| in rad over continuous time: quintic Hermite interpolation where the velocity changes sign.
   pure function largest(pendulum, angle, velocity, centre) result(most)
     type(pendulum_t), intent(in) :: pendulum
-    real(dp), intent(in) :: angle(0:)
-    real(dp), intent(in) :: velocity(0:)
-    real(dp), intent(in) :: centre
+    real(dp), intent(in) :: angle(0:), velocity(0:), centre
     real(dp) :: most
     integer :: i
 
@@ -92,9 +83,7 @@ contains
 
   !> The extremum of the quintic with the given angles, velocities and accelerations at both ends of a sample interval.
   pure function turning_angle(angle, velocity, acceleration) result(extremum)
-    real(dp), intent(in) :: angle(2)
-    real(dp), intent(in) :: velocity(2)
-    real(dp), intent(in) :: acceleration(2)
+    real(dp), intent(in) :: angle(2), velocity(2), acceleration(2)
     real(dp) :: extremum
     real(dp), parameter :: H = 2*PI/SAMPLES
     real(dp) :: c(0:5), d, e, f, s

@@ -15,18 +15,12 @@ contains
   !> Moves x = (half-turns, velocity) to the fixed point of the n-period map near it. `found`: its place is accurate enough. `blurred`:
   !> the steps end, but rounding leaves the place open by more than that.
   subroutine newton(flow, n, max_distance, x, found, blurred)
-    !> the map of one drive period, by integration
-    class(flow_t), intent(inout) :: flow
-    !> drive periods of the map
-    integer, intent(in) :: n
-    !> farthest that the cycle may lie from the start, rad
-    real(dp), intent(in) :: max_distance
-    !> start, in; fixed point, out: half-turns, rad per drive radian
-    real(dp), intent(inout) :: x(2)
-    !> whether it is placed well enough
-    logical, intent(out) :: found
-    !> whether it was left undecided by rounding
-    logical, intent(out) :: blurred
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    integer, intent(in) :: n !< drive periods of the map
+    real(dp), intent(in) :: max_distance !< farthest that the cycle may lie from the start, rad
+    real(dp), intent(inout) :: x(2) !< start, in; fixed point, out: half-turns, rad per drive radian
+    logical, intent(out) :: found !< whether it is placed well enough
+    logical, intent(out) :: blurred !< whether it was left undecided by rounding
     !> Steps below SMALL that shrink no more are due to rounding, if there are several.
     real(dp), parameter :: SMALL = 1e-5_dp
     integer, parameter :: MOST_STALLS = 3
@@ -63,8 +57,7 @@ contains
   function uncertainty(flow, n, x, matrix) result(farthest)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: n
-    real(dp), intent(in) :: x(2)
-    real(dp), intent(in) :: matrix(2, 2)
+    real(dp), intent(in) :: x(2), matrix(2, 2)
     real(dp) :: farthest
     real(dp), parameter :: ROUNDING = 1e-15_dp
     integer, parameter :: BESIDE = 8
@@ -89,16 +82,11 @@ contains
 
   !> residual = F^n(x) - x without whole turns (rad), matrix = the derivative of F^n.
   subroutine n_periods(flow, n, x, residual, matrix)
-    !> the map of one drive period, by integration
-    class(flow_t), intent(inout) :: flow
-    !> drive periods of the map
-    integer, intent(in) :: n
-    !> physical state: half-turns, rad per drive radian
-    real(dp), intent(in) :: x(2)
-    !> image less state: rad, rad per drive radian
-    real(dp), intent(out) :: residual(2)
-    !> derivative of the n-period map: rad, rad per drive radian
-    real(dp), intent(out) :: matrix(2, 2)
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    integer, intent(in) :: n !< drive periods of the map
+    real(dp), intent(in) :: x(2) !< physical state: half-turns, rad per drive radian
+    real(dp), intent(out) :: residual(2) !< image less state: rad, rad per drive radian
+    real(dp), intent(out) :: matrix(2, 2) !< derivative of the n-period map: rad, rad per drive radian
     real(dp) :: tangent(2, 2, WIDTH)
     integer :: i
 
@@ -115,10 +103,8 @@ contains
 
   !> Solves (matrix - 1) step = residual.
   pure function solved(matrix, residual) result(step)
-    !> derivative of the map, 1 more than the matrix of the equations
-    real(dp), intent(in) :: matrix(2, 2)
-    !> their right-hand side
-    real(dp), intent(in) :: residual(2)
+    real(dp), intent(in) :: matrix(2, 2) !< derivative of the map, 1 more than the matrix of the equations
+    real(dp), intent(in) :: residual(2) !< their right-hand side
     real(dp) :: step(2)
     real(dp) :: a, b, c, d
 
@@ -131,12 +117,9 @@ contains
 
   !> The smallest divisor of n after which the orbit of x returns to x.
   function minimal_period(flow, n, x) result(period)
-    !> the map of one drive period, by integration
-    class(flow_t), intent(inout) :: flow
-    !> a period that closes the cycle
-    integer, intent(in) :: n
-    !> one of its points: half-turns, rad per drive radian
-    real(dp), intent(in) :: x(2)
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    integer, intent(in) :: n !< a period that closes the cycle
+    real(dp), intent(in) :: x(2) !< one of its points: half-turns, rad per drive radian
     integer :: period
 
     call flow%put(1, x(1), x(2))
@@ -150,10 +133,8 @@ contains
 
   !> Eigenvalues of a 2 x 2 matrix of known determinant: the larger modulus first, then the positive imaginary part first.
   pure function eigenvalues(matrix, determinant) result(values)
-    !> derivative of the map, for (rad, rad per drive radian)
-    real(dp), intent(in) :: matrix(2, 2)
-    !> its determinant, which is known better than from the matrix
-    real(dp), intent(in) :: determinant
+    real(dp), intent(in) :: matrix(2, 2) !< derivative of the map, for (rad, rad per drive radian)
+    real(dp), intent(in) :: determinant !< its determinant, which is known better than from the matrix
     complex(dp) :: values(2)
     real(dp) :: half, root
 

@@ -29,14 +29,10 @@ contains
   !> Moves the points to the closed orbit near them with as many periods as points, by Newton steps until a step is shorter than
   !> `close`.
   subroutine shoot(flow, close, orbit, closed)
-    !> the map of one drive period in physical coordinates
-    class(flow_t), intent(inout) :: flow
-    !> rad
-    real(dp), intent(in) :: close
-    !> its points in the order of time, at most WIDTH: half-turns, rad per drive radian
-    real(dp), intent(inout) :: orbit(:, :)
-    !> how well it is closed
-    type(closed_orbit_t), intent(out) :: closed
+    class(flow_t), intent(inout) :: flow !< the map of one drive period in physical coordinates
+    real(dp), intent(in) :: close !< rad
+    real(dp), intent(inout) :: orbit(:, :) !< its points in the order of time, at most WIDTH: half-turns, rad per drive radian
+    type(closed_orbit_t), intent(out) :: closed !< how well it is closed
     real(dp) :: matrix(size(orbit), size(orbit)), side(size(orbit), 3), before
     logical :: regular
     integer :: iteration
@@ -62,10 +58,8 @@ contains
   subroutine linearise(flow, orbit, matrix, side, closed)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: orbit(:, :)
-    real(dp), intent(out) :: matrix(:, :)
-    real(dp), intent(out) :: side(:, :)
-    !> takes the derivative and the winding
-    type(closed_orbit_t), intent(inout) :: closed
+    real(dp), intent(out) :: matrix(:, :), side(:, :)
+    type(closed_orbit_t), intent(inout) :: closed !< takes the derivative and the winding
     real(dp) :: tangent(2, 2, WIDTH), flight
     integer :: n, i, next
 
@@ -94,8 +88,7 @@ contains
 
   !> Solves matrix x = side by elimination with row pivots; x takes the place of side where the matrix is regular.
   pure subroutine solve(matrix, side, regular)
-    real(dp), intent(inout) :: matrix(:, :)
-    real(dp), intent(inout) :: side(:, :)
+    real(dp), intent(inout) :: matrix(:, :), side(:, :)
     logical, intent(out) :: regular
     integer :: n, i, j, pivot
 
@@ -127,8 +120,7 @@ contains
 
   !> The longest step of a point.
   pure function longest_of(steps) result(longest)
-    !> angle and velocity of each point, rad
-    real(dp), intent(in) :: steps(:)
+    real(dp), intent(in) :: steps(:) !< angle and velocity of each point, rad
     real(dp) :: longest
 
     longest = maxval(hypot(steps(1::2), steps(2::2)))
@@ -136,10 +128,8 @@ contains
 
   !> The smallest divisor of the period of a closed orbit after which all points return.
   pure function smallest_period(x, one) result(period)
-    !> its points: half-turns, rad per drive radian
-    real(dp), intent(in) :: x(:, :)
-    !> points nearer than this are one, rad
-    real(dp), intent(in) :: one
+    real(dp), intent(in) :: x(:, :) !< its points: half-turns, rad per drive radian
+    real(dp), intent(in) :: one !< points nearer than this are one, rad
     integer :: period
 
     do period = 1, size(x, 2) - 1

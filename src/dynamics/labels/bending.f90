@@ -18,18 +18,12 @@ contains
   !> What the image of the ellipse SAFETY**2 P has beyond that of the tangent map, in parts of SAFETY, rad. Along z of the unit disc it is
   !> q11 z1**2 + 2 q12 z1 z2 + q22 z2**2, at most |q11| + |q12| + |q22|, and half as much again stands for what is of higher order.
   subroutine measure_bending(carrier, lane, u, v, p, bent)
-    !> has just moved them by a period
-    type(carrier_t), intent(inout) :: carrier
-    !> [n] lanes of it, and of what follows
-    integer, intent(in) :: lane(:)
-    !> states before the period, half-turns
-    real(dp), intent(in) :: u(:)
-    !> rad per drive radian
-    real(dp), intent(in) :: v(:)
-    !> (:, 3): ellipses before it
-    real(dp), intent(in) :: p(:, :)
-    !> rad
-    real(dp), intent(inout) :: bent(:)
+    type(carrier_t), intent(inout) :: carrier !< has just moved them by a period
+    integer, intent(in) :: lane(:) !< [n] lanes of it, and of what follows
+    real(dp), intent(in) :: u(:) !< states before the period, half-turns
+    real(dp), intent(in) :: v(:) !< rad per drive radian
+    real(dp), intent(in) :: p(:, :) !< (:, 3): ellipses before it
+    real(dp), intent(inout) :: bent(:) !< rad
     real(dp) :: by(2, POINTS, size(lane)), start(2, POINTS, size(lane))
     integer :: i
 
@@ -59,9 +53,7 @@ contains
 
   !> From the ends of the diameters before and after the period.
   pure function bending(tangent, start, by) result(bent)
-    real(dp), intent(in) :: tangent(4)
-    real(dp), intent(in) :: start(2, POINTS)
-    real(dp), intent(in) :: by(2, POINTS)
+    real(dp), intent(in) :: tangent(4), start(2, POINTS), by(2, POINTS)
     real(dp) :: bent
     real(dp) :: rest(2, POINTS), size(POINTS), q(2, 3)
     integer :: j

@@ -50,14 +50,10 @@ contains
 
   !> Carries orbits by the scene's map, or in the precision of `inner`.
   subroutine make_carrier(flow, error, inner, carrier)
-    !> the map of one drive period
-    class(flow_t), intent(in) :: flow
-    !> its errors
-    type(period_error_t), intent(in) :: error
-    !> it is taken over; not allocated: by the map
-    class(inner_t), allocatable, intent(inout) :: inner
-    !> the carrier
-    type(carrier_t), intent(out) :: carrier
+    class(flow_t), intent(in) :: flow !< the map of one drive period
+    type(period_error_t), intent(in) :: error !< its errors
+    class(inner_t), allocatable, intent(inout) :: inner !< it is taken over; not allocated: by the map
+    type(carrier_t), intent(out) :: carrier !< the carrier
 
     allocate (carrier%flow, source=flow)
     carrier%error = error
@@ -96,8 +92,7 @@ contains
 
   subroutine to_map(self, first, n)
     class(carrier_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
+    integer, intent(in) :: first, n
 
     if (allocated(self%inner)) then
       call self%inner%to_map(first, n)
@@ -112,8 +107,7 @@ contains
   !> Puts lanes first .. n, at most WIDTH, of the inner states into the map.
   subroutine show(self, first, n)
     class(carrier_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
+    integer, intent(in) :: first, n
     real(dp) :: u(CAPACITY), v(CAPACITY)
     integer :: lane
 
@@ -127,8 +121,7 @@ contains
 
   subroutine move(self, from, to)
     class(carrier_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     if (allocated(self%inner)) call self%inner%move(from, to)
     call self%flow%move(from, to)
@@ -161,8 +154,7 @@ contains
   subroutine displace(self, lane, u, v, by)
     class(carrier_t), intent(inout) :: self
     integer, intent(in) :: lane(:)
-    real(dp), intent(in) :: u(:)
-    real(dp), intent(in) :: v(:)
+    real(dp), intent(in) :: u(:), v(:)
     real(dp), intent(inout) :: by(:, :, :)
 
     call self%flow%displace(lane, u, v, by)

@@ -30,23 +30,20 @@ module kz_labels_inner
       import :: inner_t, dp
       class(inner_t), intent(inout) :: self
       integer, intent(in) :: lane
-      real(dp), intent(in) :: u(3)
-      real(dp), intent(in) :: v(2)
+      real(dp), intent(in) :: u(3), v(2)
     end subroutine put_i
 
     subroutine take_i(self, lane, u, v)
       import :: inner_t, dp
       class(inner_t), intent(inout) :: self
       integer, intent(in) :: lane
-      real(dp), intent(out) :: u(3)
-      real(dp), intent(out) :: v(2)
+      real(dp), intent(out) :: u(3), v(2)
     end subroutine take_i
 
     subroutine move_i(self, from, to)
       import :: inner_t
       class(inner_t), intent(inout) :: self
-      integer, intent(in) :: from
-      integer, intent(in) :: to
+      integer, intent(in) :: from, to
     end subroutine move_i
 
     subroutine advance_i(self, n)
@@ -109,8 +106,7 @@ contains
 
   subroutine in_any_coordinates(self, first, n)
     class(inner_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
+    integer, intent(in) :: first, n
 
     associate (unused => self, unused_first => first, unused_last => n)
     end associate
@@ -118,10 +114,8 @@ contains
 
   subroutine show_high_parts(self, first, n, u, v)
     class(inner_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
-    real(dp), intent(inout) :: u(CAPACITY)
-    real(dp), intent(inout) :: v(CAPACITY)
+    integer, intent(in) :: first, n
+    real(dp), intent(inout) :: u(CAPACITY), v(CAPACITY)
     real(dp) :: angle(3), speed(2)
     integer :: lane
 
@@ -135,8 +129,7 @@ contains
   subroutine fine_put(self, lane, u, v)
     class(inner_fine_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(in) :: u(3)
-    real(dp), intent(in) :: v(2)
+    real(dp), intent(in) :: u(3), v(2)
 
     call self%flow%put(lane, u(1), v(1))
   end subroutine fine_put
@@ -144,8 +137,7 @@ contains
   subroutine fine_take(self, lane, u, v)
     class(inner_fine_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(out) :: u(3)
-    real(dp), intent(out) :: v(2)
+    real(dp), intent(out) :: u(3), v(2)
 
     call self%shown%put(lane, self%flow%u(lane), self%flow%v(lane))
     call self%shown%to_physical(lane, first=lane)
@@ -155,16 +147,14 @@ contains
 
   subroutine fine_to_map(self, first, n)
     class(inner_fine_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
+    integer, intent(in) :: first, n
 
     call self%flow%to_map(n, first=first)
   end subroutine fine_to_map
 
   subroutine fine_move(self, from, to)
     class(inner_fine_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     call self%flow%move(from, to)
   end subroutine fine_move
@@ -178,10 +168,8 @@ contains
 
   subroutine fine_show(self, first, n, u, v)
     class(inner_fine_t), intent(inout) :: self
-    integer, intent(in) :: first
-    integer, intent(in) :: n
-    real(dp), intent(inout) :: u(CAPACITY)
-    real(dp), intent(inout) :: v(CAPACITY)
+    integer, intent(in) :: first, n
+    real(dp), intent(inout) :: u(CAPACITY), v(CAPACITY)
     integer :: lane
 
     do lane = first, n
@@ -203,8 +191,7 @@ contains
   subroutine pairs_put(self, lane, u, v)
     class(inner_pairs_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(in) :: u(3)
-    real(dp), intent(in) :: v(2)
+    real(dp), intent(in) :: u(3), v(2)
 
     self%u(lane, :) = u(:2)
     self%v(lane, :) = v
@@ -213,8 +200,7 @@ contains
   subroutine pairs_take(self, lane, u, v)
     class(inner_pairs_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(out) :: u(3)
-    real(dp), intent(out) :: v(2)
+    real(dp), intent(out) :: u(3), v(2)
 
     u = [self%u(lane, :), 0.0_dp]
     v = self%v(lane, :)
@@ -222,8 +208,7 @@ contains
 
   subroutine pairs_move(self, from, to)
     class(inner_pairs_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     self%u(to, :) = self%u(from, :)
     self%v(to, :) = self%v(from, :)
@@ -255,8 +240,7 @@ contains
   subroutine quad_put(self, lane, u, v)
     class(inner_quad_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(in) :: u(3)
-    real(dp), intent(in) :: v(2)
+    real(dp), intent(in) :: u(3), v(2)
 
     self%theta(lane) = PI_QUAD*(u(1) + quad_of(u(2:)))
     self%velocity(lane) = quad_of(v)
@@ -265,8 +249,7 @@ contains
   subroutine quad_take(self, lane, u, v)
     class(inner_quad_t), intent(inout) :: self
     integer, intent(in) :: lane
-    real(dp), intent(out) :: u(3)
-    real(dp), intent(out) :: v(2)
+    real(dp), intent(out) :: u(3), v(2)
 
     u = doubles_of(self%theta(lane)/PI_QUAD, 3)
     v = pair_of(self%velocity(lane))
@@ -274,8 +257,7 @@ contains
 
   subroutine quad_move(self, from, to)
     class(inner_quad_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     self%theta(to) = self%theta(from)
     self%velocity(to) = self%velocity(from)

@@ -22,18 +22,12 @@ contains
   !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts (half-turns,
   !> rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
   subroutine follow(map, regions, attractors, state, label, periods)
-    !> what moves the states by one period
-    class(map_t), intent(inout) :: map
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
-    !> [2, n] in and out
-    real(dp), intent(inout) :: state(:, :)
-    !> attractor from 1, 0 = not settled
-    integer(c_int32_t), intent(out) :: label(:)
-    !> most periods, in; first period inside a trapping region, out
-    integer(c_int64_t), intent(inout) :: periods(:)
+    class(map_t), intent(inout) :: map !< what moves the states by one period
+    type(regions_t), intent(in) :: regions !< the trapping regions
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    real(dp), intent(inout) :: state(:, :) !< [2, n] in and out
+    integer(c_int32_t), intent(out) :: label(:) !< attractor from 1, 0 = not settled
+    integer(c_int64_t), intent(inout) :: periods(:) !< most periods, in; first period inside a trapping region, out
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
     integer :: region(WIDTH), done(WIDTH), list(WIDTH), n_done, lane, i
@@ -94,8 +88,7 @@ contains
     end subroutine let_in
 
     subroutine settle(lane, a)
-      integer, intent(in) :: lane
-      integer, intent(in) :: a
+      integer, intent(in) :: lane, a
 
       label(lanes%start(lane)) = a
       periods(lanes%start(lane)) = lanes%age(lane)
@@ -107,8 +100,7 @@ contains
   subroutine move(map, lanes, from, to)
     class(map_t), intent(inout) :: map
     type(lanes_t), intent(inout) :: lanes
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     call map%move(from, to)
     call lanes%copy(from, to)

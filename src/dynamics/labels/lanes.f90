@@ -33,14 +33,10 @@ contains
 
   !> Lists the lanes of 1 .. n that are flagged, the last first. (Without a branch: which they are cannot be foreseen.)
   pure subroutine list_flagged(n, flag, lane, n_flagged)
-    !> lanes
-    integer, intent(in) :: n
-    !> 1 for those lanes, else 0
-    integer, intent(in) :: flag(WIDTH)
-    !> their numbers
-    integer, intent(out) :: lane(WIDTH)
-    !> how many there are
-    integer, intent(out) :: n_flagged
+    integer, intent(in) :: n !< lanes
+    integer, intent(in) :: flag(WIDTH) !< 1 for those lanes, else 0
+    integer, intent(out) :: lane(WIDTH) !< their numbers
+    integer, intent(out) :: n_flagged !< how many there are
     integer :: i
 
     n_flagged = 0
@@ -76,8 +72,7 @@ contains
 
   subroutine copy(self, from, to)
     class(queued_lanes_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     self%age(to) = self%age(from)
     self%guest_of(to) = self%guest_of(from)
@@ -86,8 +81,7 @@ contains
 
   function is_captured(self, lane, host) result(captured)
     class(queued_lanes_t), intent(inout) :: self
-    integer, intent(in) :: lane
-    integer, intent(in) :: host
+    integer, intent(in) :: lane, host
     logical :: captured
 
     self%stay(lane) = merge(self%stay(lane) + 1, 1, host == self%guest_of(lane))

@@ -44,18 +44,12 @@ contains
 
   !> Makes what a level needs and has not yet.
   subroutine prepare_level(levels, level, pendulum, numerics, flow, fastest)
-    !> of a pendulum
-    type(levels_t), intent(inout) :: levels
-    !> LEVEL_DOUBLE ..
-    integer, intent(in) :: level
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> of the scene
-    type(numerics_t), intent(in) :: numerics
-    !> the scene's map
-    class(flow_t), intent(in) :: flow
-    !> speeds that occur, rad per drive radian
-    real(dp), intent(in) :: fastest
+    type(levels_t), intent(inout) :: levels !< of a pendulum
+    integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(numerics_t), intent(in) :: numerics !< of the scene
+    class(flow_t), intent(in) :: flow !< the scene's map
+    real(dp), intent(in) :: fastest !< speeds that occur, rad per drive radian
     logical :: halting(size(ieee_usual))
 
     call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
@@ -132,10 +126,8 @@ contains
 
   !> What a period adds at most, rad.
   pure function noise_of(levels, level) result(noise)
-    !> of a pendulum; that level has been prepared
-    type(levels_t), intent(in) :: levels
-    !> LEVEL_DOUBLE .. LEVEL_PAIRS_28
-    integer, intent(in) :: level
+    type(levels_t), intent(in) :: levels !< of a pendulum; that level has been prepared
+    integer, intent(in) :: level !< LEVEL_DOUBLE .. LEVEL_PAIRS_28
     real(dp) :: noise
 
     select case (level)
@@ -150,10 +142,8 @@ contains
 
   !> Whether a level gains so much on the next cheaper one that it pays: the one with more steps may not.
   pure logical function is_useful(levels, level)
-    !> of a pendulum; LEVEL_DOUBLE has been prepared
-    type(levels_t), intent(in) :: levels
-    !> LEVEL_DOUBLE ..
-    integer, intent(in) :: level
+    type(levels_t), intent(in) :: levels !< of a pendulum; LEVEL_DOUBLE has been prepared
+    integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     real(dp), parameter :: GAIN = 30
 
     is_useful = level /= LEVEL_FINE .or. levels%error%worst > GAIN*FINE_ERROR
@@ -161,14 +151,10 @@ contains
 
   !> What carries orbits at a level that has been prepared.
   subroutine carrier_of(levels, level, flow, carrier)
-    !> of a pendulum
-    type(levels_t), target, intent(in) :: levels
-    !> LEVEL_DOUBLE ..
-    integer, intent(in) :: level
-    !> the scene's map
-    class(flow_t), intent(in) :: flow
-    !> the carrier
-    type(carrier_t), intent(out) :: carrier
+    type(levels_t), target, intent(in) :: levels !< of a pendulum
+    integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
+    class(flow_t), intent(in) :: flow !< the scene's map
+    type(carrier_t), intent(out) :: carrier !< the carrier
     class(inner_t), allocatable :: inner
 
     if (level /= LEVEL_DOUBLE) call make_inner(levels, level, inner)

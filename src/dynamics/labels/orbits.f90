@@ -48,22 +48,14 @@ contains
   !> Follows orbits up to age `most`. ending(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
   !> that is below TOLERABLE.
   subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, orbit, ending)
-    !> what moves the orbits by one period
-    type(carrier_t), intent(inout) :: carrier
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
-    !> periods
-    integer(c_int64_t), intent(in) :: most
-    !> rad
-    real(dp), intent(in) :: handover
-    !> follow doubtful orbits on, to where the states alone end
-    logical, intent(in) :: guess
-    !> [n] in and out
-    type(orbit_t), intent(inout) :: orbit(:)
-    !> [n] as they are made, in; out
-    type(ending_t), intent(inout) :: ending(:)
+    type(carrier_t), intent(inout) :: carrier !< what moves the orbits by one period
+    type(regions_t), intent(in) :: regions !< the trapping regions
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    integer(c_int64_t), intent(in) :: most !< periods
+    real(dp), intent(in) :: handover !< rad
+    logical, intent(in) :: guess !< follow doubtful orbits on, to where the states alone end
+    type(orbit_t), intent(inout) :: orbit(:) !< [n] in and out
+    type(ending_t), intent(inout) :: ending(:) !< [n] as they are made, in; out
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
     real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), bent(WIDTH)
@@ -143,8 +135,7 @@ contains
 
     !> Whether an orbit that has just been put is to be followed: not where it is trapped at once.
     logical function is_followed(lane, region)
-      integer, intent(in) :: lane
-      integer, intent(in) :: region
+      integer, intent(in) :: lane, region
 
       is_followed = .true.
       if (region > 0) call note_region(lanes, lane, region, guess)
@@ -159,8 +150,7 @@ contains
 
     !> Whether the orbit is to be followed on; if not, its ending is noted.
     logical function is_open(lane, region, trace)
-      integer, intent(in) :: lane
-      integer, intent(in) :: region
+      integer, intent(in) :: lane, region
       real(dp), intent(in) :: trace
       logical :: late
       integer :: host
@@ -211,8 +201,7 @@ contains
     end subroutine pass_on
 
     subroutine settle(lane, label, decided, p)
-      integer, intent(in) :: lane
-      integer, intent(in) :: label
+      integer, intent(in) :: lane, label
       logical, intent(in) :: decided
       real(dp), intent(in) :: p(3)
       integer(c_int64_t) :: periods
@@ -242,8 +231,7 @@ contains
   !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.
   subroutine note_region(lanes, lane, region, guess)
     type(lanes_t), intent(inout) :: lanes
-    integer, intent(in) :: lane
-    integer, intent(in) :: region
+    integer, intent(in) :: lane, region
     logical, intent(in) :: guess
 
     if (lanes%first(lane) == region .or. (guess .and. lanes%first(lane) > 0)) return
@@ -254,8 +242,7 @@ contains
   subroutine move(carrier, lanes, from, to)
     type(carrier_t), intent(inout) :: carrier
     type(lanes_t), intent(inout) :: lanes
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     call carrier%move(from, to)
     call lanes%copy(from, to)
@@ -269,10 +256,7 @@ contains
   function holds(regions, attractors, u0, v0, p, region_error, region) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    real(dp), intent(in) :: u0
-    real(dp), intent(in) :: v0
-    real(dp), intent(in) :: p(3)
-    real(dp), intent(in) :: region_error
+    real(dp), intent(in) :: u0, v0, p(3), region_error
     integer, intent(in) :: region
     logical :: inside
     real(dp) :: u(RIM), v(RIM), angle, along, across, slant

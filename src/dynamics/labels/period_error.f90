@@ -36,14 +36,10 @@ contains
 
   !> Probes of a pendulum up to a speed, spread evenly over the circle and over the speeds, and their images after a period or a stretch.
   subroutine make_speed_probes(pendulum, fastest, probes, stretch)
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> rad per drive radian
-    real(dp), intent(in) :: fastest
-    !> their starts and images
-    type(speed_probes_t), intent(out) :: probes
-    !> left out: a whole period
-    type(stretch_t), intent(in), optional :: stretch
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    real(dp), intent(in) :: fastest !< rad per drive radian
+    type(speed_probes_t), intent(out) :: probes !< their starts and images
+    type(stretch_t), intent(in), optional :: stretch !< left out: a whole period
     type(stretch_t) :: followed
     type(drive_t) :: drive
     integer :: n, i
@@ -59,10 +55,8 @@ contains
 
   !> The class of a speed.
   elemental function class_of(error, v) result(class)
-    !> of a map
-    type(period_error_t), intent(in) :: error
-    !> rad per drive radian
-    real(dp), intent(in) :: v
+    type(period_error_t), intent(in) :: error !< of a map
+    real(dp), intent(in) :: v !< rad per drive radian
     integer :: class
 
     class = CLASSES
@@ -71,14 +65,10 @@ contains
 
   !> The noise of a map at many speeds, in vectors.
   pure subroutine noise_at(error, n, v, noise)
-    !> of a map
-    type(period_error_t), intent(in) :: error
-    !> lanes
-    integer, intent(in) :: n
-    !> rad per drive radian
-    real(dp), intent(in) :: v(n)
-    !> rad
-    real(dp), intent(inout) :: noise(WIDTH)
+    type(period_error_t), intent(in) :: error !< of a map
+    integer, intent(in) :: n !< lanes
+    real(dp), intent(in) :: v(n) !< rad per drive radian
+    real(dp), intent(inout) :: noise(WIDTH) !< rad
     real(dp) :: class
     integer :: i
 
@@ -90,12 +80,9 @@ contains
 
   !> The noise of a map.
   subroutine measure_period(flow, probes, error)
-    !> the map of one drive period
-    class(flow_t), intent(in) :: flow
-    !> of its pendulum
-    type(speed_probes_t), intent(in) :: probes
-    !> by classes of speed
-    type(period_error_t), intent(out) :: error
+    class(flow_t), intent(in) :: flow !< the map of one drive period
+    type(speed_probes_t), intent(in) :: probes !< of its pendulum
+    type(period_error_t), intent(out) :: error !< by classes of speed
     class(flow_t), allocatable :: moved
     integer :: first, class
 

@@ -30,20 +30,13 @@ contains
 
   !> A map of starts given in rad: they are put by their numbers and half-turns u, and moved as exact numbers.
   subroutine make_reference_map(map, pendulum, n_steps, flow, start, u, low)
-    !> the map
-    type(reference_map_t), intent(out) :: map
-    !> k, beta, m
-    type(pendulum_t), intent(in) :: pendulum
-    !> Steps a period where the motion is gentle.
-    integer, intent(in) :: n_steps
-    !> in whose coordinates trapping regions are
-    class(flow_t), intent(in) :: flow
-    !> (2, n): rad, rad per drive radian.
-    real(dp), intent(in) :: start(:, :)
-    !> [n] half-turns in [-1, 1].
-    real(dp), intent(out) :: u(:)
-    !> (2, n): what is to be added to the starts; nothing if left out
-    real(dp), intent(in), optional :: low(:, :)
+    type(reference_map_t), intent(out) :: map !< the map
+    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    integer, intent(in) :: n_steps !< Steps a period where the motion is gentle
+    class(flow_t), intent(in) :: flow !< in whose coordinates trapping regions are
+    real(dp), intent(in) :: start(:, :) !< (2, n): rad, rad per drive radian
+    real(dp), intent(out) :: u(:) !< [n] half-turns in [-1, 1]
+    real(dp), intent(in), optional :: low(:, :) !< (2, n): what is to be added to the starts; nothing if left out
 
     call make_drive(map%drive, pendulum, n_steps)
     allocate (map%start, source=start)
@@ -58,8 +51,7 @@ contains
     class(reference_map_t), intent(inout) :: self
     integer, intent(in) :: lane
     integer(c_int64_t), intent(in) :: number
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u, v
 
     call put_state(self, lane, u, v)
     self%theta(lane) = real(self%start(1, number), qp) + self%low(1, number)
@@ -81,8 +73,7 @@ contains
 
   subroutine move(self, from, to)
     class(reference_map_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     call move_state(self, from, to)
     self%theta(to) = self%theta(from)

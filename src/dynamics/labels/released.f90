@@ -33,14 +33,10 @@ contains
 
   !> Measures the errors of the stretches of a release.
   subroutine make_released(released, release, pendulum, fastest)
-    !> is made
-    type(released_t), intent(out) :: released
-    !> how the motions begin
-    type(release_t), intent(in) :: release
-    !> as it is after a ramp
-    type(pendulum_t), intent(in) :: pendulum
-    !> speeds that occur, rad per drive radian
-    real(dp), intent(in) :: fastest
+    type(released_t), intent(out) :: released !< is made
+    type(release_t), intent(in) :: release !< how the motions begin
+    type(pendulum_t), intent(in) :: pendulum !< as it is after a ramp
+    real(dp), intent(in) :: fastest !< speeds that occur, rad per drive radian
     type(stretch_t) :: stretch
     type(period_error_t) :: error
     type(speed_probes_t), allocatable :: probes
@@ -73,14 +69,10 @@ contains
 
   !> Carries orbits through the release to the strobe, and sets their age to that of the strobe.
   subroutine carry_released(released, pendulum, precisely, orbit)
-    !> what make_released gave
-    type(released_t), intent(in) :: released
-    !> as it is after a ramp
-    type(pendulum_t), intent(in) :: pendulum
-    !> in quad precision, else in double precision
-    logical, intent(in) :: precisely
-    !> [n] in and out
-    type(orbit_t), intent(inout) :: orbit(:)
+    type(released_t), intent(in) :: released !< what make_released gave
+    type(pendulum_t), intent(in) :: pendulum !< as it is after a ramp
+    logical, intent(in) :: precisely !< in quad precision, else in double precision
+    type(orbit_t), intent(inout) :: orbit(:) !< [n] in and out
     type(stretch_t) :: stretch
     type(drive_t), allocatable, target :: drive
     class(flow_t), allocatable :: flow

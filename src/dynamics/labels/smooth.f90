@@ -19,16 +19,11 @@ contains
   !> of the ellipse's norm is q < NEAR, that was log(1/q)/(2 rate) periods before n, if the norm fell at the attractor's rate: so n and q together
   !> vary smoothly where the multipliers are complex, and nearly so where one of them is much larger.
   subroutine smooth_times(flow, attractors, label, state, time)
-    !> the scene's map
-    class(flow_t), intent(inout) :: flow
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
-    !> [n] attractor from 1; others are left as they are
-    integer(c_int32_t), intent(in) :: label(:)
-    !> [2, n] in the map's coordinates
-    real(dp), intent(in) :: state(:, :)
-    !> [n] periods
-    real(dp), intent(inout) :: time(:)
+    class(flow_t), intent(inout) :: flow !< the scene's map
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    integer(c_int32_t), intent(in) :: label(:) !< [n] attractor from 1; others are left as they are
+    real(dp), intent(in) :: state(:, :) !< [2, n] in the map's coordinates
+    real(dp), intent(inout) :: time(:) !< [n] periods
     integer :: first, last, lane, n
     real(dp) :: gained(WIDTH)
 
@@ -73,8 +68,7 @@ contains
   !> The least square of the norms of an attractor's ellipses at a state.
   pure function least_square(attractor, u, v) result(square)
     type(attractor_t), intent(in) :: attractor
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u, v
     real(dp) :: square
     integer :: j
 

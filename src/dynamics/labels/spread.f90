@@ -11,18 +11,12 @@ contains
   !> P over a period: the smallest ellipse, by trace, that holds the sum of the image of the old one and of all errors of the period,
   !> whatever their directions and however they hang together: S + D has its like in (1 + 1/x) S + (1 + x) D with x**2 = tr S/tr D.
   pure subroutine spread_errors(n, tangent, noise, bent, p, trace)
-    !> lanes
-    integer, intent(in) :: n
-    !> (WIDTH, 4): derivatives of the angle by angle and velocity, of the velocity by both
-    real(dp), intent(in) :: tangent(WIDTH, 4)
-    !> of the period, rad
-    real(dp), intent(in) :: noise(WIDTH)
-    !> what is not linear in the period, rad
-    real(dp), intent(in) :: bent(WIDTH)
-    !> (WIDTH, 3): theta theta, theta v, v v: rad, rad per drive radian
-    real(dp), intent(inout) :: p(WIDTH, 3)
-    !> of P; not a number for one that is lost
-    real(dp), intent(out) :: trace(WIDTH)
+    integer, intent(in) :: n !< lanes
+    real(dp), intent(in) :: tangent(WIDTH, 4) !< (WIDTH, 4): derivatives of the angle by angle and velocity, of the velocity by both
+    real(dp), intent(in) :: noise(WIDTH) !< of the period, rad
+    real(dp), intent(in) :: bent(WIDTH) !< what is not linear in the period, rad
+    real(dp), intent(inout) :: p(WIDTH, 3) !< (WIDTH, 3): theta theta, theta v, v v: rad, rad per drive radian
+    real(dp), intent(out) :: trace(WIDTH) !< of P; not a number for one that is lost
     real(dp) :: s1, s2, s3, t1, t2, t3, t4, size, square, x
     integer :: i
 
@@ -48,14 +42,10 @@ contains
 
   !> 1 for the lanes whose P has at least a trace, or is lost; else 0.
   pure subroutine flag_large(n, p, trace, large)
-    !> lanes
-    integer, intent(in) :: n
-    !> (WIDTH, 3)
-    real(dp), intent(in) :: p(WIDTH, 3)
-    !> the bound
-    real(dp), intent(in) :: trace
-    !> flags
-    integer, intent(inout) :: large(WIDTH)
+    integer, intent(in) :: n !< lanes
+    real(dp), intent(in) :: p(WIDTH, 3) !< (WIDTH, 3)
+    real(dp), intent(in) :: trace !< the bound
+    integer, intent(inout) :: large(WIDTH) !< flags
     integer :: i
 
     do i = 1, n
@@ -65,16 +55,11 @@ contains
 
   !> 1 for the lanes that are in a region, or whose P has at least a trace, or is lost; else 0.
   pure subroutine flag_done(n, region, trace, largest, done)
-    !> lanes
-    integer, intent(in) :: n
-    !> 0 = in none
-    integer, intent(in) :: region(WIDTH)
-    !> of P
-    real(dp), intent(in) :: trace(WIDTH)
-    !> the bound
-    real(dp), intent(in) :: largest
-    !> flags
-    integer, intent(inout) :: done(WIDTH)
+    integer, intent(in) :: n !< lanes
+    integer, intent(in) :: region(WIDTH) !< 0 = in none
+    real(dp), intent(in) :: trace(WIDTH) !< of P
+    real(dp), intent(in) :: largest !< the bound
+    integer, intent(inout) :: done(WIDTH) !< flags
     integer :: i
 
     do i = 1, n
@@ -84,10 +69,8 @@ contains
 
   !> The smallest ellipse that holds the sum of P and of a disc.
   pure subroutine add_ellipse(radius, p)
-    !> rad
-    real(dp), intent(in) :: radius
-    !> theta theta, theta v, v v
-    real(dp), intent(inout) :: p(3)
+    real(dp), intent(in) :: radius !< rad
+    real(dp), intent(inout) :: p(3) !< theta theta, theta v, v v
     real(dp) :: x
 
     if (.not. radius > 0) return

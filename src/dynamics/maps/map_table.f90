@@ -49,12 +49,9 @@ contains
 
   !> Makes an empty table. Its inner part, where every stencil fits, reaches the velocity `max_velocity`.
   function make_table(n_circle, n_velocity, max_velocity) result(table)
-    !> nodes on the whole circle
-    integer, intent(in) :: n_circle
-    !> nodes of the velocity
-    integer, intent(in) :: n_velocity
-    !> rad per drive radian
-    real(dp), intent(in) :: max_velocity
+    integer, intent(in) :: n_circle !< nodes on the whole circle
+    integer, intent(in) :: n_velocity !< nodes of the velocity
+    real(dp), intent(in) :: max_velocity !< rad per drive radian
     type(table_t) :: table
 
     table%n_circle = n_circle
@@ -68,8 +65,7 @@ contains
 
   !> The largest velocity at which every stencil fits into the table.
   pure function inner_top(table) result(v)
-    !> the map table
-    type(table_t), intent(in) :: table
+    type(table_t), intent(in) :: table !< the map table
     real(dp) :: v
 
     v = table%top*(table%n_velocity - 1 - 2*GHOSTS)/(table%n_velocity - 1)
@@ -77,10 +73,8 @@ contains
 
   !> Velocity of node j = 1 .. n_velocity; node n + 1 - j has exactly the opposite one.
   pure function node_velocity(table, j) result(v)
-    !> the map table
-    type(table_t), intent(in) :: table
-    !> row, from 1
-    integer, intent(in) :: j
+    type(table_t), intent(in) :: table !< the map table
+    integer, intent(in) :: j !< row, from 1
     real(dp) :: v
 
     v = (2*j - table%n_velocity - 1)*(table%top/(table%n_velocity - 1))
@@ -88,14 +82,10 @@ contains
 
   !> Integrates the nodes of row j: shift(2, 0 : n_own).
   subroutine table_row(table, flow, j, shift)
-    !> the table whose nodes they are
-    type(table_t), intent(in) :: table
-    !> the map of one drive period, by integration
-    class(flow_t), intent(inout) :: flow
-    !> row, from 1
-    integer, intent(in) :: j
-    !> displacements of its nodes
-    real(dp), intent(out) :: shift(2, 0:table%n_own)
+    type(table_t), intent(in) :: table !< the table whose nodes they are
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    integer, intent(in) :: j !< row, from 1
+    real(dp), intent(out) :: shift(2, 0:table%n_own) !< displacements of its nodes
     real(dp) :: u, v
     integer :: first, n, i
 
@@ -115,10 +105,8 @@ contains
 
   !> Sets the table from all rows, as table_row returns them.
   subroutine set_table_rows(table, rows)
-    !> the map table
-    type(table_t), intent(inout) :: table
-    !> displacements of all nodes
-    real(dp), intent(in) :: rows(2, 0:table%n_own, table%n_velocity)
+    type(table_t), intent(inout) :: table !< the map table
+    real(dp), intent(in) :: rows(2, 0:table%n_own, table%n_velocity) !< displacements of all nodes
 
     table%shift(:, 0:table%n_own, :) = rows
     call fill_ghosts(table, table%shift)
@@ -126,10 +114,8 @@ contains
 
   !> Sets the nodes below angle 0 and beyond pi, which are mirror images of other nodes.
   subroutine fill_ghosts(table, field)
-    !> the table whose nodes they are
-    type(table_t), intent(in) :: table
-    !> a value of two components at every node
-    real(dp), intent(inout) :: field(2, -GHOSTS:table%n_theta + GHOSTS, table%n_velocity)
+    type(table_t), intent(in) :: table !< the table whose nodes they are
+    real(dp), intent(inout) :: field(2, -GHOSTS:table%n_theta + GHOSTS, table%n_velocity) !< a value of two components at every node
     integer :: i, n
 
     n = table%n_velocity
@@ -143,12 +129,9 @@ contains
 
   !> The map that interpolates a table.
   function make_table_map(table, points, flow) result(map)
-    !> the map table
-    type(table_t), target, intent(in) :: table
-    !> nodes of the stencil along an axis: 2, 6
-    integer, intent(in) :: points
-    !> integrates the periods that begin outside the table
-    class(flow_t), intent(in) :: flow
+    type(table_t), target, intent(in) :: table !< the map table
+    integer, intent(in) :: points !< nodes of the stencil along an axis: 2, 6
+    class(flow_t), intent(in) :: flow !< integrates the periods that begin outside the table
     type(table_map_t) :: map
 
     map%table => table
@@ -186,12 +169,9 @@ contains
 
   !> Finds the cells of the table that hold the first n lanes.
   subroutine locate(self, n, place)
-    !> the map
-    class(table_map_t), intent(in) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> where they lie
-    type(place_t), intent(out) :: place
+    class(table_map_t), intent(in) :: self !< the map
+    integer, intent(in) :: n !< lanes
+    type(place_t), intent(out) :: place !< where they lie
     real(dp) :: x(WIDTH), y(WIDTH), w, per_u, per_v, lowest, highest
     integer :: lane
 
@@ -225,12 +205,9 @@ contains
 
   !> Moves n lanes from their places by Lagrange interpolation over the nodes around each state.
   subroutine displace(self, n, place)
-    !> the map
-    class(table_map_t), intent(inout) :: self
-    !> lanes
-    integer, intent(in) :: n
-    !> where they lie
-    type(place_t), intent(in) :: place
+    class(table_map_t), intent(inout) :: self !< the map
+    integer, intent(in) :: n !< lanes
+    type(place_t), intent(in) :: place !< where they lie
     real(dp) :: x(WIDTH), y(WIDTH), shift(2, WIDTH), w
     integer :: lane
 
@@ -270,8 +247,7 @@ contains
   subroutine integrate(self, outside, x, y)
     class(table_map_t), intent(inout) :: self
     integer, intent(in) :: outside(:)
-    real(dp), intent(inout) :: x(WIDTH)
-    real(dp), intent(inout) :: y(WIDTH)
+    real(dp), intent(inout) :: x(WIDTH), y(WIDTH)
     integer :: k
 
     do k = 1, size(outside)

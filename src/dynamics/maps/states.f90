@@ -17,8 +17,7 @@ contains
 
   !> An angle in half-turns, wrapped to [-1, 1].
   elemental function wrapped(u) result(w)
-    !> half-turns
-    real(dp), intent(in) :: u
+    real(dp), intent(in) :: u !< half-turns
     real(dp) :: w
 
     w = u - 2*anint(0.5_dp*u)
@@ -26,10 +25,7 @@ contains
 
   !> Shortest difference of two angles in half-turns, in [-1, 1].
   elemental function angle_difference(a, b) result(d)
-    !> half-turns
-    real(dp), intent(in) :: a
-    !> half-turns
-    real(dp), intent(in) :: b
+    real(dp), intent(in) :: a, b !< half-turns
     real(dp) :: d
 
     d = wrapped(a - b)
@@ -37,14 +33,10 @@ contains
 
   !> Distance of (u1, v1) and (u2, v2): rad and rad per drive radian together.
   elemental function separation(u1, v1, u2, v2) result(d)
-    !> half-turns
-    real(dp), intent(in) :: u1
-    !> rad per drive radian
-    real(dp), intent(in) :: v1
-    !> half-turns
-    real(dp), intent(in) :: u2
-    !> rad per drive radian
-    real(dp), intent(in) :: v2
+    real(dp), intent(in) :: u1 !< half-turns
+    real(dp), intent(in) :: v1 !< rad per drive radian
+    real(dp), intent(in) :: u2 !< half-turns
+    real(dp), intent(in) :: v2 !< rad per drive radian
     real(dp) :: d
 
     d = hypot(PI*angle_difference(u1, u2), v1 - v2)
@@ -52,14 +44,10 @@ contains
 
   !> True if (u1, v1) and (u2, v2) count as one state.
   elemental function same_state(u1, v1, u2, v2) result(one)
-    !> half-turns
-    real(dp), intent(in) :: u1
-    !> rad per drive radian
-    real(dp), intent(in) :: v1
-    !> half-turns
-    real(dp), intent(in) :: u2
-    !> rad per drive radian
-    real(dp), intent(in) :: v2
+    real(dp), intent(in) :: u1 !< half-turns
+    real(dp), intent(in) :: v1 !< rad per drive radian
+    real(dp), intent(in) :: u2 !< half-turns
+    real(dp), intent(in) :: v2 !< rad per drive radian
     logical :: one
 
     one = abs(angle_difference(u1, u2)) + abs(v1 - v2) < SAME
@@ -69,10 +57,8 @@ contains
   !> over it and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs
   !> 2**order less.
   elemental function midperiod_angle(u, v) result(w)
-    !> angle at the strobe, half-turns
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u !< angle at the strobe, half-turns
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     real(dp) :: w
 
     w = u + MIDPERIOD*v
@@ -80,8 +66,7 @@ contains
 
   !> A number rounded to 1e-9, as it is compared where an order depends on it.
   elemental function rounded(x) result(n)
-    !> a number of order 1
-    real(dp), intent(in) :: x
+    real(dp), intent(in) :: x !< a number of order 1
     real(dp) :: n
 
     n = anint(x*1e9_dp)
@@ -89,24 +74,18 @@ contains
 
   !> Turns physical states into those in the flow's coordinates.
   subroutine states_to_map(flow, u, v)
-    !> the flow whose coordinates are entered
-    class(flow_t), intent(inout) :: flow
-    !> angles, half-turns; in and out
-    real(dp), intent(inout) :: u(:)
-    !> velocities, rad per drive radian; in and out
-    real(dp), intent(inout) :: v(:)
+    class(flow_t), intent(inout) :: flow !< the flow whose coordinates are entered
+    real(dp), intent(inout) :: u(:) !< angles, half-turns; in and out
+    real(dp), intent(inout) :: v(:) !< velocities, rad per drive radian; in and out
 
     call change_states(flow, .true., u, v)
   end subroutine states_to_map
 
   !> Turns states in the flow's coordinates into physical ones.
   subroutine states_to_physical(flow, u, v)
-    !> the flow whose coordinates are left
-    class(flow_t), intent(inout) :: flow
-    !> angles, half-turns; in and out
-    real(dp), intent(inout) :: u(:)
-    !> velocities, rad per drive radian; in and out
-    real(dp), intent(inout) :: v(:)
+    class(flow_t), intent(inout) :: flow !< the flow whose coordinates are left
+    real(dp), intent(inout) :: u(:) !< angles, half-turns; in and out
+    real(dp), intent(inout) :: v(:) !< velocities, rad per drive radian; in and out
 
     call change_states(flow, .false., u, v)
   end subroutine states_to_physical
@@ -114,8 +93,7 @@ contains
   subroutine change_states(flow, entering, u, v)
     class(flow_t), intent(inout) :: flow
     logical, intent(in) :: entering
-    real(dp), intent(inout) :: u(:)
-    real(dp), intent(inout) :: v(:)
+    real(dp), intent(inout) :: u(:), v(:)
     integer :: first, last, n, lane
 
     do first = 1, size(u), WIDTH

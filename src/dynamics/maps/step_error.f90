@@ -58,8 +58,7 @@ contains
   subroutine put_class(map, first, slowest, fastest, mirrored)
     class(map_t), intent(inout) :: map
     integer, intent(in) :: first
-    real(dp), intent(in) :: slowest
-    real(dp), intent(in) :: fastest
+    real(dp), intent(in) :: slowest, fastest
     logical, intent(in) :: mirrored
     real(dp), parameter :: GOLDEN = 0.61803398874989484820_dp
     integer :: lane, i, sign
@@ -73,8 +72,7 @@ contains
 
   !> The largest distance of two maps' states, rad. `limit` bounds the speed of a true motion: |v'| <= |k| + |m| besides friction.
   function difference(map, other, limit) result(largest)
-    class(map_t), intent(in) :: map
-    class(map_t), intent(in) :: other
+    class(map_t), intent(in) :: map, other
     real(dp), intent(in) :: limit
     real(dp) :: largest
     integer :: lane
@@ -100,12 +98,9 @@ contains
 
   !> The largest error of one period of the map table among states [2][n*WIDTH] within it, rad.
   function error_of_table(flow, table_map, state) result(table_error)
-    !> the map of one drive period, by integration
-    class(flow_t), intent(inout) :: flow
-    !> the map whose error is measured
-    class(map_t), intent(inout) :: table_map
-    !> (2, n): half-turns, rad per drive radian
-    real(dp), intent(in) :: state(:, :)
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    class(map_t), intent(inout) :: table_map !< the map whose error is measured
+    real(dp), intent(in) :: state(:, :) !< (2, n): half-turns, rad per drive radian
     real(dp) :: table_error
     integer :: first, lane
 

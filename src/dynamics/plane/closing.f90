@@ -38,14 +38,10 @@ contains
 
   !> Finds the cycles near the present states of the lanes 1 .. n, and begins with the longest period.
   subroutine close_motions(batch, n, period, closed)
-    !> pendulums and states
-    type(mixed_batch_t), intent(inout) :: batch
-    !> lanes in use
-    integer, intent(in) :: n
-    !> periods after which the motions come back, descending
-    integer, intent(in) :: period(:)
-    !> what became of each
-    type(closed_t), intent(out) :: closed(:)
+    type(mixed_batch_t), intent(inout) :: batch !< pendulums and states
+    integer, intent(in) :: n !< lanes in use
+    integer, intent(in) :: period(:) !< periods after which the motions come back, descending
+    type(closed_t), intent(out) :: closed(:) !< what became of each
     type(orbits_t) :: orbits
     real(dp) :: start(2, WIDTH), x(2, WIDTH), step(2)
     integer :: iteration, i
@@ -72,8 +68,7 @@ contains
   !> All orbits from x, each through its period.
   subroutine follow(batch, n, period, x, orbits)
     type(mixed_batch_t), intent(inout) :: batch
-    integer, intent(in) :: n
-    integer, intent(in) :: period(:)
+    integer, intent(in) :: n, period(:)
     real(dp), intent(in) :: x(:, :)
     type(orbits_t), intent(out) :: orbits
     type(track_t) :: track
@@ -104,8 +99,7 @@ contains
   !> How far lane i is from its start after some periods: rad, rad per drive radian.
   pure function residual(orbits, i, periods) result(shift)
     type(orbits_t), intent(in) :: orbits
-    integer, intent(in) :: i
-    integer, intent(in) :: periods
+    integer, intent(in) :: i, periods
     real(dp) :: shift(2)
 
     shift = [PI*angle_difference(orbits%u(i, periods), orbits%u(i, 0)), orbits%v(i, periods) - orbits%v(i, 0)]
@@ -115,8 +109,7 @@ contains
   subroutine describe(batch, orbits, i, period, closed)
     type(mixed_batch_t), intent(in) :: batch
     type(orbits_t), intent(in) :: orbits
-    integer, intent(in) :: i
-    integer, intent(in) :: period
+    integer, intent(in) :: i, period
     type(closed_t), intent(inout) :: closed
     complex(dp) :: multiplier(2)
     integer :: p
@@ -135,9 +128,7 @@ contains
   !> Down or inverted where the motion stays within half a turn of it and its mean within pi/4, as in catalogues.
   pure function centre_of(track, i, samples, winding) result(centre)
     type(track_t), intent(in) :: track
-    integer, intent(in) :: i
-    integer, intent(in) :: samples
-    integer, intent(in) :: winding
+    integer, intent(in) :: i, samples, winding
     integer :: centre
     real(dp) :: mean, nearest
 

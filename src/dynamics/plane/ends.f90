@@ -44,14 +44,10 @@ contains
 
   !> Follows all motions. It takes them from the end of the list, which is empty afterwards.
   subroutine find_ends(n_steps, max_period, motions, endings)
-    !> steps of split6 in a drive period
-    integer, intent(in) :: n_steps
-    !> longest period of a cycle
-    integer, intent(in) :: max_period
-    !> the motions, each with the place of its end
-    type(motion_t), allocatable, intent(inout) :: motions(:)
-    !> their ends
-    type(ending_t), intent(inout) :: endings(:)
+    integer, intent(in) :: n_steps !< steps of split6 in a drive period
+    integer, intent(in) :: max_period !< longest period of a cycle
+    type(motion_t), allocatable, intent(inout) :: motions(:) !< the motions, each with the place of its end
+    type(ending_t), intent(inout) :: endings(:) !< their ends
     type(mixed_batch_t) :: batch
     type(past_t) :: past
     type(motion_t) :: lane(WIDTH)
@@ -95,8 +91,7 @@ contains
     type(past_t), intent(inout) :: past
     type(motion_t), intent(inout) :: lane(WIDTH)
     integer, intent(inout) :: n
-    type(motion_t), allocatable, intent(inout) :: near(:)
-    type(motion_t), allocatable, intent(inout) :: tired(:)
+    type(motion_t), allocatable, intent(inout) :: near(:), tired(:)
     integer :: back(WIDTH), i
     logical :: leaves(WIDTH)
 

@@ -27,10 +27,8 @@ contains
 
   !> Makes an empty past.
   subroutine make_past(longest, past)
-    !> drive periods that it reaches back
-    integer, intent(in) :: longest
-    !> of all lanes of a batch
-    type(past_t), intent(out) :: past
+    integer, intent(in) :: longest !< drive periods that it reaches back
+    type(past_t), intent(out) :: past !< of all lanes of a batch
 
     past%longest = longest
     past%latest = 1
@@ -43,8 +41,7 @@ contains
   subroutine begin(self, lane, map)
     class(past_t), intent(inout) :: self
     integer, intent(in) :: lane
-    !> the batch
-    class(map_t), intent(in) :: map
+    class(map_t), intent(in) :: map !< the batch
 
     self%known(lane) = 1
     self%u(lane, self%latest) = map%u(lane)
@@ -65,8 +62,7 @@ contains
 
   subroutine move(self, from, to)
     class(past_t), intent(inout) :: self
-    integer, intent(in) :: from
-    integer, intent(in) :: to
+    integer, intent(in) :: from, to
 
     self%known(to) = self%known(from)
     self%u(to, :) = self%u(from, :)

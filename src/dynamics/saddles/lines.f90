@@ -29,22 +29,14 @@ contains
 
   !> Finds cycles of up to max_period periods, with a point in the window, along a line through the nodes.
   subroutine search_line(flow, max_period, node, window, most_starts, n_found, found, work)
-    !> the map of one drive period in physical coordinates
-    class(flow_t), intent(inout) :: flow
-    !> longest period of a cycle, at most WIDTH
-    integer, intent(in) :: max_period
-    !> at most WIDTH states in order, no farther apart than 1: rad, rad per drive radian
-    real(dp), intent(in) :: node(:, :)
-    !> least and largest angle (rad), least and largest velocity (rad per drive radian)
-    real(dp), intent(in) :: window(4)
-    !> where more would have to be followed, the search ends
-    integer, intent(in) :: most_starts
-    !> cycles, some more than once; where more than fit, the search ends
-    integer, intent(out) :: n_found
-    !> found(:, i): period, largest speed, then each point: half-turns, rad per drive radian
-    real(dp), intent(out) :: found(:, :)
-    !> what it took
-    type(work_t), intent(out) :: work
+    class(flow_t), intent(inout) :: flow !< the map of one drive period in physical coordinates
+    integer, intent(in) :: max_period !< longest period of a cycle, at most WIDTH
+    real(dp), intent(in) :: node(:, :) !< at most WIDTH states in order, no farther apart than 1: rad, rad per drive radian
+    real(dp), intent(in) :: window(4) !< least and largest angle (rad), least and largest velocity (rad per drive radian)
+    integer, intent(in) :: most_starts !< where more would have to be followed, the search ends
+    integer, intent(out) :: n_found !< cycles, some more than once; where more than fit, the search ends
+    real(dp), intent(out) :: found(:, :) !< found(:, i): period, largest speed, then each point: half-turns, rad per drive radian
+    type(work_t), intent(out) :: work !< what it took
     real(dp), allocatable :: waiting(:, :, :, :)
     real(dp) :: piece(2, 0:max_period, 2, WIDTH), orbit(2, 0:max_period, WIDTH)
     integer :: n_waiting, lanes, i
@@ -74,8 +66,7 @@ contains
     !> The piece between two starts, given by their orbits, waits to be halved, or shows its cycles. (The newest wait on top: at most
     !> 2 WIDTH of each length.)
     subroutine settle(a, b)
-      real(dp), intent(in) :: a(2, 0:max_period)
-      real(dp), intent(in) :: b(2, 0:max_period)
+      real(dp), intent(in) :: a(2, 0:max_period), b(2, 0:max_period)
       real(dp) :: share
       logical :: near
       integer :: n
@@ -117,8 +108,7 @@ contains
 
   !> Whether an image of the piece is too long to tell whether it passes near the piece.
   pure function is_long(a, b) result(long)
-    !> orbits of the ends
-    real(dp), intent(in) :: a(:, 0:)
+    real(dp), intent(in) :: a(:, 0:) !< orbits of the ends
     real(dp), intent(in) :: b(:, 0:)
     logical :: long
     real(dp) :: length
@@ -136,10 +126,7 @@ contains
 
   !> Does the image of a short piece pass near the piece, and where: its share of the piece from the first end on.
   pure subroutine find_pass(a, b, image_a, image_b, share, near)
-    real(dp), intent(in) :: a(2)
-    real(dp), intent(in) :: b(2)
-    real(dp), intent(in) :: image_a(2)
-    real(dp), intent(in) :: image_b(2)
+    real(dp), intent(in) :: a(2), b(2), image_a(2), image_b(2)
     real(dp), intent(out) :: share
     logical, intent(out) :: near
     real(dp) :: shift(2), slope(2)
@@ -153,8 +140,7 @@ contains
 
   !> From one state to another, rad.
   pure function distance(a, b) result(d)
-    real(dp), intent(in) :: a(2)
-    real(dp), intent(in) :: b(2)
+    real(dp), intent(in) :: a(2), b(2)
     real(dp) :: d
 
     d = separation(a(1)/PI, a(2), b(1)/PI, b(2))
@@ -164,8 +150,7 @@ contains
   subroutine close_orbit(flow, window, orbit, n_found, found)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: window(4)
-    !> rad
-    real(dp), intent(in) :: orbit(:, :)
+    real(dp), intent(in) :: orbit(:, :) !< rad
     integer, intent(inout) :: n_found
     real(dp), intent(inout) :: found(:, :)
     real(dp) :: x(2, size(orbit, 2))
@@ -187,9 +172,7 @@ contains
 
   !> The states (half-turns, rad per drive radian) that lie in the window.
   pure function inside(window, u, v)
-    real(dp), intent(in) :: window(4)
-    real(dp), intent(in) :: u(:)
-    real(dp), intent(in) :: v(:)
+    real(dp), intent(in) :: window(4), u(:), v(:)
     logical :: inside(size(u))
     real(dp) :: middle
 

@@ -41,26 +41,16 @@ contains
   !> Computes one branch: points along it from the saddle on, until its length is `length`, or the list is full, or all of it is too
   !> fast.
   subroutine grow_manifold(flow, beta, period, x, side, spacing, length, fastest, n, point)
-    !> the map of one drive period, or its inverse, in physical coordinates
-    class(flow_t), intent(inout) :: flow
-    !> damping of the map, < 0 for an inverse one
-    real(dp), intent(in) :: beta
-    !> of the saddle, drive periods
-    integer, intent(in) :: period
-    !> the saddle: half-turns, velocity
-    real(dp), intent(in) :: x(2)
-    !> 1 or -1: along the eigenvector or against it
-    integer, intent(in) :: side
-    !> farthest that neighbours may be apart, rad
-    real(dp), intent(in) :: spacing
-    !> of the branch below the largest speed, rad
-    real(dp), intent(in) :: length
-    !> parts at larger speeds are left out
-    real(dp), intent(in) :: fastest
-    !> number of points
-    integer, intent(out) :: n
-    !> half-turns, velocity, arc length, number of the unbroken part
-    real(dp), intent(out) :: point(:, :)
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, or its inverse, in physical coordinates
+    real(dp), intent(in) :: beta !< damping of the map, < 0 for an inverse one
+    integer, intent(in) :: period !< of the saddle, drive periods
+    real(dp), intent(in) :: x(2) !< the saddle: half-turns, velocity
+    integer, intent(in) :: side !< 1 or -1: along the eigenvector or against it
+    real(dp), intent(in) :: spacing !< farthest that neighbours may be apart, rad
+    real(dp), intent(in) :: length !< of the branch below the largest speed, rad
+    real(dp), intent(in) :: fastest !< parts at larger speeds are left out
+    integer, intent(out) :: n !< number of points
+    real(dp), intent(out) :: point(:, :) !< half-turns, velocity, arc length, number of the unbroken part
     real(dp) :: extent, before
     type(cycle_t) :: saddle
     type(arc_t) :: arc
@@ -118,8 +108,7 @@ contains
   subroutine settle_point(flow, period, x, is_first, here, turned)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: period
-    !> the first point, which is known
-    real(dp), intent(in) :: x(2)
+    real(dp), intent(in) :: x(2) !< the first point, which is known
     logical, intent(in) :: is_first
     real(dp), intent(inout) :: here(2)
     real(dp), intent(out) :: turned
@@ -143,8 +132,7 @@ contains
     integer, intent(in) :: period
     real(dp), intent(in) :: x(2)
     integer, intent(out) :: q
-    real(dp), intent(out) :: direction(2)
-    real(dp), intent(out) :: multiplier
+    real(dp), intent(out) :: direction(2), multiplier
     real(dp) :: residual(2), matrix(2, 2)
     complex(dp) :: values(2)
 
@@ -192,12 +180,9 @@ contains
     type(cycle_t), intent(in) :: saddle
     integer, intent(in) :: periods
     real(dp), intent(in) :: place
-    !> half-turns, velocity
-    real(dp), intent(out) :: start(2)
-    !> half-turns that the state has made before
-    real(dp), intent(out) :: turned
-    !> of `periods`
-    integer, intent(out) :: left
+    real(dp), intent(out) :: start(2) !< half-turns, velocity
+    real(dp), intent(out) :: turned !< half-turns that the state has made before
+    integer, intent(out) :: left !< of `periods`
     real(dp) :: change(2), next(2)
     integer :: j
 
@@ -220,9 +205,7 @@ contains
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: periods
     type(cycle_t), intent(in) :: saddle
-    real(dp), intent(in) :: spacing
-    real(dp), intent(in) :: fastest
-    real(dp), intent(in) :: left
+    real(dp), intent(in) :: spacing, fastest, left
     integer, intent(in) :: most
     type(arc_t), intent(inout) :: arc
     type(arc_t) :: more
@@ -243,9 +226,7 @@ contains
   !> left to go, never do.
   pure function to_halve(arc, spacing, fastest, left) result(halve)
     type(arc_t), intent(in) :: arc
-    real(dp), intent(in) :: spacing
-    real(dp), intent(in) :: fastest
-    real(dp), intent(in) :: left
+    real(dp), intent(in) :: spacing, fastest, left
     logical :: halve(size(arc%place) - 1)
     real(dp) :: piece(2, size(arc%place) - 1), long(size(arc%place) - 1), turn
     integer :: i, n
@@ -298,9 +279,7 @@ contains
   !> the branch: doubles do not tell what lies between them.
   subroutine append(arc, fastest, length, farthest, n, point, resolved)
     type(arc_t), intent(in) :: arc
-    real(dp), intent(in) :: fastest
-    real(dp), intent(in) :: length
-    real(dp), intent(in) :: farthest
+    real(dp), intent(in) :: fastest, length, farthest
     integer, intent(inout) :: n
     real(dp), intent(inout) :: point(:, :)
     logical, intent(out) :: resolved

@@ -9,10 +9,8 @@ contains
 
   !> A grid in which a cell keeps its attractor only if all its neighbours have the same one. Ellipses are drawn anew.
   function aged_regions(old, number) result(regions)
-    !> regions of the other pendulum
-    type(regions_t), intent(in) :: old
-    !> of each of its attractors, the number that it has now; 0 = it is there no more
-    integer, intent(in) :: number(:)
+    type(regions_t), intent(in) :: old !< regions of the other pendulum
+    integer, intent(in) :: number(:) !< of each of its attractors, the number that it has now; 0 = it is there no more
     type(regions_t) :: regions
     integer :: i, l
 
@@ -28,8 +26,7 @@ contains
   !> Whether all neighbours of a cell have its attractor.
   pure function is_surrounded(regions, i, l) result(surrounded)
     type(regions_t), intent(in) :: regions
-    integer, intent(in) :: i
-    integer, intent(in) :: l
+    integer, intent(in) :: i, l
     logical :: surrounded
     integer :: x, y
 
@@ -45,8 +42,7 @@ contains
   !> The attractor of a whole cell of the circle, in any column; 0 = none has all of it.
   pure function attractor_at(regions, column, row) result(a)
     type(regions_t), intent(in) :: regions
-    integer, intent(in) :: column
-    integer, intent(in) :: row
+    integer, intent(in) :: column, row
     integer :: a
     integer :: i, l
     logical :: mirrored

@@ -36,12 +36,9 @@ contains
 
   !> Integrates the nodes of the grid, and one more row and column on every side for the differences.
   subroutine make_images(regions, flow, images)
-    !> the grid whose nodes are integrated
-    type(regions_t), intent(in) :: regions
-    !> the map of one drive period, by integration
-    class(flow_t), intent(inout) :: flow
-    !> the images after each number of PERIODS
-    type(images_t), intent(out) :: images(size(PERIODS))
+    type(regions_t), intent(in) :: regions !< the grid whose nodes are integrated
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    type(images_t), intent(out) :: images(size(PERIODS)) !< the images after each number of PERIODS
     real(dp), allocatable :: x(:, :, :), y(:, :, :)
     logical, allocatable :: straight(:, :)
     type(images_t) :: image
@@ -83,8 +80,7 @@ contains
     type(regions_t), intent(in) :: regions
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: j
-    real(dp), intent(out) :: x(-1:, :)
-    real(dp), intent(out) :: y(-1:, :)
+    real(dp), intent(out) :: x(-1:, :), y(-1:, :)
     real(dp) :: per_u, per_v, u, v, turns(WIDTH)
     integer :: first, n, lane, period
 
@@ -109,8 +105,7 @@ contains
   !> The nodes' images and slack.
   function image_of(regions, x, y) result(image)
     type(regions_t), intent(in) :: regions
-    real(dp), intent(in) :: x(-1:, -1:)
-    real(dp), intent(in) :: y(-1:, -1:)
+    real(dp), intent(in) :: x(-1:, -1:), y(-1:, -1:)
     type(images_t) :: image
 
     allocate (image%x(0:regions%n_theta, 0:regions%n_velocity))
@@ -122,8 +117,7 @@ contains
   end function image_of
 
   pure subroutine set_slack(n_theta, n_velocity, x, slack_of)
-    integer, intent(in) :: n_theta
-    integer, intent(in) :: n_velocity
+    integer, intent(in) :: n_theta, n_velocity
     real(dp), intent(in) :: x(-1:n_theta + 1, -1:n_velocity + 1)
     real(dp), intent(out) :: slack_of(0:n_theta, 0:n_velocity)
     integer :: i, j
@@ -156,8 +150,7 @@ contains
 
   !> In vectors. NaN and numbers beyond integers fall out as too large.
   pure subroutine boxes(n_theta, n_velocity, circle, x, y, slack_x, slack_y, left, n_columns, bottom, top)
-    integer, intent(in) :: n_theta
-    integer, intent(in) :: n_velocity
+    integer, intent(in) :: n_theta, n_velocity
     real(dp), intent(in) :: circle
     real(dp), dimension(0:n_theta, 0:n_velocity), intent(in) :: x, y, slack_x, slack_y
     integer(int32), dimension(0:n_theta - 1, 0:n_velocity - 1), intent(out) :: left, n_columns, bottom, top
@@ -193,20 +186,13 @@ contains
 
   !> The images of the corners of cell (i, l), and its slack.
   pure subroutine corners_of(images, i, l, x, y, slack_x, slack_y)
-    !> images of all nodes
-    type(images_t), intent(in) :: images
-    !> column of the cell, from 0
-    integer, intent(in) :: i
-    !> row of the cell, from 0
-    integer, intent(in) :: l
-    !> angles of the corners, in cells
-    real(dp), intent(out) :: x(4)
-    !> velocities of the corners, in cells
-    real(dp), intent(out) :: y(4)
-    !> what the angles may be off by between the corners, in cells
-    real(dp), intent(out) :: slack_x
-    !> the same of the velocities
-    real(dp), intent(out) :: slack_y
+    type(images_t), intent(in) :: images !< images of all nodes
+    integer, intent(in) :: i !< column of the cell, from 0
+    integer, intent(in) :: l !< row of the cell, from 0
+    real(dp), intent(out) :: x(4) !< angles of the corners, in cells
+    real(dp), intent(out) :: y(4) !< velocities of the corners, in cells
+    real(dp), intent(out) :: slack_x !< what the angles may be off by between the corners, in cells
+    real(dp), intent(out) :: slack_y !< the same of the velocities
 
     x = [images%x(i, l), images%x(i + 1, l), images%x(i, l + 1), images%x(i + 1, l + 1)]
     y = [images%y(i, l), images%y(i + 1, l), images%y(i, l + 1), images%y(i + 1, l + 1)]
@@ -216,18 +202,12 @@ contains
 
   !> Range of x of the convex hull of four points between y = low and y = high, from all segments between the points.
   pure subroutine extent(x, y, low, high, from, to)
-    !> angles of the corners, in cells
-    real(dp), intent(in) :: x(4)
-    !> velocities of the corners, in cells
-    real(dp), intent(in) :: y(4)
-    !> lower end of the strip of velocities
-    real(dp), intent(in) :: low
-    !> its upper end
-    real(dp), intent(in) :: high
-    !> lowest angle in the strip
-    real(dp), intent(out) :: from
-    !> highest angle in the strip
-    real(dp), intent(out) :: to
+    real(dp), intent(in) :: x(4) !< angles of the corners, in cells
+    real(dp), intent(in) :: y(4) !< velocities of the corners, in cells
+    real(dp), intent(in) :: low !< lower end of the strip of velocities
+    real(dp), intent(in) :: high !< its upper end
+    real(dp), intent(out) :: from !< lowest angle in the strip
+    real(dp), intent(out) :: to !< highest angle in the strip
     real(dp) :: s, t, slope
     integer :: a, b
 

@@ -23,14 +23,10 @@ contains
 
   !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half.
   subroutine find_ellipses(flow, fine, attractor, others)
-    !> the map whose orbits are to be trapped
-    class(flow_t), intent(inout) :: flow
-    !> the map of the published strobe points
-    class(flow_t), intent(inout) :: fine
-    !> its points and multipliers, in; the ellipses, out
-    type(attractor_t), intent(inout) :: attractor
-    !> attractors whose strobe points no ellipse may contain
-    type(attractor_t), intent(in) :: others(:)
+    class(flow_t), intent(inout) :: flow !< the map whose orbits are to be trapped
+    class(flow_t), intent(inout) :: fine !< the map of the published strobe points
+    type(attractor_t), intent(inout) :: attractor !< its points and multipliers, in; the ellipses, out
+    type(attractor_t), intent(in) :: others(:) !< attractors whose strobe points no ellipse may contain
     integer :: j, n_own
 
     n_own = attractor%period
@@ -43,14 +39,10 @@ contains
 
   !> True if the trapping ellipse of strobe point j holds (u, v).
   pure function in_ellipse(attractor, j, u, v) result(inside)
-    !> the attractor
-    type(attractor_t), intent(in) :: attractor
-    !> strobe point, from 1
-    integer, intent(in) :: j
-    !> angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    type(attractor_t), intent(in) :: attractor !< the attractor
+    integer, intent(in) :: j !< strobe point, from 1
+    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     logical :: inside
 
     inside = ellipse_square(attractor, j, u, v) < 1
@@ -58,14 +50,10 @@ contains
 
   !> The square of (u, v) in the norm of that ellipse, 1 on its rim; huge where there is none.
   pure function ellipse_square(attractor, j, u, v) result(square)
-    !> the attractor
-    type(attractor_t), intent(in) :: attractor
-    !> strobe point, from 1
-    integer, intent(in) :: j
-    !> angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    type(attractor_t), intent(in) :: attractor !< the attractor
+    integer, intent(in) :: j !< strobe point, from 1
+    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     real(dp) :: square
     real(dp) :: du, dv
 
@@ -78,8 +66,7 @@ contains
   !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking
   !> shows above rounding and above the distance by which the map's own cycle misses the fine one.
   function ellipse(flow, fine, attractor, j, others) result(form)
-    class(flow_t), intent(inout) :: flow
-    class(flow_t), intent(inout) :: fine
+    class(flow_t), intent(inout) :: flow, fine
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
     type(attractor_t), intent(in) :: others(:)
@@ -130,8 +117,7 @@ contains
   contains
 
     pure function to_points(u, v) result(shortest)
-      real(dp), intent(in) :: u(:)
-      real(dp), intent(in) :: v(:)
+      real(dp), intent(in) :: u(:), v(:)
       real(dp) :: shortest
       integer :: i
 
@@ -149,10 +135,7 @@ contains
     class(flow_t), intent(inout) :: flow
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
-    real(dp), intent(in) :: basis(2, 2)
-    real(dp), intent(in) :: inverse(2, 2)
-    real(dp), intent(in) :: first
-    real(dp), intent(in) :: last
+    real(dp), intent(in) :: basis(2, 2), inverse(2, 2), first, last
     real(dp) :: best, tried
     integer :: i
 
@@ -175,9 +158,7 @@ contains
     class(flow_t), intent(inout) :: flow
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
-    real(dp), intent(in) :: basis(2, 2)
-    real(dp), intent(in) :: inverse(2, 2)
-    real(dp), intent(in) :: radius
+    real(dp), intent(in) :: basis(2, 2), inverse(2, 2), radius
     logical :: inside
     real(dp) :: x(2), bound
     integer :: i
@@ -234,8 +215,7 @@ contains
     real(dp), intent(in) :: matrix(2, 2)
     complex(dp), intent(in) :: multiplier(2)
     real(dp), intent(in) :: to_kernel(2, 2)
-    real(dp), intent(out) :: basis(2, 2)
-    real(dp), intent(out) :: inverse(2, 2)
+    real(dp), intent(out) :: basis(2, 2), inverse(2, 2)
     complex(dp) :: w(2)
     real(dp) :: determinant
 

@@ -41,14 +41,10 @@ contains
 
   !> Makes an open grid with an even number of columns.
   function make_regions(n_circle, n_velocity, top, mirrored) result(regions)
-    !> cells on the whole circle
-    integer, intent(in) :: n_circle
-    !> cells of the velocity
-    integer, intent(in) :: n_velocity
-    !> largest velocity, rad per drive radian
-    real(dp), intent(in) :: top
-    !> whether mirror images of motions are motions
-    logical, intent(in) :: mirrored
+    integer, intent(in) :: n_circle !< cells on the whole circle
+    integer, intent(in) :: n_velocity !< cells of the velocity
+    real(dp), intent(in) :: top !< largest velocity, rad per drive radian
+    logical, intent(in) :: mirrored !< whether mirror images of motions are motions
     type(regions_t) :: regions
 
     regions%n_circle = n_circle
@@ -65,10 +61,8 @@ contains
 
   !> Adds the ellipses and covers of the attractors that are new since the last call.
   subroutine draw_attractors(regions, attractors)
-    !> the trapping regions
-    type(regions_t), intent(inout) :: regions
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
+    type(regions_t), intent(inout) :: regions !< the trapping regions
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     integer :: a, j, turn
 
     do a = regions%n_drawn + 1, size(attractors)
@@ -92,8 +86,7 @@ contains
 
   !> Sets the bits of all cells from their labels: a small map of open cells that stays in the cache.
   subroutine note_closed(regions)
-    !> the trapping regions
-    type(regions_t), intent(inout) :: regions
+    type(regions_t), intent(inout) :: regions !< the trapping regions
     integer :: cell
 
     regions%closed = 0
@@ -111,12 +104,9 @@ contains
 
   !> The number (from 1) of the cell of a cover that holds (u, v); 0 = outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
   pure function cover_cell(regions, u, v) result(cell)
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    type(regions_t), intent(in) :: regions !< the trapping regions
+    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     integer :: cell
     real(dp) :: fold, y
 
@@ -130,12 +120,9 @@ contains
 
   !> The chaotic attractor whose cover holds (u, v); 0 = none.
   pure function chaos_region(regions, u, v) result(a)
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    type(regions_t), intent(in) :: regions !< the trapping regions
+    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     integer :: a
 
     a = cover_cell(regions, u, v)
@@ -146,9 +133,7 @@ contains
   subroutine draw(regions, attractor, a, j, turn)
     type(regions_t), intent(inout) :: regions
     type(attractor_t), intent(in) :: attractor
-    integer, intent(in) :: a
-    integer, intent(in) :: j
-    integer, intent(in) :: turn
+    integer, intent(in) :: a, j, turn
     real(dp) :: form(3), slope, half_u, half_v, per_u, per_v, u, v
     integer :: i, l
 
@@ -177,9 +162,7 @@ contains
 
   !> Whether all four corners of a cell lie in the ellipse.
   pure function within(form, du, dv) result(inside)
-    real(dp), intent(in) :: form(3)
-    real(dp), intent(in) :: du(2)
-    real(dp), intent(in) :: dv(2)
+    real(dp), intent(in) :: form(3), du(2), dv(2)
     logical :: inside
     integer :: a, b
 
@@ -207,18 +190,12 @@ contains
 
   !> label(i) = the attractor (from 1) whose trapping region holds (u(i), v(i)), u in [-1, 1]; 0 = none.
   subroutine find_regions(regions, attractors, n, u, v, label)
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
-    !> states, at most WIDTH
-    integer, intent(in) :: n
-    !> angles, half-turns in [-1, 1]
-    real(dp), intent(in) :: u(n)
-    !> velocities, rad per drive radian
-    real(dp), intent(in) :: v(n)
-    !> attractor from 1, 0 = none
-    integer, intent(out) :: label(n)
+    type(regions_t), intent(in) :: regions !< the trapping regions
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    integer, intent(in) :: n !< states, at most WIDTH
+    real(dp), intent(in) :: u(n) !< angles, half-turns in [-1, 1]
+    real(dp), intent(in) :: v(n) !< velocities, rad per drive radian
+    integer, intent(out) :: label(n) !< attractor from 1, 0 = none
     integer :: closed(WIDTH), n_closed, i
 
     call look_up(regions%mirrored, regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%closed, n, u, v, label)
@@ -237,12 +214,10 @@ contains
   !> The attractor whose region holds (u, v), which lies in the cell of that number of look_up.
   function find_region(regions, label, attractors, number, u, v) result(a)
     type(regions_t), intent(in) :: regions
-    !> of the regions, in the order of numbers
-    integer, intent(in) :: label(*)
+    integer, intent(in) :: label(*) !< of the regions, in the order of numbers
     type(attractor_t), intent(in) :: attractors(:)
     integer, intent(in) :: number
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u, v
     integer :: a
     real(dp) :: fold
 
@@ -258,16 +233,11 @@ contains
 
   !> True if one trapped cell holds all states within (du, dv) of (u, v).
   pure function cell_holds(regions, u, v, du, dv) result(inside)
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
-    !> half-turns
-    real(dp), intent(in) :: du
-    !> rad per drive radian
-    real(dp), intent(in) :: dv
+    type(regions_t), intent(in) :: regions !< the trapping regions
+    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: du !< half-turns
+    real(dp), intent(in) :: dv !< rad per drive radian
     logical :: inside
     real(dp) :: w, x, y, margin_x, margin_y
 
@@ -287,8 +257,7 @@ contains
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     integer, intent(in) :: first
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u, v
     integer :: a, t
 
     t = first
@@ -302,12 +271,9 @@ contains
 
   !> The attractor that has an ellipse around (u, v); 0 = none. It tests every ellipse.
   pure function ellipse_at(attractors, u, v) result(a)
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
-    !> angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     integer :: a, j
 
     do a = 1, size(attractors)
@@ -320,14 +286,10 @@ contains
 
   !> Moves cell (i, l), for any integer i, to the stored half; `mirrored` = the stored cell is its mirror image.
   pure subroutine fold_cell(regions, i, l, mirrored)
-    !> the trapping regions
-    type(regions_t), intent(in) :: regions
-    !> column, any integer, in; from 0, out
-    integer, intent(inout) :: i
-    !> row, from 0
-    integer, intent(inout) :: l
-    !> whether the stored cell is its mirror image
-    logical, intent(out) :: mirrored
+    type(regions_t), intent(in) :: regions !< the trapping regions
+    integer, intent(inout) :: i !< column, any integer, in; from 0, out
+    integer, intent(inout) :: l !< row, from 0
+    logical, intent(out) :: mirrored !< whether the stored cell is its mirror image
 
     i = modulo(i, regions%n_circle)
     mirrored = i >= regions%n_theta

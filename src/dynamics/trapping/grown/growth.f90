@@ -39,12 +39,9 @@ contains
 
   !> Grows the regions over the images, which belong to the same grid.
   subroutine grow_regions(regions, attractors, images)
-    !> the trapping regions
-    type(regions_t), intent(inout) :: regions
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
-    !> images of the cells after each number of PERIODS
-    type(images_t), intent(in) :: images(:)
+    type(regions_t), intent(inout) :: regions !< the trapping regions
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    type(images_t), intent(in) :: images(:) !< images of the cells after each number of PERIODS
     type(circle_t) :: circle
     type(waiting_t) :: waiting
     integer :: k, i, l, a
@@ -89,9 +86,7 @@ contains
   !> Cell (i, l) of the stored half joins attractor a, and its mirror image the mirror image.
   pure subroutine set(circle, i, l, a)
     type(circle_t), intent(inout) :: circle
-    integer, intent(in) :: i
-    integer, intent(in) :: l
-    integer, intent(in) :: a
+    integer, intent(in) :: i, l, a
     integer :: column, row
 
     if (a > MOST_GROWN) return
@@ -108,8 +103,7 @@ contains
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
     type(images_t), intent(in) :: images
-    integer, intent(in) :: i
-    integer, intent(in) :: l
+    integer, intent(in) :: i, l
     integer :: a, t, column, row
     real(dp) :: x(4), y(4), slack_x, slack_y
     logical :: mirrored
@@ -138,10 +132,7 @@ contains
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
-    real(dp), intent(in) :: x(4)
-    real(dp), intent(in) :: y(4)
-    real(dp), intent(in) :: slack_x
-    real(dp), intent(in) :: slack_y
+    real(dp), intent(in) :: x(4), y(4), slack_x, slack_y
     logical, intent(in) :: mirrored
     logical :: inside
     real(dp) :: u, v
@@ -207,11 +198,9 @@ contains
   subroutine ask(circle, images, i, l, seen, answer, blocker)
     type(circle_t), intent(in) :: circle
     type(images_t), intent(in) :: images
-    integer, intent(in) :: i
-    integer, intent(in) :: l
+    integer, intent(in) :: i, l
     integer, intent(inout) :: seen
-    integer, intent(out) :: answer
-    integer, intent(out) :: blocker
+    integer, intent(out) :: answer, blocker
     real(dp) :: x(4), y(4), slack_x, slack_y, from, to
     integer(int8) :: a
     integer :: row, left, n, shift
@@ -240,8 +229,7 @@ contains
   !> The label of the image of a corner; blocker: the stored cell where it lies, if that is open.
   pure subroutine corner(circle, x, y, label, blocker)
     type(circle_t), intent(in) :: circle
-    real(dp), intent(in) :: x
-    real(dp), intent(in) :: y
+    real(dp), intent(in) :: x, y
     integer(int8), intent(out) :: label
     integer, intent(out) :: blocker
     integer :: column
@@ -255,8 +243,7 @@ contains
   !> Whether n cells all have the label a.
   pure function one_label(n, label, a) result(all_have)
     integer, intent(in) :: n
-    integer(int8), intent(in) :: label(n)
-    integer(int8), intent(in) :: a
+    integer(int8), intent(in) :: label(n), a
     logical :: all_have
     integer(int8) :: unlike
     integer :: c
@@ -272,9 +259,7 @@ contains
   !> there is none.
   pure subroutine first_other(circle, first, last, row, a, blocker)
     type(circle_t), intent(in) :: circle
-    integer, intent(in) :: first
-    integer, intent(in) :: last
-    integer, intent(in) :: row
+    integer, intent(in) :: first, last, row
     integer(int8), intent(in) :: a
     integer, intent(out) :: blocker
     integer :: column
@@ -290,8 +275,7 @@ contains
   !> Number of the stored cell that is cell (column, row) of the doubled circle, or its mirror image.
   pure function stored(circle, column, row) result(cell)
     type(circle_t), intent(in) :: circle
-    integer, intent(in) :: column
-    integer, intent(in) :: row
+    integer, intent(in) :: column, row
     integer :: cell, i
 
     i = modulo(column, circle%n_circle)

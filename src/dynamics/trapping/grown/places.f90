@@ -16,26 +16,16 @@ contains
 
   !> The numbers of the cells that hold n states, as number_cells has them; 0 if the cell is open. Uses vectors.
   pure subroutine look_up(mirrored, n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
-    !> whether the stored half stands for the other one, too
-    logical, intent(in) :: mirrored
-    !> stored columns of the grid
-    integer, intent(in) :: n_theta
-    !> rows of the grid
-    integer, intent(in) :: n_velocity
-    !> columns in a half-turn
-    real(dp), intent(in) :: per_u
-    !> largest velocity of the grid, rad per drive radian
-    real(dp), intent(in) :: top
-    !> a bit for each cell, then one for the outside
-    integer(int32), intent(in) :: closed(0:n_theta*n_velocity/WORD)
-    !> states
-    integer, intent(in) :: n
-    !> angles, half-turns in [-1, 1]
-    real(dp), intent(in) :: u(n)
-    !> velocities, rad per drive radian
-    real(dp), intent(in) :: v(n)
-    !> +- number of the cell, from 1; 0 = open
-    integer, intent(out) :: cell(n)
+    logical, intent(in) :: mirrored !< whether the stored half stands for the other one, too
+    integer, intent(in) :: n_theta !< stored columns of the grid
+    integer, intent(in) :: n_velocity !< rows of the grid
+    real(dp), intent(in) :: per_u !< columns in a half-turn
+    real(dp), intent(in) :: top !< largest velocity of the grid, rad per drive radian
+    integer(int32), intent(in) :: closed(0:n_theta*n_velocity/WORD) !< a bit for each cell, then one for the outside
+    integer, intent(in) :: n !< states
+    real(dp), intent(in) :: u(n) !< angles, half-turns in [-1, 1]
+    real(dp), intent(in) :: v(n) !< velocities, rad per drive radian
+    integer, intent(out) :: cell(n) !< +- number of the cell, from 1; 0 = open
     integer :: i, number
 
     call number_cells(mirrored, n_theta, n_velocity, per_u, top, n, u, v, cell)
@@ -48,24 +38,15 @@ contains
   !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image; outside of the grid the number
   !> behind the last. Uses vectors.
   pure subroutine number_cells(mirrored, n_theta, n_velocity, per_u, top, n, u, v, cell)
-    !> whether the stored half stands for the other one, too
-    logical, intent(in) :: mirrored
-    !> stored columns of the grid
-    integer, intent(in) :: n_theta
-    !> rows of the grid
-    integer, intent(in) :: n_velocity
-    !> columns in a half-turn
-    real(dp), intent(in) :: per_u
-    !> largest velocity of the grid, rad per drive radian
-    real(dp), intent(in) :: top
-    !> states
-    integer, intent(in) :: n
-    !> angles, half-turns in [-1, 1]
-    real(dp), intent(in) :: u(n)
-    !> velocities, rad per drive radian
-    real(dp), intent(in) :: v(n)
-    !> +- number of the cell
-    integer, intent(out) :: cell(n)
+    logical, intent(in) :: mirrored !< whether the stored half stands for the other one, too
+    integer, intent(in) :: n_theta !< stored columns of the grid
+    integer, intent(in) :: n_velocity !< rows of the grid
+    real(dp), intent(in) :: per_u !< columns in a half-turn
+    real(dp), intent(in) :: top !< largest velocity of the grid, rad per drive radian
+    integer, intent(in) :: n !< states
+    real(dp), intent(in) :: u(n) !< angles, half-turns in [-1, 1]
+    real(dp), intent(in) :: v(n) !< velocities, rad per drive radian
+    integer, intent(out) :: cell(n) !< +- number of the cell
     real(dp) :: w, y, c, fold, per_v, outside, columns, rows
     integer :: i
 
@@ -94,12 +75,8 @@ contains
 
   !> The cell (from 0) of a grid over the whole circle that holds (u, v); the number of cells outside.
   pure function whole_cell(n_theta, n_velocity, per_u, top, u, v) result(cell)
-    integer, intent(in) :: n_theta
-    integer, intent(in) :: n_velocity
-    real(dp), intent(in) :: per_u
-    real(dp), intent(in) :: top
-    real(dp), intent(in) :: u
-    real(dp), intent(in) :: v
+    integer, intent(in) :: n_theta, n_velocity
+    real(dp), intent(in) :: per_u, top, u, v
     integer :: cell
     real(dp) :: w, y
 
@@ -111,8 +88,7 @@ contains
 
   !> An angle in [-1, 1] as one in [0, 2).
   elemental function from_down(w) result(angle)
-    !> half-turns
-    real(dp), intent(in) :: w
+    real(dp), intent(in) :: w !< half-turns
     real(dp) :: angle
 
     angle = merge(w, w + 2, w >= 0)
@@ -120,10 +96,8 @@ contains
 
   !> The mid-period angle, wrapped to [-1, 1].
   elemental function wrapped_midperiod_angle(u, v) result(w)
-    !> angle, half-turns
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u !< angle, half-turns
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     real(dp) :: w
 
     w = u + MIDPERIOD*v
@@ -132,10 +106,8 @@ contains
 
   !> 1 if (u, v) lies in the stored half, -1 if its mirror image does.
   elemental function side(u, v) result(fold)
-    !> angle, half-turns
-    real(dp), intent(in) :: u
-    !> velocity, rad per drive radian
-    real(dp), intent(in) :: v
+    real(dp), intent(in) :: u !< angle, half-turns
+    real(dp), intent(in) :: v !< velocity, rad per drive radian
     real(dp) :: fold
 
     fold = merge(1.0_dp, -1.0_dp, merge(u, v, abs(u) > 0) >= 0)

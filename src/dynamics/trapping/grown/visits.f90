@@ -29,18 +29,12 @@ contains
   !> Follows orbits until each is trapped, and extends the regions by what they tell. It ends early when the orbits together have spent
   !> `budget` periods.
   subroutine learn_regions(regions, attractors, flow, state, most, budget)
-    !> the trapping regions of all attractors
-    type(regions_t), intent(inout) :: regions
-    !> the catalogue, numbered from 1
-    type(attractor_t), intent(in) :: attractors(:)
-    !> the map of one drive period
-    class(flow_t), intent(inout) :: flow
-    !> [2, n] physical states: half-turns, rad per drive radian
-    real(dp), intent(in) :: state(:, :)
-    !> most periods of an orbit
-    integer, intent(in) :: most
-    !> most periods of all orbits
-    integer, intent(in) :: budget
+    type(regions_t), intent(inout) :: regions !< the trapping regions of all attractors
+    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    class(flow_t), intent(inout) :: flow !< the map of one drive period
+    real(dp), intent(in) :: state(:, :) !< [2, n] physical states: half-turns, rad per drive radian
+    integer, intent(in) :: most !< most periods of an orbit
+    integer, intent(in) :: budget !< most periods of all orbits
     type(visits_t) :: visits
     integer, allocatable :: label(:, :), orbits(:, :)
 
@@ -59,8 +53,7 @@ contains
     type(attractor_t), intent(in) :: attractors(:)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: state(:, :)
-    integer, intent(in) :: most
-    integer, intent(in) :: budget
+    integer, intent(in) :: most, budget
     type(visits_t), intent(out) :: visits
     integer(int32), allocatable :: path(:, :)
     integer :: age(WIDTH), region(WIDTH), number(WIDTH), lane, active, next
@@ -129,10 +122,8 @@ contains
   !> label(c) = the attractor of all orbits that visited cell c, if they are enough.
   subroutine believe(visits, mirror, n, label, orbits)
     type(visits_t), intent(in) :: visits
-    integer, intent(in) :: mirror(:)
-    integer, intent(in) :: n
-    integer, intent(out) :: label(n)
-    integer, intent(out) :: orbits(n)
+    integer, intent(in) :: mirror(:), n
+    integer, intent(out) :: label(n), orbits(n)
     integer, allocatable :: latest(:)
     integer :: orbit, i, c, a
 
