@@ -2,107 +2,74 @@
  *
  * scene -> discovery -> trapping regions -> map table -> tiles of cells -> (cells that ended nowhere known feed another round) ->
  * ids, measures and chunks of the file, tile by tile. A window that is its own mirror image needs half the cells: cell f mirrors cell n - 1 - f. */
-#include "basin.h"
-
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "accuracy/accuracy.h"
-#include "boundary.h"
-#include "lifetime.h"
-#include "resilience/resilience.h"
-#include "numerics/step_check.h"
-#include "phases.h"
-#include "proof_write.h"
-#include "shocks_write.h"
+#include "basin.h"
+#include "numerics/resolve.h"
+
+static void print_numerics(const kz_scene *scene, FILE *summary) {
+  const kz_numerics *numerics = &scene->numerics;
+  const kz_scheme scheme = kz_scheme_at(numerics->scheme);
+  fprintf(summary, "Integrator: %s%s, %d steps per drive period", scheme.name,
+          kz_is_processed(numerics->scheme) ? " splitting" : "", (int)numerics->steps_per_period);
+  if (kz_is_processed(scene->asked.scheme) && !kz_is_processed(numerics->scheme) && isnan(scene->basin.accuracy))
+    fprintf(summary, " (processed does not reach numerics.tolerance = %g for this pendulum)", scene->asked.tolerance);
+  else if (!kz_is_processed(numerics->scheme) && numerics->steps_per_period != scheme.default_steps)
+    fprintf(summary, " (its default is %d)", (int)scheme.default_steps);
+}
+
+/* Prints the steps of a basin and their error, and a warning for each class of speeds whose error exceeds kz_steps_tolerance. Returns an
+ * upper estimate of the largest error of a drive period, rad. */
+static double warn_steps(const kz_scene *scene, FILE *summary) {
+  const kz_motions motions = kz_motions_of_basin(scene);
+  const kz_speed_errors classes = kz_motions_errors(&motions);
+  const double worst = kz_worst_error(&classes);
+  print_numerics(scene, summary);
+  fprintf(summary, " (error per period <= %.2g rad, %.2g of a cell).\n", worst, worst / motions.cell);
+  kz_motions_warn(&motions, &classes, summary);
+  return worst;
+}
 
 /* The errors of the numerics behind the labels, and warnings about them. */
 static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_window_summary *labels, FILE *summary) {
-  labels->step_error = kz_basin_warn_steps(scene, summary);
+  labels->step_error = warn_steps(scene, summary);
   labels->table_error = NAN;
   if (scene->basin.method != KZ_METHOD_ICM) return;
   labels->table_error = kz_dynamics_table_error(dynamics, kz_stencil(scene->basin.interpolation));
   kz_steps_warn_table(&scene->basin, labels->table_error, summary);
 }
 
-/* The sample from which the share of doubtful labels is estimated. */
-typedef struct {
-  int64_t n, *cell, *label; /* [n] */
-  int32_t *followed;        /* [n, whole tiles], rank 0 */
-} sample;
-
-static kz_status take_sample(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, sample *s) {
-  s->n = kz_doubt_cells(plan);
-  s->cell = kz_malloc((size_t)s->n * sizeof *s->cell + 1);
-  s->label = kz_calloc((size_t)s->n + 1, sizeof *s->label);
-  s->followed = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)(s->n + KZ_DOUBT_TILE) * sizeof *s->followed) : NULL;
-  for (int64_t i = 0; i < s->n; i++) s->cell[i] = kz_doubt_cell(plan, i);
-  return kz_doubt_follow(plan, run, dynamics, s->followed);
-}
-
-/* Writes everything but the cells. Rank 0. */
-static kz_status write_facts(const kz_scene *scene, const kz_chunks *chunks, const sample *s, FILE *summary) {
+/* Writes everything that follows from the labels of the cells. Rank 0. */
+static kz_status write_results(const kz_scene *scene, const kz_chunks *chunks, const kz_proof *proof,
+                               const kz_proof_sample *proved, FILE *summary) {
   kz_dynamics *dynamics = chunks->labelling->dynamics;
-  const bool table = scene->basin.method == KZ_METHOD_ICM;
   kz_window_summary labels = {.cells = chunks->labelling->tiles.cells,
                               .counts = chunks->counts,
                               .trapped_share = kz_dynamics_trapped_share(dynamics),
-                              .doubt = table ? kz_doubt_count(&scene->basin, s->followed, s->label)
-                                             : kz_doubt_of_all(chunks->counts.doubtful, kz_unique_cells(&scene->basin))};
+                              .doubt = kz_doubt_of(&scene->basin, chunks->sample, chunks->counts.doubtful)};
   measure_numerics(scene, dynamics, &labels, summary);
-  return kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary);
+  KZ_TRY(kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary));
+  if (proof) KZ_TRY(kz_proof_write(proof, chunks->catalogue, labels.cells, &chunks->counts, proved, chunks->store, summary));
+  return kz_lifetime_write(&scene->basin, chunks->transients, chunks->store, summary);
 }
 
-kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan) {
-  kz_resilience_plan asked = {.scale = plan->shocks.scale,
-                              .farthest = 2 * kz_axis_fastest(&plan->velocity),
-                              .n_sizes = plan->shocks.sizes.count,
-                              .max_periods = plan->max_periods};
-  memcpy(asked.size, plan->shocks.sizes.values, (size_t)asked.n_sizes * sizeof *asked.size);
-  return asked;
-}
-
-/* How far the motions of the catalogue are from the edges of their basins. Collective. */
-static kz_status find_shocks(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
-                             kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = &scene->basin;
-  int64_t n;
-  if (!plan->has_shocks) return KZ_OK;
-  const kz_resilience_plan asked = kz_shocks_asked(plan);
-  kz_resilience *point = kz_resilience_list(labelling->dynamics, catalogue, &n);
-  kz_status status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
-  if (status == KZ_OK && store) status = kz_shocks_write(&asked, catalogue, n, point, store, summary);
-  free(point);
-  return kz_ranks_agree(labelling->run->ranks, status);
-}
-
-static kz_status write_window(const kz_scene *scene, kz_window_labels *labelling, kz_proof *proof, kz_catalogue *catalogue,
-                              sample *s, kz_transients *transients, kz_store *store, FILE *summary) {
+static kz_status write_window(const kz_scene *scene, kz_proof *proof, kz_chunks *chunks, FILE *summary) {
+  kz_window_labels *labelling = chunks->labelling;
   const kz_run *run = labelling->run;
+  kz_store *store = chunks->store;
+  kz_proof_sample proved = {.starts = 0};
   KZ_TRY(kz_label_window(labelling));
-  kz_proof_sample proved_sample = {.starts = 0};
-  if (proof) KZ_TRY(kz_prove_window(labelling, proof, &proved_sample));
-  if (scene->basin.method == KZ_METHOD_ICM) KZ_TRY(take_sample(&scene->basin, run, labelling->dynamics, s));
-  kz_catalogue_make(labelling->dynamics, labelling->reached, catalogue);
+  if (proof) KZ_TRY(kz_prove_window(labelling, proof, &proved));
+  KZ_TRY(kz_doubt_follow(&scene->basin, run, labelling->dynamics, chunks->sample));
+  kz_catalogue_make(labelling->dynamics, labelling->reached, chunks->catalogue);
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
-  kz_chunks chunks = {.labelling = labelling,
-                      .catalogue = catalogue,
-                      .store = store,
-                      .n_sample = s->n,
-                      .sample = s->cell,
-                      .sample_label = s->label,
-                      .transients = transients};
-  KZ_TRY(kz_cells_write(&chunks));
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_facts(scene, &chunks, s, summary) : KZ_OK));
-  if (proof)
-    KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_proof_write(proof, catalogue, labelling->tiles.cells, &chunks.counts,
-                                                             &proved_sample, store, summary)
-                                            : KZ_OK));
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_lifetime_write(&scene->basin, transients, store, summary) : KZ_OK));
-  KZ_TRY(kz_boundary_find(scene, labelling, catalogue, store, summary));
-  KZ_TRY(kz_phases_find(scene, labelling, catalogue, store, summary));
-  return find_shocks(scene, labelling, catalogue, store, summary);
+  KZ_TRY(kz_cells_write(chunks));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_results(scene, chunks, proof, &proved, summary) : KZ_OK));
+  KZ_TRY(kz_boundary_find(scene, labelling, chunks->catalogue, store, summary));
+  KZ_TRY(kz_phases_find(scene, labelling, chunks->catalogue, store, summary));
+  return kz_shocks_find_all(scene, labelling, chunks->catalogue, store, summary);
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
@@ -114,42 +81,60 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
                                 .batch = kz_tile_cells(scene, KZ_TILE_CELLS),
                                 .search = kz_search_of_basin(plan)};
   kz_catalogue catalogue = {0};
+  kz_doubt_sample sample = {0};
+  kz_transients transients = kz_transients_make(plan);
+  kz_chunks chunks = {&labelling, &catalogue, store, .sample = &sample, .transients = &transients};
   kz_proof *proof;
-  sample s = {0};
-  kz_transients transients;
-  kz_transients_make(plan, &transients);
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_dynamics_set_release(labelling.dynamics, &scene->parameters.release);
   kz_status status = kz_ranks_agree(run->ranks, kz_proof_plan(scene, &proof));
   if (status == KZ_OK) {
     const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
     labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &motions);
-    status = write_window(scene, &labelling, proof, &catalogue, &s, &transients, store, summary);
+    status = write_window(scene, proof, &chunks, summary);
   }
   kz_dynamics_free(labelling.dynamics);
   kz_window_labels_free(&labelling);
   kz_proof_free(proof);
   kz_catalogue_free(&catalogue);
-  kz_transients_free(&transients);
-  free(s.cell);
-  free(s.label);
-  free(s.followed);
+  kz_doubt_free(&sample);
+  free(transients.time);
+  return status;
+}
+
+/* Packs all tiles of a window in which no cell settles. Rank 0. */
+static kz_status pack_unsettled(kz_window_labels *l) {
+  kz_status status = KZ_OK;
+  void *record = kz_malloc(kz_tile_labels_bytes(l));
+  for (int64_t i = 0; i < kz_tile_capacity(&l->tiles); i++) l->cell[i].periods = (uint32_t)l->plan->max_periods;
+  for (int64_t tile = 0; tile < l->tiles.own && status == KZ_OK; tile++) {
+    status = kz_tile_labels_pack(l, tile, record);
+    kz_local_records_add(&l->records, tile, record, *(uint64_t *)record);
+  }
+  free(record);
   return status;
 }
 
 /* Without damping areas are conserved and nothing attracts. */
-static kz_status write_undamped(const kz_scene *scene, kz_store *store, FILE *summary) {
-  const kz_tiles tiles = kz_tiles_of(scene, KZ_TILE_CELLS);
-  const kz_window_summary labels = {
-      .cells = tiles.cells, .counts = {.unsettled = tiles.cells}, .step_error = NAN, .table_error = NAN};
-  fprintf(summary, "basin: without damping there are no attractors, so every cell is labelled -1.\n");
-  KZ_TRY(kz_basin_declare(scene, &tiles, store));
-  KZ_TRY(kz_chunks_write_unsettled(&scene->basin, &tiles, store));
-  return kz_basin_write(scene, &(kz_catalogue){0}, &labels, store, summary);
+static kz_status write_undamped(const kz_scene *scene, kz_chunks *chunks, FILE *summary) {
+  kz_window_labels *l = chunks->labelling;
+  kz_store *store = chunks->store;
+  KZ_TRY(kz_ranks_agree(l->run->ranks, store ? pack_unsettled(l) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(l->run->ranks, store ? kz_basin_declare(scene, &l->tiles, store) : KZ_OK));
+  KZ_TRY(kz_cells_write(chunks));
+  const kz_window_summary labels = {.cells = l->tiles.cells, .counts = chunks->counts, .step_error = NAN, .table_error = NAN};
+  if (summary) fprintf(summary, "basin: without damping there are no attractors, so every cell is labelled -1.\n");
+  return kz_ranks_agree(l->run->ranks, store ? kz_basin_write(scene, chunks->catalogue, &labels, store, summary) : KZ_OK);
 }
 
 static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  return kz_ranks_agree(run->ranks, store ? write_undamped(scene, store, summary) : KZ_OK);
+  kz_window_labels labelling = {.plan = &scene->basin, .run = run, .tiles = kz_tiles_of(scene, KZ_TILE_CELLS)};
+  kz_catalogue none = {0};
+  kz_chunks chunks = {&labelling, &none, store};
+  labelling.cell = kz_calloc((size_t)kz_tile_capacity(&labelling.tiles), sizeof *labelling.cell);
+  const kz_status status = write_undamped(scene, &chunks, summary);
+  kz_window_labels_free(&labelling);
+  return status;
 }
 
 /* With basin.accuracy: the scene with what the program chose. */
@@ -165,4 +150,18 @@ static kz_status run_accurate(const kz_scene *scene, const kz_run *run, kz_store
 kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
   return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, run, store, summary);
+}
+
+/* Without damping nothing is labelled. What basin.accuracy chooses is compared with reference labels. */
+kz_status kz_basin_check(const kz_scene *scene) {
+  const kz_motions motions = kz_motions_of_basin(scene);
+  kz_numerics reference;
+  if (!(motions.pendulum.beta > 0)) return KZ_OK;
+  KZ_TRY(kz_pairs_check(&scene->basin));
+  kz_proof *proof;
+  const kz_status status = kz_proof_plan(scene, &proof);
+  kz_proof_free(proof);
+  KZ_TRY(status);
+  if (isnan(scene->basin.accuracy)) return kz_motions_check(&motions);
+  return kz_reference_labels_numerics(&scene->basin, &motions.pendulum, &reference);
 }

@@ -1,13 +1,92 @@
-/* Inside of the study `basin`: its parts. */
+/* The study `basin` and its parts: cells in the file, measures of them, transients, boundaries, phases of release, shocks, proofs. */
 #ifndef KAPITZA_STUDY_BASIN_H
 #define KAPITZA_STUDY_BASIN_H
 
-#include "chunks.h"
-#include "numerics/cells.h"
+#include "attractors/catalogue.h"
+#include "kapitza/analysis.h"
+#include "kapitza/study.h"
+#include "label.h"
 #include "labelling/doubt.h"
 #include "resilience/resilience.h"
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
+
+kz_cost kz_basin_cost(const kz_scene *scene);
+kz_status kz_basin_check(const kz_scene *scene);
+kz_status kz_basin_measure(const kz_scene *scene, double *seconds);
+kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+
+/* What the study writes. */
+extern const kz_variable kz_basin_variables[], kz_phases_variables[], kz_boundary_variables[], kz_shocks_variables[];
+
+/* ---- measures of a labelled grid as counts, which are added up over its tiles: basin entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416)
+ * and uncertain shares at distances (C. Grebogi et al., Phys. Lett. A 99 (1983) 415) ---- */
+
+enum { KZ_DISTANCES = 8, KZ_BOX_CELLS = KZ_BOX * KZ_BOX };
+
+/* All fields are int64_t, so that kz_ranks_sum can add them. */
+typedef struct {
+  int64_t proved, refuted;                           /* proved cells; those of them whose label the proof changed */
+  int64_t proved_in_pairs, proved_in_quads;          /* parts of `proved` */
+  int64_t unsettled, undecided, doubtful;            /* cells; doubtful: without mirror images */
+  int64_t boxes[KZ_BOX_CELLS + 1];                   /* [i]: boxes with i settled cells */
+  int64_t parts[KZ_BOX_CELLS + 1][KZ_BOX_CELLS + 1]; /* [i][j]: attractors that have j cells of such a box */
+  int64_t compared[KZ_DISTANCES],
+      uncertain[KZ_DISTANCES]; /* [d]: cells compared with those 2^d columns away; those that differ */
+} kz_counts;
+
+/* Add boxes of 5 x 5 cells of label [rows][columns], from its first row on (incomplete boxes are left out), and pairs of cells along its
+ * rows; circle = theta is periodic. Unsettled cells (-1) are left out, and so are boxes with no other cells. */
+void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_counts *counts);
+void kz_count_pairs(int64_t columns, int64_t rows, const int16_t *label, bool circle, kz_counts *counts);
+
+/* Mean Gibbs entropy (natural logarithm) of all boxes, and of those with more than one label; 0 if there are none. */
+void kz_entropy_of(const kz_counts *counts, double *entropy, double *boundary_entropy);
+/* Share of the compared cells that are uncertain at distance 2^d columns; 0 if none was compared. */
+double kz_uncertain_share(const kz_counts *counts, int d);
+
+/* ---- transients: how long they last, from the cells of every few rows that are not mirror images ---- */
+
+/* Settling times, periods, in any order; and the number of cells that have not settled. */
+typedef struct {
+  int64_t n, n_open;
+  double *time;
+} kz_transients;
+
+/* Makes room for those of a window. The caller frees `time`. */
+kz_transients kz_transients_make(const kz_basin_plan *plan);
+/* Picks those of n consecutive cells, the first of which has the number `first`, that count. Returns how many; picked takes as many times
+ * KZ_TRANSIENT_BYTES for kz_transients_add. label [n]: below 0 if the cell has not settled. */
+enum { KZ_TRANSIENT_BYTES = sizeof(uint32_t) };
+int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label, const uint32_t *periods,
+                           void *picked);
+void kz_transients_add(kz_transients *transients, int64_t n, const void *picked);
+
+/* Writes and tells the mean of the slow ones; moves the times. Rank 0. */
+kz_status kz_lifetime_write(const kz_basin_plan *plan, kz_transients *transients, kz_store *store, FILE *summary);
+
+/* ---- the cells in the file, chunk by chunk ---- */
+
+typedef struct {
+  kz_window_labels *labelling;
+  kz_catalogue *catalogue;   /* out: its fractions */
+  kz_store *store;           /* NULL on all ranks but rank 0 */
+  kz_doubt_sample *sample;   /* out: its labels; NULL = none */
+  kz_counts counts;          /* in: 0; out: of all cells */
+  kz_transients *transients; /* in: none; out: of all cells, on rank 0; NULL: not needed */
+  int16_t *ids;              /* one tile; this and the next three are buffers */
+  uint32_t *periods;
+  uint8_t *evidence;
+  int16_t *others;   /* second candidates */
+  int64_t *cells_of; /* [attractors] number of cells */
+} kz_chunks;
+
+/* Declares the variables of the cells; their dimensions must exist. Rank 0. */
+kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store);
+/* Writes all labels and counts them; it uses the last five fields for itself. Collective. */
+kz_status kz_cells_write(kz_chunks *chunks);
+
+/* ---- everything else in the file and the summary ---- */
 
 /* Totals of a labelled window. */
 typedef struct {
@@ -25,19 +104,67 @@ kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_stor
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary);
 
-/* Prints the steps of a basin and their error, and a warning for each class of speeds whose error exceeds kz_steps_tolerance. Returns an
- * upper estimate of the largest error of a drive period, rad. */
-double kz_basin_warn_steps(const kz_scene *scene, FILE *summary);
+/* Follows the pairs of starts and counts the boxes of cells that the key basin.boundary asks for; writes group /boundary and the summary.
+ * The cells must be in the store. This and the next two do nothing without their key. Collective. */
+kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
+                           kz_store *store, FILE *summary);
+/* Releases the cells at the number of phases that the key basin.phases gives, and writes group /phases: the share of the window whose starts
+ * end on the same attractor at all of them. */
+kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
+                         kz_store *store, FILE *summary);
+/* Finds how far the motions of the catalogue are from the edges of their basins (basin.shocks), and writes group /shocks. */
+kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
+                             kz_store *store, FILE *summary);
 
-/* The plan of basin.shocks, for all strobe points. */
-kz_resilience_plan kz_shocks_asked(const kz_basin_plan *plan);
+/* The cost of these: processor seconds, from samples, are added to *seconds; bytes of memory of the phases. */
+kz_status kz_pairs_measure(const kz_basin_plan *plan, const kz_window_labels *labelling, double *seconds);
+kz_status kz_phases_measure(const kz_scene *scene, kz_dynamics *dynamics, double *seconds);
+kz_status kz_shocks_measure(const kz_scene *scene, kz_dynamics *dynamics, const kz_catalogue *catalogue, double *seconds);
+double kz_phases_bytes(const kz_basin_plan *plan);
 
-kz_cost kz_basin_cost(const kz_scene *scene);
-kz_status kz_basin_check(const kz_scene *scene);
-kz_status kz_basin_measure(const kz_scene *scene, double *seconds);
-kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+/* ---- pairs of starts beside each other: how many of them end differently, by their distance ---- */
 
-/* What the study writes. */
-extern const kz_variable kz_basin_variables[], kz_phases_variables[], kz_boundary_variables[], kz_shocks_variables[];
+enum { KZ_PAIR_DISTANCES = KZ_BOUNDARY_MOST_DECADES + 1 };
+
+/* How many distances the plan asks for. */
+int kz_distances_of(const kz_basin_plan *plan);
+
+/* KZ_OK where the numbers behind the labels tell the nearest pairs apart. */
+kz_status kz_pairs_check(const kz_basin_plan *plan);
+
+/* uncertain [kz_distances_of]: of evenly spread starts of the window, each with a partner at every distance. Collective. */
+kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain);
+
+/* ---- labels that are proved, for basin.proof ---- */
+
+/* The attractors that are proved to exist: numbers of kz_dynamics, mirror [0] = 0. */
+typedef struct {
+  bool any, has[KZ_PROOF_MOST + 1];
+  uint8_t mirror[KZ_PROOF_MOST + 1];
+} kz_proved;
+
+/* *proof = an empty proof for the scene's basin, or NULL without basin.proof; the caller frees it with kz_proof_free in every case.
+ * KZ_REFUSED if the window is too fast for a proof. */
+kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof);
+/* Proves the regions of the known attractors, in kept stages, with the same result on every rank. Collective. */
+kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_proof *proof, kz_proved *proved);
+
+/* Random real starts of the window. */
+typedef struct {
+  int64_t starts, unproved;
+  double high; /* upper bound of the share of the window's area that is not proved, with KZ_PROOF_CONFIDENCE */
+} kz_proof_sample;
+#define KZ_PROOF_CONFIDENCE 0.95
+
+/* Proves regions, cells and the sample, one after the other. Collective. */
+kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample);
+
+/* The cost of a proof: bytes of memory of a rank; processor seconds, which are added to *seconds (the attractors must be known). */
+double kz_proof_bytes(const kz_scene *scene);
+kz_status kz_proof_measure(const kz_scene *scene, const kz_dynamics *dynamics, double *seconds);
+
+/* The results: attributes of /basin, columns of /attractors, and lines of the summary. Rank 0. */
+kz_status kz_proof_write(const kz_proof *proof, const kz_catalogue *catalogue, int64_t cells, const kz_counts *counts,
+                         const kz_proof_sample *sample, kz_store *store, FILE *summary);
 
 #endif

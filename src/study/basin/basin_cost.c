@@ -7,10 +7,7 @@
 #include "attractors/catalogue.h"
 #include "attractors/search.h"
 #include "basin.h"
-#include "label_parts.h"
-#include "pairs.h"
-#include "phases.h"
-#include "proof.h"
+#include "numerics/share.h"
 
 /* s a cell, as measured: its record, its measures, its place in the file. */
 static const double WRITE_SECONDS = 1.2e-7;
@@ -66,15 +63,15 @@ static kz_status basin_cost_discover(sample *s, kz_catalogue *catalogue) {
 static kz_status measure_followed(sample *s, int64_t n) {
   kz_cell_label *cell = kz_malloc((size_t)n * sizeof *cell);
   const double start = kz_processor_clock();
-  const kz_status status = kz_label_cells(&s->labelling, 0, s->item, n, cell);
+  const kz_status status = kz_label_cells(&s->labelling, n, s->item, cell);
   s->seconds += (kz_processor_clock() - start) / (double)n * (double)kz_unique_cells(&s->scene->basin);
   free(cell);
   return status;
 }
 
 /* One precision level for n cells of `all` that come to it: *n becomes how many it leaves, to the front of s->item. */
-static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t level, int32_t before, double all, int64_t *n,
-                               double *share) {
+static kz_status measure_level(sample *s, int32_t level, int32_t before, double all, int64_t *n, double *share) {
+  const kz_labeller *labeller = &s->labelling.labeller;
   static const double enough = 0.3; /* s */
   kz_decision *decision = kz_malloc(BATCH * sizeof *decision);
   const double before_tables = kz_processor_clock();
@@ -83,7 +80,7 @@ static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t l
   int64_t done = 0, left = 0, part;
   s->seconds += start - before_tables;
   for (; status == KZ_OK && done < *n && kz_processor_clock() - start < enough; done += part) {
-    const int64_t batch = kz_level_tile(level) < BATCH ? kz_level_tile(level) : BATCH;
+    const int64_t batch = kz_level_stages[level].tile; /* at most BATCH */
     part = *n - done < batch ? *n - done : batch;
     status = kz_label_at(labeller, level, before, part, s->item + done, decision);
     for (int64_t i = 0; i < part; i++)
@@ -97,13 +94,13 @@ static kz_status measure_level(sample *s, const kz_labeller *labeller, int32_t l
 }
 
 static kz_status measure_exact(sample *s, int64_t n) {
-  const kz_labeller labeller = kz_cells_labeller(&s->labelling);
+  const kz_labeller *labeller = &s->labelling.labeller;
   double all = (double)kz_unique_cells(&s->scene->basin), share;
   for (int32_t level = KZ_LEVEL_DOUBLE, before = level; n > 0 && level < KZ_LEVELS;) {
-    KZ_TRY(measure_level(s, &labeller, level, before, all, &n, &share));
+    KZ_TRY(measure_level(s, level, before, all, &n, &share));
     all *= share;
     before = level;
-    level = kz_level_after(&labeller, level, (int64_t)ceil(all));
+    level = kz_level_after(labeller, level, (int64_t)ceil(all));
   }
   return KZ_OK;
 }
@@ -135,35 +132,20 @@ static kz_status measure_cells(sample *s) {
   for (int64_t i = 0; i < n; i++) s->item[i] = n == own ? i : kz_shuffled(i / BLOCK, blocks, plan->seed) * BLOCK + i % BLOCK;
   KZ_TRY(measure_reference(s, &images));
   s->labelling = (kz_window_labels){.plan = plan,
+                                    .pendulum = &s->scene->parameters.pendulum,
                                     .dynamics = s->dynamics,
                                     .tiles = kz_tiles_of(s->scene, KZ_TILE_CELLS),
                                     .images = images,
                                     .run = &ALONE,
-                                    .work = kz_workspace_make(),
-                                    .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS),
-                                    .level = KZ_LEVEL_DOUBLE};
-  kz_window_starts_make(plan, &s->scene->parameters.pendulum, s->dynamics, images, &s->labelling.starts);
+                                    .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS)};
+  kz_window_labels_start(&s->labelling);
   kz_images_free(images);
   s->seconds += WRITE_SECONDS * (double)(plan->theta.count * plan->velocity.count);
   kz_status status = plan->method == KZ_METHOD_EXACT ? measure_exact(s, n) : measure_followed(s, n);
   if (status == KZ_OK && plan->has_boundary) status = kz_pairs_measure(plan, &s->labelling, &s->seconds);
   kz_window_starts_free(&s->labelling.starts);
-  free(s->labelling.work);
   KZ_TRY(status);
   return kz_doubt_measure(plan, s->dynamics, &s->seconds);
-}
-
-/* The shocks of one strobe point, as many times as there are points that are not mirror images of others. */
-static kz_status measure_shocks(sample *s, const kz_catalogue *catalogue) {
-  const kz_resilience_plan plan = kz_shocks_asked(&s->scene->basin);
-  int64_t n, own;
-  if (!s->scene->basin.has_shocks) return KZ_OK;
-  kz_resilience *point = kz_resilience_list(s->dynamics, catalogue, &n);
-  const double start = kz_processor_clock();
-  const kz_status status = kz_resilience_try(s->dynamics, &plan, n, point, &own);
-  s->seconds += (kz_processor_clock() - start) * (double)own;
-  free(point);
-  return status;
 }
 
 static kz_status measure_parts(sample *s) {
@@ -171,7 +153,7 @@ static kz_status measure_parts(sample *s) {
   kz_status status = basin_cost_discover(s, &catalogue);
   if (status == KZ_OK) status = measure_cells(s);
   if (status == KZ_OK) status = kz_phases_measure(s->scene, s->dynamics, &s->seconds);
-  if (status == KZ_OK) status = measure_shocks(s, &catalogue);
+  if (status == KZ_OK) status = kz_shocks_measure(s->scene, s->dynamics, &catalogue, &s->seconds);
   if (status == KZ_OK) status = kz_proof_measure(s->scene, s->dynamics, &s->seconds);
   kz_catalogue_free(&catalogue);
   return status;

@@ -1,10 +1,9 @@
-#include "boundary.h"
-
+/* Measures of how fractal the boundaries of a basin are: pairs of starts, boxes of cells. */
 #include <math.h>
 #include <stdlib.h>
 
+#include "basin.h"
 #include "numerics/share.h"
-#include "pairs.h"
 
 enum {
   STRIP = 1 << (KZ_BOX_LEVELS - 1),

@@ -1,12 +1,10 @@
 /* From labels to the file: each rank turns its tiles, and those that mirror them, into ids, counts them and packs them; rank 0
  * writes the chunks as they come. */
-#include "chunks.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/store.h"
+#include "basin.h"
 
 enum { VARIABLES = 4 };
 static const char *const variables[VARIABLES] = {"attractor", "settling_time", "evidence", "other_attractor"};
@@ -77,25 +75,18 @@ static int16_t id_of(const kz_chunks *c, int16_t label, bool mirrored) {
   return (int16_t)(mirrored && id >= 0 ? c->catalogue->entries[id].mirror : id);
 }
 
-/* Exchanges two ids and replaces both by the ids of the mirror images. */
-static void swap_mirrored(const kz_chunks *c, int16_t *a, int16_t *b) {
-  const int16_t former = *a;
-  *a = (int16_t)(*b < 0 ? *b : c->catalogue->entries[*b].mirror);
-  *b = (int16_t)(former < 0 ? former : c->catalogue->entries[former].mirror);
-}
-
 /* Own cells that the scene's own numerics do not decide. */
 static void count_doubtful(kz_chunks *c, int64_t tile) {
   for (int64_t i = 0; i < kz_tile_own(&c->labelling->tiles, tile); i++)
     c->counts.doubtful += c->labelling->cell[i].evidence >= KZ_UNDECIDED;
 }
 
-/* The cells of a tile from its own ones: the second half of the tile in the middle mirrors the first. */
-static void fill(kz_chunks *c, int64_t tile) {
+/* The cells of a tile from its own ones, or those of the tile that mirrors it. The second half of the tile in the middle mirrors the first. */
+static void fill(kz_chunks *c, int64_t tile, bool image) {
   const kz_window_labels *l = c->labelling;
   const int64_t n = kz_tile_count(&l->tiles, tile), own = kz_tile_own(&l->tiles, tile);
   for (int64_t i = 0; i < n; i++) {
-    const bool mirrored = i >= own;
+    const bool mirrored = image || i >= own;
     const kz_cell_label *cell = &l->cell[mirrored ? n - 1 - i : i];
     c->ids[i] = id_of(c, cell->label, mirrored);
     c->others[i] = id_of(c, cell->other, mirrored);
@@ -104,6 +95,13 @@ static void fill(kz_chunks *c, int64_t tile) {
     if (cell->evidence != KZ_UNDECIDED && c->ids[i] < 0) c->evidence[i] = KZ_UNSETTLED;
     if (cell->evidence == KZ_FOLLOWED && cell->periods == 0) c->evidence[i] = KZ_INSIDE;
   }
+}
+
+/* Counts and packs a tile: the unpacked one, `from`, or its mirror image. */
+static kz_status add(kz_chunks *c, int64_t from, int64_t tile, char *message, size_t *bytes) {
+  fill(c, from, from != tile);
+  count(c, tile);
+  return pack(c, tile, message, bytes);
 }
 
 /* Proved labels replace the labels of the own cells of a tile. Refuted cells are counted with their mirror images. */
@@ -121,26 +119,13 @@ static void take_proofs(kz_chunks *c, int64_t tile) {
   }
 }
 
-/* Replaces the tile by its mirror image. */
-static void mirror(kz_chunks *c, int64_t n) {
-  for (int64_t i = 0, j = n - 1; i <= j; i++, j--) {
-    const uint32_t periods = c->periods[i];
-    const uint8_t evidence = c->evidence[i];
-    swap_mirrored(c, c->ids + i, c->ids + j);
-    swap_mirrored(c, c->others + i, c->others + j);
-    c->periods[i] = c->periods[j];
-    c->periods[j] = periods;
-    c->evidence[i] = c->evidence[j];
-    c->evidence[j] = evidence;
-  }
-}
-
 /* The labels of the sample's cells that lie in the tile. */
 static void note_sample(kz_chunks *c, int64_t tile) {
   const kz_window_labels *l = c->labelling;
   const int64_t first = kz_tile_first(&l->tiles, tile), end = first + kz_tile_own(&l->tiles, tile);
-  for (int64_t i = 0; i < c->n_sample; i++)
-    if (c->sample[i] >= first && c->sample[i] < end) c->sample_label[i] = l->cell[c->sample[i] - first].label;
+  for (int64_t i = 0; c->sample && i < c->sample->n; i++)
+    if (c->sample->cell[i] >= first && c->sample->cell[i] < end)
+      c->sample->label[i] = l->cell[c->sample->cell[i] - first].label;
 }
 
 static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
@@ -151,14 +136,9 @@ static kz_status make(void *context, const kz_local_record *piece, void *message
   note_sample(c, piece->tile);
   count_doubtful(c, piece->tile);
   take_proofs(c, piece->tile);
-  fill(c, piece->tile);
-  count(c, piece->tile);
   *bytes = 0;
-  KZ_TRY(pack(c, piece->tile, message, bytes));
-  if (tiles->own == tiles->n || image == piece->tile) return KZ_OK;
-  mirror(c, kz_tile_count(tiles, piece->tile));
-  count(c, image);
-  return pack(c, image, message, bytes);
+  KZ_TRY(add(c, piece->tile, piece->tile, message, bytes));
+  return tiles->own == tiles->n || image == piece->tile ? KZ_OK : add(c, piece->tile, image, message, bytes);
 }
 
 static kz_status write_chunks(const kz_chunks *c, const head *h, const char *packed) {
@@ -220,7 +200,7 @@ static kz_status deliver(kz_chunks *c) {
   KZ_TRY(kz_local_records_deliver(l->run->ranks, &l->records, &delivery));
   KZ_TRY(kz_ranks_sum(l->run->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
   KZ_TRY(kz_ranks_sum(l->run->ranks, c->cells_of, c->catalogue->count));
-  KZ_TRY(kz_ranks_sum(l->run->ranks, c->sample_label, c->n_sample));
+  if (c->sample) KZ_TRY(kz_ranks_sum(l->run->ranks, c->sample->label, c->sample->n));
   for (int64_t i = 0; i < c->catalogue->count; i++)
     c->catalogue->entries[i].fraction = (double)c->cells_of[i] / (double)l->tiles.cells;
   return kz_ranks_agree(l->run->ranks, c->store && !l->tiles.whole ? count_rows(c) : KZ_OK);
@@ -234,33 +214,5 @@ kz_status kz_cells_write(kz_chunks *c) {
   free(c->evidence);
   free(c->others);
   free(c->cells_of);
-  return status;
-}
-
-kz_status kz_chunks_write_unsettled(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store) {
-  const size_t n = (size_t)kz_tile_capacity(tiles);
-  kz_window_labels labelling = {.plan = plan, .tiles = *tiles};
-  kz_chunks c = {.labelling = &labelling,
-                 .store = store,
-                 .ids = kz_malloc(n * sizeof *c.ids),
-                 .periods = kz_malloc(n * sizeof *c.periods),
-                 .evidence = kz_calloc(n, sizeof *c.evidence),
-                 .others = kz_malloc(n * sizeof *c.others)};
-  char *message = kz_malloc(message_room((int64_t)n));
-  for (size_t i = 0; i < n; i++) {
-    c.ids[i] = c.others[i] = -1;
-    c.periods[i] = (uint32_t)plan->max_periods;
-  }
-  size_t bytes = 0;
-  kz_status status = pack(&c, 0, message, &bytes);
-  for (int64_t tile = 0; tile < tiles->n && status == KZ_OK; tile++) {
-    memcpy(message, &tile, sizeof tile);
-    status = take(&c, message, bytes);
-  }
-  free(c.ids);
-  free(c.periods);
-  free(c.evidence);
-  free(c.others);
-  free(message);
   return status;
 }

@@ -3,8 +3,32 @@
 #define KAPITZA_STUDY_LABEL_H
 
 #include "attractors/search.h"
-#include "tiles.h"
+#include "labelling/labeller.h"
+#include "numerics/cells.h"
 #include "window/starts.h"
+
+enum { KZ_BOX = 5 }; /* cells along an edge of a box of the basin entropy */
+
+/* A tile is a number of whole rows of cells, or a part of one row, so its cells are consecutive. If the window is its own mirror image,
+ * tile t is the mirror image of tile n - 1 - t. */
+typedef struct {
+  int64_t rows, columns; /* of cells in the window */
+  int64_t chunk[2];      /* cells of a tile along velocity and theta; the last ones may reach beyond the window */
+  int64_t across;        /* tiles along theta */
+  int64_t n, own;        /* tiles of the window; the first `own` of them are labelled, the others are mirror images */
+  int64_t cells, unique_cells;
+  bool whole; /* no box and no row extends over two tiles */
+} kz_tiles;
+
+/* The tiles of a scene's basin, of about `target` cells each; they depend on the scene only. */
+kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target);
+/* Number of the first cell of a tile, and its number of cells within the window. */
+int64_t kz_tile_first(const kz_tiles *tiles, int64_t tile);
+int64_t kz_tile_count(const kz_tiles *tiles, int64_t tile);
+/* How many of its cells are labelled: all, but half of the tile in the middle, which is its own mirror image. */
+int64_t kz_tile_own(const kz_tiles *tiles, int64_t tile);
+/* Number of cells of a chunk. */
+int64_t kz_tile_capacity(const kz_tiles *tiles);
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
  * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_QUADS are from basin.proof with any method; they occur in the file only, not in
@@ -35,8 +59,6 @@ typedef struct {
   uint8_t unused;   /* 0 */
 } kz_cell_label;
 
-typedef struct kz_workspace kz_workspace;
-
 typedef struct {
   const kz_basin_plan *plan;
   const kz_pendulum *pendulum;
@@ -45,18 +67,14 @@ typedef struct {
   kz_tiles tiles;
   kz_images *images;       /* for a window by centre and width with method exact; else NULL */
   kz_window_starts starts; /* of all cells */
+  kz_labeller labeller;    /* of the cells, whose items are their numbers */
   int64_t batch;           /* cells that are followed together */
   const kz_run *run;
-  kz_workspace *work;       /* of this rank */
   kz_cell_label *cell;      /* [kz_tile_capacity] a tile, unpacked */
   kz_local_records records; /* tiles of this rank, packed */
-  int before_level;         /* the level at which the cells of the present stage were doubtful */
-  int level;                /* of the present stage; KZ_LEVELS: it looks for candidates of undecided cells */
   int16_t wanted;           /* label of the pending cells: 0 or KZ_DOUBTFUL */
   int64_t *before;          /* [own tiles + 1]: number of pending cells in all tiles before */
-  int64_t n_pending;        /* number of pending cells that the present stage labels again */
-  const int64_t *pending;   /* [n_pending]: their numbers */
-  int64_t *reached;         /* [INT16_MAX + 1]: number of starts and tiles that ended on each attractor */
+  int64_t *reached;         /* [INT16_MAX + 1]: number of starts and tiles' cells that ended on each attractor */
 } kz_window_labels;
 
 /* Finds the attractors and labels all cells but mirror images. Out: `records`, the tiles of this rank; `reached`, of all ranks. The caller
@@ -64,7 +82,42 @@ typedef struct {
 kz_status kz_label_window(kz_window_labels *labelling);
 void kz_window_labels_free(kz_window_labels *labelling);
 
-/* Unpacks the labelled cells of a tile into labelling->cell. */
+/* Makes starts and labeller, after the images if the window needs them. */
+void kz_window_labels_start(kz_window_labels *labelling);
+
+/* Labels n cells by the method's own numerics, `exact` at its first level: out [n]. KZ_STOPPED if a stop is requested. */
+kz_status kz_label_cells(const kz_window_labels *labelling, int64_t n, const int64_t *cell, kz_cell_label *out);
+/* The label of a cell from a decision. */
+kz_cell_label kz_cell_label_of(const kz_decision *decision, uint8_t evidence);
+
+/* ---- packed tiles ---- */
+
+/* Largest number of bytes of a packed tile. */
+size_t kz_tile_labels_bytes(const kz_window_labels *labelling);
+/* Packs the own cells of a tile, labelling->cell; unpacks them. */
+kz_status kz_tile_labels_pack(const kz_window_labels *labelling, int64_t tile, void *record);
 kz_status kz_tile_labels_unpack(kz_window_labels *labelling, const kz_local_record *kept);
+/* Packs them into `kept`, a record of this rank, in place of what it holds. */
+kz_status kz_tile_labels_replace(const kz_window_labels *labelling, kz_local_record *kept);
+/* Number of cells of a packed tile with the label `wanted`, 0 or KZ_DOUBTFUL. */
+int64_t kz_tile_labels_pending(const kz_local_record *kept, int16_t wanted);
+
+/* ---- pending cells, level by level ---- */
+
+/* Stages of a level. */
+typedef struct {
+  const char *name; /* the first level's stages are those of all cells */
+  int64_t tile;     /* cells that are followed together */
+  uint8_t evidence; /* of what the level decides; KZ_LEVELS: of what no level decides */
+} kz_level_stage;
+extern const kz_level_stage kz_level_stages[];
+
+/* Counts the cells of all tiles with the label `wanted` into labelling->before; these cells are now pending. Collective. */
+kz_status kz_pending_count(kz_window_labels *labelling, int16_t wanted);
+/* cell [n] = the numbers of n evenly chosen cells among the pending cells from .. from + of - 1, in order, on every rank. Collective. */
+kz_status kz_pending_pick(kz_window_labels *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell);
+/* Labels the pending cells of all tiles, from `level` on, until each is decided or no level is left, in stages of round `round`.
+ * Collective. */
+kz_status kz_pending_label(kz_window_labels *labelling, int level, int round);
 
 #endif

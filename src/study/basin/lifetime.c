@@ -3,8 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lifetime.h"
-#include "numerics/cells.h"
+#include "basin.h"
 
 enum {
   CELLS = 1 << 18, /* that are looked at, about */
@@ -19,13 +18,8 @@ static int64_t own_rows(const kz_basin_plan *plan) {
   return (kz_unique_cells(plan) + plan->theta.count - 1) / plan->theta.count;
 }
 
-void kz_transients_make(const kz_basin_plan *plan, kz_transients *transients) {
-  const int64_t columns = plan->theta.count;
-  *transients = (kz_transients){.time = kz_malloc((size_t)(CELLS + 2 * columns) * sizeof *transients->time)};
-}
-
-void kz_transients_free(kz_transients *transients) {
-  free(transients->time);
+kz_transients kz_transients_make(const kz_basin_plan *plan) {
+  return (kz_transients){.time = kz_malloc((size_t)(CELLS + 2 * plan->theta.count) * sizeof(double))};
 }
 
 int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label, const uint32_t *periods,

@@ -1,6 +1,6 @@
-#include "measures.h"
-
 #include <math.h>
+
+#include "basin.h"
 
 /* One box: its settled cells, and how many of them each label has. */
 static void count_box(int64_t columns, const int16_t *label, kz_counts *counts) {

@@ -1,12 +1,9 @@
-#include "pairs.h"
-
+/* Pairs of starts beside each other: how many of them end differently, by their distance. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "labelling/labeller.h"
-#include "numerics/cells.h"
+#include "basin.h"
 
 enum {
   STARTS = 64, /* of a tile, each with a partner at every distance */
@@ -36,7 +33,6 @@ typedef struct {
 typedef struct {
   const pairing *pairing;
   point point[POINTS];
-  double plain[2 * POINTS];
   int32_t end[POINTS];
   int64_t periods[POINTS];
   kz_decision decision[POINTS];
@@ -120,17 +116,6 @@ static kz_status start_at(void *context, int64_t i, int32_t level, kz_start *sta
   return KZ_OK;
 }
 
-/* By integration in doubles alone. */
-static kz_status follow_plainly(const pairing *p, int64_t n, pair_tile *t) {
-  for (int64_t i = 0; i < n; i++) {
-    kz_start start;
-    KZ_TRY(start_at(t, i, KZ_LEVEL_DOUBLE, &start));
-    memcpy(t->plain + 2 * i, (double[]){start.theta[0], start.velocity[0]}, 2 * sizeof(double));
-  }
-  kz_follow_starts(p->dynamics, p->plan->max_periods, n, t->plain, t->end, t->periods);
-  return KZ_OK;
-}
-
 /* Labels in quad precision, whose error is ignored: it acts like a change of the start that is far below the smallest distance. Without
  * these labels, pairs that no level decides would be missed among the uncertain. */
 static kz_status follow_in_quads(const pairing *p, int64_t i, pair_tile *t) {
@@ -142,11 +127,11 @@ static kz_status follow_in_quads(const pairing *p, int64_t i, pair_tile *t) {
   return KZ_OK;
 }
 
-/* By the method's own labels: with their errors, or by integration. */
+/* By the method's own labels: with their errors, or by integration in doubles alone. */
 static kz_status follow(const pairing *p, int64_t n, pair_tile *t) {
   const kz_labeller labeller = {.dynamics = p->dynamics, .max_periods = p->plan->max_periods, .start = start_at, .context = t};
-  if (p->plan->method != KZ_METHOD_EXACT) return follow_plainly(p, n, t);
-  KZ_TRY(kz_label(&labeller, n, NULL, t->decision));
+  KZ_TRY(p->plan->method == KZ_METHOD_EXACT ? kz_label(&labeller, n, NULL, t->decision)
+                                            : kz_label_states(&labeller, KZ_FOLLOW_DIRECT, n, NULL, t->decision));
   for (int64_t i = 0; i < n; i++) {
     t->end[i] = t->decision[i].label;
     if (t->end[i] == KZ_DOUBTFUL) KZ_TRY(follow_in_quads(p, i, t));

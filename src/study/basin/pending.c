@@ -1,16 +1,19 @@
-/* Pending cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time, level by level. */
+/* Pending cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time, by the levels of method exact. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "label_parts.h"
+#include "label.h"
 
 enum { MOST_PENDING = 1 << 20 }; /* cells that a rank lists at a time; more than a tile has */
 
-static int64_t tile_size(const kz_window_labels *l) {
-  const int64_t most = kz_level_tile(l->level);
-  return l->batch < most ? l->batch : most;
-}
+const kz_level_stage kz_level_stages[KZ_LEVELS + 1] = {
+    [KZ_LEVEL_DOUBLE] = {"cells", 4096, KZ_FOLLOWED},      [KZ_LEVEL_FINE] = {"fine", 4096, KZ_IN_FINE},
+    [KZ_LEVEL_PAIRS_16] = {"pairs 16", 4096, KZ_IN_PAIRS}, [KZ_LEVEL_PAIRS_20] = {"pairs 20", 2048, KZ_IN_PAIRS},
+    [KZ_LEVEL_PAIRS_24] = {"pairs 24", 2048, KZ_IN_PAIRS}, [KZ_LEVEL_PAIRS_28] = {"pairs 28", 1024, KZ_IN_PAIRS},
+    [KZ_LEVEL_QUAD] = {"quad", 256, KZ_IN_QUAD},           [KZ_LEVEL_ARBITRARY] = {"arbitrary", 1, KZ_IN_ARBITRARY},
+    [KZ_LEVELS] = {"candidates", 64, KZ_UNDECIDED},
+};
 
 kz_status kz_pending_count(kz_window_labels *l, int16_t wanted) {
   l->wanted = wanted;
@@ -45,34 +48,47 @@ kz_status kz_pending_pick(kz_window_labels *l, int64_t from, int64_t of, int64_t
   return kz_ranks_sum(l->run->ranks, cell, n);
 }
 
-static kz_status label_pending(void *context, int64_t tile, void *record) {
-  kz_window_labels *l = context;
-  const int64_t size = tile_size(l), first = tile * size, left = l->n_pending - first;
-  return kz_label_cells(l, 0, l->pending + first, left < size ? left : size, record);
-}
-
-/* The cells that a level is asked about, and their places among those that are labelled together. */
+/* Cells that a level is asked about, in a stage. */
 typedef struct {
-  int64_t n, *cell, *place;
+  const kz_window_labels *labels;
+  int32_t level, before; /* the level; that at which they were doubtful */
+  int64_t tile;          /* cells of a tile */
+  int64_t n, *cell;      /* [n] */
 } asked;
 
-/* Labels cells at one level: the labels go to `found`, and the cells that the level leaves doubtful stay. */
-static kz_status ask_level(kz_window_labels *l, int round, asked *a, kz_cell_label *found) {
-  const int64_t size = tile_size(l);
+/* The first level by the method's own numerics; KZ_LEVELS: the candidates of what no level decides. */
+static kz_status ask_tile(void *context, int64_t tile, void *record) {
+  const asked *a = context;
+  const kz_labeller *labeller = &a->labels->labeller;
+  const int64_t first = tile * a->tile, n = a->n - first < a->tile ? a->n - first : a->tile, *cell = a->cell + first;
+  kz_cell_label *out = record;
+  if (a->level == KZ_LEVEL_DOUBLE) return kz_label_cells(a->labels, n, cell, out);
+  KZ_TRY(kz_ranks_interrupted(a->labels->run->ranks));
+  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
+  const kz_status status = a->level == KZ_LEVELS ? kz_label_candidates(labeller, n, cell, decision)
+                                                 : kz_label_at(labeller, a->level, a->before, n, cell, decision);
+  for (int64_t i = 0; i < n && status == KZ_OK; i++)
+    out[i] = kz_cell_label_of(decision + i, kz_level_stages[a->level].evidence);
+  free(decision);
+  return status;
+}
+
+/* Labels the cells at one level: found [place] of each. The cells that the level leaves doubtful, and their places, move to the front. */
+static kz_status ask_level(asked *a, int round, int64_t *place, kz_cell_label *found) {
+  const kz_level_stage *row = &kz_level_stages[a->level];
   char name[32];
-  snprintf(name, sizeof name, "%s %d", kz_level_name(l->level), round);
-  l->pending = a->cell;
-  l->n_pending = a->n;
+  snprintf(name, sizeof name, "%s %d", row->name, round);
+  a->tile = a->labels->batch < row->tile ? a->labels->batch : row->tile;
   const kz_stage stage =
-      kz_stage_for_all(name, (a->n + size - 1) / size, (size_t)size * sizeof(kz_cell_label), label_pending, l);
+      kz_stage_for_all(name, (a->n + a->tile - 1) / a->tile, (size_t)a->tile * sizeof(kz_cell_label), ask_tile, a);
   kz_cell_label *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  const kz_status status = kz_stage_run(l->run, &stage, label);
+  const kz_status status = kz_stage_run(a->labels->run, &stage, label);
   int64_t left = 0;
   for (int64_t i = 0; i < a->n && status == KZ_OK; i++) {
-    found[a->place[i]] = label[i];
+    found[place[i]] = label[i];
     if (label[i].label != KZ_DOUBTFUL) continue;
     a->cell[left] = a->cell[i];
-    a->place[left++] = a->place[i];
+    place[left++] = place[i];
   }
   a->n = left;
   free(label);
@@ -80,45 +96,39 @@ static kz_status ask_level(kz_window_labels *l, int round, asked *a, kz_cell_lab
 }
 
 /* Labels n cells, from a level on, until each is decided or no level is left: found [n]. */
-static kz_status escalate(kz_window_labels *l, int level, int round, int64_t n, int64_t *cell, kz_cell_label *found) {
-  const kz_labeller labeller = kz_cells_labeller(l);
-  asked a = {n, cell, kz_malloc((size_t)n * sizeof *a.place + 1)};
+static kz_status escalate(const kz_window_labels *l, int level, int round, int64_t n, int64_t *cell, kz_cell_label *found) {
+  asked a = {.labels = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .cell = cell};
+  int64_t *place = kz_malloc((size_t)n * sizeof *place + 1);
   kz_status status = KZ_OK;
-  for (int64_t i = 0; i < n; i++) a.place[i] = i;
-  l->before_level = KZ_LEVEL_DOUBLE;
-  for (l->level = level; a.n > 0 && status == KZ_OK;) {
-    status = ask_level(l, round, &a, found);
-    if (l->level == KZ_LEVELS) break;
-    l->before_level = l->level;
-    l->level = kz_level_after(&labeller, l->level, a.n);
+  for (int64_t i = 0; i < n; i++) place[i] = i;
+  while (a.n > 0 && status == KZ_OK) {
+    status = ask_level(&a, round, place, found);
+    if (a.level == KZ_LEVELS) break;
+    a.before = a.level;
+    a.level = kz_level_after(&l->labeller, a.level, a.n);
   }
-  l->level = l->before_level = KZ_LEVEL_DOUBLE;
-  l->pending = NULL;
-  free(a.place);
+  free(place);
   return status;
 }
 
 /* The new labels of the listed cells, of which the first is pending cell `from`, replace those of a tile of this rank. */
-static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t from, int64_t n, const kz_cell_label *found,
-                       void *record) {
+static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t from, int64_t n, const kz_cell_label *found) {
   int64_t number = l->before[packed->tile] - from;
   const int64_t end = l->before[packed->tile + 1] - from;
   if (number < 0 || number == end || end > n) return KZ_OK;
   KZ_TRY(kz_tile_labels_unpack(l, packed));
   for (int64_t k = 0; number < end; k++)
     if (l->cell[k].label == l->wanted) l->cell[k] = found[number++];
-  return kz_tile_labels_replace(l, packed, record);
+  return kz_tile_labels_replace(l, packed);
 }
 
 /* The n pending cells from `from` on, which are those of whole tiles. */
 static kz_status label_tiles(kz_window_labels *l, int level, int round, int64_t from, int64_t n, int64_t *cell) {
   KZ_TRY(kz_pending_pick(l, from, n, n, cell));
   kz_cell_label *found = kz_malloc((size_t)n * sizeof *found);
-  void *record = kz_malloc(kz_tile_labels_bytes(l));
   kz_status status = escalate(l, level, round, n, cell, found);
-  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found, record);
+  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found);
   free(found);
-  free(record);
   return kz_ranks_agree(l->run->ranks, status);
 }
 

@@ -1,13 +1,10 @@
 /* The share of a window that ends on the same attractor whatever the phase of release: every cell is labelled at phases of the drive that
  * are spread evenly over a period. Attractors and trapping regions are the same at all of them. A tile is some cells at one phase. */
-#include "phases.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "labelling/labeller.h"
-#include "numerics/cells.h"
+#include "basin.h"
 
 enum { BLOCK = 16384, FEW = 1024 };
 

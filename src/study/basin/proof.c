@@ -1,12 +1,10 @@
 /* The region of a proof. First the ellipses of all attractors; then rounds in which every open cell of a grid is followed into the region of
  * the round before: the result does not depend on who follows which. */
-#include "proof.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "numerics/cells.h"
+#include "basin.h"
 
 enum { COLUMNS = 250, MOST_ROWS = 8000 };
 static const double ROWS = 116;       /* a rad per drive radian */

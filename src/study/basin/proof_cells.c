@@ -1,13 +1,21 @@
-/* Labels that are proved: the start of each cell is followed into the region, in doubles and, where its set grows too large, in pairs of
- * doubles and at last in quad precision. Tiles are taken some at a time, so that what all ranks know of them stays small. */
+/* Labels that are proved: starts are followed into the region, in doubles and, where their sets grow too large, in pairs of doubles and at
+ * last in quad precision. The starts are the cells - of some tiles at a time, so that what all ranks know of them stays small - and random
+ * real starts of the window, which tell what share of its area may end elsewhere than on attractors that are proved. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "label_parts.h"
-#include "proof.h"
+#include "basin.h"
+#include "numerics/share.h"
 
-enum { MOST_CELLS = 1 << 22 }; /* of tiles that are taken together */
+enum {
+  MOST_CELLS = 1 << 22, /* of tiles that are taken together */
+  MOST_STARTS = 50000,  /* random ones */
+  TILE = 4096,          /* of them */
+  SAMPLE = 16384,       /* cells that are timed */
+  FULL = 256,           /* starts; fewer take as long, since lanes are idle then */
+  PERIODS = 2000        /* for which starts are followed at least, whatever basin.max_periods is */
+};
 
 /* What takes the cells that a coarser precision leaves. */
 typedef struct {
@@ -15,11 +23,12 @@ typedef struct {
   int32_t precision;
   int64_t tile; /* cells that it takes at a time */
   uint8_t evidence;
-} finer_stage;
-static const finer_stage finer_ones[] = {{"proof in pairs", KZ_ENCLOSE_PAIRS, 1024, KZ_PROVED_IN_PAIRS},
-                                         {"proof in quads", KZ_ENCLOSE_QUADS, 32, KZ_PROVED_IN_QUADS}};
+} proof_level;
+static const proof_level proof_levels[] = {{"proof in doubles", KZ_ENCLOSE_DOUBLES, 8192, KZ_PROVED},
+                                           {"proof in pairs", KZ_ENCLOSE_PAIRS, 1024, KZ_PROVED_IN_PAIRS},
+                                           {"proof in quads", KZ_ENCLOSE_QUADS, 32, KZ_PROVED_IN_QUADS}};
 
-/* Tiles from .. to - 1, and the stage that works on them. */
+/* Tiles from .. to - 1, and the level that works on them. */
 typedef struct {
   const kz_window_labels *labelling;
   const kz_proof *proof;
@@ -27,20 +36,20 @@ typedef struct {
   int64_t from, to, first, n; /* tiles; first cell, cells */
   uint64_t *wanted;           /* [n] bits */
   uint8_t *number, *evidence; /* [n] */
-  const finer_stage *finer;   /* of the present stage */
-  int64_t n_left, *left;      /* cells that coarser precisions leave */
+  const proof_level *level;   /* of the present stage */
+  int64_t n_left, *left;      /* cells that it takes */
 } part;
 
-static bool is_wanted(const part *p, int64_t i) {
-  return p->wanted[i / 64] >> (i % 64) & 1;
-}
-
-kz_proof_start kz_proof_cell_start(const kz_basin_plan *plan, int64_t cell) {
+static kz_proof_start start_of_cell(const kz_basin_plan *plan, int64_t cell) {
   kz_proof_start start;
   const double theta = kz_axis_place(&plan->theta, cell % plan->theta.count, start.theta);
   const double velocity = kz_axis_place(&plan->velocity, cell / plan->theta.count, start.velocity);
   start.radius = fmax(theta, velocity);
   return start;
+}
+
+static int64_t periods_of(const kz_basin_plan *plan) {
+  return plan->max_periods > PERIODS ? plan->max_periods : PERIODS;
 }
 
 /* Each rank knows the labels of its own tiles: all then know which cells are wanted. */
@@ -59,72 +68,30 @@ static kz_status find_wanted(kz_window_labels *l, part *p) {
   return KZ_OK;
 }
 
-/* Follows n wanted cells; number [n]. */
-static void follow(const part *p, int32_t precision, int64_t n, const int64_t *cell, uint8_t *number) {
-  kz_proof_start *start = kz_malloc((size_t)n * sizeof *start + 1);
-  for (int64_t i = 0; i < n; i++) start[i] = kz_proof_cell_start(p->labelling->plan, cell[i]);
-  kz_proof_follow(p->proof, precision, n, start, kz_proof_periods(p->labelling->plan), number);
-  free(start);
-}
-
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const part *p = context;
-  const kz_tiles *tiles = &p->labelling->tiles;
-  const int64_t first = kz_tile_first(tiles, p->from + tile), n = kz_tile_own(tiles, p->from + tile);
-  int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1), count = 0;
-  uint8_t *number = kz_malloc((size_t)n + 1), *out = record;
-  for (int64_t i = 0; i < n; i++)
-    if (is_wanted(p, first - p->first + i)) cell[count++] = first + i;
-  follow(p, KZ_ENCLOSE_DOUBLES, count, cell, number);
-  for (int64_t i = 0; i < count; i++) out[cell[i] - first] = number[i];
-  free(cell);
-  free(number);
+  const kz_basin_plan *plan = p->labelling->plan;
+  const int64_t most = p->level->tile, first = tile * most, n = p->n_left - first < most ? p->n_left - first : most;
+  kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
+  for (int64_t i = 0; i < n; i++) start[i] = start_of_cell(plan, p->left[first + i]);
+  kz_proof_follow(p->proof, p->level->precision, n, start, periods_of(plan), record);
+  free(start);
   return KZ_OK;
 }
 
-static kz_status follow_left(void *context, int64_t tile, void *record) {
-  const part *p = context;
-  const int64_t most = p->finer->tile, first = tile * most, n = p->n_left - first < most ? p->n_left - first : most;
-  follow(p, p->finer->precision, n, p->left + first, record);
-  return KZ_OK;
-}
-
-static void take(part *p, int64_t i, uint8_t number, uint8_t evidence) {
-  if (number == 0 || number == KZ_PROOF_LATE) return;
-  p->number[i] = number;
-  p->evidence[i] = evidence;
-}
-
-/* All tiles of the part in doubles; a record has the place of whole tiles. */
-static kz_status prove_in_doubles(const kz_run *run, part *p) {
-  const kz_tiles *tiles = &p->labelling->tiles;
-  const size_t capacity = (size_t)kz_tile_capacity(tiles);
-  const kz_stage stage = kz_stage_for_all("proof in doubles", p->to - p->from, capacity, follow_tile, p);
-  uint8_t *record = kz_malloc((size_t)stage.n_tiles * capacity);
-  const kz_status status = kz_stage_run(run, &stage, record);
-  p->n_left = 0;
-  for (int64_t tile = p->from; status == KZ_OK && tile < p->to; tile++) {
-    const uint8_t *of = record + (size_t)(tile - p->from) * capacity;
-    const int64_t before = kz_tile_first(tiles, tile) - p->first;
-    for (int64_t k = 0; k < kz_tile_own(tiles, tile); k++) {
-      take(p, before + k, of[k], KZ_PROVED);
-      if (of[k] == 0 && is_wanted(p, before + k)) p->left[p->n_left++] = p->first + before + k;
-    }
-  }
-  free(record);
-  return status;
-}
-
-static kz_status prove_left(const kz_run *run, const finer_stage *finer, part *p) {
+/* Follows the cells that are left at one level; the others have their labels then. */
+static kz_status prove_left(const kz_run *run, const proof_level *level, part *p) {
+  p->level = level;
   const kz_stage stage =
-      kz_stage_for_all(finer->stage, (p->n_left + finer->tile - 1) / finer->tile, (size_t)finer->tile, follow_left, p);
-  p->finer = finer;
+      kz_stage_for_all(level->stage, (p->n_left + level->tile - 1) / level->tile, (size_t)level->tile, follow_tile, p);
   uint8_t *record = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   const kz_status status = kz_stage_run(run, &stage, record);
   int64_t n_left = 0;
   for (int64_t i = 0; status == KZ_OK && i < p->n_left; i++) {
-    take(p, p->left[i] - p->first, record[i], finer->evidence);
     if (record[i] == 0) p->left[n_left++] = p->left[i];
+    if (record[i] == 0 || record[i] == KZ_PROOF_LATE) continue;
+    p->number[p->left[i] - p->first] = record[i];
+    p->evidence[p->left[i] - p->first] = level->evidence;
   }
   p->n_left = n_left;
   free(record);
@@ -132,7 +99,7 @@ static kz_status prove_left(const kz_run *run, const finer_stage *finer, part *p
 }
 
 /* Into the tiles of this rank. */
-static kz_status keep(kz_window_labels *l, const part *p, void *record) {
+static kz_status keep(kz_window_labels *l, const part *p) {
   for (int64_t i = 0; i < l->records.n; i++) {
     kz_local_record *packed = &l->records.list[i];
     if (packed->tile < p->from || packed->tile >= p->to) continue;
@@ -142,7 +109,7 @@ static kz_status keep(kz_window_labels *l, const part *p, void *record) {
       l->cell[k].proof = p->evidence[before + k];
       l->cell[k].proved = p->number[before + k];
     }
-    KZ_TRY(kz_tile_labels_replace(l, packed, record));
+    KZ_TRY(kz_tile_labels_replace(l, packed));
   }
   return KZ_OK;
 }
@@ -153,12 +120,11 @@ static kz_status prove_part(kz_window_labels *l, part *p) {
   memset(p->evidence, 0, (size_t)p->n);
   KZ_TRY(kz_ranks_agree(run->ranks, find_wanted(l, p)));
   KZ_TRY(kz_ranks_sum(run->ranks, (int64_t *)p->wanted, p->n / 64 + 1));
-  KZ_TRY(prove_in_doubles(run, p));
-  for (size_t i = 0; i < sizeof finer_ones / sizeof *finer_ones; i++) KZ_TRY(prove_left(run, &finer_ones[i], p));
-  void *record = kz_malloc(kz_tile_labels_bytes(l));
-  const kz_status status = keep(l, p, record);
-  free(record);
-  return kz_ranks_agree(run->ranks, status);
+  p->n_left = 0;
+  for (int64_t i = 0; i < p->n; i++)
+    if (p->wanted[i / 64] >> (i % 64) & 1) p->left[p->n_left++] = p->first + i;
+  for (size_t i = 0; i < sizeof proof_levels / sizeof *proof_levels; i++) KZ_TRY(prove_left(run, &proof_levels[i], p));
+  return kz_ranks_agree(run->ranks, keep(l, p));
 }
 
 /* Follows the starts of all cells into the region, in kept stages, and sets the fields `proof` and `proved` of the cells. Cells whose label
@@ -187,11 +153,118 @@ static kz_status prove_cells(kz_window_labels *l, const kz_proof *proof, const k
   return status;
 }
 
+/* ---- random real starts ---- */
+
+typedef struct {
+  const kz_basin_plan *plan;
+  const kz_proof *proof;
+  int64_t starts;
+} job;
+
+/* A number that looks random (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453), its first 53 bits. */
+static uint64_t random_bits(uint64_t index) {
+  uint64_t x = index * 0x9e3779b97f4a7c15;
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
+  x = (x ^ x >> 27) * 0x94d049bb133111eb;
+  return (x ^ x >> 31) >> 11;
+}
+
+/* Start i: drawn to 106 binary digits; a square around it holds the rest of them. */
+static kz_proof_start random_start(const kz_basin_plan *plan, int64_t i) {
+  kz_proof_start start = {.radius = 0};
+  uint64_t bits[4];
+  for (int b = 0; b < 4; b++) bits[b] = random_bits(((uint64_t)plan->seed << 32) + 4 * (uint64_t)i + (uint64_t)b + 1);
+  const double theta = kz_axis_random(&plan->theta, bits, start.theta);
+  const double velocity = kz_axis_random(&plan->velocity, bits + 2, start.velocity);
+  start.radius = theta > velocity ? theta : velocity;
+  return start;
+}
+
+static int64_t random_starts(const kz_basin_plan *plan) {
+  const int64_t cells = plan->theta.count * plan->velocity.count;
+  return cells < MOST_STARTS ? cells : MOST_STARTS;
+}
+
+/* Follows *n starts; those that the precision leaves come to the front, *n of them. Returns how many are late. */
+static int64_t follow(const kz_basin_plan *plan, const kz_proof *proof, int32_t precision, int64_t *n, kz_proof_start *start) {
+  uint8_t *number = kz_malloc((size_t)*n + 1);
+  int64_t left = 0, late = 0;
+  kz_proof_follow(proof, precision, *n, start, periods_of(plan), number);
+  for (int64_t i = 0; i < *n; i++) {
+    late += number[i] == KZ_PROOF_LATE;
+    if (number[i] == 0) start[left++] = start[i];
+  }
+  *n = left;
+  free(number);
+  return late;
+}
+
+/* Record: how many of the tile's starts are not proved. */
+static kz_status follow_random(void *context, int64_t tile, void *record) {
+  const job *j = context;
+  const int64_t first = tile * TILE;
+  int64_t n = j->starts - first < TILE ? j->starts - first : TILE, late = 0;
+  kz_proof_start *start = kz_malloc(TILE * sizeof *start);
+  for (int64_t i = 0; i < n; i++) start[i] = random_start(j->plan, first + i);
+  for (int32_t precision = KZ_ENCLOSE_DOUBLES; precision <= KZ_ENCLOSE_PAIRS; precision++)
+    late += follow(j->plan, j->proof, precision, &n, start);
+  *(int64_t *)record = n + late;
+  free(start);
+  return KZ_OK;
+}
+
+static kz_status prove_sample(const kz_run *run, const kz_basin_plan *plan, const kz_proof *proof, kz_proof_sample *sample) {
+  job j = {.plan = plan, .proof = proof, .starts = random_starts(plan)};
+  const kz_stage stage =
+      kz_stage_for_all("proof of real starts", (j.starts + TILE - 1) / TILE, sizeof(int64_t), follow_random, &j);
+  int64_t *record = kz_calloc((size_t)stage.n_tiles, sizeof *record);
+  const kz_status status = kz_stage_run(run, &stage, record);
+  *sample = (kz_proof_sample){.starts = j.starts};
+  for (int64_t tile = 0; tile < stage.n_tiles; tile++) sample->unproved += record[tile];
+  sample->high = kz_share_upper(sample->unproved, sample->starts, KZ_PROOF_CONFIDENCE);
+  free(record);
+  return status;
+}
+
 kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample) {
   kz_proved proved = {.any = false};
   *sample = (kz_proof_sample){.high = 1};
   KZ_TRY(kz_prove_regions(labelling->run, labelling->dynamics, proof, &proved));
   if (!proved.any) return KZ_OK;
   KZ_TRY(prove_cells(labelling, proof, &proved));
-  return kz_prove_sample(labelling->run, labelling->plan, proof, sample);
+  return prove_sample(labelling->run, labelling->plan, proof, sample);
+}
+
+/* ---- the cost: the region is made, and some cells are followed ---- */
+
+/* Seconds of all cells, and of the random real starts, which are not followed in quads. */
+static double starts_seconds(const kz_basin_plan *plan, const kz_proof *proof) {
+  const int64_t own = kz_unique_cells(plan), taken = own < SAMPLE ? own : SAMPLE;
+  kz_proof_start *start = kz_malloc((size_t)taken * sizeof *start + 1);
+  double seconds = 0;
+  int64_t n = taken;
+  for (int64_t i = 0; i < taken; i++) start[i] = start_of_cell(plan, kz_shuffled(i, own, plan->seed));
+  for (int32_t precision = 0; precision < KZ_ENCLOSURES && n > 0; precision++) {
+    const double all = (double)own + (precision < KZ_ENCLOSE_QUADS ? (double)random_starts(plan) : 0);
+    const double starts = all * (double)n / (double)taken, followed = (double)(n < FULL ? FULL : n);
+    const double begin = kz_processor_clock();
+    follow(plan, proof, precision, &n, start);
+    seconds += (kz_processor_clock() - begin) * starts / followed;
+  }
+  free(start);
+  return seconds;
+}
+
+kz_status kz_proof_measure(const kz_scene *scene, const kz_dynamics *dynamics, double *seconds) {
+  const kz_run alone = {NULL, NULL};
+  kz_proved proved = {.any = false};
+  kz_proof *proof;
+  KZ_TRY(kz_proof_plan(scene, &proof));
+  if (!proof) return KZ_OK;
+  const double begin = kz_processor_clock();
+  const kz_status status = kz_prove_regions(&alone, dynamics, proof, &proved);
+  *seconds += kz_processor_clock() - begin;
+  if (proved.any) *seconds += starts_seconds(&scene->basin, proof);
+  kz_proof_free(proof);
+  return status;
 }

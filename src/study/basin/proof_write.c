@@ -1,7 +1,8 @@
-#include "proof_write.h"
-
+/* Writes the results of a proof to the file and the summary. */
 #include <math.h>
 #include <stdlib.h>
+
+#include "basin.h"
 
 /* Columns of the attractors. */
 typedef struct {

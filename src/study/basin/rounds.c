@@ -2,9 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "labelling/labeller.h"
 #include "numerics/step_check.h"
-#include "label_parts.h"
+#include "label.h"
 #include "window/reference.h"
 
 enum {
@@ -14,11 +13,11 @@ enum {
 
 /* The states of n cells where labels begin to follow them. */
 static kz_status states_of(const kz_window_labels *l, int64_t n, const int64_t *cell, double *state) {
-  const kz_labeller labeller = kz_cells_labeller(l);
   kz_start start[RELEASED];
   for (int64_t done = 0; done < n; done += RELEASED) {
     const int64_t part = n - done < RELEASED ? n - done : RELEASED;
-    for (int64_t i = 0; i < part; i++) KZ_TRY(labeller.start(labeller.context, cell[done + i], KZ_LEVEL_DOUBLE, start + i));
+    for (int64_t i = 0; i < part; i++)
+      KZ_TRY(l->labeller.start(l->labeller.context, cell[done + i], KZ_LEVEL_DOUBLE, start + i));
     kz_released_states(l->dynamics, part, start, state + 2 * done);
   }
   return KZ_OK;
@@ -47,8 +46,12 @@ static kz_status rounds_discover(kz_window_labels *l, bool again) {
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
   kz_window_labels *l = context;
-  KZ_TRY(kz_label_cells(l, kz_tile_first(&l->tiles, tile), NULL, kz_tile_own(&l->tiles, tile), l->cell));
-  return kz_tile_labels_pack(l, tile, record);
+  const int64_t first = kz_tile_first(&l->tiles, tile), n = kz_tile_own(&l->tiles, tile);
+  int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
+  for (int64_t i = 0; i < n; i++) cell[i] = first + i;
+  const kz_status status = kz_label_cells(l, n, cell, l->cell);
+  free(cell);
+  return status == KZ_OK ? kz_tile_labels_pack(l, tile, record) : status;
 }
 
 static kz_status label_tiles(kz_window_labels *l) {
@@ -75,7 +78,7 @@ static kz_status make_starts(kz_window_labels *l) {
     l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
     KZ_TRY(kz_images_run(l->run, l->dynamics, l->images, plan->max_periods));
   }
-  kz_window_starts_make(plan, l->pendulum, l->dynamics, l->images, &l->starts);
+  kz_window_labels_start(l);
   return KZ_OK;
 }
 
@@ -100,16 +103,21 @@ static kz_status run_rounds(kz_window_labels *l) {
 
 static void rounds_allocate(kz_window_labels *l) {
   const size_t capacity = (size_t)kz_tile_capacity(&l->tiles);
-  l->work = kz_workspace_make();
   l->cell = kz_calloc(capacity + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
   l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
 }
 
-/* The starts' counts are the same on every rank, those of tiles each rank's own. */
+/* The starts' counts are the same on every rank, those of cells each rank's own. */
 static kz_status sum_reached(kz_window_labels *l) {
   for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
-  for (int64_t i = 0; i < l->records.n; i++) kz_tile_labels_note_reached(l, &l->records.list[i]);
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) {
+    status = kz_tile_labels_unpack(l, &l->records.list[i]);
+    for (int64_t k = 0; k < kz_tile_own(&l->tiles, l->records.list[i].tile); k++)
+      if (l->cell[k].label > 0) l->reached[l->cell[k].label]++;
+  }
+  KZ_TRY(kz_ranks_agree(l->run->ranks, status));
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);
 }
 
@@ -123,7 +131,6 @@ void kz_window_labels_free(kz_window_labels *l) {
   kz_local_records_free(&l->records);
   kz_window_starts_free(&l->starts);
   kz_images_free(l->images);
-  free(l->work);
   free(l->cell);
   free(l->before);
   free(l->reached);

@@ -1,6 +1,4 @@
-#include "tiles.h"
-
-#include "numerics/cells.h"
+#include "label.h"
 
 enum { MOST_CELLS = 1 << 19 }; /* of a tile: few MB */
 

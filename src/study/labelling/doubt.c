@@ -1,71 +1,87 @@
 #include "doubt.h"
 
+#include <stdlib.h>
+
+#include "labeller.h"
 #include "numerics/cells.h"
 
-enum { SAMPLE = 7300, TILE = KZ_DOUBT_TILE }; /* cells; the sample tells 5 % to +-0.5 points */
+enum { SAMPLE = 7300, TILE = 256 }; /* cells; the sample tells 5 % to +-0.5 points */
 
 static const double MANY = 0.05; /* share of doubtful labels that is warned of */
 
+/* What the tiles of the stage need: cell i of the sample is one of the kz_unique_cells, by the window, its cells and the seed alone. */
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
-} sample;
+} job;
 
-int64_t kz_doubt_cell(const kz_basin_plan *plan, int64_t i) {
+static int64_t cell_of(const kz_basin_plan *plan, int64_t i) {
   return kz_shuffled(i, kz_unique_cells(plan), plan->seed);
 }
 
-int64_t kz_doubt_cells(const kz_basin_plan *plan) {
+/* Cells of the sample; 0 for all methods but icm, which consider all cells. */
+static int64_t sample_size(const kz_basin_plan *plan) {
   const int64_t own = plan->method == KZ_METHOD_ICM ? kz_unique_cells(plan) : 0;
   return own < SAMPLE ? own : SAMPLE;
 }
 
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
-  const sample *s = context;
+  const job *j = context;
   int32_t *label = record;
   kz_start start[TILE];
   kz_decision decision[TILE];
-  const int64_t first = tile * TILE, left = kz_doubt_cells(s->plan) - first, n = left < TILE ? left : TILE;
+  const int64_t first = tile * TILE, left = sample_size(j->plan) - first, n = left < TILE ? left : TILE;
   for (int64_t i = 0; i < n; i++) {
     double centre[2];
-    kz_cell_start(s->plan, kz_doubt_cell(s->plan, first + i), centre);
-    start[i] = (kz_start){.theta = {centre[0]}, .velocity = {centre[1]}};
+    kz_cell_start(j->plan, cell_of(j->plan, first + i), centre);
+    start[i] = kz_start_at(centre[0], centre[1]);
   }
-  kz_dynamics_label(s->dynamics, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, n, start, s->plan->max_periods, decision);
+  kz_dynamics_label(j->dynamics, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, n, start, j->plan->max_periods, decision);
   for (int64_t i = 0; i < n; i++) label[i] = decision[i].label;
   return KZ_OK;
 }
 
-kz_doubt kz_doubt_count(const kz_basin_plan *plan, const int32_t *followed, const int64_t *label) {
-  const int64_t n = kz_doubt_cells(plan), of = kz_unique_cells(plan);
-  int64_t doubtful = 0, differing = 0;
-  for (int64_t i = 0; i < n; i++) {
-    if (followed[i] == KZ_DOUBTFUL)
+kz_doubt kz_doubt_of(const kz_basin_plan *plan, const kz_doubt_sample *sample, int64_t doubtful) {
+  const int64_t all = kz_unique_cells(plan);
+  int64_t differing = 0;
+  if (plan->method != KZ_METHOD_ICM)
+    return (kz_doubt){all, kz_share_of_part(doubtful, all, all), kz_share_of_part(0, all, all)};
+  doubtful = 0;
+  for (int64_t i = 0; i < sample->n; i++) {
+    if (sample->followed[i] == KZ_DOUBTFUL)
       doubtful++;
     else
-      differing += followed[i] != label[i];
+      differing += sample->followed[i] != sample->label[i];
   }
-  return (kz_doubt){n, kz_share_of_part(doubtful, n, of), kz_share_of_part(differing, n, of)};
+  return (kz_doubt){sample->n, kz_share_of_part(doubtful, sample->n, all), kz_share_of_part(differing, sample->n, all)};
 }
 
-static kz_stage stage_of(sample *s) {
-  return kz_stage_for_rank0("doubt", (kz_doubt_cells(s->plan) + TILE - 1) / TILE, TILE * sizeof(int32_t), follow_tile, s);
+static kz_stage stage_of(job *j) {
+  return kz_stage_for_rank0("doubt", (sample_size(j->plan) + TILE - 1) / TILE, TILE * sizeof(int32_t), follow_tile, j);
 }
 
 kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds) {
-  sample s = {.plan = plan, .dynamics = dynamics};
-  const kz_stage stage = stage_of(&s);
+  job j = {plan, dynamics};
+  const kz_stage stage = stage_of(&j);
   return kz_stage_measure(&stage, 4, 0.2, seconds);
 }
 
-kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, int32_t *followed) {
-  sample s = {.plan = plan, .dynamics = dynamics};
-  const kz_stage stage = stage_of(&s);
-  return kz_stage_run(run, &stage, followed);
+kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, kz_doubt_sample *sample) {
+  job j = {plan, dynamics};
+  const kz_stage stage = stage_of(&j);
+  const int64_t n = sample->n = sample_size(plan);
+  if (n == 0) return KZ_OK;
+  sample->cell = kz_malloc((size_t)n * sizeof *sample->cell);
+  sample->label = kz_calloc((size_t)n, sizeof *sample->label);
+  sample->followed = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
+  for (int64_t i = 0; i < n; i++) sample->cell[i] = cell_of(plan, i);
+  return kz_stage_run(run, &stage, sample->followed);
 }
 
-kz_doubt kz_doubt_of_all(int64_t doubtful, int64_t n) {
-  return (kz_doubt){n, kz_share_of_part(doubtful, n, n), kz_share_of_part(0, n, n)};
+void kz_doubt_free(kz_doubt_sample *sample) {
+  free(sample->cell);
+  free(sample->label);
+  free(sample->followed);
 }
 
 static void tell(const kz_doubt *doubt, int32_t method, FILE *summary) {

@@ -49,7 +49,7 @@ static kz_status resilience_tile(void *context, int64_t tile, void *record) {
                                     .farthest = s->plan->farthest};
   *out = *point;
   kz_shocks_find(&problem, out->shock);
-  for (int64_t i = 0; i < s->plan->n_sizes; i++) kz_shocks_harmless(&problem, s->plan->size[i], out->harmless + i);
+  for (int64_t i = 0; i < s->plan->sizes.count; i++) kz_shocks_harmless(&problem, s->plan->sizes.values[i], out->harmless + i);
   return KZ_OK;
 }
 

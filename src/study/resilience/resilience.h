@@ -42,8 +42,7 @@ void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmles
 /* The settings of a search, the same for all points. */
 typedef struct {
   double scale, farthest; /* as in kz_shock_problem */
-  int64_t n_sizes;
-  double size[KZ_MOST_SHOCK_SIZES];
+  kz_reals sizes;         /* of harmless shocks; KZ_MOST_SHOCK_SIZES at most */
   int64_t max_periods;
 } kz_resilience_plan;
 

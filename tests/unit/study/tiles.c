@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "basin/measures.h"
+#include "basin/basin.h"
 
 static kz_scene scene_of(int64_t theta, int64_t velocity, double min, int64_t max_periods) {
   kz_scene scene = {.numerics = {.steps_per_period = 24}};

@@ -1,7 +1,8 @@
-/* The file's group /shocks, and its part of the summary. */
+/* The smallest shocks that leave the basins: the file's group /shocks, and its part of the summary. */
 #include <math.h>
+#include <stdlib.h>
 
-#include "shocks_write.h"
+#include "basin.h"
 
 enum { KINDS = 3 };
 
@@ -28,7 +29,7 @@ static kz_status write_points(const kz_catalogue *catalogue, int64_t n, const kz
 }
 
 static kz_status write_harmless(const kz_resilience_plan *plan, int64_t n, const kz_resilience *p, kz_store *store) {
-  const int64_t sizes = plan->n_sizes, all = n * sizes;
+  const int64_t sizes = plan->sizes.count, all = n * sizes;
 #define HARMLESS(name, expression) KZ_COLUMN(store, "shocks", name, all, double, expression)
   HARMLESS("harmless", (double)p[i / sizes].harmless[i % sizes].harmless / (double)p[i / sizes].harmless[i % sizes].shocks);
   HARMLESS("return_time", p[i / sizes].harmless[i % sizes].return_time);
@@ -52,10 +53,10 @@ static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64
   fprintf(summary, "\n");
 }
 
-kz_status kz_shocks_write(const kz_resilience_plan *plan, const kz_catalogue *catalogue, int64_t n, const kz_resilience *point,
-                          kz_store *store, FILE *summary) {
+static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue *catalogue, int64_t n,
+                              const kz_resilience *point, kz_store *store, FILE *summary) {
   KZ_TRY(kz_store_dimension(store, "shocks", "point", n, NULL));
-  KZ_TRY(kz_store_dimension(store, "shocks", "size", plan->n_sizes, plan->size));
+  KZ_TRY(kz_store_dimension(store, "shocks", "size", plan->sizes.count, plan->sizes.values));
   KZ_TRY(kz_store_real(store, "shocks", "scale", plan->scale));
   KZ_TRY(write_points(catalogue, n, point, store));
   KZ_TRY(write_harmless(plan, n, point, store));
@@ -66,4 +67,37 @@ kz_status kz_shocks_write(const kz_resilience_plan *plan, const kz_catalogue *ca
   for (int64_t i = 0; i < n; i++)
     if (point[i].phase == 0) print_attractor(catalogue, point[i].number, n, point, summary);
   return KZ_OK;
+}
+
+/* For all strobe points. */
+static kz_resilience_plan plan_of(const kz_basin_plan *plan) {
+  return (kz_resilience_plan){.scale = plan->shocks.scale,
+                              .farthest = 2 * kz_axis_fastest(&plan->velocity),
+                              .sizes = plan->shocks.sizes,
+                              .max_periods = plan->max_periods};
+}
+
+kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
+                             kz_store *store, FILE *summary) {
+  const kz_resilience_plan asked = plan_of(&scene->basin);
+  int64_t n;
+  if (!scene->basin.has_shocks) return KZ_OK;
+  kz_resilience *point = kz_resilience_list(labelling->dynamics, catalogue, &n);
+  kz_status status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
+  if (status == KZ_OK && store) status = write_shocks(&asked, catalogue, n, point, store, summary);
+  free(point);
+  return kz_ranks_agree(labelling->run->ranks, status);
+}
+
+/* The shocks of one strobe point, as many times as there are points that are not mirror images of others. */
+kz_status kz_shocks_measure(const kz_scene *scene, kz_dynamics *dynamics, const kz_catalogue *catalogue, double *seconds) {
+  const kz_resilience_plan plan = plan_of(&scene->basin);
+  int64_t n, own;
+  if (!scene->basin.has_shocks) return KZ_OK;
+  kz_resilience *point = kz_resilience_list(dynamics, catalogue, &n);
+  const double start = kz_processor_clock();
+  const kz_status status = kz_resilience_try(dynamics, &plan, n, point, &own);
+  *seconds += (kz_processor_clock() - start) * (double)own;
+  free(point);
+  return status;
 }
