@@ -1,9 +1,9 @@
 !> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics.h).
 module kz_api_follow
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_associated, c_f_pointer, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: states_to_physical
   use kz_lanes_map, only: map_t
-  use kz_api_handle, only: dynamics_t, of_handle
+  use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_labels_label, only: follow
   use kz_labels_smooth, only: smooth_times
   use kz_maps_map_table, only: table_map_t, make_table_map
@@ -71,7 +71,7 @@ contains
     integer(c_int32_t), value :: n_steps
     integer(c_int64_t), value :: n, max_periods
     real(dp), intent(in) :: start(2, n)
-    type(c_ptr), value :: low
+    real(dp), intent(in), optional :: low(2, n)
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
     type(dynamics_t), pointer :: d
@@ -80,20 +80,10 @@ contains
 
     d => of_handle(handle)
     allocate (map, state(2, n))
-    call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low=matrix_of(low, n))
+    call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low)
     state(2, :) = start(2, :)
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)
   end subroutine follow_reference
-
-  !> An array (2, n) of C. NULL is a disassociated pointer, which is absent as an optional argument.
-  function matrix_of(array, n) result(matrix)
-    type(c_ptr), intent(in) :: array
-    integer(c_int64_t), intent(in) :: n
-    real(dp), pointer :: matrix(:, :)
-
-    matrix => null()
-    if (c_associated(array)) call c_f_pointer(array, matrix, [2_c_int64_t, n])
-  end function matrix_of
 
 end module kz_api_follow

@@ -9,7 +9,6 @@ module kz_plane_ends
   use kz_plane_recurrence, only: past_t, make_past
   implicit none
   private
-  public :: motion_t, ending_t, find_ends
 
   !> Periods after a cycle that does not attract before the next one is tried.
   integer, parameter :: PAUSE = 32
@@ -42,12 +41,31 @@ module kz_plane_ends
 
 contains
 
-  !> Follows all motions. It takes them from the end of the list, which is empty afterwards.
+  !> kz_chart_ends of dynamics.h.
+  subroutine chart_ends(n_steps, n, pendulum, start, max_period, max_periods, endings) bind(C, name='kz_chart_ends')
+    integer(c_int32_t), value :: n_steps
+    integer(c_int64_t), value :: n
+    type(pendulum_t), intent(in) :: pendulum(n)
+    real(dp), intent(in) :: start(2)
+    integer(c_int32_t), value :: max_period
+    integer(c_int64_t), intent(in) :: max_periods(n)
+    type(ending_t), intent(out) :: endings(n)
+    type(motion_t), allocatable :: motions(:)
+    integer :: i
+
+    allocate (motions(n))
+    do i = 1, int(n)
+      motions(i) = motion_t(id=i, longest=max_periods(i), pendulum=pendulum(i), u=start(1), v=start(2))
+    end do
+    motions = pack(motions, max_periods > 0)
+    call find_ends(int(n_steps), int(max_period), motions, endings)
+  end subroutine chart_ends
+
+  !> Follows all motions, each of which has the place of its end. Those that wait to be gone on with take the places of the list that are free.
   subroutine find_ends(n_steps, max_period, motions, endings)
-    integer, intent(in) :: n_steps !< steps of split6 in a drive period
-    integer, intent(in) :: max_period !< longest period of a cycle
-    type(motion_t), allocatable, intent(inout) :: motions(:) !< the motions, each with the place of its end
-    type(ending_t), intent(inout) :: endings(:) !< their ends
+    integer, intent(in) :: n_steps, max_period
+    type(motion_t), intent(inout) :: motions(:)
+    type(ending_t), intent(inout) :: endings(:)
     type(mixed_batch_t) :: batch
     type(past_t) :: past
     type(motion_t) :: lane(WIDTH)
@@ -72,8 +90,6 @@ contains
       if (size(near) >= WIDTH .or. (n == 0 .and. size(near) > 0)) call settle(n_steps, near, motions, n_waiting, endings)
     end do
     call classify(n_steps, tired, endings)
-    deallocate (motions)
-    allocate (motions(0))
   end subroutine find_ends
 
   subroutine load(batch, lane, motion)

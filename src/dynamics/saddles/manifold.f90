@@ -1,13 +1,14 @@
 !> The unstable manifold of a saddle of a map, grown by arcs: images of a short piece along the eigenvector, with as many points as
 !> its bends need. (D. Hobson, J. Comput. Phys. 104 (1993) 14, has the measures of distance and angle.)
 module kz_saddles_manifold
-  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_cycles_newton, only: newton, n_periods, eigenvalues
   use kz_maps_states, only: angle_difference, separation
+  use kz_model_pendulum, only: pendulum_t
   implicit none
   private
-  public :: grow_manifold
 
   !> rad: the manifold leaves its tangent by the square of the distance from the saddle, so that nearer points lie on it to rounding. The first
   !> arc ends there.
@@ -18,6 +19,13 @@ module kz_saddles_manifold
   real(dp), parameter :: NEAREST = 1e-11_dp
   !> Points of the first arc; drive periods after which a branch ends that stays short.
   integer, parameter :: FIRST_POINTS = 33, MOST_PERIODS = 1000
+
+  !> kz_branch of dynamics.h.
+  type, bind(C) :: branch_t
+    real(dp) :: theta, velocity
+    integer(c_int32_t) :: period, stable, side
+    real(dp) :: spacing, length, fastest
+  end type branch_t
 
   !> The saddle, and what the beginning of the first arc becomes beside it: after j periods the point x(:, j) + t(:, j). Starts of any nearness to
   !> the saddle are so known without the periods that they spend beside it.
@@ -38,18 +46,41 @@ module kz_saddles_manifold
 
 contains
 
-  !> Computes one branch: points along it from the saddle on, until its length is `length`, or the list is full, or all of it is too
-  !> fast.
-  subroutine grow_manifold(flow, beta, period, x, side, spacing, length, fastest, n, point)
+  !> kz_manifold_grow of dynamics.h.
+  function grow(pendulum, branch, most, point) bind(C, name='kz_manifold_grow') result(n_points)
+    type(pendulum_t), intent(in) :: pendulum
+    type(branch_t), intent(in) :: branch
+    integer(c_int64_t), value :: most
+    real(dp), intent(out) :: point(4, most)
+    integer(c_int64_t) :: n_points
+    class(flow_t), allocatable :: flow
+    type(pendulum_t) :: turned
+    real(dp) :: sign
+    integer :: n
+
+    turned = pendulum
+    sign = 1
+    if (branch%stable == 1) then ! time runs backwards: (theta, -v) obeys the equation with -beta
+      turned%beta = -pendulum%beta
+      turned%vertical(2, :) = -pendulum%vertical(2, :)
+      turned%horizontal(2, :) = -pendulum%horizontal(2, :)
+      sign = -1
+    end if
+    call make_flow(turned, fine_numerics(turned), .true., flow)
+    call grow_from(flow, turned%beta, [branch%theta/PI, sign*branch%velocity], branch, n, point)
+    n_points = n
+    point(1, :n) = PI*point(1, :n) + 0.0_dp
+    where (point(1, :n) >= PI) point(1, :n) = -PI
+    point(2, :n) = sign*point(2, :n) + 0.0_dp
+  end function grow
+
+  !> Points along the branch from the saddle on, until it is long enough, or the list is full, or all of it is too fast.
+  subroutine grow_from(flow, beta, x, branch, n, point)
     class(flow_t), intent(inout) :: flow !< the map of one drive period, or its inverse, in physical coordinates
     real(dp), intent(in) :: beta !< damping of the map, < 0 for an inverse one
-    integer, intent(in) :: period !< of the saddle, drive periods
     real(dp), intent(in) :: x(2) !< the saddle: half-turns, velocity
-    integer, intent(in) :: side !< 1 or -1: along the eigenvector or against it
-    real(dp), intent(in) :: spacing !< farthest that neighbours may be apart, rad
-    real(dp), intent(in) :: length !< of the branch below the largest speed, rad
-    real(dp), intent(in) :: fastest !< parts at larger speeds are left out
-    integer, intent(out) :: n !< number of points
+    type(branch_t), intent(in) :: branch
+    integer, intent(out) :: n
     real(dp), intent(out) :: point(:, :) !< half-turns, velocity, arc length, number of the unbroken part
     real(dp) :: extent, before
     type(cycle_t) :: saddle
@@ -57,7 +88,7 @@ contains
     integer :: periods, i
     logical :: resolved
 
-    call make_cycle(flow, beta, period, x, side, saddle)
+    call make_cycle(flow, beta, int(branch%period), x, int(branch%side), saddle)
     allocate (arc%place(FIRST_POINTS))
     arc%place = [((i - 1)/real(FIRST_POINTS - 1, dp), i=1, FIRST_POINTS)]
     extent = 0
@@ -65,15 +96,15 @@ contains
     point(:, 1) = [x, 0.0_dp, 0.0_dp]
     do periods = 0, MOST_PERIODS, saddle%q
       call place_arc(flow, periods, saddle, arc)
-      call refine(flow, periods, saddle, spacing, fastest, length - point(3, n), size(point, 2), arc)
-      if (all(abs(arc%x(2, :)) > fastest)) return
+      call refine(flow, periods, saddle, branch, branch%length - point(3, n), size(point, 2), arc)
+      if (all(abs(arc%x(2, :)) > branch%fastest)) return
       before = extent
       extent = PI*(maxval(arc%x(1, :)) - minval(arc%x(1, :))) + maxval(arc%x(2, :)) - minval(arc%x(2, :))
-      if (extent < min(before, SHORTEST*spacing)) return ! it shrinks onto an attractor
-      call append(arc, fastest, length, 2*spacing, n, point, resolved)
-      if (n == size(point, 2) .or. point(3, n) >= length .or. .not. resolved) return
+      if (extent < min(before, SHORTEST*branch%spacing)) return ! it shrinks onto an attractor
+      call append(arc, branch, n, point, resolved)
+      if (n == size(point, 2) .or. point(3, n) >= branch%length .or. .not. resolved) return
     end do
-  end subroutine grow_manifold
+  end subroutine grow_from
 
   !> The orbit of a saddle, each of its points by Newton's method, and what a first step along the unstable direction becomes.
   subroutine make_cycle(flow, beta, period, x, side, saddle)
@@ -201,11 +232,12 @@ contains
 
   !> Halves the pieces of the arc until none is too long or bends too much, or there are `most` points. Pieces behind the length that is left
   !> to go stay as they are.
-  subroutine refine(flow, periods, saddle, spacing, fastest, left, most, arc)
+  subroutine refine(flow, periods, saddle, branch, left, most, arc)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: periods
     type(cycle_t), intent(in) :: saddle
-    real(dp), intent(in) :: spacing, fastest, left
+    type(branch_t), intent(in) :: branch
+    real(dp), intent(in) :: left
     integer, intent(in) :: most
     type(arc_t), intent(inout) :: arc
     type(arc_t) :: more
@@ -213,7 +245,7 @@ contains
     integer :: i
 
     do
-      allocate (halve, source=to_halve(arc, spacing, fastest, left))
+      allocate (halve, source=to_halve(arc, branch, left))
       if (.not. any(halve) .or. size(arc%place) + count(halve) > most) return
       more%place = pack([(0.5_dp*(arc%place(i) + arc%place(i + 1)), i=1, size(halve))], halve)
       call place_arc(flow, periods, saddle, more)
@@ -224,9 +256,10 @@ contains
 
   !> The pieces that are too long, or bend too much against a neighbour. Pieces outside the largest speed, and those behind the length that is
   !> left to go, never do.
-  pure function to_halve(arc, spacing, fastest, left) result(halve)
+  pure function to_halve(arc, branch, left) result(halve)
     type(arc_t), intent(in) :: arc
-    real(dp), intent(in) :: spacing, fastest, left
+    type(branch_t), intent(in) :: branch
+    real(dp), intent(in) :: left
     logical :: halve(size(arc%place) - 1)
     real(dp) :: piece(2, size(arc%place) - 1), long(size(arc%place) - 1), turn
     integer :: i, n
@@ -235,19 +268,19 @@ contains
     piece = arc%x(:, 2:) - arc%x(:, :n)
     piece(1, :) = PI*piece(1, :)
     long = norm2(piece, dim=1)
-    halve = long > spacing
+    halve = long > branch%spacing
     do i = 1, n - 1
       turn = abs(atan2(piece(1, i)*piece(2, i + 1) - piece(2, i)*piece(1, i + 1), dot_product(piece(:, i), piece(:, i + 1))))
       if (turn < BEND) cycle
-      halve(i:i + 1) = halve(i:i + 1) .or. long(i:i + 1) > SHORTEST*spacing
+      halve(i:i + 1) = halve(i:i + 1) .or. long(i:i + 1) > SHORTEST*branch%spacing
     end do
-    halve = halve .and. min(abs(arc%x(2, :n)), abs(arc%x(2, 2:))) < fastest
+    halve = halve .and. min(abs(arc%x(2, :n)), abs(arc%x(2, 2:))) < branch%fastest
     halve = halve .and. arc%place(2:) - arc%place(:n) > NEAREST
-    where (max(abs(arc%x(2, :n)), abs(arc%x(2, 2:))) > fastest) long = 0 ! not counted
+    where (max(abs(arc%x(2, :n)), abs(arc%x(2, 2:))) > branch%fastest) long = 0 ! not counted
     do i = 2, n
       long(i) = long(i) + long(i - 1)
     end do
-    halve(2:) = halve(2:) .and. long(:n - 1) < left + spacing
+    halve(2:) = halve(2:) .and. long(:n - 1) < left + branch%spacing
   end function to_halve
 
   !> The points of `more` between those of `arc`, each in the middle of a piece that was halved.
@@ -277,9 +310,9 @@ contains
 
   !> The points of the arc below the largest speed, but for its first, which ended the arc before. Neighbours that are too far apart end
   !> the branch: doubles do not tell what lies between them.
-  subroutine append(arc, fastest, length, farthest, n, point, resolved)
+  subroutine append(arc, branch, n, point, resolved)
     type(arc_t), intent(in) :: arc
-    real(dp), intent(in) :: fastest, length, farthest
+    type(branch_t), intent(in) :: branch
     integer, intent(inout) :: n
     real(dp), intent(inout) :: point(:, :)
     logical, intent(out) :: resolved
@@ -290,13 +323,13 @@ contains
     part = point(4, n)
     resolved = .true.
     do i = 2, size(arc%place)
-      if (abs(arc%x(2, i)) > fastest) cycle
-      if (n == size(point, 2) .or. arc_length >= length) return
-      if (abs(arc%x(2, i - 1)) > fastest) then
+      if (abs(arc%x(2, i)) > branch%fastest) cycle
+      if (n == size(point, 2) .or. arc_length >= branch%length) return
+      if (abs(arc%x(2, i - 1)) > branch%fastest) then
         part = part + 1
       else
         step = separation(arc%x(1, i), arc%x(2, i), point(1, n), point(2, n))
-        resolved = step <= farthest
+        resolved = step <= 2*branch%spacing
         if (.not. resolved) return
         arc_length = arc_length + step
       end if
