@@ -27,7 +27,6 @@ module kz_api_dynamics
   !> What a handle points at.
   type :: dynamics_t
     type(search_t) :: search
-    type(numerics_t) :: numerics       !< of the scene
     class(flow_t), allocatable :: flow !< the scene's map
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
@@ -67,7 +66,8 @@ contains
     type(numerics_t) :: fine
 
     allocate (d)
-    d%numerics = numerics
+    d%levels%pendulum = pendulum
+    d%levels%numerics = numerics
     if (moving) then
       call make_moving_flow(pendulum, numerics, d%flow)
     else

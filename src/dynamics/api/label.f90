@@ -100,7 +100,7 @@ contains
     real(dp) :: handover
     integer :: now, next, i
 
-    call prepare_level(d%levels, LEVEL_DOUBLE, d%search%pendulum, d%numerics, d%flow, d%regions%top)
+    call prepare_level(d%levels, LEVEL_DOUBLE, d%flow, d%regions%top)
     now = max(level, LEVEL_DOUBLE)
     if (.not. is_useful(d%levels, now)) then
       ending%label = DOUBTFUL
@@ -110,9 +110,9 @@ contains
       next = merge(before, now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
       handover = huge(handover)
-      call prepare_level(d%levels, now, d%search%pendulum, d%numerics, d%flow, d%regions%top)
+      call prepare_level(d%levels, now, d%flow, d%regions%top)
       if (now > LEVEL_DOUBLE) then
-        call prepare_level(d%levels, next, d%search%pendulum, d%numerics, d%flow, d%regions%top)
+        call prepare_level(d%levels, next, d%flow, d%regions%top)
         handover = RATIO*noise_of(d%levels, next)
       end if
       call carrier_of(d%levels, now, d%flow, carrier)

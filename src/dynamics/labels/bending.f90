@@ -31,7 +31,7 @@ contains
       start(:, :, i) = rim_of(p(lane(i), :))
     end do
     by = start
-    call carrier%displace(lane, u, v, by)
+    call carrier%flow%displace(lane, u, v, by)
     do i = 1, size(lane)
       bent(lane(i)) = bending(carrier%tangent(lane(i), :), start(:, :, i), by(:, :, i))/SAFETY
     end do

@@ -1,14 +1,19 @@
-!> What carries orbits and all that their errors need through a period: the scene's map alone, or more precision beside it. Then the tangent
-!> map is still that of the scene's map, which is enough for an error. Regions see the states in the coordinates of that map.
+!> What carries orbits and all that their errors need through a period: the scene's map alone, or more precision beside it (double precision
+!> with more steps, pairs of doubles, quad precision). Then the tangent map is still that of the scene's map, which is enough for an error.
+!> Regions see the states in the coordinates of that map.
 module kz_labels_carrier
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_labels_inner, only: inner_t
+  use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
+  use kz_extended_taylor, only: drive_t, advance_period, doubles_of, qp, PI_QUAD
   use kz_labels_period_error, only: period_error_t, class_of, noise_at
   use kz_labels_spread, only: add_ellipse
   use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
   private
   public :: orbit_t, carrier_t, make_carrier
+
+  !> What carries the orbits.
+  integer, parameter, public :: BY_MAP = 0, BY_FINE_MAP = 1, BY_PAIRS = 2, BY_SERIES = 3
 
   !> An orbit at the end of a period.
   type :: orbit_t
@@ -21,17 +26,24 @@ module kz_labels_carrier
 
   type :: carrier_t
     !> states as regions see them: half-turns, rad per drive radian
-    real(dp) :: u(CAPACITY) = 0
-    real(dp) :: v(CAPACITY) = 0
+    real(dp) :: u(CAPACITY) = 0, v(CAPACITY) = 0
     !> of the last period: derivatives of the angle by angle and velocity, of the velocity by both
     real(dp) :: tangent(WIDTH, 4) = 0
-    !> what steps and rounding added in it, rad
-    real(dp) :: noise(WIDTH) = 0
-    !> how far the states may be from where regions see them, rad
-    real(dp) :: region_error(CAPACITY) = 0
-    class(flow_t), allocatable, private :: flow   !< the scene's map; between periods its lanes hold what regions see
-    type(period_error_t), private :: error        !< of that map
-    class(inner_t), allocatable, private :: inner !< more precision; not allocated: the map carries the orbits itself
+    real(dp) :: noise(WIDTH) = 0           !< what steps and rounding added in it, rad
+    real(dp) :: region_error(CAPACITY) = 0 !< how far the states may be from where regions see them, rad
+    class(flow_t), allocatable :: flow     !< the scene's map; between periods its lanes hold what regions see
+    type(period_error_t) :: error          !< of that map
+    integer :: means = BY_MAP              !< what carries the orbits
+    !> BY_FINE_MAP: with more steps; what takes its states to physical coordinates; its error
+    class(flow_t), allocatable :: fine, shown
+    type(period_error_t) :: fine_error
+    !> BY_PAIRS: tables; states in physical coordinates
+    type(pairs_t), pointer :: pairs => null()
+    real(dp), private :: pair_u(CAPACITY, 2) = 0, pair_v(CAPACITY, 2) = 0
+    !> BY_SERIES: Taylor series in quad precision; their error in a period, relative to hypot(pi, v); states: rad, rad per drive radian
+    type(drive_t), pointer :: drive => null()
+    real(dp) :: drive_error = 0
+    real(qp), private :: theta(CAPACITY) = 0, velocity(CAPACITY) = 0
   contains
     !> Puts an orbit into a lane; its error grows by what that costs.
     procedure :: put
@@ -42,88 +54,149 @@ module kz_labels_carrier
     procedure :: move
     !> One period of the lanes 1 .. n.
     procedure :: advance
-    !> How neighbours of some of them have moved in it: displace of flow_t.
-    procedure :: displace
   end type carrier_t
 
 contains
 
-  !> Carries orbits by the scene's map, or in the precision of `inner`.
-  subroutine make_carrier(flow, error, inner, carrier)
+  !> Carries orbits by the scene's map.
+  subroutine make_carrier(flow, error, carrier)
     class(flow_t), intent(in) :: flow !< the map of one drive period
     type(period_error_t), intent(in) :: error !< its errors
-    class(inner_t), allocatable, intent(inout) :: inner !< it is taken over; not allocated: by the map
     type(carrier_t), intent(out) :: carrier !< the carrier
 
     allocate (carrier%flow, source=flow)
     carrier%error = error
-    if (allocated(inner)) call move_alloc(inner, carrier%inner)
   end subroutine make_carrier
 
-  !> The map leaves out what the state has below the last place of its doubles.
+  !> A map leaves out what the state has below the last place of its doubles.
   subroutine put(self, lane, orbit)
     class(carrier_t), intent(inout) :: self
     integer, intent(in) :: lane
     type(orbit_t), intent(inout) :: orbit
     real(dp) :: noise
 
-    if (allocated(self%inner)) then
-      call self%inner%put(lane, orbit%u, orbit%v)
-      noise = self%inner%noise(orbit%v(1))
-    else
+    noise = noise_of(self, orbit%v(1))
+    select case (self%means)
+    case (BY_MAP)
       call self%flow%put(lane, orbit%u(1), orbit%v(1))
-      noise = self%error%noise(class_of(self%error, orbit%v(1))) + PI*abs(orbit%u(2)) + abs(orbit%v(2))
-    end if
+      noise = noise + PI*abs(orbit%u(2)) + abs(orbit%v(2))
+    case (BY_FINE_MAP)
+      call self%fine%put(lane, orbit%u(1), orbit%v(1))
+    case (BY_PAIRS)
+      self%pair_u(lane, :) = orbit%u(:2)
+      self%pair_v(lane, :) = orbit%v
+    case (BY_SERIES)
+      self%theta(lane) = PI_QUAD*(orbit%u(1) + quad_of(orbit%u(2:)))
+      self%velocity(lane) = quad_of(orbit%v)
+    end select
     call add_ellipse(orbit%lost + noise, orbit%p)
   end subroutine put
+
+  !> What a period adds to the error of a state of speed v, rad.
+  pure function noise_of(self, v) result(noise)
+    class(carrier_t), intent(in) :: self
+    real(dp), intent(in) :: v
+    real(dp) :: noise
+
+    select case (self%means)
+    case (BY_FINE_MAP)
+      noise = self%fine_error%noise(class_of(self%fine_error, v))
+    case (BY_PAIRS)
+      noise = max(self%pairs%error, 1e-31_dp*hypot(PI, v))
+      if (abs(v) > self%pairs%fastest) noise = max(noise, self%pairs%series_error*hypot(PI, v))
+    case (BY_SERIES)
+      noise = self%drive_error*hypot(PI, v)
+    case default
+      noise = self%error%noise(class_of(self%error, v))
+    end select
+  end function noise_of
 
   subroutine take(self, lane, orbit)
     class(carrier_t), intent(inout) :: self
     integer, intent(in) :: lane
     type(orbit_t), intent(inout) :: orbit
 
-    if (allocated(self%inner)) then
-      call self%inner%take(lane, orbit%u, orbit%v)
-    else
+    select case (self%means)
+    case (BY_MAP)
       orbit%u = [self%u(lane), 0.0_dp, 0.0_dp]
       orbit%v = [self%v(lane), 0.0_dp]
-    end if
+    case (BY_FINE_MAP)
+      call show_fine(self, lane, lane)
+      orbit%u = [self%shown%u(lane), 0.0_dp, 0.0_dp]
+      orbit%v = [self%shown%v(lane), 0.0_dp]
+    case (BY_PAIRS)
+      orbit%u = [self%pair_u(lane, :), 0.0_dp]
+      orbit%v = self%pair_v(lane, :)
+    case (BY_SERIES)
+      orbit%u = doubles_of(self%theta(lane)/PI_QUAD, 3)
+      orbit%v = pair_of(self%velocity(lane))
+    end select
   end subroutine take
+
+  !> The physical states of lanes first .. n of the map with more steps.
+  subroutine show_fine(self, first, n)
+    class(carrier_t), intent(inout) :: self
+    integer, intent(in) :: first, n
+    integer :: lane
+
+    do lane = first, n
+      call self%shown%put(lane, self%fine%u(lane), self%fine%v(lane))
+    end do
+    call self%shown%to_physical(n, first=first)
+  end subroutine show_fine
 
   subroutine to_map(self, first, n)
     class(carrier_t), intent(inout) :: self
     integer, intent(in) :: first, n
 
-    if (allocated(self%inner)) then
-      call self%inner%to_map(first, n)
-      call show(self, first, n)
-    else
-      call self%flow%to_map(n, first=first)
-    end if
-    self%u(first:n) = self%flow%u(first:n)
-    self%v(first:n) = self%flow%v(first:n)
+    if (self%means == BY_FINE_MAP) call self%fine%to_map(n, first=first)
+    if (self%means /= BY_MAP) call put_shown(self, first, n)
+    call self%flow%to_map(n, first=first)
+    call show(self, first, n)
   end subroutine to_map
 
-  !> Puts lanes first .. n, at most WIDTH, of the inner states into the map.
+  !> Puts the physical states of lanes first .. n, at most WIDTH, into the map.
+  subroutine put_shown(self, first, n)
+    class(carrier_t), intent(inout) :: self
+    integer, intent(in) :: first, n
+    type(orbit_t) :: orbit
+    integer :: lane
+
+    if (self%means == BY_FINE_MAP) call show_fine(self, first, n)
+    do lane = first, n
+      if (self%means == BY_FINE_MAP) then
+        call self%flow%put(lane, self%shown%u(lane), self%shown%v(lane))
+      else
+        call self%take(lane, orbit)
+        call self%flow%put(lane, orbit%u(1), orbit%v(1))
+      end if
+      self%region_error(lane) = self%error%noise(class_of(self%error, self%flow%v(lane)))
+    end do
+  end subroutine put_shown
+
+  !> The states of the map are what regions see.
   subroutine show(self, first, n)
     class(carrier_t), intent(inout) :: self
     integer, intent(in) :: first, n
-    real(dp) :: u(CAPACITY), v(CAPACITY)
-    integer :: lane
 
-    call self%inner%show(first, n, u, v)
-    do lane = first, n
-      call self%flow%put(lane, u(lane), v(lane))
-      self%region_error(lane) = self%error%noise(class_of(self%error, v(lane)))
-    end do
-    call self%flow%to_map(n, first=first)
+    self%u(first:n) = self%flow%u(first:n)
+    self%v(first:n) = self%flow%v(first:n)
   end subroutine show
 
   subroutine move(self, from, to)
     class(carrier_t), intent(inout) :: self
     integer, intent(in) :: from, to
 
-    if (allocated(self%inner)) call self%inner%move(from, to)
+    select case (self%means)
+    case (BY_FINE_MAP)
+      call self%fine%move(from, to)
+    case (BY_PAIRS)
+      self%pair_u(to, :) = self%pair_u(from, :)
+      self%pair_v(to, :) = self%pair_v(from, :)
+    case (BY_SERIES)
+      self%theta(to) = self%theta(from)
+      self%velocity(to) = self%velocity(from)
+    end select
     call self%flow%move(from, to)
     self%u(to) = self%u(from)
     self%v(to) = self%v(from)
@@ -135,29 +208,41 @@ contains
     integer, intent(in) :: n
     integer :: lane
 
-    if (allocated(self%inner)) then
-      do lane = 1, n
-        self%noise(lane) = self%inner%noise(self%v(lane))
-      end do
-    else
+    if (self%means == BY_MAP) then
       call noise_at(self%error, n, self%v(:n), self%noise)
+    else
+      do lane = 1, n
+        self%noise(lane) = noise_of(self, self%v(lane))
+      end do
     end if
     call self%flow%advance_linear(n, self%tangent)
-    if (allocated(self%inner)) then
-      call self%inner%advance(n)
-      call show(self, 1, n)
+    if (self%means /= BY_MAP) then
+      call advance_precisely(self, n)
+      call put_shown(self, 1, n)
+      call self%flow%to_map(n)
     end if
-    self%u(:n) = self%flow%u(:n)
-    self%v(:n) = self%flow%v(:n)
+    call show(self, 1, n)
   end subroutine advance
 
-  subroutine displace(self, lane, u, v, by)
+  subroutine advance_precisely(self, n)
     class(carrier_t), intent(inout) :: self
-    integer, intent(in) :: lane(:)
-    real(dp), intent(in) :: u(:), v(:)
-    real(dp), intent(inout) :: by(:, :, :)
+    integer, intent(in) :: n
+    type(pair_lanes_t) :: lanes
+    integer(c_int64_t) :: turns(WIDTH)
 
-    call self%flow%displace(lane, u, v, by)
-  end subroutine displace
+    turns = 0
+    select case (self%means)
+    case (BY_FINE_MAP)
+      call self%fine%advance(n)
+    case (BY_PAIRS)
+      lanes%u = self%pair_u(:WIDTH, :)
+      lanes%v = self%pair_v(:WIDTH, :)
+      call advance_pairs(self%pairs, n, lanes, turns)
+      self%pair_u(:n, :) = lanes%u(:n, :)
+      self%pair_v(:n, :) = lanes%v(:n, :)
+    case (BY_SERIES)
+      call advance_period(self%drive, self%theta(:n), self%velocity(:n), turns(:n))
+    end select
+  end subroutine advance_precisely
 
 end module kz_labels_carrier

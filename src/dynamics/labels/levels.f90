@@ -6,8 +6,7 @@ module kz_labels_levels
   use kz_extended_probes, only: measure_quad
   use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   use kz_kernel_flows, only: make_flow
-  use kz_labels_carrier, only: carrier_t, make_carrier
-  use kz_labels_inner, only: inner_t, inner_fine_t, inner_pairs_t, inner_quad_t
+  use kz_labels_carrier, only: carrier_t, make_carrier, BY_FINE_MAP, BY_PAIRS, BY_SERIES
   use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
   use kz_lanes_map, only: flow_t
   use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
@@ -30,6 +29,8 @@ module kz_labels_levels
   real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 3e-29_dp]
 
   type :: levels_t
+    type(pendulum_t) :: pendulum
+    type(numerics_t) :: numerics                !< of the scene
     type(speed_probes_t), allocatable :: probes
     type(period_error_t) :: error               !< of the scene's map
     class(flow_t), allocatable :: fine          !< double precision with more steps
@@ -43,11 +44,9 @@ module kz_labels_levels
 contains
 
   !> Makes what a level needs and has not yet.
-  subroutine prepare_level(levels, level, pendulum, numerics, flow, fastest)
+  subroutine prepare_level(levels, level, flow, fastest)
     type(levels_t), intent(inout) :: levels !< of a pendulum
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(numerics_t), intent(in) :: numerics !< of the scene
     class(flow_t), intent(in) :: flow !< the scene's map
     real(dp), intent(in) :: fastest !< speeds that occur, rad per drive radian
     logical :: halting(size(ieee_usual))
@@ -56,18 +55,18 @@ contains
     call ieee_set_halting_mode(ieee_usual, .false.)
     if (.not. allocated(levels%probes)) then
       allocate (levels%probes)
-      call make_speed_probes(pendulum, fastest, levels%probes)
+      call make_speed_probes(levels%pendulum, fastest, levels%probes)
       call measure_period(flow, levels%probes, levels%error)
     end if
     select case (level)
     case (LEVEL_FINE)
-      if (.not. allocated(levels%fine)) call make_fine(levels, pendulum, numerics, fastest)
+      if (.not. allocated(levels%fine)) call make_fine(levels, fastest)
     case (LEVEL_PAIRS_16:LEVEL_PAIRS_28)
-      if (.not. allocated(levels%pairs(level)%level)) call make_table(levels, level, pendulum, numerics, fastest)
+      if (.not. allocated(levels%pairs(level)%level)) call make_table(levels, level, fastest)
     case (LEVEL_QUAD)
       if (.not. allocated(levels%drive)) then
         allocate (levels%drive)
-        call make_drive(levels%drive, pendulum, TAYLOR_STEPS)
+        call make_drive(levels%drive, levels%pendulum, TAYLOR_STEPS)
         levels%quad_error = measure_quad(levels%drive, fastest)
       end if
     end select
@@ -78,20 +77,18 @@ contains
   !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, which are made first where this process has not met
   !> them yet: what a rank has done before must not change a label. The steps of the coarsest are expected from the scene's, which have
   !> fewer terms than would show their order, and a quarter more.
-  recursive subroutine make_table(levels, level, pendulum, numerics, fastest)
+  recursive subroutine make_table(levels, level, fastest)
     type(levels_t), intent(inout) :: levels
     integer, intent(in) :: level
-    type(pendulum_t), intent(in) :: pendulum
-    type(numerics_t), intent(in) :: numerics
     real(dp), intent(in) :: fastest
     real(dp) :: error
     integer :: steps
 
     steps = 0
     error = levels%error%worst
-    if (numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = ceiling(1.25_dp*numerics%steps_per_period)
+    if (levels%numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = ceiling(1.25_dp*levels%numerics%steps_per_period)
     if (level > LEVEL_PAIRS_16) then
-      if (.not. allocated(levels%pairs(level - 1)%level)) call make_table(levels, level - 1, pendulum, numerics, fastest)
+      if (.not. allocated(levels%pairs(level - 1)%level)) call make_table(levels, level - 1, fastest)
       associate (coarser => levels%pairs(level - 1))
         if (size(coarser%level) > 0) then
           steps = coarser%level(1)%n_steps
@@ -99,25 +96,23 @@ contains
         end if
       end associate
     end if
-    call make_pairs(pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, error)
+    call make_pairs(levels%pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, error)
   end subroutine make_table
 
   !> The processed splitting, or split6 where that does not serve, with so many steps that hardly more than rounding is left.
-  subroutine make_fine(levels, pendulum, numerics, fastest)
+  subroutine make_fine(levels, fastest)
     type(levels_t), intent(inout) :: levels
-    type(pendulum_t), intent(in) :: pendulum
-    type(numerics_t), intent(in) :: numerics
     real(dp), intent(in) :: fastest
     type(numerics_t) :: fine
     logical :: is_served
     integer :: n
 
-    is_served = pendulum%beta <= MOST_DAMPING
+    is_served = levels%pendulum%beta <= MOST_DAMPING
     n = FEWEST_FINE_STEPS
-    if (numerics%scheme == PROCESSED_ROW) n = max(n, 2*int(0.82_dp*numerics%steps_per_period))
+    if (levels%numerics%scheme == PROCESSED_ROW) n = max(n, 2*int(0.82_dp*levels%numerics%steps_per_period))
     do
       fine = numerics_t(merge(PROCESSED_ROW, SPLIT6_ROW, is_served), n, fastest=fastest)
-      call make_flow(pendulum, fine, .true., levels%fine)
+      call make_flow(levels%pendulum, fine, .true., levels%fine)
       call measure_period(levels%fine, levels%probes, levels%fine_error)
       if (levels%fine_error%worst <= FINE_ERROR .or. n >= MOST_FINE_STEPS) return
       n = min(MOST_FINE_STEPS, 2*int(0.7_dp*n))
@@ -155,37 +150,22 @@ contains
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     class(flow_t), intent(in) :: flow !< the scene's map
     type(carrier_t), intent(out) :: carrier !< the carrier
-    class(inner_t), allocatable :: inner
 
-    if (level /= LEVEL_DOUBLE) call make_inner(levels, level, inner)
-    call make_carrier(flow, levels%error, inner, carrier)
-  end subroutine carrier_of
-
-  subroutine make_inner(levels, level, inner)
-    type(levels_t), target, intent(in) :: levels
-    integer, intent(in) :: level
-    class(inner_t), allocatable, intent(out) :: inner
-    type(inner_fine_t), allocatable :: fine
-    type(inner_pairs_t), allocatable :: pairs
-    type(inner_quad_t), allocatable :: quad
-
+    call make_carrier(flow, levels%error, carrier)
     select case (level)
     case (LEVEL_FINE)
-      allocate (fine)
-      allocate (fine%flow, source=levels%fine)
-      allocate (fine%shown, source=levels%fine)
-      fine%error = levels%fine_error
-      call move_alloc(fine, inner)
+      carrier%means = BY_FINE_MAP
+      allocate (carrier%fine, source=levels%fine)
+      allocate (carrier%shown, source=levels%fine)
+      carrier%fine_error = levels%fine_error
+    case (LEVEL_PAIRS_16:LEVEL_PAIRS_28)
+      carrier%means = BY_PAIRS
+      carrier%pairs => levels%pairs(level)
     case (LEVEL_QUAD)
-      allocate (quad)
-      quad%drive => levels%drive
-      quad%error = levels%quad_error
-      call move_alloc(quad, inner)
-    case default
-      allocate (pairs)
-      pairs%tables => levels%pairs(level)
-      call move_alloc(pairs, inner)
+      carrier%means = BY_SERIES
+      carrier%drive => levels%drive
+      carrier%drive_error = levels%quad_error
     end select
-  end subroutine make_inner
+  end subroutine carrier_of
 
 end module kz_labels_levels

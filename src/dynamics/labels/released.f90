@@ -5,8 +5,7 @@ module kz_labels_released
   use kz_extended_probes, only: measure_quad
   use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   use kz_kernel_flows, only: make_stretch_flow
-  use kz_labels_carrier, only: carrier_t, orbit_t, make_carrier
-  use kz_labels_inner, only: inner_t, inner_quad_t
+  use kz_labels_carrier, only: carrier_t, orbit_t, make_carrier, BY_SERIES
   use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
   use kz_labels_spread, only: spread_errors
   use kz_lanes_map, only: flow_t, WIDTH
@@ -74,22 +73,21 @@ contains
     logical, intent(in) :: precisely !< in quad precision, else in double precision
     type(orbit_t), intent(inout) :: orbit(:) !< [n] in and out
     type(stretch_t) :: stretch
-    type(drive_t), allocatable, target :: drive
+    type(drive_t), target :: drive
     class(flow_t), allocatable :: flow
-    class(inner_t), allocatable :: inner
     type(carrier_t) :: carrier
     integer :: first
 
     stretch = first_stretch(released%release)
     do while (is_open(stretch))
       call make_stretch_flow(pendulum, stretch, flow)
+      call make_carrier(flow, released%error, carrier)
       if (precisely) then
-        if (allocated(drive)) deallocate (drive)
-        allocate (drive)
         call make_drive(drive, pendulum, TAYLOR_STEPS, stretch)
-        call make_quad(drive, released%quad_error, inner)
+        carrier%means = BY_SERIES
+        carrier%drive => drive
+        carrier%drive_error = released%quad_error
       end if
-      call make_carrier(flow, released%error, inner, carrier)
       do first = 1, size(orbit), WIDTH
         call carry(carrier, orbit(first:min(size(orbit), first + WIDTH - 1)))
       end do
@@ -97,19 +95,6 @@ contains
     end do
     orbit%age = orbit%age + strobes_before(released%release)
   end subroutine carry_released
-
-  !> Orbits in quad precision by a drive.
-  subroutine make_quad(drive, error, inner)
-    type(drive_t), target, intent(in) :: drive
-    real(dp), intent(in) :: error
-    class(inner_t), allocatable, intent(out) :: inner
-    type(inner_quad_t), allocatable :: quad
-
-    allocate (quad)
-    quad%drive => drive
-    quad%error = error
-    call move_alloc(quad, inner)
-  end subroutine make_quad
 
   !> At most WIDTH orbits through the stretch of the carrier.
   subroutine carry(carrier, orbit)
