@@ -62,6 +62,12 @@ void *kz_realloc(void *old, size_t bytes);
 char *kz_strdup(const char *text);
 char *kz_strndup(const char *text, size_t length);
 
+/* Before the declaration of a local variable: what it points to, or, by a function of its own, what it holds is freed when the function
+ * returns, from whatever place. */
+#define KZ_FREED KZ_FREED_BY(kz_free_local)
+#define KZ_FREED_BY(release) __attribute__((cleanup(release)))
+void kz_free_local(void *variable);
+
 /* True if `bytes` bytes could be allocated now. Nothing is allocated. */
 bool kz_memory_is_there(size_t bytes);
 

@@ -72,14 +72,12 @@ kz_status kz_store_flags(kz_store *store, const char *group, const char *name, i
 kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data);
 
 /* Writes the variable GROUP/NAME of n values of a type; `expression` gives value i. If that fails, the calling function returns the status. */
-#define KZ_COLUMN(store, group, name, n, type, expression)                         \
-  do {                                                                             \
-    const int64_t column_n = (n);                                                  \
-    type *column = kz_calloc((size_t)column_n + 1, sizeof *column);                \
-    for (int64_t i = 0; i < column_n; i++) column[i] = (type)(expression);         \
-    const kz_status column_status = kz_store_variable(store, group, name, column); \
-    free(column);                                                                  \
-    KZ_TRY(column_status);                                                         \
+#define KZ_COLUMN(store, group, name, n, type, expression)                   \
+  do {                                                                       \
+    const int64_t column_n = (n);                                            \
+    KZ_FREED type *column = kz_calloc((size_t)column_n + 1, sizeof *column); \
+    for (int64_t i = 0; i < column_n; i++) column[i] = (type)(expression);   \
+    KZ_TRY(kz_store_variable(store, group, name, column));                   \
   } while (0)
 
 /* Read what an earlier study has written: the length of a dimension (0 if there is none), and the number of a variable at `index` [its

@@ -58,6 +58,12 @@ char *kz_strdup(const char *text) {
   return kz_strndup(text, strlen(text));
 }
 
+void kz_free_local(void *variable) {
+  void *memory;
+  memcpy(&memory, variable, sizeof memory);
+  free(memory);
+}
+
 bool kz_memory_is_there(size_t bytes) {
   void *volatile memory = __real_malloc(bytes);
   free(memory);

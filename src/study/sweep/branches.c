@@ -46,6 +46,11 @@ static void add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, i
                                                          .last_kind = KZ_END_NOT_LOCATED};
 }
 
+/* The value to which a walk leads. */
+static int64_t aim(const walking *w, const task *t) {
+  return w->branches->nodes[t->node].value + (t->forward ? 1 : -1);
+}
+
 static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const walking *w = context;
   const task *t = w->tasks + tile;
@@ -53,7 +58,7 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const kz_sweep_plan *plan = &w->scene->sweep;
   const kz_path path = kz_sweep_path(w->scene);
   outcome *out = record;
-  const double to = kz_sweep_value(plan, node->value + (t->forward ? 1 : -1));
+  const double to = kz_sweep_value(plan, aim(w, t));
   out->point = node->entry.point;
   out->last = kz_walk(&path, kz_sweep_value(plan, node->value), to, &out->point);
   out->arrived = out->last == to;
@@ -73,27 +78,21 @@ static int64_t find_node(const walking *w, int64_t value, const kz_branch_point 
 }
 
 static void set_end(kz_sweep_node *node, bool forward, double last, int32_t kind) {
-  if (forward) {
-    node->last = last;
-    node->last_kind = kind;
-  } else {
-    node->first = last;
-    node->first_kind = kind;
-  }
+  *(forward ? &node->last : &node->first) = last;
+  *(forward ? &node->last_kind : &node->first_kind) = kind;
 }
 
-/* Joins the node of a walk to where it arrived; *added = the node made there, -1 = none. */
-static void join(const walking *w, const task *t, const outcome *out, int64_t *added) {
+/* Joins the node of a walk to where it arrived. */
+static void join(const walking *w, const task *t, const outcome *out) {
   kz_sweep_branches *b = w->branches;
-  *added = -1;
   if (!out->arrived) {
     set_end(b->nodes + t->node, t->forward, out->last, out->kind);
     return;
   }
-  int64_t there = find_node(w, b->nodes[t->node].value + (t->forward ? 1 : -1), &out->point);
+  int64_t there = find_node(w, aim(w, t), &out->point);
   if (there < 0) {
-    add_node(b, &(kz_sweep_entry){.point = out->point}, b->nodes[t->node].value + (t->forward ? 1 : -1));
-    there = *added = b->n_nodes - 1;
+    there = b->n_nodes;
+    add_node(b, &(kz_sweep_entry){.point = out->point}, aim(w, t));
   }
   int64_t *back = t->forward ? &b->nodes[there].previous : &b->nodes[there].next;
   if (*back >= 0) return; /* another cycle has arrived there before */
@@ -101,61 +100,31 @@ static void join(const walking *w, const task *t, const outcome *out, int64_t *a
   *(t->forward ? &b->nodes[t->node].next : &b->nodes[t->node].previous) = there;
 }
 
-/* One round of walks; the nodes it added take the places of the tasks. */
-static kz_status walk_round(walking *w, const kz_run *run, task *tasks, int64_t *n) {
-  outcome *outcomes = kz_malloc((size_t)*n * sizeof *outcomes);
-  w->tasks = tasks;
-  const kz_stage stage = {.name = "sweep branches",
-                          .n_tiles = *n,
-                          .record_bytes = sizeof *outcomes,
-                          .work = walk_tile,
-                          .context = w,
-                          .keep = true,
-                          .everywhere = true};
-  const kz_status status = kz_stage_run(run, &stage, outcomes);
-  int64_t left = 0, added;
-  for (int64_t i = 0; status == KZ_OK && i < *n; i++) {
-    join(w, tasks + i, outcomes + i, &added);
-    if (added >= 0) tasks[left++] = (task){added, tasks[i].forward};
-  }
-  free(outcomes);
-  *n = left;
-  return status;
-}
-
-/* Cycles without a neighbour in that direction, the ends of the range left out. */
-static int64_t list_tasks(const walking *w, bool forward, task *tasks) {
-  const kz_sweep_branches *b = w->branches;
+/* The cycles from node `first` on that have no neighbour in the direction of the walk, the ends of the range left out. */
+static int64_t list_tasks(const walking *w, bool forward, int64_t first, task *tasks) {
   const int64_t edge = forward ? w->scene->sweep.values.count - 1 : 0;
   int64_t n = 0;
-  for (int64_t i = 0; i < b->n_nodes; i++) {
-    const kz_sweep_node *node = b->nodes + i;
+  for (int64_t i = first; i < w->branches->n_nodes; i++) {
+    const kz_sweep_node *node = w->branches->nodes + i;
     if (node->entry.point.period == 0 || node->value == edge || (forward ? node->next : node->previous) >= 0) continue;
     tasks[n++] = (task){i, forward};
   }
   return n;
 }
 
-/* Tasks whose node has come to the edge of the range are done. */
-static int64_t drop_edge(const walking *w, task *tasks, int64_t n) {
-  int64_t left = 0;
-  for (int64_t i = 0; i < n; i++) {
-    const int64_t edge = tasks[i].forward ? w->scene->sweep.values.count - 1 : 0;
-    if (w->branches->nodes[tasks[i].node].value != edge) tasks[left++] = tasks[i];
-  }
-  return left;
-}
-
+/* Rounds of walks: those of a round start at the nodes that the round before has added. */
 static kz_status walk_all(walking *w, const kz_run *run, bool forward) {
-  task *tasks = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
-  kz_status status = KZ_OK;
-  int64_t n = list_tasks(w, forward, tasks);
-  while (status == KZ_OK && n > 0) {
-    status = walk_round(w, run, tasks, &n);
-    n = drop_edge(w, tasks, n);
+  KZ_FREED task *tasks = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
+  KZ_FREED outcome *outcomes = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *outcomes);
+  w->tasks = tasks;
+  for (int64_t n = list_tasks(w, forward, 0, tasks); n > 0;) {
+    const kz_stage stage = kz_stage_for_all("sweep branches", n, sizeof *outcomes, walk_tile, w);
+    const int64_t known = w->branches->n_nodes;
+    KZ_TRY(kz_stage_run(run, &stage, outcomes));
+    for (int64_t i = 0; i < n; i++) join(w, tasks + i, outcomes + i);
+    n = list_tasks(w, forward, known, tasks);
   }
-  free(tasks);
-  return status;
+  return KZ_OK;
 }
 
 /* The distance between two chaotic attractors, by their mean angles and velocities (point.theta, point.velocity). */

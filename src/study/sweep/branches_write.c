@@ -74,99 +74,68 @@ static kz_status write_columns(const writing *w) {
 
 static kz_status write_names(const writing *w) {
   const int64_t n = w->branches->n_branches;
-  char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
-  const char **pointers = kz_calloc((size_t)n + 1, sizeof *pointers);
+  KZ_FREED char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
+  KZ_FREED const char **pointers = kz_calloc((size_t)n + 1, sizeof *pointers);
   for (int64_t i = 0; i < n; i++) {
     name_of(w->branches, i, names[i]);
     pointers[i] = names[i];
   }
-  const kz_status status = kz_store_variable(w->store, "sweep", "branch_name", pointers);
-  free(names);
-  free(pointers);
-  return status;
+  return kz_store_variable(w->store, "sweep", "branch_name", pointers);
 }
 
-/* The entry (value, branch) of a matrix. */
-typedef double (*cell_fn)(const kz_sweep_node *node, int64_t samples);
-
-static double amplitude_of(const kz_sweep_node *node, int64_t samples) {
-  (void)samples;
-  return node->entry.point.centre > 1 ? NAN : node->entry.point.amplitude;
-}
-
-static double multiplier_of(const kz_sweep_node *node, int64_t samples) {
-  (void)samples;
-  const kz_branch_point *point = &node->entry.point;
-  return point->period == 0 ? NAN : hypot(point->multiplier_re[0], point->multiplier_im[0]);
-}
-
-static double theta_of(const kz_sweep_node *node, int64_t samples) {
-  (void)samples;
-  return node->entry.point.theta;
-}
-
-static double velocity_of(const kz_sweep_node *node, int64_t samples) {
-  (void)samples;
-  return node->entry.point.velocity;
-}
-
-static double fraction_of(const kz_sweep_node *node, int64_t samples) {
-  return (double)node->entry.hits / (double)samples;
-}
-
-static double low_of(const kz_sweep_node *node, int64_t samples) {
-  return kz_share_of(node->entry.hits, samples).low;
-}
-
-static double high_of(const kz_sweep_node *node, int64_t samples) {
-  return kz_share_of(node->entry.hits, samples).high;
-}
-
-static double shock_angle_of(const kz_sweep_node *node, int64_t samples) {
-  (void)samples;
-  return node->entry.shock[0];
-}
-
-static double shock_kick_of(const kz_sweep_node *node, int64_t samples) {
-  (void)samples;
-  return node->entry.shock[1];
-}
-
-static double shock_size_of(const kz_sweep_node *node, int64_t samples) {
-  (void)samples;
-  return node->entry.shock[2];
-}
-
-static kz_status write_matrix(const writing *w, const char *name, cell_fn cell) {
+/* The entry of each branch at each value, [values][branches]; NULL = not there. */
+static const kz_sweep_entry **arrange(const writing *w, int64_t n) {
   const kz_sweep_branches *b = w->branches;
-  const int64_t n = w->scene->sweep.values.count * b->n_branches;
-  double *matrix = kz_malloc((size_t)(n + 1) * sizeof *matrix);
-  for (int64_t i = 0; i < n; i++) matrix[i] = NAN;
+  const kz_sweep_entry **at = kz_calloc((size_t)n + 1, sizeof *at);
   for (int64_t branch = 0; branch < b->n_branches; branch++)
-    for (int64_t i = b->first_node[branch]; i >= 0; i = b->nodes[i].next) {
-      const int64_t value = b->nodes[i].value, samples = w->catalogue[value].samples;
-      if (samples > 0) matrix[value * b->n_branches + branch] = cell(b->nodes + i, samples);
-    }
-  const kz_status status = kz_store_variable(w->store, "sweep", name, matrix);
-  free(matrix);
-  return status;
+    for (int64_t i = b->first_node[branch]; i >= 0; i = b->nodes[i].next)
+      if (w->catalogue[b->nodes[i].value].samples > 0) at[b->nodes[i].value * b->n_branches + branch] = &b->nodes[i].entry;
+  return at;
 }
+
+#define MATRIX(name, expression) KZ_COLUMN(w->store, "sweep", name, n, double, at[i] ? (expression) : NAN)
+#define SHARE kz_share_of(at[i]->hits, w->catalogue[i / w->branches->n_branches].samples)
 
 static kz_status write_matrices(const writing *w) {
-  static const struct {
-    const char *name;
-    cell_fn cell;
-    int measure; /* that asks for it; the attractors come with all of them */
-  } matrices[] = {
-      {"branch_amplitude", amplitude_of, KZ_SWEEP_ATTRACTORS}, {"branch_multiplier", multiplier_of, KZ_SWEEP_ATTRACTORS},
-      {"branch_theta", theta_of, KZ_SWEEP_ATTRACTORS},         {"branch_velocity", velocity_of, KZ_SWEEP_ATTRACTORS},
-      {"fraction", fraction_of, KZ_SWEEP_BASIN_FRACTIONS},     {"fraction_low", low_of, KZ_SWEEP_BASIN_FRACTIONS},
-      {"fraction_high", high_of, KZ_SWEEP_BASIN_FRACTIONS},    {"shock_angle", shock_angle_of, KZ_SWEEP_RESILIENCE},
-      {"shock_kick", shock_kick_of, KZ_SWEEP_RESILIENCE},      {"shock_size", shock_size_of, KZ_SWEEP_RESILIENCE}};
-  for (size_t i = 0; i < sizeof matrices / sizeof matrices[0]; i++)
-    if (matrices[i].measure == KZ_SWEEP_ATTRACTORS || kz_sweep_measures(&w->scene->sweep, matrices[i].measure))
-      KZ_TRY(write_matrix(w, matrices[i].name, matrices[i].cell));
+  const kz_sweep_plan *plan = &w->scene->sweep;
+  const int64_t n = plan->values.count * w->branches->n_branches;
+  KZ_FREED const kz_sweep_entry **at = arrange(w, n);
+  MATRIX("branch_amplitude", at[i]->point.centre > 1 ? NAN : at[i]->point.amplitude);
+  MATRIX("branch_multiplier",
+         at[i]->point.period == 0 ? NAN : hypot(at[i]->point.multiplier_re[0], at[i]->point.multiplier_im[0]));
+  MATRIX("branch_theta", at[i]->point.theta);
+  MATRIX("branch_velocity", at[i]->point.velocity);
+  if (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) {
+    MATRIX("fraction", SHARE.share);
+    MATRIX("fraction_low", SHARE.low);
+    MATRIX("fraction_high", SHARE.high);
+  }
+  if (!kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE)) return KZ_OK;
+  MATRIX("shock_angle", at[i]->shock[0]);
+  MATRIX("shock_kick", at[i]->shock[1]);
+  MATRIX("shock_size", at[i]->shock[2]);
   return KZ_OK;
+}
+
+#define OF_VALUE(name, expression) \
+  KZ_COLUMN(w->store, "sweep", name, plan->values.count, double, w->catalogue[i].samples > 0 ? (expression) : NAN)
+#define ALIKE kz_share_of(w->catalogue[i].alike, w->catalogue[i].samples)
+
+/* Measures of the values themselves: lifetimes, and shares that end alike at all phases. */
+static kz_status write_values(const writing *w) {
+  const kz_sweep_plan *plan = &w->scene->sweep;
+  if (kz_sweep_measures(plan, KZ_SWEEP_LIFETIME)) {
+    OF_VALUE("lifetime", w->catalogue[i].lifetime.mean);
+    OF_VALUE("lifetime_low", w->catalogue[i].lifetime.low);
+    OF_VALUE("lifetime_high", w->catalogue[i].lifetime.high);
+    OF_VALUE("lifetime_after", w->catalogue[i].lifetime.from);
+    OF_VALUE("lifetime_open", w->catalogue[i].lifetime.open);
+  }
+  if (!kz_sweep_measures(plan, KZ_SWEEP_PHASES)) return KZ_OK;
+  OF_VALUE("alike", ALIKE.share);
+  OF_VALUE("alike_low", ALIKE.low);
+  OF_VALUE("alike_high", ALIKE.high);
+  return kz_store_integer(w->store, "sweep", "phases", plan->phases);
 }
 
 /* The lowest and the highest share of a branch along its values. */
@@ -174,7 +143,7 @@ static void print_share(const writing *w, int64_t branch, FILE *summary) {
   double low = 1, high = 0;
   for (int64_t i = w->branches->first_node[branch]; i >= 0; i = w->branches->nodes[i].next) {
     const kz_sweep_node *node = w->branches->nodes + i;
-    const double share = fraction_of(node, w->catalogue[node->value].samples);
+    const double share = (double)node->entry.hits / (double)w->catalogue[node->value].samples;
     low = fmin(low, share);
     high = fmax(high, share);
   }
@@ -209,5 +178,5 @@ kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogu
   KZ_TRY(write_columns(&w));
   KZ_TRY(write_matrices(&w));
   print_table(&w, summary);
-  return KZ_OK;
+  return write_values(&w);
 }

@@ -43,7 +43,7 @@ static void begin(const kz_pendulum *pendulum, const kz_release *release, search
 }
 
 static void end(searching *s) {
-  kz_dynamics_free(s->dynamics);
+  if (s->dynamics) kz_dynamics_free(s->dynamics);
   free(s->state);
   free(s->label);
   free(s->cell);
@@ -92,41 +92,29 @@ static void list_pending(labelling *l) {
 
 /* Labels the pending cells on every rank. */
 static kz_status label_pending(labelling *l) {
-  const kz_stage stage = {.name = "sweep cells",
-                          .n_tiles = (l->n + l->tile - 1) / l->tile,
-                          .record_bytes = (size_t)l->tile * sizeof(int32_t),
-                          .work = label_tile,
-                          .context = l,
-                          .keep = true,
-                          .everywhere = true};
-  int32_t *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  kz_status status = kz_stage_run(l->s->run, &stage, label);
-  for (int64_t i = 0; status == KZ_OK && i < l->n; i++) l->s->cell[l->pending[i]] = label[i];
-  free(label);
-  if (status == KZ_OK) list_pending(l);
-  return status;
+  const int64_t tiles = (l->n + l->tile - 1) / l->tile;
+  const kz_stage stage = kz_stage_for_all("sweep cells", tiles, (size_t)l->tile * sizeof(int32_t), label_tile, l);
+  KZ_FREED int32_t *label = kz_malloc((size_t)tiles * stage.record_bytes + 1);
+  KZ_TRY(kz_stage_run(l->s->run, &stage, label));
+  for (int64_t i = 0; i < l->n; i++) l->s->cell[l->pending[i]] = label[i];
+  list_pending(l);
+  return KZ_OK;
 }
 
 /* Labels the grid; cells that end nowhere known are searched and labelled once more. */
-static kz_status label_rounds(labelling *l) {
-  searching *s = l->s;
-  list_pending(l);
+static kz_status label_grid(searching *s) {
+  KZ_FREED int64_t *pending = kz_malloc((size_t)s->n_cells * sizeof *pending);
+  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .pending = pending};
+  list_pending(&l);
   for (int round = 0;; round++) {
     const int64_t known = kz_dynamics_count(s->dynamics);
-    KZ_TRY(label_pending(l));
-    if (round == ROUNDS - 1 || l->n == 0) return KZ_OK;
-    const int64_t n = l->n < s->n_starts ? l->n : s->n_starts;
-    states_of(s, n, l->pending, s->state);
+    KZ_TRY(label_pending(&l));
+    if (round == ROUNDS - 1 || l.n == 0) return KZ_OK;
+    const int64_t n = l.n < s->n_starts ? l.n : s->n_starts;
+    states_of(s, n, pending, s->state);
     KZ_TRY(kz_discover(s->run, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
     if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
   }
-}
-
-static kz_status label_grid(searching *s) {
-  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .pending = kz_malloc((size_t)s->n_cells * sizeof *l.pending)};
-  kz_status status = label_rounds(&l);
-  free(l.pending);
-  return status;
 }
 
 /* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
@@ -167,21 +155,18 @@ static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirr
 /* The attractors that something ended on, and their mirror images, in the order of the file. */
 static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(s->dynamics);
-  int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
+  KZ_FREED int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
   kz_dynamics_order(s->dynamics, order);
-  kz_status status = KZ_OK;
-  for (int64_t i = 0; i < known && status == KZ_OK; i++) {
+  for (int64_t i = 0; i < known; i++) {
     int32_t mirror;
     const kz_sweep_entry entry = entry_of(s, order[i], &mirror);
     if (s->hits[order[i]] + s->hits[mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
-      status = kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
-                       KZ_SWEEP_MOST);
-    else
-      catalogue->entries[catalogue->count++] = entry;
+      return kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
+                     KZ_SWEEP_MOST);
+    catalogue->entries[catalogue->count++] = entry;
   }
-  free(order);
-  return status;
+  return KZ_OK;
 }
 
 /* The attractors of the window of the grid, or without one of the sweep's own. */
@@ -203,19 +188,17 @@ static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
       .scale = sweep->shock_scale,
       .farthest = 2 * kz_axis_fastest(s->n_cells > 0 ? &s->scene->basin.velocity : &sweep->velocity),
       .max_periods = s->max_periods};
-  kz_catalogue listed = {0};
+  KZ_FREED_BY(kz_catalogue_free) kz_catalogue listed = {0};
   int64_t n;
   kz_catalogue_make(s->dynamics, s->hits, &listed);
-  kz_resilience *point = kz_resilience_list(s->dynamics, &listed, &n);
-  kz_status status = kz_resilience_run(s->run, s->dynamics, &plan, n, point);
-  for (int64_t i = 0; status == KZ_OK && i < n; i++)
+  KZ_FREED kz_resilience *point = kz_resilience_list(s->dynamics, &listed, &n);
+  KZ_TRY(kz_resilience_run(s->run, s->dynamics, &plan, n, point));
+  for (int64_t i = 0; i < n; i++)
     for (int kind = 0; kind < 3; kind++) {
       double *least = &catalogue->entries[listed.id_of[point[i].number]].shock[kind];
       *least = fmin(*least, point[i].shock[kind].size); /* of a number and NaN the number */
     }
-  kz_catalogue_free(&listed);
-  free(point);
-  return status;
+  return KZ_OK;
 }
 
 static kz_status search(searching *s, const kz_release *release, kz_sweep_catalogue *catalogue) {
@@ -239,14 +222,12 @@ typedef struct {
 } sweeping;
 
 kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_t value, kz_sweep_catalogue *catalogue) {
-  searching s = {.scene = scene, .run = run};
+  KZ_FREED_BY(end) searching s = {.scene = scene, .run = run};
   kz_pendulum pendulum;
   if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, value), &pendulum) || pendulum.beta <= 0) return KZ_OK;
   const kz_release release = kz_sweep_release_at(scene, kz_sweep_value(&scene->sweep, value));
   begin(&pendulum, &release, &s);
-  const kz_status status = search(&s, &release, catalogue);
-  end(&s);
-  return status;
+  return search(&s, &release, catalogue);
 }
 
 static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record) {
@@ -256,13 +237,8 @@ static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record)
 
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {
   sweeping sweep = {scene, run};
-  const kz_stage stage = {.name = "sweep attractors",
-                          .n_tiles = scene->sweep.values.count,
-                          .record_bytes = sizeof *catalogue,
-                          .work = sweep_catalogue_tile,
-                          .context = &sweep,
-                          .keep = true,
-                          .everywhere = true,
-                          .collective = true};
+  kz_stage stage =
+      kz_stage_for_all("sweep attractors", scene->sweep.values.count, sizeof *catalogue, sweep_catalogue_tile, &sweep);
+  stage.collective = true;
   return kz_stage_run(run, &stage, catalogue);
 }

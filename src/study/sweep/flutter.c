@@ -117,8 +117,7 @@ static kz_status follow_back(void *context, int64_t tile, void *record) {
 }
 
 static kz_status run_stage(flutter_job *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
-  const kz_stage stage = {
-      .name = name, .n_tiles = n_tiles, .record_bytes = bytes, .work = work, .context = f, .keep = true, .everywhere = true};
+  const kz_stage stage = kz_stage_for_all(name, n_tiles, bytes, work, f);
   return kz_stage_run(f->run, &stage, records);
 }
 
@@ -137,12 +136,11 @@ static kz_status follow_on(flutter_job *f) {
 
 static kz_status return_to_birth(flutter_job *f) {
   const int64_t count = f->scene->sweep.values.count, n = (count + LEG - 1) / LEG;
-  double *amplitude = kz_malloc((size_t)(n * LEG) * sizeof *amplitude);
-  kz_status status = run_stage(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude);
-  for (int64_t i = 0; status == KZ_OK && i < count; i++)
+  KZ_FREED double *amplitude = kz_malloc((size_t)(n * LEG) * sizeof *amplitude);
+  KZ_TRY(run_stage(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude));
+  for (int64_t i = 0; i < count; i++)
     if (!isnan(amplitude[i])) f->amplitude[i] = amplitude[i];
-  free(amplitude);
-  return status;
+  return KZ_OK;
 }
 
 /* Follows all the flutter that begins at a critical value; *reaches = whether it comes to the range. */
@@ -212,11 +210,10 @@ static power_law fit(int64_t n, const double *x, const double *y, double *worksp
   return (power_law){kz_fit_line(n, x, y), half, fabs(half - exponent(n, x, y, farthest, workspace, workspace + n))};
 }
 
-static kz_status write_fit(const flutter_job *f, kz_store *store, FILE *summary) {
+static kz_status write_flutter(const flutter_job *f, kz_store *store, FILE *summary) {
   const size_t n = (size_t)f->scene->sweep.values.count;
-  double *x = kz_malloc(4 * n * sizeof *x);
+  KZ_FREED double *x = kz_malloc(4 * n * sizeof *x);
   const power_law law = fit(gather(f, x, x + n), x, x + n, x + 2 * n);
-  free(x);
   if (isnan(f->critical))
     fprintf(summary, "no flutter begins in the range or near it\n");
   else
@@ -226,6 +223,7 @@ static kz_status write_fit(const flutter_job *f, kz_store *store, FILE *summary)
     if (!isnan(law.exponent)) fprintf(summary, "; exponent %.5f +- %.5f", law.exponent, law.exponent_error);
     fputc('\n', summary);
   }
+  KZ_TRY(kz_store_variable(store, "sweep", "flutter_amplitude", f->amplitude));
   KZ_TRY(kz_store_real(store, "sweep", "critical_value", f->critical));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope", law.line.slope));
   KZ_TRY(kz_store_real(store, "sweep", "fit_slope_stderr", law.line.slope_stderr));
@@ -233,15 +231,10 @@ static kz_status write_fit(const flutter_job *f, kz_store *store, FILE *summary)
   return kz_store_real(store, "sweep", "fit_exponent_error", law.exponent_error);
 }
 
-/* The scene's flutter by this rank, or by all: f->amplitude is to be freed. */
-static kz_status follow_scene(const kz_scene *scene, const kz_run *run, flutter_job *f) {
-  const int64_t n = scene->sweep.values.count;
-  *f = (flutter_job){.scene = scene,
-                     .run = run,
-                     .path = kz_sweep_path(scene),
-                     .critical = NAN,
-                     .amplitude = kz_malloc((size_t)n * sizeof(double))};
-  for (int64_t i = 0; i < n; i++) f->amplitude[i] = NAN;
+/* The scene's flutter by this rank, or by all; amplitude [values]. */
+static kz_status follow_scene(const kz_scene *scene, const kz_run *run, double *amplitude, flutter_job *f) {
+  *f = (flutter_job){scene, run, kz_sweep_path(scene), NAN, amplitude};
+  for (int64_t i = 0; i < scene->sweep.values.count; i++) amplitude[i] = NAN;
   return find_flutter(f);
 }
 
@@ -252,25 +245,22 @@ kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds) {
   const kz_sweep_plan *plan = &scene->sweep;
   const double n = (double)plan->values.count, step = (plan->values.max - plan->values.min) / fmax(1, n - 1);
   kz_scene fewer = *scene;
+  double amplitude[FEW];
   flutter_job f;
   if (n > FEW) fewer.sweep.values.count = FEW;
   const double start = kz_processor_clock();
-  const kz_status status = follow_scene(&fewer, &alone, &f);
+  KZ_TRY(follow_scene(&fewer, &alone, amplitude, &f));
   const double followed = kz_processor_clock();
   *seconds += followed - start;
-  if (status == KZ_OK && n > FEW && f.begun.found) {
-    kz_walk(&f.path, f.begun.at, f.begun.at + copysign(STEPS * step, f.begun.at - f.critical), &f.begun.flutter);
-    *seconds += (kz_processor_clock() - followed) / STEPS * (n - FEW);
-  }
-  free(f.amplitude);
-  return status;
+  if (n <= FEW || !f.begun.found) return KZ_OK;
+  kz_walk(&f.path, f.begun.at, f.begun.at + copysign(STEPS * step, f.begun.at - f.critical), &f.begun.flutter);
+  *seconds += (kz_processor_clock() - followed) / STEPS * (n - FEW);
+  return KZ_OK;
 }
 
 kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  KZ_FREED double *amplitude = kz_malloc((size_t)scene->sweep.values.count * sizeof *amplitude);
   flutter_job f;
-  kz_status status = follow_scene(scene, run, &f);
-  if (status == KZ_OK && store) status = kz_store_variable(store, "sweep", "flutter_amplitude", f.amplitude);
-  if (status == KZ_OK && store) status = write_fit(&f, store, summary);
-  free(f.amplitude);
-  return kz_ranks_agree(run->ranks, status);
+  KZ_TRY(follow_scene(scene, run, amplitude, &f));
+  return kz_ranks_agree(run->ranks, store ? write_flutter(&f, store, summary) : KZ_OK);
 }

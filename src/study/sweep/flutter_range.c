@@ -69,32 +69,24 @@ static void follow_cycle(const kz_path *path, flutter_range *range) {
   range->end = kz_walk(path, m, TOP, &asymmetric);
 }
 
-static kz_status release_fails(const kz_path *path, const kz_numerics *numerics, double m, bool *fails) {
+static bool release_stays(const kz_path *path, const kz_numerics *numerics, double m) {
   kz_pendulum pendulum;
   uint8_t stays;
   path->pendulum(path->context, m, &pendulum);
-  KZ_TRY(kz_release_from_rest(&pendulum, numerics, 1, &RELEASE_ANGLE, &stays));
-  *fails = !stays;
-  return KZ_OK;
+  kz_release_from_rest(&pendulum, numerics, 1, &RELEASE_ANGLE, &stays);
+  return stays;
 }
 
 /* Raises the drive from the onset until a release fails, then halves the bracket. */
-static kz_status follow_releases(const kz_path *path, const kz_numerics *numerics, flutter_range *range) {
+static void follow_releases(const kz_path *path, const kz_numerics *numerics, flutter_range *range) {
   double inside = range->onset, outside = RELEASE_STEP * ceil(range->onset / RELEASE_STEP);
-  bool fails = false;
-  for (; outside < TOP; outside += RELEASE_STEP) {
-    KZ_TRY(release_fails(path, numerics, outside, &fails));
-    if (fails) break;
-    inside = outside;
-  }
-  while (fails && outside - inside > LOCATED) {
+  for (; outside < TOP && release_stays(path, numerics, outside); outside += RELEASE_STEP) inside = outside;
+  if (outside >= TOP) return;
+  while (outside - inside > LOCATED) {
     const double middle = (inside + outside) / 2;
-    bool here;
-    KZ_TRY(release_fails(path, numerics, middle, &here));
-    *(here ? &outside : &inside) = middle;
+    *(release_stays(path, numerics, middle) ? &inside : &outside) = middle;
   }
-  if (fails) range->release_end = outside;
-  return KZ_OK;
+  range->release_end = outside;
 }
 
 static kz_status flutter_range_tile(void *context, int64_t tile, void *record) {
@@ -107,7 +99,8 @@ static kz_status flutter_range_tile(void *context, int64_t tile, void *record) {
   range->onset = find_onset(&path);
   if (isnan(range->onset)) return KZ_OK;
   follow_cycle(&path, range);
-  return follow_releases(&path, &scene->numerics, range);
+  follow_releases(&path, &scene->numerics, range);
+  return KZ_OK;
 }
 
 static void print_cell(FILE *summary, int width, int digits, double value) {
@@ -139,12 +132,8 @@ static kz_status write_ranges(const kz_scene *scene, const void *records, kz_sto
 }
 
 static kz_stage stage_of(const kz_scene *scene) {
-  return (kz_stage){.name = "sweep flutter zone",
-                    .n_tiles = scene->sweep.values.count,
-                    .record_bytes = sizeof(flutter_range),
-                    .work = flutter_range_tile,
-                    .context = (void *)scene,
-                    .keep = true};
+  return kz_stage_for_rank0("sweep flutter zone", scene->sweep.values.count, sizeof(flutter_range), flutter_range_tile,
+                            (void *)scene);
 }
 
 kz_status kz_sweep_flutter_range_measure(const kz_scene *scene, double *seconds) {

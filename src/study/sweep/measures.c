@@ -1,6 +1,4 @@
 /* Functions that the measures of a sweep share: which are asked for, and a stage with one record a value. */
-#include <stdlib.h>
-
 #include "sweep.h"
 
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
@@ -15,9 +13,7 @@ bool kz_sweep_has_grid(const kz_scene *scene) {
 }
 
 kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {
-  void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
-  kz_status status = kz_stage_run(run, stage, records);
-  if (status == KZ_OK && kz_rank(run->ranks) == 0) status = write(stage->context, records, store, summary);
-  free(records);
-  return kz_ranks_agree(run->ranks, status);
+  KZ_FREED void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
+  KZ_TRY(kz_stage_run(run, stage, records));
+  return kz_ranks_agree(run->ranks, store ? write(stage->context, records, store, summary) : KZ_OK);
 }

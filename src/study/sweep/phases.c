@@ -1,11 +1,9 @@
 /* Measure `phases` of a sweep: how much of the cells or starts ends alike at whatever phase of the drive it is released, at each value.
  * Phases are spread evenly over a period, from 0 on. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
-#include "numerics/share.h"
 #include "sweep.h"
 
 enum { TILE = 1024, NO_COMMON_END = 0 };
@@ -29,38 +27,20 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* common [n]: where a start ends at this phase and at all before. label: a buffer. */
-static kz_status release_all(const kz_run *run, releasing *r, bool is_first, int32_t *label, int32_t *common) {
-  const kz_stage stage = {.name = "sweep phases",
-                          .n_tiles = (r->n + TILE - 1) / TILE,
-                          .record_bytes = TILE * sizeof *label,
-                          .work = release_tile,
-                          .context = r,
-                          .keep = true,
-                          .everywhere = true};
-  KZ_TRY(kz_stage_run(run, &stage, label));
-  for (int64_t i = 0; i < r->n; i++)
-    if (is_first)
-      common[i] = label[i];
-    else if (common[i] != label[i])
-      common[i] = NO_COMMON_END;
-  return KZ_OK;
-}
-
-/* common [n] of kz_sweep_plan's phases. */
+/* common [n]: where a start ends at all of kz_sweep_plan's phases. */
 static kz_status release_at_phases(const kz_sweep_plan *plan, const kz_run *run, const kz_release *release, releasing *r,
                                    int32_t *common) {
-  int32_t *label = kz_malloc((size_t)(r->n + TILE) * sizeof *label);
+  const kz_stage stage = kz_stage_for_all("sweep phases", (r->n + TILE - 1) / TILE, TILE * sizeof *common, release_tile, r);
+  KZ_FREED int32_t *label = kz_malloc((size_t)(r->n + TILE) * sizeof *label);
   kz_release turned = *release;
-  kz_status status = KZ_OK;
-  for (int64_t i = 0; i < plan->phases && status == KZ_OK; i++) {
-    turned.phase = 2 * M_PI * (double)i / (double)plan->phases;
+  for (int64_t phase = 0; phase < plan->phases; phase++) {
+    turned.phase = 2 * M_PI * (double)phase / (double)plan->phases;
     kz_dynamics_set_release(r->dynamics, &turned);
-    status = release_all(run, r, i == 0, label, common);
+    KZ_TRY(kz_stage_run(run, &stage, label));
+    for (int64_t i = 0; i < r->n; i++) common[i] = phase == 0 || common[i] == label[i] ? label[i] : NO_COMMON_END;
   }
   kz_dynamics_set_release(r->dynamics, release);
-  free(label);
-  return status;
+  return KZ_OK;
 }
 
 /* Those with a common end; a cell of a folded grid counts for its mirror image too. */
@@ -77,24 +57,12 @@ kz_status kz_sweep_phases(const kz_scene *scene, const kz_run *run, kz_dynamics 
   const kz_sweep_plan *plan = &scene->sweep;
   const int64_t n = n_cells > 0 ? n_cells : plan->starts;
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
-  double *start = kz_malloc(2 * (size_t)n * sizeof *start);
-  int32_t *common = kz_malloc((size_t)n * sizeof *common);
+  KZ_FREED double *start = kz_malloc(2 * (size_t)n * sizeof *start);
+  KZ_FREED int32_t *common = kz_malloc((size_t)n * sizeof *common);
   releasing r = {dynamics, start, n, max_periods};
   for (int64_t i = 0; i < n_cells; i++) kz_cell_start(&scene->basin, i, start + 2 * i);
   if (n_cells == 0) kz_dynamics_starts(&window, plan->seed, n, start);
-  const kz_status status = release_at_phases(plan, run, release, &r, common);
-  if (status == KZ_OK) *alike = count_alike(scene, n_cells, n, common);
-  free(start);
-  free(common);
-  return status;
-}
-
-kz_status kz_sweep_phases_write(const kz_sweep_plan *plan, const kz_sweep_catalogue *catalogue, kz_store *store) {
-#define COLUMN(name, field)                                   \
-  KZ_COLUMN(store, "sweep", name, plan->values.count, double, \
-            catalogue[i].samples > 0 ? kz_share_of(catalogue[i].alike, catalogue[i].samples).field : NAN)
-  COLUMN("alike", share);
-  COLUMN("alike_low", low);
-  COLUMN("alike_high", high);
-  return kz_store_integer(store, "sweep", "phases", plan->phases);
+  KZ_TRY(release_at_phases(plan, run, release, &r, common));
+  *alike = count_alike(scene, n_cells, n, common);
+  return KZ_OK;
 }

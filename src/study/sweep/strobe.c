@@ -1,7 +1,6 @@
 /* Bifurcation diagram: the strobe points after a transient, once with the values going up and once down. Each walk carries its
  * state from value to value, so that it shows where attractors are lost and not found again. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "sweep.h"
@@ -63,13 +62,8 @@ static kz_status strobe_tile(void *context, int64_t tile, void *record) {
 }
 
 static kz_stage leg_of(walking *w) {
-  return (kz_stage){.name = "sweep strobe",
-                    .n_tiles = WALKS,
-                    .record_bytes = sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double),
-                    .work = strobe_tile,
-                    .context = w,
-                    .keep = true,
-                    .everywhere = true};
+  return kz_stage_for_all("sweep strobe", WALKS, sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double),
+                          strobe_tile, w);
 }
 
 /* One leg of both walks; its points go to their places in `points` [walks][values][2][samples]. */
@@ -77,17 +71,16 @@ static kz_status run_leg(walking *w, const kz_run *run, double *points) {
   const kz_sweep_plan *plan = &w->scene->sweep;
   const size_t value = (size_t)(2 * w->samples) * sizeof(double);
   const kz_stage stage = leg_of(w);
-  char *records = kz_malloc(WALKS * stage.record_bytes);
-  kz_status status = kz_stage_run(run, &stage, records);
-  for (int64_t walk = 0; status == KZ_OK && walk < WALKS; walk++) {
+  KZ_FREED char *records = kz_malloc(WALKS * stage.record_bytes);
+  KZ_TRY(kz_stage_run(run, &stage, records));
+  for (int64_t walk = 0; walk < WALKS; walk++) {
     const char *record = records + (size_t)walk * stage.record_bytes;
     memcpy(w->state + walk, record, sizeof *w->state);
     for (int64_t i = 0; w->samples > 0 && i < w->values && w->first + i < plan->values.count; i++)
       memcpy(points + (walk * plan->values.count + value_at(plan, walk, w->first + i)) * 2 * w->samples,
              record + sizeof(strobe_state) + (size_t)i * value, value);
   }
-  free(records);
-  return status;
+  return KZ_OK;
 }
 
 /* All values, in legs. */
@@ -110,24 +103,13 @@ static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) 
 /* The walks side by side: [values][up, then down]. */
 static kz_status write_strobe(const kz_scene *scene, const double *points, kz_store *store, FILE *summary) {
   const int64_t values = scene->sweep.values.count, samples = scene->sweep.samples, all = WALKS * samples;
-  double *theta = kz_malloc((size_t)(values * all) * sizeof *theta),
-         *velocity = kz_malloc((size_t)(values * all) * sizeof *velocity);
-  int8_t *walk = kz_malloc((size_t)all);
-  for (int64_t i = 0; i < WALKS * values; i++) {
-    const int64_t at = (i % values) * all + (i / values) * samples;
-    memcpy(theta + at, points + i * 2 * samples, (size_t)samples * sizeof *theta);
-    memcpy(velocity + at, points + (i * 2 + 1) * samples, (size_t)samples * sizeof *velocity);
-  }
-  for (int64_t s = 0; s < all; s++) walk[s] = (int8_t)(s / samples);
-  kz_status status = kz_store_dimension(store, "sweep", "sample", all, NULL);
-  if (status == KZ_OK) status = kz_store_variable(store, "sweep", "sample_walk", walk);
-  if (status == KZ_OK) status = kz_store_variable(store, "sweep", "strobe_theta", theta);
-  if (status == KZ_OK) status = kz_store_variable(store, "sweep", "strobe_velocity", velocity);
-  free(theta);
-  free(velocity);
-  free(walk);
+#define POINT(coordinate) points[((i % all / samples * values + i / all) * 2 + coordinate) * samples + i % samples]
+  KZ_TRY(kz_store_dimension(store, "sweep", "sample", all, NULL));
+  KZ_COLUMN(store, "sweep", "sample_walk", all, int8_t, i / samples);
+  KZ_COLUMN(store, "sweep", "strobe_theta", values * all, double, POINT(0));
+  KZ_COLUMN(store, "sweep", "strobe_velocity", values * all, double, POINT(1));
   fprintf(summary, "strobe points of %lld periods at each value, up and down\n", (long long)samples);
-  return status;
+  return KZ_OK;
 }
 
 /* Both walks at one value, with a part of its periods: the plan of a period and the periods take their own time. */
@@ -155,9 +137,7 @@ kz_status kz_sweep_strobe_measure(const kz_scene *scene, double *seconds) {
 }
 
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  double *points = kz_calloc((size_t)(WALKS * scene->sweep.values.count * 2 * scene->sweep.samples), sizeof *points);
-  kz_status status = walk(scene, run, points);
-  if (status == KZ_OK && store) status = write_strobe(scene, points, store, summary);
-  free(points);
-  return kz_ranks_agree(run->ranks, status);
+  KZ_FREED double *points = kz_calloc((size_t)(WALKS * scene->sweep.values.count * 2 * scene->sweep.samples), sizeof *points);
+  KZ_TRY(walk(scene, run, points));
+  return kz_ranks_agree(run->ranks, store ? write_strobe(scene, points, store, summary) : KZ_OK);
 }

@@ -1,8 +1,6 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
 #include "sweep.h"
 
-#include <stdlib.h>
-
 #define BARRED(code, word, run, measure) "|" word
 const char *kz_sweep_measure_words(void) {
   static const char words[] = KZ_SWEEP_MEASURES(BARRED);
@@ -30,31 +28,21 @@ static bool has_branches(const kz_sweep_plan *plan) {
 static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
   if (!has_branches(plan)) return KZ_OK;
-  kz_sweep_branches branches = {0};
-  kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
-  kz_status status = kz_sweep_catalogues(scene, run, catalogue);
-  if (status == KZ_OK) status = kz_sweep_branches_make(scene, run, catalogue, &branches);
-  if (status == KZ_OK && kz_rank(run->ranks) == 0)
-    status = kz_sweep_branches_write(scene, catalogue, &branches, store, summary);
-  if (status == KZ_OK && kz_rank(run->ranks) == 0 && kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
-    status = kz_sweep_lifetime_write(plan, catalogue, store);
-  if (status == KZ_OK && kz_rank(run->ranks) == 0 && kz_sweep_measures(plan, KZ_SWEEP_PHASES))
-    status = kz_sweep_phases_write(plan, catalogue, store);
-  kz_sweep_branches_free(&branches);
-  free(catalogue);
-  return kz_ranks_agree(run->ranks, status);
+  KZ_FREED_BY(kz_sweep_branches_free) kz_sweep_branches branches = {0};
+  KZ_FREED kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
+  KZ_TRY(kz_sweep_catalogues(scene, run, catalogue));
+  KZ_TRY(kz_sweep_branches_make(scene, run, catalogue, &branches));
+  return kz_ranks_agree(run->ranks, store ? kz_sweep_branches_write(scene, catalogue, &branches, store, summary) : KZ_OK);
 }
 
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
   const kz_sweep_parameter *parameter = kz_sweep_parameters + plan->parameter;
-  double *values = kz_malloc((size_t)plan->values.count * sizeof *values);
+  KZ_FREED double *values = kz_malloc((size_t)plan->values.count * sizeof *values);
   for (int64_t i = 0; i < plan->values.count; i++) values[i] = kz_sweep_value(plan, i);
-  kz_status status = kz_store_text(store, "sweep", "parameter", parameter->name);
-  if (status == KZ_OK) status = kz_store_text(store, "sweep", "parameter_units", parameter->unit);
-  if (status == KZ_OK) status = kz_store_dimension(store, "sweep", "value", plan->values.count, values);
-  free(values);
-  KZ_TRY(status);
+  KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
+  KZ_TRY(kz_store_text(store, "sweep", "parameter_units", parameter->unit));
+  KZ_TRY(kz_store_dimension(store, "sweep", "value", plan->values.count, values));
   fprintf(summary, "sweep of %s, %lld values from %.10g to %.10g\n", parameter->name, (long long)plan->values.count,
           plan->values.min, plan->values.max);
   kz_sweep_warn_steps(scene, summary);
@@ -65,7 +53,7 @@ kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store
   typedef kz_status (*run_fn)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 #define RUN(code, word, run, measure) run,
   static const run_fn runs[] = {KZ_SWEEP_MEASURES(RUN)};
-  KZ_TRY(kz_ranks_agree(run->ranks, kz_rank(run->ranks) == 0 ? write_values(scene, store, summary) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
     if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
@@ -90,11 +78,7 @@ kz_status kz_sweep_measure(const kz_scene *scene, double *seconds) {
   typedef kz_status (*measure_fn)(const kz_scene *scene, double *seconds);
 #define MEASURE(code, word, run, measure) measure,
   static const measure_fn measures[] = {KZ_SWEEP_MEASURES(MEASURE)};
-  const kz_stage branches = {.name = "branches",
-                             .n_tiles = scene->sweep.values.count,
-                             .record_bytes = sizeof(kz_sweep_catalogue),
-                             .work = branch_tile,
-                             .context = (void *)scene};
+  const kz_stage branches = {"branches", scene->sweep.values.count, sizeof(kz_sweep_catalogue), branch_tile, (void *)scene};
   if (has_branches(&scene->sweep)) KZ_TRY(kz_stage_measure(&branches, 12, 2.0, seconds));
   for (int64_t i = 0; i < (int64_t)(sizeof measures / sizeof measures[0]); i++)
     if (measures[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(measures[i](scene, seconds));

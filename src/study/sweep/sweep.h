@@ -79,16 +79,14 @@ typedef struct {
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 } kz_sweep_catalogue;
 
-/* The lifetime of the motions of the sweep's starts at one value (collective), and its variables in the file (rank 0). */
+/* The lifetime of the motions of the sweep's starts at one value. Collective. */
 kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
                             kz_lifetime *life);
-kz_status kz_sweep_lifetime_write(const kz_sweep_plan *plan, const kz_sweep_catalogue *catalogue, kz_store *store);
 
 /* How many of the first n_cells of the grid (0: of the starts), with their mirror images, end alike at all phases, by attractors and regions
- * that are known; `release`: that of the value. And the variables of it. The first is collective. */
+ * that are known; `release`: that of the value. Collective. */
 kz_status kz_sweep_phases(const kz_scene *scene, const kz_run *run, kz_dynamics *dynamics, const kz_release *release,
                           int64_t n_cells, int64_t max_periods, int64_t *alike);
-kz_status kz_sweep_phases_write(const kz_sweep_plan *plan, const kz_sweep_catalogue *catalogue, kz_store *store);
 
 /* Fills catalogue [values.count] on every rank. Collective. */
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue);
@@ -141,8 +139,8 @@ kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn
 
 /* Releases the pendulum from rest at t = 0, at angle [n] (rad) from inverted. stays [n] = 1 if the motion stays within half a turn of
  * inverted, else 0. */
-kz_status kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
-                               uint8_t *stays);
+void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
+                          uint8_t *stays);
 
 /* Prints a warning for each class of speeds whose error is too large, at the value with the largest error. */
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
