@@ -8,24 +8,25 @@
 #include "kapitza/study_where.h"
 #include "scene/scene.h"
 
-/* Instruction sets that this build uses, as bits; the program's entry refuses a CPU that lacks one of them. */
+/* Instruction sets that this build can use; the program's entry refuses a CPU that lacks one which it does. kz_instructions: for each of them
+ * "1" if the build uses it. */
 #define KZ_INSTRUCTION_LIST(X) \
-  X(SSE3, 0, "sse3")           \
-  X(SSSE3, 1, "ssse3")         \
-  X(SSE4_1, 2, "sse4.1")       \
-  X(SSE4_2, 3, "sse4.2")       \
-  X(POPCNT, 4, "popcnt")       \
-  X(AVX, 5, "avx")             \
-  X(AVX2, 6, "avx2")           \
-  X(FMA, 7, "fma")             \
-  X(BMI, 8, "bmi")             \
-  X(BMI2, 9, "bmi2")           \
-  X(AVX512F, 10, "avx512f")    \
-  X(AVX512BW, 11, "avx512bw")  \
-  X(AVX512CD, 12, "avx512cd")  \
-  X(AVX512DQ, 13, "avx512dq")  \
-  X(AVX512VL, 14, "avx512vl")
-extern const unsigned kz_instructions;
+  X(SSE3, "sse3")              \
+  X(SSSE3, "ssse3")            \
+  X(SSE4_1, "sse4.1")          \
+  X(SSE4_2, "sse4.2")          \
+  X(POPCNT, "popcnt")          \
+  X(AVX, "avx")                \
+  X(AVX2, "avx2")              \
+  X(FMA, "fma")                \
+  X(BMI, "bmi")                \
+  X(BMI2, "bmi2")              \
+  X(AVX512F, "avx512f")        \
+  X(AVX512BW, "avx512bw")      \
+  X(AVX512CD, "avx512cd")      \
+  X(AVX512DQ, "avx512dq")      \
+  X(AVX512VL, "avx512vl")
+extern const char *const kz_instructions[];
 /* The names of these sets, "avx2 fma ...", for the summary and the file; the text depends on the build only. */
 const char *kz_instruction_names(void);
 
@@ -44,10 +45,11 @@ typedef struct {
   const char *port;  /* of view, as written; NULL = not given */
   double time_limit; /* seconds; 0 = none */
   kz_progress progress;
-  const char *log; /* FILE of JSON lines; NULL = none */
-  bool timings;    /* print where the time went */
-  bool speaks;     /* this process prints: the first of those that mpirun started */
-  char *line;      /* the command line as typed */
+  const char *log;   /* FILE of JSON lines; NULL = none */
+  bool timings;      /* print where the time went */
+  bool speaks;       /* this process prints: the first of those that mpirun started */
+  char *line;        /* the command line as typed */
+  const char *words; /* the same behind the name of the program */
 } kz_options;
 
 /* Reads the command line and runs its command: the whole program except for its entry. Only one process keeps the message. */
@@ -75,12 +77,12 @@ typedef struct {
 kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts);
 void kz_starts_free(kz_starts *starts);
 
+/* Calls `answer` with the scene of the command line, on the process that prints; a message about a key is given its place in the scene. */
+kz_status kz_scene_answer(const kz_options *options, kz_status (*answer)(const kz_options *, const kz_scene *));
+
 /* Prints members of a JSON object to standard output: "theta", "velocity", and where the start ends; also in SI units unless `omega`, the
  * frequency of the pivot in rad/s, is NaN. */
 void kz_ending_print(const kz_coordinate start[2], const kz_ending *ending, double omega);
-
-/* KZ_REFUSED if a rank has another command line than rank 0. Collective. */
-kz_status kz_options_agree(const kz_options *options, kz_ranks *ranks);
 
 /* Writes the name of the result to path [bytes]. KZ_REFUSED if the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);
@@ -118,5 +120,23 @@ char *kz_scene_fingerprint(const kz_scene *scene);
 
 /* Prints the warnings about a scene that are known before it is modelled, a line each. */
 void kz_warnings_print(const kz_scene *scene, FILE *out);
+
+/* The log of a run: JSON lines for programs (--log), and the table of timings for people (--timings). Rank 0. */
+
+/* Opens FILE to append to it. KZ_REFUSED if it cannot be written, or if it exists and is not such a log. */
+kz_status kz_log_open(const char *path, FILE **log);
+/* Writes one event, "begin", "warning" or "end". `fields` = pairs of name and text, NULL-ended; "#name" = the text is a number. NULL as
+ * `log`: does nothing. */
+void kz_log_event(FILE *log, double seconds, const char *event, const char *const *fields);
+/* Writes an event "warning" for each line of `text` that is a warning. */
+void kz_log_warnings(FILE *log, double seconds, const char *text);
+/* Closes the log; KZ_FAILED if it could not be written completely. NULL: does nothing. */
+kz_status kz_log_close(FILE *log, const char *path);
+
+/* Prints the table of timings. */
+void kz_timings_print(const kz_ranks *ranks, FILE *out);
+
+/* Prints `text` escaped for JSON, without the quotes. */
+void kz_json_text(FILE *out, const char *text);
 
 #endif

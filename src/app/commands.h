@@ -4,8 +4,6 @@
 
 #include "app.h"
 
-enum { KZ_NO_LETTER = 256 }; /* letters from here on are numbers of options without a short form */
-
 typedef struct {
   const char *name;    /* "" = the program itself */
   int bit;             /* in kz_option.commands */
@@ -15,19 +13,21 @@ typedef struct {
   const char *help;
 } kz_command;
 
-typedef struct {
+typedef struct kz_option {
   const char *name;
-  int letter;           /* of the short form; from KZ_NO_LETTER on: none */
+  int letter;           /* of the short form; 0: none */
   const char *argument; /* its name, or NULL */
   int commands;
-  kz_status (*apply)(kz_options *options, const char *argument); /* NULL: --help and --version */
+  kz_status (*apply)(kz_options *options, const struct kz_option *row, const char *argument); /* NULL: --help and --version */
+  size_t member;                                                                              /* of kz_options that it sets */
   const char *help;
   const char *words; /* what the argument can be, joined by '|'; NULL = anything */
 } kz_option;
 
 extern const kz_command kz_commands[], kz_program;
-extern const kz_option kz_option_rows[];
-extern const int kz_command_count, kz_option_count;
+extern const int kz_command_count;
+/* The option of a command that comes after `row` (NULL: the first); NULL if there is none. */
+const kz_option *kz_option_next(const kz_command *command, const kz_option *row);
 
 void kz_help_print(const kz_command *command);
 /* The manual page, as roff. */

@@ -3,24 +3,6 @@
 
 #include "commands.h"
 
-/* The words "a|b" with blanks between. */
-static void print_words(const char *words) {
-  for (; *words; words++) putchar(*words == '|' ? ' ' : *words);
-}
-
-static void print_keys(void) {
-  for (const kz_key *key = kz_keys; key->path; key++) printf("%s%s", key == kz_keys ? "" : " ", key->path);
-}
-
-static void print_commands(void) {
-  for (int i = 0; i < kz_command_count; i++) printf("%s%s", i > 0 ? " " : "", kz_commands[i].name);
-}
-
-static void print_options(const kz_command *command) {
-  for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++)
-    if (row->commands & command->bit) printf(" --%s", row->name);
-}
-
 static bool is_key(const kz_option *row) {
   return row->argument && strcmp(row->argument, "KEY=VALUE") == 0;
 }
@@ -29,41 +11,52 @@ static bool is_file(const kz_option *row) {
   return row->argument && strcmp(row->argument, "FILE") == 0;
 }
 
-/* What may stand behind an option, as a case of bash. */
-static void print_bash_case(const kz_option *row) {
-  if (!row->argument) return;
-  printf("    --%s", row->name);
-  if (row->letter < KZ_NO_LETTER) printf("|-%c", row->letter);
-  fputs(") ", stdout);
-  if (is_key(row)) {
-    fputs("compopt -o nospace; COMPREPLY=($(compgen -S = -W \"", stdout);
-    print_keys();
-    fputs("\" -- \"$word\"))", stdout);
-  } else if (row->words) {
-    fputs("COMPREPLY=($(compgen -W \"", stdout);
-    print_words(row->words);
-    fputs("\" -- \"$word\"))", stdout);
-  } else {
-    fputs(is_file(row) ? "compopt -o default; COMPREPLY=()" : "COMPREPLY=()", stdout);
+static bool has_choices(const kz_option *row) {
+  return is_key(row) || row->words;
+}
+
+/* What the argument can be, with blanks between; `end` is written behind each key. */
+static void print_choices(const kz_option *row, const char *end) {
+  for (const kz_key *key = kz_keys; is_key(row) && key->path; key++)
+    printf("%s%s%s", key == kz_keys ? "" : " ", key->path, end);
+  for (const char *c = row->words ? row->words : ""; *c; c++) putchar(*c == '|' ? ' ' : *c);
+}
+
+static void print_options(const kz_command *command) {
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) printf(" --%s", row->name);
+}
+
+/* What may stand behind the options of a command, as cases of bash. */
+static void print_bash_cases(const kz_command *command) {
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
+    if (!row->argument) continue;
+    printf("    --%s", row->name);
+    if (row->letter) printf("|-%c", row->letter);
+    fputs(") ", stdout);
+    if (has_choices(row)) {
+      printf("%sCOMPREPLY=($(compgen %s-W \"", is_key(row) ? "compopt -o nospace; " : "", is_key(row) ? "-S = " : "");
+      print_choices(row, "");
+      fputs("\" -- \"$word\"))", stdout);
+    } else {
+      fputs(is_file(row) ? "compopt -o default; COMPREPLY=()" : "COMPREPLY=()", stdout);
+    }
+    puts("; return ;;");
   }
-  puts("; return ;;");
 }
 
 static void print_bash(void) {
   puts(
       "# bash completion of kapitza\n_kapitza() {\n  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} "
       "options\n  case $before in");
-  for (int i = 0; i < kz_option_count; i++) print_bash_case(kz_option_rows + i);
+  print_bash_cases(&(kz_command){.bit = ~0});
   fputs("  esac\n  case ${COMP_WORDS[1]} in\n", stdout);
   for (int i = 0; i < kz_command_count; i++) {
     printf("    %s) options=\"", kz_commands[i].name);
     print_options(kz_commands + i);
     puts("\" ;;");
   }
-  puts("  esac");
-  puts("  if [ \"$COMP_CWORD\" -eq 1 ]; then");
-  fputs("    options=\"", stdout);
-  print_commands();
+  fputs("  esac\n  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    options=\"", stdout);
+  for (int i = 0; i < kz_command_count; i++) printf("%s%s", i > 0 ? " " : "", kz_commands[i].name);
   print_options(&kz_program);
   puts(
       "\"\n  elif [[ $word != -* ]]; then\n    compopt -o default; COMPREPLY=(); return\n  fi\n"
@@ -84,20 +77,14 @@ static void print_zsh_option(const kz_option *row) {
   print_zsh_text(row->help);
   putchar(']');
   if (row->argument) {
-    fputs(":", stdout);
+    putchar(':');
     print_zsh_text(row->argument);
-    fputs(":", stdout);
+    putchar(':');
   }
   if (is_file(row)) fputs("_files", stdout);
-  if (is_key(row) || row->words) {
-    putchar('(');
-    if (is_key(row))
-      print_keys();
-    else
-      print_words(row->words);
-    putchar(')');
-  }
-  putchar('\'');
+  if (has_choices(row)) putchar('(');
+  print_choices(row, "");
+  fputs(has_choices(row) ? ")'" : "'", stdout);
 }
 
 static void print_zsh(void) {
@@ -110,8 +97,7 @@ static void print_zsh(void) {
   puts("  )\n  if (( CURRENT == 2 )); then\n    _describe command commands\n    return\n  fi\n  case $words[2] in");
   for (int i = 0; i < kz_command_count; i++) {
     printf("    %s) shift words; (( CURRENT-- )); _arguments", kz_commands[i].name);
-    for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++)
-      if (row->commands & kz_commands[i].bit) print_zsh_option(row);
+    for (const kz_option *row = NULL; (row = kz_option_next(kz_commands + i, row));) print_zsh_option(row);
     puts(kz_commands[i].most > 0 ? " \\\n        '1:scene:_files' ;;" : " ;;");
   }
   puts("  esac\n}\n_kapitza \"$@\"");
@@ -132,14 +118,11 @@ static void print_fish_option(const kz_command *command, const kz_option *row) {
     printf("complete -c kapitza -n __fish_use_subcommand -l %s", row->name);
   else
     printf("complete -c kapitza -n '__fish_seen_subcommand_from %s' -l %s", command->name, row->name);
-  if (row->letter < KZ_NO_LETTER) printf(" -s %c", row->letter);
+  if (row->letter) printf(" -s %c", row->letter);
   if (row->argument) fputs(is_file(row) ? " -r -F" : " -x", stdout);
-  if (is_key(row) || row->words) {
+  if (has_choices(row)) {
     fputs(" -a '", stdout);
-    if (is_key(row))
-      for (const kz_key *key = kz_keys; key->path; key++) printf("%s%s=", key == kz_keys ? "" : " ", key->path);
-    else
-      print_words(row->words);
+    print_choices(row, "=");
     putchar('\'');
   }
   fputs(" -d ", stdout);
@@ -148,8 +131,7 @@ static void print_fish_option(const kz_command *command, const kz_option *row) {
 }
 
 static void print_fish_options(const kz_command *command) {
-  for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++)
-    if (row->commands & command->bit) print_fish_option(command, row);
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) print_fish_option(command, row);
 }
 
 static void print_fish(void) {

@@ -19,11 +19,10 @@ void kz_help_print(const kz_command *command) {
   for (int i = 0; command == &kz_program && i < kz_command_count; i++)
     printf("  %-24s %s\n", kz_commands[i].name, kz_commands[i].help);
   if (command == &kz_program) putchar('\n');
-  for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++) {
-    if (!(row->commands & command->bit)) continue;
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
     char name[64];
     snprintf(name, sizeof name, "--%s%s%s", row->name, row->argument ? " " : "", row->argument ? row->argument : "");
-    if (row->letter < KZ_NO_LETTER)
+    if (row->letter)
       printf("  -%c, %-20s %s\n", row->letter, name, row->help);
     else
       printf("      %-20s %s\n", name, row->help);
@@ -42,10 +41,9 @@ static void print_roff(const char *text) {
 }
 
 static void print_options(const kz_command *command) {
-  for (const kz_option *row = kz_option_rows; row < kz_option_rows + kz_option_count; row++) {
-    if (!(row->commands & command->bit)) continue;
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
     fputs(".TP\n", stdout);
-    if (row->letter < KZ_NO_LETTER) printf("\\fB\\-%c\\fR, ", row->letter);
+    if (row->letter) printf("\\fB\\-%c\\fR, ", row->letter);
     fputs("\\fB\\-\\-", stdout);
     print_roff(row->name);
     fputs("\\fR", stdout);

@@ -1,4 +1,4 @@
-#include "log.h"
+#include "app.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -8,9 +8,10 @@
 
 /* The first instruction set that the build uses and this CPU lacks, or NULL. */
 static const char *missing_instruction(void) {
+  size_t i = 0;
   __builtin_cpu_init();
-#define CHECK(name, bit, text) \
-  if ((kz_instructions & (1u << bit)) && !__builtin_cpu_supports(text)) return text;
+#define CHECK(name, text) \
+  if (kz_instructions[i++][0] == '1' && !__builtin_cpu_supports(text)) return text;
   KZ_INSTRUCTION_LIST(CHECK)
 #undef CHECK
   return NULL;

@@ -23,161 +23,142 @@ const kz_command kz_commands[] = {
 const int kz_command_count = sizeof kz_commands / sizeof kz_commands[0];
 const kz_command kz_program = {"", TOP, " COMMAND", 0, 0, NULL, "basins of attraction of the pendulum with a shaken pivot"};
 
-static kz_status set_output(kz_options *options, const char *argument) {
-  options->output = argument;
-  return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--output: the name is empty; give the name of a file");
+/* The member of kz_options that a row sets. */
+#define MEMBER(type) (*(type *)((char *)options + row->member))
+
+static kz_status set_flag(kz_options *options, const kz_option *row, const char *argument) {
+  (void)argument;
+  MEMBER(bool) = true;
+  return KZ_OK;
 }
 
-static kz_status add_set(kz_options *options, const char *argument) {
+static kz_status set_text(kz_options *options, const kz_option *row, const char *argument) {
+  MEMBER(const char *) = argument;
+  return KZ_OK;
+}
+
+static kz_status set_file(kz_options *options, const kz_option *row, const char *argument) {
+  MEMBER(const char *) = argument;
+  return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--%s: the name is empty; give the name of a file", row->name);
+}
+
+static kz_status add_set(kz_options *options, const kz_option *row, const char *argument) {
+  (void)row;
   options->sets[options->n_sets++] = (char *)argument;
   return KZ_OK;
 }
 
-static kz_status set_resume(kz_options *options, const char *argument) {
-  (void)argument;
-  options->resume = true;
-  return KZ_OK;
-}
-
-static kz_status set_force(kz_options *options, const char *argument) {
-  (void)argument;
-  options->force = true;
-  return KZ_OK;
-}
-
-static kz_status set_json(kz_options *options, const char *argument) {
-  (void)argument;
-  options->json = true;
-  return KZ_OK;
-}
-
-static kz_status set_json_schema(kz_options *options, const char *argument) {
-  (void)argument;
-  options->json_schema = true;
-  return KZ_OK;
-}
-
-static kz_status set_port(kz_options *options, const char *argument) {
-  options->port = argument;
-  return KZ_OK;
-}
-
-static kz_status add_origin(kz_options *options, const char *argument) {
+static kz_status add_origin(kz_options *options, const kz_option *row, const char *argument) {
+  (void)row;
   options->origins[options->n_origins++] = (char *)argument;
   return KZ_OK;
 }
 
-static kz_status set_no_browser(kz_options *options, const char *argument) {
-  (void)argument;
-  options->no_browser = true;
+/* The place of the argument among the words of the row. */
+static kz_status find_word(const kz_option *row, const char *argument, int64_t *index) {
+  char most[64], list[64];
+  const char *last = strrchr(row->words, '|');
+  *index = kz_word_find(row->words, argument);
+  if (*index >= 0) return KZ_OK;
+  snprintf(most, sizeof most, "%.*s", (int)(last - row->words), row->words);
+  kz_key_list(most, list, sizeof list);
+  return kz_fail(KZ_REFUSED, "--%s: \"%s\" is unknown; it must be %s or %s", row->name, argument, list, last + 1);
+}
+
+static kz_status set_progress(kz_options *options, const kz_option *row, const char *argument) {
+  int64_t index;
+  KZ_TRY(find_word(row, argument, &index));
+  options->progress = (kz_progress)index;
   return KZ_OK;
 }
 
-static kz_status set_completion(kz_options *options, const char *argument) {
-  static const char *const shells[] = {"bash", "zsh", "fish"};
-  for (int i = 0; i < 3; i++)
-    if (strcmp(argument, shells[i]) == 0) {
-      if (options->speaks) kz_completion_print(argument);
-      options->answered = true;
-      return KZ_OK;
-    }
-  return kz_fail(KZ_REFUSED, "--completion: \"%s\" is unknown; it must be bash, zsh or fish", argument);
+static kz_status set_completion(kz_options *options, const kz_option *row, const char *argument) {
+  int64_t index;
+  KZ_TRY(find_word(row, argument, &index));
+  if (options->speaks) kz_completion_print(argument);
+  options->answered = true;
+  return KZ_OK;
 }
 
-static kz_status set_manual(kz_options *options, const char *argument) {
-  (void)argument;
+static kz_status set_manual(kz_options *options, const kz_option *row, const char *argument) {
+  (void)row, (void)argument;
   if (options->speaks) kz_manual_print();
   options->answered = true;
   return KZ_OK;
 }
 
 /* A number of seconds, or with s, m, h of seconds, minutes, hours. */
-static kz_status set_time_limit(kz_options *options, const char *argument) {
+static kz_status set_time_limit(kz_options *options, const kz_option *row, const char *argument) {
   static const char units[] = "smh";
   static const double seconds[] = {1.0, 60.0, 3600.0};
   char number[64];
   const size_t length = strlen(argument);
   const char *unit = length > 0 ? strchr(units, argument[length - 1]) : NULL;
   snprintf(number, sizeof number, "%.*s", (int)(unit ? length - 1 : length), argument);
-  const kz_node node = {.kind = KZ_SCALAR, .text = number, .plain = true};
-  const char *wrong = kz_scalar_real(&node, &options->time_limit);
+  const char *wrong = kz_text_real(number, &options->time_limit);
   if (wrong || options->time_limit <= 0.0)
-    return kz_fail(KZ_REFUSED, "--time-limit: \"%s\" %s; give a time above 0, such as 90, 30m or 1.5h", argument,
+    return kz_fail(KZ_REFUSED, "--%s: \"%s\" %s; give a time above 0, such as 90, 30m or 1.5h", row->name, argument,
                    wrong ? wrong : "is not above 0");
   options->time_limit *= unit ? seconds[unit - units] : 1.0;
   return KZ_OK;
 }
 
-static kz_status set_progress(kz_options *options, const char *argument) {
-  static const char *const words[] = {
-      [KZ_PROGRESS_AUTO] = "auto", [KZ_PROGRESS_ALWAYS] = "always", [KZ_PROGRESS_NEVER] = "never"};
-  for (int i = 0; i < 3; i++)
-    if (strcmp(argument, words[i]) == 0) {
-      options->progress = (kz_progress)i;
-      return KZ_OK;
-    }
-  return kz_fail(KZ_REFUSED, "--progress: \"%s\" is unknown; it must be auto, always or never", argument);
-}
-
-static kz_status set_boundary(kz_options *options, const char *argument) {
+static kz_status set_boundary(kz_options *options, const kz_option *row, const char *argument) {
   const kz_node node = {.kind = KZ_SCALAR, .text = (char *)argument, .plain = true};
   const char *wrong = kz_scalar_integer(&node, &options->boundary);
   if (wrong || options->boundary < 1 || options->boundary > KZ_BOUNDARY_MOST_DIGITS)
-    return kz_fail(KZ_REFUSED, "--boundary: \"%.40s\" %s; give a number of digits from 1 to %d", argument,
+    return kz_fail(KZ_REFUSED, "--%s: \"%.40s\" %s; give a number of digits from 1 to %d", row->name, argument,
                    wrong ? wrong : "is out of range", KZ_BOUNDARY_MOST_DIGITS);
   return KZ_OK;
 }
 
-static kz_status set_log(kz_options *options, const char *argument) {
-  options->log = argument;
-  return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--log: the name is empty; give the name of a file");
-}
-
-static kz_status set_timings(kz_options *options, const char *argument) {
-  (void)argument;
-  options->timings = true;
-  return KZ_OK;
-}
-
+#define OF(member) offsetof(kz_options, member)
 const kz_option kz_option_rows[] = {
-    {"output", 'o', "FILE", RUN, set_output,
+    {"output", 'o', "FILE", RUN, set_file, OF(output),
      "name of the result; default: the base name of SCENE with .h5, in the current folder", NULL},
-    {"set", 256, "KEY=VALUE", RUN | CHECK | WHERE | VIEW | SERVE, add_set,
+    {"set", 0, "KEY=VALUE", RUN | CHECK | WHERE | VIEW | SERVE, add_set, 0,
      "change or add a key of the scene; VALUE is YAML; if a key is given twice, the last value counts", NULL},
-    {"resume", 257, NULL, RUN, set_resume, "continue from FILE.checkpoint if it exists", NULL},
-    {"force", 258, NULL, RUN, set_force, "overwrite FILE, discard FILE.checkpoint", NULL},
-    {"time-limit", 259, "T", RUN, set_time_limit,
+    {"resume", 0, NULL, RUN, set_flag, OF(resume), "continue from FILE.checkpoint if it exists", NULL},
+    {"force", 0, NULL, RUN, set_flag, OF(force), "overwrite FILE, discard FILE.checkpoint", NULL},
+    {"time-limit", 0, "T", RUN, set_time_limit, 0,
      "stop after T seconds (or 30m, 1.5h), save all finished work, exit with status 75", NULL},
-    {"progress", 260, "WHEN", RUN, set_progress, "when to show progress: auto, always or never", "auto|always|never"},
-    {"timings", 267, NULL, RUN, set_timings, "print at the end how long each stage took", NULL},
-    {"log", 268, "FILE", RUN, set_log, "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
-    {"json", 261, NULL, WHERE, set_json, "print JSON, one object a line", NULL},
-    {"boundary", 269, "DIGITS", WHERE, set_boundary,
+    {"progress", 0, "WHEN", RUN, set_progress, 0, "when to show progress: auto, always or never", "auto|always|never"},
+    {"timings", 0, NULL, RUN, set_flag, OF(timings), "print at the end how long each stage took", NULL},
+    {"log", 0, "FILE", RUN, set_file, OF(log), "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
+    {"json", 0, NULL, WHERE, set_flag, OF(json), "print JSON, one object a line", NULL},
+    {"boundary", 0, "DIGITS", WHERE, set_boundary, 0,
      "print the point between two starts at which their basins meet, correct to DIGITS decimal places", NULL},
-    {"json-schema", 262, NULL, KEYS, set_json_schema, "print the keys as a JSON schema, for editors", NULL},
-    {"port", 263, "N", VIEW, set_port, "port of the local server, 1024 to 65535; default: a free one", NULL},
-    {"no-browser", 264, NULL, VIEW, set_no_browser, "print the address, and do not open a browser", NULL},
-    {"origin", 270, "ORIGIN", VIEW, add_origin,
+    {"json-schema", 0, NULL, KEYS, set_flag, OF(json_schema), "print the keys as a JSON schema, for editors", NULL},
+    {"port", 0, "N", VIEW, set_text, OF(port), "port of the local server, 1024 to 65535; default: a free one", NULL},
+    {"no-browser", 0, NULL, VIEW, set_flag, OF(no_browser), "print the address, and do not open a browser", NULL},
+    {"origin", 0, "ORIGIN", VIEW, add_origin, 0,
      "also answer pages of this origin (a proxy or a tunnel), such as https://hub.example.org", NULL},
-    {"completion", 265, "SHELL", TOP, set_completion, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
-    {"manual", 266, NULL, TOP, set_manual, "print the manual page; to read it, pipe it into man -l -", NULL},
-    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | SERVE | KEYS | TOP, NULL, "print this help and exit", NULL},
-    {"version", 'V', NULL, TOP, NULL, "print the versions of the program and of its libraries, and exit", NULL},
+    {"completion", 0, "SHELL", TOP, set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
+    {"manual", 0, NULL, TOP, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
+    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | SERVE | KEYS | TOP, NULL, 0, "print this help and exit", NULL},
+    {"version", 'V', NULL, TOP, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
 };
-enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0] };
-const int kz_option_count = N_ROWS;
+enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0], NO_LETTER = 256 };
+
+const kz_option *kz_option_next(const kz_command *command, const kz_option *row) {
+  for (row = row ? row + 1 : kz_option_rows; row < kz_option_rows + N_ROWS; row++)
+    if (row->commands & command->bit) return row;
+  return NULL;
+}
+
+/* What getopt calls the option: its letter, or a number above all letters. */
+static int letter_of(const kz_option *row) {
+  return row->letter ? row->letter : NO_LETTER + (int)(row - kz_option_rows);
+}
 
 /* getopt's own description of the options of a command. */
 static void describe(const kz_command *command, struct option *longs, char *shorts) {
-  *shorts++ = '+';
-  *shorts++ = ':';
-  for (int i = 0; i < N_ROWS; i++) {
-    if (!(kz_option_rows[i].commands & command->bit)) continue;
-    *longs++ = (struct option){kz_option_rows[i].name, kz_option_rows[i].argument ? required_argument : no_argument, NULL,
-                               kz_option_rows[i].letter};
-    if (kz_option_rows[i].letter >= KZ_NO_LETTER) continue;
-    *shorts++ = (char)kz_option_rows[i].letter;
-    if (kz_option_rows[i].argument) *shorts++ = ':';
+  shorts = stpcpy(shorts, "+:");
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
+    *longs++ = (struct option){row->name, row->argument ? required_argument : no_argument, NULL, letter_of(row)};
+    if (!row->letter) continue;
+    *shorts++ = (char)row->letter;
+    if (row->argument) *shorts++ = ':';
   }
   *longs = (struct option){NULL, 0, NULL, 0};
   *shorts = '\0';
@@ -189,9 +170,8 @@ static kz_status refuse_option(const kz_command *command, const char *typed, boo
   const char *space = command->name[0] ? " " : "";
   if (lacks_argument)
     return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza%s%s --help shows its form", typed, space, command->name);
-  for (int i = 0; i < N_ROWS; i++)
-    if (kz_option_rows[i].commands & command->bit)
-      snprintf(names + strlen(names), sizeof names - strlen(names), "%s--%s", names[0] ? "|" : "", kz_option_rows[i].name);
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));)
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s--%s", names[0] ? "|" : "", row->name);
   char name[64];
   snprintf(name, sizeof name, "%.*s", (int)length, typed);
   if (kz_key_suggest(name, names, nearest, sizeof nearest) && strcmp(nearest, name) != 0)
@@ -244,10 +224,10 @@ static kz_status read_options(const kz_command *command, int argc, char **argv, 
       const bool is_letter = letter == '?' && optopt > 0 && optopt < 256 && strncmp(argv[optind - 1], "--", 2) != 0;
       return refuse_option(command, is_letter ? (const char[]){'-', (char)optopt, '\0'} : argv[optind - 1], letter == ':');
     }
-    int i = 0;
-    while (kz_option_rows[i].letter != letter) i++;
-    if (kz_option_rows[i].apply) {
-      KZ_TRY(kz_option_rows[i].apply(options, optarg));
+    const kz_option *row = kz_option_rows;
+    while (letter_of(row) != letter) row++;
+    if (row->apply) {
+      KZ_TRY(row->apply(options, row, optarg));
       continue;
     }
     options->answered = true;
@@ -272,7 +252,7 @@ static kz_status agree_alone(const kz_options *options) {
   kz_ranks *ranks = NULL;
   if (kz_launch_count() <= 1) return KZ_OK;
   kz_status status = kz_ranks_start(NULL, NULL, &ranks);
-  if (status == KZ_OK) status = kz_options_agree(options, ranks);
+  if (status == KZ_OK) status = kz_ranks_compare(ranks, options->words, "command line");
   kz_ranks_end(ranks);
   return status;
 }
@@ -329,6 +309,7 @@ kz_status kz_app(int argc, char **argv) {
   const bool speaks = kz_launch_rank() <= 0;
   kz_options options = {.speaks = speaks, .progress = KZ_PROGRESS_AUTO};
   options.line = join(argc, argv);
+  options.words = options.line + strcspn(options.line, " ");
   options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
   options.origins = kz_calloc((size_t)argc + 1, sizeof *options.origins);
   const kz_status status = dispatch(argc, argv, &options);

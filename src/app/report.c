@@ -1,8 +1,7 @@
-/* Reports about a scene or about the program: check, keys, --version. */
+/* Reports about a scene or about the program: check, keys, --version, warnings, the message at the end. */
 #include <math.h>
 #include <stdlib.h>
 
-#include "kapitza/study.h"
 #include "app.h"
 #include "kapitza/version.h"
 
@@ -26,6 +25,12 @@ char *kz_scene_resolved(const kz_scene *scene) {
 
 char *kz_scene_fingerprint(const kz_scene *scene) {
   return write_scene(scene, true);
+}
+
+void kz_warnings_print(const kz_scene *scene, FILE *out) {
+  if (scene->basin.table_is_idle)
+    fputs("warning: basin.icm: is not used by this basin.method; leave it out, or choose basin.method: icm\n", out);
+  kz_settling_warn(scene, out);
 }
 
 static void print_duration(double seconds) {
@@ -76,7 +81,7 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   return status;
 }
 
-kz_status kz_app_check(const kz_options *options) {
+kz_status kz_scene_answer(const kz_options *options, kz_status (*answer)(const kz_options *, const kz_scene *)) {
   char *text;
   size_t length;
   kz_scene scene;
@@ -84,12 +89,15 @@ kz_status kz_app_check(const kz_options *options) {
   KZ_TRY(kz_scene_load(options->scene, &text, &length));
   kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
   if (status == KZ_OK) {
-    status = check_scene(options, &scene);
-    status = kz_scene_locate(status, text, length, options->scene, options->n_sets, options->sets);
+    status = kz_scene_locate(answer(options, &scene), text, length, options->scene, options->n_sets, options->sets);
     kz_scene_free(&scene);
   }
   free(text);
   return status;
+}
+
+kz_status kz_app_check(const kz_options *options) {
+  return kz_scene_answer(options, check_scene);
 }
 
 kz_status kz_app_keys(const kz_options *options) {
@@ -103,4 +111,22 @@ void kz_app_version(FILE *out) {
   fprintf(out, "instruction set  %s: %s\n", KZ_ARCH, kz_instruction_names());
   fprintf(out, "MPI              %s\nHDF5             %s\nGSL              %s\nFFTW             %s\n", kz_parallel_library(),
           KZ_HDF5_VERSION, KZ_GSL_VERSION, KZ_FFTW_VERSION);
+}
+
+/* One line whatever the message holds: control characters become '?'. */
+static void print_message(kz_status status) {
+  fputs(status == KZ_STOPPED ? "kapitza: " : "kapitza: error: ", stderr);
+  for (const char *c = kz_message(); *c;) {
+    const int control = kz_control_bytes(c);
+    fputc(control ? '?' : *c, stderr);
+    c += control ? control : 1;
+  }
+  fputc('\n', stderr);
+}
+
+kz_status kz_say(kz_status status) {
+  if (fflush(stdout) != 0 && status == KZ_OK) status = kz_fail(KZ_FAILED, "standard output cannot be written");
+  if (status != KZ_OK && kz_message()[0]) print_message(status);
+  kz_message_clear();
+  return status;
 }

@@ -8,7 +8,6 @@
 
 #include "kapitza/study.h"
 #include "app.h"
-#include "log.h"
 #include "kapitza/version.h"
 
 typedef struct {
@@ -47,7 +46,7 @@ static kz_status read_scene(job *j) {
 
 /* Refuses to run unless all ranks have the same command line, scene, program and name of the result. */
 static kz_status agree_on_scene(job *j) {
-  KZ_TRY(kz_options_agree(j->options, j->run.ranks));
+  KZ_TRY(kz_ranks_compare(j->run.ranks, j->options->words, "command line"));
   KZ_TRY(share_text(j));
   KZ_TRY(kz_ranks_agree(j->run.ranks, read_scene(j)));
   KZ_TRY(kz_ranks_compare(j->run.ranks, j->fingerprint, "scene or program"));

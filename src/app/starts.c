@@ -31,8 +31,7 @@ static bool read_per_second(const char *text, const kz_starts *starts, double *v
   if (!slash || slash[5] != '\0' || slash - text >= (long)sizeof number) return false;
   while (slash > text && slash[-1] == ' ') slash--;
   snprintf(number, sizeof number, "%.*s", (int)(slash - text), text);
-  const kz_node node = {.kind = KZ_SCALAR, .text = number, .plain = true};
-  *wrong = kz_scalar_real(&node, value);
+  *wrong = kz_text_real(number, value);
   if (!*wrong && isnan(starts->pivot_frequency)) *wrong = "is per second, but the scene is not in SI units";
   if (!*wrong) *value = (degrees ? *value / 180 * M_PI : *value) / starts->pivot_frequency;
   return true;

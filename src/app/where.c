@@ -59,55 +59,70 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   }
 }
 
-static void print_list(const char *name, int n, const double *values, double unit) {
-  printf(", \"%s\": [", name);
+/* One thing that is told of a start, a member of a JSON object and a column of CSV. */
+typedef struct {
+  const char *name;
+  enum { NUMBER, TEXT, BARE, LIST } kind;
+  double value;       /* NUMBER: NaN = none; LIST: factor of its numbers */
+  const char *word;   /* TEXT: "" = none; BARE: without quotes in JSON */
+  const double *list; /* LIST: a number for each strobe point, of which CSV has the first */
+} member;
+enum { MEMBERS = 17, MEMBERS_SI = 3 /* the last ones, which an SI scene adds */ };
+
+/* Fills list [MEMBERS] and returns their number. */
+static int list_members(const kz_coordinate start[2], const kz_ending *e, double omega, member *list) {
+  const bool settled = e->attractor >= 0;
+  const member all[MEMBERS] = {
+      {"theta", NUMBER, .value = start[0].high},
+      {"velocity", NUMBER, .value = start[1].high},
+      {"attractor", NUMBER, .value = e->attractor},
+      {"name", TEXT, .word = settled ? e->name : ""},
+      {"period", NUMBER, .value = settled ? e->period : NAN},
+      {"winding", NUMBER, .value = settled ? e->winding : NAN},
+      {"settling_time", NUMBER, .value = settled ? (double)e->settling_time : NAN},
+      {"decided", BARE, .word = e->precision ? "true" : "false"},
+      {"strobe_theta", LIST, .value = 1, .list = e->strobe_theta},
+      {"strobe_velocity", LIST, .value = 1, .list = e->strobe_velocity},
+      {"precision", TEXT, .word = e->precision ? e->precision : ""},
+      {"error", NUMBER, .value = e->error},
+      {"other_attractor", NUMBER, .value = e->other},
+      {"other_name", TEXT, .word = e->other_name},
+      {"velocity_rad_per_s", NUMBER, .value = start[1].high * omega},
+      {"settling_seconds", NUMBER, .value = settled ? (double)e->settling_time * 2 * M_PI / omega : NAN},
+      {"strobe_velocity_rad_per_s", LIST, .value = omega, .list = e->strobe_velocity},
+  };
+  memcpy(list, all, sizeof all);
+  return isnan(omega) ? MEMBERS - MEMBERS_SI : MEMBERS;
+}
+
+static void print_list(const member *m, int n) {
   for (int i = 0; i < n; i++) {
     if (i > 0) fputs(", ", stdout);
-    print_number(values[i] * unit);
+    print_number(m->list[i] * m->value);
   }
-  putchar(']');
 }
 
-static void print_word(const char *name, const char *value) {
-  const char *quote = value[0] ? "\"" : "";
-  printf(", \"%s\": %s%s%s", name, quote, value[0] ? value : "null", quote);
-}
-
-/* What an SI scene adds: rad/s and seconds. */
-static void print_si(const kz_coordinate start[2], const kz_ending *e, double omega) {
-  fputs(", \"velocity_rad_per_s\": ", stdout);
-  print_number(start[1].high * omega);
-  fputs(", \"settling_seconds\": ", stdout);
-  if (e->attractor < 0)
-    fputs("null", stdout);
+/* The value of a member; `none` stands for one that is not there. */
+static void print_value(const member *m, const char *quote, const char *none) {
+  if (m->kind == NUMBER && !isnan(m->value))
+    print_number(m->value);
+  else if (m->kind == NUMBER || !m->word[0])
+    fputs(none, stdout);
   else
-    print_number((double)e->settling_time * 2 * M_PI / omega);
-  print_list("strobe_velocity_rad_per_s", e->period, e->strobe_velocity, omega);
+    printf("%s%s%s", m->kind == TEXT ? quote : "", m->word, m->kind == TEXT ? quote : "");
 }
 
 void kz_ending_print(const kz_coordinate start[2], const kz_ending *e, double omega) {
-  fputs("\"theta\": ", stdout);
-  print_number(start[0].high);
-  fputs(", \"velocity\": ", stdout);
-  print_number(start[1].high);
-  printf(", \"attractor\": %d", (int)e->attractor);
-  if (e->attractor < 0)
-    fputs(", \"name\": null, \"period\": null, \"winding\": null, \"settling_time\": null", stdout);
-  else
-    printf(", \"name\": \"%s\", \"period\": %d, \"winding\": %d, \"settling_time\": %lld", e->name, (int)e->period,
-           (int)e->winding, (long long)e->settling_time);
-  printf(", \"decided\": %s", e->precision ? "true" : "false");
-  print_list("strobe_theta", e->period, e->strobe_theta, 1);
-  print_list("strobe_velocity", e->period, e->strobe_velocity, 1);
-  print_word("precision", e->precision ? e->precision : "");
-  fputs(", \"error\": ", stdout);
-  if (isnan(e->error))
-    fputs("null", stdout);
-  else
-    print_number(e->error);
-  printf(", \"other_attractor\": %d", (int)e->other);
-  print_word("other_name", e->other_name);
-  if (!isnan(omega)) print_si(start, e, omega);
+  member list[MEMBERS];
+  const int n = list_members(start, e, omega, list);
+  for (const member *m = list; m < list + n; m++) {
+    printf("%s\"%s\": %s", m == list ? "" : ", ", m->name, m->kind == LIST ? "[" : "");
+    if (m->kind == LIST)
+      print_list(m, e->period);
+    else
+      print_value(m, "\"", "null");
+    if (m->kind == LIST) putchar(']');
+  }
 }
 
 static void print_json(const kz_coordinate start[2], const kz_ending *e, double omega) {
@@ -116,48 +131,32 @@ static void print_json(const kz_coordinate start[2], const kz_ending *e, double 
   puts("}");
 }
 
-/* A row has the first strobe point of the orbit; columns without a value stay empty. */
 static void print_csv(const kz_coordinate start[2], const kz_ending *e, double omega) {
-  print_number(start[0].high);
-  putchar(',');
-  print_number(start[1].high);
-  printf(",%d,", (int)e->attractor);
-  if (e->attractor < 0)
-    fputs(",,,", stdout);
-  else
-    printf("%s,%d,%d,%lld", e->name, (int)e->period, (int)e->winding, (long long)e->settling_time);
-  printf(",%s,", e->precision ? "true" : "false");
-  if (e->period > 0) print_number(e->strobe_theta[0]);
-  putchar(',');
-  if (e->period > 0) print_number(e->strobe_velocity[0]);
-  printf(",%s,", e->precision ? e->precision : "");
-  if (!isnan(e->error)) print_number(e->error);
-  printf(",%d,%s", (int)e->other, e->other_name);
-  if (!isnan(omega)) {
-    putchar(',');
-    print_number(start[1].high * omega);
-    putchar(',');
-    if (e->attractor >= 0) print_number((double)e->settling_time * 2 * M_PI / omega);
-    putchar(',');
-    if (e->period > 0) print_number(e->strobe_velocity[0] * omega);
+  member list[MEMBERS];
+  const int n = list_members(start, e, omega, list);
+  for (const member *m = list; m < list + n; m++) {
+    if (m > list) putchar(',');
+    if (m->kind == LIST)
+      print_list(m, e->period > 0 ? 1 : 0);
+    else
+      print_value(m, "", "");
   }
   putchar('\n');
+}
+
+static void print_csv_names(const kz_coordinate start[2], const kz_ending *e, double omega) {
+  member list[MEMBERS];
+  const int n = list_members(start, e, omega, list);
+  for (int i = 0; i < n; i++) printf("%s%c", list[i].name, i + 1 < n ? ',' : '\n');
 }
 
 static void print_endings(const kz_options *options, const kz_starts *starts, const kz_ending *endings) {
   const bool table = options->n_operands == 2;
   const double omega = starts->pivot_frequency;
-  if (table && !options->json)
-    printf(
-        "theta,velocity,attractor,name,period,winding,settling_time,decided,strobe_theta,strobe_velocity,"
-        "precision,error,other_attractor,other_name%s\n",
-        isnan(omega) ? "" : ",velocity_rad_per_s,settling_seconds,strobe_velocity_rad_per_s");
+  if (table && !options->json) print_csv_names(starts->start[0], endings, omega);
   for (int64_t i = 0; i < starts->n; i++) {
     const kz_coordinate *start = starts->start[i];
-    if (options->json || table)
-      (options->json ? print_json : print_csv)(start, endings + i, omega);
-    else
-      print_person(start, endings + i, omega);
+    (options->json ? print_json : table ? print_csv : print_person)(start, endings + i, omega);
   }
 }
 
@@ -182,26 +181,15 @@ static kz_status answer_boundary(const kz_options *options, const kz_scene *scen
   return KZ_OK;
 }
 
-static kz_status answer(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
-  KZ_TRY(kz_studies_check(scene));
-  return (options->boundary > 0 ? answer_boundary : answer_where)(options, scene, starts);
+static kz_status answer(const kz_options *options, const kz_scene *scene) {
+  kz_starts starts;
+  kz_status status = kz_starts_read(options, scene->parameters.pivot_frequency, &starts);
+  if (status == KZ_OK) status = kz_studies_check(scene);
+  if (status == KZ_OK) status = (options->boundary > 0 ? answer_boundary : answer_where)(options, scene, &starts);
+  kz_starts_free(&starts);
+  return status;
 }
 
 kz_status kz_app_where(const kz_options *options) {
-  char *text;
-  size_t length;
-  kz_scene scene;
-  kz_starts starts = {0};
-  if (!options->speaks) return KZ_OK;
-  KZ_TRY(kz_scene_load(options->scene, &text, &length));
-  kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
-  if (status == KZ_OK) {
-    status = kz_starts_read(options, scene.parameters.pivot_frequency, &starts);
-    if (status == KZ_OK) status = answer(options, &scene, &starts);
-    status = kz_scene_locate(status, text, length, options->scene, options->n_sets, options->sets);
-    kz_scene_free(&scene);
-  }
-  kz_starts_free(&starts);
-  free(text);
-  return status;
+  return kz_scene_answer(options, answer);
 }

@@ -11,6 +11,15 @@ const char *kz_key_words(const kz_key *key) {
   return key->words ? key->words : "";
 }
 
+int64_t kz_word_find(const char *words, const char *word) {
+  for (int64_t index = 0; *words; index++) {
+    const size_t length = strcspn(words, "|");
+    if (strlen(word) == length && strncmp(words, word, length) == 0) return index;
+    words += length + (words[length] == '|');
+  }
+  return -1;
+}
+
 bool kz_key_is_angle(const kz_key *key) {
   return strcmp(key->unit, "rad") == 0;
 }

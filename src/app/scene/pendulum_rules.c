@@ -1,11 +1,9 @@
 /* Rules of the mapping pendulum: which keys a pendulum in a laboratory needs, and how k, beta and m follow from them. */
-#include "pendulum_rules.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "axis_rules.h"
+#include "rules.h"
 
 static bool is_given(double value) {
   return !isnan(value);
@@ -37,29 +35,31 @@ static void check_complete(kz_reading *reading, const kz_pendulum_keys *w) {
   lack(list, n, !is_given(w->amplitude) && !is_given(w->pivot_amplitude), "amplitude (of the pivot)");
   lack(list, n, !is_given(w->quality_factor) && !is_given(w->decay_time) && !is_given(w->friction),
        "quality_factor (or decay_time, or friction)");
-  if (list[0]) kz_complain(reading, NULL, "pendulum.amplitude", "the pendulum lacks: %s", list);
+  if (list[0]) kz_complain_at(reading, NULL, "pendulum.amplitude", "the pendulum lacks: %s", list);
 }
 
 /* Refuses two keys that give the same quantity. */
-static void check_once(kz_reading *reading, double one, const char *name, double other, const char *other_name) {
-  char path[64];
-  snprintf(path, sizeof path, "pendulum.%s", other_name);
-  if (is_given(one) && is_given(other))
-    kz_complain(reading, kz_tree_find(reading->root, path), path, "contradicts %s, which gives the same; give one of them",
-                name);
+static void check_once(kz_reading *reading, const kz_pendulum_keys *w) {
+  const struct {
+    double one, other;
+    const char *name, *path;
+  } pairs[] = {{w->pivot_frequency, w->frequency, "pivot_frequency", "pendulum.frequency"},
+               {w->pivot_amplitude, w->amplitude, "pivot_amplitude", "pendulum.amplitude"},
+               {w->length, w->radius, "length", "pendulum.radius"},
+               {w->length, w->inertia, "length", "pendulum.inertia"},
+               {w->quality_factor, w->decay_time, "quality_factor", "pendulum.decay_time"},
+               {w->quality_factor, w->friction, "quality_factor", "pendulum.friction"},
+               {w->decay_time, w->friction, "decay_time", "pendulum.friction"}};
+  for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+    if (is_given(pairs[i].one) && is_given(pairs[i].other))
+      kz_complain(reading, pairs[i].path, "contradicts %s, which gives the same; give one of them", pairs[i].name);
 }
 
 static void check_laboratory(kz_reading *reading, const kz_pendulum_keys *w) {
-  check_once(reading, w->pivot_frequency, "pivot_frequency", w->frequency, "frequency");
-  check_once(reading, w->pivot_amplitude, "pivot_amplitude", w->amplitude, "amplitude");
-  check_once(reading, w->length, "length", w->radius, "radius");
-  check_once(reading, w->length, "length", w->inertia, "inertia");
-  check_once(reading, w->quality_factor, "quality_factor", w->decay_time, "decay_time");
-  check_once(reading, w->quality_factor, "quality_factor", w->friction, "friction");
-  check_once(reading, w->decay_time, "decay_time", w->friction, "friction");
+  check_once(reading, w);
   check_complete(reading, w);
   if (reading->message[0] || !is_given(w->inertia) || kz_inertia_is_possible(w)) return;
-  kz_complain(reading, kz_tree_find(reading->root, "pendulum.inertia"), "pendulum.inertia",
+  kz_complain(reading, "pendulum.inertia",
               "%s is below pendulum.mass * pendulum.radius^2 = %s, the least that a body can have; give at least that",
               kz_shortest(w->inertia).text, kz_shortest(kz_point_inertia(w)).text);
 }
@@ -67,14 +67,13 @@ static void check_laboratory(kz_reading *reading, const kz_pendulum_keys *w) {
 /* The list of samples and the wave form "samples" need each other. */
 static void check_samples(kz_reading *reading, const kz_pendulum_keys *w) {
   enum { FEWEST = 4 };
-  const kz_node *list = kz_tree_find(reading->root, "pendulum.samples");
+  const bool list = kz_tree_find(reading->root, "pendulum.samples");
   if (w->waveform == KZ_SAMPLES && !list)
-    kz_complain(reading, kz_tree_find(reading->root, "pendulum.waveform"), "pendulum.waveform",
-                "samples needs the list pendulum.samples; give it, or choose another form");
+    kz_complain(reading, "pendulum.waveform", "samples needs the list pendulum.samples; give it, or choose another form");
   else if (list && w->waveform != KZ_SAMPLES)
-    kz_complain(reading, list, "pendulum.samples", "is for pendulum.waveform: samples; choose it, or leave the list out");
+    kz_complain(reading, "pendulum.samples", "is for pendulum.waveform: samples; choose it, or leave the list out");
   else if (list && w->samples.count < FEWEST)
-    kz_complain(reading, list, "pendulum.samples", "has %lld values; give at least %d", (long long)w->samples.count, FEWEST);
+    kz_complain(reading, "pendulum.samples", "has %lld values; give at least %d", (long long)w->samples.count, FEWEST);
 }
 
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
@@ -94,5 +93,5 @@ void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
   char wrong[256];
   snprintf(wrong, sizeof wrong, "%s", kz_message());
   kz_message_clear();
-  kz_complain(reading, kz_tree_child(reading->root, "pendulum"), "pendulum", "%s", wrong);
+  kz_complain(reading, "pendulum", "%s", wrong);
 }

@@ -15,8 +15,7 @@ static const char *read_number(const kz_node *node, size_t length, double *value
   while (length > 0 && (node->text[length - 1] == ' ' || node->text[length - 1] == '*')) length--;
   if (length == 0 || length >= sizeof number) return "is not a finite decimal number";
   snprintf(number, sizeof number, "%.*s", (int)length, node->text);
-  const kz_node plain = {.kind = KZ_SCALAR, .text = number, .plain = true};
-  return kz_scalar_real(&plain, value);
+  return kz_text_real(number, value);
 }
 
 /* Where the letters of pi stand, or NULL. */
@@ -46,23 +45,19 @@ bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor) 
 
 /* 180 degrees and pi are M_PI to the bit. */
 const char *kz_scalar_angle(const kz_node *node, double *value) {
-  static const char unit[] = "deg", sign[] = "\xc2\xb0";
+  static const char *const degrees[] = {"deg", "\xc2\xb0"};
   char multiple[LONGEST];
   long divisor;
   const size_t length = node->kind == KZ_SCALAR ? strlen(node->text) : 0;
-  if (length > 3 && strcmp(node->text + length - 3, unit) == 0) {
-    const char *wrong = read_number(node, length - 3, value);
-    if (!wrong) *value = *value / 180 * M_PI;
-    return wrong;
-  }
-  if (length > 2 && strcmp(node->text + length - 2, sign) == 0) {
-    const char *wrong = read_number(node, length - 2, value);
+  for (int i = 0; i < 2; i++) {
+    const size_t n = strlen(degrees[i]);
+    if (length <= n || strcmp(node->text + length - n, degrees[i]) != 0) continue;
+    const char *wrong = read_number(node, length - n, value);
     if (!wrong) *value = *value / 180 * M_PI;
     return wrong;
   }
   if (length == 0 || !kz_pi_parts(node->text, multiple, sizeof multiple, &divisor)) return kz_scalar_real(node, value);
-  const kz_node factor = {.kind = KZ_SCALAR, .text = multiple, .plain = true};
-  const char *wrong = kz_scalar_real(&factor, value);
+  const char *wrong = kz_text_real(multiple, value);
   if (!wrong) *value = *value * M_PI / (double)divisor;
   return wrong;
 }

@@ -29,32 +29,38 @@ static const kz_node *nearest_mapping(const kz_node *root, const char *path) {
   return node;
 }
 
-static void keep(kz_reading *reading, int order, const char *place, const char *path, const char *format, va_list arguments) {
+/* Keeps a complaint at the value of `node`, or at its key; NULL: at the mapping that `path` misses from, after all others. */
+static void complain(kz_reading *reading, const kz_node *node, bool at_name, const char *path, const char *format,
+                     va_list arguments) {
+  const int order = node ? node->order : INT_MAX - 1;
   if (order >= reading->first) return;
   reading->first = order;
+  char place[1200];
+  print_place(node ? node : nearest_mapping(reading->root, path), at_name, place, sizeof place);
   const int length = snprintf(reading->message, sizeof reading->message, "%s: %s: ", place, path);
   if (length >= 0 && (size_t)length < sizeof reading->message)
     vsnprintf(reading->message + length, sizeof reading->message - (size_t)length, format, arguments);
 }
 
-void kz_complain(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...) {
-  char place[1200];
-  print_place(node ? node : nearest_mapping(reading->root, path), false, place, sizeof place);
-  va_list arguments;
-  va_start(arguments, format);
-  keep(reading, node ? node->order : INT_MAX - 1, place, path, format, arguments);
-  va_end(arguments);
+#define COMPLAIN(reading, node, at_name, path, format)         \
+  do {                                                         \
+    va_list arguments;                                         \
+    va_start(arguments, format);                               \
+    complain(reading, node, at_name, path, format, arguments); \
+    va_end(arguments);                                         \
+  } while (0)
+
+void kz_complain(kz_reading *reading, const char *path, const char *format, ...) {
+  COMPLAIN(reading, kz_tree_find(reading->root, path), false, path, format);
 }
 
-/* The same at the key of `node` rather than at its value. */
+void kz_complain_at(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...) {
+  COMPLAIN(reading, node, false, path, format);
+}
+
 __attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *reading, const kz_node *node, const char *path,
                                                                const char *format, ...) {
-  char place[1200];
-  print_place(node, true, place, sizeof place);
-  va_list arguments;
-  va_start(arguments, format);
-  keep(reading, node->order, place, path, format, arguments);
-  va_end(arguments);
+  COMPLAIN(reading, node, true, path, format);
 }
 
 /* Complains about a value: what is wrong with it, what would be accepted. */
@@ -68,9 +74,9 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
   else if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
     snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);
   if (node->kind == KZ_SCALAR && node->text[0])
-    kz_complain(reading, node, key->path, "\"%.60s\" %s; it must be %s%s", node->text, wrong, accepted, hint);
+    kz_complain_at(reading, node, key->path, "\"%.60s\" %s; it must be %s%s", node->text, wrong, accepted, hint);
   else
-    kz_complain(reading, node, key->path, "the value %s; it must be %s", wrong, accepted);
+    kz_complain_at(reading, node, key->path, "the value %s; it must be %s", wrong, accepted);
 }
 
 /* "0,3" in a flow mapping is the number 0 and a key 3 without a value. */
@@ -189,7 +195,7 @@ static void check_missing(kz_reading *reading) {
   }
   if (!first) return;
   kz_key_accepts(reading->keys, first, accepted, sizeof accepted);
-  kz_complain(reading, NULL, first->path, "is missing; it must be %s%s", accepted, others);
+  kz_complain(reading, first->path, "is missing; it must be %s%s", accepted, others);
 }
 
 /* A key beside the number that answers it. */
@@ -207,7 +213,7 @@ static void check_studies(kz_reading *reading) {
     if (kz_tree_child(reading->root, key->path)) return;
     snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? ", " : "", key->path);
   }
-  kz_complain(reading, NULL, "scene", "asks for no study; give at least one of: %s", names);
+  kz_complain_at(reading, NULL, "scene", "asks for no study; give at least one of: %s", names);
 }
 
 /* The default of a key, read by the same code as a user's value. */
@@ -235,8 +241,8 @@ kz_status kz_reading_keys(kz_reading *reading) {
   number(reading->root, &next);
   for (const kz_key *key = reading->keys; key->path; key++) KZ_TRY(set_default(key, reading->scene));
   if (reading->root->kind != KZ_MAPPING) {
-    kz_complain(reading, reading->root, "scene",
-                "is not a mapping; write lines such as \"pendulum: {k: 0, damping: 0.05, m: 0.5}\"");
+    kz_complain_at(reading, reading->root, "scene",
+                   "is not a mapping; write lines such as \"pendulum: {k: 0, damping: 0.05, m: 0.5}\"");
     return KZ_OK;
   }
   read_mapping(reading, reading->root, "");

@@ -65,6 +65,11 @@ const char *kz_scalar_real(const kz_node *node, double *value) {
   return NULL;
 }
 
+const char *kz_text_real(const char *text, double *value) {
+  const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
+  return kz_scalar_real(&node, value);
+}
+
 /* What keeps a node from being a text of at most `most` bytes, or NULL. */
 static const char *text_wrong(const kz_node *node, size_t most, const char *too_long) {
   if (node->kind == KZ_SEQUENCE) return "is a list";

@@ -137,9 +137,8 @@ kz_status kz_scene_read(const char *text, size_t length, const char *file, int n
 static void complain_first(kz_reading *reading, char *keys, const char *wrong) {
   char *rest = keys;
   for (char *key; (key = strsep(&rest, "|"));) {
-    const kz_node *node = kz_tree_find(reading->root, key);
-    if (!node && rest) continue;
-    kz_complain(reading, node, key, "%s", wrong);
+    if (!kz_tree_find(reading->root, key) && rest) continue;
+    kz_complain(reading, key, "%s", wrong);
     return;
   }
 }

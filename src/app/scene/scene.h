@@ -57,6 +57,8 @@ extern const kz_key kz_keys[];
 
 /* The words of a key, joined by '|'; "" for other types. */
 const char *kz_key_words(const kz_key *key);
+/* The place of a word in the words "a|b|c"; -1 if it is none of them. */
+int64_t kz_word_find(const char *words, const char *word);
 /* True if the key is an angle, which may be written in degrees. */
 bool kz_key_is_angle(const kz_key *key);
 /* The row of `path`, or NULL. */
@@ -104,6 +106,7 @@ kz_node *kz_tree_copy(const kz_node *root);
 /* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), or NULL. */
 const char *kz_scalar_integer(const kz_node *node, int64_t *value);
 const char *kz_scalar_real(const kz_node *node, double *value);
+const char *kz_text_real(const char *text, double *value); /* as kz_scalar_real, of a text without quotes */
 /* An angle in rad, or in degrees with "deg" behind the number, or a part of pi such as "3 pi/4"; value in rad. */
 const char *kz_scalar_angle(const kz_node *node, double *value);
 /* A number of any digits, with or without quotes; an angle may be in degrees. *value keeps the text. */
@@ -146,8 +149,10 @@ typedef struct {
   char message[2000];
 } kz_reading;
 
-/* Records a complaint about the key `path` at the value of `node`; NULL = a missing key, reported at its mapping. */
-void kz_complain(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...)
+/* Records a complaint about the key `path` at its value; a key that the scene does not give is reported at its mapping. */
+void kz_complain(kz_reading *reading, const char *path, const char *format, ...) __attribute__((format(printf, 3, 4)));
+/* The same at the value of `node`; NULL = a missing key. */
+void kz_complain_at(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 /* Sets every field of `scene` to its default, then reads the tree into it by the table. */
 kz_status kz_reading_keys(kz_reading *reading);

@@ -76,9 +76,9 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   kz_node *child = child_named(root, path, length);
   if (!child) {
     child = new_mapping(path, length, value);
-    if (child) append(root, child);
+    append(root, child);
   }
-  if (child && child->kind == KZ_MAPPING) return kz_tree_set(child, path + length + 1, value);
+  if (child->kind == KZ_MAPPING) return kz_tree_set(child, path + length + 1, value);
   const char *source = value->source;
   kz_tree_free(value);
   return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; make it one, or --set all of it", source, (int)length,

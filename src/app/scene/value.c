@@ -21,13 +21,8 @@ static const char *read_text(const kz_key *key, const kz_node *node, void *field
 static const char *find_word(const kz_key *key, const kz_node *node, int64_t *index) {
   const char *wrong = kz_scalar_text(node);
   if (wrong) return wrong;
-  *index = 0;
-  for (const char *word = kz_key_words(key); *word; (*index)++) {
-    const size_t length = strcspn(word, "|");
-    if (strlen(node->text) == length && strncmp(word, node->text, length) == 0) return NULL;
-    word += length + (word[length] == '|');
-  }
-  return "is unknown";
+  *index = kz_word_find(kz_key_words(key), node->text);
+  return *index < 0 ? "is unknown" : NULL;
 }
 
 static const char *read_word(const kz_key *key, const kz_node *node, void *field) {

@@ -111,32 +111,24 @@ static kz_status scan(const source_text *source) {
 static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from);
 
 /* Appends a copy of `from` to *end, named by the scalar `key` (NULL in a list). */
-static bool copy_child(yaml_document_t *document, const source_text *source, const yaml_node_t *key, const yaml_node_t *from,
-                       kz_node ***end) {
-  kz_node *child = copy(document, source, from);
-  if (!child) return false;
-  **end = child;
+static void copy_child(yaml_document_t *document, const source_text *source, const yaml_node_t *key, int from, kz_node ***end) {
+  kz_node *child = **end = copy(document, source, yaml_document_get_node(document, from));
   *end = &child->next;
-  if (!key) return true;
+  if (!key) return;
   free(child->name);
   child->name = kz_strdup(key->type == YAML_SCALAR_NODE ? (const char *)key->data.scalar.value : "?");
   child->name_line = source->option ? 0 : (int)key->start_mark.line + 1;
   child->name_column = source->option ? 0 : (int)key->start_mark.column + 1;
-  return child->name != NULL;
 }
 
-static bool copy_children(yaml_document_t *document, const source_text *source, const yaml_node_t *from, kz_node *node) {
+static void copy_children(yaml_document_t *document, const source_text *source, const yaml_node_t *from, kz_node *node) {
   kz_node **end = &node->first;
-  if (from->type == YAML_SEQUENCE_NODE) {
+  if (from->type == YAML_SEQUENCE_NODE)
     for (const yaml_node_item_t *item = from->data.sequence.items.start; item < from->data.sequence.items.top; item++)
-      if (!copy_child(document, source, NULL, yaml_document_get_node(document, *item), &end)) return false;
-  } else if (from->type == YAML_MAPPING_NODE) {
+      copy_child(document, source, NULL, *item, &end);
+  else if (from->type == YAML_MAPPING_NODE)
     for (const yaml_node_pair_t *pair = from->data.mapping.pairs.start; pair < from->data.mapping.pairs.top; pair++)
-      if (!copy_child(document, source, yaml_document_get_node(document, pair->key),
-                      yaml_document_get_node(document, pair->value), &end))
-        return false;
-  }
-  return true;
+      copy_child(document, source, yaml_document_get_node(document, pair->key), pair->value, &end);
 }
 
 /* A scalar's text. A NUL written as "\0" would end it early: it becomes the control character 1, which no text may hold. */
@@ -163,9 +155,8 @@ static kz_node *copy(yaml_document_t *document, const source_text *source, const
     node->plain = from->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
     node->text = copy_text(from);
   }
-  if (node->name && (node->text || node->kind != KZ_SCALAR) && copy_children(document, source, from, node)) return node;
-  kz_tree_free(node);
-  return NULL;
+  copy_children(document, source, from, node);
+  return node;
 }
 
 /* Loads the next document; *root = NULL at the end of the text. */
@@ -175,9 +166,8 @@ static kz_status load_next(yaml_parser_t *parser, const source_text *source, kz_
   if (!yaml_parser_load(parser, &document)) return refuse_problem(source, parser);
   const yaml_node_t *top = yaml_document_get_root_node(&document);
   if (top) *root = copy(&document, source, top);
-  const bool failed = top && !*root;
   yaml_document_delete(&document);
-  return failed ? kz_fail(KZ_FAILED, "%s: out of memory", source->source) : KZ_OK;
+  return KZ_OK;
 }
 
 static kz_status load(const source_text *source, kz_node **root) {

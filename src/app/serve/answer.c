@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "../app.h"
-#include "../log.h"
 #include "kapitza/version.h"
 
 /* The members that every header has. */
