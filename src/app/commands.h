@@ -26,8 +26,13 @@ typedef struct kz_option {
 
 extern const kz_command kz_commands[], kz_program;
 extern const int kz_command_count;
+extern const kz_option kz_option_rows[]; /* ended by a row without name */
 /* The option of a command that comes after `row` (NULL: the first); NULL if there is none. */
-const kz_option *kz_option_next(const kz_command *command, const kz_option *row);
+static inline const kz_option *kz_option_next(const kz_command *command, const kz_option *row) {
+  for (row = row ? row + 1 : kz_option_rows; row->name; row++)
+    if (row->commands & command->bit) return row;
+  return NULL;
+}
 
 void kz_help_print(const kz_command *command);
 /* The manual page, as roff. */

@@ -137,14 +137,9 @@ const kz_option kz_option_rows[] = {
     {"manual", 0, NULL, TOP, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
     {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | SERVE | KEYS | TOP, NULL, 0, "print this help and exit", NULL},
     {"version", 'V', NULL, TOP, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
+    {.name = NULL},
 };
 enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0], NO_LETTER = 256 };
-
-const kz_option *kz_option_next(const kz_command *command, const kz_option *row) {
-  for (row = row ? row + 1 : kz_option_rows; row < kz_option_rows + N_ROWS; row++)
-    if (row->commands & command->bit) return row;
-  return NULL;
-}
 
 /* What getopt calls the option: its letter, or a number above all letters. */
 static int letter_of(const kz_option *row) {

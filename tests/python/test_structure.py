@@ -209,12 +209,6 @@ def test_memory_is_asked_for_where_it_is_checked():
 # ---- options ----
 
 
-def test_no_two_options_have_one_number():
-    """getopt tells them apart by it alone: --origin was taken for --boundary."""
-    numbers = re.findall(r'^    \{"[a-z-]+", ([^,]+),', (SOURCES / "app" / "options.c").read_text(), re.MULTILINE)
-    assert len(numbers) > 15 and len(numbers) == len(set(numbers))
-
-
 # ---- signal handlers ----
 
 # POSIX.1-2017, 2.4.3: what a signal handler may call.
