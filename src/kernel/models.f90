@@ -16,9 +16,6 @@ module kz_kernel_models
     integer(c_int32_t) :: code
     type(pendulum_t) :: pendulum
     type(period_t) :: period
-    real(c_double), allocatable :: drift(:)
-    real(c_double), allocatable :: decay(:)
-    real(c_double), allocatable :: kick(:)
   end type model_t
 
   interface
@@ -81,9 +78,6 @@ contains
     else
       call make_period(pendulum, numerics, .false., model%period)
     end if
-    model%drift = real(model%period%drift, c_double)
-    model%decay = real(model%period%decay, c_double)
-    model%kick = real(model%period%kick, c_double)
   end subroutine make_model
 
   !> x = (theta, velocity) from the end of step `from` to the end of step `to` of a period.
@@ -96,8 +90,8 @@ contains
     first = 1
     if (from > 0) first = model%period%step_end(from) + 1
     do s = first, model%period%step_end(to)
-      x(1) = x(1) + model%drift(s)*x(2)
-      x(2) = model%decay(s)*x(2) - model%kick(s)*restoring(model, x(1))
+      x(1) = x(1) + model%period%drift(s)*x(2)
+      x(2) = model%period%decay(s)*x(2) - model%period%kick(s)*restoring(model, x(1))
     end do
   end subroutine advance
 

@@ -16,7 +16,7 @@ typedef struct {
  * stage the coefficients of the drift (the first one high and low, then n_drift - 1 doubles) and of the kick (n_pairs high and low, then
  * n_kick - n_pairs doubles, because those of high powers are small); in the last row only the drift counts. ordered [n_stages]: 1 if the
  * modulus of every pair among the coefficients of the kick is at least the sum of the moduli after it. decay [2]: factor of the velocity,
- * high and low, from damping. Without mirror symmetry a row goes on with as many coefficients of even polynomials (table_types.inc). */
+ * high and low, from damping. Without mirror symmetry a row goes on with as many coefficients of even polynomials (tables.inc). */
 void kz_pairs_stages(int32_t mirrored, int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row,
                      const int32_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns);
 

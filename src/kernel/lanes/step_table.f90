@@ -1,17 +1,17 @@
-!> One drive period of a pendulum as a list of drifts and kicks, in quad precision; each kind rounds it to its own.
+!> One drive period of a pendulum as a list of drifts and kicks, made in quad precision and rounded to doubles.
 module kz_lanes_step_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
-  use, intrinsic :: iso_fortran_env, only: real128
+  use, intrinsic :: iso_fortran_env, only: rk => real64, real128
   use kz_model_pendulum, only: pendulum_t, force_at
   use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
   use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
   implicit none
   private
-  public :: numerics_t, period_t, make_period, INVERSE_PI_QUAD
+  public :: numerics_t, period_t, make_period
 
   integer, parameter :: qp = real128
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
-  real(qp), parameter :: INVERSE_PI_QUAD = 1/PI
+  real(qp), parameter :: INVERSE_PI = 1/PI
 
   type, bind(C) :: numerics_t
     integer(c_int32_t) :: scheme
@@ -31,14 +31,15 @@ module kz_lanes_step_table
     integer :: n_steps
     !> the last stage of every step (n_steps); of use where the steps are not fused
     integer, allocatable :: step_end(:)
-    real(qp), allocatable :: drift(:)
-    real(qp), allocatable :: decay(:)
-    real(qp), allocatable :: kick(:)
-    real(qp), allocatable :: shift(:) !< half-turns
-    real(qp), allocatable :: push(:)
+    real(rk), allocatable :: drift(:)   !< rad per unit of velocity
+    real(rk), allocatable :: drift_u(:) !< half-turns per unit of velocity
+    real(rk), allocatable :: decay(:)
+    real(rk), allocatable :: kick(:)
+    real(rk), allocatable :: shift(:)   !< half-turns
+    real(rk), allocatable :: push(:)
     logical :: mirrored
-    real(qp) :: beta
-    real(qp) :: step
+    real(rk) :: beta
+    real(rk) :: step                    !< rad
   end type period_t
 
 contains
@@ -53,16 +54,18 @@ contains
     type(period_t), intent(out) :: period !< drifts and kicks of one period
     type(stretch_t), intent(in), optional :: stretch !< whose drive may be on a ramp; left out: a whole period
     type(stretch_t) :: part
+    real(qp) :: step
 
     part = whole_period()
     if (present(stretch)) part = stretch
     period%n_steps = numerics%steps_per_period
-    period%beta = real(pendulum%beta, qp)
-    period%step = 2*PI*part%span/period%n_steps
+    step = 2*PI*part%span/period%n_steps
+    period%beta = pendulum%beta
+    period%step = real(step, rk)
     period%mirrored = pendulum%unmirrored == 0
     period%split = SCHEMES(numerics%scheme + 1)%form /= RUNGE_KUTTA
     if (period%split) then
-      call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), fused, part)
+      call split_tables(period, pendulum, scheme_stages(SCHEMES(numerics%scheme + 1)), step, fused, part)
     else
       call rk4_tables(period, pendulum, part)
     end if
@@ -82,16 +85,16 @@ contains
 
   !> Walks through all entries of all steps. Fused: the last drift of a step is one with the first of the next; else every step is
   !> complete in itself.
-  subroutine split_tables(period, pendulum, stages, fused, part)
+  subroutine split_tables(period, pendulum, stages, step, fused, part)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stage_t), intent(in) :: stages(:)
+    real(qp), intent(in) :: step
     logical, intent(in) :: fused
     type(stretch_t), intent(in) :: part
-    real(qp) :: shift, clock
+    real(qp) :: time(period%n_steps*size(stages) + 1), shift, clock
     integer :: n, i, s
 
-    allocate (period%drift(period%n_steps*size(stages) + 1))
     call allocate_kicks(period, period%n_steps*size(stages) + 1)
     allocate (period%step_end(period%n_steps))
     n = 0
@@ -104,7 +107,7 @@ contains
           clock = clock + stages(s)%share
           cycle
         end if
-        call append(stages(s)%share*period%step, part%begin + part%span*((i + clock)/period%n_steps))
+        call append(stages(s)%share*step, part%begin + part%span*((i + clock)/period%n_steps))
       end do
       if (.not. fused .and. shift > 0) call append(0.0_qp, part%begin)
       period%step_end(i + 1) = n
@@ -114,70 +117,87 @@ contains
       period%shift = period%shift(:n)
       period%push = period%push(:n)
     end if
-    period%drift = [period%drift(:n), shift]*period%step
+    time(n + 1) = shift
     if (part%changes) then
-      call damp_along(period, pendulum, part)
+      call damp_along(period, pendulum, part, time(:n + 1)*step)
     else
-      call damp(period)
+      call damp(period, time(:n + 1)*step)
     end if
   contains
     subroutine append(weight, turn)
       real(qp), intent(in) :: weight, turn
 
       n = n + 1
-      period%drift(n) = shift
+      time(n) = shift
       call set_kick(period, pendulum, part, n, weight, turn)
       shift = 0
     end subroutine append
   end subroutine split_tables
 
-  !> Turns the drift times into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
-  subroutine damp(period)
+  !> Turns the times of the drifts into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
+  subroutine damp(period, time)
     type(period_t), intent(inout) :: period
+    real(qp), intent(in) :: time(:)
     !> drifts repeat from step to step
     integer, parameter :: BACK = 20
-    real(qp) :: time(size(period%drift))
+    real(qp) :: beta
     integer :: i, like
 
-    time = period%drift
-    allocate (period%decay(size(time)))
+    beta = period%beta
+    call allocate_drifts(period, size(time))
     do i = 1, size(time)
       like = findloc(time(max(1, i - BACK):i), time(i), dim=1) + max(0, i - BACK - 1)
       if (like < i) then
         period%decay(i) = period%decay(like)
         period%drift(i) = period%drift(like)
+        period%drift_u(i) = period%drift_u(like)
       else
-        period%decay(i) = exp(-period%beta*time(i))
-        period%drift(i) = time(i)*mean_decay(period%beta*time(i))
+        call set_drift(period, i, exp(-beta*time(i)), time(i)*mean_decay(beta*time(i)))
       end if
     end do
   end subroutine damp
 
   !> The same on a ramp of the damping: exp(-B(t)), B the integral of beta, and the integral of that, by series in time.
-  subroutine damp_along(period, pendulum, part)
+  subroutine damp_along(period, pendulum, part, time)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stretch_t), intent(in) :: part
+    real(qp), intent(in) :: time(:)
     integer, parameter :: TERMS = 48
-    real(qp) :: rate(0:CUBIC), left(0:TERMS), time, turn
+    real(qp) :: rate(0:CUBIC), left(0:TERMS), turn
     integer :: i, n, last
 
-    allocate (period%decay(size(period%drift)))
+    call allocate_drifts(period, size(time))
     turn = part%begin
-    do i = 1, size(period%drift)
-      time = period%drift(i)
-      rate = time*damping_series(part, pendulum, turn, time/(2*PI))
+    do i = 1, size(time)
+      rate = time(i)*damping_series(part, pendulum, turn, time(i)/(2*PI))
       left(0) = 1
       do n = 0, TERMS - 1
         left(n + 1) = -sum(rate(:min(n, CUBIC))*left(n:max(0, n - CUBIC):-1))/(n + 1)
-        if (n > CUBIC .and. maxval(abs(left(n - CUBIC + 1:n + 1))) < epsilon(time)**2) exit
+        if (n > CUBIC .and. maxval(abs(left(n - CUBIC + 1:n + 1))) < epsilon(turn)**2) exit
       end do
       last = min(n + 1, TERMS)
-      period%decay(i) = sum(left(:last))
-      period%drift(i) = time*sum([(left(n)/(n + 1), n=0, last)])
-      turn = turn + time/(2*PI)
+      call set_drift(period, i, sum(left(:last)), time(i)*sum([(left(n)/(n + 1), n=0, last)]))
+      turn = turn + time(i)/(2*PI)
     end do
   end subroutine damp_along
+
+  subroutine allocate_drifts(period, n)
+    type(period_t), intent(inout) :: period
+    integer, intent(in) :: n
+
+    allocate (period%decay(n), period%drift(n), period%drift_u(n))
+  end subroutine allocate_drifts
+
+  subroutine set_drift(period, i, decay, drift)
+    type(period_t), intent(inout) :: period
+    integer, intent(in) :: i
+    real(qp), intent(in) :: decay, drift
+
+    period%decay(i) = real(decay, rk)
+    period%drift(i) = real(drift, rk)
+    period%drift_u(i) = real(drift*INVERSE_PI, rk)
+  end subroutine set_drift
 
   !> (1 - exp(-x))/x without cancellation.
   pure real(qp) function mean_decay(x) result(mean)
@@ -217,11 +237,11 @@ contains
       a = pendulum%k + drive(0)*(a - pendulum%k)
       b = drive(0)*b
     end if
-    period%kick(n) = weight*a
+    period%kick(n) = real(weight*a, rk)
     if (period%mirrored) return
-    period%kick(n) = weight*hypot(a, b)
-    period%shift(n) = atan2(b, a)/PI
-    period%push(n) = weight*pendulum%torque
+    period%kick(n) = real(weight*hypot(a, b), rk)
+    period%shift(n) = real(atan2(b, a)/PI, rk)
+    period%push(n) = real(weight*pendulum%torque, rk)
   end subroutine set_kick
 
   !> cos(2 pi turn). Quad precision's own cosine is slow, and one pendulum after another asks for the same ones: they are kept.

@@ -3,7 +3,7 @@ module kz_lanes_wrap
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_lanes_map, only: flow_t
+  use kz_lanes_map, only: map_t
   use kz_lanes_sine, only: ROUND_TO_INTEGER, VECTOR
   implicit none
   private
@@ -28,20 +28,19 @@ module kz_lanes_wrap
 contains
 
   !> Brings the angles of some lanes back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
-  subroutine wrap(flow, first, last)
-    class(flow_t), intent(inout) :: flow !< the flow
-    integer, intent(in) :: first !< lane, from 1
-    integer, intent(in) :: last !< lane
+  subroutine wrap(map, first, last)
+    class(map_t), intent(inout) :: map !< its lanes
+    integer, intent(in) :: first, last !< lanes, from 1
     integer(ik), parameter :: NO_TURNS = transfer(ROUND_TO_INTEGER, 0_ik)
     real(rk) :: nan, shifted, turn
     integer :: i
 
     nan = ieee_value(nan, ieee_quiet_nan)
     do i = first, last ! over vectors: the turns are read off the bits
-      shifted = 0.5_rk*flow%u(i) + ROUND_TO_INTEGER
+      shifted = 0.5_rk*map%u(i) + ROUND_TO_INTEGER
       turn = shifted - ROUND_TO_INTEGER
-      flow%u(i) = merge(flow%u(i) - 2*turn, nan, abs(turn) < MOST_TURNS)
-      flow%turns(i) = flow%turns(i) + merge(transfer(shifted, 0_ik) - NO_TURNS, 0_ik, abs(turn) < MOST_TURNS)
+      map%u(i) = merge(map%u(i) - 2*turn, nan, abs(turn) < MOST_TURNS)
+      map%turns(i) = map%turns(i) + merge(transfer(shifted, 0_ik) - NO_TURNS, 0_ik, abs(turn) < MOST_TURNS)
     end do
   end subroutine wrap
 

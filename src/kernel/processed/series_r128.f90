@@ -6,7 +6,7 @@ module kz_processed_series_r128
   private
   public :: series_t, make_series, ORDER
 
-  integer, parameter :: ORDER = 8
+  integer, parameter :: ORDER = 8, HIGHEST = 14
 
   include 'series.inc'
 

@@ -6,7 +6,7 @@ module kz_processed_series_r64
   private
   public :: series_t, make_series, ORDER, HARMONICS
 
-  integer, parameter :: ORDER = 14
+  integer, parameter :: ORDER = 14, HIGHEST = ORDER
 
   include 'series.inc'
 

@@ -124,7 +124,6 @@ contains
       series%drift = series%drift + weight(i)*node(i)%drift
       series%to_kernel = series%to_kernel + weight(i)*node(i)%to_kernel
       series%from_kernel = series%from_kernel + weight(i)*node(i)%from_kernel
-      series%residual = max(series%residual, node(i)%residual)
     end do
   end subroutine add_nodes
 

@@ -8,7 +8,7 @@
 
 /* Does all drifts and kicks of a period. u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes; the first n lanes move, and
  * further ones up to a whole block. row [n_stages][n_drift + n_kick]: coefficients of a drift and a kick; twice as many without mirror
- * symmetry (table_types.inc). kept [n_stages][KZ_LANES], or NULL: the reduced angles at the kicks, from which tangents.c computes the
+ * symmetry (tables.inc). kept [n_stages][KZ_LANES], or NULL: the reduced angles at the kicks, from which tangents.c computes the
  * derivative, and displaced.c the motion of neighbours. */
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept);
@@ -31,7 +31,7 @@ void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row
 enum { KZ_ORDER = 14, KZ_HARMONICS_KEPT = KZ_ORDER / 2 };
 
 /* (u, v) + processor(u, v), in whole blocks of lanes like kz_processed_kicks. theta, velocity [2][KZ_ORDER + 1][KZ_HARMONICS_KEPT + 1]: processor_t of
- * table_types.inc. sine, cosine: of pi u. */
+ * tables.inc. sine, cosine: of pi u. */
 void kz_processed_change(int32_t mirrored, const double *theta, const double *velocity, int64_t n, const double *sine,
                          const double *cosine, double *u, double *v);
 

@@ -1,9 +1,10 @@
-!> The processed splitting in double precision: its series and its tables.
+!> The processed splitting in double precision: its tables, and its series, which is kept.
 module kz_processed_tables
   use, intrinsic :: iso_c_binding, only: c_double
-  use kz_model_pendulum, only: pendulum_t, is_same
+  use, intrinsic :: iso_fortran_env, only: rk => real64
+  use kz_model_pendulum, only: pendulum_t, exact_stiffness, is_same
+  use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_series_r64, only: series_t, make_series, ORDER, HARMONICS
-  use kz_processed_tables_r64, only: processed_t, processor_t, make_processed
   implicit none
   private
   public :: series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS
@@ -17,7 +18,7 @@ module kz_processed_tables
   type(series_t), allocatable, save :: made
   type(pendulum_t), save :: pendulum_made
 
-contains
+  include 'tables.inc'
 
   !> The series of a pendulum, right to 1e-15 of the force itself.
   subroutine make_processed_series(pendulum, series)

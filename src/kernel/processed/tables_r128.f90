@@ -5,7 +5,7 @@ module kz_processed_tables_r128
   use kz_model_pendulum, only: pendulum_t, exact_stiffness
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_tables, only: series_r64_t => series_t, make_processed_series, ORDER, HARMONICS
-  use kz_processed_series_r128, only: series_r128_t => series_t, make_series_r128 => make_series, EXACT => ORDER
+  use kz_processed_series_r128, only: series_t, make_series, EXACT => ORDER
   implicit none
   private
   public :: series_t, processed_t, processor_t, make_mixed_series, make_processed, ORDER, HARMONICS
@@ -13,13 +13,7 @@ module kz_processed_tables_r128
   !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in pairs of doubles.
   integer, parameter, public :: MOST_PAIR_DRIFTS = ORDER/2 - 1, MOST_PAIR_KICKS = 22
 
-  real(rk), parameter :: PI = 3.14159265358979323846264338327950288_rk
-
-  include 'series_type.inc'
-
-  include 'table_types.inc'
-
-contains
+  include 'tables.inc'
 
   !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
   !> step h counts h**q, so little precision is enough for high ones.
@@ -27,44 +21,38 @@ contains
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(series_t), intent(out) :: series !< what does not depend on the number of steps
     type(series_r64_t), allocatable :: rounded
-    type(series_r128_t), allocatable :: leading
+    type(series_t), allocatable :: leading
 
     allocate (rounded, leading)
     call make_processed_series(pendulum, rounded)
-    call make_series_r128(pendulum, leading)
+    call make_series(pendulum, leading)
     series%mirrored = rounded%mirrored
     series%times = rounded%times
-    allocate (series%kick_cosine(0:series%times, 0:HARMONICS, 2:ORDER, 2), series%kick_sine(0:series%times, 0:HARMONICS, 2:ORDER, 2), &
-              series%to_kernel(0:HARMONICS, 0:ORDER, 2:ORDER, 2, 2), series%from_kernel(0:HARMONICS, 0:ORDER, 2:ORDER, 2, 2))
     series%kick_cosine = rounded%kick_cosine
     series%kick_sine = rounded%kick_sine
     series%slope = rounded%slope
     series%drift = rounded%drift
     series%to_kernel = rounded%to_kernel
     series%from_kernel = rounded%from_kernel
-    series%residual = rounded%residual
     call put_exact(leading, series)
   end subroutine make_mixed_series
 
   !> Grades up to EXACT, of a processor up to EXACT - 2, and nothing beyond what they have.
   subroutine put_exact(leading, series)
-    type(series_r128_t), intent(in) :: leading
+    type(series_t), intent(in) :: leading
     type(series_t), intent(inout) :: series
     integer, parameter :: HALF = EXACT/2
 
     series%kick_cosine(:, :, :EXACT, :) = 0
     series%kick_sine(:, :, :EXACT, :) = 0
-    series%drift(:, :EXACT) = 0
     series%to_kernel(:, :, :EXACT - 2, :, :) = 0
     series%from_kernel(:, :, :EXACT - 2, :, :) = 0
     series%kick_cosine(:leading%times, :HALF, :EXACT, :) = leading%kick_cosine
     series%kick_sine(:leading%times, :HALF, :EXACT, :) = leading%kick_sine
-    series%slope(:EXACT) = leading%slope
-    series%drift(:EXACT, :EXACT) = leading%drift
+    series%slope(:EXACT) = leading%slope(:EXACT)
+    series%drift(:, :EXACT) = leading%drift(:, :EXACT)
     series%to_kernel(:HALF, :EXACT, :EXACT - 2, :, :) = leading%to_kernel(:, :, :EXACT - 2, :, :)
     series%from_kernel(:HALF, :EXACT, :EXACT - 2, :, :) = leading%from_kernel(:, :, :EXACT - 2, :, :)
   end subroutine put_exact
-
-  include 'table_procedures.inc'
 
 end module kz_processed_tables_r128

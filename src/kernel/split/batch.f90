@@ -4,13 +4,13 @@ module kz_split_batch
   use kz_lanes_map, only: flow_t, WIDTH
   use kz_lanes_step_table, only: period_t
   use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
-  use kz_split_stages, only: steps_t, make_steps, advance_steps, advance_tangents
+  use kz_split_stages, only: advance_steps, advance_tangents
   implicit none
   private
   public :: make_batch
 
   type, extends(flow_t) :: batch_t
-    type(steps_t) :: steps
+    type(period_t) :: period
   contains
     procedure :: advance
     procedure :: advance_tangent
@@ -26,7 +26,7 @@ contains
     type(batch_t), allocatable :: batch
 
     allocate (batch)
-    call make_steps(period, batch%steps)
+    batch%period = period
     call move_alloc(batch, flow)
   end subroutine make_batch
 
@@ -37,8 +37,8 @@ contains
     integer :: lanes
 
     control = flush_subnormals()
-    lanes = min(vectors_of(n), WIDTH)
-    call advance_steps(self%steps, 1, self%steps%n_steps, lanes, self%u, self%v)
+    lanes = vectors_of(n)
+    call advance_steps(self%period, 1, self%period%n_steps, lanes, self%u, self%v)
     call wrap(self, 1, lanes)
     call restore_control(control)
   end subroutine advance
@@ -54,13 +54,13 @@ contains
     integer :: lanes, i
 
     control = flush_subnormals()
-    lanes = min(vectors_of(n), WIDTH)
+    lanes = vectors_of(n)
     if (n == 1) lanes = 1
     do i = 1, n
       c(i, :, :) = matrix(:, :, i)
     end do
     c(n + 1:lanes, :, :) = 0
-    call advance_tangents(self%steps, lanes, self%u, self%v, c)
+    call advance_tangents(self%period, lanes, self%u, self%v, c)
     call wrap(self, 1, lanes)
     do i = 1, n
       matrix(:, :, i) = c(i, :, :)
@@ -77,9 +77,9 @@ contains
     integer :: i, stride
 
     control = flush_subnormals()
-    stride = self%steps%n_steps/n
+    stride = self%period%n_steps/n
     do i = 1, n
-      call advance_steps(self%steps, (i - 1)*stride + 1, i*stride, 1, self%u, self%v)
+      call advance_steps(self%period, (i - 1)*stride + 1, i*stride, 1, self%u, self%v)
       u(i) = self%u(1)
       v(i) = self%v(1)
     end do

@@ -2,10 +2,10 @@
 !> each lane stand in tables; its kicks are k and m times those of all, since the force is linear in both.
 module kz_split_mixed_batch
   use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
-  use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_lanes_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI, VECTOR
+  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
+  use kz_lanes_wrap, only: wrap, vectors_of
   use kz_model_pendulum, only: pendulum_t, force_of_parameters
   implicit none
   private
@@ -13,8 +13,6 @@ module kz_split_mixed_batch
 
   !> Kicks of a step, each after a drift; a drift more ends it.
   integer, parameter :: KICKS = SCHEMES(SPLIT6_ROW + 1)%kicks, DRIFTS = KICKS + 1
-  !> An angle of so many turns has no fraction left: the state is lost.
-  real(rk), parameter :: MOST_TURNS = 1e15_rk
 
   type, extends(map_t) :: mixed_batch_t
     integer :: n_steps = 0
@@ -93,11 +91,11 @@ contains
     integer, intent(in) :: n
     integer :: lanes, i
 
-    lanes = min(VECTOR*((n + VECTOR - 1)/VECTOR), WIDTH)
+    lanes = vectors_of(n)
     do i = 1, self%n_steps
       call one_step(self, i, lanes, self%u, self%v)
     end do
-    call wrap(self, lanes)
+    call wrap(self, 1, lanes)
   end subroutine advance
 
   subroutine one_step(self, step, n, u, v)
@@ -129,7 +127,7 @@ contains
     real(rk) :: c(WIDTH, 2, 2), angle(WIDTH)
     integer :: lanes, i, j
 
-    lanes = min(VECTOR*((n + VECTOR - 1)/VECTOR), WIDTH)
+    lanes = vectors_of(n)
     do j = 1, 2
       c(:, :, j) = transpose(matrix(:, j, :))
     end do
@@ -141,7 +139,7 @@ contains
       track%lowest(:n) = min(track%lowest(:n), angle(:n))
       track%highest(:n) = max(track%highest(:n), angle(:n))
     end do
-    call wrap(self, lanes)
+    call wrap(self, 1, lanes)
     do j = 1, 2
       matrix(:, j, :n) = transpose(c(:n, :, j))
     end do
@@ -178,24 +176,6 @@ contains
       c(i, 2, :) = self%decay(i, DRIFTS)*c(i, 2, :)
     end do
   end subroutine tangent_step
-
-  !> Brings the angles back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
-  subroutine wrap(self, n)
-    class(mixed_batch_t), intent(inout) :: self
-    integer, intent(in) :: n
-    real(rk) :: turn
-    integer :: i
-
-    do i = 1, n
-      turn = (0.5_rk*self%u(i) + ROUND_TO_INTEGER) - ROUND_TO_INTEGER
-      self%u(i) = self%u(i) - 2*turn
-      if (abs(turn) < MOST_TURNS) then
-        self%turns(i) = self%turns(i) + int(turn, ik)
-      else
-        self%u(i) = ieee_value(turn, ieee_quiet_nan)
-      end if
-    end do
-  end subroutine wrap
 
   include 'lanes/sine.inc'
 

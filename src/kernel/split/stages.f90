@@ -3,54 +3,16 @@ module kz_split_stages
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use kz_lanes_map, only: WIDTH
   use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
-  use kz_lanes_step_table, only: period_t, INVERSE_PI_QUAD
+  use kz_lanes_step_table, only: period_t
   implicit none
   private
-  public :: steps_t, make_steps, advance_steps, advance_tangents
-
-  !> period_t in double precision.
-  type :: steps_t
-    logical :: split
-    integer :: n_steps
-    integer, allocatable :: step_end(:)
-    real(rk), allocatable :: drift(:)    !< rad per unit of velocity
-    real(rk), allocatable :: drift_u(:)  !< half-turns per unit of velocity
-    real(rk), allocatable :: decay(:)
-    real(rk), allocatable :: kick(:)
-    logical :: mirrored
-    real(rk), allocatable :: shift(:)    !< half-turns; where the pendulum is not mirrored
-    real(rk), allocatable :: push(:)
-    real(rk) :: beta
-    real(rk) :: step
-  end type steps_t
+  public :: advance_steps, advance_tangents
 
 contains
 
-  !> Makes the tables of one period, rounded to doubles.
-  subroutine make_steps(period, steps)
-    type(period_t), intent(in) :: period !< in quad precision
-    type(steps_t), intent(out) :: steps !< in double precision
-
-    steps%split = period%split
-    steps%n_steps = period%n_steps
-    allocate (steps%kick, source=real(period%kick, rk))
-    steps%mirrored = period%mirrored
-    if (.not. period%mirrored) then
-      allocate (steps%shift, source=real(period%shift, rk))
-      allocate (steps%push, source=real(period%push, rk))
-    end if
-    steps%beta = real(period%beta, rk)
-    steps%step = real(period%step, rk)
-    if (.not. period%split) return
-    allocate (steps%step_end, source=period%step_end)
-    allocate (steps%drift, source=real(period%drift, rk))
-    allocate (steps%drift_u, source=real(period%drift*INVERSE_PI_QUAD, rk))
-    allocate (steps%decay, source=real(period%decay, rk))
-  end subroutine make_steps
-
   !> Steps of a period. The drift that ends a period belongs to its last step.
   subroutine advance_steps(self, from, to, n, u, v)
-    type(steps_t), intent(in) :: self !< tables of a period
+    type(period_t), intent(in) :: self !< tables of a period
     integer, intent(in) :: from !< step, from 1
     integer, intent(in) :: to !< step
     integer, intent(in) :: n !< lanes
@@ -141,7 +103,7 @@ contains
 
   !> Advances a period, and computes the derivative of the scheme itself; c(i, :, j) = column j of the tangent map of lane i.
   subroutine advance_tangents(self, n, u, v, c)
-    type(steps_t), intent(in) :: self !< tables of a period
+    type(period_t), intent(in) :: self !< tables of a period
     integer, intent(in) :: n !< lanes
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
     real(rk), intent(inout) :: c(WIDTH, 2, 2) !< c(i, :, j): column j of the tangent map of lane i
