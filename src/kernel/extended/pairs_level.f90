@@ -29,18 +29,18 @@ module kz_extended_pairs_level
     -2.432063529208364844949906009765956065802e-15_qp, &
     2.898000241925418772355479264841694691025e-17_qp]
 
-  !> KZ_HALF_ORDER and KZ_SINE_TERMS of pairs.h.
+  !> KZ_HALF_ORDER and KZ_SINE_TERMS of pairs.c.
   integer, parameter :: HALF = ORDER/2, N_SINE = size(SINE_COEFFICIENTS)
   !> A coefficient needs both its halves if rounding it to a double would change a period by more than this part of the tolerance.
   real(c_double), parameter :: NEGLIGIBLE = 0.01_c_double
 
-  !> kz_pair_lanes of pairs.h: high and low.
+  !> kz_pair_lanes of pairs.c: high and low.
   type, bind(C) :: pair_lanes_t
     real(c_double) :: u(WIDTH, 2) !< half-turns in [-1, 1]
     real(c_double) :: v(WIDTH, 2) !< rad per drive radian
   end type pair_lanes_t
 
-  !> kz_displacement of pairs.h.
+  !> kz_displacement of pairs.c.
   type, bind(C) :: displacement_t
     real(c_double) :: coefficient(2, 0:HALF - 1, 2, 0:HALF - 1, 2, 2) = 0
     integer(c_int64_t) :: pairs(2, 0:HALF - 1, 2, 2) = 0
@@ -59,14 +59,14 @@ module kz_extended_pairs_level
     integer :: n_pairs = 0
     logical :: mirrored = .true.
     real(c_double), allocatable :: row(:, :)
-    integer(c_int32_t), allocatable :: ordered(:) !< (n_steps): pairs.h
+    integer(c_int32_t), allocatable :: ordered(:) !< (n_steps): pairs.c
     real(c_double) :: decay(2) = 0
     type(displacement_t) :: to_kernel
     type(displacement_t) :: from_kernel
   end type level_t
 
   interface
-    !> pairs.h
+    !> pairs.c
     subroutine pairs_stages(mirrored, n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
       import :: c_double, c_int32_t, c_int64_t, pair_lanes_t, WIDTH
       integer(c_int32_t), value :: mirrored

@@ -17,17 +17,17 @@ module kz_extended_taylor
   real(qp), parameter :: TWO_PI = 2*PI_QUAD
   !> How often steps may be halved.
   integer, parameter :: FINEST = 24
-  !> KZ_TAYLOR_LANES, KZ_TAYLOR_DEEP, KZ_TAYLOR_LAST of taylor_steps.h.
+  !> KZ_TAYLOR_LANES, KZ_TAYLOR_DEEP, KZ_TAYLOR_LAST of taylor_steps.c.
   integer, parameter :: LANES = 8, DEEP = 4, LAST = 56
 
-  !> kz_taylor_shared of taylor_steps.h.
+  !> kz_taylor_shared of taylor_steps.c.
   type, bind(C) :: shared_t
     real(dp) :: high(0:LAST - 1)
     real(dp) :: low(0:LAST - 1)
     real(dp) :: rest(0:DEEP - 1)
   end type shared_t
 
-  !> kz_taylor_force of taylor_steps.h.
+  !> kz_taylor_force of taylor_steps.c.
   type, bind(C) :: force_t
     type(shared_t) :: along
     type(shared_t) :: across
@@ -37,7 +37,7 @@ module kz_extended_taylor
     integer(c_int32_t) :: has_ramp
   end type force_t
 
-  !> kz_taylor_state of taylor_steps.h.
+  !> kz_taylor_state of taylor_steps.c.
   type, bind(C) :: state_t
     real(dp) :: theta(LANES, 3)
     real(dp) :: w(LANES, 3)
@@ -55,7 +55,7 @@ module kz_extended_taylor
   end type drive_t
 
   interface
-    !> taylor_steps.h
+    !> taylor_steps.c
     pure subroutine advance_steps(n, force, state, well) bind(C, name='kz_taylor_steps')
       import :: c_int64_t, c_int32_t, force_t, state_t, LANES
       integer(c_int64_t), intent(in), value :: n

@@ -1,4 +1,5 @@
-/* Steps by Taylor series (taylor_steps.h).
+/* Steps of the Taylor series of the pendulum's equation for a few orbits at once: the inner loops of the quad-precision reference, for
+ * which taylor.f90 makes the forces.
  *
  * With w = h theta', s = sin theta, c = cos theta over t = t0 + h x, 0 <= x <= 1, the scaled coefficients obey
  *   (n+1) w_(n+1) = -sum_i (d_i w_(n-i) + f_i s_(n-i) + g_i c_(n-i)) (+ torque at n = 0),
@@ -6,11 +7,78 @@
  * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
  * two (32 digits); those beyond, smaller than 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles:
  * steps add up without loss. */
-#include "taylor_steps.h"
-
 #include <stdbool.h>
 
-#include "triples_arithmetic.h"
+#include "pairs_arithmetic.h"
+
+/* Number of orbits at once; highest order in sums of three doubles; in pairs of doubles; highest order; powers of time in a damping that changes. */
+enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_DEEP = 4, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_RAMP = 4 };
+
+/* A series in the time of a step, the same for all orbits: sums of two doubles, the first orders of three. */
+typedef struct {
+  double high[KZ_TAYLOR_LAST], low[KZ_TAYLOR_LAST], rest[KZ_TAYLOR_DEEP];
+} kz_taylor_shared;
+
+/* The force over a step h, as (h theta')' = -damping h theta' - along sin theta - across cos theta + torque in the time of the step. */
+typedef struct {
+  kz_taylor_shared along, across;
+  double torque[3];
+  double damping[3][KZ_TAYLOR_RAMP]; /* the largest parts first */
+  int32_t has_across, has_ramp;      /* 1 if there are `across` and `torque`; 1 if the damping changes */
+} kz_taylor_force;
+
+/* theta (rad), h theta', sin theta, cos theta of the orbits, as sums of three doubles. */
+typedef struct {
+  double theta[3][KZ_TAYLOR_LANES], w[3][KZ_TAYLOR_LANES], s[3][KZ_TAYLOR_LANES], c[3][KZ_TAYLOR_LANES];
+} kz_taylor_state;
+
+/* Does the steps force [n], one after the other. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has not converged at the last
+ * order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are independent. */
+void kz_taylor_steps(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well);
+
+/* A number as a sum of three doubles, the largest first: some 48 digits, in the lanes of a vector. Every operation takes mirror images to
+ * mirror images. */
+typedef struct {
+  vector part[3];
+} triple;
+
+/* The same number: its parts may overlap before, or cancel. */
+OPERATION triple in_order(triple x) {
+  const pair b = sum(x.part[1], x.part[2]), a = sum(x.part[0], b.high), c = sum(a.low, b.low);
+  return (triple){{a.high, c.high, c.low}};
+}
+
+/* x + y; the error is some 2^-155 (|x| + |y|). */
+OPERATION triple add_triples(triple x, triple y) {
+  const pair a = sum(x.part[0], y.part[0]), b = sum(x.part[1], y.part[1]), c = sum(b.high, a.low);
+  return in_order((triple){{a.high, c.high, (x.part[2] + y.part[2]) + (b.low + c.low)}});
+}
+
+/* total += a b; its parts may overlap afterwards. */
+OPERATION void gain_triple(triple *total, triple a, triple b) {
+  const vector *x = a.part, *y = b.part, p = x[0] * y[0], q = x[0] * y[1], r = x[1] * y[0];
+  const pair first = sum(total->part[0], p), second = sum(total->part[1], first.low),
+             third = sum(second.high, fused(x[0], y[0], -p)), fourth = sum(third.high, q), fifth = sum(fourth.high, r);
+  const vector small = fused(x[0], y[2], fused(x[1], y[1], fused(x[2], y[0], fused(x[0], y[1], -q) + fused(x[1], y[0], -r))));
+  total->part[0] = first.high;
+  total->part[1] = fifth.high;
+  total->part[2] += small + ((second.low + third.low) + (fourth.low + fifth.low));
+}
+
+OPERATION triple multiply_triples(triple x, triple y) {
+  triple product = {{same(0), same(0), same(0)}};
+  gain_triple(&product, x, y);
+  return in_order(product);
+}
+
+OPERATION triple negative_triple(triple x) {
+  return (triple){{-x.part[0], -x.part[1], -x.part[2]}};
+}
+
+/* The first two of its doubles: to 32 digits. */
+OPERATION pair upper(triple x) {
+  return (pair){x.part[0], x.part[1]};
+}
 
 enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
 

@@ -35,36 +35,8 @@ void kz_enclosure_tables_free(kz_enclosure_tables *tables) {
   free(tables);
 }
 
-static void put(const kz_enclosure *set, int lane, kz_sets *x) {
-  x->theta.high[lane] = set->theta[0];
-  x->theta.low[lane] = set->theta[1];
-  x->velocity.high[lane] = set->velocity[0];
-  x->velocity.low[lane] = set->velocity[1];
-  x->theta_rest[lane] = set->theta[2];
-  x->velocity_rest[lane] = set->velocity[2];
-  for (int i = 0; i < 2; i++) {
-    x->reach[i][lane] = set->reach[i];
-    for (int j = 0; j < 2; j++) {
-      x->matrix[i][j][lane] = set->matrix[i][j];
-      x->jacobian_error[i][j][lane] = set->jacobian_error[i][j];
-    }
-  }
-}
-
-static void get(const kz_sets *x, int lane, kz_enclosure *set) {
-  set->theta[0] = x->theta.high[lane];
-  set->theta[1] = x->theta.low[lane];
-  set->velocity[0] = x->velocity.high[lane];
-  set->velocity[1] = x->velocity.low[lane];
-  set->theta[2] = x->theta_rest[lane];
-  set->velocity[2] = x->velocity_rest[lane];
-  for (int i = 0; i < 2; i++) {
-    set->reach[i] = x->reach[i][lane];
-    for (int j = 0; j < 2; j++) {
-      set->matrix[i][j] = x->matrix[i][j][lane];
-      set->jacobian_error[i][j] = x->jacobian_error[i][j][lane];
-    }
-  }
+static void get_set(const kz_sets *x, int lane, kz_enclosure *set) {
+  for (int i = 0; i < KZ_SET_NUMBERS; i++) ((double *)set)[i] = ((const vector *)x)[i][lane];
 }
 
 static void lose(kz_enclosure *set) {
@@ -114,7 +86,7 @@ static int advance_some(const kz_enclosure_tables *tables, const kz_speed_class 
                         int32_t *of, kz_enclosure *set) {
   group g = {0};
   int again = 0;
-  for (int lane = 0; lane < GROUP; lane++) put(&set[of[lane < n ? lane : 0]], lane % LANES, &g.sets[lane / LANES]);
+  for (int lane = 0; lane < GROUP; lane++) put_set(&set[of[lane < n ? lane : 0]], lane % LANES, &g.sets[lane / LANES]);
   for (int lane = n; lane < GROUP; lane++) g.sets[lane / LANES].lost[lane % LANES] = -1;
   advance_group(tables, speed, frame, &g);
   for (int lane = 0; lane < n; lane++) {
@@ -124,7 +96,7 @@ static int advance_some(const kz_enclosure_tables *tables, const kz_speed_class 
       of[again++] = of[lane];
       continue;
     }
-    get(x, lane % LANES, to);
+    get_set(x, lane % LANES, to);
     if (x->lost[lane % LANES]) lose(to);
   }
   return again;

@@ -28,19 +28,10 @@ OPERATION vector least_determinant(const kz_sets *x) {
 
 /* A set that is not good any more is lost: a point at rest takes its place, so that nothing overflows. */
 static void lose(mask lost, kz_sets *x) {
-  for (int lane = 0; lane < LANES; lane++) {
-    if (!lost[lane]) continue;
-    x->lost[lane] = -1;
-    x->theta.high[lane] = x->theta.low[lane] = x->velocity.high[lane] = x->velocity.low[lane] = 0;
-    x->theta_rest[lane] = x->velocity_rest[lane] = 0;
-    for (int i = 0; i < 2; i++) {
-      x->reach[i][lane] = 0;
-      for (int j = 0; j < 2; j++) {
-        x->matrix[i][j][lane] = i == j;
-        x->jacobian_error[i][j][lane] = 0;
-      }
-    }
-  }
+  static const kz_enclosure at_rest = {.matrix = {{1, 0}, {0, 1}}};
+  for (int lane = 0; lane < LANES; lane++)
+    if (lost[lane]) put_set(&at_rest, lane, x);
+  x->lost |= lost;
 }
 
 void kz_sets_check(const kz_speed_class *speed, kz_sets *x) {

@@ -4,6 +4,7 @@
 #define KAPITZA_KERNEL_INTERVAL_SETS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "kapitza/kernel.h"
 #include "extended/pairs_arithmetic.h"
@@ -27,7 +28,7 @@ typedef struct {
 
 /* Constants of a step in quad precision: h beta, h, powers of s in h (k - m cos t). */
 typedef struct {
-  __float128 damping, step, (*torque)[KZ_COEFFICIENTS_QUADS]; /* [n_steps] */
+  __float128 damping, step, *torque; /* [n_steps][order] */
 } kz_quad_constants;
 
 /* A step of 2 pi / n_steps for centres that are at most `fastest` at its beginning. Time s in steps: 0 .. 1. */
@@ -46,7 +47,7 @@ typedef struct {
   kz_constant damping;                 /* h beta */
   kz_constant step[KZ_ORDER_PAIRS];    /* h / (n + 1) */
   kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
-  kz_quad_constants quads;             /* of a class in quads */
+  kz_quad_constants quads;             /* the same, unrounded */
   kz_constant torque[];                /* [n_steps][order] powers of s in h (k - m cos t) */
 } kz_speed_class;
 
@@ -57,14 +58,23 @@ struct kz_enclosure_tables {
   kz_speed_class *classes[];
 };
 
-/* LANES sets. A centre is the sum of a pair and a rest, which is 0 except in quads. */
+/* LANES sets, first the numbers of kz_enclosure in their order. A centre is the sum of a pair and a rest, which is 0 except in quads. */
 typedef struct {
-  pair theta, velocity;
-  vector theta_rest, velocity_rest;
-  vector most_sine; /* upper bound of |sin theta| of the centre on the present step */
+  pair theta;
+  vector theta_rest;
+  pair velocity;
+  vector velocity_rest;
   vector matrix[2][2], reach[2], jacobian_error[2][2];
+  vector most_sine; /* upper bound of |sin theta| of the centre on the present step */
   mask too_fast, lost;
 } kz_sets;
+enum { KZ_SET_NUMBERS = sizeof(kz_enclosure) / sizeof(double) };
+_Static_assert(offsetof(kz_sets, most_sine) == KZ_SET_NUMBERS * sizeof(vector), "a vector for each number of an enclosure");
+
+/* Puts a set into a lane. */
+OPERATION void put_set(const kz_enclosure *set, int lane, kz_sets *x) {
+  for (int i = 0; i < KZ_SET_NUMBERS; i++) ((vector *)x)[i][lane] = ((const double *)set)[i];
+}
 
 /* Call it before a step. It marks sets as lost that are too fast for the class, too large, or without area. */
 void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);

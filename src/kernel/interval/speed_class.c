@@ -3,23 +3,29 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "majorant.h"
 #include "sets.h"
 
 typedef long double real;
 
 enum { MOST_STEPS = 4096, P = KZ_ORDER_PAIRS, MOST = KZ_ORDER_JACOBIAN };
-static const real CAUTION = 1 + 1e-9L; /* far above the rounding of the bounds and in the C library's functions */
+static const real MARGIN = 1e-9L,
+                  CAUTION = 1 + 1e-9L; /* relative, far above the rounding of the bounds and in the C library's functions */
 static const real U = 0x1p-53L, U_QUAD = 0x1p-113L;
 /* In units of U_QUAD: of constants in quads, which are products of 2 pi, cosines and powers of h (2^-108, 19 and 36 units). */
 static const real QUAD_CONSTANTS = 96;
 static const real TINY = 1e-280L; /* products below the range of doubles */
 
-void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t order, double *damping, double *step,
-                           double *inverse, double *torque);
 /* h beta, h, and the first n powers of s in h a(t + h s) [n_steps][n]; h = 2 pi / n_steps. */
-void kz_quad_constants_make(const kz_pendulum *pendulum, int32_t n_steps, int32_t n, __float128 *damping, __float128 *step,
-                            __float128 *torque);
+void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t n, __float128 *damping, __float128 *step,
+                           __float128 *torque);
+
+/* Bounds for |z| <= r around any time of a motion that is as fast as its class allows there: |Im theta| <= y, |theta'| <= w. slope [2]:
+ * bounds of the velocities of the tangent map's columns that begin with (1, 0) and (0, 1). */
+typedef struct {
+  real r, y, w, a[2], slope[2];
+} majorant;
+
+enum { MAJORANTS = 2400 };
 
 /* The bounds of a step. */
 typedef struct {
@@ -30,8 +36,47 @@ typedef struct {
   real torque[P];                        /* sizes of the torque's powers of s */
   real velocity[P], sine[P];             /* sizes of coefficients; of the cosine's too */
   real velocity_error[P], sine_error[P]; /* of the computed ones */
-  kz_majorant majorant[KZ_MAJORANTS];
+  majorant majorant[MAJORANTS];
 } bounds;
+
+/* Majorants. For complex time t + z, |z| <= R, the motion from a real state is compared with the solution of
+ *   w' = beta w + a(r) cosh y,  y' = w,  y(0) = 0,  w(0) = fastest
+ * along the ray r = |z|: |theta'| <= w(r), |Im theta| <= y(r), since kz_force_majorant a(r) bounds the force and |sin theta|, |cos theta| <= cosh y.
+ * Its neighbours likewise with a(r) cosh(y) times their distance. */
+
+/* An Euler step with the slopes at its end, found by repetition and then checked: all of them grow. */
+static bool march(const kz_pendulum *p, real dr, majorant *at) {
+  const real r = at->r + dr, torque = kz_force_majorant(p, r);
+  majorant to = *at;
+  to.r = r;
+  bool holds = false;
+  for (int i = 0; i < 60 && !holds && to.y < 25; i++) {
+    const real w = at->w + dr * (p->beta * to.w + torque * coshl(to.y)), y = at->y + dr * to.w;
+    if (w * (1 + MARGIN / 8) <= to.w && y * (1 + MARGIN / 8) <= to.y) {
+      holds = true;
+    } else {
+      to.w = w * (1 + MARGIN);
+      to.y = (at->y + dr * to.w) * (1 + MARGIN);
+    }
+  }
+  if (!holds) return false;
+  const real stiffness = torque * coshl(to.y), rest = 1 - dr * p->beta - dr * dr * stiffness;
+  if (!(rest > 0.5L)) return false;
+  for (int c = 0; c < 2; c++) { /* linear: slope = old + dr (beta slope + stiffness (a + dr slope)) */
+    to.slope[c] = (at->slope[c] + dr * stiffness * at->a[c]) / rest * (1 + MARGIN);
+    to.a[c] = (at->a[c] + dr * to.slope[c]) * (1 + MARGIN);
+  }
+  *at = to;
+  return true;
+}
+
+static int find_majorants(const kz_pendulum *pendulum, double fastest, majorant *list) {
+  const double scale = fmax(fmax(1, fastest), sqrt(kz_stiffness(pendulum)));
+  majorant at = {.w = fastest, .a = {1, 0}, .slope = {0, 1}};
+  int n = 0;
+  while (n < MAJORANTS && march(pendulum, 6.0L / MAJORANTS / scale, &at)) list[n++] = at;
+  return n;
+}
 
 /* Is coefficient n a quad? */
 static bool is_quad(const bounds *b, int n) {
@@ -56,7 +101,7 @@ static void set_sizes(bounds *b) {
     b->velocity[n] = b->sine[n] = HUGE_VALL;
   }
   for (int i = 0; i < b->n_majorants; i++) {
-    const kz_majorant *at = &b->majorant[i];
+    const majorant *at = &b->majorant[i];
     const real ratio = b->h / at->r * CAUTION;
     real power = CAUTION;
     for (int n = 0; n < b->order; n++, power *= ratio) {
@@ -217,8 +262,27 @@ static int32_t steps_of_frame(const kz_pendulum *pendulum, int32_t n_steps) {
   return frames > 1 ? (int32_t)(n_steps / frames) : n_steps;
 }
 
+static kz_constant rounded(__float128 x) {
+  const double high = (double)x;
+  return (kz_constant){high, (double)(x - high)};
+}
+
+/* As sums of two doubles they are off by at most 2^-106 of the number, the torque's by 2^-105 of the largest of its power. */
+static void make_constants(const kz_pendulum *pendulum, kz_speed_class *speed) {
+  const int32_t n = speed->n_steps * speed->order;
+  kz_quad_constants *q = &speed->quads;
+  q->torque = kz_malloc((size_t)n * sizeof *q->torque);
+  kz_interval_constants(pendulum, speed->n_steps, speed->order, &q->damping, &q->step, q->torque);
+  speed->damping = rounded(q->damping);
+  for (int32_t i = 0; i < speed->order; i++) {
+    speed->step[i] = rounded(q->step / (i + 1));
+    speed->inverse[i] = rounded((__float128)1 / (i + 1));
+  }
+  for (int32_t i = 0; i < n; i++) speed->torque[i] = rounded(q->torque[i]);
+}
+
 static kz_speed_class *create(bounds *b, double fastest) {
-  b->n_majorants = kz_majorants_find(b->pendulum, fastest, b->majorant);
+  b->n_majorants = find_majorants(b->pendulum, fastest, b->majorant);
   const int32_t n_steps = choose_steps(b);
   if (n_steps == 0) return NULL;
   kz_speed_class *made = kz_calloc(
@@ -228,13 +292,7 @@ static kz_speed_class *create(bounds *b, double fastest) {
   made->order = b->order;
   made->fastest = fastest;
   made->frame_steps = steps_of_frame(b->pendulum, n_steps);
-  kz_interval_constants(b->pendulum, n_steps, b->order, &made->damping.high, &made->step->high, &made->inverse->high,
-                        &made->torque->high);
-  if (b->quads) {
-    kz_quad_constants *q = &made->quads;
-    q->torque = kz_malloc((size_t)n_steps * sizeof *q->torque);
-    kz_quad_constants_make(b->pendulum, n_steps, KZ_COEFFICIENTS_QUADS, &q->damping, &q->step, *q->torque);
-  }
+  make_constants(b->pendulum, made);
   b->h = 2 * (real)M_PI / n_steps * CAUTION;
   set_sizes(b);
   set_errors(b, fastest);
