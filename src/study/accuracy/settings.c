@@ -106,12 +106,15 @@ static kz_status label_cells(measurement *g, int64_t n, int32_t *label) {
   const kz_setting *s = g->setting;
   const kz_labeller labeller = {
       .dynamics = g->dynamics, .max_periods = g->reference->plan->max_periods, .start = start_of_sample, .context = g};
-  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision + 1);
-  const kz_status status = s->method == KZ_METHOD_EXACT
+  const bool exact = s->method == KZ_METHOD_EXACT;
+  kz_decision *decision = kz_malloc((exact ? (size_t)n : 0) * sizeof *decision + 1);
+  int64_t *periods = kz_malloc((exact ? 0 : (size_t)n) * sizeof *periods + 1);
+  const kz_status status = exact
                                ? kz_label(&labeller, n, NULL, decision)
-                               : kz_label_states(&labeller, kz_stepping(s->method, s->interpolation), n, NULL, decision);
-  for (int64_t i = 0; i < n && status == KZ_OK; i++) label[i] = decision[i].label;
+                               : kz_label_states(&labeller, kz_stepping(s->method, s->interpolation), n, NULL, label, periods);
+  for (int64_t i = 0; i < n && exact && status == KZ_OK; i++) label[i] = decision[i].label;
   free(decision);
+  free(periods);
   return status;
 }
 

@@ -85,15 +85,18 @@ static void count_doubtful(kz_chunks *c, int64_t tile) {
 static void fill(kz_chunks *c, int64_t tile, bool image) {
   const kz_window_labels *l = c->labelling;
   const int64_t n = kz_tile_count(&l->tiles, tile), own = kz_tile_own(&l->tiles, tile);
+  int16_t *ids = c->ids, *others = c->others;
+  uint32_t *periods = c->periods;
+  uint8_t *evidence = c->evidence;
   for (int64_t i = 0; i < n; i++) {
     const bool mirrored = image || i >= own;
     const kz_cell_label *cell = &l->cell[mirrored ? n - 1 - i : i];
-    c->ids[i] = id_of(c, cell->label, mirrored);
-    c->others[i] = id_of(c, cell->other, mirrored);
-    c->periods[i] = cell->periods;
-    c->evidence[i] = cell->evidence;
-    if (cell->evidence != KZ_UNDECIDED && c->ids[i] < 0) c->evidence[i] = KZ_UNSETTLED;
-    if (cell->evidence == KZ_FOLLOWED && cell->periods == 0) c->evidence[i] = KZ_INSIDE;
+    const int16_t id = id_of(c, cell->label, mirrored);
+    const bool inside = cell->evidence == KZ_FOLLOWED && cell->periods == 0;
+    evidence[i] = inside ? KZ_INSIDE : id < 0 && cell->evidence != KZ_UNDECIDED ? KZ_UNSETTLED : cell->evidence;
+    ids[i] = id;
+    others[i] = id_of(c, cell->other, mirrored);
+    periods[i] = cell->periods;
   }
 }
 

@@ -74,7 +74,7 @@ typedef struct {
   kz_local_records records; /* tiles of this rank, packed */
   int16_t wanted;           /* label of the pending cells: 0 or KZ_DOUBTFUL */
   int64_t *before;          /* [own tiles + 1]: number of pending cells in all tiles before */
-  int64_t *reached;         /* [INT16_MAX + 1]: number of starts and tiles' cells that ended on each attractor */
+  int64_t *reached;         /* [INT16_MAX + 1]: number of starts and tiles that ended on each attractor */
 } kz_window_labels;
 
 /* Finds the attractors and labels all cells but mirror images. Out: `records`, the tiles of this rank; `reached`, of all ranks. The caller
@@ -101,6 +101,8 @@ kz_status kz_tile_labels_unpack(kz_window_labels *labelling, const kz_local_reco
 kz_status kz_tile_labels_replace(const kz_window_labels *labelling, kz_local_record *kept);
 /* Number of cells of a packed tile with the label `wanted`, 0 or KZ_DOUBTFUL. */
 int64_t kz_tile_labels_pending(const kz_local_record *kept, int16_t wanted);
+/* Adds the tile to labelling->reached of every attractor that one of its cells ends on. */
+void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_local_record *kept);
 
 /* ---- pending cells, level by level ---- */
 

@@ -130,8 +130,8 @@ static kz_status follow_in_quads(const pairing *p, int64_t i, pair_tile *t) {
 /* By the method's own labels: with their errors, or by integration in doubles alone. */
 static kz_status follow(const pairing *p, int64_t n, pair_tile *t) {
   const kz_labeller labeller = {.dynamics = p->dynamics, .max_periods = p->plan->max_periods, .start = start_at, .context = t};
-  KZ_TRY(p->plan->method == KZ_METHOD_EXACT ? kz_label(&labeller, n, NULL, t->decision)
-                                            : kz_label_states(&labeller, KZ_FOLLOW_DIRECT, n, NULL, t->decision));
+  if (p->plan->method != KZ_METHOD_EXACT) return kz_label_states(&labeller, KZ_FOLLOW_DIRECT, n, NULL, t->end, t->periods);
+  KZ_TRY(kz_label(&labeller, n, NULL, t->decision));
   for (int64_t i = 0; i < n; i++) {
     t->end[i] = t->decision[i].label;
     if (t->end[i] == KZ_DOUBTFUL) KZ_TRY(follow_in_quads(p, i, t));

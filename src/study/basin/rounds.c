@@ -108,16 +108,10 @@ static void rounds_allocate(kz_window_labels *l) {
   l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
 }
 
-/* The starts' counts are the same on every rank, those of cells each rank's own. */
+/* The starts' counts are the same on every rank, those of tiles each rank's own. */
 static kz_status sum_reached(kz_window_labels *l) {
   for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
-  kz_status status = KZ_OK;
-  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) {
-    status = kz_tile_labels_unpack(l, &l->records.list[i]);
-    for (int64_t k = 0; k < kz_tile_own(&l->tiles, l->records.list[i].tile); k++)
-      if (l->cell[k].label > 0) l->reached[l->cell[k].label]++;
-  }
-  KZ_TRY(kz_ranks_agree(l->run->ranks, status));
+  for (int64_t i = 0; i < l->records.n; i++) kz_tile_labels_note_reached(l, &l->records.list[i]);
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);
 }
 

@@ -10,13 +10,6 @@ enum {
   FEW = 24       /* are followed in quad precision for less than the tables of the pairs of doubles take */
 };
 
-/* States of a batch, and where they end. */
-typedef struct {
-  double state[2 * BATCH];
-  int32_t label[BATCH];
-  int64_t periods[BATCH];
-} followed;
-
 kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start) {
   const kz_start *starts = context;
   (void)level;
@@ -52,24 +45,21 @@ kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64
   return status;
 }
 
-static kz_status follow_batch(const kz_labeller *l, int32_t stepping, int64_t n, const int64_t *item, int64_t first,
-                              followed *f, kz_decision *decision) {
-  kz_start start;
-  for (int64_t i = 0; i < n; i++) {
-    KZ_TRY(l->start(l->context, item_at(item, first + i), KZ_LEVEL_DOUBLE, &start));
-    kz_start_state(start.theta[0], start.velocity[0], f->state + 2 * i);
-  }
-  kz_dynamics_follow(l->dynamics, stepping, n, l->max_periods, f->state, f->label, f->periods);
-  for (int64_t i = 0; i < n; i++) decision[i] = (kz_decision){.label = f->label[i], .periods = f->periods[i]};
-  return KZ_OK;
-}
-
-kz_status kz_label_states(const kz_labeller *l, int32_t stepping, int64_t n, const int64_t *item, kz_decision *decision) {
-  followed *f = kz_malloc(sizeof *f);
+kz_status kz_label_states(const kz_labeller *l, int32_t stepping, int64_t n, const int64_t *item, int32_t *label,
+                          int64_t *periods) {
+  const int64_t most = n < BATCH ? n : BATCH;
+  double *state = kz_malloc(2 * (size_t)most * sizeof *state + 1);
   kz_status status = KZ_OK;
-  for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
-    status = follow_batch(l, stepping, n - done < BATCH ? n - done : BATCH, item, done, f, decision + done);
-  free(f);
+  for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH) {
+    const int64_t part = n - done < BATCH ? n - done : BATCH;
+    kz_start start;
+    for (int64_t i = 0; i < part && status == KZ_OK; i++) {
+      status = l->start(l->context, item_at(item, done + i), KZ_LEVEL_DOUBLE, &start);
+      kz_start_state(start.theta[0], start.velocity[0], state + 2 * i);
+    }
+    if (status == KZ_OK) kz_dynamics_follow(l->dynamics, stepping, part, l->max_periods, state, label + done, periods + done);
+  }
+  free(state);
   return status;
 }
 

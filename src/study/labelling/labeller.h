@@ -32,8 +32,9 @@ static inline kz_start kz_start_at(double theta, double velocity) {
 /* Labels n items at one level; `before` is the level at which they were doubtful. decision [n] as in kz_dynamics_label. */
 kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,
                       kz_decision *decision);
-/* Labels n items by their states alone, without errors, as kz_dynamics_follow follows them: label and periods of decision [n]. */
-kz_status kz_label_states(const kz_labeller *labeller, int32_t stepping, int64_t n, const int64_t *item, kz_decision *decision);
+/* Labels n items by their states alone, without errors, as kz_dynamics_follow follows them: label [n], periods [n]. */
+kz_status kz_label_states(const kz_labeller *labeller, int32_t stepping, int64_t n, const int64_t *item, int32_t *label,
+                          int64_t *periods);
 
 /* The level that follows `level` if `pending` items are left; KZ_LEVELS = none. A few items go to quad precision at once, because they take
  * less time there than the tables of the pairs of doubles. */
