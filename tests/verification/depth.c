@@ -44,14 +44,9 @@ typedef struct {
 enum { COUNT = 1009 }; /* cells along an axis */
 
 static void find_attractors(view *v) {
-  kz_search search = kz_search_of(&v->scene);
-  double *state = malloc(2 * sizeof(double) * (size_t)search.starts);
-  int32_t *label = malloc(sizeof(int32_t) * (size_t)search.starts);
-  search.max_velocity = kz_dynamics_max_velocity(v->dynamics, &search.window);
-  assert_int_equal(kz_search_window(NULL, v->dynamics, &search, state, label), KZ_OK);
+  const kz_search search = kz_search_of(&v->scene);
+  assert_int_equal(kz_search_window(NULL, v->dynamics, &search, NULL), KZ_OK);
   kz_dynamics_update(v->dynamics);
-  free(state);
-  free(label);
 }
 
 static view open_view(const window *w) {

@@ -70,7 +70,7 @@ static kz_status find_attractors(const kz_reference_labels *reference, const kz_
   search.cells = reference->total;
   search.table_theta = 0;
   search.max_velocity = reference->max_velocity;
-  KZ_TRY(kz_search_window(run, dynamics, &search, p->state, p->label));
+  KZ_TRY(kz_search_window(run, dynamics, &search, p->label));
   for (int round = 0; round < ROUNDS; round++) {
     const int64_t known = kz_dynamics_count(dynamics);
     int64_t n;

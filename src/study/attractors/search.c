@@ -228,18 +228,30 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
   return status;
 }
 
-kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
-  const int64_t cells = kz_regions_cells(search->cells);
-  const int64_t pilots = cells > 0 && search->starts > PILOT_STARTS ? PILOT_STARTS : search->starts,
-                rest = search->starts - pilots;
+double kz_search_speed(kz_dynamics *dynamics, const kz_search *search) {
+  return search->max_velocity > 0 ? search->max_velocity : kz_dynamics_max_velocity(dynamics, &search->window);
+}
+
+static kz_status search_from(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
+  const double speed = kz_search_speed(dynamics, search);
+  const bool grows = kz_regions_cells(search->cells) > 0 && search->starts > PILOT_STARTS;
+  const int64_t pilots = grows ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
-  kz_dynamics_coarse_regions(dynamics, search->max_velocity);
+  kz_dynamics_coarse_regions(dynamics, speed);
   KZ_TRY(discover_from(run, dynamics, search->sought, search->max_periods, pilots, state, label));
-  kz_regions_grow(dynamics, search->cells, search->max_velocity);
-  if (search->table_theta > 0)
-    KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, search->max_velocity));
+  kz_regions_grow(dynamics, search->cells, speed);
+  if (search->table_theta > 0) KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, speed));
   if (rest == 0) return KZ_OK;
   return discover_from(run, dynamics, search->sought, search->max_periods, rest, state + 2 * pilots, label + pilots);
+}
+
+kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label) {
+  double *state = kz_malloc(2 * (size_t)search->starts * sizeof *state);
+  int32_t *own = label ? NULL : kz_malloc((size_t)search->starts * sizeof *own);
+  const kz_status status = search_from(run, dynamics, search, state, label ? label : own);
+  free(state);
+  free(own);
+  return status;
 }
 
 kz_search kz_search_of_basin(const kz_basin_plan *plan) {

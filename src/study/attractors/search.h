@@ -15,12 +15,14 @@ typedef struct {
   int64_t sought;                      /* starts from which a round looks for cycles, at most; 0 = KZ_SEARCH_MOST_SOUGHT */
   int64_t cells;                       /* number of cells to label later: more cells get a finer grid of trapping regions */
   int64_t table_theta, table_velocity; /* nodes of the map table; 0 = none */
-  double max_velocity;                 /* kz_dynamics_max_velocity */
+  double max_velocity;                 /* for the regions and the table; 0 = kz_dynamics_max_velocity of the window */
 } kz_search;
 
 /* Finds the attractors that the starts end on. If regions are grown, a few starts come first: regions grow around the attractors of most of
- * the window, and the other starts then settle soon. state [starts][2], label [starts] as in kz_discover. */
-kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label);
+ * the window, and the other starts then settle soon. label [starts] as in kz_discover; NULL = not needed. */
+kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label);
+/* search->max_velocity, or what it stands for. */
+double kz_search_speed(kz_dynamics *dynamics, const kz_search *search);
 
 /* Cells an axis of the grid of trapping regions that saves more time than it costs if `cells` cells are labelled; 0 = none does. */
 int64_t kz_regions_cells(int64_t cells);
@@ -40,14 +42,12 @@ kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, i
  * rank alone. */
 kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
 
-/* Does the search with at most KZ_SEARCH_FEW starts in this process, to estimate its time: *n of them, state and label [KZ_SEARCH_FEW] as above.
- * Makes a map table of few nodes. The processor time of the whole search is added to *seconds. Not collective. */
+/* Does the search with at most KZ_SEARCH_FEW starts in this process, to estimate its time: label [KZ_SEARCH_FEW] as above. Makes a map table of
+ * few nodes. The processor time of the whole search is added to *seconds. Not collective. */
 enum { KZ_SEARCH_FEW = 256, KZ_SEARCH_MOST_SOUGHT = 1024 /* starts that a round looks for cycles from */ };
-kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
-                            double *seconds);
+kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, int32_t *label, double *seconds);
 
-/* The search of a basin, of the study attractors, and of the scene's study basin or attractors (without a map table). The caller sets
- * max_velocity, because it has the dynamics. */
+/* The search of a basin, of the study attractors, and of the scene's study basin or attractors (without a map table). */
 kz_search kz_search_of_basin(const kz_basin_plan *plan);
 kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods);
 kz_search kz_search_of(const kz_scene *scene);

@@ -24,26 +24,25 @@ static kz_status measure_table(kz_dynamics *dynamics, const kz_search *search, d
   const int64_t columns = smaller(search->table_theta, FEW_NODES), rows = smaller(search->table_velocity, FEW_NODES);
   if (search->table_theta == 0) return KZ_OK;
   const double start = kz_processor_clock();
-  KZ_TRY(kz_map_table_make(NULL, dynamics, columns, rows, search->max_velocity));
+  KZ_TRY(kz_map_table_make(NULL, dynamics, columns, rows, kz_search_speed(dynamics, search)));
   *seconds +=
       (kz_processor_clock() - start) * (double)(search->table_theta * search->table_velocity) / (double)(columns * rows);
   return KZ_OK;
 }
 
 /* All starts settle; cycles are looked for from few of them at a time, where they settle slowly from many. */
-kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label, int64_t *n,
-                            double *seconds) {
-  double settling;
-  *n = smaller(search->starts, KZ_SEARCH_FEW);
-  const double start = kz_processor_clock();
-  kz_dynamics_starts(&search->window, search->seed, *n, state);
-  kz_dynamics_coarse_regions(dynamics, search->max_velocity);
-  KZ_TRY(kz_discover(NULL, dynamics, search->max_periods, *n, state, label));
+kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, int32_t *label, double *seconds) {
+  const int64_t n = smaller(search->starts, KZ_SEARCH_FEW);
+  const double speed = kz_search_speed(dynamics, search), start = kz_processor_clock();
+  double state[2 * KZ_SEARCH_FEW], settling;
+  kz_dynamics_starts(&search->window, search->seed, n, state);
+  kz_dynamics_coarse_regions(dynamics, speed);
+  KZ_TRY(kz_discover(NULL, dynamics, search->max_periods, n, state, label));
   const double found = kz_processor_clock();
-  kz_regions_grow(dynamics, search->cells, search->max_velocity);
+  kz_regions_grow(dynamics, search->cells, speed);
   *seconds += kz_processor_clock() - found;
-  KZ_TRY(measure_settling(dynamics, search, *n, &settling));
-  *seconds += settling / (double)*n * (double)search->starts +
-              fmax(0, found - start - settling) / (double)*n * (double)smaller(search->starts, KZ_SEARCH_MOST_SOUGHT);
+  KZ_TRY(measure_settling(dynamics, search, n, &settling));
+  *seconds += settling / (double)n * (double)search->starts +
+              fmax(0, found - start - settling) / (double)n * (double)smaller(search->starts, KZ_SEARCH_MOST_SOUGHT);
   return measure_table(dynamics, search, seconds);
 }

@@ -45,15 +45,12 @@ static const kz_run ALONE = {NULL, NULL};
 
 /* The catalogue of the attractors that a few starts end on; regions and table are as the study has them. */
 static kz_status basin_cost_discover(sample *s, kz_catalogue *catalogue) {
-  double state[2 * KZ_SEARCH_FEW];
   int32_t label[KZ_SEARCH_FEW];
-  int64_t n;
-  kz_search search = kz_search_of_basin(&s->scene->basin);
-  search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
-  KZ_TRY(kz_search_measure(s->dynamics, &search, state, label, &n, &s->seconds));
+  const kz_search search = kz_search_of_basin(&s->scene->basin);
+  KZ_TRY(kz_search_measure(s->dynamics, &search, label, &s->seconds));
   kz_dynamics_update(s->dynamics);
   int64_t *reached = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *reached);
-  for (int64_t i = 0; i < n; i++) reached[label[i]]++;
+  for (int64_t i = 0; i < search.starts && i < KZ_SEARCH_FEW; i++) reached[label[i]]++;
   kz_catalogue_make(s->dynamics, reached, catalogue);
   free(reached);
   return KZ_OK;

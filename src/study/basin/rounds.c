@@ -34,7 +34,7 @@ static kz_status rounds_discover(kz_window_labels *l, bool again) {
   if (again && status == KZ_OK) status = states_of(l, n, cell, state);
   if (status == KZ_OK)
     status = again ? kz_discover(l->run, l->dynamics, plan->max_periods, n, state, label)
-                   : kz_search_window(l->run, l->dynamics, &l->search, state, label);
+                   : kz_search_window(l->run, l->dynamics, &l->search, label);
   if (status == KZ_OK && kz_dynamics_count(l->dynamics) > INT16_MAX)
     status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) l->reached[label[i]]++;

@@ -11,23 +11,19 @@
 typedef struct {
   const kz_scene *scene;
   kz_dynamics *dynamics;
-  kz_search search;
-  double *state; /* [starts of the search][2] */
-  int32_t *label;
+  int64_t max_periods;
 } edge_job;
 
 kz_cost kz_edge_cost(const kz_scene *scene) {
-  const kz_search search = kz_search_of(scene);
-  const double points = (double)scene->edge.periods + 1;
-  return (kz_cost){.disk_bytes = 64 * points + 40 * (double)search.starts,
-                   .memory_bytes = 64 * points + 40 * (double)search.starts};
+  const double bytes = 64 * ((double)scene->edge.periods + 1) + 40 * (double)kz_search_of(scene).starts;
+  return (kz_cost){.disk_bytes = bytes, .memory_bytes = bytes};
 }
 
 /* Record: the edge, then its orbit [periods + 1][2]. */
 static kz_status edge_tile(void *context, int64_t tile, void *record) {
   const edge_job *e = context;
   (void)tile;
-  return kz_edge_track(e->scene, e->dynamics, e->search.max_periods, record, (double *)((kz_edge *)record + 1));
+  return kz_edge_track(e->scene, e->dynamics, e->max_periods, record, (double *)((kz_edge *)record + 1));
 }
 
 static void name_of(const edge_job *e, int32_t number, char name[KZ_NAME_LENGTH]) {
@@ -107,58 +103,41 @@ static kz_status publish(const edge_job *e, const kz_edge *edge, const double *o
   return KZ_OK;
 }
 
-static void edge_allocate(edge_job *e) {
-  const kz_scene *scene = e->scene;
-  e->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
-                                   scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
-  e->state = kz_malloc(2 * (size_t)e->search.starts * sizeof *e->state);
-  e->label = kz_malloc((size_t)e->search.starts * sizeof *e->label);
-}
-
-static kz_status follow(edge_job *e, const kz_run *run, kz_store *store, FILE *summary) {
-  const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)e->scene->edge.periods + 1) * sizeof(double);
-  const kz_stage stage = kz_stage_for_rank0("edge", 1, bytes, edge_tile, e);
-  edge_allocate(e);
-  e->search.max_velocity = kz_dynamics_max_velocity(e->dynamics, &e->search.window);
-  KZ_TRY(kz_search_window(run, e->dynamics, &e->search, e->state, e->label));
-  kz_edge *record = kz_malloc(bytes);
-  kz_status status = kz_stage_run(run, &stage, record);
-  if (status == KZ_OK && store) status = publish(e, record, (const double *)(record + 1), store, summary);
-  free(record);
-  return status;
-}
-
-static void end(edge_job *e) {
-  kz_dynamics_free(e->dynamics);
-  free(e->state);
-  free(e->label);
+static edge_job job_of(const kz_scene *scene) {
+  const int64_t max_period = scene->has_basin ? scene->basin.max_period : scene->attractors.max_period;
+  return (edge_job){scene, kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period),
+                    kz_search_of(scene).max_periods};
 }
 
 /* The edge of a few periods; the starts may end elsewhere where few starts have found fewer attractors. */
 kz_status kz_edge_measure(const kz_scene *scene, double *seconds) {
   enum { FEW = 16 };
+  const kz_search search = kz_search_of(scene);
   kz_scene part = *scene;
-  edge_job e = {.scene = &part, .search = kz_search_of(scene)};
   kz_edge edge;
   double orbit[2 * (FEW + 1)];
-  int64_t n;
+  int32_t label[KZ_SEARCH_FEW];
   if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   if (part.edge.periods > FEW) part.edge.periods = FEW;
-  if (e.search.starts < KZ_SEARCH_FEW) e.search.starts = KZ_SEARCH_FEW;
-  edge_allocate(&e);
-  e.search.max_velocity = kz_dynamics_max_velocity(e.dynamics, &e.search.window);
-  e.search.starts = kz_search_of(scene).starts;
-  kz_status status = kz_search_measure(e.dynamics, &e.search, e.state, e.label, &n, seconds);
+  const edge_job e = job_of(scene);
+  const kz_status status = kz_search_measure(e.dynamics, &search, label, seconds);
   const double start = kz_processor_clock();
-  if (status == KZ_OK && kz_edge_track(&part, e.dynamics, e.search.max_periods, &edge, orbit) != KZ_OK) kz_message_clear();
+  if (status == KZ_OK && kz_edge_track(&part, e.dynamics, e.max_periods, &edge, orbit) != KZ_OK) kz_message_clear();
   *seconds += (kz_processor_clock() - start) * (double)scene->edge.periods / (double)part.edge.periods;
-  end(&e);
+  kz_dynamics_free(e.dynamics);
   return status;
 }
 
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  edge_job e = {.scene = scene, .search = kz_search_of(scene)};
-  const kz_status status = follow(&e, run, store, summary);
-  end(&e);
+  const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)scene->edge.periods + 1) * sizeof(double);
+  const kz_search search = kz_search_of(scene);
+  edge_job e = job_of(scene);
+  const kz_stage stage = kz_stage_for_rank0("edge", 1, bytes, edge_tile, &e);
+  kz_edge *record = kz_malloc(bytes);
+  kz_status status = kz_search_window(run, e.dynamics, &search, NULL);
+  if (status == KZ_OK) status = kz_stage_run(run, &stage, record);
+  if (status == KZ_OK && store) status = publish(&e, record, (const double *)(record + 1), store, summary);
+  free(record);
+  kz_dynamics_free(e.dynamics);
   return status;
 }

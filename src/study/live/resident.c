@@ -73,15 +73,10 @@ static void learn(kz_resident *r) {
 }
 
 static kz_status search(kz_resident *r) {
-  const size_t n = (size_t)r->search.starts;
-  double *state = kz_malloc(2 * n * sizeof *state);
-  int32_t *label = kz_malloc(n * sizeof *label);
   r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin.max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
-  const kz_status status = kz_search_window(NULL, r->dynamics, &r->search, state, label);
+  const kz_status status = kz_search_window(NULL, r->dynamics, &r->search, NULL);
   kz_dynamics_set_release(r->dynamics, &r->scene.parameters.release);
-  free(state);
-  free(label);
   if (status == KZ_OK) learn(r);
   return status;
 }

@@ -63,62 +63,46 @@ static int64_t image_of(const kz_resilience *point, int64_t i) {
 }
 
 /* What holds for a point from what was found at its mirror image. */
-static void mirror(const int32_t *mirrored, const kz_resilience *found, kz_resilience *point) {
+static void mirror(const kz_dynamics *dynamics, const kz_resilience *found, kz_resilience *point) {
   memcpy(point->harmless, found->harmless, sizeof point->harmless);
   for (int kind = 0; kind < 3; kind++) {
     const kz_shock *shock = found->shock + kind;
-    point->shock[kind] =
-        (kz_shock){-shock->theta, -shock->velocity, shock->size, shock->end > 0 ? mirrored[shock->end] : shock->end};
+    kz_attractor row = {.mirror = shock->end};
+    if (shock->end > 0) kz_dynamics_attractor(dynamics, shock->end, &row);
+    point->shock[kind] = (kz_shock){-shock->theta, -shock->velocity, shock->size, (int32_t)row.mirror};
   }
 }
 
-/* mirrored [count + 1]: the number of each attractor's mirror image, to be freed. */
-static int32_t *mirrors_of(const kz_dynamics *dynamics) {
-  const int64_t n = kz_dynamics_count(dynamics);
-  int32_t *mirrored = kz_calloc((size_t)n + 1, sizeof *mirrored);
-  for (int64_t number = 1; number <= n; number++) {
-    kz_attractor row;
-    kz_dynamics_attractor(dynamics, number, &row);
-    mirrored[number] = row.mirror;
-  }
-  return mirrored;
-}
-
-/* Runs the stage over the points that are not mirror images of others, then fills in those. */
-static kz_status search(const kz_run *run, searching *s, int64_t n, int64_t *own, kz_resilience *found, kz_resilience *point) {
-  int32_t *mirrored = mirrors_of(s->dynamics);
-  int64_t n_own = 0;
+/* Places of the points that are not mirror images of others, own [n]: how many. */
+static int64_t list_own(int64_t n, const kz_resilience *point, int64_t *own) {
+  int64_t count = 0;
   for (int64_t i = 0; i < n; i++)
-    if (image_of(point, i) == i) own[n_own++] = i;
-  const kz_stage stage = kz_stage_for_all("shocks", n_own, sizeof *point, resilience_tile, s);
-  kz_status status = kz_stage_run(run, &stage, found);
-  for (int64_t i = 0; status == KZ_OK && i < n_own; i++) point[own[i]] = found[i];
-  for (int64_t i = 0; status == KZ_OK && i < n; i++)
-    if (image_of(point, i) != i) mirror(mirrored, point + image_of(point, i), point + i);
-  free(mirrored);
-  return status;
+    if (image_of(point, i) == i) own[count++] = i;
+  return count;
 }
 
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point) {
-  if (n == 0) return KZ_OK;
-  int64_t *own = kz_malloc((size_t)n * sizeof *own);
-  kz_resilience *found = kz_malloc((size_t)n * sizeof *found);
+  int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
+  kz_resilience *found = kz_malloc((size_t)n * sizeof *found + 1);
   searching s = {dynamics, plan, point, own};
-  const kz_status status = search(run, &s, n, own, found, point);
+  const kz_stage stage = kz_stage_for_all("shocks", list_own(n, point, own), sizeof *point, resilience_tile, &s);
+  const kz_status status = n > 0 ? kz_stage_run(run, &stage, found) : KZ_OK;
+  for (int64_t i = 0; status == KZ_OK && i < stage.n_tiles; i++) point[own[i]] = found[i];
+  for (int64_t i = 0; status == KZ_OK && i < n; i++)
+    if (image_of(point, i) != i) mirror(dynamics, point + image_of(point, i), point + i);
   free(own);
   free(found);
   return status;
 }
 
 kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n, const kz_resilience *point,
-                            int64_t *own) {
-  int64_t place = 0;
+                            int64_t *n_own) {
+  int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
   kz_resilience found;
-  *own = 0;
-  for (int64_t i = 0; i < n; i++) *own += image_of(point, i) == i;
-  for (int64_t i = 0, left = *own / 2; i < n && left >= 0; i++)
-    if (image_of(point, i) == i && left-- == 0) place = i;
-  searching s = {dynamics, plan, point, &place};
-  return *own > 0 ? resilience_tile(&s, 0, &found) : KZ_OK;
+  searching s = {dynamics, plan, point, own};
+  *n_own = list_own(n, point, own);
+  const kz_status status = *n_own > 0 ? resilience_tile(&s, *n_own / 2, &found) : KZ_OK;
+  free(own);
+  return status;
 }

@@ -177,8 +177,7 @@ static kz_status sweep_catalogue_discover(searching *s) {
   search.starts = s->n_starts;
   search.seed = sweep->seed;
   search.max_periods = s->max_periods;
-  search.max_velocity = kz_dynamics_max_velocity(s->dynamics, &search.window);
-  return kz_search_window(s->run, s->dynamics, &search, s->state, s->label);
+  return kz_search_window(s->run, s->dynamics, &search, s->label);
 }
 
 /* The smallest shocks over the strobe points of each attractor. Catalogues of a sweep and of a file are in the same order. */

@@ -32,7 +32,7 @@ static kz_status where_discover(where_job *a) {
   const kz_window motions =
       q->scene->has_basin ? kz_motions_window(&q->scene->basin.theta, &q->scene->basin.velocity) : a->search.window;
   a->search.max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
-  KZ_TRY(kz_search_window(NULL, q->dynamics, &a->search, a->state, a->found));
+  KZ_TRY(kz_search_window(NULL, q->dynamics, &a->search, a->found));
   const int64_t searched = kz_dynamics_count(q->dynamics);
   int64_t *reached = kz_calloc((size_t)searched + 1, sizeof *reached);
   for (int64_t i = 0; i < a->search.starts; i++) reached[a->found[i]]++;
