@@ -4,7 +4,7 @@ module kz_api_dynamics
   use kz_attractors_chaos, only: carry_chaos
   use kz_attractors_cycle_search, only: search_t, add_with_mirror, known
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor
-  use kz_grown_aging, only: aged_regions
+  use kz_grown_moving, only: aged_regions
   use kz_grown_cell_images, only: images_t
   use kz_grown_grid, only: regions_t, draw_attractors
   use kz_kernel_flows, only: make_flow, make_moving_flow, fine_numerics

@@ -5,7 +5,7 @@ module kz_api_regions
   use kz_grown_cell_images, only: PERIODS, make_images
   use kz_grown_grid, only: make_regions, draw_attractors
   use kz_grown_growth, only: grow_regions
-  use kz_grown_visits, only: learn_regions
+  use kz_grown_moving, only: learn_regions
   use kz_model_pendulum, only: is_mirrored
   implicit none
   private

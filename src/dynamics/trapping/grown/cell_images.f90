@@ -8,7 +8,7 @@ module kz_grown_cell_images
   use kz_grown_grid, only: regions_t
   implicit none
   private
-  public :: images_t, make_images, corners_of, extent
+  public :: images_t, corners_t, make_images, corners_of, extent
 
   real(dp), parameter :: CURVATURE = 0.25_dp, SLACK = 0.02_dp
   !> Images over more cells than this are not followed.
@@ -31,6 +31,11 @@ module kz_grown_cell_images
     integer(int32), allocatable :: bottom(:, :)
     integer(int32), allocatable :: top(:, :)
   end type images_t
+
+  !> Images of the corners of a cell, and what they may be off by between the corners, in cells.
+  type :: corners_t
+    real(dp) :: x(4), y(4), slack_x, slack_y
+  end type corners_t
 
 contains
 
@@ -57,23 +62,9 @@ contains
         images(k) = image
         call set_boxes(regions, straight, images(k))
       end if
-      straight = straight .and. image%slack_x <= BENT*columns_per_rad(regions) .and. image%slack_y <= BENT*rows_per_speed(regions)
+      straight = straight .and. image%slack_x <= BENT*(regions%n_circle/(2*PI)) .and. image%slack_y <= BENT*regions%per_v
     end do
   end subroutine make_images
-
-  pure function columns_per_rad(regions) result(columns)
-    type(regions_t), intent(in) :: regions
-    real(dp) :: columns
-
-    columns = regions%n_circle/(2*PI)
-  end function columns_per_rad
-
-  pure function rows_per_speed(regions) result(rows)
-    type(regions_t), intent(in) :: regions
-    real(dp) :: rows
-
-    rows = regions%n_velocity/(2*regions%top)
-  end function rows_per_speed
 
   !> The nodes of row j after each period.
   subroutine integrate_row(regions, flow, j, x, y)
@@ -84,8 +75,8 @@ contains
     real(dp) :: per_u, per_v, u, v, turns(WIDTH)
     integer :: first, n, lane, period
 
-    per_u = 0.5_dp*regions%n_circle
-    per_v = rows_per_speed(regions)
+    per_u = regions%per_u
+    per_v = regions%per_v
     v = j/per_v - regions%top
     do first = -1, regions%n_theta + 1, WIDTH
       n = min(WIDTH, regions%n_theta + 2 - first)
@@ -185,32 +176,28 @@ contains
   end subroutine boxes
 
   !> The images of the corners of cell (i, l), and its slack.
-  pure subroutine corners_of(images, i, l, x, y, slack_x, slack_y)
+  pure type(corners_t) function corners_of(images, i, l) result(corners)
     type(images_t), intent(in) :: images !< images of all nodes
-    integer, intent(in) :: i !< column of the cell, from 0
-    integer, intent(in) :: l !< row of the cell, from 0
-    real(dp), intent(out) :: x(4) !< angles of the corners, in cells
-    real(dp), intent(out) :: y(4) !< velocities of the corners, in cells
-    real(dp), intent(out) :: slack_x !< what the angles may be off by between the corners, in cells
-    real(dp), intent(out) :: slack_y !< the same of the velocities
+    integer, intent(in) :: i, l !< column and row of the cell, from 0
 
-    x = [images%x(i, l), images%x(i + 1, l), images%x(i, l + 1), images%x(i + 1, l + 1)]
-    y = [images%y(i, l), images%y(i + 1, l), images%y(i, l + 1), images%y(i + 1, l + 1)]
-    slack_x = maxval(images%slack_x(i:i + 1, l:l + 1))
-    slack_y = maxval(images%slack_y(i:i + 1, l:l + 1))
-  end subroutine corners_of
+    corners%x = [images%x(i, l), images%x(i + 1, l), images%x(i, l + 1), images%x(i + 1, l + 1)]
+    corners%y = [images%y(i, l), images%y(i + 1, l), images%y(i, l + 1), images%y(i + 1, l + 1)]
+    corners%slack_x = maxval(images%slack_x(i:i + 1, l:l + 1))
+    corners%slack_y = maxval(images%slack_y(i:i + 1, l:l + 1))
+  end function corners_of
 
-  !> Range of x of the convex hull of four points between y = low and y = high, from all segments between the points.
-  pure subroutine extent(x, y, low, high, from, to)
-    real(dp), intent(in) :: x(4) !< angles of the corners, in cells
-    real(dp), intent(in) :: y(4) !< velocities of the corners, in cells
-    real(dp), intent(in) :: low !< lower end of the strip of velocities
-    real(dp), intent(in) :: high !< its upper end
-    real(dp), intent(out) :: from !< lowest angle in the strip
-    real(dp), intent(out) :: to !< highest angle in the strip
-    real(dp) :: s, t, slope
+  !> Range of x, in cells, of the convex hull of four corners in a row of cells, slack included: from all segments between the corners.
+  pure subroutine extent(corners, row, from, to)
+    type(corners_t), intent(in) :: corners !< of a cell
+    integer, intent(in) :: row !< of the grid, from 0
+    real(dp), intent(out) :: from, to !< the range
+    real(dp) :: x(4), y(4), low, high, s, t, slope
     integer :: a, b
 
+    x = corners%x
+    y = corners%y
+    low = row - corners%slack_y
+    high = row + 1 + corners%slack_y
     from = huge(1.0_dp)
     to = -huge(1.0_dp)
     do a = 1, 3
@@ -228,6 +215,8 @@ contains
         to = max(to, x(a) + slope*(s - y(a)), x(a) + slope*(t - y(a)))
       end do
     end do
+    from = from - corners%slack_x
+    to = to + corners%slack_x
   end subroutine extent
 
 end module kz_grown_cell_images

@@ -4,12 +4,12 @@ module kz_grown_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: in_ellipse
-  use kz_grown_places, only: look_up, side, from_down, wrapped_midperiod_angle, WORD
+  use kz_grown_places, only: grid_t, look_up, side, from_down, wrapped_midperiod_angle, WORD
   use kz_lanes_map, only: WIDTH
   use kz_maps_states, only: angle_difference, midperiod_angle, MIDPERIOD
   implicit none
   private
-  public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, fold_cell, cover_cell, chaos_region, cell_holds
+  public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, cover_cell, chaos_region, cell_holds
 
   !> An ellipse that overlaps a cell, and the next one of that cell.
   type :: ellipse_overlap_t
@@ -18,12 +18,7 @@ module kz_grown_grid
     integer :: next
   end type ellipse_overlap_t
 
-  type :: regions_t
-    integer :: n_circle = 0   !< cells on the whole circle
-    integer :: n_theta = 0    !< cells from 0 to pi, or on the whole circle
-    logical :: mirrored = .true. !< the half stands for the other one, too
-    integer :: n_velocity = 0 !< cells from -top to top
-    real(dp) :: top = 0
+  type, extends(grid_t) :: regions_t
     integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
     integer(int32), allocatable :: closed(:) !< a bit for each cell and one for the outside, in this order: may a region be there?
     integer, allocatable :: drawn(:, :) !< the same by ellipses alone: what has grown since does not hide them
@@ -52,6 +47,8 @@ contains
     regions%n_theta = merge(n_circle/2, n_circle, mirrored)
     regions%n_velocity = n_velocity
     regions%top = top
+    regions%per_u = 0.5_dp*n_circle
+    regions%per_v = n_velocity/(2*top)
     allocate (regions%label(0:regions%n_theta - 1, 0:n_velocity - 1), source=0)
     allocate (regions%drawn, source=regions%label)
     allocate (regions%overlaps(64), regions%covered(0))
@@ -105,8 +102,7 @@ contains
   !> The number (from 1) of the cell of a cover that holds (u, v); 0 = outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
   pure function cover_cell(regions, u, v) result(cell)
     type(regions_t), intent(in) :: regions !< the trapping regions
-    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
     integer :: cell
     real(dp) :: fold, y
 
@@ -121,8 +117,7 @@ contains
   !> The chaotic attractor whose cover holds (u, v); 0 = none.
   pure function chaos_region(regions, u, v) result(a)
     type(regions_t), intent(in) :: regions !< the trapping regions
-    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
     integer :: a
 
     a = cover_cell(regions, u, v)
@@ -143,8 +138,8 @@ contains
     form = [form(1), form(2) - slope*form(1), form(3) - 2*slope*form(2) + slope**2*form(1)]
     half_u = sqrt(form(3)/(form(1)*form(3) - form(2)**2))
     half_v = sqrt(form(1)/(form(1)*form(3) - form(2)**2))
-    per_u = 0.5_dp*regions%n_circle
-    per_v = regions%n_velocity/(2*regions%top)
+    per_u = regions%per_u
+    per_v = regions%per_v
     u = angle_difference(midperiod_angle(attractor%kernel_u(j), attractor%kernel_v(j)), 0.0_dp) + turn
     v = attractor%kernel_v(j)
     do l = max(0, floor((v - half_v + regions%top)*per_v)), &
@@ -193,12 +188,11 @@ contains
     type(regions_t), intent(in) :: regions !< the trapping regions
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     integer, intent(in) :: n !< states, at most WIDTH
-    real(dp), intent(in) :: u(n) !< angles, half-turns in [-1, 1]
-    real(dp), intent(in) :: v(n) !< velocities, rad per drive radian
+    real(dp), intent(in) :: u(n), v(n) !< half-turns in [-1, 1], rad per drive radian
     integer, intent(out) :: label(n) !< attractor from 1, 0 = none
     integer :: closed(WIDTH), n_closed, i
 
-    call look_up(regions%mirrored, regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, regions%closed, n, u, v, label)
+    call look_up(regions%grid_t, regions%closed, n, u, v, label)
     n_closed = 0
     do i = 1, n ! without a branch: which cells are closed cannot be foreseen
       closed(n_closed + 1) = i
@@ -234,18 +228,16 @@ contains
   !> True if one trapped cell holds all states within (du, dv) of (u, v).
   pure function cell_holds(regions, u, v, du, dv) result(inside)
     type(regions_t), intent(in) :: regions !< the trapping regions
-    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
-    real(dp), intent(in) :: du !< half-turns
-    real(dp), intent(in) :: dv !< rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
+    real(dp), intent(in) :: du, dv !< half-turns, rad per drive radian
     logical :: inside
     real(dp) :: w, x, y, margin_x, margin_y
 
     w = wrapped_midperiod_angle(u, v)
-    x = 0.5_dp*regions%n_circle*merge(abs(w), from_down(w), regions%mirrored)
-    y = (merge(side(w, v), 1.0_dp, regions%mirrored)*v + regions%top)*(regions%n_velocity/(2*regions%top))
-    margin_x = 0.5_dp*regions%n_circle*(du + MIDPERIOD*dv)
-    margin_y = regions%n_velocity/(2*regions%top)*dv
+    x = regions%per_u*merge(abs(w), from_down(w), regions%mirrored)
+    y = (merge(side(w, v), 1.0_dp, regions%mirrored)*v + regions%top)*regions%per_v
+    margin_x = regions%per_u*(du + MIDPERIOD*dv)
+    margin_y = regions%per_v*dv
     inside = .false.
     if (.not. (x < regions%n_theta .and. y >= 0 .and. y < regions%n_velocity)) return
     if (x - aint(x) <= margin_x .or. aint(x) + 1 - x <= margin_x .or. y - aint(y) <= margin_y .or. aint(y) + 1 - y <= margin_y) return
@@ -272,8 +264,7 @@ contains
   !> The attractor that has an ellipse around (u, v); 0 = none. It tests every ellipse.
   pure function ellipse_at(attractors, u, v) result(a)
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
-    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
     integer :: a, j
 
     do a = 1, size(attractors)
@@ -283,19 +274,5 @@ contains
     end do
     a = 0
   end function ellipse_at
-
-  !> Moves cell (i, l), for any integer i, to the stored half; `mirrored` = the stored cell is its mirror image.
-  pure subroutine fold_cell(regions, i, l, mirrored)
-    type(regions_t), intent(in) :: regions !< the trapping regions
-    integer, intent(inout) :: i !< column, any integer, in; from 0, out
-    integer, intent(inout) :: l !< row, from 0
-    logical, intent(out) :: mirrored !< whether the stored cell is its mirror image
-
-    i = modulo(i, regions%n_circle)
-    mirrored = i >= regions%n_theta
-    if (.not. mirrored) return
-    i = regions%n_circle - 1 - i
-    l = regions%n_velocity - 1 - l
-  end subroutine fold_cell
 
 end module kz_grown_grid

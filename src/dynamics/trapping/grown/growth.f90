@@ -7,8 +7,9 @@ module kz_grown_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double, int8 => c_int8_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: in_ellipse
-  use kz_grown_cell_images, only: images_t, PERIODS, corners_of, extent
-  use kz_grown_grid, only: regions_t, fold_cell, note_closed
+  use kz_grown_cell_images, only: images_t, corners_t, PERIODS, corners_of, extent
+  use kz_grown_grid, only: regions_t, note_closed
+  use kz_grown_places, only: grid_t, fold_cell
   use kz_maps_states, only: midperiod_angle
   implicit none
   private
@@ -19,12 +20,8 @@ module kz_grown_growth
   integer, parameter :: NEVER = -1
 
   !> The whole circle, twice, one byte a cell: no interval of columns wraps.
-  type :: circle_t
-    integer :: n_circle
-    integer :: n_theta
-    integer :: n_velocity
+  type, extends(grid_t) :: circle_t
     integer(int8), allocatable :: label(:, :) !< (0 : 2 n_circle - 1, 0 : n_velocity - 1): attractor, from 1; 0 = open
-    logical :: mirrored
     integer(int8), allocatable :: mirror(:)   !< of each attractor, from 1; 0 = not grown
   end type circle_t
 
@@ -70,10 +67,7 @@ contains
     type(circle_t) :: circle
     integer :: i, l
 
-    circle%n_circle = regions%n_circle
-    circle%n_theta = regions%n_theta
-    circle%mirrored = regions%mirrored
-    circle%n_velocity = regions%n_velocity
+    circle%grid_t = regions%grid_t
     allocate (circle%label(0:2*regions%n_circle - 1, 0:regions%n_velocity - 1), source=0_int8)
     circle%mirror = int(merge(regions%mirror, 0, regions%mirror <= MOST_GROWN), int8)
     do l = 0, regions%n_velocity - 1
@@ -105,20 +99,20 @@ contains
     type(images_t), intent(in) :: images
     integer, intent(in) :: i, l
     integer :: a, t, column, row
-    real(dp) :: x(4), y(4), slack_x, slack_y
+    type(corners_t) :: corners
     logical :: mirrored
 
     a = 0
     if (images%n_columns(i, l) == 0) return
     column = floor(images%x(i, l))
     row = floor(images%y(i, l))
-    call fold_cell(regions, column, row, mirrored)
+    call fold_cell(regions%grid_t, column, row, mirrored)
     t = -regions%drawn(column, row)
     if (t <= 0) return
-    call corners_of(images, i, l, x, y, slack_x, slack_y)
+    corners = corners_of(images, i, l)
     do while (t > 0)
       a = regions%overlaps(t)%attractor
-      if (holds(regions, attractors(a), regions%overlaps(t)%point, x, y, slack_x, slack_y, mirrored)) then
+      if (holds(regions, attractors(a), regions%overlaps(t)%point, corners, mirrored)) then
         if (mirrored) a = regions%mirror(a)
         return
       end if
@@ -128,11 +122,11 @@ contains
   end function ellipse_around
 
   !> Whether four corners with their slack, and so their hull, or its mirror image, lie in the ellipse of strobe point j.
-  pure function holds(regions, attractor, j, x, y, slack_x, slack_y, mirrored) result(inside)
+  pure function holds(regions, attractor, j, corners, mirrored) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
-    real(dp), intent(in) :: x(4), y(4), slack_x, slack_y
+    type(corners_t), intent(in) :: corners
     logical, intent(in) :: mirrored
     logical :: inside
     real(dp) :: u, v
@@ -142,8 +136,8 @@ contains
     do corner = 1, 4
       do b = -1, 1, 2
         do a = -1, 1, 2
-          u = (x(corner) + a*slack_x)*2/regions%n_circle
-          v = (y(corner) + b*slack_y)*(2*regions%top/regions%n_velocity) - regions%top
+          u = (corners%x(corner) + a*corners%slack_x)*2/regions%n_circle
+          v = (corners%y(corner) + b*corners%slack_y)*(2*regions%top/regions%n_velocity) - regions%top
           if (mirrored) u = -u
           if (mirrored) v = -v
           inside = inside .and. in_ellipse(attractor, j, u - midperiod_angle(0.0_dp, v), v)
@@ -201,7 +195,8 @@ contains
     integer, intent(in) :: i, l
     integer, intent(inout) :: seen
     integer, intent(out) :: answer, blocker
-    real(dp) :: x(4), y(4), slack_x, slack_y, from, to
+    type(corners_t) :: corners
+    real(dp) :: from, to
     integer(int8) :: a
     integer :: row, left, n, shift
 
@@ -214,11 +209,10 @@ contains
     if (a == 0) return
     do row = max(images%bottom(i, l), seen), images%top(i, l)
       if (one_label(n, circle%label(left:, row), a)) cycle
-      call corners_of(images, i, l, x, y, slack_x, slack_y)
-      call extent(x, y, row - slack_y, row + 1 + slack_y, from, to)
-      shift = left - floor(minval(x) - slack_x)
-      call first_other(circle, max(left, floor(from - slack_x) + shift), min(left + n - 1, floor(to + slack_x) + shift), row, a, &
-                       blocker)
+      corners = corners_of(images, i, l)
+      call extent(corners, row, from, to)
+      shift = left - floor(minval(corners%x) - corners%slack_x)
+      call first_other(circle, max(left, floor(from) + shift), min(left + n - 1, floor(to) + shift), row, a, blocker)
       seen = row
       if (blocker /= 0) return
     end do

@@ -5,30 +5,35 @@ module kz_grown_places
   use kz_maps_states, only: MIDPERIOD
   implicit none
   private
-  public :: look_up, number_cells, wrapped_midperiod_angle, side, from_down
+  public :: grid_t, look_up, number_cells, wrapped_midperiod_angle, side, from_down, fold_cell
 
   !> Cells in a word of bits.
   integer, parameter, public :: WORD = bit_size(0_int32)
   !> Adding it rounds to an integer.
   real(dp), parameter :: ROUND_TO_INTEGER = 1.5_dp*2.0_dp**52
 
+  !> The cells: over the half plane of mid-period angles 0 .. pi, or the whole one where there is no mirror symmetry.
+  type :: grid_t
+    integer :: n_circle = 0      !< cells on the whole circle
+    integer :: n_theta = 0       !< cells from 0 to pi, or on the whole circle
+    logical :: mirrored = .true. !< the half stands for the other one, too
+    integer :: n_velocity = 0    !< cells from -top to top
+    real(dp) :: top = 0          !< rad per drive radian
+    real(dp) :: per_u = 0, per_v = 0 !< cells in a half-turn, in a rad per drive radian
+  end type grid_t
+
 contains
 
   !> The numbers of the cells that hold n states, as number_cells has them; 0 if the cell is open. Uses vectors.
-  pure subroutine look_up(mirrored, n_theta, n_velocity, per_u, top, closed, n, u, v, cell)
-    logical, intent(in) :: mirrored !< whether the stored half stands for the other one, too
-    integer, intent(in) :: n_theta !< stored columns of the grid
-    integer, intent(in) :: n_velocity !< rows of the grid
-    real(dp), intent(in) :: per_u !< columns in a half-turn
-    real(dp), intent(in) :: top !< largest velocity of the grid, rad per drive radian
-    integer(int32), intent(in) :: closed(0:n_theta*n_velocity/WORD) !< a bit for each cell, then one for the outside
+  pure subroutine look_up(grid, closed, n, u, v, cell)
+    type(grid_t), intent(in) :: grid !< of the regions
+    integer(int32), intent(in) :: closed(0:) !< a bit for each cell, then one for the outside
     integer, intent(in) :: n !< states
-    real(dp), intent(in) :: u(n) !< angles, half-turns in [-1, 1]
-    real(dp), intent(in) :: v(n) !< velocities, rad per drive radian
+    real(dp), intent(in) :: u(n), v(n) !< half-turns in [-1, 1], rad per drive radian
     integer, intent(out) :: cell(n) !< +- number of the cell, from 1; 0 = open
     integer :: i, number
 
-    call number_cells(mirrored, n_theta, n_velocity, per_u, top, n, u, v, cell)
+    call number_cells(grid, n, u, v, cell)
     do i = 1, n
       number = abs(cell(i)) - 1
       cell(i) = iand(ishft(closed(ishft(number, -5)), -iand(number, WORD - 1)), 1)*cell(i)
@@ -37,26 +42,23 @@ contains
 
   !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image; outside of the grid the number
   !> behind the last. Uses vectors.
-  pure subroutine number_cells(mirrored, n_theta, n_velocity, per_u, top, n, u, v, cell)
-    logical, intent(in) :: mirrored !< whether the stored half stands for the other one, too
-    integer, intent(in) :: n_theta !< stored columns of the grid
-    integer, intent(in) :: n_velocity !< rows of the grid
-    real(dp), intent(in) :: per_u !< columns in a half-turn
-    real(dp), intent(in) :: top !< largest velocity of the grid, rad per drive radian
+  pure subroutine number_cells(grid, n, u, v, cell)
+    type(grid_t), intent(in) :: grid !< of the regions
     integer, intent(in) :: n !< states
-    real(dp), intent(in) :: u(n) !< angles, half-turns in [-1, 1]
-    real(dp), intent(in) :: v(n) !< velocities, rad per drive radian
+    real(dp), intent(in) :: u(n), v(n) !< half-turns in [-1, 1], rad per drive radian
     integer, intent(out) :: cell(n) !< +- number of the cell
-    real(dp) :: w, y, c, fold, per_v, outside, columns, rows
+    real(dp) :: w, y, c, fold, per_u, per_v, top, outside, columns, rows
     integer :: i
 
-    columns = n_theta
-    rows = n_velocity
+    columns = grid%n_theta
+    rows = grid%n_velocity
     outside = columns*rows
-    per_v = rows/(2*top)
-    if (.not. mirrored) then
+    per_u = grid%per_u
+    per_v = grid%per_v
+    top = grid%top
+    if (.not. grid%mirrored) then
       do i = 1, n
-        cell(i) = 1 + whole_cell(n_theta, n_velocity, per_u, top, u(i), v(i))
+        cell(i) = 1 + whole_cell(grid, u(i), v(i))
       end do
     else
       do i = 1, n
@@ -74,16 +76,16 @@ contains
   end subroutine number_cells
 
   !> The cell (from 0) of a grid over the whole circle that holds (u, v); the number of cells outside.
-  pure function whole_cell(n_theta, n_velocity, per_u, top, u, v) result(cell)
-    integer, intent(in) :: n_theta, n_velocity
-    real(dp), intent(in) :: per_u, top, u, v
+  pure function whole_cell(grid, u, v) result(cell)
+    type(grid_t), intent(in) :: grid
+    real(dp), intent(in) :: u, v
     integer :: cell
     real(dp) :: w, y
 
-    cell = n_theta*n_velocity
+    cell = grid%n_theta*grid%n_velocity
     w = from_down(wrapped_midperiod_angle(u, v))
-    y = (v + top)*(n_velocity/(2*top))
-    if (w >= 0 .and. w <= 2 .and. y >= 0 .and. y < n_velocity) cell = min(int(w*per_u), n_theta - 1) + n_theta*int(y)
+    y = (v + grid%top)*grid%per_v
+    if (w >= 0 .and. w <= 2 .and. y >= 0 .and. y < grid%n_velocity) cell = min(int(w*grid%per_u), grid%n_theta - 1) + grid%n_theta*int(y)
   end function whole_cell
 
   !> An angle in [-1, 1] as one in [0, 2).
@@ -96,8 +98,7 @@ contains
 
   !> The mid-period angle, wrapped to [-1, 1].
   elemental function wrapped_midperiod_angle(u, v) result(w)
-    real(dp), intent(in) :: u !< angle, half-turns
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns, rad per drive radian
     real(dp) :: w
 
     w = u + MIDPERIOD*v
@@ -106,11 +107,24 @@ contains
 
   !> 1 if (u, v) lies in the stored half, -1 if its mirror image does.
   elemental function side(u, v) result(fold)
-    real(dp), intent(in) :: u !< angle, half-turns
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns, rad per drive radian
     real(dp) :: fold
 
     fold = merge(1.0_dp, -1.0_dp, merge(u, v, abs(u) > 0) >= 0)
   end function side
+
+  !> Moves cell (i, l), for any integer i, to the stored half; `mirrored` = the stored cell is its mirror image.
+  pure subroutine fold_cell(grid, i, l, mirrored)
+    type(grid_t), intent(in) :: grid !< the cells
+    integer, intent(inout) :: i !< column, any integer, in; from 0, out
+    integer, intent(inout) :: l !< row, from 0
+    logical, intent(out) :: mirrored !< whether the stored cell is its mirror image
+
+    i = modulo(i, grid%n_circle)
+    mirrored = i >= grid%n_theta
+    if (.not. mirrored) return
+    i = grid%n_circle - 1 - i
+    l = grid%n_velocity - 1 - l
+  end subroutine fold_cell
 
 end module kz_grown_places

@@ -1,15 +1,15 @@
-!> Trapping regions told by orbits. Where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that have been
-!> followed to their ends tell where motions go. A cell joins an attractor if all orbits that visited it end there, and visited only such
-!> cells from then on. It is likely, not certain, that such a cell traps: good enough for a picture that moves.
-module kz_grown_visits
+!> Trapping regions for pictures that move; it is likely, not certain, that they trap. Those of a pendulum nearby serve for another one. And
+!> where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that have been followed to their ends tell where
+!> motions go: a cell joins an attractor if all orbits that visited it end there, and visited only such cells from then on.
+module kz_grown_moving
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_grown_grid, only: regions_t, chaos_region, find_regions, note_closed
-  use kz_grown_places, only: number_cells
+  use kz_grown_grid, only: regions_t, make_regions, chaos_region, find_regions, note_closed
+  use kz_grown_places, only: fold_cell, number_cells
   use kz_lanes_map, only: flow_t, WIDTH
   implicit none
   private
-  public :: learn_regions
+  public :: aged_regions, learn_regions
 
   !> Orbits that visit a cell before it is believed.
   integer, parameter :: FEWEST_ORBITS = 4
@@ -25,6 +25,53 @@ module kz_grown_visits
   end type visits_t
 
 contains
+
+  !> A grid in which a cell keeps its attractor only if all its neighbours have the same one. Ellipses are drawn anew.
+  function aged_regions(old, number) result(regions)
+    type(regions_t), intent(in) :: old !< regions of the other pendulum
+    integer, intent(in) :: number(:) !< of each of its attractors, the number that it has now; 0 = it is there no more
+    type(regions_t) :: regions
+    integer :: i, l
+
+    regions = make_regions(old%n_circle, old%n_velocity, old%top, old%mirrored)
+    do l = 1, old%n_velocity - 2
+      do i = 0, old%n_theta - 1
+        if (old%label(i, l) <= 0) cycle
+        if (is_surrounded(old, i, l)) regions%label(i, l) = number(old%label(i, l))
+      end do
+    end do
+  end function aged_regions
+
+  !> Whether all neighbours of a cell have its attractor.
+  pure function is_surrounded(regions, i, l) result(surrounded)
+    type(regions_t), intent(in) :: regions
+    integer, intent(in) :: i, l
+    logical :: surrounded
+    integer :: x, y
+
+    surrounded = .false.
+    do y = l - 1, l + 1
+      do x = i - 1, i + 1
+        if (attractor_at(regions, x, y) /= regions%label(i, l)) return
+      end do
+    end do
+    surrounded = .true.
+  end function is_surrounded
+
+  !> The attractor of a whole cell of the circle, in any column; 0 = none has all of it.
+  pure function attractor_at(regions, column, row) result(a)
+    type(regions_t), intent(in) :: regions
+    integer, intent(in) :: column, row
+    integer :: a
+    integer :: i, l
+    logical :: mirrored
+
+    i = column
+    l = row
+    call fold_cell(regions%grid_t, i, l, mirrored)
+    a = max(regions%label(i, l), 0)
+    if (a > 0 .and. mirrored) a = regions%mirror(a)
+  end function attractor_at
 
   !> Follows orbits until each is trapped, and extends the regions by what they tell. It ends early when the orbits together have spent
   !> `budget` periods.
@@ -67,8 +114,7 @@ contains
     end do
     do while (active > 0)
       call find_regions(regions, attractors, active, flow%u(:active), flow%v(:active), region)
-      call number_cells(regions%mirrored, regions%n_theta, regions%n_velocity, 0.5_dp*regions%n_circle, regions%top, active, &
-                        flow%u(:active), flow%v(:active), number)
+      call number_cells(regions%grid_t, active, flow%u(:active), flow%v(:active), number)
       where (abs(number(:active)) > size(regions%label)) number(:active) = 0
       do lane = active, 1, -1
         if (region(lane) == 0 .and. age(lane) < most) then
@@ -166,4 +212,4 @@ contains
     where (leaks(1:)) label = MIXED
   end subroutine drop_leaks
 
-end module kz_grown_visits
+end module kz_grown_moving
