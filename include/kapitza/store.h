@@ -87,11 +87,12 @@ kz_status kz_store_number(kz_store *store, const char *group, const char *name, 
 
 /* ---- arrays of numbers as HDF5's filters shuffle and deflate pack them; no HDF5 ---- */
 
+enum { KZ_PACK_LEVEL = 4 }; /* of deflate; what the file says of it */
 /* The largest number of bytes that n packed numbers of `item` bytes each can take. */
 size_t kz_pack_bytes(size_t n, size_t item);
-/* Packs n numbers of `item` bytes each, neighbours of which are often equal, into `packed` [kz_pack_bytes]. Returns the number of bytes,
- * which depends on the numbers only; 0 if zlib has no memory. */
-size_t kz_pack_into(const void *numbers, size_t n, size_t item, void *packed);
+/* Packs n numbers of `item` bytes each into `packed` [kz_pack_bytes]; in_runs: neighbours are often equal, as labels are. Returns the number of
+ * bytes, which depends on the numbers only; 0, with a message, if zlib has no memory. */
+size_t kz_pack_into(const void *numbers, size_t n, size_t item, bool in_runs, void *packed);
 
 /* For memory alone, in less time: n items of at most 32 bytes each, many bytes of which are 0, into `packed` [kz_pack_bytes]. Returns as
  * kz_pack_into. */

@@ -14,8 +14,7 @@ kz_status kz_text_type(hid_t *type) {
 static kz_status write_attribute(hid_t object, const char *name, hid_t type, hid_t space, const void *values) {
   if (space >= 0 && H5Aexists(object, name) > 0) H5Adelete(object, name);
   const hid_t attribute = space < 0 ? space : H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
-  const bool written = attribute >= 0 && H5Awrite(attribute, type, values) >= 0;
-  const kz_status status = written ? KZ_OK : kz_hdf5_fail(__FILE__, __LINE__);
+  const kz_status status = KZ_HDF5_STATUS(attribute < 0 ? attribute : H5Awrite(attribute, type, values));
   if (attribute >= 0) H5Aclose(attribute);
   if (space >= 0) H5Sclose(space);
   return status;

@@ -1,10 +1,8 @@
-#include "chunks.h"
-
+/* Datasets in chunks, written chunk by chunk, packed by kz_pack_into. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/store.h"
-#include "pack.h"
+#include "store.h"
 
 static const hsize_t PLAIN_BYTES = 16384, CHUNK_BYTES = 1 << 20;
 
@@ -26,18 +24,18 @@ static layout layout_of(int rank, const hsize_t *lengths, const hsize_t *chunk, 
                   .rank = rank};
 }
 
-kz_status kz_chunks_set(hid_t creation, int rank, const hsize_t *lengths, size_t item) {
-  hsize_t chunk[KZ_MAX_DIMENSIONS], bytes = item;
-  for (int d = 0; d < rank; ++d) bytes *= chunk[d] = lengths[d];
-  if (bytes <= PLAIN_BYTES) return KZ_OK;
+kz_status kz_chunks_set(hid_t creation, int rank, const hsize_t *lengths, const hsize_t *chunk, size_t item) {
+  hsize_t rows[KZ_MAX_DIMENSIONS], bytes = item;
+  for (int d = 0; d < rank; ++d) bytes *= rows[d] = lengths[d];
+  if (!chunk && bytes <= PLAIN_BYTES) return KZ_OK;
   bytes = item;
   for (int d = rank - 1; d >= 0; --d) {
     const hsize_t fit = bytes < CHUNK_BYTES ? CHUNK_BYTES / bytes : 1;
-    if (chunk[d] > fit) chunk[d] = fit;
-    if (d == rank - 3) chunk[d] = 1;
-    bytes *= chunk[d];
+    if (rows[d] > fit) rows[d] = fit;
+    if (d == rank - 3) rows[d] = 1;
+    bytes *= rows[d];
   }
-  KZ_HDF5(H5Pset_chunk(creation, rank, chunk));
+  KZ_HDF5(H5Pset_chunk(creation, rank, chunk ? chunk : rows));
   KZ_HDF5(H5Pset_shuffle(creation));
   KZ_HDF5(H5Pset_deflate(creation, KZ_PACK_LEVEL));
   return KZ_OK;
@@ -52,26 +50,20 @@ static void gather(const layout *l, const char *data, hsize_t row, hsize_t colum
     memcpy(chunk + r * l->chunk_columns * l->item, data + ((row + r) * l->columns + column) * l->item, columns * l->item);
 }
 
-static kz_status write_chunk(hid_t dataset, const layout *l, hsize_t sheet, hsize_t row, hsize_t column, const char *chunk) {
-  const hsize_t at[KZ_MAX_DIMENSIONS] = {sheet, row, column};
-  void *packed;
-  size_t bytes;
-  KZ_TRY(kz_pack(chunk, l->item, l->chunk_rows * l->chunk_columns, l->item < sizeof(double), &packed, &bytes));
-  const herr_t written = H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, at + KZ_MAX_DIMENSIONS - l->rank, bytes, packed);
-  free(packed);
-  KZ_HDF5(written);
-  return KZ_OK;
-}
-
+/* Numbers that are smaller than a double come in runs, as labels do. */
 static kz_status write_chunks(hid_t dataset, const layout *l, const char *data) {
-  char *chunk = kz_malloc(l->chunk_rows * l->chunk_columns * l->item);
+  const size_t items = l->chunk_rows * l->chunk_columns;
+  char *chunk = kz_malloc(items * l->item), *packed = kz_malloc(kz_pack_bytes(items, l->item));
   kz_status status = KZ_OK;
   for (hsize_t sheet = 0; sheet < l->sheets; sheet++, data += l->rows * l->columns * l->item)
     for (hsize_t row = 0; row < l->rows; row += l->chunk_rows)
       for (hsize_t column = 0; status == KZ_OK && column < l->columns; column += l->chunk_columns) {
+        const hsize_t at[KZ_MAX_DIMENSIONS] = {sheet, row, column}, *place = at + KZ_MAX_DIMENSIONS - l->rank;
         gather(l, data, row, column, chunk);
-        status = write_chunk(dataset, l, sheet, row, column, chunk);
+        const size_t bytes = kz_pack_into(chunk, items, l->item, l->item < sizeof(double), packed);
+        status = bytes == 0 ? KZ_FAILED : KZ_HDF5_STATUS(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, place, bytes, packed));
       }
+  free(packed);
   free(chunk);
   return status;
 }
@@ -82,10 +74,7 @@ kz_status kz_chunks_write(hid_t dataset, hid_t type, int rank, const hsize_t *le
   KZ_HDF5(creation = H5Dget_create_plist(dataset));
   const bool chunked = H5Pget_layout(creation) == H5D_CHUNKED && H5Pget_chunk(creation, rank, chunk) == rank;
   H5Pclose(creation);
-  if (!chunked) {
-    KZ_HDF5(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
-    return KZ_OK;
-  }
+  if (!chunked) return KZ_HDF5_STATUS(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
   const layout l = layout_of(rank, lengths, chunk, item);
   return write_chunks(dataset, &l, data);
 }

@@ -1,7 +1,7 @@
-#include "hdf5_call.h"
-
 #include <stdio.h>
 #include <string.h>
+
+#include "store.h"
 
 enum { TEXT_BYTES = 512 };
 

@@ -1,4 +1,6 @@
-/* Reads variables that an earlier study of the run has written to the file. */
+/* Variables that the file has already: numbers and rows of them, their chunks, the meanings of their values. */
+#include <stdlib.h>
+
 #include "store.h"
 
 static hid_t open_dataset(kz_store *store, const char *group, const char *name) {
@@ -10,16 +12,32 @@ static hid_t open_dataset(kz_store *store, const char *group, const char *name) 
   return dataset;
 }
 
+static kz_status open_variable(kz_store *store, const char *group, const char *name, hid_t *dataset) {
+  *dataset = open_dataset(store, group, name);
+  return *dataset >= 0 ? KZ_OK : kz_fail(KZ_FAILED, "the result file has no %s/%s to read", group, name);
+}
+
+kz_status kz_scale_length(hid_t scale, int64_t *length) {
+  const hid_t space = H5Dget_space(scale);
+  const kz_status status = KZ_HDF5_STATUS(*length = H5Sget_simple_extent_npoints(space));
+  H5Sclose(space);
+  return status;
+}
+
 kz_status kz_store_length(kz_store *store, const char *group, const char *dimension, int64_t *length) {
   const hid_t scale = open_dataset(store, group, dimension);
   *length = 0;
   if (scale < 0) return KZ_OK;
-  hsize_t extent = 0;
-  const hid_t space = H5Dget_space(scale);
-  const kz_status status = H5Sget_simple_extent_dims(space, &extent, NULL) < 0 ? kz_hdf5_fail(__FILE__, __LINE__) : KZ_OK;
-  H5Sclose(space);
+  const kz_status status = kz_scale_length(scale, length);
   H5Dclose(scale);
-  *length = (int64_t)extent;
+  return status;
+}
+
+/* Reads what is selected of `space`, as many numbers as `count` [rank] says. */
+static kz_status read_selected(hid_t dataset, hid_t type, hid_t space, int rank, const hsize_t *count, void *data) {
+  const hid_t memory = H5Screate_simple(rank, count, NULL);
+  const kz_status status = KZ_HDF5_STATUS(H5Dread(dataset, type, memory, space, H5P_DEFAULT, data));
+  if (memory >= 0) H5Sclose(memory);
   return status;
 }
 
@@ -31,19 +49,62 @@ static kz_status read_number(hid_t dataset, hid_t space, const int64_t *index, d
     if (place[d] >= extent[d]) return kz_fail(KZ_FAILED, "a number beyond the end of a variable is asked for");
   }
   KZ_HDF5(H5Sselect_elements(space, H5S_SELECT_SET, 1, place));
-  const hid_t one = H5Screate(H5S_SCALAR);
-  const herr_t read = H5Dread(dataset, H5T_NATIVE_DOUBLE, one, space, H5P_DEFAULT, value);
-  if (one >= 0) H5Sclose(one);
-  KZ_HDF5(read);
-  return KZ_OK;
+  return read_selected(dataset, H5T_NATIVE_DOUBLE, space, 1, (hsize_t[]){1}, value);
 }
 
 kz_status kz_store_number(kz_store *store, const char *group, const char *name, const int64_t *index, double *value) {
-  const hid_t dataset = open_dataset(store, group, name);
-  if (dataset < 0) return kz_fail(KZ_FAILED, "the result file has no %s/%s to read", group, name);
+  hid_t dataset;
+  KZ_TRY(open_variable(store, group, name, &dataset));
   const hid_t space = H5Dget_space(dataset);
   const kz_status status = space < 0 ? kz_hdf5_fail(__FILE__, __LINE__) : read_number(dataset, space, index, value);
   if (space >= 0) H5Sclose(space);
   H5Dclose(dataset);
+  return status;
+}
+
+static kz_status read_rows(hid_t dataset, hid_t space, hsize_t first, hsize_t n, void *data) {
+  hsize_t lengths[KZ_MAX_DIMENSIONS];
+  KZ_HDF5(H5Sget_simple_extent_dims(space, lengths, NULL));
+  const hsize_t start[] = {first, 0}, count[] = {n, lengths[1]};
+  KZ_HDF5(H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL));
+  const hid_t type = H5Dget_type(dataset);
+  const kz_status status = read_selected(dataset, type, space, 2, count, data);
+  if (type >= 0) H5Tclose(type);
+  return status;
+}
+
+kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data) {
+  hid_t dataset;
+  KZ_TRY(open_variable(store, group, name, &dataset));
+  const hid_t space = H5Dget_space(dataset);
+  const kz_status status =
+      space < 0 ? kz_hdf5_fail(__FILE__, __LINE__) : read_rows(dataset, space, (hsize_t)first, (hsize_t)n, data);
+  if (space >= 0) H5Sclose(space);
+  H5Dclose(dataset);
+  return status;
+}
+
+kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, const int64_t *place, const void *packed,
+                         size_t bytes) {
+  const hsize_t offset[] = {(hsize_t)place[0], (hsize_t)place[1]};
+  hid_t dataset;
+  KZ_TRY(open_variable(store, group, name, &dataset));
+  const kz_status status = KZ_HDF5_STATUS(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, offset, bytes, packed));
+  H5Dclose(dataset);
+  return status;
+}
+
+kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings) {
+  hid_t dataset;
+  KZ_TRY(open_variable(store, group, name, &dataset));
+  const hid_t type = H5Dget_type(dataset);
+  int64_t *values = kz_malloc((size_t)n * sizeof *values); /* wide enough for any integer type */
+  for (int64_t i = 0; i < n; i++) ((int32_t *)values)[i] = first + (int32_t)i;
+  kz_status status = KZ_HDF5_STATUS(H5Tconvert(H5T_NATIVE_INT32, type, (size_t)n, values, NULL, H5P_DEFAULT));
+  if (status == KZ_OK) status = kz_attribute_array(dataset, "flag_values", type, (hsize_t)n, values);
+  if (status == KZ_OK) status = kz_attribute_text(dataset, "flag_meanings", meanings);
+  if (type >= 0) H5Tclose(type);
+  H5Dclose(dataset);
+  free(values);
   return status;
 }

@@ -89,9 +89,7 @@ static kz_status save(const kz_store *store) {
 
 /* The new name shall survive a crash of the machine too; a file system that cannot do that is not an error. */
 static void save_folder(const char *path) {
-  char *folder = kz_strdup(path);
-  if (!folder) return;
-  char *slash = strrchr(folder, '/');
+  char *folder = kz_strdup(path), *slash = strrchr(folder, '/');
   if (slash) slash[1] = '\0';
   const int file = open(slash ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file >= 0) {
@@ -102,7 +100,7 @@ static void save_folder(const char *path) {
 }
 
 kz_status kz_store_complete(kz_store *store) {
-  kz_status status = H5Fflush(store->file, H5F_SCOPE_GLOBAL) < 0 ? kz_hdf5_fail(__FILE__, __LINE__) : KZ_OK;
+  kz_status status = KZ_HDF5_STATUS(H5Fflush(store->file, H5F_SCOPE_GLOBAL));
   if (close_file(store) < 0 && status == KZ_OK) status = kz_hdf5_fail(__FILE__, __LINE__);
   if (status == KZ_OK) status = save(store);
   if (status == KZ_OK && rename(store->part, store->path) != 0) status = cannot(store, "given its name");

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "chunks.h"
-#include "pack.h"
 #include "store.h"
 
 static const size_t SPARE_BYTES = (size_t)1 << 24; /* what HDF5 may need besides the data */
@@ -16,13 +14,6 @@ static hid_t memory_type(kz_kind kind) {
                          [KZ_INT16] = H5T_NATIVE_INT16, [KZ_INT32] = H5T_NATIVE_INT32, [KZ_UINT32] = H5T_NATIVE_UINT32};
   hid_t type = H5I_INVALID_HID;
   return kind != KZ_TEXT ? H5Tcopy(types[kind]) : kz_text_type(&type) == KZ_OK ? type : H5I_INVALID_HID;
-}
-
-static kz_status set_filters(hid_t creation, int rank, const hsize_t *chunk) {
-  KZ_HDF5(H5Pset_chunk(creation, rank, chunk));
-  KZ_HDF5(H5Pset_shuffle(creation));
-  KZ_HDF5(H5Pset_deflate(creation, KZ_PACK_LEVEL));
-  return KZ_OK;
 }
 
 /* Coded variables are of one byte, so their flag values are too. */
@@ -64,12 +55,11 @@ static kz_status describe(hid_t group, hid_t dataset, const kz_variable *row, hi
 static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type, int rank, const hsize_t *lengths,
                                 const hsize_t *chunk, hid_t *dataset) {
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, lengths, NULL);
-  kz_status status = KZ_OK;
-  if (row->kind != KZ_TEXT)
-    status = chunk ? set_filters(creation, rank, chunk) : kz_chunks_set(creation, rank, lengths, H5Tget_size(type));
+  const bool plain = row->kind == KZ_TEXT;
+  kz_status status = plain ? KZ_OK : kz_chunks_set(creation, rank, lengths, chunk, H5Tget_size(type));
   H5Pset_obj_track_times(creation, 0);
-  if (status == KZ_OK && (*dataset = H5Dcreate2(group, row->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT)) < 0)
-    status = kz_hdf5_fail(__FILE__, __LINE__);
+  if (status == KZ_OK)
+    status = KZ_HDF5_STATUS(*dataset = H5Dcreate2(group, row->name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
   if (space >= 0) H5Sclose(space);
   if (creation >= 0) H5Pclose(creation);
   return status;
@@ -134,7 +124,7 @@ kz_status kz_store_dimension(kz_store *store, const char *group, const char *nam
   const hsize_t n = (hsize_t)length;
   kz_status status =
       values ? write_dataset(folder, &row, 1, &n, NULL, values, &dataset) : write_index(folder, &row, n, &dataset);
-  if (status == KZ_OK && H5DSset_scale(dataset, name) < 0) status = kz_hdf5_fail(__FILE__, __LINE__);
+  if (status == KZ_OK) status = KZ_HDF5_STATUS(H5DSset_scale(dataset, name));
   if (dataset >= 0) H5Dclose(dataset);
   H5Gclose(folder);
   return status;
@@ -142,11 +132,11 @@ kz_status kz_store_dimension(kz_store *store, const char *group, const char *nam
 
 /* Length of a dimension declared before. */
 static kz_status dimension_length(hid_t group, const char *name, hsize_t *length) {
+  int64_t n = 0;
   const hid_t scale = H5Dopen2(group, name, H5P_DEFAULT);
   if (scale < 0) return kz_fail(KZ_FAILED, "the dimension %s of the result file is not declared", name);
-  const hid_t space = H5Dget_space(scale);
-  const kz_status status = H5Sget_simple_extent_dims(space, length, NULL) < 0 ? kz_hdf5_fail(__FILE__, __LINE__) : KZ_OK;
-  H5Sclose(space);
+  const kz_status status = kz_scale_length(scale, &n);
+  *length = (hsize_t)n;
   H5Dclose(scale);
   return status;
 }
@@ -154,10 +144,9 @@ static kz_status dimension_length(hid_t group, const char *name, hsize_t *length
 static kz_status attach(hid_t group, hid_t dataset, const char *name, int place) {
   hid_t scale;
   KZ_HDF5(scale = H5Dopen2(group, name, H5P_DEFAULT));
-  const herr_t attached = H5DSattach_scale(dataset, scale, (unsigned)place);
+  const kz_status status = KZ_HDF5_STATUS(H5DSattach_scale(dataset, scale, (unsigned)place));
   H5Dclose(scale);
-  KZ_HDF5(attached);
-  return KZ_OK;
+  return status;
 }
 
 static kz_status write_variable(hid_t group, const kz_variable *row, const hsize_t *chunk, const void *data) {

@@ -206,9 +206,6 @@ def test_memory_is_asked_for_where_it_is_checked():
     assert not unchecked, "kz_malloc and its like end the run where there is no memory (include/kapitza/common.h)"
 
 
-# ---- options ----
-
-
 # ---- signal handlers ----
 
 # POSIX.1-2017, 2.4.3: what a signal handler may call.

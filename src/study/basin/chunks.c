@@ -57,7 +57,7 @@ static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *b
   head h = {.tile = tile};
   char *end = message + *bytes + sizeof h;
   for (int v = 0; v < count_variables(c->labelling->plan); v++) {
-    if ((h.bytes[v] = kz_pack_into(arrays[v], n, items[v], end)) == 0)
+    if ((h.bytes[v] = kz_pack_into(arrays[v], n, items[v], true, end)) == 0)
       return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
     end += h.bytes[v];
   }

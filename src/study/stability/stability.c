@@ -185,8 +185,8 @@ static void measure_packing(kz_chart *chart, double *seconds) {
   uint8_t *packed = kz_malloc(kz_pack_bytes(POINTS, sizeof(double)));
   chart_tile(chart, tiles / 2, record);
   const double start = kz_processor_clock();
-  kz_pack_into(record->log_multiplier, POINTS, sizeof(double), packed);
-  kz_pack_into(record->angle, POINTS, sizeof(double), packed);
+  kz_pack_into(record->log_multiplier, POINTS, sizeof(double), true, packed);
+  kz_pack_into(record->angle, POINTS, sizeof(double), true, packed);
   *seconds += (kz_processor_clock() - start) * (double)tiles;
   free(packed);
   free(record);
