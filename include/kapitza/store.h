@@ -71,13 +71,18 @@ kz_status kz_store_flags(kz_store *store, const char *group, const char *name, i
 /* Reads rows first .. first + n - 1 of a variable from the file. */
 kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data);
 
-/* Writes the variable GROUP/NAME of n values of a type; `expression` gives value i. If that fails, the calling function returns the status. */
-#define KZ_COLUMN(store, group, name, n, type, expression)                   \
+/* Write the variable GROUP/NAME of n values of a type, or the dimension of n reals; `expression` gives value i. If that fails, the calling
+ * function returns the status. */
+#define KZ_COLUMN(store, group, name, n, type, expression) \
+  KZ_WITH_COLUMN(n, type, expression, kz_store_variable(store, group, name, column))
+#define KZ_SCALE(store, group, name, n, expression) \
+  KZ_WITH_COLUMN(n, double, expression, kz_store_dimension(store, group, name, column_n, column))
+#define KZ_WITH_COLUMN(n, type, expression, write)                           \
   do {                                                                       \
     const int64_t column_n = (n);                                            \
     KZ_FREED type *column = kz_calloc((size_t)column_n + 1, sizeof *column); \
     for (int64_t i = 0; i < column_n; i++) column[i] = (type)(expression);   \
-    KZ_TRY(kz_store_variable(store, group, name, column));                   \
+    KZ_TRY(write);                                                           \
   } while (0)
 
 /* Read what an earlier study has written: the length of a dimension (0 if there is none), and the number of a variable at `index` [its

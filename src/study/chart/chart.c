@@ -2,7 +2,6 @@
 #include "chart.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "numerics/cells.h"
@@ -11,10 +10,6 @@
 enum { LEAST_STEPS = 8, MOST_STEPS = 4000 };
 /* Error that a drive period may have, rad: ends are cycles that Newton's method finds, and a motion only has to be led to its own. */
 static const double TOLERANCE = 1e-8;
-
-typedef struct {
-  kz_chart_ending ending[KZ_CHART_POINTS];
-} tile_record;
 
 static int64_t points_of(const kz_chart_plan *plan) {
   return plan->x.values.count * plan->y.values.count;
@@ -78,27 +73,14 @@ static kz_status chart_tile(void *context, int64_t tile, void *record) {
   const int64_t first = tile % tiles_of(plan) * KZ_CHART_POINTS, left = points_of(plan) - first;
   const int64_t n = left < KZ_CHART_POINTS ? left : KZ_CHART_POINTS;
   int64_t point[KZ_CHART_POINTS];
-  tile_record *out = record;
   for (int64_t i = 0; i < n; i++) point[i] = first + i;
-  kz_chart_points(scene, tile / tiles_of(plan), n, point, out->ending);
+  kz_chart_points(scene, tile / tiles_of(plan), n, point, record);
   return KZ_OK;
 }
 
-/* The tiles without the ends of the last of each start, in place. */
-static void pack(const kz_chart_plan *plan, tile_record *records) {
-  kz_chart_ending *endings = (kz_chart_ending *)records;
-  const int64_t points = points_of(plan);
-  for (int64_t place = 1; place < plan->theta.count; place++)
-    memmove(endings + place * points, records + place * tiles_of(plan), (size_t)points * sizeof *endings);
-}
-
 static kz_stage stage_of(const kz_scene *scene) {
-  return (kz_stage){.name = "ends",
-                    .n_tiles = tiles_of(&scene->chart) * scene->chart.theta.count,
-                    .record_bytes = sizeof(tile_record),
-                    .work = chart_tile,
-                    .context = (void *)scene,
-                    .keep = true};
+  return kz_stage_for_rank0("ends", tiles_of(&scene->chart) * scene->chart.theta.count,
+                            KZ_CHART_POINTS * sizeof(kz_chart_ending), chart_tile, (void *)scene);
 }
 
 kz_status kz_chart_measure(const kz_scene *scene, double *seconds) {
@@ -108,14 +90,12 @@ kz_status kz_chart_measure(const kz_scene *scene, double *seconds) {
 
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_chart_plan *plan = &scene->chart;
-  const bool here = kz_rank(run->ranks) == 0;
+  const int64_t points = points_of(plan);
   const kz_stage stage = stage_of(scene);
-  tile_record *records = here ? kz_malloc((size_t)stage.n_tiles * sizeof *records) : NULL;
-  kz_status status = kz_stage_run(run, &stage, records);
-  if (status == KZ_OK && here) {
-    pack(plan, records);
-    status = kz_chart_publish(plan, (const kz_chart_ending *)records, store, summary);
-  }
-  free(records);
-  return status;
+  KZ_FREED kz_chart_ending *endings = store ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
+  KZ_TRY(kz_stage_run(run, &stage, endings));
+  if (!store) return KZ_OK;
+  for (int64_t place = 1; place < plan->theta.count; place++) /* without the ends of the last tile of each start */
+    memmove(endings + place * points, endings + place * tiles_of(plan) * KZ_CHART_POINTS, (size_t)points * sizeof *endings);
+  return kz_chart_publish(plan, endings, store, summary);
 }

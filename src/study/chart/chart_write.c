@@ -10,17 +10,13 @@ static const char *const GROUP = "chart";
 /* One axis with its scale, its key and that key's unit. */
 static kz_status write_axis(const char *name, const kz_chart_axis *axis, kz_store *store) {
   const kz_sweep_parameter *parameter = kz_sweep_parameters + axis->parameter;
-  const int64_t n = axis->values.count;
   char attribute[32];
-  double *values = kz_malloc((size_t)n * sizeof *values);
-  for (int64_t i = 0; i < n; i++) values[i] = kz_axis_value(&axis->values, i);
   snprintf(attribute, sizeof attribute, "%s_parameter", name);
-  kz_status status = kz_store_text(store, GROUP, attribute, parameter->name);
+  KZ_TRY(kz_store_text(store, GROUP, attribute, parameter->name));
   snprintf(attribute, sizeof attribute, "%s_units", name);
-  if (status == KZ_OK) status = kz_store_text(store, GROUP, attribute, parameter->unit);
-  if (status == KZ_OK) status = kz_store_dimension(store, GROUP, name, n, values);
-  free(values);
-  return status;
+  KZ_TRY(kz_store_text(store, GROUP, attribute, parameter->unit));
+  KZ_SCALE(store, GROUP, name, axis->values.count, kz_axis_value(&axis->values, i));
+  return KZ_OK;
 }
 
 #define COLUMN(type, name, count, expression) KZ_COLUMN(store, "chart", name, count, type, expression)

@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "kapitza/dynamics.h"
-#include "motion.h"
+#include "orbit.h"
 
 /* A cycle must lie this near to the start (rad), or Newton has gone to another one. */
 static const double MAX_DISTANCE = 0.3;

@@ -1,7 +1,7 @@
-#include "features.h"
-
+/* Features of an orbit: centre, period, winding, lines, turning points. */
 #include <math.h>
-#include <stdlib.h>
+
+#include "orbit.h"
 
 /* Lines up to this many drive frequencies. */
 enum { TOP_FREQUENCY = 8 };
@@ -30,7 +30,7 @@ static int centre_of(const kz_motion *motion, int64_t n, double rotation, double
 }
 
 static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz_orbit_features *features) {
-  size_t n = (size_t)(TOP_FREQUENCY * record->periods) + 1;
+  const size_t n = (size_t)(TOP_FREQUENCY * record->periods) + 1;
   features->n_lines = (int64_t)n;
   features->record_periods = record->periods;
   features->amplitude = kz_malloc(n * sizeof(double));
@@ -58,7 +58,10 @@ static void make_turning(const kz_motion *motion, kz_orbit_features *features) {
   for (int64_t i = 0; i < features->n_turning; i++) features->turning[i].angle -= features->origin;
 }
 
-kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool parting, kz_orbit_features *features) {
+kz_status kz_orbit_features_make(kz_orbit *orbit) {
+  const kz_motion *motion = &orbit->motion;
+  const int64_t period = orbit->cycle.period;
+  kz_orbit_features *features = &orbit->features;
   *features = (kz_orbit_features){.closed = period > 0};
   kz_record record = {
       .periods = period > 0 ? period : motion->periods, .samples_per_period = motion->samples, .closed = period > 0};
@@ -70,7 +73,7 @@ kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool p
     return kz_fail(KZ_FAILED,
                    "orbit: by its strobe points the cycle has period %lld, by its spectral lines %lld; choose another cycle",
                    (long long)period, (long long)features->period);
-  features->chaotic = parting && features->period == 0;
+  features->chaotic = orbit->parting && features->period == 0;
   if (features->chaotic) KZ_TRY(take_velocity(motion, features));
   int64_t span = features->period > 0 ? features->period : record.periods;
   features->winding = llrint(record.rotation * (double)span);
@@ -78,11 +81,4 @@ kz_status kz_orbit_features_make(const kz_motion *motion, int64_t period, bool p
     kz_orbit_name(features->period, features->winding, features->centre, features->name);
   make_turning(motion, features);
   return KZ_OK;
-}
-
-void kz_orbit_features_free(kz_orbit_features *features) {
-  free(features->amplitude);
-  free(features->phase);
-  free(features->turning);
-  *features = (kz_orbit_features){0};
 }

@@ -1,9 +1,9 @@
 /* Motions of the three models through one interface. */
-#include "motion.h"
-#include "numerics/resolve.h"
-
 #include <math.h>
-#include <stdlib.h>
+
+#include "kapitza/study_live.h"
+#include "numerics/resolve.h"
+#include "orbit.h"
 
 /* Periods of a simpler model that are skipped at once. */
 enum { CHUNK = 1024 };
@@ -63,8 +63,21 @@ kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start
   return check_range(motion);
 }
 
-void kz_motion_free(kz_motion *motion) {
-  free(motion->theta);
-  free(motion->velocity);
-  motion->theta = motion->velocity = NULL;
+kz_status kz_orbit_record(const kz_scene *scene, int64_t *samples, double **theta, double **velocity) {
+  const kz_orbit_plan *plan = &scene->orbit;
+  kz_state state = {plan->theta, plan->velocity};
+  kz_motion motion;
+  KZ_FREED_BY(kz_model_free) kz_model model;
+  kz_model_make(scene, &model);
+  if (plan->transient > 0) kz_model_skip(&model, plan->transient, &state);
+  const kz_status status = kz_model_record(&model, plan->periods, state, &motion);
+  const int64_t stride = motion.samples / plan->samples_per_period;
+  *samples = plan->periods * plan->samples_per_period + 1;
+  *theta = motion.theta;
+  *velocity = motion.velocity;
+  for (int64_t i = 0; i < *samples; i++) {
+    motion.theta[i] = motion.theta[i * stride];
+    motion.velocity[i] = motion.velocity[i * stride];
+  }
+  return status;
 }

@@ -6,13 +6,9 @@
 #include <string.h>
 
 #include "numerics/step_check.h"
-#include "exponent.h"
-#include "settles_on.h"
 
 /* Periods of an open record that the scene does not bound. */
 enum { OPEN_PERIODS = 100 };
-/* Periods that an open record is looked ahead, as a rule, and the most steps a period with which it is. */
-enum { AHEAD_STEPS = 1500 };
 /* Periods of the transient between two looks at stop requests: a few seconds. */
 enum { STRETCH = 100000 };
 
@@ -57,7 +53,7 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
 
 /* Where the motion starts, on every rank; `period` of a listed attractor. Collective. */
 static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
-  const kz_orbit_plan *plan = orbit->plan;
+  const kz_orbit_plan *plan = &orbit->scene->orbit;
   orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
   const bool recalls = plan->attractor >= 0 && kz_rank(run->ranks) == 0;
   KZ_TRY(
@@ -82,83 +78,48 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
 
 /* The transient in stretches, so that a stop request is heard and what is done is kept. Collective. */
 static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
-  const int64_t transient = orbit->plan->transient;
+  const int64_t transient = orbit->scene->orbit.transient;
   for (int64_t done = 0; done < transient; done += STRETCH) {
     char name[32];
     snprintf(name, sizeof name, "transient %" PRId64, done / STRETCH + 1);
     const int64_t periods = transient - done < STRETCH ? transient - done : STRETCH;
     kz_stretch stretch = {&orbit->model, periods, orbit->cycle.state};
-    const kz_stage stage = {.name = name,
-                            .n_tiles = 1,
-                            .record_bytes = sizeof(kz_state),
-                            .work = skip_stretch,
-                            .context = &stretch,
-                            .keep = true,
-                            .everywhere = true};
+    const kz_stage stage = kz_stage_for_all(name, 1, sizeof(kz_state), skip_stretch, &stretch);
     KZ_TRY(kz_stage_run(run, &stage, &orbit->cycle.state));
   }
   return KZ_OK;
 }
 
-/* How an open record of the pendulum goes on: in chaos, or to which attractor. Motions so fast that this takes long are left
- * without an answer. */
-static kz_status look_ahead(kz_orbit *orbit, const kz_model *model) {
-  if (model->numerics.steps_per_period > AHEAD_STEPS) return KZ_OK;
-  const kz_motion *motion = &orbit->motion;
-  const int64_t last = motion->periods * motion->samples;
-  const kz_state end = {remainder(motion->theta[last], 2 * M_PI), motion->velocity[last]};
-  double fastest = 0;
-  orbit->parting =
-      kz_exponent_positive(orbit->lyapunov, orbit->lyapunov_error) && kz_exponent_stays_positive(model, end, orbit->lyapunov);
-  if (orbit->parting) return KZ_OK;
-  for (int64_t i = last - motion->samples; i <= last; i++) fastest = fmax(fastest, fabs(motion->velocity[i]));
-  return kz_settles_on(model, end, fastest, orbit->settles_on);
-}
-
 /* The motion after the transient: its record and its features. */
 static kz_status follow(kz_orbit *orbit) {
-  const bool closed = orbit->plan->closed;
-  const kz_state from = orbit->cycle.state;
-  const int64_t period = orbit->cycle.period;
-  if (closed) KZ_TRY(kz_cycle_close(&orbit->model, period, from, &orbit->cycle));
-  int64_t periods = given(orbit->plan->periods, closed ? orbit->cycle.period : OPEN_PERIODS);
-  if (periods < orbit->cycle.period) periods = orbit->cycle.period;
-  KZ_TRY(kz_model_record(&orbit->model, periods, orbit->cycle.state, &orbit->motion));
-  if (orbit->model.flow)
-    kz_exponent_along(&orbit->model, periods, orbit->cycle.state, &orbit->lyapunov, &orbit->lyapunov_error);
-  if (orbit->model.flow && closed) {
-    orbit->lyapunov = log(hypot(orbit->cycle.re[0], orbit->cycle.im[0])) / (double)orbit->cycle.period;
+  const kz_orbit_plan *plan = &orbit->scene->orbit;
+  kz_cycle *cycle = &orbit->cycle;
+  if (plan->closed) KZ_TRY(kz_cycle_close(&orbit->model, cycle->period, cycle->state, cycle));
+  int64_t periods = given(plan->periods, plan->closed ? cycle->period : OPEN_PERIODS);
+  if (periods < cycle->period) periods = cycle->period;
+  KZ_TRY(kz_model_record(&orbit->model, periods, cycle->state, &orbit->motion));
+  if (orbit->model.flow && plan->closed) {
+    orbit->lyapunov = log(hypot(cycle->re[0], cycle->im[0])) / (double)cycle->period;
     orbit->lyapunov_error = 0;
+  } else if (orbit->model.flow) {
+    kz_orbit_exponent(orbit);
+    KZ_TRY(kz_orbit_look_ahead(orbit));
   }
-  if (orbit->model.flow && !closed) KZ_TRY(look_ahead(orbit, &orbit->model));
-  return kz_orbit_features_make(&orbit->motion, orbit->cycle.period, orbit->parting, &orbit->features);
-}
-
-static kz_status find_features(kz_orbit *orbit, kz_store *store, FILE *summary) {
-  KZ_TRY(follow(orbit));
-  KZ_TRY(kz_orbit_write(orbit, store));
-  kz_orbit_print(orbit, summary);
-  return KZ_OK;
-}
-
-static kz_status model(kz_orbit *orbit, const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_model_make(scene, &orbit->model);
-  KZ_TRY(start(orbit, run, store));
-  KZ_TRY(skip_transient(orbit, run));
-  return kz_rank(run->ranks) == 0 ? find_features(orbit, store, summary) : KZ_OK;
+  return kz_orbit_features_make(orbit);
 }
 
 static kz_orbit begin(const kz_scene *scene) {
-  return (kz_orbit){.plan = &scene->orbit,
-                    .pendulum = scene->parameters.pendulum,
-                    .parameters = &scene->parameters,
-                    .lyapunov = NAN,
-                    .lyapunov_error = NAN};
+  kz_orbit orbit = {.scene = scene, .lyapunov = NAN, .lyapunov_error = NAN};
+  kz_model_make(scene, &orbit.model);
+  return orbit;
 }
 
 static void end(kz_orbit *orbit) {
-  kz_orbit_features_free(&orbit->features);
-  kz_motion_free(&orbit->motion);
+  free(orbit->features.amplitude);
+  free(orbit->features.phase);
+  free(orbit->features.turning);
+  free(orbit->motion.theta);
+  free(orbit->motion.velocity);
   kz_model_free(&orbit->model);
 }
 
@@ -170,10 +131,9 @@ kz_status kz_orbit_measure(const kz_scene *scene, double *seconds) {
   const double periods = (double)given(plan->periods, OPEN_PERIODS);
   plan->periods = given(plan->periods, OPEN_PERIODS) < FEW ? given(plan->periods, OPEN_PERIODS) : FEW;
   if (plan->attractor >= 0) plan->closed = false;
-  kz_orbit orbit = begin(&part);
+  KZ_FREED_BY(end) kz_orbit orbit = begin(&part);
   orbit.cycle.state = plan->attractor >= 0 ? (kz_state){3, 0} : (kz_state){plan->theta, plan->velocity};
   orbit.cycle.period = plan->closed ? given(plan->period, 0) : 0;
-  kz_model_make(&part, &orbit.model);
   const double start = kz_processor_clock();
   kz_state state = orbit.cycle.state;
   kz_model_skip(&orbit.model, FEW, &state);
@@ -181,13 +141,16 @@ kz_status kz_orbit_measure(const kz_scene *scene, double *seconds) {
   if (follow(&orbit) != KZ_OK) kz_message_clear(); /* the run says so */
   *seconds += (skipped - start) / FEW * (double)plan->transient +
               (kz_processor_clock() - skipped) * fmax(1, periods / (double)plan->periods);
-  end(&orbit);
   return KZ_OK;
 }
 
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_orbit orbit = begin(scene);
-  const kz_status status = model(&orbit, scene, run, store, summary);
-  end(&orbit);
-  return status;
+  KZ_FREED_BY(end) kz_orbit orbit = begin(scene);
+  KZ_TRY(start(&orbit, run, store));
+  KZ_TRY(skip_transient(&orbit, run));
+  if (!store) return KZ_OK;
+  KZ_TRY(follow(&orbit));
+  KZ_TRY(kz_orbit_write(&orbit, store));
+  kz_orbit_print(&orbit, summary);
+  return KZ_OK;
 }

@@ -1,35 +1,17 @@
 /* Study `orbit`: its group in the file, its line for people. */
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "orbit.h"
 
 static const char *const GROUP = "orbit";
 
-/* Every `stride`-th value, count of them, in a new array. */
-static double *every(const double *from, int64_t stride, int64_t count) {
-  double *to = kz_malloc((size_t)count * sizeof *to);
-  for (int64_t i = 0; i < count; i++) to[i] = from[i * stride];
-  return to;
-}
-
-/* unit * (0, 1, 2, ...) / parts */
-static double *ramp(double unit, int64_t parts, int64_t count) {
-  double *to = kz_malloc((size_t)count * sizeof *to);
-  for (int64_t i = 0; i < count; i++) to[i] = unit * (double)i / (double)parts;
-  return to;
-}
-
-/* The pivot's places along one axis: 0 = aside, 1 = height. */
-static double *pivot(const kz_parameters *parameters, int axis, int64_t samples, int64_t count) {
-  double *to = kz_malloc((size_t)count * sizeof *to), place[2];
-  for (int64_t i = 0; i < count; i++) {
-    kz_pivot_at(parameters, (double)(i % samples) / (double)samples, place);
-    to[i] = place[axis];
-  }
-  return to;
+/* The pivot's place along an axis, 0 = aside, 1 = height, at a phase of the drive (turns). */
+static double pivot(const kz_parameters *parameters, int axis, double turns) {
+  double place[2];
+  kz_pivot_at(parameters, turns, place);
+  return place[axis];
 }
 
 static bool moves_aside(const kz_pendulum *p) {
@@ -38,41 +20,32 @@ static bool moves_aside(const kz_pendulum *p) {
   return false;
 }
 
-/* Writes one array and frees it. */
-static kz_status put(kz_store *store, const char *name, bool dimension, int64_t count, double *values) {
-  kz_status status =
-      dimension ? kz_store_dimension(store, GROUP, name, count, values) : kz_store_variable(store, GROUP, name, values);
-  free(values);
-  return status;
-}
+#define SCALE(name, n, expression) KZ_SCALE(store, GROUP, name, n, expression)
+#define COLUMN(name, n, expression) KZ_COLUMN(store, GROUP, name, n, double, expression)
 
 static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
   const kz_motion *motion = &orbit->motion;
-  int64_t samples = orbit->plan->samples_per_period, stride = motion->samples / samples, n = motion->periods * samples + 1;
-  KZ_TRY(put(store, "time", true, n, ramp(2 * M_PI, samples, n)));
-  KZ_TRY(put(store, "theta", false, n, every(motion->theta, stride, n)));
-  KZ_TRY(put(store, "velocity", false, n, every(motion->velocity, stride, n)));
-  KZ_TRY(put(store, "pivot", false, n, pivot(orbit->parameters, 1, samples, n)));
-  if (moves_aside(&orbit->pendulum)) KZ_TRY(put(store, "pivot_aside", false, n, pivot(orbit->parameters, 0, samples, n)));
-  n = motion->periods + 1;
-  KZ_TRY(put(store, "strobe_time", true, n, ramp(2 * M_PI, 1, n)));
-  KZ_TRY(put(store, "strobe_theta", false, n, every(motion->theta, motion->samples, n)));
-  return put(store, "strobe_velocity", false, n, every(motion->velocity, motion->samples, n));
-}
-
-/* What the lines are of. */
-static kz_status write_quantity(const kz_orbit_features *features, kz_store *store) {
-  KZ_TRY(kz_store_text(store, GROUP, "line_quantity", features->chaotic ? "velocity" : "angle"));
-  return kz_store_text(store, GROUP, "line_units", features->chaotic ? "1" : "rad");
+  const kz_parameters *parameters = &orbit->scene->parameters;
+  const int64_t samples = orbit->scene->orbit.samples_per_period, stride = motion->samples / samples;
+  const int64_t n = motion->periods * samples + 1, strobes = motion->periods + 1;
+  SCALE("time", n, 2 * M_PI * (double)i / (double)samples);
+  COLUMN("theta", n, motion->theta[i * stride]);
+  COLUMN("velocity", n, motion->velocity[i * stride]);
+  COLUMN("pivot", n, pivot(parameters, 1, (double)(i % samples) / (double)samples));
+  if (moves_aside(&parameters->pendulum))
+    COLUMN("pivot_aside", n, pivot(parameters, 0, (double)(i % samples) / (double)samples));
+  SCALE("strobe_time", strobes, 2 * M_PI * (double)i);
+  COLUMN("strobe_theta", strobes, motion->theta[i * motion->samples]);
+  COLUMN("strobe_velocity", strobes, motion->velocity[i * motion->samples]);
+  return KZ_OK;
 }
 
 static kz_status write_features(const kz_orbit_features *features, kz_store *store) {
-  const double *turning = &features->turning->time; /* pairs (time, angle) */
-  int64_t n = features->n_turning;
-  KZ_TRY(put(store, "maximum_time", true, n, every(turning, 2, n)));
-  KZ_TRY(put(store, "maximum_angle", false, n, every(turning + 1, 2, n)));
-  KZ_TRY(put(store, "line_frequency", true, features->n_lines, ramp(1, features->record_periods, features->n_lines)));
-  KZ_TRY(write_quantity(features, store));
+  SCALE("maximum_time", features->n_turning, features->turning[i].time);
+  COLUMN("maximum_angle", features->n_turning, features->turning[i].angle);
+  SCALE("line_frequency", features->n_lines, (double)i / (double)features->record_periods);
+  KZ_TRY(kz_store_text(store, GROUP, "line_quantity", features->chaotic ? "velocity" : "angle"));
+  KZ_TRY(kz_store_text(store, GROUP, "line_units", features->chaotic ? "1" : "rad"));
   KZ_TRY(kz_store_variable(store, GROUP, "line_amplitude", features->amplitude));
   return kz_store_variable(store, GROUP, "line_phase", features->phase);
 }
@@ -88,8 +61,8 @@ static kz_status write_attributes(const kz_orbit *orbit, kz_store *store) {
   for (size_t i = 0; i < sizeof integers / sizeof integers[0]; i++)
     KZ_TRY(kz_store_integer(store, GROUP, integers[i].name, integers[i].value));
   KZ_TRY(kz_store_text(store, GROUP, "name", p->name));
-  KZ_TRY(kz_store_text(store, GROUP, "model", MODEL[orbit->plan->model]));
-  if (orbit->plan->model != KZ_PENDULUM) return KZ_OK;
+  KZ_TRY(kz_store_text(store, GROUP, "model", MODEL[orbit->model.kind]));
+  if (orbit->model.kind != KZ_PENDULUM) return KZ_OK;
   KZ_TRY(kz_store_real(store, GROUP, "lyapunov", orbit->lyapunov));
   KZ_TRY(kz_store_real(store, GROUP, "lyapunov_error", orbit->lyapunov_error));
   if (orbit->settles_on[0]) KZ_TRY(kz_store_text(store, GROUP, "settles_on", orbit->settles_on));

@@ -132,25 +132,18 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_status write_set(const kz_scene *scene, const released *records, kz_store *store) {
-  const int64_t n = scene->sweep.values.count;
-  double angle[HALF_DEGREES];
-  for (int64_t i = 0; i < HALF_DEGREES; i++) angle[i] = half_degrees(i);
-  KZ_TRY(kz_store_dimension(store, "sweep", "release", HALF_DEGREES, angle));
-  KZ_COLUMN(store, "sweep", "release_stays", n * HALF_DEGREES, uint8_t, records[i / HALF_DEGREES].stays[i % HALF_DEGREES]);
-  return KZ_OK;
-}
-
-#define COLUMN(name, expression) KZ_COLUMN(store, "sweep", name, scene->sweep.values.count, double, expression)
+#define COLUMN(name, expression) KZ_COLUMN(store, "sweep", name, n, double, expression)
 
 static kz_status write_release(const kz_scene *scene, const void *all, kz_store *store, FILE *summary) {
   const released *records = all;
+  const int64_t n = scene->sweep.values.count;
   COLUMN("release_angle", records[i].first);
   COLUMN("release_angle_scan", records[i].scan);
   COLUMN("release_angle_largest", records[i].largest);
-  KZ_TRY(write_set(scene, records, store));
+  KZ_SCALE(store, "sweep", "release", HALF_DEGREES, half_degrees(i));
+  KZ_COLUMN(store, "sweep", "release_stays", n * HALF_DEGREES, uint8_t, records[i / HALF_DEGREES].stays[i % HALF_DEGREES]);
   fprintf(summary, "releases from rest, degrees from inverted:\n         value  first gap  of whole degrees  last stays\n");
-  for (int64_t i = 0; i < scene->sweep.values.count; i++)
+  for (int64_t i = 0; i < n; i++)
     fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_sweep_value(&scene->sweep, i), records[i].first * 180 / M_PI,
             records[i].scan * 180 / M_PI, records[i].largest * 180 / M_PI);
   return KZ_OK;

@@ -38,11 +38,9 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = &scene->sweep;
   const kz_sweep_parameter *parameter = kz_sweep_parameters + plan->parameter;
-  KZ_FREED double *values = kz_malloc((size_t)plan->values.count * sizeof *values);
-  for (int64_t i = 0; i < plan->values.count; i++) values[i] = kz_sweep_value(plan, i);
   KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
   KZ_TRY(kz_store_text(store, "sweep", "parameter_units", parameter->unit));
-  KZ_TRY(kz_store_dimension(store, "sweep", "value", plan->values.count, values));
+  KZ_SCALE(store, "sweep", "value", plan->values.count, kz_sweep_value(plan, i));
   fprintf(summary, "sweep of %s, %lld values from %.10g to %.10g\n", parameter->name, (long long)plan->values.count,
           plan->values.min, plan->values.max);
   kz_sweep_warn_steps(scene, summary);
