@@ -48,14 +48,13 @@ static bool find_saddle(const kz_scene *scene, kz_branch *branch) {
   kz_saddles_plan plan = scene->saddles;
   plan.max_period = 1;
   const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, &plan, 1);
-  double *found = kz_malloc(kz_piece_bytes(&plan));
+  KZ_FREED double *found = kz_malloc(kz_piece_bytes(&plan));
   bool there = false;
   for (int64_t tile = 0; tile < lines.count * lines.pieces && !there; tile++) {
     int64_t work[2];
     const int64_t n = kz_lines_search(&lines, tile, MOST_STARTS, found, work);
     for (int64_t i = 0; i < n && !there; i++) there = is_saddle(&scene->parameters.pendulum, found + 4 * i + 2, branch);
   }
-  free(found);
   return there;
 }
 
@@ -65,31 +64,30 @@ kz_status kz_manifolds_measure(const kz_scene *scene, double *seconds) {
   const double saddles = plan->saddles.count > 0 ? (double)plan->saddles.count : kz_saddles_expected(scene);
   kz_branch branch = {.period = 1, .side = 1, .spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
   if (!find_saddle(scene, &branch)) return KZ_OK;
-  double *point = kz_malloc(4 * MOST_POINTS * sizeof *point);
+  KZ_FREED double *point = kz_malloc(4 * MOST_POINTS * sizeof *point);
   const double start = kz_processor_clock();
   for (branch.stable = 0; branch.stable < 2; branch.stable++)
     if (plan->kind != (branch.stable ? KZ_MANIFOLDS_UNSTABLE : KZ_MANIFOLDS_STABLE))
       kz_manifold_grow(&scene->parameters.pendulum, &branch, MOST_POINTS, point);
   *seconds += 2 * saddles * (kz_processor_clock() - start);
-  free(point);
   return KZ_OK;
 }
 
-static kz_status number_of(kz_store *store, const char *name, int64_t saddle, int64_t phase, double *value) {
-  return kz_store_number(store, "saddles", name, (int64_t[]){saddle, phase}, value);
+static void free_tasks(work_list *list) {
+  free(list->tasks);
 }
 
 /* The branches of one cycle join the list. */
 static kz_status add_saddle(const kz_manifolds_plan *plan, int64_t saddle, kz_store *store, work_list *list) {
   double period;
-  KZ_TRY(number_of(store, "period", saddle, 0, &period));
+  KZ_TRY(kz_store_number(store, "saddles", "period", &saddle, &period));
   const size_t most = (size_t)(list->count + 4 * (int64_t)period);
   list->tasks = kz_realloc(list->tasks, most * sizeof *list->tasks);
   for (int64_t phase = 0; phase < (int64_t)period; phase++) {
     kz_branch branch = {
         .period = (int32_t)period, .spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
-    KZ_TRY(number_of(store, "strobe_theta", saddle, phase, &branch.theta));
-    KZ_TRY(number_of(store, "strobe_velocity", saddle, phase, &branch.velocity));
+    KZ_TRY(kz_store_number(store, "saddles", "strobe_theta", (int64_t[]){saddle, phase}, &branch.theta));
+    KZ_TRY(kz_store_number(store, "saddles", "strobe_velocity", (int64_t[]){saddle, phase}, &branch.velocity));
     for (int i = 0; i < 4; i++) {
       branch.stable = i / 2;
       branch.side = i % 2 ? -1 : 1;
@@ -186,28 +184,17 @@ static void print(const kz_manifolds_plan *plan, const work_list *list, const gr
             plan->length);
 }
 
-static kz_status publish(const kz_manifolds_plan *plan, const work_list *list, const grown *records, kz_store *store,
-                         FILE *summary) {
-  int64_t n;
-  row *rows = rows_of(list, records, &n);
-  const kz_status status = write_rows(n, rows, store);
-  if (status == KZ_OK) print(plan, list, records, n, summary);
-  free(rows);
-  return status;
-}
-
 kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const bool here = kz_rank(run->ranks) == 0;
-  work_list list = {.pendulum = &scene->parameters.pendulum};
-  grown *records = NULL;
-  kz_status status = kz_ranks_agree(run->ranks, here ? make_tasks(&scene->manifolds, store, &list) : KZ_OK);
-  if (status == KZ_OK) status = share_tasks(run, &list);
-  if (status == KZ_OK && here) records = kz_malloc((size_t)list.count * sizeof *records + 1);
-  const kz_stage stage = {
-      .name = "manifolds", .n_tiles = list.count, .record_bytes = sizeof(grown), .work = grow, .context = &list, .keep = true};
-  if (status == KZ_OK && list.count > 0) status = kz_stage_run(run, &stage, records);
-  if (status == KZ_OK && here) status = publish(&scene->manifolds, &list, records, store, summary);
-  free(list.tasks);
-  free(records);
-  return status;
+  KZ_FREED_BY(free_tasks) work_list list = {.pendulum = &scene->parameters.pendulum};
+  int64_t n;
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? make_tasks(&scene->manifolds, store, &list) : KZ_OK));
+  KZ_TRY(share_tasks(run, &list));
+  KZ_FREED grown *records = store ? kz_malloc((size_t)list.count * sizeof *records + 1) : NULL;
+  const kz_stage stage = kz_stage_for_rank0("manifolds", list.count, sizeof(grown), grow, &list);
+  if (list.count > 0) KZ_TRY(kz_stage_run(run, &stage, records));
+  if (!store) return KZ_OK;
+  KZ_FREED row *rows = rows_of(&list, records, &n);
+  KZ_TRY(write_rows(n, rows, store));
+  print(&scene->manifolds, &list, records, n, summary);
+  return KZ_OK;
 }

@@ -2,82 +2,46 @@
 #include "potential.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "kapitza/analysis.h"
 
 static const char *const GROUP = "potential";
-
-/* Energies are [amplitude][theta]. */
-typedef struct {
-  const kz_potential_plan *plan;
-  double *theta, *exact, *blackburn, *simple;
-  double rim[KZ_LIST_MAX], rim_exact[KZ_LIST_MAX];
-  uint8_t stable[KZ_LIST_MAX];
-} curves;
 
 kz_cost kz_potential_cost(const kz_scene *scene) {
   double points = (double)scene->potential.drive_amplitudes.count * (double)scene->potential.theta_count;
   return (kz_cost){.disk_bytes = 24 * points, .rank0_bytes = 24 * points};
 }
 
-static void potential_allocate(curves *c) {
-  size_t columns = (size_t)c->plan->theta_count, points = columns * (size_t)c->plan->drive_amplitudes.count;
-  c->theta = kz_malloc(columns * sizeof(double));
-  c->exact = kz_malloc(points * sizeof(double));
-  c->blackburn = kz_malloc(points * sizeof(double));
-  c->simple = kz_malloc(points * sizeof(double));
+/* Angle i of the whole circle from -pi to pi, both ends included. */
+static double angle_of(const kz_potential_plan *plan, int64_t i) {
+  return M_PI * (double)(2 * i - (plan->theta_count - 1)) / (double)(plan->theta_count - 1);
 }
 
-static void release(curves *c) {
-  free(c->theta);
-  free(c->exact);
-  free(c->blackburn);
-  free(c->simple);
+#define COLUMN(name, n, type, expression) KZ_COLUMN(store, GROUP, name, n, type, expression)
+
+/* energy [amplitude][theta], rim [amplitude] */
+static kz_status write(const kz_potential_plan *plan, const kz_energy *energy, const kz_rim *rim, kz_store *store) {
+  const int64_t n = plan->drive_amplitudes.count, points = n * plan->theta_count;
+  KZ_SCALE(store, GROUP, "theta", plan->theta_count, angle_of(plan, i));
+  KZ_SCALE(store, GROUP, "drive_amplitude", n, plan->drive_amplitudes.values[i]);
+  COLUMN("energy", points, double, energy[i].exact);
+  COLUMN("energy_blackburn", points, double, energy[i].blackburn);
+  COLUMN("energy_simple", points, double, energy[i].simple);
+  COLUMN("rim", n, double, rim[i].simple);
+  COLUMN("rim_exact", n, double, rim[i].exact);
+  COLUMN("stable_inverted", n, uint8_t, rim[i].stable_inverted);
+  return KZ_OK;
 }
 
-/* The whole circle from -pi to pi, both ends included. */
-static void model(const kz_pendulum *pendulum, curves *c) {
-  int64_t columns = c->plan->theta_count;
-  for (int64_t i = 0; i < columns; i++) c->theta[i] = M_PI * (double)(2 * i - (columns - 1)) / (double)(columns - 1);
-  for (int64_t j = 0; j < c->plan->drive_amplitudes.count; j++) {
-    double m = c->plan->drive_amplitudes.values[j];
-    kz_rim rim;
-    kz_potential_rim(pendulum->k, pendulum->beta, m, &rim);
-    c->rim[j] = rim.simple;
-    c->rim_exact[j] = rim.exact;
-    c->stable[j] = rim.stable_inverted;
-    for (int64_t i = 0; i < columns; i++) {
-      kz_energy energy;
-      kz_potential_energy(pendulum->k, pendulum->beta, m, c->theta[i], &energy);
-      c->exact[j * columns + i] = energy.exact;
-      c->blackburn[j * columns + i] = energy.blackburn;
-      c->simple[j * columns + i] = energy.simple;
-    }
-  }
-}
-
-static kz_status write(const curves *c, kz_store *store) {
-  const kz_reals *amplitudes = &c->plan->drive_amplitudes;
-  KZ_TRY(kz_store_dimension(store, GROUP, "theta", c->plan->theta_count, c->theta));
-  KZ_TRY(kz_store_dimension(store, GROUP, "drive_amplitude", amplitudes->count, amplitudes->values));
-  KZ_TRY(kz_store_variable(store, GROUP, "energy", c->exact));
-  KZ_TRY(kz_store_variable(store, GROUP, "energy_blackburn", c->blackburn));
-  KZ_TRY(kz_store_variable(store, GROUP, "energy_simple", c->simple));
-  KZ_TRY(kz_store_variable(store, GROUP, "rim", c->rim));
-  KZ_TRY(kz_store_variable(store, GROUP, "rim_exact", c->rim_exact));
-  return kz_store_variable(store, GROUP, "stable_inverted", c->stable);
-}
-
-static void summarise(const curves *c, FILE *summary) {
+static void summarise(const kz_potential_plan *plan, const kz_rim *rim, FILE *summary) {
   fprintf(summary, "potential: wells about the inverted position\n");
-  for (int64_t j = 0; j < c->plan->drive_amplitudes.count; j++) {
-    double m = c->plan->drive_amplitudes.values[j];
-    if (!c->stable[j])
+  for (int64_t j = 0; j < plan->drive_amplitudes.count; j++) {
+    const double m = plan->drive_amplitudes.values[j];
+    if (!rim[j].stable_inverted)
       fprintf(summary, "  m = %g: none\n", m);
     else
-      fprintf(summary, "  m = %g: out to %.4g deg from the top (simple formula %.4g deg)\n", m,
-              180 - c->rim_exact[j] * 180 / M_PI, 180 - c->rim[j] * 180 / M_PI);
+      fprintf(summary, "  m = %g: out to %.4g deg from the top (simple formula %.4g deg)\n", m, 180 - rim[j].exact * 180 / M_PI,
+              180 - rim[j].simple * 180 / M_PI);
   }
 }
 
@@ -94,12 +58,18 @@ kz_status kz_potential_measure(const kz_scene *scene, double *seconds) {
 }
 
 kz_status kz_potential_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  const kz_potential_plan *plan = &scene->potential;
+  const kz_pendulum *p = &scene->parameters.pendulum;
+  const int64_t columns = plan->theta_count;
+  KZ_FREED kz_energy *energy = kz_malloc((size_t)(columns * plan->drive_amplitudes.count) * sizeof *energy);
+  kz_rim rim[KZ_LIST_MAX];
   if (kz_rank(run->ranks) != 0) return KZ_OK;
-  curves c = {.plan = &scene->potential};
-  potential_allocate(&c);
-  model(&scene->parameters.pendulum, &c);
-  const kz_status status = write(&c, store);
-  if (status == KZ_OK) summarise(&c, summary);
-  release(&c);
-  return status;
+  for (int64_t j = 0; j < plan->drive_amplitudes.count; j++) {
+    const double m = plan->drive_amplitudes.values[j];
+    kz_potential_rim(p->k, p->beta, m, rim + j);
+    for (int64_t i = 0; i < columns; i++) kz_potential_energy(p->k, p->beta, m, angle_of(plan, i), energy + j * columns + i);
+  }
+  KZ_TRY(write(plan, energy, rim, store));
+  summarise(plan, rim, summary);
+  return KZ_OK;
 }

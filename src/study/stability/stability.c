@@ -56,17 +56,20 @@ static void make_tasks(kz_chart *chart) {
       chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
 }
 
-static void stability_allocate(kz_chart *chart, bool here) {
-  const kz_stability_plan *plan = chart->plan;
-  size_t points = here ? (size_t)(plan->k.count * plan->m.count) : 1;
-  chart->k = axis_values(&plan->k);
-  chart->m = axis_values(&plan->m);
-  chart->tasks = kz_malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart->tasks);
-  make_tasks(chart);
-  chart->log_multiplier = kz_malloc(points * sizeof *chart->log_multiplier);
-  chart->angle = kz_malloc(points * sizeof *chart->angle);
-  chart->stable = kz_malloc(points);
-  chart->curves = kz_malloc(((here ? (size_t)(2 * chart->n_tasks * plan->k.count) : 0) + 1) * sizeof *chart->curves);
+static kz_chart begin(const kz_scene *scene, bool here) {
+  const kz_stability_plan *plan = &scene->stability;
+  const size_t points = here ? (size_t)(plan->k.count * plan->m.count) : 1;
+  kz_chart chart = {.plan = plan,
+                    .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor},
+                    .k = axis_values(&plan->k),
+                    .m = axis_values(&plan->m),
+                    .tasks = kz_malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart.tasks),
+                    .log_multiplier = kz_malloc(points * sizeof *chart.log_multiplier),
+                    .angle = kz_malloc(points * sizeof *chart.angle),
+                    .stable = kz_malloc(points)};
+  make_tasks(&chart);
+  chart.curves = kz_malloc(((here ? (size_t)(2 * chart.n_tasks * plan->k.count) : 0) + 1) * sizeof *chart.curves);
+  return chart;
 }
 
 static void release(kz_chart *chart) {
@@ -107,17 +110,10 @@ static kz_status curve_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* Runs a stage; *records is NULL where this rank receives none. */
-static kz_status run_stage(const kz_run *run, const kz_stage *stage, void **records) {
-  bool here = kz_rank(run->ranks) == 0;
-  *records = here ? kz_malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
-  return kz_stage_run(run, stage, *records);
-}
-
-static void unpack_chart(kz_chart *chart, const chart_record *records) {
-  int64_t points = chart->plan->k.count * chart->plan->m.count;
+static void unpack_chart(kz_chart *chart, const void *records) {
+  const int64_t points = chart->plan->k.count * chart->plan->m.count;
   for (int64_t first = 0; first < points; first += POINTS) {
-    const chart_record *record = &records[first / POINTS];
+    const chart_record *record = (const chart_record *)records + first / POINTS;
     size_t n = (size_t)(points - first < POINTS ? points - first : POINTS);
     memcpy(chart->log_multiplier + first, record->log_multiplier, n * sizeof(double));
     memcpy(chart->angle + first, record->angle, n * sizeof(double));
@@ -125,91 +121,61 @@ static void unpack_chart(kz_chart *chart, const chart_record *records) {
   }
 }
 
-static void unpack_curves(kz_chart *chart, const curve_record *records) {
-  int64_t columns = chart->plan->k.count, pieces = tiles_of(columns, PIECE);
+static void unpack_curves(kz_chart *chart, const void *records) {
+  const curve_record *record = records;
+  const int64_t columns = chart->plan->k.count, pieces = tiles_of(columns, PIECE);
   for (int64_t tile = 0; tile < pieces * chart->n_tasks; tile++) {
     int64_t first = tile % pieces * PIECE, n = columns - first < PIECE ? columns - first : PIECE;
     for (int64_t kind = 0; kind < 2; kind++)
-      memcpy(chart->curves + (2 * (tile / pieces) + kind) * columns + first, records[tile].m[kind], (size_t)n * sizeof(double));
+      memcpy(chart->curves + (2 * (tile / pieces) + kind) * columns + first, record[tile].m[kind], (size_t)n * sizeof(double));
   }
 }
 
 static kz_stage chart_stage(kz_chart *chart) {
-  return (kz_stage){.name = "chart",
-                    .n_tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS),
-                    .record_bytes = sizeof(chart_record),
-                    .work = chart_tile,
-                    .context = chart,
-                    .keep = true};
+  const int64_t tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS);
+  return kz_stage_for_rank0("chart", tiles, sizeof(chart_record), chart_tile, chart);
 }
 
 static kz_stage curve_stage(kz_chart *chart) {
-  return (kz_stage){.name = "curves",
-                    .n_tiles = chart->n_tasks * tiles_of(chart->plan->k.count, PIECE),
-                    .record_bytes = sizeof(curve_record),
-                    .work = curve_tile,
-                    .context = chart,
-                    .keep = true};
+  const int64_t tiles = chart->n_tasks * tiles_of(chart->plan->k.count, PIECE);
+  return kz_stage_for_rank0("curves", tiles, sizeof(curve_record), curve_tile, chart);
 }
 
-static kz_status model_chart(const kz_run *run, kz_chart *chart) {
-  const kz_stage stage = chart_stage(chart);
-  void *records;
-  kz_status status = run_stage(run, &stage, &records);
-  if (status == KZ_OK && records) unpack_chart(chart, records);
-  free(records);
-  return status;
-}
-
-static kz_status model_curves(const kz_run *run, kz_chart *chart) {
-  if (chart->n_tasks == 0) return KZ_OK;
-  const kz_stage stage = curve_stage(chart);
-  void *records;
-  kz_status status = run_stage(run, &stage, &records);
-  if (status == KZ_OK && records) unpack_curves(chart, records);
-  free(records);
-  return status;
-}
-
-static kz_chart begin(const kz_scene *scene, bool here) {
-  const kz_stability_plan *plan = &scene->stability;
-  kz_chart chart = {.plan = plan, .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor}};
-  stability_allocate(&chart, here);
-  return chart;
+/* Runs a stage; rank 0 puts its records into the chart. */
+static kz_status run_stage(const kz_run *run, const kz_stage *stage, void (*unpack)(kz_chart *chart, const void *records)) {
+  const bool here = kz_rank(run->ranks) == 0;
+  KZ_FREED void *records = here ? kz_malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
+  KZ_TRY(kz_stage_run(run, stage, records));
+  if (here) unpack(stage->context, records);
+  return KZ_OK;
 }
 
 /* Packing the points for the file: the middle tile's, as many times as there are tiles. */
 static void measure_packing(kz_chart *chart, double *seconds) {
   const int64_t tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS);
-  chart_record *record = kz_calloc(1, sizeof *record);
-  uint8_t *packed = kz_malloc(kz_pack_bytes(POINTS, sizeof(double)));
+  KZ_FREED chart_record *record = kz_calloc(1, sizeof *record);
+  KZ_FREED uint8_t *packed = kz_malloc(kz_pack_bytes(POINTS, sizeof(double)));
   chart_tile(chart, tiles / 2, record);
   const double start = kz_processor_clock();
   kz_pack_into(record->log_multiplier, POINTS, sizeof(double), true, packed);
   kz_pack_into(record->angle, POINTS, sizeof(double), true, packed);
   *seconds += (kz_processor_clock() - start) * (double)tiles;
-  free(packed);
-  free(record);
 }
 
 kz_status kz_stability_measure(const kz_scene *scene, double *seconds) {
-  kz_chart chart = begin(scene, false);
+  KZ_FREED_BY(release) kz_chart chart = begin(scene, false);
   measure_packing(&chart, seconds);
   const kz_stage stages[] = {chart_stage(&chart), curve_stage(&chart)};
-  kz_status status = KZ_OK;
-  for (int i = 0; i < 2 && status == KZ_OK; i++) status = kz_stage_measure(stages + i, 48, 0.2, seconds);
-  release(&chart);
-  return status;
+  for (int i = 0; i < 2; i++) KZ_TRY(kz_stage_measure(stages + i, 48, 0.2, seconds));
+  return KZ_OK;
 }
 
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_chart chart = begin(scene, kz_rank(run->ranks) == 0);
-  kz_status status = model_chart(run, &chart);
-  if (status == KZ_OK) status = model_curves(run, &chart);
-  if (status == KZ_OK && kz_rank(run->ranks) == 0) {
-    status = kz_chart_write(&chart, store);
-    kz_chart_summarise(&chart, summary);
-  }
-  release(&chart);
-  return status;
+  KZ_FREED_BY(release) kz_chart chart = begin(scene, kz_rank(run->ranks) == 0);
+  const kz_stage points = chart_stage(&chart), curves = curve_stage(&chart);
+  KZ_TRY(run_stage(run, &points, unpack_chart));
+  if (chart.n_tasks > 0) KZ_TRY(run_stage(run, &curves, unpack_curves));
+  if (!store) return KZ_OK;
+  kz_chart_summarise(&chart, summary);
+  return kz_chart_write(&chart, store);
 }
