@@ -2,14 +2,8 @@
 #include "accuracy/accuracy.h"
 #include "attractors/catalogue.h"
 #include "basin/basin.h"
-#include "chart/chart.h"
-#include "edge/edge.h"
 #include "kapitza/study.h"
-#include "manifolds/manifolds.h"
 #include "orbit/orbit.h"
-#include "potential/potential.h"
-#include "saddles/saddles.h"
-#include "stability/stability.h"
 #include "sweep/sweep.h"
 
 /* `check`: NULL = nothing to check. */

@@ -80,12 +80,6 @@ kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade
 /* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
 char *kz_reference_path(const kz_store *store);
 
-kz_cost kz_tradeoff_cost(const kz_scene *scene);
-kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds);
 kz_status kz_tradeoff_check(const kz_scene *scene);
-kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
-/* What the study writes. */
-extern const kz_variable kz_tradeoff_variables[];
 
 #endif

@@ -27,12 +27,6 @@ double *kz_nan_filled(int64_t n);
 /* Prints the table of attractors. */
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
 
-kz_cost kz_attractors_cost(const kz_scene *scene);
-kz_status kz_attractors_measure(const kz_scene *scene, double *seconds);
 kz_status kz_attractors_check(const kz_scene *scene);
-kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
-/* What the study writes. */
-extern const kz_variable kz_attractors_variables[];
 
 #endif

@@ -11,13 +11,10 @@
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
 
-kz_cost kz_basin_cost(const kz_scene *scene);
 kz_status kz_basin_check(const kz_scene *scene);
-kz_status kz_basin_measure(const kz_scene *scene, double *seconds);
-kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 
-/* What the study writes. */
-extern const kz_variable kz_basin_variables[], kz_phases_variables[], kz_boundary_variables[], kz_shocks_variables[];
+/* What the study writes besides kz_basin_variables. */
+extern const kz_variable kz_phases_variables[], kz_boundary_variables[], kz_shocks_variables[];
 
 /* ---- measures of a labelled grid as counts, which are added up over its tiles: basin entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416)
  * and uncertain shares at distances (C. Grebogi et al., Phys. Lett. A 99 (1983) 415) ---- */

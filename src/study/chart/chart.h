@@ -7,10 +7,6 @@
 
 enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one without damping */
 
-kz_cost kz_chart_cost(const kz_scene *scene);
-kz_status kz_chart_measure(const kz_scene *scene, double *seconds);
-kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
 /* ending [n] of start number `place` at n <= KZ_CHART_POINTS points; point [n] = their numbers, x fastest. */
 enum { KZ_CHART_POINTS = 256 };
 void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending);
@@ -22,8 +18,5 @@ kz_status kz_chart_publish(const kz_chart_plan *plan, const kz_chart_ending *end
 static inline double kz_chart_velocity(const kz_chart_plan *plan, int64_t place) {
   return plan->velocity.values[plan->velocity.count == 1 ? 0 : place];
 }
-
-/* What the study writes. */
-extern const kz_variable kz_chart_variables[];
 
 #endif

@@ -5,13 +5,6 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-kz_cost kz_edge_cost(const kz_scene *scene);
-kz_status kz_edge_measure(const kz_scene *scene, double *seconds);
-kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
-/* What the study writes. */
-extern const kz_variable kz_edge_variables[];
-
 /* The cycle or chaotic set on the edge. */
 typedef struct {
   int32_t first_end, second_end; /* attractors on the two sides at the end: numbers of kz_dynamics, 0 = not settled */

@@ -1,10 +1,8 @@
 /* Study `manifolds`: every branch of the chosen cycles is a tile. */
-#include "manifolds.h"
-
 #include <math.h>
-#include <stdlib.h>
 
 #include "kapitza/dynamics.h"
+#include "kapitza/study.h"
 #include "saddles/saddles.h"
 
 enum { MOST_POINTS = 32768 }; /* of a branch */

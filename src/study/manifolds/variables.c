@@ -1,6 +1,6 @@
 /* Variables of the group manifolds of the result file. */
 #include "kapitza/store_variables.h"
-#include "manifolds.h"
+#include "kapitza/study.h"
 
 /* clang-format off */
 const kz_variable kz_manifolds_variables[] = {

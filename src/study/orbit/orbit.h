@@ -96,14 +96,6 @@ kz_status kz_orbit_features_make(kz_orbit *orbit);
 kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store);
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
 
-/* ---- the row of kz_studies ---- */
-
-kz_cost kz_orbit_cost(const kz_scene *scene);
-kz_status kz_orbit_measure(const kz_scene *scene, double *seconds);
 kz_status kz_orbit_check(const kz_scene *scene);
-kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
-/* What the study writes. */
-extern const kz_variable kz_orbit_variables[];
 
 #endif

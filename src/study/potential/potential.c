@@ -1,9 +1,8 @@
 /* Study `potential`. One rank does it all: at most some hundred curves in closed form. */
-#include "potential.h"
-
 #include <math.h>
 
 #include "kapitza/analysis.h"
+#include "kapitza/study.h"
 
 static const char *const GROUP = "potential";
 

@@ -1,6 +1,6 @@
 /* Variables of the group potential of the result file. */
 #include "kapitza/store_variables.h"
-#include "potential.h"
+#include "kapitza/study.h"
 
 #define BY_DRIVE {"drive_amplitude", "theta"}
 #define ENERGY "1|units of I omega^2"

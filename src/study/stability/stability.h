@@ -5,10 +5,6 @@
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
 
-kz_cost kz_stability_cost(const kz_scene *scene);
-kz_status kz_stability_measure(const kz_scene *scene, double *seconds);
-kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
 /* ---- inside the study ---- */
 
 /* A curve to follow: a row of kz_curves, or (row < 0) the two curves of a subharmonic order. */
@@ -30,8 +26,5 @@ typedef struct {
 /* Writes the variables and attributes of the groups, and prints the summary. Rank 0. */
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store);
 void kz_chart_summarise(const kz_chart *chart, FILE *summary);
-
-/* What the study writes. */
-extern const kz_variable kz_stability_variables[];
 
 #endif

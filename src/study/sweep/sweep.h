@@ -145,13 +145,6 @@ void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numeri
 /* Prints a warning for each class of speeds whose error is too large, at the value with the largest error. */
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
 
-/* One row of kz_studies. */
-kz_cost kz_sweep_cost(const kz_scene *scene);
-kz_status kz_sweep_measure(const kz_scene *scene, double *seconds);
 kz_status kz_sweep_check(const kz_scene *scene);
-kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
-/* What the study writes. */
-extern const kz_variable kz_sweep_variables[];
 
 #endif
