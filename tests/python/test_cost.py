@@ -125,3 +125,11 @@ def test_the_time_is_foretold_from_samples(kapitza, tmp_path, study):
         if 1 / 2 < ratio < 2:
             return
     assert 1 / 3 < ratio < 3, (foretold, taken)
+
+
+@pytest.mark.parametrize("seed", [4, 7])
+def test_rare_attractors_are_known_before_cells_are_timed(kapitza, seed):
+    """Of these starts few end on a rare attractor; without it, a cell of its basin would be followed for all of max_periods."""
+    keys = ["--set", f"basin.attractors.seed={seed}", "--set", "basin.max_periods=4000000"]
+    text = kapitza("check", ROOT / "scenes" / "small.yaml", *keys).stdout
+    assert "estimated time" in text and "more than" not in text

@@ -53,18 +53,6 @@ def test_fractions_show_intervals_and_name_every_band(swept):
     assert np.allclose(segments[:, 1, 1][: there.sum()], sweep["fraction_high"].values[there, first])
 
 
-def test_zone_of_flutter(kapitza, tmp_path):
-    (tmp_path / "zone.yaml").write_text("""\
-pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.5}
-sweep: {parameter: drive_frequency, min: 10, max: 12, count: 2, measure: [flutter_zone]}
-""")
-    kapitza("run", "zone.yaml", folder=tmp_path)
-    done = draw(tmp_path / "zone.h5", "-o", "zone.svg")
-    assert done.returncode == 0 and "a release of 1° from rest fails" in (tmp_path / "zone.svg").read_text()
-    refused = draw(tmp_path / "zone.h5", "--view", "strobe")
-    assert refused.returncode == 1 and refused.stderr.endswith("has no strobe; it has zone\n")
-
-
 def test_a_basin_is_not_a_sweep(small_result):
     done = draw(small_result)
     assert done.returncode == 1 and done.stderr.startswith("error: ") and "holds no sweep" in done.stderr

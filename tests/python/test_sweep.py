@@ -6,7 +6,7 @@ import os
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT, datasets, run_until_saved
+from conftest import ROOT, datasets, plot, run_until_saved
 
 REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
 EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
@@ -19,14 +19,15 @@ sweep: {{parameter: {parameter}, min: {low}, max: {high}, count: {count}, measur
 
 @pytest.fixture(scope="session")
 def sweep(kapitza, tmp_path_factory):
-    """Runs a sweep and gives its group as (arrays, attributes)."""
+    """Runs a sweep and gives its group as (arrays, attributes); run.file is the file of the last one."""
 
     def run(measure, low, high, count, parameter="drive_amplitude", q=5, omega=11, more="", ranks=2):
         folder = tmp_path_factory.mktemp("sweep")
         text = SCENE.format(measure=measure, low=low, high=high, count=count, parameter=parameter, q=q, omega=omega, more=more)
         (folder / "sweep.yaml").write_text(text)
         kapitza("run", "sweep.yaml", ranks=ranks, folder=folder)
-        with h5py.File(folder / "sweep.h5") as file:
+        run.file = folder / "sweep.h5"
+        with h5py.File(run.file) as file:
             group = file["sweep"]
             arrays = {name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[()] for name, item in group.items()}
             return arrays, dict(group.attrs)
@@ -92,7 +93,7 @@ def test_lower_end_of_the_inverted_state(sweep):
 
 
 def test_flutter_loses_its_symmetry_then_doubles(sweep):
-    branches, _ = sweep("attractors", 0.555, 0.5715, 12, more=", starts: 8192")
+    branches, _ = sweep("attractors", 0.555, 0.5715, 6, more=", starts: 2048")
     rows = np.flatnonzero(branches["branch_name"] == "flutter")
     broken = float(REFERENCE["blackburn_flutter_loss_Q5_Omega11"]["eps_symmetry_breaking"])
     symmetric = [row for row in rows if branches["branch_symmetric"][row]]
@@ -220,6 +221,10 @@ def test_flutter_zone_over_the_frequency(sweep):
         assert known["eps_c"] < arrays["flutter_release_end"][row] <= known["first_eps_1deg_release_fails"] + 1e-6
     doubling = float(REFERENCE["blackburn_flutter_cascade_Q5_Omega11"]["eps_period_doubling_of_asymmetric_flutter"])
     assert arrays["flutter_end"][list(arrays["value"]).index(11)] == near(doubling)
+    picture = sweep.file.with_suffix(".svg")
+    assert plot("sweep", sweep.file, "-o", picture).returncode == 0 and "a release of 1° from rest fails" in picture.read_text()
+    refused = plot("sweep", sweep.file, "--view", "strobe")
+    assert refused.returncode == 1 and refused.stderr.endswith("has no strobe; it has zone\n")
 
 
 RELEASES = [(20, 11, 0.13, 0.25, 13 if EXTENSIVE else 4), (20, 11, 0.3, 0.5, 5 if EXTENSIVE else 2),

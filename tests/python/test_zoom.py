@@ -27,20 +27,18 @@ def scene(folder, half, count, method, pendulum=PENDULUM, centre=(THETA, VELOCIT
     return "zoom.yaml"
 
 
-@pytest.mark.parametrize("method", ["direct"])
-def test_labels_of_a_zoom_are_right(kapitza, tmp_path, method):
+def test_labels_of_a_zoom_are_right(kapitza, tmp_path):
     """With the scheme's own 24 steps, off by 500 cells a period, 55 % of these labels are wrong."""
-    done = kapitza("run", scene(tmp_path, 1e-7, 30, method), "--set", "basin.icm={theta: 500, velocity: 500}", folder=tmp_path)
+    done = kapitza("run", scene(tmp_path, 1e-7, 30, "direct"), folder=tmp_path)
     assert "164 steps per drive period (its default is 24)" in done.stdout and "warning: at speeds" not in done.stdout
-    comparison, _ = reference_check.check_file(tmp_path / "zoom.h5", 200, 1, 2, 4000)
-    assert comparison["wrong"] <= 12 and comparison["unsettled"] == 0
+    comparison, _ = reference_check.check_file(tmp_path / "zoom.h5", 100, 1, 2, 4000)
+    assert comparison["wrong"] <= 6 and comparison["unsettled"] == 0
     with h5py.File(tmp_path / "zoom.h5") as file:
         assert file["basin"].attrs["steps_per_period"] == 164
         assert file["basin"].attrs["step_error"] < 0.01 * 2e-7 / 30
         (tmp_path / "again.yaml").write_text(file.attrs["scene_resolved"])
-    if method == "direct":
-        kapitza("run", "again.yaml", folder=tmp_path)
-        assert datasets(tmp_path / "zoom.h5") == datasets(tmp_path / "again.h5")
+    kapitza("run", "again.yaml", folder=tmp_path)
+    assert datasets(tmp_path / "zoom.h5") == datasets(tmp_path / "again.h5")
 
 
 def test_a_table_that_is_off_by_cells_is_refused(kapitza, tmp_path):
