@@ -1,7 +1,6 @@
 !> The C interface of the kernel: include/kapitza/kernel.h. Thin entries of doubles and integers.
 module kz_kernel_api
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_null_ptr, c_loc, &
-                                         c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_loc, c_f_pointer
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_flow, fine_numerics, sampling_numerics
   use kz_lanes_schemes, only: SCHEMES
@@ -12,21 +11,17 @@ module kz_kernel_api
   private
 
   type :: flows_t
-    class(flow_t), allocatable :: fused
-    class(flow_t), allocatable :: unfused
+    class(flow_t), allocatable :: fused, unfused
   end type flows_t
 
   type, bind(C) :: scheme_row_t
     character(kind=c_char) :: name(16)
-    integer(c_int32_t) :: order
-    integer(c_int32_t) :: kicks
-    integer(c_int32_t) :: default_steps
+    integer(c_int32_t) :: order, kicks, default_steps
   end type scheme_row_t
 
 contains
 
   integer(c_int32_t) function scheme_count() bind(C, name='kz_scheme_count') result(n)
-
     n = size(SCHEMES)
   end function scheme_count
 
@@ -34,7 +29,7 @@ contains
     integer(c_int32_t), value :: row
     type(scheme_row_t), intent(out) :: scheme
 
-    scheme%name = c_text(SCHEMES(row + 1)%name, size(scheme%name))
+    scheme%name = transfer(trim(SCHEMES(row + 1)%name)//repeat(c_null_char, size(scheme%name)), scheme%name)
     scheme%order = SCHEMES(row + 1)%order
     scheme%kicks = SCHEMES(row + 1)%kicks
     scheme%default_steps = SCHEMES(row + 1)%default_steps
@@ -47,27 +42,12 @@ contains
     numerics = fine_numerics(pendulum)
   end subroutine numerics_fine
 
-  pure function c_text(text, n) result(chars)
-    character(*), intent(in) :: text
-    integer, intent(in) :: n
-    character(kind=c_char) :: chars(n)
-    integer :: i
-
-    chars = c_null_char
-    do i = 1, min(len_trim(text), n - 1)
-      chars(i) = text(i:i)
-    end do
-  end function c_text
-
   type(c_ptr) function flow_create(pendulum, numerics) bind(C, name='kz_flow_create') result(handle)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     type(flows_t), pointer :: flows
-    integer :: status
 
-    handle = c_null_ptr
-    allocate (flows, stat=status)
-    if (status /= 0) return
+    allocate (flows)
     call make_flow(pendulum, numerics, .true., flows%fused)
     call make_flow(pendulum, sampling_numerics(pendulum, numerics), .false., flows%unfused)
     handle = c_loc(flows)
@@ -86,23 +66,8 @@ contains
     integer(c_int64_t), value :: n, periods
     real(c_double), intent(inout) :: theta(n), velocity(n)
     integer(c_int64_t), intent(inout) :: turns(n)
-    type(flows_t), pointer :: flows
-    class(flow_t), allocatable :: flow
-    integer(c_int64_t) :: first, period
-    integer :: lanes
 
-    call c_f_pointer(handle, flows)
-    allocate (flow, source=flows%fused)
-    do first = 1, n, WIDTH
-      lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
-      call load(flow, lanes, theta(first:), velocity(first:))
-      call flow%to_map(lanes)
-      do period = 1, periods
-        call flow%advance(lanes)
-      end do
-      call flow%to_physical(lanes)
-      call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
-    end do
+    call advance_batches(handle, n, periods, theta, velocity, turns)
   end subroutine advance
 
   subroutine advance_tangent(handle, n, periods, theta, velocity, turns, matrix) bind(C, name='kz_advance_tangent')
@@ -111,9 +76,19 @@ contains
     real(c_double), intent(inout) :: theta(n), velocity(n)
     integer(c_int64_t), intent(inout) :: turns(n)
     real(c_double), intent(out) :: matrix(2, 2, n)
+
+    call advance_batches(handle, n, periods, theta, velocity, turns, matrix)
+  end subroutine advance_tangent
+
+  subroutine advance_batches(handle, n, periods, theta, velocity, turns, matrix)
+    type(c_ptr), intent(in) :: handle
+    integer(c_int64_t), intent(in) :: n, periods
+    real(c_double), intent(inout) :: theta(n), velocity(n)
+    integer(c_int64_t), intent(inout) :: turns(n)
+    real(c_double), intent(out), optional :: matrix(2, 2, n)
     type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
-    real(c_double) :: tangent(2, 2, WIDTH)
+    real(c_double), allocatable :: tangent(:, :, :) !< unallocated: not asked
     integer(c_int64_t) :: first, period
     integer :: lanes, i
 
@@ -122,20 +97,19 @@ contains
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
       call load(flow, lanes, theta(first:), velocity(first:))
-      tangent = 0
-      tangent(1, 1, :) = 1
-      tangent(2, 2, :) = 1
+      if (present(matrix)) tangent = spread(reshape([1.0_c_double, 0.0_c_double, 0.0_c_double, 1.0_c_double], [2, 2]), 3, WIDTH)
       call flow%to_map(lanes, tangent)
       do period = 1, periods
-        call flow%advance_tangent(lanes, tangent)
+        if (present(matrix)) call flow%advance_tangent(lanes, tangent)
+        if (.not. present(matrix)) call flow%advance(lanes)
       end do
       call flow%to_physical(lanes, tangent)
       call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
-      do i = 1, lanes
+      do i = 1, merge(lanes, 0, present(matrix))
         matrix(:, :, first + i - 1) = transpose(tangent(:, :, i))
       end do
     end do
-  end subroutine advance_tangent
+  end subroutine advance_batches
 
   subroutine load(flow, lanes, theta, velocity)
     class(flow_t), intent(inout) :: flow

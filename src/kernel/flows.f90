@@ -13,7 +13,7 @@ module kz_kernel_flows
   use kz_split_batch, only: make_batch
   implicit none
   private
-  public :: make_flow, make_moving_flow, make_stretch_flow, make_flow_and_finer, make_processed_flow, fine_numerics, sampling_numerics, FINE
+  public :: make_flow, make_stretch_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE
 
   !> Numerics of all published values, whatever the scene says: split6, 96 steps.
   type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96)
@@ -45,40 +45,34 @@ contains
 
   !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
   !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
-  recursive subroutine make_flow(pendulum, numerics, fused, flow)
+  recursive subroutine make_flow(pendulum, numerics, fused, flow, slid, refined)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
+    !> whether a slider has moved the pendulum, a little beside the last one: its series comes from theirs; if left out, it is its own
+    logical, intent(in), optional :: slid
+    integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
     type(period_t) :: period
     type(series_t), allocatable :: series
-
-    if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
-      allocate (series)
-      call make_processed_series(pendulum, series)
-      call make_processed_flow(pendulum, series, numerics, flow)
-      return
-    end if
-    call make_period(pendulum, numerics, fused, period)
-    call make_batch(period, flow)
-  end subroutine make_flow
-
-  !> The same for a pendulum that is moved by a slider, a little beside the last one: its series comes from theirs.
-  subroutine make_moving_flow(pendulum, numerics, flow)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
-    class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
-    type(series_t), allocatable :: series
+    logical :: moved
 
     if (SCHEMES(numerics%scheme + 1)%form /= PROCESSED) then
-      call make_flow(pendulum, numerics, .true., flow)
+      call make_period(pendulum, numerics, fused, period)
+      call make_batch(period, flow)
       return
     end if
+    moved = .false.
+    if (present(slid)) moved = slid
     allocate (series)
-    call make_slid_series(pendulum, series)
-    call make_processed_flow(pendulum, series, numerics, flow)
-  end subroutine make_moving_flow
+    if (moved) then
+      call make_slid_series(pendulum, series)
+    else
+      call make_processed_series(pendulum, series)
+    end if
+    call make_processed_flow(pendulum, series, numerics, flow, refined=refined)
+  end subroutine make_flow
 
   !> The map of a stretch, by fine steps of split6.
   subroutine make_stretch_flow(pendulum, stretch, flow)
@@ -94,27 +88,6 @@ contains
     call make_period(pendulum, numerics, .true., period, stretch)
     call make_batch(period, flow)
   end subroutine make_stretch_flow
-
-  !> The map of one drive period, and the same with twice the steps, and all terms: their difference is the error of a period.
-  subroutine make_flow_and_finer(pendulum, numerics, flow, finer)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(numerics_t), intent(in) :: numerics !< scheme, steps a period
-    class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
-    class(flow_t), allocatable, intent(out) :: finer !< with twice the steps
-    type(numerics_t) :: halved
-    type(series_t), allocatable :: series
-
-    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest)
-    if (SCHEMES(numerics%scheme + 1)%form == PROCESSED) then
-      allocate (series) ! made once: it does not depend on the steps
-      call make_processed_series(pendulum, series)
-      call make_processed_flow(pendulum, series, numerics, flow)
-      call make_processed_flow(pendulum, series, halved, finer, refined=2)
-    else
-      call make_flow(pendulum, numerics, .true., flow)
-      call make_flow(pendulum, halved, .true., finer)
-    end if
-  end subroutine make_flow_and_finer
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
   recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined)

@@ -18,17 +18,13 @@ module kz_kernel_linear
   integer, parameter :: LIFT_BITS = 400
 
   type, bind(C) :: half_period_t
-    real(c_double) :: c
-    real(c_double) :: s
-    real(c_double) :: c_dot
-    real(c_double) :: s_dot
+    real(c_double) :: c, s, c_dot, s_dot
     integer(c_int64_t) :: exponent
   end type half_period_t
 
   !> The two solutions at the current time in units of 2**(LIFT_BITS lifts); derivatives are per half step.
   type :: solutions_t
-    real(rk) :: w(WIDTH, 2)
-    real(rk) :: w_dot(WIDTH, 2)
+    real(rk) :: w(WIDTH, 2), w_dot(WIDTH, 2)
     integer(c_int64_t) :: lifts(WIDTH)
   end type solutions_t
 

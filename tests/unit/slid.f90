@@ -2,7 +2,7 @@
 module kz_test_slid
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_kernel_flows, only: make_flow, make_moving_flow
+  use kz_kernel_flows, only: make_flow
   use kz_lanes_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
@@ -22,7 +22,7 @@ contains
 
     largest = 0
     do i = 1, int(n)
-      call make_moving_flow(pendulum(i), NUMERICS, moving)
+      call make_flow(pendulum(i), NUMERICS, .true., moving, slid=.true.)
       call make_flow(pendulum(i), NUMERICS, .true., own)
       call advance(moving)
       call advance(own)

@@ -7,7 +7,7 @@ module kz_api_dynamics
   use kz_grown_moving, only: aged_regions
   use kz_grown_cell_images, only: images_t
   use kz_grown_grid, only: regions_t, draw_attractors
-  use kz_kernel_flows, only: make_flow, make_moving_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_labels_levels, only: levels_t
   use kz_labels_released, only: released_t
   use kz_lanes_map, only: flow_t
@@ -68,11 +68,7 @@ contains
     allocate (d)
     d%levels%pendulum = pendulum
     d%levels%numerics = numerics
-    if (moving) then
-      call make_moving_flow(pendulum, numerics, d%flow)
-    else
-      call make_flow(pendulum, numerics, .true., d%flow)
-    end if
+    call make_flow(pendulum, numerics, .true., d%flow, slid=moving)
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)

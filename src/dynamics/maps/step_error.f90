@@ -4,7 +4,7 @@ module kz_maps_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
   use kz_lanes_map, only: map_t, flow_t, WIDTH, PI
-  use kz_kernel_flows, only: make_flow_and_finer
+  use kz_kernel_flows, only: make_flow
   use kz_model_pendulum, only: pendulum_t, stiffness, is_mirrored
   use kz_lanes_step_table, only: numerics_t
   use kz_maps_states, only: separation
@@ -29,12 +29,15 @@ contains
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: speed(n + 1)
     real(dp), intent(out) :: error(n)
+    type(numerics_t) :: halved
     class(flow_t), allocatable :: flow, finer
     real(dp) :: limit, largest
     integer(c_int64_t) :: c
     integer :: first
 
-    call make_flow_and_finer(pendulum, numerics, flow, finer)
+    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest) ! and all terms
+    call make_flow(pendulum, numerics, .true., flow)
+    call make_flow(pendulum, halved, .true., finer, refined=2)
     do c = 1, n
       largest = 0
       limit = speed(c + 1) + 2*PI*stiffness(pendulum)

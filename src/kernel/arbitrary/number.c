@@ -67,12 +67,10 @@ static void parse(const char *text, kz_number *x, int64_t bits) {
   forget_radius(x);
   free(number);
   if (!turned) return;
-  kz_number factor;
-  kz_number_init(&factor);
+  KZ_NUMBER(factor);
   kz_number_two_pi(&factor, bits);
   kz_number_divide_by(&factor, &factor, 360, bits);
   kz_number_multiply(x, x, &factor, bits);
-  kz_number_clear(&factor);
 }
 
 void kz_number_of_quad(__float128 value, kz_number *x) {
@@ -229,42 +227,37 @@ static bool print(const kz_number *x, int64_t digits, char *text, size_t size) {
 
 void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits) {
   const int64_t digits = bits + 64; /* as centres and widths have up to 30 bits before the point */
-  kz_number part[2];
-  for (int i = 0; i < 2; i++) kz_number_init(part + i);
-  kz_number_of_double(coordinate->high, part);
-  kz_number_of_double(coordinate->low, part + 1);
+  KZ_NUMBER(part);
+  KZ_NUMBER(other);
+  kz_number_of_double(coordinate->high, &part);
+  kz_number_of_double(coordinate->low, &other);
   if (coordinate->centre)
     parse(coordinate->centre, x, digits);
   else
-    kz_number_add(x, part, part + 1, digits);
+    kz_number_add(x, &part, &other, digits);
   if (coordinate->width && coordinate->share != 0) {
-    parse(coordinate->width, part, digits);
-    kz_number_of_double(coordinate->share, part + 1);
-    kz_number_multiply(part, part, part + 1, digits);
-    kz_number_add(x, x, part, digits);
+    parse(coordinate->width, &part, digits);
+    kz_number_of_double(coordinate->share, &other);
+    kz_number_multiply(&part, &part, &other, digits);
+    kz_number_add(x, x, &part, digits);
   }
   kz_number_round(x, digits);
-  for (int i = 0; i < 2; i++) kz_number_clear(part + i);
 }
 
 __float128 kz_coordinate_difference(const kz_coordinate *a, const kz_coordinate *b, int64_t bits) {
-  kz_number x[2];
-  for (int i = 0; i < 2; i++) kz_number_init(x + i);
-  kz_number_of(a, x, bits);
-  kz_number_of(b, x + 1, bits);
-  kz_number_subtract(x, x, x + 1, bits + 64);
-  const __float128 difference = kz_number_quad(x);
-  for (int i = 0; i < 2; i++) kz_number_clear(x + i);
-  return difference;
+  KZ_NUMBER(x);
+  KZ_NUMBER(y);
+  kz_number_of(a, &x, bits);
+  kz_number_of(b, &y, bits);
+  kz_number_subtract(&x, &x, &y, bits + 64);
+  return kz_number_quad(&x);
 }
 
 kz_status kz_coordinate_text(const kz_coordinate *coordinate, int64_t digits, char *text, size_t size) {
   const int64_t bits = (int64_t)((double)(digits + 1) / log10(2)) + 1;
-  kz_number x;
-  kz_number_init(&x);
+  KZ_NUMBER(x);
   kz_number_of(coordinate, &x, bits);
   const int64_t exponent = kz_number_exponent(&x), before = exponent > 0 ? (int64_t)ceil((double)exponent * log10(2)) : 0;
-  const bool fits = print(&x, digits + before, text, size);
-  kz_number_clear(&x);
-  return fits ? KZ_OK : kz_fail(KZ_FAILED, "a number of %lld digits is too long", (long long)digits);
+  return print(&x, digits + before, text, size) ? KZ_OK
+                                                : kz_fail(KZ_FAILED, "a number of %lld digits is too long", (long long)digits);
 }

@@ -59,18 +59,14 @@ static inline void kz_number_of_double(double value, kz_number *x) {
 static inline double kz_number_double(const kz_number *x) {
   return arf_get_d(arb_midref(x), ARF_RND_NEAR);
 }
-static inline void kz_number_add(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
-  arf_add(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
-}
-static inline void kz_number_subtract(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
-  arf_sub(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
-}
-static inline void kz_number_multiply(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
-  arf_mul(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
-}
-static inline void kz_number_divide(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) {
-  arf_div(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);
-}
+#define KZ_ROUNDED(name, operation)                                                             \
+  static inline void name(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) { \
+    operation(arb_midref(x), arb_midref(a), arb_midref(b), bits, ARF_RND_DOWN);                 \
+  }
+KZ_ROUNDED(kz_number_add, arf_add)
+KZ_ROUNDED(kz_number_subtract, arf_sub)
+KZ_ROUNDED(kz_number_multiply, arf_mul)
+KZ_ROUNDED(kz_number_divide, arf_div)
 static inline void kz_number_divide_by(kz_number *x, const kz_number *a, int64_t n, int64_t bits) {
   arf_div_si(arb_midref(x), arb_midref(a), n, bits, ARF_RND_DOWN);
 }
@@ -131,5 +127,10 @@ static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minu
   *x = (first ? *first : 0) + (minus ? -sum : sum);
 }
 #endif
+
+/* A number, 0 at first, that lives as long as the block where it is declared. */
+#define KZ_NUMBER(x)                                     \
+  kz_number x __attribute__((cleanup(kz_number_clear))); \
+  kz_number_init(&x)
 
 #endif

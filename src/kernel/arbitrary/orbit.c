@@ -102,16 +102,13 @@ static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *
 
 static void wrap(kz_arbitrary *o, int64_t bits) {
   const double turns = rint(kz_number_double(&o->place.theta) / (2 * M_PI));
-  kz_number angle, factor;
   if (turns == 0) return;
-  kz_number_init(&angle);
-  kz_number_init(&factor);
+  KZ_NUMBER(angle);
+  KZ_NUMBER(factor);
   kz_number_two_pi(&angle, o->bits + 40);
   kz_number_of_double(turns, &factor);
   kz_number_multiply(&angle, &angle, &factor, o->bits + 40);
   kz_number_subtract(&o->place.theta, &o->place.theta, &angle, bits + 40);
-  kz_number_clear(&angle);
-  kz_number_clear(&factor);
 }
 
 /* The tangent in the digits of jets, or in those that the orbit keeps as long as it has so many itself. */
@@ -119,7 +116,6 @@ static void begin_tangent(kz_arbitrary *o, int64_t bits, const kz_jet *jet) {
   const int64_t kept = o->tangent_bits < bits ? o->tangent_bits : bits;
   o->place.tangent_bits = kept > KZ_TANGENT_BITS ? kept : KZ_TANGENT_BITS;
   o->place.columns = o->tangent_bits > 0 ? 1 : 2;
-  if (o->tangent_bits > 0) return;
   if (o->tangent_bits > 0) return;
   for (int axis = 0; axis < 2; axis++) {
     kz_number_of_quad(jet ? jet->linear[0][axis] : 0, o->place.angle + axis);
@@ -157,13 +153,11 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
 }
 
 static void read_pair(const kz_number *x, double pair[2]) {
-  kz_number rest;
-  kz_number_init(&rest);
+  KZ_NUMBER(rest);
   pair[0] = kz_number_double(x);
   kz_number_of_double(pair[0], &rest);
   kz_number_subtract(&rest, x, &rest, 64);
   pair[1] = kz_number_double(&rest);
-  kz_number_clear(&rest);
 }
 
 void kz_arbitrary_read(const kz_arbitrary *o, double theta[2], double velocity[2]) {
@@ -213,9 +207,8 @@ void kz_arbitrary_mark(kz_arbitrary *o) {
 
 /* x += share (slope + share (second + share third)); slope becomes the derivative at `share`, of the line in 2^-exponent times its unit. */
 static void move_along(kz_number *x, kz_number *slope, const long double *bent, __float128 share, int exponent, int64_t bits) {
-  kz_number part, by;
-  kz_number_init(&part);
-  kz_number_init(&by);
+  KZ_NUMBER(part);
+  KZ_NUMBER(by);
   kz_number_of_quad(share, &by);
   kz_number_multiply(&part, slope, &by, bits);
   kz_number_add(x, x, &part, bits);
@@ -225,8 +218,6 @@ static void move_along(kz_number *x, kz_number *slope, const long double *bent, 
   kz_number_add(slope, slope, &part, bits);
   kz_number_of_double(ldexp(1, exponent), &by);
   kz_number_multiply(slope, slope, &by, bits);
-  kz_number_clear(&part);
-  kz_number_clear(&by);
 }
 
 kz_arbitrary *kz_arbitrary_beside(const kz_arbitrary *parent, const kz_jet *at_mark, __float128 share, int exponent,

@@ -6,9 +6,8 @@
 #include "step.h"
 
 void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders, int64_t bits, int64_t n) {
-  kz_number value;
   if (steps->n == n) return;
-  kz_number_init(&value);
+  KZ_NUMBER(value);
   steps->n = n;
   kz_number_two_pi(&steps->h, bits);
   kz_number_divide_by(&steps->h, &steps->h, n, bits);
@@ -26,22 +25,23 @@ void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders,
     kz_number_divide_by(steps->scale + j + 1, steps->scale + j + 1, j + 1, bits);
     steps->force_orders = j + 1;
   }
-  kz_number_clear(&value);
 }
 
 /* The drive's series from t = 2 pi i / n on: derivatives of the cosine follow each other in a circle of four. */
 static void expand_force(kz_series *series, const kz_steps *steps, int64_t i, int64_t bits) {
-  kz_number circle[4];
-  for (int j = 0; j < 4; j++) kz_number_init(circle + j);
-  kz_number_sin_cos_of_turns(i, steps->n, circle + 3, circle + 2, bits);
-  kz_number_set(circle + 1, circle + 3);
-  kz_number_set(circle, circle + 2);
-  kz_number_negate(circle);
-  kz_number_negate(circle + 3);
+  KZ_NUMBER(cosine);
+  KZ_NUMBER(sine);
+  KZ_NUMBER(minus_cosine);
+  KZ_NUMBER(minus_sine);
+  const kz_number *const circle[4] = {&minus_cosine, &sine, &cosine, &minus_sine};
+  kz_number_sin_cos_of_turns(i, steps->n, &sine, &cosine, bits);
+  kz_number_set(&minus_sine, &sine);
+  kz_number_negate(&minus_sine);
+  kz_number_set(&minus_cosine, &cosine);
+  kz_number_negate(&minus_cosine);
   for (int64_t j = 0; j <= steps->force_orders; j++)
-    kz_number_multiply(series->force + j, steps->scale + j, circle + j % 4, bits);
+    kz_number_multiply(series->force + j, steps->scale + j, circle[j % 4], bits);
   kz_number_add(series->force, series->force, &steps->gravity, bits);
-  for (int j = 0; j < 4; j++) kz_number_clear(circle + j);
 }
 
 /* Bits that the next coefficient takes, where the last ones were below 2^size. */
@@ -59,17 +59,15 @@ static void divide(kz_number *x, int64_t n, int64_t bits) {
 static void expand_order(kz_series *series, const kz_steps *steps, int64_t n, int64_t bits) {
   kz_number *b = series->speed, *s = series->sine, *c = series->cosine;
   const int64_t first = kz_larger(0, n - steps->force_orders);
-  kz_number damped;
+  KZ_NUMBER(damped);
   kz_number_dot(s + n + 1, NULL, false, c, b + n, n + 1, bits);
   divide(s + n + 1, n, bits);
   kz_number_dot(c + n + 1, NULL, true, s, b + n, n + 1, bits);
   divide(c + n + 1, n, bits);
-  kz_number_init(&damped);
   kz_number_multiply(&damped, &steps->damping, b + n, bits);
   kz_number_negate(&damped);
   kz_number_dot(b + n + 1, &damped, true, s + first, series->force + (n - first), n - first + 1, bits);
   divide(b + n + 1, n, bits);
-  kz_number_clear(&damped);
 }
 
 /* A motion at rest has a short series, its neighbours a long one. */
@@ -103,8 +101,7 @@ static int64_t exponent_of_two(const kz_number *a, const kz_number *b) {
 }
 
 static void expand_tangent_order(kz_series *series, const kz_steps *steps, int columns, int64_t n, int64_t bits) {
-  kz_number damped;
-  kz_number_init(&damped);
+  KZ_NUMBER(damped);
   for (int axis = 0; axis < columns; axis++) {
     kz_number *x = series->angle[axis], *y = series->rate[axis];
     kz_number_set(x + n + 1, y + n);
@@ -114,7 +111,6 @@ static void expand_tangent_order(kz_series *series, const kz_steps *steps, int c
     kz_number_dot(y + n + 1, &damped, true, x, series->gain + n, n + 1, bits);
     divide(y + n + 1, n, bits);
   }
-  kz_number_clear(&damped);
 }
 
 int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place) {
@@ -148,20 +144,17 @@ static void sum(const kz_number *series, int64_t first, int64_t last, int64_t bi
 
 /* The integral of a series over the step. */
 static void integral(const kz_number *series, int64_t last, int64_t bits, kz_number *x) {
-  kz_number part;
-  kz_number_init(&part);
+  KZ_NUMBER(part);
   kz_number_of_double(0, x);
   for (int64_t j = last; j >= 0; j--) {
     kz_number_divide_by(&part, series + j, j + 1, bits);
     kz_number_add(x, x, &part, bits);
   }
-  kz_number_clear(&part);
 }
 
 void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t tangent_orders, int64_t bits,
                    kz_place *place) {
-  kz_number change;
-  kz_number_init(&change);
+  KZ_NUMBER(change);
   integral(series->speed, orders, bits + 8, &change);
   kz_number_add(&place->theta, &place->theta, &change, bits + 8);
   sum(series->speed, 1, orders, bits + 8, &change);
@@ -174,5 +167,4 @@ void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t order
     sum(series->rate[axis], 0, tangent_orders, place->tangent_bits, &change);
     kz_number_divide(place->rate + axis, &change, &steps->h, place->tangent_bits);
   }
-  kz_number_clear(&change);
 }

@@ -34,8 +34,7 @@ module kz_extended_pairs
   real(c_double), parameter :: UNMEASURED = 1e-28_c_double
 
   type :: pairs_t
-    !> the error of a period, rad: the largest of all tables
-    real(c_double) :: error = 0
+    real(c_double) :: error = 0 !< the error of a period, rad: the largest of all tables
     real(c_double) :: fastest = 0      !< that the tables serve, rad per drive radian
     real(c_double) :: series_error = 0 !< of a period of faster states, of hypot(pi, v)
     type(level_t), allocatable :: level(:)

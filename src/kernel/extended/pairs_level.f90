@@ -36,8 +36,7 @@ module kz_extended_pairs_level
 
   !> kz_pair_lanes of pairs.c: high and low.
   type, bind(C) :: pair_lanes_t
-    real(c_double) :: u(WIDTH, 2) !< half-turns in [-1, 1]
-    real(c_double) :: v(WIDTH, 2) !< rad per drive radian
+    real(c_double) :: u(WIDTH, 2), v(WIDTH, 2) !< half-turns in [-1, 1]; rad per drive radian
   end type pair_lanes_t
 
   !> kz_displacement of pairs.c.
@@ -61,8 +60,7 @@ module kz_extended_pairs_level
     real(c_double), allocatable :: row(:, :)
     integer(c_int32_t), allocatable :: ordered(:) !< (n_steps): pairs.c
     real(c_double) :: decay(2) = 0
-    type(displacement_t) :: to_kernel
-    type(displacement_t) :: from_kernel
+    type(displacement_t) :: to_kernel, from_kernel
   end type level_t
 
   interface

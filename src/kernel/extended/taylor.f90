@@ -22,27 +22,19 @@ module kz_extended_taylor
 
   !> kz_taylor_shared of taylor_steps.c.
   type, bind(C) :: shared_t
-    real(dp) :: high(0:LAST - 1)
-    real(dp) :: low(0:LAST - 1)
-    real(dp) :: rest(0:DEEP - 1)
+    real(dp) :: high(0:LAST - 1), low(0:LAST - 1), rest(0:DEEP - 1)
   end type shared_t
 
   !> kz_taylor_force of taylor_steps.c.
   type, bind(C) :: force_t
-    type(shared_t) :: along
-    type(shared_t) :: across
-    real(dp) :: torque(3)
-    real(dp) :: damping(0:CUBIC, 3)
-    integer(c_int32_t) :: has_across
-    integer(c_int32_t) :: has_ramp
+    type(shared_t) :: along, across
+    real(dp) :: torque(3), damping(0:CUBIC, 3)
+    integer(c_int32_t) :: has_across, has_ramp
   end type force_t
 
   !> kz_taylor_state of taylor_steps.c.
   type, bind(C) :: state_t
-    real(dp) :: theta(LANES, 3)
-    real(dp) :: w(LANES, 3)
-    real(dp) :: s(LANES, 3)
-    real(dp) :: c(LANES, 3)
+    real(dp) :: theta(LANES, 3), w(LANES, 3), s(LANES, 3), c(LANES, 3)
   end type state_t
 
   !> A pendulum with the drive's series at the start of every step of a period, unhalved and halved once.

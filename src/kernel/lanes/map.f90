@@ -16,12 +16,9 @@ module kz_lanes_map
   real(c_double), parameter :: PI = 3.14159265358979323846_c_double
 
   type, abstract :: map_t
-    !> angle in half-turns, wrapped to [-1, 1]
-    real(c_double) :: u(CAPACITY) = 0
-    !> velocity in rad per drive radian
-    real(c_double) :: v(CAPACITY) = 0
-    !> net turns, counterclockwise +
-    integer(c_int64_t) :: turns(CAPACITY) = 0
+    real(c_double) :: u(CAPACITY) = 0 !< angle in half-turns, wrapped to [-1, 1]
+    real(c_double) :: v(CAPACITY) = 0 !< velocity in rad per drive radian
+    integer(c_int64_t) :: turns(CAPACITY) = 0 !< net turns, counterclockwise +
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state

@@ -21,8 +21,7 @@ module kz_lanes_schemes
     integer :: form
     integer :: n_drift       !< given drift coefficients
     integer :: n_kick        !< given kick coefficients
-    real(qp) :: drift(7)
-    real(qp) :: kick(6)
+    real(qp) :: drift(7), kick(6)
     character(120) :: source
   end type scheme_t
 

@@ -14,13 +14,11 @@ module kz_lanes_step_table
   real(qp), parameter :: INVERSE_PI = 1/PI
 
   type, bind(C) :: numerics_t
-    integer(c_int32_t) :: scheme
-    integer(c_int32_t) :: steps_per_period
+    integer(c_int32_t) :: scheme, steps_per_period
     !> of the processed splitting: powers of the velocity in a drift and coefficients of a kick; 0 = enough for every step
     integer(c_int32_t) :: drift_terms = 0
     integer(c_int32_t) :: kick_terms = 0
-    !> and the speed up to which it serves, rad per drive radian; 0 = 3
-    real(c_double) :: fastest = 0
+    real(c_double) :: fastest = 0 !< speed up to which the processed splitting serves, rad per drive radian; 0 = 3
   end type numerics_t
 
   !> Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi (u - shift(s))) - push(s); after the last one a
@@ -29,12 +27,10 @@ module kz_lanes_step_table
   type :: period_t
     logical :: split
     integer :: n_steps
-    !> the last stage of every step (n_steps); of use where the steps are not fused
-    integer, allocatable :: step_end(:)
+    integer, allocatable :: step_end(:) !< the last stage of every step (n_steps); of use where the steps are not fused
     real(rk), allocatable :: drift(:)   !< rad per unit of velocity
     real(rk), allocatable :: drift_u(:) !< half-turns per unit of velocity
-    real(rk), allocatable :: decay(:)
-    real(rk), allocatable :: kick(:)
+    real(rk), allocatable :: decay(:), kick(:)
     real(rk), allocatable :: shift(:)   !< half-turns
     real(rk), allocatable :: push(:)
     logical :: mirrored

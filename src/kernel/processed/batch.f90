@@ -55,7 +55,7 @@ contains
 
     u = self%u(:WIDTH)
     v = self%v(:WIDTH)
-    call advance_stages(self%stages, n, u, v)
+    call advance_stages(self%stages%table, n, u, v)
     call take_images(self, n, u, v)
   end subroutine processed_advance
 
@@ -65,14 +65,18 @@ contains
     integer, intent(in) :: n
     real(rk), intent(inout) :: tangent(WIDTH, 4)
     real(rk) :: u(WIDTH), v(WIDTH)
+    real(rk), parameter :: UNIT(2, 2) = reshape([1, 0, 0, 1], [2, 2])
     integer(c_int64_t) :: control
+    integer :: i
 
     control = flush_subnormals()
     u = self%u(:WIDTH)
     v = self%v(:WIDTH)
     call linear_stages(self%stages, n, u, v, tangent)
     self%was_physical(:n) = self%physical(:n)
-    if (any(self%physical(:n))) call linear_fall_back(self, n, tangent)
+    do i = 1, n
+      if (self%physical(i)) tangent(i, :) = reshape(transpose(fall_back_tangent(self, i, UNIT)), [4])
+    end do
     call take_images(self, n, u, v)
     call restore_control(control)
   end subroutine processed_linear
@@ -101,22 +105,6 @@ contains
     end do
     call restore_control(control)
   end subroutine processed_displace
-
-  !> The tangent map of lanes that another flow advances.
-  subroutine linear_fall_back(self, n, tangent)
-    class(processed_batch_t), intent(inout) :: self
-    integer, intent(in) :: n
-    real(rk), intent(inout) :: tangent(WIDTH, 4)
-    real(rk) :: one(WIDTH, 4)
-    integer :: i
-
-    do i = 1, n
-      if (.not. self%physical(i)) cycle
-      call self%fallback%put(1, self%u(i), self%v(i))
-      call self%fallback%advance_linear(1, one)
-      tangent(i, :) = one(1, :)
-    end do
-  end subroutine linear_fall_back
 
   !> The images of n lanes that the tables have advanced.
   subroutine take_images(self, n, u, v)
@@ -187,32 +175,29 @@ contains
     c(n + 1:, :, :) = 0
     c(:, 1, :) = c(:, 1, :)*INVERSE_PI
     lanes = merge(1, vectors_of(n), n == 1)
-    call tangent_stages(self%stages, lanes, self%u(:lanes), self%v(:lanes), c)
+    call tangent_stages(self%stages%table, lanes, self%u(:lanes), self%v(:lanes), c)
     c(:, 1, :) = c(:, 1, :)/INVERSE_PI
-    call tangent_fall_back(self, n, matrix, c)
+    do i = 1, n
+      if (self%physical(i)) c(i, :, :) = fall_back_tangent(self, i, matrix(:, :, i))
+    end do
     call processed_advance(self, n)
     do i = 1, n
       matrix(:, :, i) = c(i, :, :)
     end do
   end subroutine processed_tangent
 
-  !> The tangent map of lanes that another flow advances.
-  subroutine tangent_fall_back(self, n, matrix, c)
+  !> A matrix times the tangent map of a lane that another flow advances.
+  function fall_back_tangent(self, lane, matrix) result(product)
     class(processed_batch_t), intent(inout) :: self
-    integer, intent(in) :: n
-    real(rk), intent(in) :: matrix(2, 2, WIDTH)
-    real(rk), intent(inout) :: c(WIDTH, 2, 2)
-    real(rk) :: one(2, 2, WIDTH)
-    integer :: i
+    integer, intent(in) :: lane
+    real(rk), intent(in) :: matrix(2, 2)
+    real(rk) :: product(2, 2), one(2, 2, WIDTH)
 
-    do i = 1, n
-      if (.not. self%physical(i)) cycle
-      one(:, :, 1) = matrix(:, :, i)
-      call self%fallback%put(1, self%u(i), self%v(i))
-      call self%fallback%advance_tangent(1, one)
-      c(i, :, :) = one(:, :, 1)
-    end do
-  end subroutine tangent_fall_back
+    one(:, :, 1) = matrix
+    call self%fallback%put(1, self%u(lane), self%v(lane))
+    call self%fallback%advance_tangent(1, one)
+    product = one(:, :, 1)
+  end function fall_back_tangent
 
   subroutine processed_put(self, lane, u, v)
     class(processed_batch_t), intent(inout) :: self

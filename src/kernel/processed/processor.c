@@ -2,20 +2,12 @@
  * j and powers n of c[n][j] v^n times sin(pi j u) where n is even, cos(pi j u) where it is odd, or for the second part the other way round. */
 #include "stages.h"
 
-#if defined __AVX512F__
-enum { VECTOR_BYTES = 64 };
-#else
-enum { VECTOR_BYTES = 32 };
-#endif
 enum { LANES = VECTOR_BYTES / 8, CHAINS = 2, ROW = KZ_HARMONICS_KEPT + 1, PART = ROW * (KZ_ORDER + 1) };
 #define EACH _Pragma("GCC unroll 2") for (int i = 0; i < CHAINS; i++)
 
-typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
-
 /* total += first (even powers of v) + second v (odd powers), to the power `degree`, which is even. */
-static inline __attribute__((always_inline)) void add_harmonic(const double *c, int degree, const vector *first,
-                                                               const vector *second, const vector *v, const vector *square,
-                                                               vector *total) {
+OPERATION void add_harmonic(const double *c, int degree, const vector *first, const vector *second, const vector *v,
+                            const vector *square, vector *total) {
   vector even[CHAINS], odd[CHAINS];
   EACH even[i] = c[degree * ROW] + (vector){0};
   EACH odd[i] = (vector){0};

@@ -116,7 +116,12 @@ contains
     integer :: i
 
     series = node(1)
-    call multiply(series, weight(1))
+    series%kick_cosine = weight(1)*series%kick_cosine
+    series%kick_sine = weight(1)*series%kick_sine
+    series%slope = weight(1)*series%slope
+    series%drift = weight(1)*series%drift
+    series%to_kernel = weight(1)*series%to_kernel
+    series%from_kernel = weight(1)*series%from_kernel
     do i = 2, size(weight)
       series%kick_cosine = series%kick_cosine + weight(i)*node(i)%kick_cosine
       series%kick_sine = series%kick_sine + weight(i)*node(i)%kick_sine
@@ -126,18 +131,6 @@ contains
       series%from_kernel = series%from_kernel + weight(i)*node(i)%from_kernel
     end do
   end subroutine add_nodes
-
-  subroutine multiply(series, weight)
-    type(series_t), intent(inout) :: series
-    real(rk), intent(in) :: weight
-
-    series%kick_cosine = weight*series%kick_cosine
-    series%kick_sine = weight*series%kick_sine
-    series%slope = weight*series%slope
-    series%drift = weight*series%drift
-    series%to_kernel = weight*series%to_kernel
-    series%from_kernel = weight*series%from_kernel
-  end subroutine multiply
 
   subroutine remember(pendulum, series)
     type(pendulum_t), intent(in) :: pendulum

@@ -4,32 +4,22 @@
  * polynomials too (n_drift, n_kick). */
 #include "stages.h"
 
-#include <stdbool.h>
-
-#if defined __AVX512F__
-enum { VECTOR_BYTES = 64 };
-#else
-enum { VECTOR_BYTES = 32 };
-#endif
 /* Lanes of a vector, and vectors at once. */
 enum { LANES = VECTOR_BYTES / 8, CHAINS = 8 };
 #define EACH _Pragma("GCC unroll 8") for (int i = 0; i < CHAINS; i++)
 static const double round_to_even = 0x3p52; /* adding it rounds to an even integer */
 
-typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
-
 typedef float narrow __attribute__((vector_size(VECTOR_BYTES / 2), aligned(sizeof(float)), may_alias));
 
 /* c[0] + c[1] q + .. */
-static inline __attribute__((always_inline)) void polynomial(int n, const double *c, const vector *q, vector *p) {
+OPERATION void polynomial(int n, const double *c, const vector *q, vector *p) {
   EACH p[i] = c[n - 1] + (vector){0};
   for (int j = n - 2; j >= 0; j--) EACH p[i] = p[i] * q[i] + c[j];
 }
 
 /* keep: into kept go the reduced angles at each kick, KZ_LANES a stage. */
-static inline __attribute__((always_inline)) void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages,
-                                                        const double *restrict row, vector *u, vector *v, bool keep,
-                                                        float *restrict kept) {
+OPERATION void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages, const double *restrict row, vector *u, vector *v,
+                     bool keep, float *restrict kept) {
   vector a[CHAINS], b[CHAINS], r[CHAINS], q[CHAINS], p[CHAINS];
   const int n = n_drift + n_kick;
   EACH a[i] = u[i];
@@ -77,8 +67,8 @@ static inline __attribute__((always_inline)) void block(bool mirrored, int n_dri
 #endif
 
 /* `mirrored` is a constant where it is called: each kind of pendulum has loops of its own. */
-__attribute__((always_inline)) static inline void run(bool mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages,
-                                                      const double *row, int64_t n, double *u, double *v, float *kept) {
+OPERATION void run(bool mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
+                   double *v, float *kept) {
   if (kept) {
 #define KEEP true, kept + i
     RUN

@@ -46,7 +46,7 @@ module kz_processed_stages
       real(c_float), intent(out) :: c(WIDTH, 4)
     end subroutine run_tangents
 
-    !> Neighbours of orbits (displaced.c).
+    !> Neighbours of orbits (tangents.c).
     subroutine run_displaced(mirrored, n_stages, row, last, decay, angle, by) bind(C, name='kz_processed_displaced')
       import :: c_float, c_int32_t, c_int64_t, GROUP, POINTS
       integer(c_int32_t), value :: mirrored
@@ -117,7 +117,7 @@ contains
     integer(c_int64_t) :: steps
 
     steps = self%table%n_steps
-    call move_stages(self%table, n, u, v, self%kept)
+    call advance_stages(self%table, n, u, v, self%kept)
     call run_tangents(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), steps, self%slope, real(self%table%last(1), c_float), &
                       real(self%table%decay, c_float), self%kept, int(n, c_int64_t), c)
     tangent(:n, 1) = c(:n, 1)
@@ -152,21 +152,12 @@ contains
     end do
   end subroutine displaced_stages
 
-  !> One period of n lanes.
-  subroutine advance_stages(self, n, u, v)
-    type(stages_t), intent(in) :: self !< tables of a period
+  !> One period of n lanes: the stages, the last drift, and the velocity itself again.
+  subroutine advance_stages(table, n, u, v, kept)
+    type(processed_t), intent(in) :: table !< of a period
     integer, intent(in) :: n !< lanes
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
-
-    call move_stages(self%table, n, u, v)
-  end subroutine advance_stages
-
-  !> The stages, the last drift, and the velocity itself again.
-  subroutine move_stages(table, n, u, v, kept)
-    type(processed_t), intent(in) :: table
-    integer, intent(in) :: n
-    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
-    real(c_float), intent(out), optional :: kept(WIDTH, *)
+    real(c_float), intent(out), optional :: kept(WIDTH, *) !< stages_t%kept
     real(rk) :: step(WIDTH), even(WIDTH)
     integer :: i, j
 
@@ -188,11 +179,11 @@ contains
       u(i) = u(i) + v(i)*step(i) + even(i)
       v(i) = table%decay*v(i)
     end do
-  end subroutine move_stages
+  end subroutine advance_stages
 
   !> The derivative along the stages from the lanes' present states; c(i, :, j): column j, angles in half-turns.
-  subroutine tangent_stages(self, n, start_u, start_v, c)
-    type(stages_t), intent(in) :: self !< tables of a period
+  subroutine tangent_stages(table, n, start_u, start_v, c)
+    type(processed_t), intent(in) :: table !< of a period
     integer, intent(in) :: n !< lanes
     real(rk), intent(in) :: start_u(n) !< half-turns
     real(rk), intent(in) :: start_v(n) !< velocity times exp(beta t)
@@ -200,28 +191,28 @@ contains
     real(rk), dimension(n) :: u, v, r, q, kick, slope, even, even_slope
     integer :: s, j, m
 
-    m = self%table%n_drift + self%table%n_kick
+    m = table%n_drift + table%n_kick
     u = start_u
     v = start_v
-    do s = 1, self%table%n_steps
-      call drift_tangent(self%table%row(:self%table%n_drift, s), n, u, v, c)
-      if (.not. self%table%mirrored) call even_drift_tangent(self%table%row(m + 1:m + self%table%n_drift, s), n, u, v, c)
+    do s = 1, table%n_steps
+      call drift_tangent(table%row(:table%n_drift, s), 1, n, u, v, c)
+      if (.not. table%mirrored) call drift_tangent(table%row(m + 1:m + table%n_drift, s), 0, n, u, v, c)
       r = u - 2*((0.5_rk*u + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)
       q = r*r
       kick = 0
       slope = 0
-      do j = self%table%n_drift + self%table%n_kick, self%table%n_drift + 1, -1
+      do j = table%n_drift + table%n_kick, table%n_drift + 1, -1
         slope = slope*q + kick
-        kick = kick*q + self%table%row(j, s)
+        kick = kick*q + table%row(j, s)
       end do
       v = v - (r - r*q)*kick
       slope = (1 - 3*q)*kick + 2*q*(1 - q)*slope
-      if (.not. self%table%mirrored) then
+      if (.not. table%mirrored) then
         even = 0
         even_slope = 0
-        do j = 2*m, m + self%table%n_drift + 1, -1
+        do j = 2*m, m + table%n_drift + 1, -1
           even_slope = even_slope*q + even
-          even = even*q + self%table%row(j, s)
+          even = even*q + table%row(j, s)
         end do
         v = v - even
         slope = slope + 2*r*even_slope
@@ -229,15 +220,15 @@ contains
       c(:n, 2, 1) = c(:n, 2, 1) - slope*c(:n, 1, 1)
       c(:n, 2, 2) = c(:n, 2, 2) - slope*c(:n, 1, 2)
     end do
-    call drift_tangent(self%table%last(:self%table%n_drift), n, u, v, c)
-    if (.not. self%table%mirrored) call even_drift_tangent(self%table%last(self%table%n_drift + 1:), n, u, v, c)
-    c(:n, 2, :) = self%table%decay*c(:n, 2, :)
+    call drift_tangent(table%last(:table%n_drift), 1, n, u, v, c)
+    if (.not. table%mirrored) call drift_tangent(table%last(table%n_drift + 1:), 0, n, u, v, c)
+    c(:n, 2, :) = table%decay*c(:n, 2, :)
   end subroutine tangent_stages
 
-  !> u += v (d(1) + d(2) v**2 + ..) and its derivative.
-  subroutine drift_tangent(drift, n, u, v, c)
+  !> u += v (d(1) + d(2) v**2 + ..), or (odd = 0) d(1) + d(2) v**2 + .., and its derivative.
+  subroutine drift_tangent(drift, odd, n, u, v, c)
     real(rk), intent(in) :: drift(:)
-    integer, intent(in) :: n
+    integer, intent(in) :: odd, n
     real(rk), intent(inout) :: u(n)
     real(rk), intent(in) :: v(n)
     real(rk), intent(inout) :: c(WIDTH, 2, 2)
@@ -249,34 +240,16 @@ contains
     shear = 0
     do j = size(drift), 1, -1
       step = step*square + drift(j)
-      shear = shear*square + (2*j - 1)*drift(j)
+      if (j > 1 .or. odd == 1) shear = shear*square + (2*j - 2 + odd)*drift(j)
     end do
-    u = u + v*step
+    if (odd == 1) then
+      u = u + v*step
+    else
+      u = u + step
+      shear = shear*v
+    end if
     c(:n, 1, 1) = c(:n, 1, 1) + shear*c(:n, 2, 1)
     c(:n, 1, 2) = c(:n, 1, 2) + shear*c(:n, 2, 2)
   end subroutine drift_tangent
-
-  !> u += d(1) + d(2) v**2 + .. and its derivative.
-  subroutine even_drift_tangent(drift, n, u, v, c)
-    real(rk), intent(in) :: drift(:)
-    integer, intent(in) :: n
-    real(rk), intent(inout) :: u(n)
-    real(rk), intent(in) :: v(n)
-    real(rk), intent(inout) :: c(WIDTH, 2, 2)
-    real(rk), dimension(n) :: square, step, shear
-    integer :: j
-
-    square = v*v
-    step = 0
-    shear = 0
-    do j = size(drift), 1, -1
-      step = step*square + drift(j)
-      if (j > 1) shear = shear*square + (2*j - 2)*drift(j)
-    end do
-    u = u + step
-    shear = shear*v
-    c(:n, 1, 1) = c(:n, 1, 1) + shear*c(:n, 2, 1)
-    c(:n, 1, 2) = c(:n, 1, 2) + shear*c(:n, 2, 2)
-  end subroutine even_drift_tangent
 
 end module kz_processed_stages

@@ -2,14 +2,24 @@
 #ifndef KAPITZA_KERNEL_STAGES_H
 #define KAPITZA_KERNEL_STAGES_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "lanes/lanes.h"
 
+#if defined __AVX512F__
+enum { VECTOR_BYTES = 64 };
+#else
+enum { VECTOR_BYTES = 32 };
+#endif
+typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
+
+#define OPERATION static inline __attribute__((always_inline))
+
 /* Does all drifts and kicks of a period. u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes; the first n lanes move, and
  * further ones up to a whole block. row [n_stages][n_drift + n_kick]: coefficients of a drift and a kick; twice as many without mirror
  * symmetry (tables.inc). kept [n_stages][KZ_LANES], or NULL: the reduced angles at the kicks, from which tangents.c computes the
- * derivative, and displaced.c the motion of neighbours. */
+ * derivative and the motion of neighbours. */
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept);
 

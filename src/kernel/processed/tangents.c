@@ -1,41 +1,36 @@
-/* The derivative of a period of the processed splitting in single precision, which is enough for an error: from the
- * reduced angles at every kick, which the loop of the states keeps (stages.c). */
-#include <stdbool.h>
-
+/* The derivative of a period of the processed splitting, and the motion of neighbours, in single precision, which is enough for an error: from
+ * the reduced angles at every kick, which the loop of the states keeps (stages.c). */
 #include "stages.h"
 
-#if defined __AVX512F__
-enum { VECTOR_BYTES = 64, CHAINS = 4 };
-#else
-enum { VECTOR_BYTES = 32, CHAINS = 2 };
-#endif
-/* Lanes of a vector, and coefficients of a slope (stages.f90). */
-enum { LANES = VECTOR_BYTES / 4, TERMS = 5 };
+/* Coefficients of a slope (stages.f90). Vectors at once, and lanes of one. */
+enum { TERMS = 5, CHAINS = VECTOR_BYTES / 16, LANES = VECTOR_BYTES / 4 };
 #define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
+#define EACH_POINT _Pragma("GCC unroll 6") for (int i = 0; i < KZ_POINTS; i++)
 
-typedef float vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(float)), may_alias));
+typedef float floats __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(float)), may_alias));
+typedef float group __attribute__((vector_size(4 * KZ_GROUP), aligned(sizeof(float)), may_alias));
 
-static void store(float *to, const vector *x) {
-  EACH *(vector *)(to + i * LANES) = x[i];
+static void store(float *to, const floats *x) {
+  EACH *(floats *)(to + i * LANES) = x[i];
 }
 
-static inline __attribute__((always_inline)) void run(bool mirrored, int64_t n_stages, const float *row, float last,
-                                                      float decay, const float *kept, int64_t n, float *c) {
+OPERATION void move_tangents(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
+                             int64_t n, float *c) {
   for (int64_t first = 0; first < n; first += CHAINS * LANES) {
     const float *r = row, *x = kept + first;
-    vector uu[CHAINS], uv[CHAINS], vu[CHAINS], vv[CHAINS], p[CHAINS], q[CHAINS], e[CHAINS];
-    EACH uu[i] = vv[i] = 1 + (vector){0};
-    EACH uv[i] = vu[i] = (vector){0};
+    floats uu[CHAINS], uv[CHAINS], vu[CHAINS], vv[CHAINS], p[CHAINS], q[CHAINS], e[CHAINS];
+    EACH uu[i] = vv[i] = 1 + (floats){0};
+    EACH uv[i] = vu[i] = (floats){0};
     for (int64_t s = 0; s < n_stages; s++, r += 1 + 2 * TERMS, x += KZ_LANES) {
       EACH uu[i] += r[0] * vu[i];
       EACH uv[i] += r[0] * vv[i];
-      EACH q[i] = *(const vector *)(x + i * LANES) * *(const vector *)(x + i * LANES);
-      EACH p[i] = r[TERMS] + (vector){0};
+      EACH q[i] = *(const floats *)(x + i * LANES) * *(const floats *)(x + i * LANES);
+      EACH p[i] = r[TERMS] + (floats){0};
       for (int j = TERMS - 1; j >= 1; j--) EACH p[i] = p[i] * q[i] + r[j];
       if (!mirrored) {
-        EACH e[i] = r[2 * TERMS] + (vector){0};
+        EACH e[i] = r[2 * TERMS] + (floats){0};
         for (int j = 2 * TERMS - 1; j > TERMS; j--) EACH e[i] = e[i] * q[i] + r[j];
-        EACH p[i] += e[i] * *(const vector *)(x + i * LANES);
+        EACH p[i] += e[i] * *(const floats *)(x + i * LANES);
       }
       EACH vu[i] -= p[i] * uu[i];
       EACH vv[i] -= p[i] * uv[i];
@@ -54,7 +49,53 @@ static inline __attribute__((always_inline)) void run(bool mirrored, int64_t n_s
 void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
                            int64_t n, float *c) {
   if (mirrored)
-    run(true, n_stages, row, last, decay, kept, n, c);
+    move_tangents(true, n_stages, row, last, decay, kept, n, c);
   else
-    run(false, n_stages, row, last, decay, kept, n, c);
+    move_tangents(false, n_stages, row, last, decay, kept, n, c);
+}
+
+/* Neighbours of orbits, relative to the orbits: the force between them and their orbit is taken to third order in the angle, with the slopes
+ * of tangents and their derivatives. A polynomial, its derivative, and half its second one: */
+typedef struct {
+  group value, slope, bend;
+} expansion;
+
+OPERATION expansion expand(const float *c, group q) {
+  expansion p = {c[TERMS - 1] + (group){0}, {0}, {0}};
+  for (int j = TERMS - 2; j >= 0; j--) {
+    p.bend = p.bend * q + p.slope;
+    p.slope = p.slope * q + p.value;
+    p.value = p.value * q + c[j];
+  }
+  return p;
+}
+
+OPERATION void move_neighbours(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
+                               float *by) {
+  group u[KZ_POINTS], v[KZ_POINTS], *const at = (group *)by;
+  EACH_POINT u[i] = at[2 * i];
+  EACH_POINT v[i] = at[2 * i + 1];
+  for (int64_t s = 0; s < n_stages; s++, row += 1 + 2 * TERMS) {
+    const group r = ((const group *)angle)[s], q = r * r;
+    const expansion odd = expand(row + 1, q);
+    group first = odd.value, second = r * odd.slope, third = (1 / 3.0f) * (odd.slope + 4 * q * odd.bend);
+    if (!mirrored) {
+      const expansion even = expand(row + 1 + TERMS, q);
+      first += r * even.value;
+      second += 0.5f * even.value + q * even.slope;
+      third += r * (even.slope + (4 / 3.0f) * q * even.bend);
+    }
+    EACH_POINT u[i] += row[0] * v[i];
+    EACH_POINT v[i] -= u[i] * (first + u[i] * (second + u[i] * third));
+  }
+  EACH_POINT at[2 * i] = u[i] + last * v[i];
+  EACH_POINT at[2 * i + 1] = decay * v[i];
+}
+
+void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
+                            float *by) {
+  if (mirrored)
+    move_neighbours(true, n_stages, row, last, decay, angle, by);
+  else
+    move_neighbours(false, n_stages, row, last, decay, angle, by);
 }

@@ -17,7 +17,7 @@ contains
     integer, intent(in) :: to !< step
     integer, intent(in) :: n !< lanes
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
-    integer :: first
+    integer :: first, s
 
     if (.not. self%split) then
       call runge_kutta(from, to)
@@ -25,55 +25,31 @@ contains
     end if
     first = 1
     if (from > 1) first = self%step_end(from - 1) + 1
-    if (self%mirrored) then
-      call kicks(first, self%step_end(to))
-    else
-      call shifted_kicks(first, self%step_end(to))
-    end if
-    if (to == self%n_steps) call last_drift
+    do s = first, self%step_end(to)
+      call kick(self%drift_u(s), self%decay(s), self%kick(s))
+    end do
+    if (to < self%n_steps) return
+    s = size(self%drift)
+    u(:n) = u(:n) + self%drift_u(s)*v(:n)
+    v(:n) = self%decay(s)*v(:n)
   contains
-    subroutine kicks(first, last)
-      integer, intent(in) :: first, last
-      real(rk) :: drift, decay, kick
-      integer :: s, i
+    !> A drift and a kick.
+    subroutine kick(drift, decay, strength)
+      real(rk), intent(in) :: drift, decay, strength
+      integer :: i
 
-      do s = first, last
-        drift = self%drift_u(s)
-        decay = self%decay(s)
-        kick = self%kick(s)
+      if (self%mirrored) then
         do i = 1, n
           u(i) = u(i) + drift*v(i)
-          v(i) = decay*v(i) - kick*sine(u(i))
+          v(i) = decay*v(i) - strength*sine(u(i))
         end do
-      end do
-    end subroutine kicks
-
-    !> Where the pendulum is not mirrored.
-    subroutine shifted_kicks(first, last)
-      integer, intent(in) :: first, last
-      real(rk) :: drift, decay, kick, shift, push
-      integer :: s, i
-
-      do s = first, last
-        drift = self%drift_u(s)
-        decay = self%decay(s)
-        kick = self%kick(s)
-        shift = self%shift(s)
-        push = self%push(s)
+      else
         do i = 1, n
           u(i) = u(i) + drift*v(i)
-          v(i) = decay*v(i) - kick*sine(u(i) - shift) + push
+          v(i) = decay*v(i) - strength*sine(u(i) - self%shift(s)) + self%push(s)
         end do
-      end do
-    end subroutine shifted_kicks
-
-    subroutine last_drift
-      integer :: s
-
-      s = size(self%drift)
-      u(:n) = u(:n) + self%drift_u(s)*v(:n)
-      v(:n) = self%decay(s)*v(:n)
-    end subroutine last_drift
+      end if
+    end subroutine kick
 
     subroutine runge_kutta(first, last)
       integer, intent(in) :: first, last
