@@ -33,9 +33,7 @@ contains
   !> Solutions at t = pi for n points.
   subroutine half_periods(n, k, beta, m, half) bind(C, name='kz_linear_half_period')
     integer(c_int64_t), value :: n
-    real(c_double), intent(in) :: k(n) !< stiffness [n]
-    real(c_double), intent(in) :: beta(n) !< damping [n]
-    real(c_double), intent(in) :: m(n) !< drive [n]
+    real(c_double), intent(in) :: k(n), beta(n), m(n) !< stiffness, damping, drive [n]
     type(half_period_t), intent(out) :: half(n) !< the four numbers [n]
     integer(c_int64_t) :: first
     integer :: lanes
@@ -49,9 +47,7 @@ contains
   !> Largest multiplier, its angle and the stability of n points.
   subroutine floquet(n, k, beta, m, log_multiplier, angle, stable) bind(C, name='kz_linear_floquet')
     integer(c_int64_t), value :: n
-    real(c_double), intent(in) :: k(n) !< stiffness [n]
-    real(c_double), intent(in) :: beta(n) !< damping [n]
-    real(c_double), intent(in) :: m(n) !< drive [n]
+    real(c_double), intent(in) :: k(n), beta(n), m(n) !< stiffness, damping, drive [n]
     real(c_double), intent(out) :: log_multiplier(n) !< natural log of the largest |multiplier| [n]
     real(c_double), intent(out) :: angle(n) !< Floquet angle / 2 pi [n]
     integer(c_int8_t), intent(out) :: stable(n) !< 1 = stable [n]

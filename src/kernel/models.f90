@@ -33,10 +33,8 @@ contains
     bind(C, name='kz_sample_model')
     integer(c_int32_t), value :: code !< MATHIEU or EFFECTIVE
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    integer(c_int64_t), value :: periods !< drive periods
-    integer(c_int64_t), value :: samples !< samples per period
-    real(c_double), value :: theta !< start, rad
-    real(c_double), value :: velocity !< start, rad per drive radian
+    integer(c_int64_t), value :: periods, samples !< drive periods; samples per period
+    real(c_double), value :: theta, velocity !< start, rad, rad per drive radian
     real(c_double), intent(out) :: theta_out(0:periods*samples) !< angles at t = 2 pi s/samples, s = 0 .. periods*samples
     real(c_double), intent(out) :: velocity_out(0:periods*samples) !< velocities there
     type(model_t) :: model

@@ -107,8 +107,7 @@ contains
   subroutine make_level(pendulum, series, n_steps, n_kick, fastest, tolerance, level)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(series_t), intent(in) :: series !< the series of the pendulum
-    integer, intent(in) :: n_steps !< steps a period
-    integer, intent(in) :: n_kick !< coefficients of a kick
+    integer, intent(in) :: n_steps, n_kick !< steps a period; coefficients of a kick
     real(c_double), intent(in) :: fastest !< rad per drive radian: the largest speed that the tables shall serve
     real(c_double), intent(in) :: tolerance !< error of a period, rad
     type(level_t), intent(out) :: level !< the tables; the error is still to be measured

@@ -106,8 +106,7 @@ contains
   subroutine displace_by_states(self, lane, u, v, by)
     class(flow_t), intent(inout) :: self
     integer, intent(in) :: lane(:) !< [n] lanes of u and v
-    real(c_double), intent(in) :: u(:) !< states before the period, half-turns
-    real(c_double), intent(in) :: v(:) !< rad per drive radian
+    real(c_double), intent(in) :: u(:), v(:) !< states before the period, half-turns; rad per drive radian
     real(c_double), intent(inout) :: by(:, :, :)
     real(c_double) :: old_u(CAPACITY), old_v(CAPACITY)
     integer(c_int64_t) :: old_turns(CAPACITY)
@@ -144,8 +143,7 @@ contains
   subroutine put_state(self, lane, u, v)
     class(map_t), intent(inout) :: self !< the map
     integer, intent(in) :: lane !< from 1 to CAPACITY
-    real(c_double), intent(in) :: u !< angle, half-turns in [-1, 1]
-    real(c_double), intent(in) :: v !< velocity, rad per drive radian
+    real(c_double), intent(in) :: u, v !< angle, half-turns in [-1, 1]; velocity, rad per drive radian
 
     self%u(lane) = u
     self%v(lane) = v

@@ -16,11 +16,9 @@ module kz_lanes_schemes
   type :: scheme_t
     character(16) :: name
     integer :: order
-    integer :: kicks         !< sines per step
-    integer :: default_steps !< per drive period
+    integer :: kicks, default_steps !< sines per step; per drive period
     integer :: form
-    integer :: n_drift       !< given drift coefficients
-    integer :: n_kick        !< given kick coefficients
+    integer :: n_drift, n_kick !< given drift coefficients; given kick coefficients
     real(qp) :: drift(7), kick(6)
     character(120) :: source
   end type scheme_t

@@ -54,8 +54,7 @@ contains
   subroutine search_steps(trial, tolerance, fewest, most, n, error)
     class(trial_t), intent(inout) :: trial !< the integrator; comes back with n steps
     real(c_double), intent(in) :: tolerance !< rad, of one drive period
-    integer, intent(in) :: fewest !< first number of steps
-    integer, intent(in) :: most !< last one allowed
+    integer, intent(in) :: fewest, most !< first number of steps; last one allowed
     integer, intent(out) :: n !< the last number tried; 0 where fewest exceeds most
     real(c_double), intent(out) :: error !< its error, rad
     real(c_double) :: former, wanted
