@@ -1,6 +1,6 @@
 // The painter of browsers without WebGL: each frame becomes a picture of its own, which is drawn where it lies.
 
-import { placementOf } from "./painter.js";
+import { placementOf } from "./placement.js";
 
 const UNDRAWN = -1;
 

@@ -3,7 +3,8 @@
 import { Decimal } from "./decimal.js";
 import { Engine } from "./engine.js";
 import { decoded, paletteOf, requestOf } from "./frames.js";
-import { frameOf, painterOn, placementOf, seen } from "./painter.js";
+import { frameOf, painterOn } from "./painter.js";
+import { placementOf, seen } from "./placement.js";
 import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
 import { CanvasSurface } from "./surface.js";
 
