@@ -2,11 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "hill.h"
+#include "curves.h"
 #include "kapitza/analysis.h"
-#include "mathieu.h"
-#include "roots.h"
-#include "tongues.h"
 
 /* NaN outside low <= k <= high. */
 static double within(double k, double low, double high, double m) {

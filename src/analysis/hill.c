@@ -1,4 +1,4 @@
-#include "hill.h"
+#include "curves.h"
 
 #include <gsl/gsl_poly.h>
 #include <math.h>

@@ -1,12 +1,9 @@
-#include "mathieu.h"
+#include "curves.h"
 
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_mathieu.h>
 #include <math.h>
-
-#include "hill.h"
-#include "roots.h"
 
 typedef int (*value_fn)(int order, double q, gsl_sf_result *result);
 static int value_a(int order, double q, gsl_sf_result *result) {

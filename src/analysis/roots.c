@@ -1,4 +1,4 @@
-#include "roots.h"
+#include "curves.h"
 
 #include <float.h>
 #include <gsl/gsl_errno.h>

@@ -1,13 +1,10 @@
-#include "tongues.h"
+#include "curves.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "hill.h"
 #include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
-#include "mathieu.h"
-#include "roots.h"
 
 enum { PROBES = 64, ROUNDS = 4 };
 

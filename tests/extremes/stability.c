@@ -9,7 +9,7 @@
 
 #include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
-#include "mathieu.h"
+#include "curves.h"
 
 #define PI 3.14159265358979323846
 

@@ -8,7 +8,7 @@
 
 #include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
-#include "mathieu.h"
+#include "curves.h"
 #include "reference.h"
 
 static const reference_span whole_file = {NULL, NULL};

@@ -9,10 +9,9 @@
 
 #include <cmocka.h>
 
-#include "hill.h"
+#include "curves.h"
 #include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
-#include "mathieu.h"
 
 #define PI 3.14159265358979323846
 enum { POINTS = 400 };

@@ -1,8 +1,24 @@
-/* How long motions take that have not settled soon: the mean of an exponential tail of which some are still open. */
+/* Statistics (GSL): straight lines through points, bounds of shares, and how long motions take that have not settled soon. */
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_fit.h>
 #include <math.h>
 
 #include "kapitza/analysis.h"
+
+kz_line kz_fit_line(int64_t n, const double *x, const double *y) {
+  kz_line line = {NAN, NAN, NAN};
+  double c00, c01, c11, residual;
+  if (n < 3) return line;
+  gsl_fit_linear(x, 1, y, 1, (size_t)n, &line.intercept, &line.slope, &c00, &c01, &c11, &residual);
+  line.slope_stderr = sqrt(c11);
+  return line;
+}
+
+double kz_share_upper(int64_t hits, int64_t n, double confidence) {
+  if (hits >= n) return 1;
+  if (hits == 0) return -expm1(log1p(-confidence) / (double)n);
+  return gsl_cdf_beta_Pinv(confidence, (double)hits + 1, (double)(n - hits));
+}
 
 /* Quantile of the chi-squared distribution: GSL's does not converge for many degrees of freedom, where the formula of E. B. Wilson and
  * M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684, is right to 1e-5. */
