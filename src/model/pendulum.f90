@@ -137,8 +137,7 @@ contains
   pure function acceleration(pendulum, t, theta, velocity) result(rate)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     real(c_double), intent(in) :: t !< drive time, rad
-    real(c_double), intent(in) :: theta !< rad
-    real(c_double), intent(in) :: velocity !< rad per drive radian
+    real(c_double), intent(in) :: theta, velocity !< rad, rad per drive radian
     real(c_double) :: rate
     integer :: j
 

@@ -1,8 +1,8 @@
-!> The C interface of dynamics: the cycle near a state, and all cycles near lines (include/kapitza/dynamics.h).
+!> The C interface of dynamics: the cycle near a state; cycles that were found on lines as a catalogue (include/kapitza/dynamics.h).
 module kz_api_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_lanes_map, only: flow_t, PI
-  use kz_kernel_flows, only: make_flow, fine_numerics
+  use kz_kernel_flows, only: make_flow
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_lanes_step_table, only: numerics_t
   use kz_api_dynamics, only: dynamics_t, of_handle
@@ -12,12 +12,9 @@ module kz_api_cycles
   use kz_cycles_newton, only: eigenvalues
   use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
   use kz_maps_states, only: separation, states_to_map, states_to_physical
-  use kz_saddles_lines, only: search_line, work_t
   implicit none
   private
 
-  !> Steps with which cycles are found, as a part of those with which they are published: eight times fewer leave 1e-9.
-  integer, parameter :: FEWER = 8
   !> rad: cycles are closed until steps are shorter, or rounding stops them; placed no better than that, they are none; nearer than
   !> that, they are one.
   real(dp), parameter :: CLOSE = 1e-13_dp, PLACED = 1e-8_dp, ONE = 1e-7_dp
@@ -31,8 +28,7 @@ contains
     type(numerics_t), intent(in) :: numerics !< of the strobe map
     integer(c_int64_t), value :: n !< a period that closes the cycle
     real(dp), value :: max_distance !< farthest that the cycle may lie from the start
-    real(dp), intent(inout) :: theta !< start, then the cycle's point; rad
-    real(dp), intent(inout) :: velocity !< the same, rad per drive radian
+    real(dp), intent(inout) :: theta, velocity !< start, then the cycle's point; rad, rad per drive radian
     real(dp), intent(out) :: re(2) !< real parts of the multipliers
     real(dp), intent(out) :: im(2) !< imaginary parts
     integer(c_int64_t) :: period
@@ -55,30 +51,6 @@ contains
     re = real(cycle%multiplier, dp)
     im = aimag(cycle%multiplier)
   end function close_near
-
-  function search_cycles(pendulum, max_period, n_nodes, node, window, most_starts, most, found, work) &
-    bind(C, name='kz_dynamics_search_line') result(n)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    integer(c_int64_t), value :: max_period, n_nodes
-    real(dp), intent(in) :: node(2, n_nodes) !< rad, rad per drive radian
-    real(dp), intent(in) :: window(4) !< least and largest angle, least and largest velocity
-    integer(c_int64_t), value :: most_starts !< with more the search ends
-    integer(c_int64_t), value :: most !< cycles that fit
-    real(dp), intent(out) :: found(2 + 2*max_period, most) !< period, largest speed, points (half-turns, velocity)
-    integer(c_int64_t), intent(out) :: work(2) !< starts followed, orbits closed or not
-    integer(c_int64_t) :: n
-    class(flow_t), allocatable :: flow
-    type(numerics_t) :: numerics
-    type(work_t) :: done
-    integer :: n_found
-
-    numerics = fine_numerics(pendulum)
-    numerics%steps_per_period = numerics%steps_per_period/FEWER
-    call make_flow(pendulum, numerics, .true., flow)
-    call search_line(flow, int(max_period), node, window, int(most_starts), n_found, found, done)
-    n = n_found
-    work = [done%starts, done%seeds]
-  end function search_cycles
 
   subroutine add_cycles(handle, max_period, n, found) bind(C, name='kz_dynamics_add_cycles')
     type(c_ptr), value :: handle

@@ -7,7 +7,7 @@ module kz_api_label
   use kz_extended_taylor, only: doubles_of, qp, PI_QUAD
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_levels, only: prepare_level, carrier_of, noise_of, is_useful, LEVEL_DOUBLE, LEVEL_FINE
-  use kz_labels_orbits, only: ending_t, follow_orbits, DOUBTFUL, PENDING
+  use kz_labels_orbits, only: decision_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_released, only: make_released, carry_released
   use kz_labels_spread, only: add_ellipse
   use kz_lanes_map, only: PI
@@ -16,27 +16,18 @@ module kz_api_label
   implicit none
   private
 
-  !> Of dynamics.h: the scene's numerics, where doubtful orbits are followed on; no level.
-  integer, parameter :: LEVEL_GUESS = -1, NONE = 8
+  !> Of dynamics.h: the scene's numerics, where doubtful orbits are followed on.
+  integer, parameter :: LEVEL_GUESS = -1
   !> An orbit is followed at the next cheaper level once its error is so many times what that adds in a period.
   real(dp), parameter :: RATIO = 30
 
-  !> kz_start and kz_decision of dynamics.h.
+  !> kz_start of dynamics.h.
   type, bind(C) :: start_t
     real(dp) :: theta(2)
     real(dp) :: velocity(2)
     integer(c_int64_t) :: periods
     real(dp) :: error(3)
   end type start_t
-  type, bind(C) :: decision_t
-    integer(c_int32_t) :: label
-    integer(c_int32_t) :: other
-    integer(c_int32_t) :: level
-    integer(c_int64_t) :: periods
-    real(dp) :: error
-    integer(c_int64_t) :: age
-    real(dp) :: state(2)
-  end type decision_t
 
 contains
 
@@ -49,19 +40,14 @@ contains
     type(decision_t), intent(out) :: decision(n)
     type(dynamics_t), pointer :: d
     type(orbit_t), allocatable :: orbit(:)
-    type(ending_t), allocatable :: ending(:)
     integer(c_int64_t) :: i
 
     d => of_handle(handle)
-    allocate (orbit(n), ending(n))
+    allocate (orbit(n))
     do i = 1, n
       call begin_orbit(start(i), level > LEVEL_DOUBLE, orbit(i))
     end do
-    call label_orbits(d, int(level), int(before), max_periods, orbit, ending)
-    do i = 1, n
-      decision(i) = decision_t(ending(i)%label, 0, merge(max(level, 0_c_int32_t), int(NONE, c_int32_t), ending(i)%decided), &
-                               ending(i)%periods, ending(i)%error, ending(i)%age, ending(i)%state)
-    end do
+    call label_orbits(d, int(level), int(before), max_periods, orbit, decision)
   end subroutine label_starts
 
   !> The orbit of a start. The start is known to the last place of its double, or, with `precisely`, to the last place of the pair.
@@ -87,23 +73,25 @@ contains
   end subroutine begin_orbit
 
   !> Orbits begin at a level and go down from level to level as their errors grow.
-  subroutine label_orbits(d, level, before, most, orbit, ending)
+  subroutine label_orbits(d, level, before, most, orbit, decision)
     type(dynamics_t), intent(inout), target :: d
     integer, intent(in) :: level, before
     integer(c_int64_t), intent(in) :: most
     type(orbit_t), intent(inout) :: orbit(:)
-    type(ending_t), intent(inout) :: ending(:)
+    type(decision_t), intent(inout) :: decision(:)
     type(carrier_t) :: carrier
     type(orbit_t), allocatable :: some(:)
-    type(ending_t), allocatable :: found(:)
+    type(decision_t), allocatable :: found(:)
     integer, allocatable :: place(:)
     real(dp) :: handover
+    integer(c_int32_t) :: decided
     integer :: now, next, i
 
     call prepare_level(d%levels, LEVEL_DOUBLE, d%flow, d%regions%top)
     now = max(level, LEVEL_DOUBLE)
+    decided = now
     if (.not. is_useful(d%levels, now)) then
-      ending%label = DOUBTFUL
+      decision%label = DOUBTFUL
       return
     end if
     do
@@ -117,16 +105,16 @@ contains
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
       if (.not. allocated(place)) then
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, orbit, ending)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, orbit, decision)
       else
         some = orbit(place)
-        found = ending(place)
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., some, found)
+        found = decision(place)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., decided, some, found)
         orbit(place) = some
-        ending(place) = found
+        decision(place) = found
       end if
       if (now == LEVEL_DOUBLE) return ! nothing is handed over from there
-      place = pack([(i, i=1, size(orbit))], ending%label == PENDING)
+      place = pack([(i, i=1, size(orbit))], decision%label == PENDING)
       if (size(place) == 0) return
       now = next
     end do

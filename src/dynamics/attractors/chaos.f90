@@ -35,8 +35,7 @@ contains
   subroutine find_chaos(search, regions, u, v, attractors)
     type(search_t), intent(inout) :: search !< the flows and the longest period of the search
     type(regions_t), intent(in) :: regions !< the trapping regions: a bundle that they trap is not chaotic
-    real(dp), intent(in) :: u !< start, half-turns
-    real(dp), intent(in) :: v !< start, rad per drive radian
+    real(dp), intent(in) :: u, v !< start, half-turns, rad per drive radian
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     type(attractor_t) :: attractor
     logical, allocatable :: visited(:)

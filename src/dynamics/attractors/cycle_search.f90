@@ -40,8 +40,7 @@ contains
   !> appends the cycle and its mirror image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
     type(search_t), intent(inout) :: search !< the flows and the longest period of the search
-    real(dp), intent(in) :: u(:) !< states to look from, half-turns
-    real(dp), intent(in) :: v(:) !< their velocities, rad per drive radian
+    real(dp), intent(in) :: u(:), v(:) !< states to look from, half-turns, rad per drive radian
     real(dp), intent(in) :: closeness !< how near an orbit must come back to itself, rad
     integer, intent(inout) :: next !< in and out: the state to go on from; size(u) + 1 where all have been looked at
     !> in and out: for every period up to max_period, how often its cycle has been found blurred among these states; 0 at first
@@ -175,8 +174,7 @@ contains
   pure function known(attractors, period, u, v)
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue
     integer, intent(in) :: period !< drive periods
-    real(dp), intent(in) :: u(:) !< physical states, half-turns
-    real(dp), intent(in) :: v(:) !< their velocities, rad per drive radian
+    real(dp), intent(in) :: u(:), v(:) !< physical states, half-turns, rad per drive radian
     logical :: known
     integer :: a, j
 

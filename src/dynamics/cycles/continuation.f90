@@ -129,6 +129,7 @@ contains
     type(branch_point_t), intent(inout) :: point
     class(flow_t), allocatable :: sampled
     type(attractor_t) :: cycle
+    complex(dp) :: multiplier(2)
     real(dp) :: residual(2), matrix(2, 2)
     integer :: n
 
@@ -136,9 +137,13 @@ contains
     point%theta = PI*x(1)
     point%velocity = x(2)
     call orbit_of(flow, n, x, cycle, matrix)
-    call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*n)), point%multiplier_re, point%multiplier_im)
+    multiplier = eigenvalues(matrix, exp(-2*PI*pendulum%beta*n))
+    point%multiplier_re = real(multiplier, dp)
+    point%multiplier_im = aimag(multiplier)
     call closing_error(flow, point, x, residual, matrix)
-    call set_pair(eigenvalues(matrix, exp(-2*PI*pendulum%beta*map_periods(point))), point%half_re, point%half_im)
+    multiplier = eigenvalues(matrix, exp(-2*PI*pendulum%beta*map_periods(point)))
+    point%half_re = real(multiplier, dp)
+    point%half_im = aimag(multiplier)
     call make_flow(pendulum, fine_numerics(pendulum), .false., sampled)
     call find_features(sampled, pendulum, cycle, x(1), x(2), n)
     point%winding = cycle%winding
@@ -147,16 +152,9 @@ contains
     point%halves_distance = halves_distance(cycle)
     point%mirror_distance = 0
     if (is_mirrored(pendulum) == 0) point%mirror_distance = huge(1.0_dp)
-    if (point%symmetric == 0 .and. is_mirrored(pendulum) /= 0) point%mirror_distance = nearest_point(cycle, -x)
+    if (point%symmetric == 0 .and. is_mirrored(pendulum) /= 0) &
+      point%mirror_distance = minval(separation(cycle%u, cycle%v, -x(1), -x(2)))
   end subroutine describe
-
-  subroutine set_pair(values, re, im)
-    complex(dp), intent(in) :: values(2)
-    real(dp), intent(out) :: re(2), im(2)
-
-    re = real(values, dp)
-    im = aimag(values)
-  end subroutine set_pair
 
   !> The strobe points of a cycle of even period that are half a period apart: how near the nearest such pair is, rad.
   function halves_distance(cycle) result(least)
@@ -169,14 +167,5 @@ contains
     if (2*half /= cycle%period) return
     least = minval(separation(cycle%u(:half), cycle%v(:half), cycle%u(half + 1:), cycle%v(half + 1:)))
   end function halves_distance
-
-  !> From a state to the nearest strobe point, rad.
-  function nearest_point(cycle, x) result(least)
-    type(attractor_t), intent(in) :: cycle
-    real(dp), intent(in) :: x(2)
-    real(dp) :: least
-
-    least = minval(separation(cycle%u, cycle%v, x(1), x(2)))
-  end function nearest_point
 
 end module kz_cycles_continuation

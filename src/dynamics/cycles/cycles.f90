@@ -42,8 +42,7 @@ contains
     class(flow_t), intent(inout) :: flow !< a fine flow
     real(dp), intent(in) :: beta !< damping
     integer, intent(in) :: n !< a period that closes the cycle
-    real(dp), intent(in) :: u !< start, half-turns
-    real(dp), intent(in) :: v !< start, rad per drive radian
+    real(dp), intent(in) :: u, v !< start, half-turns, rad per drive radian
     real(dp), intent(in) :: max_distance !< farthest that the cycle may lie from the start, rad
     type(attractor_t), intent(out) :: cycle !< the cycle: points, multipliers, period, winding
     logical, intent(out) :: found !< whether a cycle was found

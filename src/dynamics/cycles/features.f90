@@ -20,8 +20,7 @@ contains
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(attractor_t), intent(inout) :: attractor !< its period and points, in; its features, out
-    real(dp), intent(in) :: u !< start, half-turns
-    real(dp), intent(in) :: v !< start, rad per drive radian
+    real(dp), intent(in) :: u, v !< start, half-turns, rad per drive radian
     integer, intent(in) :: periods !< drive periods of the orbit
     real(dp), allocatable :: angle(:), velocity(:)
     integer(c_int64_t) :: turns

@@ -20,8 +20,7 @@ contains
   subroutine measure_bending(carrier, lane, u, v, p, bent)
     type(carrier_t), intent(inout) :: carrier !< has just moved them by a period
     integer, intent(in) :: lane(:) !< [n] lanes of it, and of what follows
-    real(dp), intent(in) :: u(:) !< states before the period, half-turns
-    real(dp), intent(in) :: v(:) !< rad per drive radian
+    real(dp), intent(in) :: u(:), v(:) !< states before the period, half-turns, rad per drive radian
     real(dp), intent(in) :: p(:, :) !< (:, 3): ellipses before it
     real(dp), intent(inout) :: bent(:) !< rad
     real(dp) :: by(2, POINTS, size(lane)), start(2, POINTS, size(lane))

@@ -12,10 +12,12 @@ module kz_labels_orbits
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: ending_t, follow_orbits, DOUBTFUL, PENDING
+  public :: decision_t, follow_orbits, DOUBTFUL, PENDING
 
   !> Labels besides the numbers of attractors: of an orbit whose error has become too large; of one that is to be followed on elsewhere.
   integer, parameter :: DOUBTFUL = -1, PENDING = -2
+  !> KZ_LEVELS of dynamics.h.
+  integer(c_int32_t), parameter :: NO_LEVEL = 8
   !> rad: the size of an error that a label bears.
   real(dp), parameter :: TOLERABLE = 0.03_dp
   !> rad: of larger errors what is not linear is carried too. The largest second derivatives of a period are some 100, so
@@ -23,15 +25,17 @@ module kz_labels_orbits
   real(dp), parameter :: LINEAR = 1e-4_dp
   !> Points of an ellipse's rim that a trapping region must hold.
   integer, parameter :: RIM = 8
-  !> Where an orbit ends.
-  type :: ending_t
+
+  !> kz_decision of dynamics.h: where an orbit ends.
+  type, bind(C) :: decision_t
     integer(c_int32_t) :: label = PENDING !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
-    logical :: decided = .false.          !< no error changes the label
+    integer(c_int32_t) :: other = 0
+    integer(c_int32_t) :: level = NO_LEVEL !< no error changes the label, at this level
     integer(c_int64_t) :: periods = 0     !< first period inside a trapping region, or those followed
     real(dp) :: error = 0                 !< how far the orbit may be off then, rad
     integer(c_int64_t) :: age = 0         !< periods after which it was left
     real(dp) :: state(2) = 0              !< where it was then, in the map's coordinates
-  end type ending_t
+  end type decision_t
 
   !> What lanes carry besides their states.
   type, extends(queued_lanes_t) :: lanes_t
@@ -45,17 +49,18 @@ module kz_labels_orbits
 
 contains
 
-  !> Follows orbits up to age `most`. ending(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
+  !> Follows orbits up to age `most`. decision(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
   !> that is below TOLERABLE.
-  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, orbit, ending)
+  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, level, orbit, decision)
     type(carrier_t), intent(inout) :: carrier !< what moves the orbits by one period
     type(regions_t), intent(in) :: regions !< the trapping regions
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     integer(c_int64_t), intent(in) :: most !< periods
     real(dp), intent(in) :: handover !< rad
     logical, intent(in) :: guess !< follow doubtful orbits on, to where the states alone end
+    integer(c_int32_t), intent(in) :: level !< that decides
     type(orbit_t), intent(inout) :: orbit(:) !< [n] in and out
-    type(ending_t), intent(inout) :: ending(:) !< [n] as they are made, in; out
+    type(decision_t), intent(inout) :: decision(:) !< [n] as they are made, in; out
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
     real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), bent(WIDTH)
@@ -197,7 +202,7 @@ contains
         o%lost = 0
         o%age = lanes%age(lane)
       end associate
-      ending(lanes%number(lane))%label = PENDING
+      decision(lanes%number(lane))%label = PENDING
     end subroutine pass_on
 
     subroutine settle(lane, label, decided, p)
@@ -208,7 +213,8 @@ contains
 
       periods = lanes%age(lane)
       if (label > 0 .and. label == lanes%first(lane)) periods = lanes%since(lane)
-      ending(lanes%number(lane)) = ending_t(label, decided, periods, SAFETY*sqrt(p(1) + p(3)), lanes%age(lane), [carrier%u(lane), carrier%v(lane)])
+      decision(lanes%number(lane)) = decision_t(label, 0, merge(level, NO_LEVEL, decided), periods, &
+                                                SAFETY*sqrt(p(1) + p(3)), lanes%age(lane), [carrier%u(lane), carrier%v(lane)])
     end subroutine settle
   end subroutine follow_orbits
 

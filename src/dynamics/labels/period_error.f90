@@ -99,18 +99,6 @@ contains
     error%worst = maxval(error%noise(:CLASSES - 1))
   end subroutine measure_period
 
-  subroutine put_probes(flow, probes, first)
-    class(flow_t), intent(inout) :: flow
-    type(speed_probes_t), intent(in) :: probes
-    integer, intent(in) :: first
-    integer :: lane
-
-    do lane = 1, WIDTH
-      call flow%put(lane, real(probes%start(1, first + lane - 1), dp), real(probes%start(2, first + lane - 1), dp))
-    end do
-    call flow%to_map(WIDTH)
-  end subroutine put_probes
-
   subroutine measure_noise(flow, probes, first, error)
     class(flow_t), intent(inout) :: flow
     type(speed_probes_t), intent(in) :: probes
@@ -120,7 +108,10 @@ contains
     real(dp) :: distance
     integer :: lane, class
 
-    call put_probes(flow, probes, first)
+    do lane = 1, WIDTH
+      call flow%put(lane, real(probes%start(1, first + lane - 1), dp), real(probes%start(2, first + lane - 1), dp))
+    end do
+    call flow%to_map(WIDTH)
     call flow%advance(WIDTH)
     call flow%to_physical(WIDTH)
     do lane = 1, WIDTH

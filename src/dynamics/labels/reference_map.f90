@@ -16,8 +16,7 @@ module kz_labels_reference_map
     type(drive_t) :: drive
     real(qp) :: theta(CAPACITY) = 0    !< rad
     real(qp) :: velocity(CAPACITY) = 0 !< rad per drive radian
-    real(dp), allocatable :: start(:, :)  !< (2, n): exact starts, rad
-    real(dp), allocatable :: low(:, :)    !< (2, n): what is to be added to them
+    real(qp), allocatable :: start(:, :) !< (2, n): exact starts, rad
     class(flow_t), allocatable :: flow !< in whose coordinates the trapping regions see the states
   contains
     procedure :: put_start
@@ -39,10 +38,8 @@ contains
     real(dp), intent(in), optional :: low(:, :) !< (2, n): what is to be added to the starts; nothing if left out
 
     call make_drive(map%drive, pendulum, n_steps)
-    allocate (map%start, source=start)
-    allocate (map%low, mold=start)
-    map%low = 0
-    if (present(low)) map%low = low
+    map%start = real(start, qp)
+    if (present(low)) map%start = map%start + low
     u = wrapped(start(1, :)/PI)
     allocate (map%flow, source=flow)
   end subroutine make_reference_map
@@ -54,8 +51,8 @@ contains
     real(dp), intent(in) :: u, v
 
     call put_state(self, lane, u, v)
-    self%theta(lane) = real(self%start(1, number), qp) + self%low(1, number)
-    self%velocity(lane) = real(self%start(2, number), qp) + self%low(2, number)
+    self%theta(lane) = self%start(1, number)
+    self%velocity(lane) = self%start(2, number)
   end subroutine put_start
 
   subroutine to_map(self, n, matrix, first)

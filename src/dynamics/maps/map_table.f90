@@ -8,8 +8,7 @@ module kz_maps_map_table
   use kz_maps_states, only: midperiod_angle, MIDPERIOD
   implicit none
   private
-  public :: table_t, make_table, table_row, set_table_rows, fill_ghosts, node_velocity, inner_top, table_map_t, make_table_map, &
-            place_t, locate, displace
+  public :: table_t, make_table, table_row, set_table_rows, inner_top, table_map_t, make_table_map
 
   integer, parameter :: GHOSTS = 2
   !> Adding it rounds to an integer.
@@ -103,29 +102,21 @@ contains
     end do
   end subroutine table_row
 
-  !> Sets the table from all rows, as table_row returns them.
+  !> Sets the table from all rows, as table_row returns them. Nodes below angle 0 and beyond pi are mirror images of other nodes.
   subroutine set_table_rows(table, rows)
     type(table_t), intent(inout) :: table !< the map table
     real(dp), intent(in) :: rows(2, 0:table%n_own, table%n_velocity) !< displacements of all nodes
-
-    table%shift(:, 0:table%n_own, :) = rows
-    call fill_ghosts(table, table%shift)
-  end subroutine set_table_rows
-
-  !> Sets the nodes below angle 0 and beyond pi, which are mirror images of other nodes.
-  subroutine fill_ghosts(table, field)
-    type(table_t), intent(in) :: table !< the table whose nodes they are
-    real(dp), intent(inout) :: field(2, -GHOSTS:table%n_theta + GHOSTS, table%n_velocity) !< a value of two components at every node
     integer :: i, n
 
+    table%shift(:, 0:table%n_own, :) = rows
     n = table%n_velocity
     do i = -GHOSTS, -1
-      field(:, i, :) = -field(:, -i, n:1:-1)
+      table%shift(:, i, :) = -table%shift(:, -i, n:1:-1)
     end do
     do i = table%n_own + 1, table%n_theta + GHOSTS
-      field(:, i, :) = -field(:, table%n_circle - i, n:1:-1)
+      table%shift(:, i, :) = -table%shift(:, table%n_circle - i, n:1:-1)
     end do
-  end subroutine fill_ghosts
+  end subroutine set_table_rows
 
   !> The map that interpolates a table.
   function make_table_map(table, points, flow) result(map)

@@ -33,10 +33,7 @@ contains
 
   !> Distance of (u1, v1) and (u2, v2): rad and rad per drive radian together.
   elemental function separation(u1, v1, u2, v2) result(d)
-    real(dp), intent(in) :: u1 !< half-turns
-    real(dp), intent(in) :: v1 !< rad per drive radian
-    real(dp), intent(in) :: u2 !< half-turns
-    real(dp), intent(in) :: v2 !< rad per drive radian
+    real(dp), intent(in) :: u1, v1, u2, v2 !< half-turns, rad per drive radian
     real(dp) :: d
 
     d = hypot(PI*angle_difference(u1, u2), v1 - v2)
@@ -44,10 +41,7 @@ contains
 
   !> True if (u1, v1) and (u2, v2) count as one state.
   elemental function same_state(u1, v1, u2, v2) result(one)
-    real(dp), intent(in) :: u1 !< half-turns
-    real(dp), intent(in) :: v1 !< rad per drive radian
-    real(dp), intent(in) :: u2 !< half-turns
-    real(dp), intent(in) :: v2 !< rad per drive radian
+    real(dp), intent(in) :: u1, v1, u2, v2 !< half-turns, rad per drive radian
     logical :: one
 
     one = abs(angle_difference(u1, u2)) + abs(v1 - v2) < SAME
@@ -57,8 +51,7 @@ contains
   !> over it and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs
   !> 2**order less.
   elemental function midperiod_angle(u, v) result(w)
-    real(dp), intent(in) :: u !< angle at the strobe, half-turns
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< angle at the strobe, half-turns, rad per drive radian
     real(dp) :: w
 
     w = u + MIDPERIOD*v
@@ -75,8 +68,7 @@ contains
   !> Turns physical states into those in the flow's coordinates.
   subroutine states_to_map(flow, u, v)
     class(flow_t), intent(inout) :: flow !< the flow whose coordinates are entered
-    real(dp), intent(inout) :: u(:) !< angles, half-turns; in and out
-    real(dp), intent(inout) :: v(:) !< velocities, rad per drive radian; in and out
+    real(dp), intent(inout) :: u(:), v(:) !< half-turns, rad per drive radian; in and out
 
     call change_states(flow, .true., u, v)
   end subroutine states_to_map
@@ -84,8 +76,7 @@ contains
   !> Turns states in the flow's coordinates into physical ones.
   subroutine states_to_physical(flow, u, v)
     class(flow_t), intent(inout) :: flow !< the flow whose coordinates are left
-    real(dp), intent(inout) :: u(:) !< angles, half-turns; in and out
-    real(dp), intent(inout) :: v(:) !< velocities, rad per drive radian; in and out
+    real(dp), intent(inout) :: u(:), v(:) !< half-turns, rad per drive radian; in and out
 
     call change_states(flow, .false., u, v)
   end subroutine states_to_physical

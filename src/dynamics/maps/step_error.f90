@@ -42,23 +42,17 @@ contains
       largest = 0
       limit = speed(c + 1) + 2*PI*stiffness(pendulum)
       do first = 1, STATES, WIDTH
-        call put_class(flow, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
-        call put_class(finer, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
-        call flow%to_map(WIDTH)
-        call finer%to_map(WIDTH)
-        call flow%advance(WIDTH)
-        call finer%advance(WIDTH)
-        call flow%to_physical(WIDTH)
-        call finer%to_physical(WIDTH)
+        call advance_class(flow, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
+        call advance_class(finer, first, speed(c), speed(c + 1), is_mirrored(pendulum) /= 0)
         largest = max(largest, difference(flow, finer, limit))
       end do
       error(c) = merge(SAFETY*largest, largest, largest < huge(largest)/SAFETY)
     end do
   end subroutine step_errors
 
-  !> States first .. first + WIDTH - 1 of STATES over the whole circle, both ends of the speeds included; the others are their
+  !> A period of states first .. first + WIDTH - 1 of STATES over the whole circle, both ends of the speeds included; the others are their
   !> mirror images, or every second one goes the other way.
-  subroutine put_class(map, first, slowest, fastest, mirrored)
+  subroutine advance_class(map, first, slowest, fastest, mirrored)
     class(map_t), intent(inout) :: map
     integer, intent(in) :: first
     real(dp), intent(in) :: slowest, fastest
@@ -71,7 +65,10 @@ contains
       sign = merge(1, 1 - 2*mod(i, 2), mirrored)
       call map%put(lane, 2*modulo(i*GOLDEN, 1.0_dp) - 1, sign*(slowest + (fastest - slowest)*(i/real(STATES - 1, dp))))
     end do
-  end subroutine put_class
+    call map%to_map(WIDTH)
+    call map%advance(WIDTH)
+    call map%to_physical(WIDTH)
+  end subroutine advance_class
 
   !> The largest distance of two maps' states, rad. `limit` bounds the speed of a true motion: |v'| <= |k| + |m| besides friction.
   function difference(map, other, limit) result(largest)

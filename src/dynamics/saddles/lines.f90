@@ -1,13 +1,18 @@
 !> All cycles of the stroboscopic map near a line of starts. The images of the line stretch and fold; pieces of it are halved until
 !> those whose images pass near themselves are short. Where F^n(x) comes near x, the orbit of x closes by multiple shooting.
 module kz_saddles_lines
-  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_lanes_step_table, only: numerics_t
   use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
   use kz_maps_states, only: separation, wrapped
+  use kz_model_pendulum, only: pendulum_t
   implicit none
   private
-  public :: search_line, work_t
+
+  !> Steps with which cycles are found, as a part of those with which they are published: eight times fewer leave 1e-9.
+  integer, parameter :: FEWER = 8
 
   !> rad: an image that passes so near its piece shows a cycle; a piece is short whose images are no longer than this.
   real(dp), parameter :: REACH = 0.25_dp, SHORT = 0.25_dp
@@ -19,44 +24,44 @@ module kz_saddles_lines
   !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
   real(dp), parameter :: CLOSE = 1e-7_dp, ONE = 1e-5_dp, EDGE = 1e-9_dp
 
-  !> The work that a search has done.
-  type :: work_t
-    integer :: starts = 0 !< whose orbits were followed
-    integer :: seeds = 0  !< orbits that were closed, or not
-  end type work_t
-
 contains
 
-  !> Finds cycles of up to max_period periods, with a point in the window, along a line through the nodes.
-  subroutine search_line(flow, max_period, node, window, most_starts, n_found, found, work)
-    class(flow_t), intent(inout) :: flow !< the map of one drive period in physical coordinates
-    integer, intent(in) :: max_period !< longest period of a cycle, at most WIDTH
-    real(dp), intent(in) :: node(:, :) !< at most WIDTH states in order, no farther apart than 1: rad, rad per drive radian
-    real(dp), intent(in) :: window(4) !< least and largest angle (rad), least and largest velocity (rad per drive radian)
-    integer, intent(in) :: most_starts !< where more would have to be followed, the search ends
-    integer, intent(out) :: n_found !< cycles, some more than once; where more than fit, the search ends
-    real(dp), intent(out) :: found(:, :) !< found(:, i): period, largest speed, then each point: half-turns, rad per drive radian
-    type(work_t), intent(out) :: work !< what it took
+  !> kz_dynamics_search_line of dynamics.h.
+  function search_line(pendulum, max_period, n_nodes, node, window, most_starts, most, found, work) &
+    bind(C, name='kz_dynamics_search_line') result(n_found)
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int64_t), value :: max_period, n_nodes
+    real(dp), intent(in) :: node(2, n_nodes), window(4)
+    integer(c_int64_t), value :: most_starts, most
+    real(dp), intent(out) :: found(2 + 2*max_period, most)
+    integer(c_int64_t), intent(out) :: work(2)
+    integer(c_int64_t) :: n_found
+    class(flow_t), allocatable :: flow
+    type(numerics_t) :: numerics
     real(dp), allocatable :: waiting(:, :, :, :)
     real(dp) :: piece(2, 0:max_period, 2, WIDTH), orbit(2, 0:max_period, WIDTH)
     integer :: n_waiting, lanes, i
 
+    numerics = fine_numerics(pendulum)
+    numerics%steps_per_period = numerics%steps_per_period/FEWER
+    call make_flow(pendulum, numerics, .true., flow)
+    work = 0
     allocate (waiting(2, 0:max_period, 2, 2*WIDTH*HALVINGS))
     n_waiting = 0
     n_found = 0
-    lanes = size(node, 2)
+    lanes = int(n_nodes)
     orbit(:, 0, :lanes) = node
     call follow(flow, orbit(:, :, :lanes))
     do i = 1, lanes - 1
       call settle(orbit(:, :, i), orbit(:, :, i + 1))
     end do
-    do while (n_waiting > 0 .and. n_found <= size(found, 2) .and. work%starts <= most_starts)
+    do while (n_waiting > 0 .and. n_found <= most .and. work(1) <= most_starts)
       lanes = min(n_waiting, WIDTH)
       n_waiting = n_waiting - lanes
       piece(:, :, :, :lanes) = waiting(:, :, :, n_waiting + 1:n_waiting + lanes)
       orbit(:, 0, :lanes) = 0.5_dp*(piece(:, 0, 1, :lanes) + piece(:, 0, 2, :lanes))
       call follow(flow, orbit(:, :, :lanes))
-      work%starts = work%starts + lanes
+      work(1) = work(1) + lanes
       do i = 1, lanes
         call settle(piece(:, :, 1, i), orbit(:, :, i))
         call settle(orbit(:, :, i), piece(:, :, 2, i))
@@ -77,15 +82,15 @@ contains
         waiting(:, :, 2, n_waiting) = b
         return
       end if
-      do n = 1, max_period
+      do n = 1, int(max_period)
         if (norm2(b(:, n) - a(:, n)) > SHORT) return
         call find_pass(a(:, 0), b(:, 0), a(:, n), b(:, n), share, near)
         if (.not. near) cycle
-        work%seeds = work%seeds + 1
+        work(2) = work(2) + 1
         call close_orbit(flow, window, a(:, :n - 1) + share*(b(:, :n - 1) - a(:, :n - 1)), n_found, found)
       end do
     end subroutine settle
-  end subroutine search_line
+  end function search_line
 
   !> orbit(:, 1:) becomes the images of the starts orbit(:, 0): rad, turns counted.
   subroutine follow(flow, orbit)
@@ -151,7 +156,7 @@ contains
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: window(4)
     real(dp), intent(in) :: orbit(:, :) !< rad
-    integer, intent(inout) :: n_found
+    integer(c_int64_t), intent(inout) :: n_found
     real(dp), intent(inout) :: found(:, :)
     real(dp) :: x(2, size(orbit, 2))
     type(closed_orbit_t) :: closed

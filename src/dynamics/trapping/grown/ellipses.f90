@@ -7,6 +7,7 @@ module kz_grown_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
+  use kz_cycles_newton, only: n_periods
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -41,8 +42,7 @@ contains
   pure function in_ellipse(attractor, j, u, v) result(inside)
     type(attractor_t), intent(in) :: attractor !< the attractor
     integer, intent(in) :: j !< strobe point, from 1
-    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
     logical :: inside
 
     inside = ellipse_square(attractor, j, u, v) < 1
@@ -52,8 +52,7 @@ contains
   pure function ellipse_square(attractor, j, u, v) result(square)
     type(attractor_t), intent(in) :: attractor !< the attractor
     integer, intent(in) :: j !< strobe point, from 1
-    real(dp), intent(in) :: u !< angle, half-turns in [-1, 1]
-    real(dp), intent(in) :: v !< velocity, rad per drive radian
+    real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
     real(dp) :: square
     real(dp) :: du, dv
 
@@ -71,30 +70,72 @@ contains
     integer, intent(in) :: j
     type(attractor_t), intent(in) :: others(:)
     real(dp) :: form(3)
-    real(dp) :: basis(2, 2), inverse(2, 2), radius, first, last
+    real(dp) :: residual(2), matrix(2, 2), basis(2, 2), inverse(2, 2), tried, first, last
 
     form = 0
-    call eigenbasis(monodromy(fine, attractor, j), attractor%multiplier, change(flow, attractor, j), basis, inverse)
-    radius = ROUNDING*epsilon(1.0_dp)*maxval(hypot(PI*attractor%u, attractor%v)) &
+    call n_periods(fine, attractor%period, [attractor%u(j), attractor%v(j)], residual, matrix)
+    call eigenbasis(matrix, attractor%multiplier, change(flow, attractor, j), basis, inverse)
+    tried = ROUNDING*epsilon(1.0_dp)*maxval(hypot(PI*attractor%u, attractor%v)) &
              *norm2(inverse)/(1 - abs(attractor%multiplier(1)))
-    radius = max(radius, SMALLEST)
+    tried = max(tried, SMALLEST)
     first = 0
     last = 0
-    do while (radius < LARGEST)
-      if (carried_inside(flow, attractor, j, basis, inverse, radius)) then
-        if (first <= 0) first = radius
-        last = radius
-      else if (first > 0 .or. radius > LATEST) then
+    do while (tried < LARGEST)
+      if (carried_inside(tried)) then
+        if (first <= 0) first = tried
+        last = tried
+      else if (first > 0 .or. tried > LATEST) then
         exit
       end if
-      radius = radius*GROWTH
+      tried = tried*GROWTH
     end do
     if (first <= 0) return
-    last = refined(flow, attractor, j, basis, inverse, first, last)
+    last = refined()
     if (clearance(attractor, j, inverse, others) < max(last, 4*first)) return
     form = [PI**2*(inverse(1, 1)**2 + inverse(2, 1)**2), &
             PI*(inverse(1, 1)*inverse(1, 2) + inverse(2, 1)*inverse(2, 2)), &
             inverse(1, 2)**2 + inverse(2, 2)**2]/last**2
+  contains
+    !> Largest good radius between `last` and the next tried one, with rings from `first` on good too.
+    function refined() result(best)
+      real(dp) :: best
+      integer :: i
+
+      best = last
+      do i = 1, 5
+        tried = best + (GROWTH - 1)*last*0.5_dp**i
+        if (carried_inside(tried)) best = tried
+      end do
+      do i = 1, N_RINGS - 1
+        tried = best*i/N_RINGS
+        if (tried < first) cycle
+        if (carried_inside(tried)) cycle
+        best = max(first, 0.9_dp*best*(i - 1)/N_RINGS)
+        exit
+      end do
+    end function refined
+
+    !> Whether WIDTH points of the ring are all carried inside it, by half of what the multiplier says or by 5 %.
+    function carried_inside(radius) result(inside)
+      real(dp), intent(in) :: radius
+      logical :: inside
+      real(dp) :: x(2), bound
+      integer :: i
+
+      do i = 1, WIDTH
+        x = radius*matmul(basis, [cos(2*PI*i/WIDTH), sin(2*PI*i/WIDTH)])
+        call flow%put(i, attractor%kernel_u(j) + x(1)/PI, attractor%kernel_v(j) + x(2))
+      end do
+      do i = 1, attractor%period
+        call flow%advance(WIDTH)
+      end do
+      bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
+      inside = .true.
+      do i = 1, WIDTH
+        x = [PI*angle_difference(flow%u(i), attractor%kernel_u(j)), flow%v(i) - attractor%kernel_v(j)]
+        inside = inside .and. norm2(matmul(inverse, x)) < bound
+      end do
+    end function carried_inside
   end function ellipse
 
   !> Distance, in the norm of the ellipse, from strobe point j to the nearest one of another attractor, its mirror image included.
@@ -129,71 +170,6 @@ contains
     end function to_points
 
   end function clearance
-
-  !> Largest good radius between `last` and the next tried one, with rings from `first` on good too.
-  function refined(flow, attractor, j, basis, inverse, first, last) result(best)
-    class(flow_t), intent(inout) :: flow
-    type(attractor_t), intent(in) :: attractor
-    integer, intent(in) :: j
-    real(dp), intent(in) :: basis(2, 2), inverse(2, 2), first, last
-    real(dp) :: best, tried
-    integer :: i
-
-    best = last
-    do i = 1, 5
-      tried = best + (GROWTH - 1)*last*0.5_dp**i
-      if (carried_inside(flow, attractor, j, basis, inverse, tried)) best = tried
-    end do
-    do i = 1, N_RINGS - 1
-      tried = best*i/N_RINGS
-      if (tried < first) cycle
-      if (carried_inside(flow, attractor, j, basis, inverse, tried)) cycle
-      best = max(first, 0.9_dp*best*(i - 1)/N_RINGS)
-      exit
-    end do
-  end function refined
-
-  !> Whether WIDTH points of the ring are all carried inside it, by half of what the multiplier says or by 5 %.
-  function carried_inside(flow, attractor, j, basis, inverse, radius) result(inside)
-    class(flow_t), intent(inout) :: flow
-    type(attractor_t), intent(in) :: attractor
-    integer, intent(in) :: j
-    real(dp), intent(in) :: basis(2, 2), inverse(2, 2), radius
-    logical :: inside
-    real(dp) :: x(2), bound
-    integer :: i
-
-    do i = 1, WIDTH
-      x = radius*matmul(basis, [cos(2*PI*i/WIDTH), sin(2*PI*i/WIDTH)])
-      call flow%put(i, attractor%kernel_u(j) + x(1)/PI, attractor%kernel_v(j) + x(2))
-    end do
-    do i = 1, attractor%period
-      call flow%advance(WIDTH)
-    end do
-    bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
-    inside = .true.
-    do i = 1, WIDTH
-      x = [PI*angle_difference(flow%u(i), attractor%kernel_u(j)), flow%v(i) - attractor%kernel_v(j)]
-      inside = inside .and. norm2(matmul(inverse, x)) < bound
-    end do
-  end function carried_inside
-
-  !> Derivative of the n-period map at strobe point j.
-  function monodromy(fine, attractor, j) result(matrix)
-    class(flow_t), intent(inout) :: fine
-    type(attractor_t), intent(in) :: attractor
-    integer, intent(in) :: j
-    real(dp) :: matrix(2, 2)
-    real(dp) :: tangent(2, 2, WIDTH)
-    integer :: i
-
-    call fine%put(1, attractor%u(j), attractor%v(j))
-    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
-    do i = 1, attractor%period
-      call fine%advance_tangent(1, tangent)
-    end do
-    matrix = tangent(:, :, 1)
-  end function monodromy
 
   !> Derivative, at strobe point j, of the change to the flow's coordinates.
   function change(flow, attractor, j) result(matrix)
