@@ -3,8 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kapitza/parallel.h"
-#include "launch.h"
+#include "ranks.h"
 
 /* The first of `names` that the environment holds, as a number; -1 where it holds none. */
 static int told(const char *const names[], size_t n) {

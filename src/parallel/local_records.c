@@ -2,18 +2,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "progress.h"
-#include "ranks.h"
-#include "timings.h"
+#include "watch.h"
 
 enum { TAG = 4, END = 5, BUFFERS = 4 };
 static const size_t MESSAGE_MAX = (size_t)1 << 30;
 
 void kz_local_records_add(kz_local_records *records, int64_t tile, const void *data, size_t bytes) {
   if (records->n == records->capacity) {
-    const int64_t capacity = 2 * records->capacity + 16;
-    records->list = kz_realloc(records->list, (size_t)capacity * sizeof *records->list);
-    records->capacity = capacity;
+    records->capacity = 2 * records->capacity + 16;
+    records->list = kz_realloc(records->list, (size_t)records->capacity * sizeof *records->list);
   }
   void *copy = kz_malloc(bytes + 1);
   records->list[records->n++] = (kz_local_record){tile, bytes, memcpy(copy, data, bytes)};
@@ -151,8 +148,8 @@ static kz_status deliver(mail *m, int64_t total) {
   double idle = 0;
   kz_ranks *ranks = m->ranks;
   snprintf(m->taking_name, sizeof m->taking_name, "%s: writing", m->delivery->name);
-  kz_work_begin(&m->making, ranks, m->delivery->name);
-  kz_work_begin(&m->taking, ranks, m->taking_name);
+  m->making = (kz_work){.ranks = ranks, .stage = m->delivery->name};
+  m->taking = (kz_work){.ranks = ranks, .stage = m->taking_name};
   const kz_stopwatch watch = kz_stopwatch_start();
   kz_meter_begin(&m->meter, ranks, m->delivery->name, total, 0);
   kz_status status = kz_ranks_agree(ranks, ranks->rank == 0 ? take_records(m) : send_records(m));

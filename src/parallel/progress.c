@@ -1,5 +1,5 @@
 /* A live bar where a terminal is there, else a line now and then. */
-#include "progress.h"
+#include "watch.h"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "bytes.h"
-#include "launch.h"
 
 enum { MESSAGE_BYTES = 2048, ABANDON_SECONDS = 5 };
 static const size_t CHUNK_BYTES = (size_t)1 << 30; /* MPI counts are int */
@@ -149,8 +148,8 @@ void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds) {
 }
 
 kz_status kz_ranks_interrupted(const kz_ranks *ranks) {
-  const char *signal = kz_signals_caught();
-  if (signal) return kz_fail(KZ_STOPPED, "stopped by %s", signal);
+  const char *reason = kz_signals_caught();
+  if (reason) return kz_fail(KZ_STOPPED, "%s", reason);
   if (ranks && ranks->limit > 0 && kz_clock() - ranks->start >= ranks->limit)
     return kz_fail(KZ_STOPPED, "stopped by the time limit of %g s", ranks->limit);
   return KZ_OK;

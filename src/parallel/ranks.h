@@ -30,9 +30,14 @@ struct kz_ranks {
   } while (0)
 kz_status kz_mpi_fail(int code, const char *file, int line);
 
+/* Call it before MPI_Init. If no launcher has started this process, it keeps Open MPI from starting a daemon and from looking for networks,
+ * which takes two thirds of its start. Settings of the user stay. Processes of a launcher that cannot be recognised run alone, with and
+ * without this call; the lock of the checkpoint then lets one of them write. */
+void kz_launch_alone(void);
+
 /* From here on signals that ask for a stop are recorded. Call it before MPI_Init and again after it. */
 void kz_signals_catch(void);
-/* The name of the signal that asked for a stop; NULL if there was none. */
+/* Which signal asked for a stop, "stopped by SIGTERM"; NULL if none did. Safe in a signal handler. */
 const char *kz_signals_caught(void);
 
 #endif

@@ -5,53 +5,41 @@
 #include <string.h>
 
 enum { SLOT_HEAD = 16, TAG = 1 };
-static const size_t BLOCK_BYTES = (size_t)1 << 22;
-
-struct kz_block {
-  kz_block *next;
-  int64_t n_slots;
-  _Alignas(16) char slots[];
-};
+static const size_t MESSAGE_BYTES = (size_t)1 << 22;
 
 void kz_record_buffer_begin(kz_record_buffer *buffered, size_t record_bytes) {
   const size_t stride = SLOT_HEAD + (record_bytes + 15) / 16 * 16;
   *buffered = (kz_record_buffer){.record_bytes = record_bytes, .stride = stride};
-  buffered->block_slots = stride < BLOCK_BYTES ? (int64_t)(BLOCK_BYTES / stride) : 1;
+  buffered->message_slots = stride < MESSAGE_BYTES ? (int64_t)(MESSAGE_BYTES / stride) : 1;
 }
 
 size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered) {
-  return (size_t)buffered->block_slots * buffered->stride;
-}
-
-static kz_block *block_with_room(kz_record_buffer *buffered) {
-  if (buffered->last && buffered->last->n_slots < buffered->block_slots) return buffered->last;
-  kz_block *block = kz_malloc(sizeof *block + kz_record_buffer_message_bytes(buffered));
-  block->next = NULL;
-  block->n_slots = 0;
-  if (buffered->last)
-    buffered->last->next = block;
-  else
-    buffered->first = block;
-  buffered->last = block;
-  ++buffered->n_blocks;
-  return block;
+  return (size_t)buffered->message_slots * buffered->stride;
 }
 
 void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile) {
-  kz_block *block = block_with_room(buffered);
-  char *slot = block->slots + (size_t)block->n_slots++ * buffered->stride;
+  if (buffered->n == buffered->capacity) {
+    buffered->capacity = 2 * buffered->capacity + 1;
+    buffered->slots = kz_realloc(buffered->slots, (size_t)buffered->capacity * buffered->stride);
+  }
+  char *slot = buffered->slots + (size_t)buffered->n++ * buffered->stride;
   memset(slot, 0, buffered->stride);
   memcpy(slot, &tile, sizeof tile);
   return slot + SLOT_HEAD;
 }
 
-static kz_status send_blocks(const kz_record_buffer *buffered, kz_ranks *ranks) {
-  for (const kz_block *block = buffered->first; block; block = block->next)
-    KZ_MPI(MPI_Send(block->slots, (int)((size_t)block->n_slots * buffered->stride), MPI_BYTE, 0, TAG, ranks->comm));
+static kz_status send_slots(const kz_record_buffer *buffered, kz_ranks *ranks) {
+  KZ_MPI(MPI_Send(&buffered->n, 1, MPI_INT64_T, 0, TAG, ranks->comm));
+  for (int64_t i = 0; i < buffered->n; i += buffered->message_slots) {
+    const int64_t left = buffered->n - i, n = left < buffered->message_slots ? left : buffered->message_slots;
+    KZ_MPI(MPI_Send(buffered->slots + (size_t)i * buffered->stride, (int)((size_t)n * buffered->stride), MPI_BYTE, 0, TAG,
+                    ranks->comm));
+  }
   return KZ_OK;
 }
 
-static kz_status receive_block(const kz_record_buffer *buffered, kz_ranks *ranks, int source, char *buffer, char *records) {
+/* Takes one message of a rank. */
+static kz_status receive_slots(const kz_record_buffer *buffered, kz_ranks *ranks, int source, char *buffer, char *records) {
   MPI_Status told;
   int bytes;
   KZ_MPI(MPI_Recv(buffer, (int)kz_record_buffer_message_bytes(buffered), MPI_BYTE, source, TAG, ranks->comm, &told));
@@ -65,23 +53,16 @@ static kz_status receive_block(const kz_record_buffer *buffered, kz_ranks *ranks
 }
 
 kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_ranks *ranks, void *buffer, char *records) {
-  if (ranks->rank != 0) {
-    KZ_MPI(MPI_Send(&buffered->n_blocks, 1, MPI_INT64_T, 0, TAG, ranks->comm));
-    return send_blocks(buffered, ranks);
-  }
+  if (ranks->rank != 0) return send_slots(buffered, ranks);
   for (int source = 1; source < ranks->size; ++source) {
-    int64_t n_blocks;
-    KZ_MPI(MPI_Recv(&n_blocks, 1, MPI_INT64_T, source, TAG, ranks->comm, MPI_STATUS_IGNORE));
-    for (int64_t i = 0; i < n_blocks; ++i) KZ_TRY(receive_block(buffered, ranks, source, buffer, records));
+    int64_t n;
+    KZ_MPI(MPI_Recv(&n, 1, MPI_INT64_T, source, TAG, ranks->comm, MPI_STATUS_IGNORE));
+    for (int64_t i = 0; i < n; i += buffered->message_slots) KZ_TRY(receive_slots(buffered, ranks, source, buffer, records));
   }
   return KZ_OK;
 }
 
 void kz_record_buffer_end(kz_record_buffer *buffered) {
-  while (buffered->first) {
-    kz_block *next = buffered->first->next;
-    free(buffered->first);
-    buffered->first = next;
-  }
-  buffered->last = NULL;
+  free(buffered->slots);
+  buffered->slots = NULL;
 }

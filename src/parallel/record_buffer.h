@@ -1,24 +1,22 @@
-/* Records that a rank keeps until they are delivered to rank 0: blocks of slots; a block is sent as one message. */
+/* Records that a rank keeps until they are delivered to rank 0, some at a time. */
 #ifndef KAPITZA_PARALLEL_RECORD_BUFFER_H
 #define KAPITZA_PARALLEL_RECORD_BUFFER_H
 
 #include "ranks.h"
 
-typedef struct kz_block kz_block;
-
 typedef struct {
   size_t record_bytes;
-  size_t stride;       /* bytes of a slot: tile number and record */
-  int64_t block_slots; /* slots of a block */
-  int64_t n_blocks;
-  kz_block *first, *last;
+  size_t stride;         /* bytes of a slot: tile number and record */
+  int64_t message_slots; /* slots of a message */
+  int64_t n, capacity;
+  char *slots; /* [capacity][stride], of which n are filled */
 } kz_record_buffer;
 
 /* Records larger than this do not fit into a message. */
 #define KZ_RECORD_MAX ((size_t)1 << 30)
 
 void kz_record_buffer_begin(kz_record_buffer *buffered, size_t record_bytes);
-/* Returns zeroed memory for the record of `tile`, aligned for any type. */
+/* Returns zeroed memory for the record of `tile`, aligned for any type, until the next call. */
 void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile);
 /* Bytes of the largest message. */
 size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered);

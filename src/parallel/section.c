@@ -1,12 +1,11 @@
 /* Finished records on disk. */
-#include "section.h"
-
 #include <errno.h>
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "bytes.h"
+#include "checkpoint.h"
 
 typedef struct {
   char magic[8];

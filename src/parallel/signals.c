@@ -7,12 +7,12 @@
 
 static const struct {
   int number;
-  const char *name, *reason;
-} STOP_SIGNALS[] = {
-    {SIGUSR1, "SIGUSR1", "stopped by SIGUSR1"}, {SIGUSR2, "SIGUSR2", "stopped by SIGUSR2"},
-    {SIGXCPU, "SIGXCPU", "stopped by SIGXCPU"}, {SIGTERM, "SIGTERM", "stopped by SIGTERM"},
-    {SIGINT, "SIGINT", "stopped by SIGINT"},
-};
+  const char *reason;
+} STOP_SIGNALS[] = {{SIGUSR1, "stopped by SIGUSR1"},
+                    {SIGUSR2, "stopped by SIGUSR2"},
+                    {SIGXCPU, "stopped by SIGXCPU"},
+                    {SIGTERM, "stopped by SIGTERM"},
+                    {SIGINT, "stopped by SIGINT"}};
 enum { N_STOP_SIGNALS = sizeof STOP_SIGNALS / sizeof *STOP_SIGNALS };
 
 enum { GRACE = 6, LONGEST = 1 << 30 }; /* s */
@@ -20,12 +20,11 @@ enum { GRACE = 6, LONGEST = 1 << 30 }; /* s */
 static volatile sig_atomic_t caught;
 static void (*volatile overdue)(const char *reason);
 
-/* The place of the signal in the table; -1 where none came. */
-static int place(void) {
+const char *kz_signals_caught(void) {
   const int number = caught;
   for (int i = 0; i < N_STOP_SIGNALS; ++i)
-    if (STOP_SIGNALS[i].number == number) return i;
-  return -1;
+    if (STOP_SIGNALS[i].number == number) return STOP_SIGNALS[i].reason;
+  return NULL;
 }
 
 /* Sets the alarm to so many seconds, unless it is set to an earlier time. */
@@ -41,8 +40,8 @@ static void note(int number) {
 
 static void ring(int number) {
   (void)number;
-  const int i = place();
-  if (overdue) overdue(i < 0 ? "stopped by the time limit" : STOP_SIGNALS[i].reason);
+  const char *reason = kz_signals_caught();
+  if (overdue) overdue(reason ? reason : "stopped by the time limit");
 }
 
 static void handle(int number, void (*handler)(int)) {
@@ -66,11 +65,6 @@ void kz_signals_catch(void) {
   handle(SIGXFSZ, SIG_IGN); /* a write beyond the size limit shall return EFBIG */
   handle(SIGTTOU, SIG_IGN); /* progress is no reason to stop either, where the terminal would (stty tostop) */
   handle(SIGPIPE, SIG_IGN); /* a closed progress stream is no reason to stop */
-}
-
-const char *kz_signals_caught(void) {
-  const int i = place();
-  return i < 0 ? NULL : STOP_SIGNALS[i].name;
 }
 
 void kz_ranks_set_overdue(kz_ranks *ranks, void (*leave)(const char *reason)) {

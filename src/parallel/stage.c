@@ -4,12 +4,11 @@
 #include <string.h>
 
 #include "bytes.h"
+#include "checkpoint.h"
 #include "dispatch.h"
-#include "progress.h"
 #include "ranks.h"
 #include "record_buffer.h"
-#include "section.h"
-#include "timings.h"
+#include "watch.h"
 
 /* Offsets of records and slots must not overflow. */
 static const int64_t TILES_MAX = (int64_t)1 << 44;
@@ -166,7 +165,7 @@ static kz_status run_stage(stage_run *run) {
   if (run->kept) KZ_TRY(recall(run));
   kz_meter_begin(&run->meter, run->ranks, run->stage->name, run->stage->n_tiles, run->stage->n_tiles - run->n_left);
   double idle = 0;
-  kz_work_begin(&run->work, run->ranks, run->stage->name);
+  run->work = (kz_work){.ranks = run->ranks, .stage = run->stage->name};
   const kz_stopwatch watch = kz_stopwatch_start();
   const bool collective = run->stage->collective;
   kz_status status = collective ? kz_ranks_agree(run->ranks, work_collectively(run)) : dispatch_tiles(run);

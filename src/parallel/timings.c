@@ -1,14 +1,10 @@
 /* Times of the stages: a table for people at the end, JSON lines for programs. */
-#include "timings.h"
+#include "watch.h"
 
 #include <string.h>
 
 kz_stopwatch kz_stopwatch_start(void) {
   return (kz_stopwatch){kz_clock(), kz_processor_clock(), kz_process_clock()};
-}
-
-void kz_work_begin(kz_work *work, const kz_ranks *ranks, const char *stage) {
-  *work = (kz_work){.ranks = ranks, .stage = stage};
 }
 
 void kz_work_end(kz_work *work) {

@@ -1,8 +1,27 @@
-/* Times of stages, on rank 0. */
-#ifndef KAPITZA_PARALLEL_TIMINGS_H
-#define KAPITZA_PARALLEL_TIMINGS_H
+/* What rank 0 tells of a stage: its progress, shown to people, and its times. */
+#ifndef KAPITZA_PARALLEL_WATCH_H
+#define KAPITZA_PARALLEL_WATCH_H
 
 #include "ranks.h"
+
+typedef struct {
+  const char *name;
+  FILE *out; /* NULL: silent */
+  bool live; /* a bar that is redrawn, else lines */
+  bool last; /* the end of the stage is printed too */
+  bool shown;
+  int64_t total, first; /* tiles; `first` were done before */
+  double begun, due;    /* s, kz_clock; nothing is shown before `due` */
+  double log_due;       /* the same of the log */
+  const kz_ranks *ranks;
+} kz_meter;
+
+/* Begins a stage of `total` tiles of which `first` are done. */
+void kz_meter_begin(kz_meter *meter, kz_ranks *ranks, const char *name, int64_t total, int64_t first);
+/* Shows `done` tiles if it is time for it. */
+void kz_meter_show(kz_meter *meter, int64_t done);
+/* Removes the bar, or prints the end with `idle`, the share of their time in which ranks were idle. */
+void kz_meter_end(kz_meter *meter, bool complete, double idle);
 
 /* When something began: kz_clock, and processor seconds of this thread and of this process. */
 typedef struct {
@@ -21,7 +40,6 @@ typedef struct {
   double seconds[KZ_WORK_LINE]; /* processor seconds that each of them took */
 } kz_work;
 
-void kz_work_begin(kz_work *work, const kz_ranks *ranks, const char *stage);
 /* A tile that began at `watch` is done. */
 void kz_work_note(kz_work *work, int64_t tile, const kz_stopwatch *watch);
 /* Writes the tiles that are not in the log yet. */
