@@ -153,3 +153,16 @@ bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t b
   }
   return found;
 }
+
+void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
+  char names[1024], list[1024], nearest[64];
+  const kz_key *mapping = kz_key_find(keys, parent);
+  kz_key_children(keys, parent, names, sizeof names);
+  kz_key_list(names, list, sizeof list);
+  if (mapping && kz_key_renamed(mapping, name, nearest, sizeof nearest))
+    snprintf(text, bytes, "is no longer a key; use %s", nearest);
+  else if (kz_key_suggest(name, names, nearest, sizeof nearest))
+    snprintf(text, bytes, "unknown key; did you mean %s%s?", prefix, nearest);
+  else
+    snprintf(text, bytes, "unknown key; the keys are %s", list);
+}

@@ -35,6 +35,17 @@
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
 
+/* The window of a study's starts or points; it may be the whole circle. */
+#define THETA_WINDOW(study, help)                                                                    \
+  MAPPING(#study ".theta", "", KZ_NO_FIELD, help),                                                   \
+      REAL(#study ".theta.min", "rad", -1e6, 1e6, "", study.theta.min, "Lower edge of the window."), \
+      REAL(#study ".theta.max", "rad", -1e6, 1e6, "", study.theta.max, "Upper edge of the window.")
+#define VELOCITY_WINDOW(study, most, fallback, lowest, highest, help)                                \
+  MAPPING(#study ".velocity", fallback, KZ_NO_FIELD, help),                                          \
+      REAL(#study ".velocity.min", "rad per drive radian", -most, most, lowest, study.velocity.min,  \
+           "Lower edge of the window."),                                                             \
+      REAL(#study ".velocity.max", "rad per drive radian", -most, most, highest, study.velocity.max, \
+           "Upper edge of the window.")
 #define EDGE_START(place, help)                                                                                    \
   MAPPING("edge." #place, NULL, KZ_NO_FIELD, help),                                                                \
       REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, edge.place[0], "Angle from down."),                    \
@@ -208,14 +219,8 @@ const kz_key kz_keys[] = {
     WORDS("tradeoff.settings", kz_tradeoff_words, "", tradeoff.settings, "Settings that are compared; left out: all."),
 
     MAPPING("attractors", "", AT(has_attractors), "Study: the attractors of a window of starts, without a grid."),
-    MAPPING("attractors.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
-    REAL("attractors.theta.min", "rad", -1e6, 1e6, "", attractors.theta.min, "Lower edge of the window."),
-    REAL("attractors.theta.max", "rad", -1e6, 1e6, "", attractors.theta.max, "Upper edge of the window."),
-    MAPPING("attractors.velocity", NULL, KZ_NO_FIELD, "Velocities of the starts."),
-    REAL("attractors.velocity.min", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, attractors.velocity.min,
-         "Lower edge of the window."),
-    REAL("attractors.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, attractors.velocity.max,
-         "Upper edge of the window."),
+    THETA_WINDOW(attractors, "Angles of the starts; left out: the whole circle [-pi, pi)."),
+    VELOCITY_WINDOW(attractors, KZ_MOST_SPEED, NULL, NULL, NULL, "Velocities of the starts."),
     INTEGER("attractors.starts", 1, 1e8, "8192", attractors.starts, "Starts of the search."),
     INTEGER("attractors.max_period", 1, 512, "48", attractors.max_period, "Longest period of the search."),
     INTEGER("attractors.seed", 0, 9007199254740992.0, "1", attractors.seed,
@@ -223,12 +228,8 @@ const kz_key kz_keys[] = {
 
     MAPPING("saddles", "", AT(has_saddles),
             "Study: all unstable cycles of the strobe map up to a period, and a test whether any is missing."),
-    MAPPING("saddles.theta", "", KZ_NO_FIELD, "Angles of the cycles' points; left out: the whole circle [-pi, pi)."),
-    REAL("saddles.theta.min", "rad", -1e6, 1e6, "", saddles.theta.min, "Lower edge of the window."),
-    REAL("saddles.theta.max", "rad", -1e6, 1e6, "", saddles.theta.max, "Upper edge of the window."),
-    MAPPING("saddles.velocity", NULL, KZ_NO_FIELD, "Velocities of the cycles' points."),
-    REAL("saddles.velocity.min", "rad per drive radian", -1e3, 1e3, NULL, saddles.velocity.min, "Lower edge of the window."),
-    REAL("saddles.velocity.max", "rad per drive radian", -1e3, 1e3, NULL, saddles.velocity.max, "Upper edge of the window."),
+    THETA_WINDOW(saddles, "Angles of the cycles' points; left out: the whole circle [-pi, pi)."),
+    VELOCITY_WINDOW(saddles, 1e3, NULL, NULL, NULL, "Velocities of the cycles' points."),
     INTEGER("saddles.max_period", 1, KZ_SADDLES_MAX_PERIOD, "1", saddles.max_period,
             "Longest period, in drive periods; their number and the time grow exponentially with it."),
 
@@ -310,14 +311,8 @@ const kz_key kz_keys[] = {
         "phases: share of cells or starts that ends alike at all phases of release; flutter_amplitude: of the period-2 cycle "
         "about inverted; flutter_zone: how far it reaches when m is raised; release_angle: from rest; strobe: bifurcations.",
         .unit = "", .words_from = kz_sweep_measure_words),
-    MAPPING("sweep.theta", "", KZ_NO_FIELD, "Angles of the starts; left out: the whole circle [-pi, pi)."),
-    REAL("sweep.theta.min", "rad", -1e6, 1e6, "", sweep.theta.min, "Lower edge of the window."),
-    REAL("sweep.theta.max", "rad", -1e6, 1e6, "", sweep.theta.max, "Upper edge of the window."),
-    MAPPING("sweep.velocity", "", KZ_NO_FIELD, "Velocities of the starts; a grid of basin has its own window."),
-    REAL("sweep.velocity.min", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "-2", sweep.velocity.min,
-         "Lower edge of the window."),
-    REAL("sweep.velocity.max", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, "2", sweep.velocity.max,
-         "Upper edge of the window."),
+    THETA_WINDOW(sweep, "Angles of the starts; left out: the whole circle [-pi, pi)."),
+    VELOCITY_WINDOW(sweep, KZ_MOST_SPEED, "", "-2", "2", "Velocities of the starts; a grid of basin has its own window."),
     INTEGER("sweep.starts", 1, 1e7, "2048", sweep.starts, "Starts of the search at each value."),
     INTEGER("sweep.max_period", 1, 512, "48", sweep.max_period, "Longest period of the search."),
     INTEGER("sweep.seed", 0, 9007199254740992.0, "1", sweep.seed,

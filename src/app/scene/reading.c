@@ -85,23 +85,9 @@ static bool is_decimal_comma(const kz_node *node) {
 }
 
 static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path) {
-  char names[1024], list[1024], nearest[64];
-  const kz_key *mapping = kz_key_find(reading->keys, parent);
-  if (mapping && kz_key_renamed(mapping, node->name, nearest, sizeof nearest)) {
-    complain_key(reading, node, path, "is no longer a key; use %s", nearest);
-    return;
-  }
-  if (is_decimal_comma(node)) {
-    complain_key(reading, node, path, "is no key; a number takes a decimal point (0.3), and a comma ends it");
-    return;
-  }
-  kz_key_children(reading->keys, parent, names, sizeof names);
-  if (kz_key_suggest(node->name, names, nearest, sizeof nearest)) {
-    complain_key(reading, node, path, "unknown key; did you mean %s?", nearest);
-    return;
-  }
-  kz_key_list(names, list, sizeof list);
-  complain_key(reading, node, path, "unknown key; the keys are %s", list);
+  char wrong[1200] = "is no key; a number takes a decimal point (0.3), and a comma ends it";
+  if (!is_decimal_comma(node)) kz_key_unknown(reading->keys, parent, node->name, "", wrong, sizeof wrong);
+  complain_key(reading, node, path, "%s", wrong);
 }
 
 static void read_mapping(kz_reading *reading, const kz_node *mapping, const char *parent);

@@ -58,18 +58,14 @@ kz_status kz_scene_load(const char *path, char **text, size_t *length) {
 
 /* Refuses an option whose key is not in the table, naming the nearest one of its mapping. */
 static kz_status refuse_key(const kz_key *keys, const char *label, const char *path) {
-  char names[1024], list[1024], parent[256], nearest[64];
-  const char *dot = strrchr(path, '.');
+  char parent[256], prefix[260], wrong[1200];
+  const char *dot = strrchr(path, '.'), *name = dot ? dot + 1 : path;
   snprintf(parent, sizeof parent, "%.*s", dot ? (int)(dot - path) : 0, path);
+  snprintf(prefix, sizeof prefix, "%.*s", (int)(name - path), path);
   const kz_key *holder = kz_key_find(keys, parent);
   if (dot && (!holder || holder->type != KZ_KEY_MAPPING)) return refuse_key(keys, label, parent);
-  if (holder && kz_key_renamed(holder, dot + 1, nearest, sizeof nearest))
-    return kz_fail(KZ_REFUSED, "%s: %s: is no longer a key; use %s", label, path, nearest);
-  kz_key_children(keys, parent, names, sizeof names);
-  if (kz_key_suggest(dot ? dot + 1 : path, names, nearest, sizeof nearest))
-    return kz_fail(KZ_REFUSED, "%s: %s: unknown key; did you mean %s%s%s?", label, path, parent, dot ? "." : "", nearest);
-  kz_key_list(names, list, sizeof list);
-  return kz_fail(KZ_REFUSED, "%s: %s: unknown key; the keys are %s", label, path, list);
+  kz_key_unknown(keys, parent, name, prefix, wrong, sizeof wrong);
+  return kz_fail(KZ_REFUSED, "%s: %s: %s", label, path, wrong);
 }
 
 /* One option, "KEY=VALUE"; label = the source that its errors name. */

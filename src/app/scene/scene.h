@@ -73,6 +73,8 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
 bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes);
 /* Copies the word of `words` ("a|b|c") that is most similar to `word` to `nearest` [bytes]; false if none is similar. */
 bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes);
+/* Writes what is wrong with `name`, which is no key of mapping `parent`, to `text` [bytes]; `prefix` is written before a key that is suggested. */
+void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes);
 
 /* The YAML text as a tree, with the place of every node in the text. */
 typedef enum { KZ_SCALAR, KZ_SEQUENCE, KZ_MAPPING } kz_node_kind;
@@ -134,7 +136,7 @@ void kz_scalar_print(double value, char *text);
 void kz_text_print(const char *text, FILE *out);
 
 /* The field of a key in `scene`. clear: marks it as not given. read: reads it from a node; returns what is wrong, or NULL; *culprit = the node,
- * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports clear only. */
+ * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports clear and is_set only. */
 void kz_value_clear(const kz_key *key, void *scene);
 const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit);
 bool kz_value_is_set(const kz_key *key, const void *scene);

@@ -11,10 +11,8 @@ static const char *read_text(const kz_key *key, const kz_node *node, void *field
   (void)key;
   const char *wrong = kz_scalar_text(node);
   if (wrong) return wrong;
-  char *copy = kz_strdup(node->text);
-  if (!copy) return "does not fit in memory";
   free(*(char **)field);
-  *(char **)field = copy;
+  *(char **)field = kz_strdup(node->text);
   return NULL;
 }
 
@@ -111,115 +109,42 @@ static const char *read_harmonic(const kz_key *key, const kz_node *node, void *f
   return NULL;
 }
 
-typedef const char *(*read_function)(const kz_key *key, const kz_node *node, void *field);
-
-/* One value, or one value of a list, by the type of its key. */
-static const read_function readers[] = {
-    [KZ_KEY_TEXT] = read_text,       [KZ_KEY_WORD] = read_word,          [KZ_KEY_BOOLEAN] = read_boolean,
-    [KZ_KEY_INTEGER] = read_integer, [KZ_KEY_COUNT] = read_count,        [KZ_KEY_REAL] = read_real,
-    [KZ_KEY_DECIMAL] = read_decimal, [KZ_KEY_WORDS] = read_index,        [KZ_KEY_INTEGERS] = read_integer,
-    [KZ_KEY_REALS] = read_real,      [KZ_KEY_HARMONICS] = read_harmonic,
-};
-
-static bool is_list(const kz_key *key) {
-  return key->type >= KZ_KEY_WORDS;
-}
-
-/* The count and value i of a list: kz_reals, or kz_integers. */
-static int64_t *count_of(const kz_key *key, void *list) {
-  if (key->type == KZ_KEY_HARMONICS) return &((kz_harmonics *)list)->count;
-  return key->type == KZ_KEY_REALS ? &((kz_reals *)list)->count : &((kz_integers *)list)->count;
-}
-
-static void *value_of(const kz_key *key, void *list, int64_t i) {
-  if (key->type == KZ_KEY_HARMONICS) return &((kz_harmonics *)list)->values[i];
-  return key->type == KZ_KEY_REALS ? (void *)&((kz_reals *)list)->values[i] : (void *)&((kz_integers *)list)->values[i];
-}
-
-static const char *read_list(const kz_key *key, const kz_node *node, void *list, const kz_node **culprit) {
-  if (node->kind != KZ_SEQUENCE) return "is not a list";
-  int64_t *count = count_of(key, list);
-  *count = 0;
-  for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
-    if (key->type == KZ_KEY_HARMONICS && *count == KZ_HARMONICS) return "is one harmonic too many (at most 16)";
-    if (*count == KZ_LIST_MAX) return "is one value too many (at most 256)";
-    const char *wrong = readers[key->type](key, *culprit, value_of(key, list, (*count)++));
-    if (wrong) return wrong;
-  }
-  *culprit = node;
-  return *count > 0 ? NULL : "is an empty list";
-}
-
-const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit) {
-  void *field = (char *)scene + key->offset;
-  *culprit = node;
-  return is_list(key) ? read_list(key, node, field, culprit) : readers[key->type](key, node, field);
-}
-
-void kz_value_clear(const kz_key *key, void *scene) {
-  if (key->offset == KZ_NO_FIELD) return;
-  void *field = (char *)scene + key->offset;
-  switch (key->type) {
-    case KZ_KEY_MAPPING:
-    case KZ_KEY_BOOLEAN:
-      *(bool *)field = false;
-      break;
-    case KZ_KEY_TEXT:
-      *(char **)field = NULL;
-      break;
-    case KZ_KEY_WORD:
-    case KZ_KEY_COUNT:
-      *(int32_t *)field = KZ_UNSET_WORD;
-      break;
-    case KZ_KEY_INTEGER:
-      *(int64_t *)field = KZ_UNSET_INTEGER;
-      break;
-    case KZ_KEY_REAL:
-      *(double *)field = NAN;
-      break;
-    case KZ_KEY_DECIMAL:
-      *(kz_decimal *)field = (kz_decimal){.text = ""};
-      break;
-    default:
-      *count_of(key, field) = 0;
-  }
-}
-
-static bool is_set(const kz_key *key, const void *field) {
-  switch (key->type) {
-    case KZ_KEY_MAPPING:
-      return false;
-    case KZ_KEY_BOOLEAN:
-      return true;
-    case KZ_KEY_TEXT:
-      return *(char *const *)field != NULL;
-    case KZ_KEY_WORD:
-    case KZ_KEY_COUNT:
-      return *(const int32_t *)field != KZ_UNSET_WORD;
-    case KZ_KEY_INTEGER:
-      return *(const int64_t *)field != KZ_UNSET_INTEGER;
-    case KZ_KEY_REAL:
-      return !isnan(*(const double *)field);
-    case KZ_KEY_DECIMAL:
-      return ((const kz_decimal *)field)->text[0] != '\0';
-    default:
-      return *count_of(key, (void *)field) > 0;
-  }
-}
-
-bool kz_value_is_set(const kz_key *key, const void *scene) {
-  return key->offset != KZ_NO_FIELD && is_set(key, (const char *)scene + key->offset);
-}
-
-static void print_word(const kz_key *key, int64_t index, FILE *out) {
+static void print_named(const kz_key *key, int64_t index, FILE *out) {
   const char *word = kz_key_words(key);
   for (; index > 0; index--) word += strcspn(word, "|") + 1;
   fprintf(out, "%.*s", (int)strcspn(word, "|"), word);
 }
 
-static void print_real(double value, FILE *out) {
+static void print_word(const kz_key *key, const void *value, FILE *out) {
+  print_named(key, *(const int32_t *)value, out);
+}
+
+static void print_index(const kz_key *key, const void *value, FILE *out) {
+  print_named(key, *(const int64_t *)value, out);
+}
+
+static void print_boolean(const kz_key *key, const void *value, FILE *out) {
+  (void)key;
+  fputs(*(const bool *)value ? "true" : "false", out);
+}
+
+static void print_integer(const kz_key *key, const void *value, FILE *out) {
+  (void)key;
+  fprintf(out, "%" PRId64, *(const int64_t *)value);
+}
+
+static void print_count(const kz_key *key, const void *value, FILE *out) {
+  const int32_t count = *(const int32_t *)value;
+  if (key->words && count == 0)
+    fputs(key->words, out);
+  else
+    fprintf(out, "%" PRId32, count);
+}
+
+static void print_real(const kz_key *key, const void *value, FILE *out) {
   char text[32];
-  kz_scalar_print(value, text);
+  (void)key;
+  kz_scalar_print(*(const double *)value, text);
   fputs(text, out);
 }
 
@@ -229,57 +154,108 @@ void kz_text_print(const char *text, FILE *out) {
   fputc('"', out);
 }
 
-static void print_harmonic(const kz_harmonic *harmonic, FILE *out) {
+static void print_text(const kz_key *key, const void *value, FILE *out) {
+  (void)key;
+  kz_text_print(*(char *const *)value, out);
+}
+
+static void print_decimal(const kz_key *key, const void *value, FILE *out) {
+  (void)key;
+  kz_text_print(((const kz_decimal *)value)->text, out);
+}
+
+static void print_harmonic(const kz_key *key, const void *value, FILE *out) {
+  const kz_harmonic *harmonic = value;
   fprintf(out, "{\"order\": %" PRId64 ", \"amplitude\": ", harmonic->order);
-  print_real(harmonic->amplitude, out);
+  print_real(key, &harmonic->amplitude, out);
   fputs(", \"phase\": ", out);
-  print_real(harmonic->phase, out);
+  print_real(key, &harmonic->phase, out);
   fputc('}', out);
 }
 
-static void print_list(const kz_key *key, const void *field, FILE *out) {
-  const int64_t count = *count_of(key, (void *)field);
-  for (int64_t i = 0; i < count; i++) {
-    const void *value = value_of(key, (void *)field, i);
-    fputs(i == 0 ? "[" : ", ", out);
-    if (key->type == KZ_KEY_WORDS) print_word(key, *(const int64_t *)value, out);
-    if (key->type == KZ_KEY_INTEGERS) fprintf(out, "%" PRId64, *(const int64_t *)value);
-    if (key->type == KZ_KEY_REALS) print_real(*(const double *)value, out);
-    if (key->type == KZ_KEY_HARMONICS) print_harmonic(value, out);
+/* What a field holds that is not given: its first bytes. */
+static const bool no_flag = false;
+static char *const no_text = NULL;
+static const int32_t no_word = KZ_UNSET_WORD;
+static const int64_t no_integer = KZ_UNSET_INTEGER, no_items = 0;
+static const double no_real = NAN;
+_Static_assert(offsetof(kz_decimal, text) == 0 && offsetof(kz_reals, count) == 0 && offsetof(kz_integers, count) == 0 &&
+                   offsetof(kz_harmonics, count) == 0,
+               "a field that is not given is told by its first bytes");
+
+/* How one value of each type, or one value of a list, is read and printed. */
+static const struct {
+  const char *(*read)(const kz_key *key, const kz_node *node, void *value);
+  void (*print)(const kz_key *key, const void *value, FILE *out);
+  const void *unset;
+  size_t unset_bytes;
+  size_t first, bytes; /* of a list: offset of the first value, bytes of a value */
+} types[] = {
+    [KZ_KEY_MAPPING] = {NULL, NULL, &no_flag, sizeof no_flag, 0, 0},
+    [KZ_KEY_TEXT] = {read_text, print_text, &no_text, sizeof no_text, 0, 0},
+    [KZ_KEY_WORD] = {read_word, print_word, &no_word, sizeof no_word, 0, 0},
+    [KZ_KEY_BOOLEAN] = {read_boolean, print_boolean, &no_flag, sizeof no_flag, 0, 0},
+    [KZ_KEY_INTEGER] = {read_integer, print_integer, &no_integer, sizeof no_integer, 0, 0},
+    [KZ_KEY_COUNT] = {read_count, print_count, &no_word, sizeof no_word, 0, 0},
+    [KZ_KEY_REAL] = {read_real, print_real, &no_real, sizeof no_real, 0, 0},
+    [KZ_KEY_DECIMAL] = {read_decimal, print_decimal, "", 1, 0, 0},
+#define LIST(type) &no_items, sizeof no_items, offsetof(type, values), sizeof((type *)0)->values[0]
+    [KZ_KEY_WORDS] = {read_index, print_index, LIST(kz_integers)},
+    [KZ_KEY_INTEGERS] = {read_integer, print_integer, LIST(kz_integers)},
+    [KZ_KEY_REALS] = {read_real, print_real, LIST(kz_reals)},
+    [KZ_KEY_HARMONICS] = {read_harmonic, print_harmonic, LIST(kz_harmonics)},
+#undef LIST
+};
+
+static bool is_list(const kz_key *key) {
+  return key->type >= KZ_KEY_WORDS;
+}
+
+static void *field_of(const kz_key *key, const void *scene) {
+  return (char *)scene + key->offset;
+}
+
+static const char *read_list(const kz_key *key, const kz_node *node, void *list, const kz_node **culprit) {
+  if (node->kind != KZ_SEQUENCE) return "is not a list";
+  int64_t *count = list;
+  *count = 0;
+  for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
+    if (key->type == KZ_KEY_HARMONICS && *count == KZ_HARMONICS) return "is one harmonic too many (at most 16)";
+    if (*count == KZ_LIST_MAX) return "is one value too many (at most 256)";
+    void *value = (char *)list + types[key->type].first + (size_t)(*count)++ * types[key->type].bytes;
+    const char *wrong = types[key->type].read(key, *culprit, value);
+    if (wrong) return wrong;
   }
-  fputc(']', out);
+  *culprit = node;
+  return *count > 0 ? NULL : "is an empty list";
+}
+
+const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit) {
+  void *field = field_of(key, scene);
+  *culprit = node;
+  return is_list(key) ? read_list(key, node, field, culprit) : types[key->type].read(key, node, field);
+}
+
+void kz_value_clear(const kz_key *key, void *scene) {
+  if (key->offset != KZ_NO_FIELD) memcpy(field_of(key, scene), types[key->type].unset, types[key->type].unset_bytes);
+}
+
+bool kz_value_is_set(const kz_key *key, const void *scene) {
+  if (key->offset == KZ_NO_FIELD || key->type == KZ_KEY_BOOLEAN) return key->offset != KZ_NO_FIELD;
+  const void *field = field_of(key, scene);
+  if (key->type == KZ_KEY_REAL) return !isnan(*(const double *)field);
+  return memcmp(field, types[key->type].unset, types[key->type].unset_bytes) != 0;
 }
 
 void kz_value_print(const kz_key *key, const void *scene, FILE *out) {
-  const void *field = (const char *)scene + key->offset;
-  switch (key->type) {
-    case KZ_KEY_MAPPING:
-      break;
-    case KZ_KEY_BOOLEAN:
-      fputs(*(const bool *)field ? "true" : "false", out);
-      break;
-    case KZ_KEY_TEXT:
-      kz_text_print(*(char *const *)field, out);
-      break;
-    case KZ_KEY_WORD:
-      print_word(key, *(const int32_t *)field, out);
-      break;
-    case KZ_KEY_COUNT:
-      if (key->words && *(const int32_t *)field == 0)
-        fputs(key->words, out);
-      else
-        fprintf(out, "%" PRId32, *(const int32_t *)field);
-      break;
-    case KZ_KEY_INTEGER:
-      fprintf(out, "%" PRId64, *(const int64_t *)field);
-      break;
-    case KZ_KEY_REAL:
-      print_real(*(const double *)field, out);
-      break;
-    case KZ_KEY_DECIMAL:
-      kz_text_print(((const kz_decimal *)field)->text, out);
-      break;
-    default:
-      print_list(key, field, out);
+  const char *field = field_of(key, scene), *value = field + types[key->type].first;
+  if (!is_list(key)) {
+    types[key->type].print(key, field, out);
+    return;
   }
+  for (int64_t i = 0; i < *(const int64_t *)field; i++) {
+    fputs(i == 0 ? "[" : ", ", out);
+    types[key->type].print(key, value + (size_t)i * types[key->type].bytes, out);
+  }
+  fputc(']', out);
 }

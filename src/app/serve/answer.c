@@ -40,18 +40,13 @@ static void text(const char *name, const char *value) {
   putchar('"');
 }
 
-static bool is_given(const kz_key *key, const kz_scene *scene) {
-  if (key->type != KZ_KEY_MAPPING) return kz_value_is_set(key, scene);
-  return key->offset != KZ_NO_FIELD && *(const bool *)((const char *)scene + key->offset);
-}
-
 /* The keys of a mapping ("pendulum.") that the scene gives. */
 static void print_mapping(const char *mapping, const kz_scene *scene) {
   bool first = true;
   putchar('{');
   for (const kz_key *key = kz_keys; key->path; key++) {
     const char *name = key->path + strlen(mapping), *quote = key->type == KZ_KEY_WORD ? "\"" : "";
-    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !is_given(key, scene)) continue;
+    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !kz_value_is_set(key, scene)) continue;
     printf("%s\"%s\": %s", first ? "" : ", ", name, quote);
     if (key->type == KZ_KEY_MAPPING) {
       char inner[64];
