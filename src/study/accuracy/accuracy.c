@@ -26,17 +26,19 @@ typedef struct {
 
 static void order(const kz_reference_labels *reference, walk *w) {
   double cost[MOST];
-  const kz_setting *candidate[MOST];
-  int64_t rank[MOST];
   const double mean_periods = kz_reference_labels_sum(reference).mean_periods, cells = (double)kz_unique_cells(reference->plan);
   *w = (walk){.reference = reference};
-  for (int i = 0; i < kz_setting_count && w->count < MOST; i++) {
-    if (!kz_settings[i].candidate) continue;
-    cost[w->count] = kz_setting_cost(kz_settings + i, cells, mean_periods);
-    candidate[w->count++] = kz_settings + i;
+  for (const kz_setting *s = kz_settings; s < kz_settings + kz_setting_count && w->count < MOST; s++) {
+    if (!s->candidate) continue;
+    const double own = kz_setting_cost(s, cells, mean_periods);
+    int64_t place = w->count++;
+    for (; place > 0 && cost[place - 1] > own; place--) {
+      cost[place] = cost[place - 1];
+      w->candidates[place] = w->candidates[place - 1];
+    }
+    cost[place] = own;
+    w->candidates[place] = s;
   }
-  kz_cost_order(w->count, cost, rank);
-  for (int64_t i = 0; i < w->count; i++) w->candidates[i] = candidate[rank[i]];
 }
 
 static kz_status try_config(void *context, int64_t tile, void *record) {
@@ -45,18 +47,21 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
 }
 
 /* Tries the settings from the cheapest on, two at a time; the first that meets the accuracy is chosen, else `exact`. */
-static kz_status escalate(walk *w, const kz_run *run, double accuracy, kz_choice *choice) {
+static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
+  walk w;
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
   kz_measured measured[2];
-  for (w->first = 0; w->first < w->count && !choice->setting; w->first += step) {
-    const int64_t left = w->count - w->first;
-    const kz_stage stage = kz_stage_for_all("settings", left < step ? left : step, sizeof *measured, try_config, w);
+  order(reference, &w);
+  *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
+  for (w.first = 0; w.first < w.count && !choice->setting; w.first += step) {
+    const int64_t left = w.count - w.first;
+    const kz_stage stage = kz_stage_for_all("settings", left < step ? left : step, sizeof *measured, try_config, &w);
     KZ_TRY(kz_stage_run(run, &stage, measured));
     for (int64_t i = 0; i < stage.n_tiles && !choice->setting; i++) {
       choice->tried++;
       choice->wrong = measured[i].wrong;
-      if (kz_share_of(measured[i].wrong, w->reference->samples).high <= 1 - accuracy)
-        choice->setting = w->candidates[w->first + i];
+      if (kz_share_of(measured[i].wrong, w.reference->samples).high <= 1 - accuracy)
+        choice->setting = w.candidates[w.first + i];
     }
   }
   if (!choice->setting) choice->setting = kz_setting_exact;
@@ -65,10 +70,11 @@ static kz_status escalate(walk *w, const kz_run *run, double accuracy, kz_choice
 
 static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
   if (choice->setting == kz_setting_exact) {
-    fprintf(summary, "accuracy %.10g: method exact is taken, which decides or flags every label", accuracy);
-    fprintf(summary, ". None of the %lld other settings is accurate enough on %lld sampled cells", (long long)choice->tried,
-            (long long)choice->samples);
-    fprintf(summary, ".\n");
+    fprintf(summary,
+            "accuracy %.10g: method exact is taken, which decides or flags every label. None of the %lld other settings is "
+            "accurate "
+            "enough on %lld sampled cells.\n",
+            accuracy, (long long)choice->tried, (long long)choice->samples);
     return;
   }
   const kz_share wrong = kz_share_of(choice->wrong, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
@@ -78,13 +84,6 @@ static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
       "most %.3f %% of all (95 %%). Rounding of the start alone changes %.3f %%.\n",
       accuracy, choice->setting->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
       100 * wrong.high, 100 * flips.share);
-}
-
-static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
-  walk w;
-  order(reference, &w);
-  *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
-  return escalate(&w, run, accuracy, choice);
 }
 
 kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds) {

@@ -62,18 +62,23 @@ kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *
 /* Estimates the processor time of the choice from samples and adds it to *seconds. Not collective. */
 kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds);
 
-/* Settings measured on one sample of reference labels. */
+/* A setting measured on a sample of reference labels. */
+typedef struct {
+  const kz_setting *setting;
+  kz_numerics numerics; /* resolved */
+  kz_measured measured;
+  double seconds; /* for the whole grid of the basin, without the search for attractors */
+  double wrong;   /* share of the sample */
+  bool pareto;    /* no other setting is at least as fast and as accurate, and better in one of them */
+} kz_trade_row;
 typedef struct {
   int64_t count;
-  const kz_setting **settings; /* [count] */
-  kz_numerics *numerics;       /* [count] resolved */
-  kz_measured *measured;       /* [count] */
-  double *seconds;             /* [count] for the whole grid of the basin, without the search for attractors */
-  double *wrong;               /* [count] */
-  int8_t *pareto;              /* [count] */
-  double best_wrong;           /* the lowest share of a setting in double precision; NaN without one */
+  kz_trade_row *row; /* [count] */
+  double best_wrong; /* the lowest share of a setting in double precision; NaN without one */
 } kz_trade;
 
+/* Sets `pareto` of the rows. */
+void kz_pareto(kz_trade *trade);
 /* Group /tradeoff and its table in the summary. Rank 0. */
 kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary);
 

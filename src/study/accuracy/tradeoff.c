@@ -51,41 +51,38 @@ char *kz_reference_path(const kz_store *store) {
 
 static kz_status measure_tile(void *context, int64_t tile, void *record) {
   const measuring *m = context;
-  return kz_setting_measure(m->trade->settings[tile], m->reference, TIMED, record);
+  return kz_setting_measure(m->trade->row[tile].setting, m->reference, TIMED, record);
 }
 
-static void tradeoff_allocate(const kz_tradeoff_plan *plan, kz_trade *trade) {
-  const size_t n = (size_t)count_settings(plan);
-  *trade = (kz_trade){.count = (int64_t)n,
-                      .settings = kz_calloc(n, sizeof *trade->settings),
-                      .numerics = kz_calloc(n, sizeof *trade->numerics),
-                      .measured = kz_calloc(n, sizeof *trade->measured),
-                      .seconds = kz_calloc(n, sizeof(double)),
-                      .wrong = kz_calloc(n, sizeof(double)),
-                      .pareto = kz_calloc(n, sizeof(int8_t))};
-  for (int64_t i = 0; i < trade->count; i++) trade->settings[i] = setting_at(plan, i);
+static kz_trade trade_of(const kz_tradeoff_plan *plan) {
+  kz_trade trade = {.count = count_settings(plan)};
+  trade.row = kz_calloc((size_t)trade.count, sizeof *trade.row);
+  for (int64_t i = 0; i < trade.count; i++) trade.row[i].setting = setting_at(plan, i);
+  return trade;
 }
 
-static void free_trade(kz_trade *trade) {
-  free(trade->settings);
-  free(trade->numerics);
-  free(trade->measured);
-  free(trade->seconds);
-  free(trade->wrong);
-  free(trade->pareto);
+void kz_pareto(kz_trade *trade) {
+  for (kz_trade_row *a = trade->row; a < trade->row + trade->count; a++) {
+    a->pareto = true;
+    for (const kz_trade_row *b = trade->row; b < trade->row + trade->count; b++)
+      if (b->seconds <= a->seconds && b->wrong <= a->wrong && (b->seconds < a->seconds || b->wrong < a->wrong))
+        a->pareto = false;
+  }
 }
 
 /* Shares, times and the Pareto front from the counts and the measured times. */
-static void rate(const kz_reference_labels *reference, kz_trade *trade) {
+static void rate(const kz_reference_labels *reference, const kz_measured *measured, kz_trade *trade) {
   const double cells = (double)kz_unique_cells(reference->plan);
   trade->best_wrong = NAN;
   for (int64_t i = 0; i < trade->count; i++) {
-    const kz_measured *m = trade->measured + i;
-    trade->wrong[i] = kz_share_of(m->wrong, reference->samples).share;
-    trade->seconds[i] = m->set_up + m->cell * cells;
-    if (trade->settings[i]->method != KZ_METHOD_EXACT) trade->best_wrong = fmin(trade->best_wrong, trade->wrong[i]);
+    kz_trade_row *row = trade->row + i;
+    row->numerics = kz_setting_numerics(row->setting, &reference->pendulum, reference->plan);
+    row->measured = measured[i];
+    row->wrong = kz_share_of(measured[i].wrong, reference->samples).share;
+    row->seconds = measured[i].set_up + measured[i].cell * cells;
+    if (row->setting->method != KZ_METHOD_EXACT) trade->best_wrong = fmin(trade->best_wrong, row->wrong);
   }
-  kz_pareto(trade->count, trade->seconds, trade->wrong, trade->pareto);
+  kz_pareto(trade);
 }
 
 static kz_stage stage_of(measuring *m) {
@@ -95,40 +92,36 @@ static kz_stage stage_of(measuring *m) {
 static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
   measuring m = {reference, trade};
   const kz_stage stage = stage_of(&m);
-  for (int64_t i = 0; i < trade->count; i++)
-    trade->numerics[i] = kz_setting_numerics(trade->settings[i], &reference->pendulum, reference->plan);
-  KZ_TRY(kz_stage_run(run, &stage, trade->measured));
-  rate(reference, trade);
-  return KZ_OK;
+  kz_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
+  const kz_status status = kz_stage_run(run, &stage, measured);
+  if (status == KZ_OK) rate(reference, measured, trade);
+  free(measured);
+  return status;
 }
 
 kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds) {
   kz_reference_labels reference = {0};
-  kz_trade trade = {0};
   if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
+  kz_trade trade = trade_of(&scene->tradeoff);
+  measuring m = {&reference, &trade};
+  const kz_stage stage = stage_of(&m);
   kz_status status = kz_reference_labels_measure(scene, scene->tradeoff.samples, &reference, seconds);
-  if (status == KZ_OK) {
-    measuring m = {&reference, &trade};
-    tradeoff_allocate(&scene->tradeoff, &trade);
-    const kz_stage stage = stage_of(&m);
-    status = kz_stage_measure(&stage, 6, 2.0, seconds);
-  }
+  if (status == KZ_OK) status = kz_stage_measure(&stage, 6, 2.0, seconds);
   kz_reference_labels_free(&reference);
-  free_trade(&trade);
+  free(trade.row);
   return status;
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   kz_reference_labels reference = {0};
-  kz_trade trade = {0};
+  kz_trade trade = trade_of(&scene->tradeoff);
   char *path = kz_reference_path(store);
-  tradeoff_allocate(&scene->tradeoff, &trade);
   kz_status status = kz_reference_labels_make(scene, run, scene->tradeoff.samples, path, &reference);
   if (status == KZ_OK) status = kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
   if (status == KZ_OK) status = run_settings(&reference, &trade, run);
   if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);
   kz_reference_labels_free(&reference);
-  free_trade(&trade);
+  free(trade.row);
   free(path);
   return kz_ranks_agree(run->ranks, status);
 }

@@ -16,29 +16,29 @@ static const char *scheme_name(const kz_numerics *numerics) {
 }
 
 static kz_status write_configs(const kz_trade *trade, kz_store *store) {
-  const kz_setting *const *s = trade->settings;
-  COLUMN(const char *, "label", s[i]->label);
-  COLUMN(int8_t, "method", s[i]->method);
-  COLUMN(const char *, "scheme", scheme_name(trade->numerics + i));
-  COLUMN(int32_t, "steps_per_period", trade->numerics[i].steps_per_period);
-  COLUMN(int8_t, "interpolation", s[i]->interpolation);
-  COLUMN(int32_t, "table_nodes", s[i]->nodes);
+  const kz_trade_row *r = trade->row;
+  COLUMN(const char *, "label", r[i].setting->label);
+  COLUMN(int8_t, "method", r[i].setting->method);
+  COLUMN(const char *, "scheme", scheme_name(&r[i].numerics));
+  COLUMN(int32_t, "steps_per_period", r[i].numerics.steps_per_period);
+  COLUMN(int8_t, "interpolation", r[i].setting->interpolation);
+  COLUMN(int32_t, "table_nodes", r[i].setting->nodes);
   return KZ_OK;
 }
 
 static kz_status write_measures(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store) {
-  const kz_measured *m = trade->measured;
+  const kz_trade_row *r = trade->row;
   const double n = (double)reference->samples;
-  COLUMN(double, "wrong", trade->wrong[i]);
-  COLUMN(double, "wrong_low", kz_share_of(m[i].wrong, reference->samples).low);
-  COLUMN(double, "wrong_high", kz_share_of(m[i].wrong, reference->samples).high);
-  COLUMN(double, "undecided", (double)m[i].undecided / n);
-  COLUMN(double, "wrong_inside", (double)m[i].inside / n);
-  COLUMN(double, "wrong_distance", m[i].wrong > 0 ? (double)m[i].distance : NAN);
-  COLUMN(double, "fraction_error", (double)m[i].count_error / n);
-  COLUMN(double, "seconds", trade->seconds[i]);
-  COLUMN(double, "seconds_per_million_cells", 1e6 * m[i].cell);
-  COLUMN(int8_t, "pareto", trade->pareto[i]);
+  COLUMN(double, "wrong", r[i].wrong);
+  COLUMN(double, "wrong_low", kz_share_of(r[i].measured.wrong, reference->samples).low);
+  COLUMN(double, "wrong_high", kz_share_of(r[i].measured.wrong, reference->samples).high);
+  COLUMN(double, "undecided", (double)r[i].measured.undecided / n);
+  COLUMN(double, "wrong_inside", (double)r[i].measured.inside / n);
+  COLUMN(double, "wrong_distance", r[i].measured.wrong > 0 ? (double)r[i].measured.distance : NAN);
+  COLUMN(double, "fraction_error", (double)r[i].measured.count_error / n);
+  COLUMN(double, "seconds", r[i].seconds);
+  COLUMN(double, "seconds_per_million_cells", 1e6 * r[i].measured.cell);
+  COLUMN(int8_t, "pareto", r[i].pareto);
   return KZ_OK;
 }
 
@@ -57,22 +57,23 @@ static kz_status write_attributes(const kz_reference_labels *reference, const kz
 }
 
 static void print_row(const kz_reference_labels *reference, const kz_trade *trade, int64_t i, FILE *summary) {
-  const kz_setting *s = trade->settings[i];
-  const kz_measured *m = trade->measured + i;
+  const kz_trade_row *r = trade->row + i;
+  const kz_setting *s = r->setting;
+  const kz_measured *m = &r->measured;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
-  fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
-          trade->pareto[i] ? '*' : ' ', s->label, kz_method_names[s->method], scheme_name(trade->numerics + i),
-          (int)trade->numerics[i].steps_per_period, s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation],
-          (long long)s->nodes, 100 * wrong.share, 100 * wrong.low, 100 * wrong.high,
-          100 * (double)m->count_error / (double)reference->samples, trade->seconds[i], 1e6 * m->cell);
+  fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n", r->pareto ? '*' : ' ',
+          s->label, kz_method_names[s->method], scheme_name(&r->numerics), (int)r->numerics.steps_per_period,
+          s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes, 100 * wrong.share,
+          100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples, r->seconds,
+          1e6 * m->cell);
 }
 
 /* Prints how many cells the settings of method exact leave undecided. */
 static void tell_undecided(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   for (int64_t i = 0; i < trade->count; i++)
-    if (trade->settings[i]->method == KZ_METHOD_EXACT)
+    if (trade->row[i].setting->method == KZ_METHOD_EXACT)
       fprintf(summary, "%s leaves %lld of %lld cells undecided; these count neither as right nor as wrong.\n",
-              trade->settings[i]->label, (long long)trade->measured[i].undecided, (long long)reference->samples);
+              trade->row[i].setting->label, (long long)trade->row[i].measured.undecided, (long long)reference->samples);
 }
 
 /* Names the settings whose labels are random here. */
@@ -80,8 +81,8 @@ static void warn(const kz_reference_labels *reference, const kz_trade *trade, FI
   const double fastest = kz_axis_fastest(&reference->plan->velocity);
   const char *before = "warning: these settings have too few steps for the speeds of this window: ";
   for (int64_t i = 0; i < trade->count; i++) {
-    if (kz_steps_carry(&reference->pendulum, trade->numerics + i, fastest)) continue;
-    fprintf(summary, "%s%s", before, trade->settings[i]->label);
+    if (kz_steps_carry(&reference->pendulum, &trade->row[i].numerics, fastest)) continue;
+    fprintf(summary, "%s%s", before, trade->row[i].setting->label);
     before = ", ";
   }
   if (before[0] == ',') fprintf(summary, "\n");

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { SAMPLES = 96, LINES_PER_PERIOD = 8 };
 
@@ -72,11 +71,21 @@ static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction
   return KZ_OK;
 }
 
-typedef struct {
-  int64_t phases, lines;
-  double *theta, *velocity, *re, *im, *amplitude, *phase;
-  int32_t *dominant;
-} matrices;
+/* Columns of several values for each attractor; what has no meaning is NaN: places beyond its period, multipliers of chaos. */
+static kz_status write_matrices(const kz_catalogue *catalogue, int64_t phases, kz_store *store) {
+  const kz_entry *e = catalogue->entries;
+  const int64_t n = catalogue->count;
+#define POINTS(name, field)                               \
+  KZ_COLUMN(store, "attractors", name, n *phases, double, \
+            i % phases < e[i / phases].row.period ? e[i / phases].field[i % phases] : NAN)
+#define MULTIPLIERS(name, field) \
+  KZ_COLUMN(store, "attractors", name, 2 * n, double, e[i / 2].row.period > 0 ? e[i / 2].row.field[i % 2] : NAN)
+  POINTS("strobe_theta", theta);
+  POINTS("strobe_velocity", velocity);
+  MULTIPLIERS("multiplier_re", multiplier_re);
+  MULTIPLIERS("multiplier_im", multiplier_im);
+  return KZ_OK;
+}
 
 double *kz_nan_filled(int64_t n) {
   double *values = kz_malloc((size_t)(n + 1) * sizeof *values);
@@ -103,64 +112,37 @@ static kz_status lines_of(const kz_entry *entry, const kz_flow *flow, int64_t li
   return status;
 }
 
-static kz_status fill_matrices(const kz_catalogue *catalogue, const kz_flow *flow, matrices *x) {
-  for (int64_t i = 0; i < catalogue->count; i++) {
-    const kz_entry *e = catalogue->entries + i;
-    if (e->row.period == 0) continue;
-    memcpy(x->theta + i * x->phases, e->theta, (size_t)e->row.period * sizeof(double));
-    memcpy(x->velocity + i * x->phases, e->velocity, (size_t)e->row.period * sizeof(double));
-    memcpy(x->re + 2 * i, e->row.multiplier_re, 2 * sizeof(double));
-    memcpy(x->im + 2 * i, e->row.multiplier_im, 2 * sizeof(double));
-    KZ_TRY(lines_of(e, flow, x->lines, x->amplitude + i * x->lines, x->phase + i * x->lines, x->dominant + i));
-  }
-  return KZ_OK;
-}
-
-static kz_status write_matrices(const matrices *x, kz_store *store) {
-  KZ_TRY(kz_store_variable(store, "attractors", "strobe_theta", x->theta));
-  KZ_TRY(kz_store_variable(store, "attractors", "strobe_velocity", x->velocity));
-  KZ_TRY(kz_store_variable(store, "attractors", "multiplier_re", x->re));
-  KZ_TRY(kz_store_variable(store, "attractors", "multiplier_im", x->im));
-  KZ_TRY(kz_store_variable(store, "attractors", "line_amplitude", x->amplitude));
-  KZ_TRY(kz_store_variable(store, "attractors", "line_phase", x->phase));
-  return kz_store_variable(store, "attractors", "dominant_line", x->dominant);
-}
-
-static kz_status write_orbits(const kz_catalogue *catalogue, const kz_pendulum *pendulum, matrices *x, kz_store *store) {
-  int64_t n = catalogue->count;
+/* The lines of every closed orbit. */
+static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum *pendulum, int64_t lines, kz_store *store) {
+  const int64_t n = catalogue->count;
+  double *amplitude = kz_nan_filled(n * lines), *phase = kz_nan_filled(n * lines);
+  int32_t *dominant = kz_calloc((size_t)n + 1, sizeof *dominant);
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
   kz_flow *flow = kz_flow_create(pendulum, &fine);
-  x->theta = kz_nan_filled(n * x->phases);
-  x->velocity = kz_nan_filled(n * x->phases);
-  x->re = kz_nan_filled(2 * n);
-  x->im = kz_nan_filled(2 * n);
-  x->amplitude = kz_nan_filled(n * x->lines);
-  x->phase = kz_nan_filled(n * x->lines);
-  x->dominant = kz_calloc((size_t)n + 1, sizeof *x->dominant);
-  kz_status status = fill_matrices(catalogue, flow, x);
-  if (status == KZ_OK) status = write_matrices(x, store);
+  kz_status status = KZ_OK;
+  for (int64_t i = 0; i < n && status == KZ_OK; i++)
+    if (catalogue->entries[i].row.period > 0)
+      status = lines_of(catalogue->entries + i, flow, lines, amplitude + i * lines, phase + i * lines, dominant + i);
+  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "line_amplitude", amplitude);
+  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "line_phase", phase);
+  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "dominant_line", dominant);
   kz_flow_free(flow);
+  free(amplitude);
+  free(phase);
+  free(dominant);
   return status;
 }
 
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store) {
-  matrices x = {.phases = kz_catalogue_longest(catalogue)};
-  x.lines = LINES_PER_PERIOD * x.phases + 1;
+  const int64_t phases = kz_catalogue_longest(catalogue), lines = LINES_PER_PERIOD * phases + 1;
   KZ_TRY(kz_store_dimension(store, "attractors", "attractor", catalogue->count, NULL));
-  KZ_TRY(kz_store_dimension(store, "attractors", "phase", x.phases, NULL));
+  KZ_TRY(kz_store_dimension(store, "attractors", "phase", phases, NULL));
   KZ_TRY(kz_store_dimension(store, "attractors", "pair", 2, NULL));
-  KZ_TRY(kz_store_dimension(store, "attractors", "line", x.lines, NULL));
+  KZ_TRY(kz_store_dimension(store, "attractors", "line", lines, NULL));
   KZ_TRY(write_columns(catalogue, with_fraction, store));
-  kz_status status = write_orbits(catalogue, pendulum, &x, store);
-  free(x.theta);
-  free(x.velocity);
-  free(x.re);
-  free(x.im);
-  free(x.amplitude);
-  free(x.phase);
-  free(x.dominant);
-  return status;
+  KZ_TRY(write_matrices(catalogue, phases, store));
+  return write_spectra(catalogue, pendulum, lines, store);
 }
 
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary) {

@@ -8,68 +8,54 @@
 
 enum { MOST_FLAGS = 16000 }; /* an attribute of numbers holds 64 KiB */
 
-/* The uncertainty exponent, and the distances (rad) over which it was found. */
+/* Measures of the settled cells, NaN where those are the smaller part: basin entropy; the uncertainty exponent, and the distances (rad) over
+ * which it was found. */
 typedef struct {
-  kz_line line;
-  double nearest, farthest;
-} exponent;
-
-/* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
-static exponent uncertainty(const kz_basin_plan *plan, const kz_window_summary *labels) {
-  const double cell = kz_axis_step(&plan->theta);
-  double x[KZ_DISTANCES], y[KZ_DISTANCES];
-  int64_t n = 0;
-  for (; n < KZ_DISTANCES; n++) {
-    const double share = kz_uncertain_share(&labels->counts, (int)n);
-    if (share <= 0) break;
-    x[n] = log(ldexp(1, (int)n));
-    y[n] = log(share);
-  }
-  exponent e = {kz_fit_line(n, x, y), NAN, NAN};
-  if (isnan(e.line.slope)) return e;
-  e.nearest = cell;
-  e.farthest = ldexp(cell, (int)n - 1);
-  return e;
-}
-
-/* Measures of the settled cells: none where those are the smaller part. */
-typedef struct {
-  double entropy, boundary_entropy;
-  exponent exponent;
+  double entropy, boundary_entropy, nearest, farthest;
+  kz_line exponent;
 } measures;
 
-static measures find_measures(const kz_basin_plan *plan, const kz_window_summary *labels) {
-  measures m = {NAN, NAN, {{.slope = NAN, .slope_stderr = NAN}, NAN, NAN}};
-  if (2 * labels->counts.unsettled > labels->cells) return m;
-  kz_entropy_of(&labels->counts, &m.entropy, &m.boundary_entropy);
-  m.exponent = uncertainty(plan, labels);
-  return m;
+/* Slope of ln(uncertain share) against ln(distance), distances 1, 2, 4, ... columns. */
+static void find_exponent(double cell, const kz_counts *counts, measures *m) {
+  double x[KZ_DISTANCES], y[KZ_DISTANCES];
+  int n = 0;
+  for (; n < KZ_DISTANCES && kz_uncertain_share(counts, n) > 0; n++) {
+    x[n] = log(ldexp(1, n));
+    y[n] = log(kz_uncertain_share(counts, n));
+  }
+  m->exponent = kz_fit_line(n, x, y);
+  if (isnan(m->exponent.slope)) return;
+  m->nearest = cell;
+  m->farthest = ldexp(cell, n - 1);
 }
 
 static void print_measures(const measures *m, int64_t unsettled, FILE *summary) {
-  const exponent *e = &m->exponent;
   if (isnan(m->entropy)) {
     fprintf(summary, "Basin entropy and uncertainty exponent are not computed, because most cells did not settle.\n");
     return;
   }
   fprintf(summary, "Basin entropy: %.4f, at the boundaries %.4f", m->entropy, m->boundary_entropy);
-  if (!isnan(e->line.slope))
+  if (!isnan(m->exponent.slope))
     fprintf(summary, ". Uncertainty exponent: %.3f +- %.3f (standard error of the fit), for distances from %.3g to %.3g rad",
-            e->line.slope, e->line.slope_stderr, e->nearest, e->farthest);
+            m->exponent.slope, m->exponent.slope_stderr, m->nearest, m->farthest);
   fprintf(summary, ".%s\n", unsettled > 0 ? " Both leave unsettled cells out." : "");
 }
 
 static kz_status write_measures(const kz_basin_plan *plan, const kz_window_summary *labels, kz_store *store, FILE *summary) {
-  const measures m = find_measures(plan, labels);
+  measures m = {NAN, NAN, NAN, NAN, {.slope = NAN, .slope_stderr = NAN}};
+  if (2 * labels->counts.unsettled <= labels->cells) {
+    kz_entropy_of(&labels->counts, &m.entropy, &m.boundary_entropy);
+    find_exponent(kz_axis_step(&plan->theta), &labels->counts, &m);
+  }
   KZ_TRY(kz_store_real(store, "basin", "trapped_share", labels->trapped_share));
   KZ_TRY(kz_store_real(store, "basin", "step_error", labels->step_error));
   KZ_TRY(kz_store_real(store, "basin", "table_error", labels->table_error));
   KZ_TRY(kz_store_real(store, "basin", "basin_entropy", m.entropy));
   KZ_TRY(kz_store_real(store, "basin", "boundary_basin_entropy", m.boundary_entropy));
-  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent", m.exponent.line.slope));
-  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_stderr", m.exponent.line.slope_stderr));
-  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_nearest", m.exponent.nearest));
-  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_farthest", m.exponent.farthest));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent", m.exponent.slope));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_stderr", m.exponent.slope_stderr));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_nearest", m.nearest));
+  KZ_TRY(kz_store_real(store, "basin", "uncertainty_exponent_farthest", m.farthest));
   print_measures(&m, labels->counts.unsettled, summary);
   return KZ_OK;
 }
@@ -86,25 +72,17 @@ static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
 }
 
-/* Shares of the width from the centre, and both as they were written: doubles may not tell the cells apart. */
-static kz_status write_offsets(const kz_axis *axis, const char *name, double *values, kz_store *store) {
+/* With shares of the width from the centre, and both as they were written, where doubles may not tell the cells apart. */
+static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {
   char label[32];
-  for (int64_t i = 0; i < axis->count; i++) values[i] = (double)kz_axis_share(axis, i);
+  KZ_SCALE(store, "basin", name, axis->count, kz_axis_centre(axis, i));
+  if (!kz_axis_is_centred(axis)) return KZ_OK;
   snprintf(label, sizeof label, "%s_offset", name);
-  KZ_TRY(kz_store_variable(store, "basin", label, values));
+  KZ_COLUMN(store, "basin", label, axis->count, double, kz_axis_share(axis, i));
   snprintf(label, sizeof label, "%s_centre", name);
   KZ_TRY(kz_store_text(store, "basin", label, axis->centre.text));
   snprintf(label, sizeof label, "%s_width", name);
   return kz_store_text(store, "basin", label, axis->width.text);
-}
-
-static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {
-  double *centres = kz_malloc((size_t)axis->count * sizeof *centres);
-  for (int64_t i = 0; i < axis->count; i++) centres[i] = kz_axis_centre(axis, i);
-  kz_status status = kz_store_dimension(store, "basin", name, axis->count, centres);
-  if (status == KZ_OK && axis->centre.text[0]) status = write_offsets(axis, name, centres, store);
-  free(centres);
-  return status;
 }
 
 /* A name with the characters that CF allows: "rotation +1/2" is rotation_+1_in_2. */

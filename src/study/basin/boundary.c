@@ -14,11 +14,9 @@ static const double ALL = 0.99;
 
 static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE *summary) {
   kz_slope slope[KZ_PAIR_DISTANCES];
-  double distance[KZ_PAIR_DISTANCES];
   const kz_slope whole = kz_uncertainty_slopes(n, u, slope);
   slope[n - 1] = (kz_slope){NAN, NAN, NAN, NAN, NAN};
-  for (int d = 0; d < n; d++) distance[d] = u[d].distance;
-  KZ_TRY(kz_store_dimension(store, "boundary", "distance", n, distance));
+  KZ_SCALE(store, "boundary", "distance", n, u[i].distance);
 #define COLUMN(name, expression) KZ_COLUMN(store, "boundary", name, n, double, expression)
   COLUMN("uncertain_share", kz_share_of(u[i].uncertain, u[i].pairs).share);
   COLUMN("uncertain_low", kz_share_of(u[i].uncertain, u[i].pairs).low);

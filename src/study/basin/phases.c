@@ -31,9 +31,10 @@ static double phase_at(const phases *p, int64_t i) {
 
 static kz_status start_of(void *context, int64_t item, int32_t level, kz_start *start) {
   const phases *p = context;
-  const int64_t cell = p->first + item, columns = p->plan->theta.count;
+  double centre[2];
   (void)level;
-  *start = kz_start_at(kz_axis_centre(&p->plan->theta, cell % columns), kz_axis_centre(&p->plan->velocity, cell / columns));
+  kz_cell_start(p->plan, p->first + item, centre);
+  *start = kz_start_at(centre[0], centre[1]);
   return KZ_OK;
 }
 
@@ -92,19 +93,12 @@ static double share_of(const phases *p, const int16_t *label, const kz_catalogue
 
 static kz_status write_group(const phases *p, const int16_t *label, const kz_catalogue *catalogue, kz_store *store,
                              FILE *summary) {
-  const int64_t n = p->plan->phases, columns = p->plan->theta.count, rows = p->plan->velocity.count, known = catalogue->count;
-  double *phase = kz_malloc((size_t)n * sizeof *phase), *theta = kz_malloc((size_t)columns * sizeof *theta),
-         *velocity = kz_malloc((size_t)rows * sizeof *velocity);
+  const int64_t n = p->plan->phases, known = catalogue->count;
   int64_t alike = 0;
-  for (int64_t i = 0; i < n; i++) phase[i] = phase_at(p, i);
-  for (int64_t i = 0; i < columns; i++) theta[i] = kz_axis_centre(&p->plan->theta, i);
-  for (int64_t i = 0; i < rows; i++) velocity[i] = kz_axis_centre(&p->plan->velocity, i);
-  kz_status status = kz_store_dimension(store, "phases", "phase", n, phase);
-  if (status == KZ_OK) status = kz_store_dimension(store, "phases", "velocity", rows, velocity);
-  if (status == KZ_OK) status = kz_store_dimension(store, "phases", "theta", columns, theta);
-  if (status == KZ_OK) status = kz_store_dimension(store, "phases", "attractor", known, NULL);
-  free(phase), free(theta), free(velocity);
-  KZ_TRY(status);
+  KZ_SCALE(store, "phases", "phase", n, phase_at(p, i));
+  KZ_SCALE(store, "phases", "velocity", p->plan->velocity.count, kz_axis_centre(&p->plan->velocity, i));
+  KZ_SCALE(store, "phases", "theta", p->plan->theta.count, kz_axis_centre(&p->plan->theta, i));
+  KZ_TRY(kz_store_dimension(store, "phases", "attractor", known, NULL));
   KZ_COLUMN(store, "phases", "fraction", n * known, double, share_of(p, label, catalogue, i / known, i % known));
   KZ_COLUMN(store, "phases", "common", p->cells, int16_t, id_at(catalogue, common_end(p, label, i)));
   KZ_COLUMN(store, "phases", "ends", p->cells, uint8_t, ends_of(p, label, i));

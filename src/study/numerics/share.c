@@ -28,22 +28,6 @@ int64_t kz_share_sample(double share) {
   return n;
 }
 
-void kz_pareto(int64_t n, const double *seconds, const double *wrong, int8_t *front) {
-  for (int64_t i = 0; i < n; i++) {
-    front[i] = 1;
-    for (int64_t j = 0; j < n; j++)
-      if (seconds[j] <= seconds[i] && wrong[j] <= wrong[i] && (seconds[j] < seconds[i] || wrong[j] < wrong[i])) front[i] = 0;
-  }
-}
-
-void kz_cost_order(int64_t n, const double *cost, int64_t *rank) {
-  for (int64_t i = 0; i < n; i++) {
-    int64_t place = i;
-    for (; place > 0 && cost[rank[place - 1]] > cost[i]; place--) rank[place] = rank[place - 1];
-    rank[place] = i;
-  }
-}
-
 /* A mixer of 64 bits (SplitMix64; Steele, Lea & Flood, OOPSLA 2014). */
 static uint64_t mix(uint64_t x) {
   x += 0x9e3779b97f4a7c15u;

@@ -1,4 +1,4 @@
-/* Shares counted in a sample and their intervals; the Pareto front of cost and error; the order of a sample. */
+/* Shares counted in a sample and their intervals; the order of a sample. */
 #ifndef KAPITZA_STUDY_SHARE_H
 #define KAPITZA_STUDY_SHARE_H
 
@@ -14,13 +14,6 @@ kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 
 /* The smallest sample size for which the upper bound is at most `share` if there is no hit. */
 int64_t kz_share_sample(double share);
-
-/* front [n] = 1 for entries of the Pareto front: no other entry is at least as good in seconds [n] and in wrong [n], and better in one of
- * them; else 0. */
-void kz_pareto(int64_t n, const double *seconds, const double *wrong, int8_t *front);
-
-/* rank [n]: the indices of `cost` from the lowest to the highest; equal costs keep their order. */
-void kz_cost_order(int64_t n, const double *cost, int64_t *rank);
 
 /* Cell i of an order of the cells 0 .. total - 1 that looks random: a permutation, chosen by the seed. */
 int64_t kz_shuffled(int64_t i, int64_t total, int64_t seed);
