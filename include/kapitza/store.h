@@ -85,17 +85,6 @@ kz_status kz_store_rows(kz_store *store, const char *group, const char *name, in
     KZ_TRY(write);                                                           \
   } while (0)
 
-/* The same for a dimension whose values are doubles. */
-#define KZ_SCALE(store, group, name, n, expression)                                        \
-  do {                                                                                     \
-    const int64_t scale_n = (n);                                                           \
-    double *scale = kz_malloc((size_t)(scale_n + 1) * sizeof *scale);                      \
-    for (int64_t i = 0; i < scale_n; i++) scale[i] = (expression);                         \
-    const kz_status scale_status = kz_store_dimension(store, group, name, scale_n, scale); \
-    free(scale);                                                                           \
-    KZ_TRY(scale_status);                                                                  \
-  } while (0)
-
 /* Read what an earlier study has written: the length of a dimension (0 if there is none), and the number of a variable at `index` [its
  * dimensions]. */
 kz_status kz_store_length(kz_store *store, const char *group, const char *dimension, int64_t *length);

@@ -38,45 +38,24 @@ kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendu
                  (int)numerics->steps_per_period, fastest);
 }
 
-static kz_status make_dynamics(const kz_reference_labels *reference, kz_dynamics **dynamics) {
-  kz_numerics numerics;
-  KZ_TRY(kz_reference_labels_numerics(reference->plan, &reference->pendulum, &numerics));
-  *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
-  return KZ_OK;
-}
-
-/* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. */
-typedef struct {
-  double *state;  /* [2 * most] */
-  int32_t *label; /* [most] */
-  int64_t most;
-} probes;
-
-/* The states of probes that do not settle, packed to the front: *open of them. */
-static kz_status follow_probes(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics, probes *p,
-                               int64_t *open) {
-  const int64_t n = reference->total < PROBES ? reference->total : PROBES;
-  *open = 0;
-  for (int64_t i = 0; i < n; i++) kz_cell_state(reference->plan, kz_reference_labels_cell(reference, i), p->state + 2 * i);
-  KZ_TRY(kz_settle(run, dynamics, reference->plan->max_periods, n, p->state, p->label));
-  for (int64_t i = 0; i < n; i++)
-    if (p->label[i] == 0) memcpy(p->state + 2 * (*open)++, p->state + 2 * i, 2 * sizeof(double));
-  return KZ_OK;
-}
-
-static kz_status find_attractors(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics, probes *p) {
+/* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. Buffers: state [PROBES][2], label
+ * [PROBES]. */
+static kz_status find_attractors(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics, double *state,
+                                 int32_t *label) {
   const kz_basin_plan *plan = reference->plan;
+  const int64_t probes = reference->total < PROBES ? reference->total : PROBES;
   kz_search search = kz_search_of_basin(plan);
-  search.cells = reference->total;
   search.table_theta = 0;
-  search.max_velocity = reference->max_velocity;
-  KZ_TRY(kz_search_window(run, dynamics, &search, p->label));
+  KZ_TRY(kz_search_window(run, dynamics, &search, NULL));
   for (int round = 0; round < ROUNDS; round++) {
     const int64_t known = kz_dynamics_count(dynamics);
-    int64_t n;
-    KZ_TRY(follow_probes(reference, run, dynamics, p, &n));
-    if (n == 0) break;
-    KZ_TRY(kz_discover(run, dynamics, plan->max_periods, n, p->state, p->label));
+    int64_t open = 0;
+    for (int64_t i = 0; i < probes; i++) kz_cell_state(plan, kz_reference_labels_cell(reference, i), state + 2 * i);
+    KZ_TRY(kz_settle(run, dynamics, plan->max_periods, probes, state, label));
+    for (int64_t i = 0; i < probes; i++)
+      if (label[i] == 0) memcpy(state + 2 * open++, state + 2 * i, 2 * sizeof *state);
+    if (open == 0) break;
+    KZ_TRY(kz_discover(run, dynamics, plan->max_periods, open, state, label));
     if (kz_dynamics_count(dynamics) == known) break;
   }
   kz_dynamics_update(dynamics);
@@ -84,16 +63,14 @@ static kz_status find_attractors(const kz_reference_labels *reference, const kz_
 }
 
 static kz_status prepare(kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
-  const kz_basin_plan *plan = reference->plan;
-  probes p = {.most = plan->starts > PROBES ? plan->starts : PROBES};
-  const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
-  p.state = kz_malloc(2 * (size_t)p.most * sizeof *p.state);
-  p.label = kz_malloc((size_t)p.most * sizeof *p.label);
-  reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
-  const kz_status status = find_attractors(reference, run, dynamics, &p);
-  free(p.state);
-  free(p.label);
+  const kz_window window = kz_window_of(&reference->plan->theta, &reference->plan->velocity);
+  double *state = kz_malloc(2 * PROBES * sizeof *state);
+  int32_t *label = kz_malloc(PROBES * sizeof *label);
+  const kz_status status = find_attractors(reference, run, dynamics, state, label);
+  free(state);
+  free(label);
   KZ_TRY(kz_ranks_agree(run->ranks, status));
+  reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
   reference->packed_size = kz_dynamics_packed_size(dynamics);
   reference->packed = kz_malloc((size_t)reference->packed_size * sizeof(double));
   reference->labels = kz_calloc((size_t)reference->samples + 1, sizeof *reference->labels);
@@ -173,16 +150,12 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* Gives the labels that rank 0 has found in the cache to every rank. */
-static kz_status share_known(const kz_run *run, const char *path, kz_reference_labels *reference, int64_t *known) {
-  *known = kz_rank(run->ranks) == 0 && path ? kz_reference_labels_recall(path, reference) : 0;
-  KZ_TRY(kz_ranks_broadcast(run->ranks, known, sizeof *known));
-  return kz_ranks_broadcast(run->ranks, reference->labels, (size_t)*known * sizeof *reference->labels);
-}
-
+/* Labels that rank 0 has found in the cache are given to every rank. */
 static kz_status follow_samples(kz_reference_labels *reference, const kz_run *run, const char *path, kz_dynamics *dynamics) {
   reference_job h = {.reference = reference, .dynamics = dynamics};
-  KZ_TRY(share_known(run, path, reference, &h.known));
+  h.known = path ? kz_reference_labels_recall(path, reference) : 0;
+  KZ_TRY(kz_ranks_broadcast(run->ranks, &h.known, sizeof h.known));
+  KZ_TRY(kz_ranks_broadcast(run->ranks, reference->labels, (size_t)h.known * sizeof *reference->labels));
   const kz_stage stage = kz_stage_for_all("reference labels", (reference->samples + TILE - 1) / TILE,
                                           TILE * sizeof(kz_reference_label), label_tile, &h);
   kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
@@ -198,11 +171,12 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
   *reference = (kz_reference_labels){
       .plan = plan, .pendulum = scene->parameters.pendulum, .total = plan->theta.count * plan->velocity.count};
   reference->samples = samples < reference->total ? samples : reference->total;
-  kz_dynamics *dynamics = NULL;
-  kz_status status = kz_ranks_agree(run->ranks, make_dynamics(reference, &dynamics));
-  if (status == KZ_OK) status = prepare(reference, run, dynamics);
+  kz_numerics numerics;
+  KZ_TRY(kz_ranks_agree(run->ranks, kz_reference_labels_numerics(plan, &reference->pendulum, &numerics)));
+  kz_dynamics *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, plan->max_period);
+  kz_status status = prepare(reference, run, dynamics);
   if (status == KZ_OK) status = follow_samples(reference, run, path, dynamics);
-  if (dynamics) kz_dynamics_free(dynamics);
+  kz_dynamics_free(dynamics);
   return status;
 }
 

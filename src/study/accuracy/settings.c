@@ -91,30 +91,21 @@ typedef struct {
   kz_dynamics *dynamics;
 } measurement;
 
-/* A kz_start_fn: the items are places in the sample. */
-static kz_status start_of_sample(void *context, int64_t item, int32_t level, kz_start *start) {
-  const measurement *g = context;
-  double centre[2];
-  (void)level;
-  kz_cell_start(g->reference->plan, kz_reference_labels_cell(g->reference, item), centre);
-  *start = kz_start_at(centre[0], centre[1]);
-  return KZ_OK;
-}
-
 /* Labels [n] of the first n cells in the order of the sample; KZ_DOUBTFUL where no level of method exact decides. */
-static kz_status label_cells(measurement *g, int64_t n, int32_t *label) {
+static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
   const kz_setting *s = g->setting;
-  const kz_labeller labeller = {
-      .dynamics = g->dynamics, .max_periods = g->reference->plan->max_periods, .start = start_of_sample, .context = g};
+  const kz_labeller labeller = kz_cell_labeller(g->reference->plan, g->dynamics);
   const bool exact = s->method == KZ_METHOD_EXACT;
+  int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1), *periods = kz_malloc((size_t)n * sizeof *periods + 1);
   kz_decision *decision = kz_malloc((exact ? (size_t)n : 0) * sizeof *decision + 1);
-  int64_t *periods = kz_malloc((exact ? 0 : (size_t)n) * sizeof *periods + 1);
+  for (int64_t i = 0; i < n; i++) cell[i] = kz_reference_labels_cell(g->reference, i);
   const kz_status status = exact
-                               ? kz_label(&labeller, n, NULL, decision)
-                               : kz_label_states(&labeller, kz_stepping(s->method, s->interpolation), n, NULL, label, periods);
+                               ? kz_label(&labeller, n, cell, decision)
+                               : kz_label_states(&labeller, kz_stepping(s->method, s->interpolation), n, cell, label, periods);
   for (int64_t i = 0; i < n && exact && status == KZ_OK; i++) label[i] = decision[i].label;
-  free(decision);
+  free(cell);
   free(periods);
+  free(decision);
   return status;
 }
 

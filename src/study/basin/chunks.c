@@ -171,15 +171,6 @@ kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz
   return KZ_OK;
 }
 
-static void chunks_allocate(kz_chunks *c) {
-  const size_t n = (size_t)kz_tile_capacity(&c->labelling->tiles);
-  c->ids = kz_calloc(n + 1, sizeof *c->ids);
-  c->periods = kz_calloc(n + 1, sizeof *c->periods);
-  c->evidence = kz_calloc(n + 1, sizeof *c->evidence);
-  c->others = kz_calloc(n + 1, sizeof *c->others);
-  c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
-}
-
 /* Boxes and pairs that tiles cut: rank 0 reads whole rows back, as many as a tile has or a few more. */
 static kz_status count_rows(kz_chunks *c) {
   const kz_tiles *tiles = &c->labelling->tiles;
@@ -210,7 +201,12 @@ static kz_status deliver(kz_chunks *c) {
 }
 
 kz_status kz_cells_write(kz_chunks *c) {
-  chunks_allocate(c);
+  const size_t n = (size_t)kz_tile_capacity(&c->labelling->tiles);
+  c->ids = kz_calloc(n + 1, sizeof *c->ids);
+  c->periods = kz_calloc(n + 1, sizeof *c->periods);
+  c->evidence = kz_calloc(n + 1, sizeof *c->evidence);
+  c->others = kz_calloc(n + 1, sizeof *c->others);
+  c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
   const kz_status status = deliver(c);
   free(c->ids);
   free(c->periods);

@@ -2,7 +2,6 @@
  * are spread evenly over a period. Attractors and trapping regions are the same at all of them. A tile is some cells at one phase. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "basin.h"
 
@@ -13,7 +12,6 @@ typedef struct {
   kz_dynamics *dynamics;
   kz_release release; /* of the scene */
   int64_t cells, blocks;
-  int64_t first; /* cell of the piece of work */
 } phases;
 
 static phases phases_of(const kz_scene *scene, kz_dynamics *dynamics) {
@@ -29,34 +27,27 @@ static double phase_at(const phases *p, int64_t i) {
   return 2 * M_PI * (double)i / (double)p->plan->phases;
 }
 
-static kz_status start_of(void *context, int64_t item, int32_t level, kz_start *start) {
-  const phases *p = context;
-  double centre[2];
-  (void)level;
-  kz_cell_start(p->plan, p->first + item, centre);
-  *start = kz_start_at(centre[0], centre[1]);
-  return KZ_OK;
-}
-
-/* out [n]: numbers of kz_dynamics, 0 = not settled or not decided. */
-static kz_status label_some(phases *p, double phase, int64_t n, int16_t *out) {
+/* Labels n cells from `first` on, out [n]: numbers of kz_dynamics, 0 = not settled or not decided. */
+static kz_status label_some(const phases *p, double phase, int64_t first, int64_t n, int16_t *out) {
+  const kz_labeller labeller = kz_cell_labeller(p->plan, p->dynamics);
   kz_release release = p->release;
   kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
-  const kz_labeller labeller = {.dynamics = p->dynamics, .max_periods = p->plan->max_periods, .start = start_of, .context = p};
+  int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
+  for (int64_t i = 0; i < n; i++) cell[i] = first + i;
   release.phase = phase;
   kz_dynamics_set_release(p->dynamics, &release);
-  const kz_status status = kz_label(&labeller, n, NULL, decision);
+  const kz_status status = kz_label(&labeller, n, cell, decision);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) out[i] = decision[i].label > 0 ? (int16_t)decision[i].label : 0;
   kz_dynamics_set_release(p->dynamics, &p->release);
   free(decision);
+  free(cell);
   return status;
 }
 
 static kz_status phase_tile(void *context, int64_t tile, void *record) {
-  phases *p = context;
-  p->first = tile % p->blocks * BLOCK;
-  memset(record, 0, BLOCK * sizeof(int16_t));
-  return label_some(p, phase_at(p, tile / p->blocks), p->cells - p->first < BLOCK ? p->cells - p->first : BLOCK, record);
+  const phases *p = context;
+  const int64_t first = tile % p->blocks * BLOCK, left = p->cells - first;
+  return label_some(p, phase_at(p, tile / p->blocks), first, left < BLOCK ? left : BLOCK, record);
 }
 
 /* Label of a cell at a phase, of the records. */
@@ -122,12 +113,11 @@ kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labellin
 
 kz_status kz_phases_measure(const kz_scene *scene, kz_dynamics *dynamics, double *seconds) {
   if (scene->basin.phases <= 0) return KZ_OK;
-  phases p = phases_of(scene, dynamics);
+  const phases p = phases_of(scene, dynamics);
   const int64_t n = p.cells < FEW ? p.cells : FEW;
   int16_t label[FEW];
   const double start = kz_processor_clock();
-  p.first = p.cells / 2 < p.cells - n ? p.cells / 2 : p.cells - n;
-  const kz_status status = label_some(&p, 1, n, label);
+  const kz_status status = label_some(&p, 1, p.cells / 2 < p.cells - n ? p.cells / 2 : p.cells - n, n, label);
   *seconds += (kz_processor_clock() - start) * (double)scene->basin.phases * (double)p.cells / (double)n;
   return status;
 }

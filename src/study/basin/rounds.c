@@ -65,13 +65,8 @@ static kz_status label_tiles(kz_window_labels *l) {
   return kz_stage_run(l->run, &stage, NULL);
 }
 
-/* The check of a map table that alone labels the cells. Nothing is checked if basin.accuracy chose the setting, which compares labels. */
-static kz_status check_table(const kz_window_labels *l) {
-  if (l->plan->method != KZ_METHOD_ICM || !isnan(l->plan->accuracy)) return KZ_OK;
-  return kz_steps_check_table(l->plan, kz_dynamics_table_error(l->dynamics, kz_stencil(l->plan->interpolation)));
-}
-
-/* The starts of all cells, after the images of the window where they need them. */
+/* The starts of all cells, after the images of the window where they need them; the check of a map table that labels them. Nothing is checked
+ * if basin.accuracy chose the setting, which compares labels. */
 static kz_status make_starts(kz_window_labels *l) {
   const kz_basin_plan *plan = l->plan;
   if (kz_plan_is_centred(plan) && plan->method == KZ_METHOD_EXACT) {
@@ -79,14 +74,15 @@ static kz_status make_starts(kz_window_labels *l) {
     KZ_TRY(kz_images_run(l->run, l->dynamics, l->images, plan->max_periods));
   }
   kz_window_labels_start(l);
-  return KZ_OK;
+  if (plan->method != KZ_METHOD_ICM || !isnan(plan->accuracy)) return KZ_OK;
+  return kz_ranks_agree(l->run->ranks,
+                        kz_steps_check_table(plan, kz_dynamics_table_error(l->dynamics, kz_stencil(plan->interpolation))));
 }
 
 /* `exact` alone leaves doubtful cells. */
 static kz_status run_rounds(kz_window_labels *l) {
   KZ_TRY(rounds_discover(l, false));
   KZ_TRY(make_starts(l));
-  KZ_TRY(kz_ranks_agree(l->run->ranks, check_table(l)));
   KZ_TRY(label_tiles(l));
   KZ_TRY(kz_pending_count(l, KZ_DOUBTFUL));
   KZ_TRY(kz_pending_label(l, KZ_LEVEL_FINE, 1));
@@ -101,24 +97,15 @@ static kz_status run_rounds(kz_window_labels *l) {
   return KZ_OK;
 }
 
-static void rounds_allocate(kz_window_labels *l) {
-  const size_t capacity = (size_t)kz_tile_capacity(&l->tiles);
-  l->cell = kz_calloc(capacity + 1, sizeof *l->cell);
+/* The starts' counts of attractors are the same on every rank, those of tiles each rank's own. */
+kz_status kz_label_window(kz_window_labels *l) {
+  l->cell = kz_calloc((size_t)kz_tile_capacity(&l->tiles) + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
   l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
-}
-
-/* The starts' counts are the same on every rank, those of tiles each rank's own. */
-static kz_status sum_reached(kz_window_labels *l) {
+  KZ_TRY(run_rounds(l));
   for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
   for (int64_t i = 0; i < l->records.n; i++) kz_tile_labels_note_reached(l, &l->records.list[i]);
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);
-}
-
-kz_status kz_label_window(kz_window_labels *l) {
-  rounds_allocate(l);
-  KZ_TRY(run_rounds(l));
-  return sum_reached(l);
 }
 
 void kz_window_labels_free(kz_window_labels *l) {

@@ -27,17 +27,13 @@ static int64_t sample_size(const kz_basin_plan *plan) {
 
 static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const job *j = context;
-  int32_t *label = record;
-  kz_start start[TILE];
-  kz_decision decision[TILE];
+  const kz_labeller labeller = kz_cell_labeller(j->plan, j->dynamics);
   const int64_t first = tile * TILE, left = sample_size(j->plan) - first, n = left < TILE ? left : TILE;
-  for (int64_t i = 0; i < n; i++) {
-    double centre[2];
-    kz_cell_start(j->plan, cell_of(j->plan, first + i), centre);
-    start[i] = kz_start_at(centre[0], centre[1]);
-  }
-  kz_dynamics_label(j->dynamics, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, n, start, j->plan->max_periods, decision);
-  for (int64_t i = 0; i < n; i++) label[i] = decision[i].label;
+  int64_t cell[TILE];
+  kz_decision decision[TILE];
+  for (int64_t i = 0; i < n; i++) cell[i] = cell_of(j->plan, first + i);
+  KZ_TRY(kz_label_at(&labeller, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, n, cell, decision));
+  for (int64_t i = 0; i < n; i++) ((int32_t *)record)[i] = decision[i].label;
   return KZ_OK;
 }
 

@@ -6,14 +6,27 @@
 
 enum {
   BATCH = 16384, /* starts that are followed together */
-  STATES = 4096, /* the same of states alone */
   FEW = 24       /* are followed in quad precision for less than the tables of the pairs of doubles take */
 };
 
-kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start) {
-  const kz_start *starts = context;
+/* A kz_start_fn: the items are cells of a plan. */
+static kz_status start_of_cell(void *context, int64_t item, int32_t level, kz_start *start) {
+  double centre[2];
   (void)level;
-  *start = starts[item];
+  kz_cell_start(context, item, centre);
+  *start = kz_start_at(centre[0], centre[1]);
+  return KZ_OK;
+}
+
+kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics) {
+  return (kz_labeller){dynamics, plan->max_periods, .start = start_of_cell, .context = (void *)plan};
+}
+
+/* A kz_start_fn: the items are places in an array of angles and velocities. */
+static kz_status start_of_pair(void *context, int64_t item, int32_t level, kz_start *start) {
+  const double *pair = (const double *)context + 2 * item;
+  (void)level;
+  *start = kz_start_at(pair[0], pair[1]);
   return KZ_OK;
 }
 
@@ -105,29 +118,23 @@ kz_status kz_label(const kz_labeller *l, int64_t n, const int64_t *item, kz_deci
   return status;
 }
 
+/* Starts of an array cannot fail. */
 void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
                       int64_t *periods) {
-  double state[2 * STATES];
-  for (int64_t done = 0; done < n; done += STATES) {
-    const int64_t part = n - done < STATES ? n - done : STATES;
-    for (int64_t i = 0; i < part; i++) kz_start_state(start[2 * (done + i)], start[2 * (done + i) + 1], state + 2 * i);
-    kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, part, max_periods, state, end + done, periods + done);
-  }
+  const kz_labeller labeller = {dynamics, max_periods, .start = start_of_pair, .context = (void *)start};
+  (void)kz_label_states(&labeller, KZ_FOLLOW_DIRECT, n, NULL, end, periods);
 }
 
 void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
                       int64_t *periods) {
-  kz_start *exact = kz_malloc((size_t)n * sizeof *exact + 1);
+  const kz_labeller labeller = {dynamics, max_periods, .start = start_of_pair, .context = (void *)start};
   kz_decision *decision = kz_malloc((size_t)n * sizeof *decision + 1);
-  const kz_labeller labeller = {.dynamics = dynamics, .max_periods = max_periods, .start = kz_start_of_array, .context = exact};
-  for (int64_t i = 0; i < n; i++) exact[i] = kz_start_at(start[2 * i], start[2 * i + 1]);
-  (void)kz_label(&labeller, n, NULL, decision); /* starts of an array cannot fail */
+  (void)kz_label(&labeller, n, NULL, decision);
   for (int64_t i = 0; i < n; i++) {
     end[i] = decision[i].label;
     periods[i] = decision[i].periods;
     if (end[i] == KZ_DOUBTFUL) kz_follow_starts(dynamics, max_periods, 1, start + 2 * i, end + i, periods + i);
   }
-  free(exact);
   free(decision);
 }
 

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "kapitza/dynamics.h"
+#include "kapitza/study.h"
 
 /* Makes the start of an item for a level. Finer levels may begin their own arithmetic earlier, after fewer periods. */
 typedef kz_status (*kz_start_fn)(void *context, int64_t item, int32_t level, kz_start *start);
@@ -22,8 +23,8 @@ typedef struct {
   void *context;       /* of start and decide */
 } kz_labeller;
 
-/* A kz_start_fn whose context is an array of starts; an item is an index in it. */
-kz_status kz_start_of_array(void *context, int64_t item, int32_t level, kz_start *start);
+/* The labeller of cells whose centres are doubles; the items are their numbers. */
+kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics);
 /* The exact start (theta in rad, velocity in rad per drive radian). */
 static inline kz_start kz_start_at(double theta, double velocity) {
   return (kz_start){.theta = {theta, 0}, .velocity = {velocity, 0}};

@@ -18,17 +18,8 @@ kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal) {
   return (kz_coordinate){.high = decimal->high, .low = decimal->low, .centre = decimal->text};
 }
 
-static __float128 middle_of(const kz_axis *axis) {
-  return (__float128)axis->centre.high + axis->centre.low;
-}
-
-static __float128 width_of(const kz_axis *axis) {
-  return (__float128)axis->width.high + axis->width.low;
-}
-
-/* Enough cells on each side of the centre in an exact number of halves; a quad has more digits than a pair. */
-static __float128 centre_of(const kz_axis *axis, int64_t i) {
-  return (__float128)(2 * i + 1 - axis->count) * (width_of(axis) / (__float128)(2 * axis->count)) + middle_of(axis);
+static __float128 quad_of(const kz_decimal *decimal) {
+  return (__float128)decimal->high + decimal->low;
 }
 
 static void split(__float128 value, double pair[2]) {
@@ -37,8 +28,8 @@ static void split(__float128 value, double pair[2]) {
 }
 
 void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]) {
-  if (axis->centre.text[0])
-    split((share - 0.5) * width_of(axis) + middle_of(axis) + offset, pair);
+  if (kz_axis_is_centred(axis))
+    split((share - 0.5) * quad_of(&axis->width) + quad_of(&axis->centre) + offset, pair);
   else
     split((__float128)(axis->min + share * (axis->max - axis->min)) + offset, pair);
 }
@@ -82,9 +73,10 @@ bool kz_axis_is_deep(const kz_axis *axis) {
 }
 
 double kz_axis_centre(const kz_axis *axis, int64_t i) {
-  if (axis->centre.text[0]) return (double)centre_of(axis, i);
-  return (double)(2 * i + 1 - axis->count) * ((axis->max - axis->min) / (2.0 * (double)axis->count)) +
-         (axis->min + axis->max) / 2;
+  const int64_t halves = 2 * i + 1 - axis->count; /* of a cell, from the centre; a quad has more digits than a pair */
+  if (kz_axis_is_centred(axis))
+    return (double)((__float128)halves * (quad_of(&axis->width) / (__float128)(2 * axis->count)) + quad_of(&axis->centre));
+  return (double)halves * ((axis->max - axis->min) / (2.0 * (double)axis->count)) + (axis->min + axis->max) / 2;
 }
 
 kz_coordinate kz_axis_coordinate(const kz_axis *axis, int64_t i) {

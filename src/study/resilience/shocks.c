@@ -27,9 +27,9 @@ static const double RIM = 1.0 / 16;
 /* Workspace of one batch of starts. */
 typedef struct {
   const kz_shock_problem *problem;
-  double *start;    /* [MOST][2] */
-  int32_t *end;     /* [MOST] */
-  int64_t *periods; /* [MOST] */
+  double start[2 * MOST];
+  int32_t end[MOST];
+  int64_t periods[MOST];
 } workspace;
 
 /* Rays from the motion: unit vectors of the norm, and where along each another end lies between near and far. */
@@ -37,17 +37,6 @@ typedef struct {
   double direction[2], near, far;
   int32_t end;
 } ray;
-
-static void make_workspace(const kz_shock_problem *problem, workspace *r) {
-  *r = (workspace){problem, kz_malloc(2 * MOST * sizeof(double)), kz_malloc(MOST * sizeof(int32_t)),
-                   kz_malloc(MOST * sizeof(int64_t))};
-}
-
-static void free_workspace(workspace *r) {
-  free(r->start);
-  free(r->end);
-  free(r->periods);
-}
 
 static void put(workspace *r, int64_t i, const double direction[2], double distance) {
   for (int c = 0; c < 2; c++) r->start[2 * i + c] = r->problem->from[c] + distance * direction[c];
@@ -205,35 +194,35 @@ static kz_shock in_norm(const kz_shock *shock, double scale) {
 }
 
 void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
-  workspace r;
-  make_workspace(problem, &r);
-  shock[0] = along_line(&r, 1, 0, M_PI);
-  shock[1] = along_line(&r, 0, 1, problem->farthest);
+  workspace *r = kz_malloc(sizeof *r);
+  r->problem = problem;
+  shock[0] = along_line(r, 1, 0, M_PI);
+  shock[1] = along_line(r, 0, 1, problem->farthest);
   const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
   shock[2] = isless(velocity.size, angle.size) || isnan(angle.size) ? velocity : angle;
   if (!isnan(shock[2].size)) {
     const double at = atan2(shock[2].velocity / problem->scale, shock[2].theta);
-    const kz_shock near = slide(&r, at, 2 * M_PI / RAYS, shock[2].size);
+    const kz_shock near = slide(r, at, 2 * M_PI / RAYS, shock[2].size);
     if (near.size < shock[2].size) shock[2] = near;
-    shock[2] = in_disc(&r, shock + 2);
+    shock[2] = in_disc(r, shock + 2);
   }
-  free_workspace(&r);
+  free(r);
 }
 
 void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
   static const double GOLDEN = 0.61803398874989484820;
-  workspace r;
+  workspace *r = kz_malloc(sizeof *r);
   double time = 0;
-  make_workspace(problem, &r);
+  r->problem = problem;
   *harmless = (kz_harmless){.shocks = SPREAD};
   for (int i = 0; i < SPREAD; i++)
-    put(&r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
-  follow(&r, SPREAD);
+    put(r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
+  follow(r, SPREAD);
   for (int i = 0; i < SPREAD; i++) {
-    if (r.end[i] != problem->own) continue;
+    if (r->end[i] != problem->own) continue;
     harmless->harmless++;
-    time += (double)r.periods[i];
+    time += (double)r->periods[i];
   }
   harmless->return_time = harmless->harmless > 0 ? time / (double)harmless->harmless : NAN;
-  free_workspace(&r);
+  free(r);
 }
