@@ -51,17 +51,13 @@ contains
     real(c_double), intent(out) :: log_multiplier(n) !< natural log of the largest |multiplier| [n]
     real(c_double), intent(out) :: angle(n) !< Floquet angle / 2 pi [n]
     integer(c_int8_t), intent(out) :: stable(n) !< 1 = stable [n]
-    type(half_period_t) :: half(WIDTH)
-    integer(c_int64_t) :: first, j
-    integer :: lanes, i
+    type(half_period_t), allocatable :: half(:)
+    integer(c_int64_t) :: j
 
-    do first = 1, n, WIDTH
-      lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
-      call half_batch(lanes, k(first:), beta(first:), m(first:), half)
-      do i = 1, lanes
-        j = first + i - 1
-        call classify(half(i), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
-      end do
+    allocate (half(n))
+    call half_periods(n, k, beta, m, half)
+    do j = 1, n
+      call classify(half(j), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
     end do
   end subroutine floquet
 

@@ -118,9 +118,9 @@ def without_comments(text):
 
 
 def declared(text):
-    """{function: (result, [parameter types])} of the prototypes in C text; a type is (const, name, pointer)."""
+    """{function: (result, [parameter types])} of the prototypes and definitions in C text; a type is (const, name, pointer)."""
     found = {}
-    for result, name, parameters in re.findall(r"^((?:const )?\w+[ *]+)(kz_\w+) ?\(([^()]*)\)[^;{]*;", text, re.MULTILINE):
+    for result, name, parameters in re.findall(r"^((?:const )?\w+[ *]+)(kz_\w+) ?\(([^()]*)\)[^;{]*[;{]", text, re.MULTILINE):
         types = [] if parameters.strip() in ("", "void") else [type_of(part) for part in parameters.split(",")]
         found[name] = (type_of(result + " it"), types)
     return found

@@ -51,23 +51,18 @@ static int64_t bits_left(int64_t bits, int64_t size) {
   return left < FEWEST ? FEWEST : left > bits + GUARD ? bits + GUARD : left;
 }
 
-/* Coefficient n + 1 of a series: `sum` so far over n + 1. */
-static void divide(kz_number *x, int64_t n, int64_t bits) {
-  kz_number_divide_by(x, x, n + 1, bits);
-}
-
 static void expand_order(kz_series *series, const kz_steps *steps, int64_t n, int64_t bits) {
   kz_number *b = series->speed, *s = series->sine, *c = series->cosine;
   const int64_t first = kz_larger(0, n - steps->force_orders);
   KZ_NUMBER(damped);
   kz_number_dot(s + n + 1, NULL, false, c, b + n, n + 1, bits);
-  divide(s + n + 1, n, bits);
+  kz_number_divide_by(s + n + 1, s + n + 1, n + 1, bits);
   kz_number_dot(c + n + 1, NULL, true, s, b + n, n + 1, bits);
-  divide(c + n + 1, n, bits);
+  kz_number_divide_by(c + n + 1, c + n + 1, n + 1, bits);
   kz_number_multiply(&damped, &steps->damping, b + n, bits);
   kz_number_negate(&damped);
   kz_number_dot(b + n + 1, &damped, true, s + first, series->force + (n - first), n - first + 1, bits);
-  divide(b + n + 1, n, bits);
+  kz_number_divide_by(b + n + 1, b + n + 1, n + 1, bits);
 }
 
 /* A motion at rest has a short series, its neighbours a long one. */
@@ -105,11 +100,11 @@ static void expand_tangent_order(kz_series *series, const kz_steps *steps, int c
   for (int axis = 0; axis < columns; axis++) {
     kz_number *x = series->angle[axis], *y = series->rate[axis];
     kz_number_set(x + n + 1, y + n);
-    divide(x + n + 1, n, bits);
+    kz_number_divide_by(x + n + 1, x + n + 1, n + 1, bits);
     kz_number_multiply(&damped, &steps->damping, y + n, bits);
     kz_number_negate(&damped);
     kz_number_dot(y + n + 1, &damped, true, x, series->gain + n, n + 1, bits);
-    divide(y + n + 1, n, bits);
+    kz_number_divide_by(y + n + 1, y + n + 1, n + 1, bits);
   }
 }
 

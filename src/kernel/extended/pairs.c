@@ -2,23 +2,11 @@
  * is enough. pairs_level.f90 makes the tables. */
 #include "pairs_arithmetic.h"
 
-#include <stdbool.h>
-
-#include "lanes/lanes.h"
-
 /* Angles (half-turns) and velocities (rad per drive radian), each high + low. */
 typedef struct {
   double u[2][KZ_LANES];
   double v[2][KZ_LANES];
 } kz_pair_lanes;
-
-/* Does the stages of one period and wraps the angles to [-1, 1]; turns [n] = the net number of turns. row [n_stages + 1][n_row]: for each
- * stage the coefficients of the drift (the first one high and low, then n_drift - 1 doubles) and of the kick (n_pairs high and low, then
- * n_kick - n_pairs doubles, because those of high powers are small); in the last row only the drift counts. ordered [n_stages]: 1 if the
- * modulus of every pair among the coefficients of the kick is at least the sum of the moduli after it. decay [2]: factor of the velocity,
- * high and low, from damping. Without mirror symmetry a row goes on with as many coefficients of even polynomials (tables.inc). */
-void kz_pairs_stages(int32_t mirrored, int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row,
-                     const int32_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns);
 
 /* Half the order of the series, which bounds harmonics and powers of a displacement; number of terms of the sine. */
 enum { KZ_HALF_ORDER = 7, KZ_SINE_TERMS = 15 };
@@ -34,9 +22,6 @@ typedef struct {
   int64_t sine_pairs;
 } kz_displacement;
 
-/* Adds the displacement to (u, v) of the lanes 0 .. n - 1. */
-void kz_pairs_displace(const kz_displacement *displacement, int64_t n, kz_pair_lanes *lanes);
-
 /* Vectors at once: they hide the latency of the arithmetic. */
 enum { CHAINS = 4 };
 #define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
@@ -49,14 +34,15 @@ OPERATION int64_t row_size(shape size) {
   return size.n_drift + 1 + size.n_kick + size.n_pairs;
 }
 
-/* u += v (d1 + d3 v^2 + ..): all but d1 are small. */
-OPERATION void drift(shape size, const double *row, pair *u, const pair *v) {
+/* u += v (d1 + d3 v^2 + ..), or where not odd d0 + d2 v^2 + ..: all but the first coefficient are small. */
+OPERATION void drift(shape size, bool odd, const double *row, pair *u, const pair *v) {
   EACH {
     const vector square = v[i].high * v[i].high;
     vector small = same(0);
     for (int64_t j = size.n_drift; j >= 2; j--) small = fused(small, square, same(row[j]));
-    const pair rate = quick_sum(same(row[0]), small * square);
-    u[i] = add(u[i], loose_product(v[i], (pair){rate.high, rate.low + row[1]}));
+    const pair first = odd ? quick_sum(same(row[0]), small * square) : sum(same(row[0]), small * square);
+    const pair step = {first.high, first.low + row[1]};
+    u[i] = add(u[i], odd ? loose_product(v[i], step) : step);
   }
 }
 
@@ -75,17 +61,6 @@ OPERATION void kick(shape size, const double *row, bool ordered, const pair *u, 
     for (int64_t j = size.n_pairs - 1; j >= 0; j--) EACH p[i] = horner(p[i], q[i], row + 2 * j);
   EACH r[i] = loose_sum(r[i], negative(loose_product(r[i], q[i])));
   EACH v[i] = add(v[i], negative(loose_product(r[i], p[i])));
-}
-
-/* u += d0 + d2 v^2 + ..: all but d0 are small. */
-OPERATION void even_drift(shape size, const double *row, pair *u, const pair *v) {
-  EACH {
-    const vector square = v[i].high * v[i].high;
-    vector small = same(0);
-    for (int64_t j = size.n_drift; j >= 2; j--) small = fused(small, square, same(row[j]));
-    const pair step = sum(same(row[0]), small * square);
-    u[i] = add(u[i], (pair){step.high, step.low + row[1]});
-  }
 }
 
 /* v -= e1 + e2 r^2 + .. */
@@ -121,13 +96,13 @@ OPERATION void run(bool mirrored, int64_t n_stages, shape size, const double *ro
     load(lanes->v[0] + first, lanes->v[1] + first, v);
     for (int64_t s = 0; s < n_stages; s++) {
       const double *rest = row + s * n_row + half;
-      drift(size, row + s * n_row, u, v);
-      if (!mirrored) even_drift(size, rest, u, v);
+      drift(size, true, row + s * n_row, u, v);
+      if (!mirrored) drift(size, false, rest, u, v);
       kick(size, row + s * n_row + size.n_drift + 1, ordered[s], u, v);
       if (!mirrored) even_kick(size, rest + size.n_drift + 1, u, v);
     }
-    drift(size, row + n_stages * n_row, u, v);
-    if (!mirrored) even_drift(size, row + n_stages * n_row + half, u, v);
+    drift(size, true, row + n_stages * n_row, u, v);
+    if (!mirrored) drift(size, false, row + n_stages * n_row + half, u, v);
     EACH u[i] = reduce(u[i], even + i);
     EACH v[i] = multiply(v[i], (pair){same(decay[0]), same(decay[1])});
     save(u, lanes->u[0] + first, lanes->u[1] + first);
@@ -136,6 +111,11 @@ OPERATION void run(bool mirrored, int64_t n_stages, shape size, const double *ro
   }
 }
 
+/* Does the stages of one period and wraps the angles to [-1, 1]; turns [n] = the net number of turns. row [n_stages + 1][n_row]: for each
+ * stage the coefficients of the drift (the first one high and low, then n_drift - 1 doubles) and of the kick (n_pairs high and low, then
+ * n_kick - n_pairs doubles, because those of high powers are small); in the last row only the drift counts. ordered [n_stages]: 1 if the
+ * modulus of every pair among the coefficients of the kick is at least the sum of the moduli after it. decay [2]: factor of the velocity,
+ * high and low, from damping. Without mirror symmetry a row goes on with as many coefficients of even polynomials (tables.inc). */
 void kz_pairs_stages(int32_t mirrored, int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row,
                      const int32_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns) {
   const shape size = {n_drift, n_kick, n_pairs};
@@ -170,6 +150,7 @@ OPERATION pair add_powers(pair shift, int64_t n, int64_t n_pairs, const double *
   return (pair){shift.high, fused(factor.high, p.high, shift.low)};
 }
 
+/* Adds the displacement to (u, v) of the lanes 0 .. n - 1. */
 void kz_pairs_displace(const kz_displacement *d, int64_t n, kz_pair_lanes *lanes) {
   for (int64_t first = 0; first < n; first += LANES) {
     vector *const state[2][2] = {{(vector *)(lanes->u[0] + first), (vector *)(lanes->u[1] + first)},

@@ -5,28 +5,19 @@
 #define KAPITZA_PAIRS_ARITHMETIC_H
 
 #include <math.h>
-#include <stdint.h>
 #if defined __AVX512F__ || defined __FMA__
 #include <immintrin.h>
 #endif
 
-#if defined __AVX512F__
-enum { VECTOR_BYTES = 64 };
-#elif defined __AVX__
-enum { VECTOR_BYTES = 32 };
-#else
-enum { VECTOR_BYTES = 16 };
-#endif
+#include "lanes/lanes.h"
+
 enum { LANES = VECTOR_BYTES / sizeof(double) };
 
-typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
 typedef int64_t mask __attribute__((vector_size(VECTOR_BYTES)));
 
 typedef struct {
   vector high, low;
 } pair;
-
-#define OPERATION static inline __attribute__((always_inline))
 
 /* a b + c, rounded once. */
 OPERATION vector fused(vector a, vector b, vector c) {

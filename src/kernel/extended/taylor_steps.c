@@ -7,8 +7,6 @@
  * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
  * two (32 digits); those beyond, smaller than 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles:
  * steps add up without loss. */
-#include <stdbool.h>
-
 #include "pairs_arithmetic.h"
 
 /* Number of orbits at once; highest order in sums of three doubles; in pairs of doubles; highest order; powers of time in a damping that changes. */
@@ -31,10 +29,6 @@ typedef struct {
 typedef struct {
   double theta[3][KZ_TAYLOR_LANES], w[3][KZ_TAYLOR_LANES], s[3][KZ_TAYLOR_LANES], c[3][KZ_TAYLOR_LANES];
 } kz_taylor_state;
-
-/* Does the steps force [n], one after the other. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has not converged at the last
- * order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are independent. */
-void kz_taylor_steps(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well);
 
 /* A number as a sum of three doubles, the largest first: some 48 digits, in the lanes of a vector. Every operation takes mirror images to
  * mirror images. */
@@ -281,6 +275,8 @@ static mask advance(int64_t n, const kz_taylor_force *force, kz_taylor_state *st
   return well;
 }
 
+/* Does the steps force [n], one after the other. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has not converged at the last
+ * order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are independent. */
 void kz_taylor_steps(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well) {
   for (int64_t first = 0; first < KZ_TAYLOR_LANES; first += LANES) {
     const mask complete = advance(n, force, state, first);

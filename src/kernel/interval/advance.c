@@ -49,7 +49,7 @@ static bool is_lost(const kz_enclosure *set) {
 
 /* The step of the centres, and the function that removes their whole turns. */
 typedef struct {
-  void (*step)(const kz_speed_class *, int32_t, kz_sets *, int, vector (*)[KZ_ORDER_JACOBIAN]);
+  kz_centres_step *step;
   void (*wrap)(kz_sets *);
 } arithmetic;
 static const arithmetic arithmetic_of[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},

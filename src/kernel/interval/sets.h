@@ -3,7 +3,6 @@
 #ifndef KAPITZA_KERNEL_INTERVAL_SETS_H
 #define KAPITZA_KERNEL_INTERVAL_SETS_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "kapitza/kernel.h"
@@ -80,12 +79,9 @@ OPERATION void put_set(const kz_enclosure *set, int lane, kz_sets *x) {
 void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);
 /* Step i of the centres of KZ_PARTS vectors. cosine = the first n coefficients of cos theta along them, in doubles. In quads lost sets do not
  * move. */
-void kz_centres_step_doubles(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
+typedef void kz_centres_step(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
                              vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
-void kz_centres_step_pairs(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
-                           vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
-void kz_centres_step_quads(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
-                           vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
+kz_centres_step kz_centres_step_doubles, kz_centres_step_pairs, kz_centres_step_quads;
 /* The same step of the sets around the centres; jacobian = true updates jacobian_error too. */
 void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector cosine[KZ_ORDER_JACOBIAN], bool jacobian,
                         kz_sets *sets);

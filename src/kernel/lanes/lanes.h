@@ -1,7 +1,21 @@
-/* What the C loops of the kernel share with its Fortran. */
+/* What the C loops of the kernel share: lanes of a batch, and vectors of them. */
 #ifndef KAPITZA_KERNEL_LANES_H
 #define KAPITZA_KERNEL_LANES_H
 
+#include <stdbool.h>
+#include <stdint.h>
+
 enum { KZ_LANES = 64 }; /* of a batch: WIDTH of map.f90 */
+
+#if defined __AVX512F__
+enum { VECTOR_BYTES = 64 };
+#elif defined __AVX__
+enum { VECTOR_BYTES = 32 };
+#else
+enum { VECTOR_BYTES = 16 };
+#endif
+typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
+
+#define OPERATION static inline __attribute__((always_inline))
 
 #endif

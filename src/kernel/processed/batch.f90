@@ -221,12 +221,8 @@ contains
     integer, intent(in) :: n
     real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
     integer, intent(in), optional :: first
-    integer :: from
 
-    from = 1
-    if (present(first)) from = first
-    self%physical(from:n) = .not. abs(self%v(from:n)) <= self%fastest
-    call change_lanes(self, self%stages%table%to_kernel, from, n, matrix)
+    call change_lanes(self, self%stages%table%to_kernel, .true., n, matrix, first)
   end subroutine processed_to_map
 
   subroutine processed_to_physical(self, n, matrix, first)
@@ -234,51 +230,43 @@ contains
     integer, intent(in) :: n
     real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
     integer, intent(in), optional :: first
-    integer :: from
+
+    call change_lanes(self, self%stages%table%from_kernel, .false., n, matrix, first)
+  end subroutine processed_to_physical
+
+  !> The lanes first .. n (at most WIDTH) that are not in physical coordinates for good. matrix(:, :, lane) = derivative of the change, in rad,
+  !> times what it was.
+  subroutine change_lanes(self, processor, to_map, n, matrix, first)
+    class(processed_batch_t), intent(inout) :: self
+    type(processor_t), intent(in) :: processor
+    logical, intent(in) :: to_map
+    integer, intent(in) :: n
+    real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
+    integer, intent(in), optional :: first
+    real(rk) :: u(WIDTH), v(WIDTH)
+    integer(c_int64_t) :: control
+    integer :: from, lane
 
     from = 1
     if (present(first)) from = first
-    call change_lanes(self, self%stages%table%from_kernel, from, n, matrix)
-    self%physical(from:n) = .true.
-  end subroutine processed_to_physical
-
-  !> The lanes from .. n (at most WIDTH) that are not in physical coordinates for good.
-  subroutine change_lanes(self, processor, from, n, matrix)
-    class(processed_batch_t), intent(inout) :: self
-    type(processor_t), intent(in) :: processor
-    integer, intent(in) :: from, n
-    real(rk), intent(inout), optional :: matrix(2, 2, WIDTH)
-    real(rk) :: u(WIDTH), v(WIDTH)
-    integer(c_int64_t) :: control
-    integer :: lanes, i
-
+    if (to_map) self%physical(from:n) = .not. abs(self%v(from:n)) <= self%fastest
     control = flush_subnormals()
-    if (present(matrix)) call change_tangents(self, processor, from, n, matrix)
-    lanes = n - from + 1
-    u(:lanes) = self%u(from:n)
-    v(:lanes) = self%v(from:n)
-    call change_coordinates(processor, lanes, u, v)
-    do i = 1, lanes
-      self%u(from - 1 + i) = merge(self%u(from - 1 + i), u(i), self%physical(from - 1 + i))
-      self%v(from - 1 + i) = merge(self%v(from - 1 + i), v(i), self%physical(from - 1 + i))
+    do lane = from, merge(n, 0, present(matrix))
+      if (.not. self%physical(lane)) &
+        matrix(:, :, lane) = matmul(change_derivative(processor, self%u(lane), self%v(lane)), matrix(:, :, lane))
+    end do
+    u(:n - from + 1) = self%u(from:n)
+    v(:n - from + 1) = self%v(from:n)
+    call change_coordinates(processor, n - from + 1, u, v)
+    do lane = from, n
+      if (self%physical(lane)) cycle
+      self%u(lane) = u(lane - from + 1)
+      self%v(lane) = v(lane - from + 1)
     end do
     call wrap(self, from, n)
     call restore_control(control)
+    if (.not. to_map) self%physical(from:n) = .true.
   end subroutine change_lanes
-
-  !> matrix(:, :, lane) = derivative of the change, in rad, times what it was.
-  subroutine change_tangents(self, processor, from, n, matrix)
-    class(processed_batch_t), intent(in) :: self
-    type(processor_t), intent(in) :: processor
-    integer, intent(in) :: from, n
-    real(rk), intent(inout) :: matrix(2, 2, WIDTH)
-    integer :: lane
-
-    do lane = from, n
-      if (self%physical(lane)) cycle
-      matrix(:, :, lane) = matmul(change_derivative(processor, self%u(lane), self%v(lane)), matrix(:, :, lane))
-    end do
-  end subroutine change_tangents
 
   !> Within a period the fallback shows the motion.
   subroutine processed_sample(self, n, u, v)

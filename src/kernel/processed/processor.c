@@ -1,7 +1,9 @@
 /* The polynomials of the processor of the processed splitting, in vectors (stages.c says why in C): for every lane the sum over the harmonics
  * j and powers n of c[n][j] v^n times sin(pi j u) where n is even, cos(pi j u) where it is odd, or for the second part the other way round. */
-#include "stages.h"
+#include "lanes/lanes.h"
 
+/* The order of the doubles' series and its harmonics: series_r64.f90, series.inc. */
+enum { KZ_ORDER = 14, KZ_HARMONICS_KEPT = KZ_ORDER / 2 };
 enum { LANES = VECTOR_BYTES / 8, CHAINS = 2, ROW = KZ_HARMONICS_KEPT + 1, PART = ROW * (KZ_ORDER + 1) };
 #define EACH _Pragma("GCC unroll 2") for (int i = 0; i < CHAINS; i++)
 
@@ -43,6 +45,8 @@ static void change(int32_t mirrored, const double *theta, const double *velocity
   EACH v[i] += shift_v[i];
 }
 
+/* (u, v) + processor(u, v), in whole blocks of lanes like kz_processed_kicks. theta, velocity [2][KZ_ORDER + 1][KZ_HARMONICS_KEPT + 1]: processor_t of
+ * tables.inc. sine, cosine: of pi u. */
 void kz_processed_change(int32_t mirrored, const double *theta, const double *velocity, int64_t n, const double *sine,
                          const double *cosine, double *u, double *v) {
   for (int64_t i = 0; i < n; i += CHAINS * LANES)

@@ -11,7 +11,7 @@ module kz_processed_processor
   public :: change_coordinates, change_derivative, sine
 
   interface
-    !> stages.h
+    !> processor.c
     subroutine change_lanes(mirrored, theta, velocity, n, sine, cosine, u, v) bind(C, name='kz_processed_change')
       import :: c_int32_t, c_int64_t, c_double
       integer(c_int32_t), value :: mirrored

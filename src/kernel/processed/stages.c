@@ -2,7 +2,7 @@
  * in registers (1.5 times slower). Several vectors at once hide the latency of the arithmetic. Operations per lane and kick: a
  * drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2); without mirror symmetry even
  * polynomials too (n_drift, n_kick). */
-#include "stages.h"
+#include "lanes/lanes.h"
 
 /* Lanes of a vector, and vectors at once. */
 enum { LANES = VECTOR_BYTES / 8, CHAINS = 8 };
@@ -80,6 +80,10 @@ OPERATION void run(bool mirrored, int32_t n_drift, int32_t n_kick, int64_t n_sta
   }
 }
 
+/* Does all drifts and kicks of a period. u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes; the first n lanes move, and
+ * further ones up to a whole block. row [n_stages][n_drift + n_kick]: coefficients of a drift and a kick; twice as many without mirror
+ * symmetry (tables.inc). kept [n_stages][KZ_LANES], or NULL: the reduced angles at the kicks, from which tangents.c computes the
+ * derivative and the motion of neighbours. */
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept) {
   if (mirrored)

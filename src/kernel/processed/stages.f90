@@ -11,14 +11,14 @@ module kz_processed_stages
 
   !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
   integer, parameter :: TERMS = 5
-  !> Orbits whose neighbours are moved together, and neighbours of each: stages.h.
+  !> Orbits whose neighbours are moved together, and neighbours of each: tangents.c.
   integer, parameter :: GROUP = 16, POINTS = 6
 
   !> The tables of a period, and what its tangents take.
   type :: stages_t
     type(processed_t) :: table
     real(c_float), allocatable :: slope(:, :) !< (1 + 2*TERMS, steps): a drift, and the slope of a kick
-    real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): of the last period, stages.h
+    real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): of the last period, stages.c
     real(c_float), allocatable :: some(:, :)  !< (GROUP, steps): of those lanes whose neighbours are asked for
   end type stages_t
 

@@ -1,9 +1,11 @@
 /* The derivative of a period of the processed splitting, and the motion of neighbours, in single precision, which is enough for an error: from
  * the reduced angles at every kick, which the loop of the states keeps (stages.c). */
-#include "stages.h"
+#include "lanes/lanes.h"
 
 /* Coefficients of a slope (stages.f90). Vectors at once, and lanes of one. */
 enum { TERMS = 5, CHAINS = VECTOR_BYTES / 16, LANES = VECTOR_BYTES / 4 };
+/* Orbits whose neighbours are moved together, and neighbours of each: GROUP and POINTS of stages.f90. */
+enum { KZ_GROUP = 16, KZ_POINTS = 6 };
 #define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
 #define EACH_POINT _Pragma("GCC unroll 6") for (int i = 0; i < KZ_POINTS; i++)
 
@@ -46,6 +48,9 @@ OPERATION void move_tangents(bool mirrored, int64_t n_stages, const float *row, 
   }
 }
 
+/* Computes the derivative of a period in single precision. row [n_stages][1 + 5 + 5]: a drift, the slope of a kick as a polynomial of the
+ * square of the angle, and a second polynomial, times the angle, for pendulums without mirror symmetry; last = the last drift. c
+ * [4][KZ_LANES] = d(u, v)/d(u0, v0), row by row. */
 void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
                            int64_t n, float *c) {
   if (mirrored)
@@ -92,6 +97,8 @@ OPERATION void move_neighbours(bool mirrored, int64_t n_stages, const float *row
   EACH_POINT at[2 * i + 1] = decay * v[i];
 }
 
+/* How neighbours of orbits move in a period, relative to the orbits, in single precision. angle [n_stages][KZ_GROUP]: those of the orbits at the
+ * kicks; row, last, decay: as above. by [KZ_POINTS][2][KZ_GROUP], in and out: what the angles (half-turns) and velocities differ by. */
 void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
                             float *by) {
   if (mirrored)
