@@ -84,9 +84,6 @@ enum { KZ_PENDULUM = 0, KZ_MATHIEU = 1, KZ_EFFECTIVE = 2 };
 void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods, int64_t samples_per_period, double theta,
                      double velocity, double *theta_out, double *velocity_out);
 
-/* The kernel's own sine: sin(pi u) of half-turns u [n] (for tests). */
-void kz_sine(int64_t n, const double *half_turns, double *sine);
-
 /* ---- linear ---- */
 
 /* The pendulum near an equilibrium, a lane per parameter point.

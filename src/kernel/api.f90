@@ -6,7 +6,6 @@ module kz_kernel_api
   use kz_lanes_schemes, only: SCHEMES
   use kz_model_pendulum, only: pendulum_t
   use kz_lanes_step_table, only: numerics_t
-  use kz_processed_processor, only: sine
   implicit none
   private
 
@@ -158,14 +157,5 @@ contains
       theta_out(first:last) = (theta_out(first:last) + 2*turns)*PI
     end do
   end subroutine sample
-
-  !> sin(pi u) of half-turns.
-  subroutine sine_of_half_turns(n, half_turns, sines) bind(C, name='kz_sine')
-    integer(c_int64_t), value :: n
-    real(c_double), intent(in) :: half_turns(n)
-    real(c_double), intent(out) :: sines(n)
-
-    sines = sine(half_turns)
-  end subroutine sine_of_half_turns
 
 end module kz_kernel_api

@@ -1,16 +1,24 @@
-!> Neighbours of orbits as a flow moves them beside its orbits, and by themselves: for tests.
+!> Neighbours of orbits as a flow moves them beside its orbits, and by themselves; the kernel's own sine: for tests.
 module kz_test_neighbours
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_kernel_flows, only: make_flow
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_lanes_step_table, only: numerics_t
   use kz_model_pendulum, only: pendulum_t
+  use kz_processed_processor, only: sine
   implicit none
   private
 
   integer, parameter :: POINTS = 6
 
 contains
+
+  !> sin(pi u) of half-turns.
+  real(dp) function sine_of(u) bind(C, name='kz_test_sine') result(s)
+    real(dp), value :: u
+
+    s = sine(u)
+  end function sine_of
 
   !> The largest error of a neighbour `distance` rad from a state, whose speed is up to 2 below `fastest`, in parts of its distance from the
   !> state's image. The tables serve speeds up to 3.

@@ -52,8 +52,7 @@ module kz_extended_pairs
     type(pendulum_t) :: pendulum
     type(series_t), pointer :: series => null()
     type(probes_t) :: probes
-    real(c_double) :: fastest = 0
-    real(c_double) :: tolerance = 0
+    real(c_double) :: fastest = 0, tolerance = 0
     integer :: kicks = 0
     type(level_t) :: level
   contains

@@ -50,12 +50,8 @@ module kz_extended_pairs_level
 
   !> The tables of one period for speeds up to `fastest`, as kz_pairs_stages and kz_pairs_displace take them.
   type :: level_t
-    real(c_double) :: fastest = 0
-    real(c_double) :: error = 0
-    integer :: n_steps = 0
-    integer :: n_drift = 0
-    integer :: n_kick = 0
-    integer :: n_pairs = 0
+    real(c_double) :: fastest = 0, error = 0
+    integer :: n_steps = 0, n_drift = 0, n_kick = 0, n_pairs = 0
     logical :: mirrored = .true.
     real(c_double), allocatable :: row(:, :)
     integer(c_int32_t), allocatable :: ordered(:) !< (n_steps): pairs.c

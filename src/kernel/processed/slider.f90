@@ -116,19 +116,15 @@ contains
     integer :: i
 
     series = node(1)
-    series%kick_cosine = weight(1)*series%kick_cosine
-    series%kick_sine = weight(1)*series%kick_sine
+    series%kick = weight(1)*series%kick
     series%slope = weight(1)*series%slope
     series%drift = weight(1)*series%drift
-    series%to_kernel = weight(1)*series%to_kernel
-    series%from_kernel = weight(1)*series%from_kernel
+    series%processor = weight(1)*series%processor
     do i = 2, size(weight)
-      series%kick_cosine = series%kick_cosine + weight(i)*node(i)%kick_cosine
-      series%kick_sine = series%kick_sine + weight(i)*node(i)%kick_sine
+      series%kick = series%kick + weight(i)*node(i)%kick
       series%slope = series%slope + weight(i)*node(i)%slope
       series%drift = series%drift + weight(i)*node(i)%drift
-      series%to_kernel = series%to_kernel + weight(i)*node(i)%to_kernel
-      series%from_kernel = series%from_kernel + weight(i)*node(i)%from_kernel
+      series%processor = series%processor + weight(i)*node(i)%processor
     end do
   end subroutine add_nodes
 

@@ -28,12 +28,10 @@ module kz_processed_tables_r128
     call make_series(pendulum, leading)
     series%mirrored = rounded%mirrored
     series%times = rounded%times
-    series%kick_cosine = rounded%kick_cosine
-    series%kick_sine = rounded%kick_sine
+    series%kick = rounded%kick
     series%slope = rounded%slope
     series%drift = rounded%drift
-    series%to_kernel = rounded%to_kernel
-    series%from_kernel = rounded%from_kernel
+    series%processor = rounded%processor
     call put_exact(leading, series)
   end subroutine make_mixed_series
 
@@ -43,16 +41,12 @@ module kz_processed_tables_r128
     type(series_t), intent(inout) :: series
     integer, parameter :: HALF = EXACT/2
 
-    series%kick_cosine(:, :, :EXACT, :) = 0
-    series%kick_sine(:, :, :EXACT, :) = 0
-    series%to_kernel(:, :, :EXACT - 2, :, :) = 0
-    series%from_kernel(:, :, :EXACT - 2, :, :) = 0
-    series%kick_cosine(:leading%times, :HALF, :EXACT, :) = leading%kick_cosine
-    series%kick_sine(:leading%times, :HALF, :EXACT, :) = leading%kick_sine
+    series%kick(:, :, :EXACT, :, :) = 0
+    series%kick(:leading%times, :HALF, :EXACT, :, :) = leading%kick
     series%slope(:EXACT) = leading%slope(:EXACT)
     series%drift(:, :EXACT) = leading%drift(:, :EXACT)
-    series%to_kernel(:HALF, :EXACT, :EXACT - 2, :, :) = leading%to_kernel(:, :, :EXACT - 2, :, :)
-    series%from_kernel(:HALF, :EXACT, :EXACT - 2, :, :) = leading%from_kernel(:, :, :EXACT - 2, :, :)
+    series%processor(:, :, :EXACT - 2, :, :, :) = 0
+    series%processor(:HALF, :EXACT, :EXACT - 2, :, :, :) = leading%processor(:, :, :EXACT - 2, :, :, :)
   end subroutine put_exact
 
 end module kz_processed_tables_r128

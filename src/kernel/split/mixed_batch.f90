@@ -18,8 +18,7 @@ module kz_split_mixed_batch
     integer :: n_steps = 0
     real(rk) :: time(DRIFTS) = 0               !< of the drifts of a step, drive radians
     real(rk), allocatable :: weight(:, :, :)   !< of a kick: of k and of m; kick, step
-    real(rk) :: k(WIDTH) = 0
-    real(rk) :: m(WIDTH) = 0
+    real(rk) :: k(WIDTH) = 0, m(WIDTH) = 0
     real(rk) :: drift(WIDTH, DRIFTS) = 0       !< half-turns per unit of velocity
     real(rk) :: decay(WIDTH, DRIFTS) = 0
   contains
