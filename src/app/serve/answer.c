@@ -2,19 +2,19 @@
 
 #include <errno.h>
 #include <math.h>
+#include <poll.h>
+#include <pthread.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "../app.h"
 #include "kapitza/version.h"
 
 /* The members that every header has. */
 static void begin(const char *answer, int64_t sequence, bool final) {
-  printf("{\"answer\": \"%s\", \"sequence\": ", answer);
-  if (sequence == KZ_UNSET_INTEGER)
-    fputs("null", stdout);
-  else
-    printf("%lld", (long long)sequence);
-  printf(", \"final\": %s", final ? "true" : "false");
+  char text[24] = "null";
+  if (sequence != KZ_UNSET_INTEGER) snprintf(text, sizeof text, "%lld", (long long)sequence);
+  printf("{\"answer\": \"%s\", \"sequence\": %s, \"final\": %s", answer, text, final ? "true" : "false");
 }
 
 /* Ends the header; the payload's bytes come next. */
@@ -28,14 +28,21 @@ static kz_status send(void) {
   return errno == EPIPE ? KZ_STOPPED : kz_fail(KZ_FAILED, "standard output cannot be written: %s", strerror(errno));
 }
 
-static void number(const char *name, double value) {
-  char text[32];
+/* Ends an answer without payload. */
+static kz_status finish(void) {
+  end(0);
+  return send();
+}
+
+/* A number as JSON, with all digits that distinguish it; "null" if it is not finite. */
+#define NUMBER(value) number(value, (char[32]){0})
+static const char *number(double value, char text[32]) {
   kz_scalar_print(value, text);
-  printf("\"%s\": %s", name, isfinite(value) ? text : "null");
+  return isfinite(value) ? text : "null";
 }
 
 static void text(const char *name, const char *value) {
-  printf("\"%s\": \"", name);
+  printf(", \"%s\": \"", name);
   kz_json_text(stdout, value);
   putchar('"');
 }
@@ -61,29 +68,19 @@ static void print_mapping(const char *mapping, const kz_scene *scene) {
   putchar('}');
 }
 
-static void print_axis(const char *name, const kz_axis *axis) {
-  printf("\"%s\": {", name);
-  number("min", axis->min);
-  fputs(", ", stdout);
-  number("max", axis->max);
-  printf(", \"count\": %lld}", (long long)axis->count);
-}
-
 kz_status kz_answer_ready(const kz_scene *scene) {
+  const kz_axis *theta = &scene->basin.theta, *velocity = &scene->basin.velocity;
   begin("ready", KZ_UNSET_INTEGER, true);
-  fputs(", \"protocol\": 1, ", stdout);
+  fputs(", \"protocol\": 1", stdout);
   text("program", KZ_VERSION);
-  fputs(", ", stdout);
   text("title", scene->title);
   fputs(", \"pendulum\": ", stdout);
   print_mapping("pendulum.", scene);
-  fputs(", \"window\": {", stdout);
-  print_axis("theta", &scene->basin.theta);
-  fputs(", ", stdout);
-  print_axis("velocity", &scene->basin.velocity);
-  putchar('}');
-  end(0);
-  return send();
+  printf(", \"window\": {\"theta\": {\"min\": %s, \"max\": %s, \"count\": %lld}, ", NUMBER(theta->min), NUMBER(theta->max),
+         (long long)theta->count);
+  printf("\"velocity\": {\"min\": %s, \"max\": %s, \"count\": %lld}}", NUMBER(velocity->min), NUMBER(velocity->max),
+         (long long)velocity->count);
+  return finish();
 }
 
 /* As KINDS of the figures' style has them. */
@@ -105,44 +102,28 @@ static void print_attractor(const kz_entry *entry, int64_t id, int64_t track) {
   static const char *const centres[] = {
       [KZ_ABOUT_DOWN] = "down", [KZ_ABOUT_INVERTED] = "inverted", [KZ_ROTATING] = "rotating", [KZ_ABOUT_NEITHER] = "neither"};
   const kz_attractor *row = &entry->row;
-  printf("%s{\"id\": %lld, \"track\": %lld, ", id > 0 ? ", " : "", (long long)id, (long long)track);
+  printf("%s{\"id\": %lld, \"track\": %lld", id > 0 ? ", " : "", (long long)id, (long long)track);
   text("name", entry->name);
   printf(", \"kind\": \"%s\", \"period\": %d, \"winding\": %d, \"centre\": \"%s\", \"symmetric\": %s, \"mirror\": %d, ",
          kind_of(row), (int)row->period, (int)row->winding, centres[row->centre], row->symmetric ? "true" : "false",
          (int)entry->mirror);
-  number("multiplier", row->period > 0 ? hypot(row->multiplier_re[0], row->multiplier_im[0]) : NAN);
-  fputs(", \"strobe\": [", stdout);
-  for (int i = 0; i < row->period; i++) {
-    char theta[32], velocity[32];
-    kz_scalar_print(entry->theta[i], theta);
-    kz_scalar_print(entry->velocity[i], velocity);
-    printf("%s[%s, %s]", i > 0 ? ", " : "", theta, velocity);
-  }
+  printf("\"multiplier\": %s, \"strobe\": [",
+         NUMBER(row->period > 0 ? hypot(row->multiplier_re[0], row->multiplier_im[0]) : NAN));
+  for (int i = 0; i < row->period; i++)
+    printf("%s[%s, %s]", i > 0 ? ", " : "", NUMBER(entry->theta[i]), NUMBER(entry->velocity[i]));
   fputs("]}", stdout);
 }
 
 kz_status kz_answer_catalogue(int64_t sequence, bool final, const kz_live_catalogue *catalogue) {
   const kz_parameters *p = &catalogue->parameters;
-  const struct {
-    const char *name;
-    double value;
-  } numbers[] = {{"k", p->pendulum.k},
-                 {"damping", p->pendulum.beta},
-                 {"m", p->pendulum.m},
-                 {"quality_factor", p->quality_factor},
-                 {"drive_frequency", p->drive_frequency},
-                 {"drive_amplitude", p->drive_amplitude}};
   begin("catalogue", sequence, final);
-  printf(", \"version\": %lld, \"pendulum\": {", (long long)catalogue->version);
-  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-    if (i > 0) fputs(", ", stdout);
-    number(numbers[i].name, numbers[i].value);
-  }
-  fputs("}, \"attractors\": [", stdout);
+  printf(", \"version\": %lld, \"pendulum\": {\"k\": %s, \"damping\": %s, \"m\": %s, ", (long long)catalogue->version,
+         NUMBER(p->pendulum.k), NUMBER(p->pendulum.beta), NUMBER(p->pendulum.m));
+  printf("\"quality_factor\": %s, \"drive_frequency\": %s, \"drive_amplitude\": %s}, \"attractors\": [",
+         NUMBER(p->quality_factor), NUMBER(p->drive_frequency), NUMBER(p->drive_amplitude));
   for (int64_t i = 0; i < catalogue->list.count; i++) print_attractor(catalogue->list.entries + i, i, catalogue->track[i]);
   putchar(']');
-  end(0);
-  return send();
+  return finish();
 }
 
 kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_level *level) {
@@ -171,22 +152,7 @@ kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const 
   begin("where", sequence, true);
   fputs(", ", stdout);
   kz_ending_print(start, ending, omega);
-  end(0);
-  return send();
-}
-
-/* The pivot's path over a drive period. */
-static void print_pivot(const kz_scene *scene) {
-  fputs(", \"pivot\": [", stdout);
-  for (int64_t i = 0; i < scene->orbit.samples_per_period; i++) {
-    char aside[32], height[32];
-    double place[2];
-    kz_pivot_at(&scene->parameters, (double)i / (double)scene->orbit.samples_per_period, place);
-    kz_scalar_print(place[0], aside);
-    kz_scalar_print(place[1], height);
-    printf("%s[%s, %s]", i > 0 ? ", " : "", aside, height);
-  }
-  putchar(']');
+  return finish();
 }
 
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity) {
@@ -195,12 +161,13 @@ kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const doub
   begin("orbit", request->sequence, true);
   printf(", \"samples\": %lld, \"samples_per_period\": %lld, \"transient\": %lld, ", (long long)samples,
          (long long)plan->samples_per_period, (long long)plan->transient);
-  number("k", p->k);
-  fputs(", ", stdout);
-  number("damping", p->beta);
-  fputs(", ", stdout);
-  number("m", p->m);
-  print_pivot(&request->scene);
+  printf("\"k\": %s, \"damping\": %s, \"m\": %s, \"pivot\": [", NUMBER(p->k), NUMBER(p->beta), NUMBER(p->m));
+  for (int64_t i = 0; i < plan->samples_per_period; i++) { /* the pivot's path over a drive period */
+    double place[2];
+    kz_pivot_at(&request->scene.parameters, (double)i / (double)plan->samples_per_period, place);
+    printf("%s[%s, %s]", i > 0 ? ", " : "", NUMBER(place[0]), NUMBER(place[1]));
+  }
+  putchar(']');
   end(2 * (size_t)samples * sizeof *theta);
   fwrite(theta, sizeof *theta, (size_t)samples, stdout);
   fwrite(velocity, sizeof *velocity, (size_t)samples, stdout);
@@ -220,15 +187,32 @@ kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *le
 
 kz_status kz_answer_ended(int64_t sequence) {
   begin("ended", sequence, true);
-  end(0);
-  return send();
+  return finish();
 }
 
 kz_status kz_answer_error(int64_t sequence, kz_status status) {
   begin("error", sequence, true);
-  printf(", \"status\": %d, ", (int)status);
+  printf(", \"status\": %d", (int)status);
   text("message", kz_message());
   kz_message_clear();
-  end(0);
-  return send();
+  return finish();
+}
+
+enum { GRACE = 1 /* seconds in which the program ends by itself */ };
+
+/* A pipe without a reader says so without being asked; a file never does. */
+static void *watch(void *unused) {
+  struct pollfd output = {.fd = STDOUT_FILENO};
+  (void)unused;
+  while (poll(&output, 1, -1) < 0 && errno == EINTR) continue;
+  sleep(GRACE);
+  _exit(0);
+}
+
+kz_status kz_answer_watch(void) {
+  pthread_t thread;
+  const int error = pthread_create(&thread, NULL, watch, NULL);
+  if (error) return kz_fail(KZ_FAILED, "serve: no thread can be started: %s", strerror(error));
+  pthread_detach(thread);
+  return KZ_OK;
 }

@@ -16,4 +16,8 @@ kz_status kz_answer_ended(int64_t sequence);
 /* Contains the present message, which is then cleared. */
 kz_status kz_answer_error(int64_t sequence, kz_status status);
 
+/* Watches whether somebody still reads the answers: ends the process with status 0 a second after the reader of standard output has closed it,
+ * also in the middle of a frame. Call it once. */
+kz_status kz_answer_watch(void);
+
 #endif
