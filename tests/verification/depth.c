@@ -13,9 +13,7 @@
 #include "attractors/search.h"
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
-#include "window/curve.h"
-#include "window/images.h"
-#include "window/own_orbit.h"
+#include "window/window.h"
 #include "scene/scene.h"
 
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"

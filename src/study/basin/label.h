@@ -5,7 +5,7 @@
 #include "attractors/search.h"
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
-#include "window/starts.h"
+#include "window/window.h"
 
 enum { KZ_BOX = 5 }; /* cells along an edge of a box of the basin entropy */
 

@@ -4,7 +4,7 @@
 
 #include "numerics/step_check.h"
 #include "label.h"
-#include "window/reference.h"
+#include "window/window.h"
 
 enum {
   ROUNDS = 4,

@@ -1,4 +1,4 @@
-#include "cells.h"
+#include "live.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -70,9 +70,10 @@ static void follow_moving(kz_resident *r, kz_travellers *from, kz_travellers *la
   if (late->n > KZ_FRAME_TILE) kz_cells_finish(r, late, cells);
 }
 
-/* As method exact labels them. decision [n]: a buffer. */
+/* As method exact labels them. */
 static kz_status decide(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                        kz_decision *decision, kz_frame_cell *cells) {
+                        kz_frame_cell *cells) {
+  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
   int32_t label[KZ_FRAME_TILE]; /* 0: where the cell was left is not known */
   double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
   const kz_labeller labeller = kz_window_labeller(starts, false);
@@ -93,23 +94,14 @@ static kz_status decide(const kz_resident *r, const kz_window_starts *starts, in
   return KZ_OK;
 }
 
-static kz_status decide_tile(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                             kz_frame_cell *cells) {
-  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
-  const kz_status status = decide(r, starts, n, number, decision, cells);
-  free(decision);
-  return status;
-}
-
 kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_travellers *late, kz_frame_cell *cells) {
-  if (!kz_resident_moves(resident)) return decide_tile(resident, starts, n, number, cells);
-  kz_travellers *from = kz_malloc(sizeof *from);
+  if (!kz_resident_moves(resident)) return decide(resident, starts, n, number, cells);
+  KZ_FREED kz_travellers *from = kz_malloc(sizeof *from);
   from->n = n;
   memcpy(from->number, number, (size_t)n * sizeof *number);
   hand_over(resident, starts, n, number, from->state, from->spent);
   follow_moving(resident, from, late, cells);
-  free(from);
   return KZ_OK;
 }
 
@@ -137,9 +129,11 @@ static int64_t list_wanted(kz_samples *samples, int64_t n, const int64_t *number
   return wanted;
 }
 
-/* Samples of the curve that cells need, tile by tile. */
-static kz_status follow_samples(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t wanted,
-                                kz_travellers *from, kz_travellers *late) {
+kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
+                            kz_frame_cell *cells) {
+  KZ_FREED kz_travellers *from = kz_malloc(2 * sizeof *from);
+  kz_travellers *late = from + 1;
+  const int64_t wanted = list_wanted(samples, n, number);
   late->n = 0;
   for (int64_t done = 0; done < wanted; done += KZ_FRAME_TILE) {
     const int64_t *sample = samples->wanted + done;
@@ -151,15 +145,6 @@ static kz_status follow_samples(kz_resident *resident, const kz_frame *frame, kz
     follow_moving(resident, from, late, samples->cell);
   }
   kz_cells_finish(resident, late, samples->cell);
-  return KZ_OK;
-}
-
-kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
-                            kz_frame_cell *cells) {
-  kz_travellers *tile = kz_malloc(2 * sizeof *tile);
-  const kz_status status = follow_samples(resident, frame, samples, list_wanted(samples, n, number), tile, tile + 1);
-  free(tile);
-  KZ_TRY(status);
   for (int64_t i = 0; i < n; i++) cells[number[i]] = samples->cell[kz_window_curve_sample(&samples->curve, number[i])];
   return KZ_OK;
 }

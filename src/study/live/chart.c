@@ -4,7 +4,7 @@
 
 #include "chart/chart.h"
 #include "kapitza/study_live.h"
-#include "levels.h"
+#include "live.h"
 
 enum { PENDING = 254 }; /* in place of a period */
 

@@ -1,9 +1,10 @@
-#include "engine.h"
+#include "live.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "numerics/cells.h"
+#include "where/where.h"
 
 kz_engine *kz_engine_create(void) {
   return kz_calloc(1, sizeof(kz_engine));
@@ -100,5 +101,24 @@ kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz
   kz_resident *resident;
   KZ_TRY(kz_engine_resident(engine, scene, false, &resident));
   *catalogue = &resident->catalogue;
+  return KZ_OK;
+}
+
+kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
+                          kz_ending *endings) {
+  kz_resident *r;
+  kz_endings_clear(n, endings);
+  KZ_TRY(kz_engine_resident(engine, scene, false, &r));
+  if (!r->dynamics || n == 0) return KZ_OK;
+  KZ_FREED_BY(kz_question_free)
+  kz_question q = {.scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};
+  const int64_t known = kz_dynamics_count(r->dynamics);
+  KZ_TRY(kz_question_discover(&q));
+  if (kz_dynamics_count(r->dynamics) > known) {
+    kz_dynamics_update(r->dynamics);
+    kz_engine_list(engine, r);
+  }
+  KZ_TRY(kz_question_decide(&q));
+  kz_question_answer(&q, &r->catalogue.list, endings);
   return KZ_OK;
 }

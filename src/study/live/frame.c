@@ -1,13 +1,9 @@
 /* A frame level by level: cells of a level that are pending are followed in tiles, then the level is shown. */
 #include <math.h>
 #include <stdlib.h>
-#include <time.h>
 
-#include "cells.h"
-#include "crew.h"
+#include "live.h"
 #include "numerics/cells.h"
-#include "engine.h"
-#include "levels.h"
 
 typedef struct {
   kz_engine *engine;
@@ -26,12 +22,6 @@ typedef struct {
   double begin;
 } making;
 
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 size_t kz_plane_bytes(int plane) {
   return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME ? sizeof(float) : 1;
 }
@@ -39,36 +29,27 @@ size_t kz_plane_bytes(int plane) {
 static void frame_allocate(making *m) {
   size_t bytes = 0;
   for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
-  m->crew = kz_crew_create(m->total, kz_spare_cores());
+  m->crew = kz_crew_create(m->total);
   m->cell = kz_crew_cells(m->crew);
   m->pending = kz_malloc((size_t)m->total * sizeof *m->pending);
   m->listed = kz_calloc((size_t)m->own, sizeof *m->listed);
   m->buffer = kz_malloc((size_t)m->total * bytes + sizeof(float));
 }
 
-static int64_t list_pending(making *m, int64_t level) {
-  return kz_level_pending(level, m->scene->basin.velocity.count, m->scene->basin.theta.count, m->own, m->listed, m->pending);
-}
-
 static kz_status follow(making *m, int64_t n) {
   if (m->samples.curve.count > 0) return kz_samples_follow(m->resident, m->frame, &m->samples, n, m->pending, m->cell);
-  return kz_crew_follow(m->crew, m->resident, m->frame, &m->starts, n, m->pending);
+  const kz_crew_task task = {m->resident, &m->starts, m->frame, n, m->pending};
+  return kz_crew_follow(m->crew, &task);
 }
 
-/* The cells among n that have not settled come to the front; their number. */
-static int64_t list_unsettled(making *m, int64_t n) {
-  int64_t left = 0;
-  for (int64_t i = 0; i < n; i++)
-    if (m->cell[m->pending[i]].label == 0) m->pending[left++] = m->pending[i];
-  return left;
-}
-
-/* Follows n cells; where some do not settle, the attractors that they end on are looked for, once a frame. */
+/* Follows n pending cells; where some do not settle, the attractors that they end on are looked for, once a frame. */
 static kz_status label(making *m, int64_t n) {
+  int64_t left = 0;
+  bool born = false;
   if (!m->resident->dynamics) return KZ_OK;
   KZ_TRY(follow(m, n));
-  const int64_t left = list_unsettled(m, n);
-  bool born = false;
+  for (int64_t i = 0; i < n; i++)
+    if (m->cell[m->pending[i]].label == 0) m->pending[left++] = m->pending[i];
   if (left == 0 || m->searched || kz_resident_moves(m->resident)) return KZ_OK;
   m->searched = true;
   KZ_TRY(kz_cells_discover(m->resident, &m->starts, left, m->pending, &born));
@@ -77,31 +58,24 @@ static kz_status label(making *m, int64_t n) {
   return follow(m, left);
 }
 
-static uint8_t id_of(const making *m, int32_t number) {
-  return number > 0 ? (uint8_t)m->resident->catalogue.list.id_of[number] : KZ_NO_LABEL;
-}
-
-/* Of the mirror image, where the cell is one. */
-static uint8_t shown_id(const making *m, int32_t number, bool mirrored) {
-  const uint8_t id = id_of(m, number);
-  return mirrored && id != KZ_NO_LABEL ? (uint8_t)m->resident->catalogue.list.entries[id].mirror : id;
-}
-
-static uint8_t doubt_of(const kz_frame_cell *cell) {
-  static const uint8_t doubt[] = {[KZ_CELL_PENDING] = KZ_DOUBT_NONE,
-                                  [KZ_CELL_FOLLOWED] = KZ_DOUBT_UNSEEN,
-                                  [KZ_CELL_DECIDED] = KZ_DOUBT_NONE,
-                                  [KZ_CELL_UNDECIDED] = KZ_DOUBT_OPEN};
-  return doubt[cell->state];
+/* The id of an attractor, or of its mirror image. */
+static uint8_t id_of(const making *m, int32_t number, bool mirrored) {
+  const kz_catalogue *list = &m->resident->catalogue.list;
+  const int32_t id = number > 0 ? list->id_of[number] : KZ_NO_LABEL;
+  return (uint8_t)(mirrored && id != KZ_NO_LABEL ? list->entries[id].mirror : id);
 }
 
 /* Cell f of the frame into place `at` of the planes. */
 static void put(const making *m, int64_t f, int64_t at, void *const plane[KZ_PLANES]) {
+  static const uint8_t doubt[] = {[KZ_CELL_PENDING] = KZ_DOUBT_NONE,
+                                  [KZ_CELL_FOLLOWED] = KZ_DOUBT_UNSEEN,
+                                  [KZ_CELL_DECIDED] = KZ_DOUBT_NONE,
+                                  [KZ_CELL_UNDECIDED] = KZ_DOUBT_OPEN};
   const bool mirrored = f >= m->own;
   const kz_frame_cell *cell = m->cell + (mirrored ? m->total - 1 - f : f);
-  if (plane[KZ_PLANE_LABELS]) ((uint8_t *)plane[KZ_PLANE_LABELS])[at] = shown_id(m, cell->label, mirrored);
-  if (plane[KZ_PLANE_OTHER]) ((uint8_t *)plane[KZ_PLANE_OTHER])[at] = shown_id(m, cell->other, mirrored);
-  if (plane[KZ_PLANE_DOUBT]) ((uint8_t *)plane[KZ_PLANE_DOUBT])[at] = doubt_of(cell);
+  if (plane[KZ_PLANE_LABELS]) ((uint8_t *)plane[KZ_PLANE_LABELS])[at] = id_of(m, cell->label, mirrored);
+  if (plane[KZ_PLANE_OTHER]) ((uint8_t *)plane[KZ_PLANE_OTHER])[at] = id_of(m, cell->other, mirrored);
+  if (plane[KZ_PLANE_DOUBT]) ((uint8_t *)plane[KZ_PLANE_DOUBT])[at] = doubt[cell->state];
   if (plane[KZ_PLANE_SETTLING_TIME])
     ((float *)plane[KZ_PLANE_SETTLING_TIME])[at] = cell->label > 0 ? cell->periods : (float)NAN;
   if (plane[KZ_PLANE_SMOOTH_TIME]) ((float *)plane[KZ_PLANE_SMOOTH_TIME])[at] = cell->label > 0 ? cell->smooth : (float)NAN;
@@ -126,7 +100,7 @@ static kz_status show(making *m, int64_t level) {
   for (int64_t i = 0; i < shown.rows; i++)
     for (int64_t j = 0; j < shown.columns; j++)
       put(m, kz_level_place(level, i, rows) * columns + kz_level_place(level, j, columns), i * shown.columns + j, plane);
-  shown.seconds = seconds() - m->begin;
+  shown.seconds = kz_process_clock() - m->begin;
   return m->frame->show(m->frame->context, &shown);
 }
 
@@ -136,7 +110,8 @@ static kz_status make(making *m) {
   if (kz_resident_moves(m->resident) && m->resident->dynamics) kz_samples_make(&m->starts, &m->samples);
   for (int64_t i = 0; i < m->frame->levels->count; i++) {
     const int64_t level = m->frame->levels->values[i];
-    KZ_TRY(label(m, list_pending(m, level)));
+    KZ_TRY(label(m, kz_level_pending(level, m->scene->basin.velocity.count, m->scene->basin.theta.count, m->own, m->listed,
+                                     m->pending)));
     if (m->resident->catalogue.list.count >= KZ_NO_LABEL)
       return kz_fail(
           KZ_REFUSED,
@@ -151,7 +126,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   making m = {.engine = engine,
               .scene = scene,
               .frame = frame,
-              .begin = seconds(),
+              .begin = kz_process_clock(),
               .total = scene->basin.theta.count * scene->basin.velocity.count,
               .own = kz_unique_cells(&scene->basin)};
   KZ_TRY(kz_engine_resident(engine, scene, frame->moving, &m.resident));

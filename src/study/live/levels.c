@@ -1,4 +1,4 @@
-#include "levels.h"
+#include "live.h"
 
 int64_t kz_level_pending(int64_t level, int64_t rows, int64_t columns, int64_t own, bool *listed, int64_t *number) {
   int64_t n = 0;

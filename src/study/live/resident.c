@@ -1,4 +1,4 @@
-#include "resident.h"
+#include "live.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -66,19 +66,18 @@ static void learn(kz_resident *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
   if (!kz_resident_moves(r) || (mean < WEAK && !has_chaos(r))) return;
   const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_chaos(r) ? (double)r->periods : 0));
-  double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
+  KZ_FREED double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
   kz_dynamics_starts(&r->search.window, r->search.seed, n, state);
   kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
-  free(state);
 }
 
 static kz_status search(kz_resident *r) {
   r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin.max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
-  const kz_status status = kz_search_window(NULL, r->dynamics, &r->search, NULL);
+  KZ_TRY(kz_search_window(NULL, r->dynamics, &r->search, NULL));
   kz_dynamics_set_release(r->dynamics, &r->scene.parameters.release);
-  if (status == KZ_OK) learn(r);
-  return status;
+  learn(r);
+  return KZ_OK;
 }
 
 static int64_t periods_of(const kz_scene *scene, bool moving) {
@@ -116,32 +115,23 @@ void kz_resident_free(kz_resident *resident) {
   *resident = (kz_resident){0};
 }
 
-static bool same_pendulum(const kz_pendulum *a, const kz_pendulum *b) {
-  return memcmp(a, b, sizeof *a) == 0;
-}
-
 static bool same_release(const kz_release *a, const kz_release *b) {
   return a->phase == b->phase && a->periods == b->periods && a->damping == b->damping && a->drive == b->drive &&
          a->smooth == b->smooth;
 }
 
-/* Looks for a chaotic attractor from a stray. */
-static void find_chaos(kz_resident *r) {
-  double *found = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *found);
-  kz_dynamics_find_chaos(r->dynamics, r->stray, found);
-  kz_dynamics_adopt(r->dynamics, found);
-  free(found);
-}
-
 bool kz_resident_discover(kz_resident *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
-  double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
+  KZ_FREED double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
+  KZ_FREED double *chaos = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *chaos);
   while ((int)found[0] < r->n_strays) {
     kz_dynamics_find_cycle(r->dynamics, r->n_strays, r->stray, CLOSENESS, found);
     kz_dynamics_adopt(r->dynamics, found + 1);
   }
-  free(found);
-  if (kz_dynamics_count(r->dynamics) == known && r->n_strays == KZ_STRAYS) find_chaos(r);
+  if (kz_dynamics_count(r->dynamics) == known && r->n_strays == KZ_STRAYS) {
+    kz_dynamics_find_chaos(r->dynamics, r->stray, chaos);
+    kz_dynamics_adopt(r->dynamics, chaos);
+  }
   r->n_strays = 0;
   if (kz_dynamics_count(r->dynamics) == known) return false;
   kz_dynamics_update(r->dynamics);
@@ -210,7 +200,7 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
 
 bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, double tolerance) {
   return resident->used > 0 && resident->tolerance == tolerance &&
-         same_pendulum(&resident->scene.parameters.pendulum, &scene->parameters.pendulum) &&
+         memcmp(&resident->scene.parameters.pendulum, &scene->parameters.pendulum, sizeof(kz_pendulum)) == 0 &&
          same_release(&resident->scene.parameters.release, &scene->parameters.release) &&
          resident->scene.basin.max_periods == scene->basin.max_periods && same_search(resident, scene);
 }
@@ -247,10 +237,9 @@ static int64_t track_of(const kz_live_catalogue *catalogue, int64_t i, const kz_
 
 static void list(const kz_dynamics *dynamics, kz_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(dynamics);
-  int64_t *reached = kz_malloc(((size_t)known + 1) * sizeof *reached);
+  KZ_FREED int64_t *reached = kz_malloc(((size_t)known + 1) * sizeof *reached);
   for (int64_t i = 0; i <= known; i++) reached[i] = 1;
   kz_catalogue_make(dynamics, reached, catalogue);
-  free(reached);
 }
 
 void kz_resident_list(kz_resident *r, int64_t version, const kz_live_catalogue *before, int64_t *tracks) {

@@ -2,14 +2,12 @@
  * piece, because they are found in quad precision. Further digits come from a smaller piece about the boundary, whose orbit begins at a later
  * image of the first one, and so on. From period 0 on, the program follows a new orbit only when the number of digits has grown by
  * about a half. */
-#include "bisect.h"
+#include "where.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "labelling/labeller.h"
-#include "window/images.h"
+#include "window/window.h"
 
 /* The points between the ends fill the lanes of an orbit in quad precision. */
 enum { POINTS = 9, MOST_WIDENINGS = 6, WIDENING = 7, MOST_PARTS = 256 };

@@ -1,11 +1,11 @@
-#include "question.h"
+#include "where.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "labelling/labeller.h"
-#include "window/own_orbit.h"
+#include "attractors/search.h"
+#include "window/window.h"
 
 /* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */
 static kz_status start_of(void *context, int64_t i, int32_t level, kz_start *start) {
@@ -43,6 +43,16 @@ void kz_question_free(kz_question *q) {
   free(q->decision);
 }
 
+kz_status kz_question_discover(const kz_question *q) {
+  KZ_FREED double *state = kz_malloc(2 * (size_t)q->n * sizeof *state);
+  KZ_FREED int32_t *label = kz_malloc((size_t)q->n * sizeof *label);
+  for (int64_t i = 0; i < q->n; i++) {
+    kz_start start = kz_start_at(q->start[i][0].high, q->start[i][1].high);
+    kz_released_states(q->dynamics, 1, &start, state + 2 * i);
+  }
+  return kz_discover(NULL, q->dynamics, q->max_periods, q->n, state, label);
+}
+
 /* Names of the levels of precision. */
 static const char *const precision_names[] = {
     [KZ_LEVEL_DOUBLE] = "double",  [KZ_LEVEL_FINE] = "double",         [KZ_LEVEL_PAIRS_16] = "pairs",
@@ -50,24 +60,18 @@ static const char *const precision_names[] = {
     [KZ_LEVEL_QUAD] = "quad",      [KZ_LEVEL_ARBITRARY] = "arbitrary", [KZ_LEVELS] = NULL,
 };
 
-static void describe_orbit(const kz_entry *entry, kz_ending *ending) {
-  const size_t bytes = (size_t)entry->row.period * sizeof(double);
-  memcpy(ending->name, entry->name, sizeof ending->name);
-  ending->period = entry->row.period;
-  ending->winding = entry->row.winding;
-  ending->strobe_theta = kz_malloc(bytes + 1);
-  ending->strobe_velocity = kz_malloc(bytes + 1);
-  memcpy(ending->strobe_theta, entry->theta, bytes);
-  memcpy(ending->strobe_velocity, entry->velocity, bytes);
-}
-
-static void describe_start(const kz_question *q, const kz_catalogue *catalogue, int64_t i, kz_ending *ending) {
-  const kz_decision *d = q->decision + i;
+static void describe(const kz_decision *d, const kz_catalogue *catalogue, kz_ending *ending) {
   if (d->label <= 0) return;
+  const kz_entry *entry = catalogue->entries + catalogue->id_of[d->label];
+  const size_t bytes = (size_t)entry->row.period * sizeof(double);
   ending->attractor = catalogue->id_of[d->label];
   ending->settling_time = d->periods;
   ending->precision = precision_names[d->level];
-  describe_orbit(catalogue->entries + ending->attractor, ending);
+  ending->period = entry->row.period;
+  ending->winding = entry->row.winding;
+  ending->strobe_theta = memcpy(kz_malloc(bytes + 1), entry->theta, bytes);
+  ending->strobe_velocity = memcpy(kz_malloc(bytes + 1), entry->velocity, bytes);
+  memcpy(ending->name, entry->name, sizeof ending->name);
   if (ending->precision && ending->period > 0) ending->error = d->error;
   if (d->other <= 0) return;
   ending->other = catalogue->id_of[d->other];
@@ -75,7 +79,7 @@ static void describe_start(const kz_question *q, const kz_catalogue *catalogue, 
 }
 
 void kz_question_answer(const kz_question *q, const kz_catalogue *catalogue, kz_ending *endings) {
-  for (int64_t i = 0; i < q->n; i++) describe_start(q, catalogue, i, endings + i);
+  for (int64_t i = 0; i < q->n; i++) describe(q->decision + i, catalogue, endings + i);
 }
 
 void kz_endings_clear(int64_t n, kz_ending *endings) {

@@ -4,54 +4,36 @@
 
 #include "numerics/cells.h"
 #include "attractors/search.h"
-#include "labelling/labeller.h"
-#include "bisect.h"
+#include "where.h"
 
 typedef struct {
   kz_question question;
-  kz_search search;
-  double *state;    /* [the larger of n and the search's starts][2] */
-  int32_t *found;   /* [the same] */
-  int64_t *reached; /* [numbers from 1] */
+  int64_t *reached; /* [numbers from 1] starts that end on each attractor */
 } where_job;
-
-static void where_allocate(where_job *a) {
-  kz_question *q = &a->question;
-  const int64_t most = q->n > a->search.starts ? q->n : a->search.starts;
-  const kz_scene *scene = q->scene;
-  q->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
-                                   scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
-  if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
-  a->state = kz_malloc(2 * (size_t)most * sizeof *a->state);
-  a->found = kz_malloc((size_t)most * sizeof *a->found);
-}
 
 /* The attractors that the window's starts, and then those asked for, end on. */
 static kz_status where_discover(where_job *a) {
-  const kz_question *q = &a->question;
-  const kz_window motions =
-      q->scene->has_basin ? kz_motions_window(&q->scene->basin.theta, &q->scene->basin.velocity) : a->search.window;
-  a->search.max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
-  KZ_TRY(kz_search_window(NULL, q->dynamics, &a->search, a->found));
-  const int64_t searched = kz_dynamics_count(q->dynamics);
-  int64_t *reached = kz_calloc((size_t)searched + 1, sizeof *reached);
-  for (int64_t i = 0; i < a->search.starts; i++) reached[a->found[i]]++;
-  for (int64_t i = 0; i < q->n; i++) {
-    kz_start start = kz_start_at(q->start[i][0].high, q->start[i][1].high);
-    kz_released_states(q->dynamics, 1, &start, a->state + 2 * i);
-  }
-  kz_status status = kz_discover(NULL, q->dynamics, a->search.max_periods, q->n, a->state, a->found);
-  const int64_t known = kz_dynamics_count(q->dynamics);
-  a->reached = kz_calloc((size_t)known + 1, sizeof *a->reached);
-  if (status == KZ_OK) memcpy(a->reached, reached, (size_t)(searched + 1) * sizeof *reached);
-  free(reached);
+  kz_question *q = &a->question;
+  const kz_scene *scene = q->scene;
+  kz_search search = kz_search_of(scene);
+  KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
+  const kz_window motions = scene->has_basin ? kz_motions_window(&scene->basin.theta, &scene->basin.velocity) : search.window;
+  q->max_periods = search.max_periods;
+  q->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
+                                   scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
+  if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
+  search.max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
+  KZ_TRY(kz_search_window(NULL, q->dynamics, &search, label));
+  KZ_TRY(kz_question_discover(q));
+  a->reached = kz_calloc((size_t)kz_dynamics_count(q->dynamics) + 1, sizeof *a->reached);
+  for (int64_t i = 0; i < search.starts; i++) a->reached[label[i]]++;
   kz_dynamics_update(q->dynamics);
-  return status;
+  return KZ_OK;
 }
 
 static kz_status answer(where_job *a, kz_ending *endings) {
   kz_question *q = &a->question;
-  kz_catalogue catalogue;
+  KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
   KZ_TRY(kz_question_decide(q));
   for (int64_t i = 0; i < q->n; i++) {
     a->reached[q->decision[i].label]++;
@@ -59,7 +41,6 @@ static kz_status answer(where_job *a, kz_ending *endings) {
   }
   kz_catalogue_make(q->dynamics, a->reached, &catalogue);
   kz_question_answer(q, &catalogue, endings);
-  kz_catalogue_free(&catalogue);
   return KZ_OK;
 }
 
@@ -71,9 +52,6 @@ static kz_status where_ask(const kz_scene *scene, int64_t n, const kz_coordinate
   if (!scene->has_basin && !scene->has_attractors)
     return kz_fail(KZ_REFUSED, "scene: has no window to search for attractors; add a basin or attractors study to it");
   if (n == 0 || scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  asked->search = kz_search_of(scene);
-  asked->question.max_periods = asked->search.max_periods;
-  where_allocate(asked);
   KZ_TRY(where_discover(asked));
   return answer(asked, endings);
 }
@@ -81,16 +59,12 @@ static kz_status where_ask(const kz_scene *scene, int64_t n, const kz_coordinate
 static void where_close(where_job *a) {
   if (a->question.dynamics) kz_dynamics_free(a->question.dynamics);
   kz_question_free(&a->question);
-  free(a->state);
-  free(a->found);
   free(a->reached);
 }
 
 kz_status kz_where(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], kz_ending *endings) {
-  where_job a;
-  const kz_status status = where_ask(scene, n, start, &a, endings);
-  where_close(&a);
-  return status;
+  KZ_FREED_BY(where_close) where_job a;
+  return where_ask(scene, n, start, &a, endings);
 }
 
 static kz_status where_bisect(const where_job *a, int64_t digits, const kz_ending *endings, kz_boundary_point *point) {
@@ -102,20 +76,19 @@ static kz_status where_bisect(const where_job *a, int64_t digits, const kz_endin
   KZ_TRY(kz_bisect(q, digits, &bisection));
   memcpy(point->theta, bisection.theta, sizeof point->theta);
   memcpy(point->velocity, bisection.velocity, sizeof point->velocity);
-  kz_catalogue catalogue;
+  KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue;
   kz_catalogue_make(q->dynamics, a->reached, &catalogue);
   for (int side = 0; side < 2; side++) {
     const int32_t id = bisection.label[side] > 0 ? catalogue.id_of[bisection.label[side]] : -1;
     point->attractor[side] = id;
     if (id >= 0) memcpy(point->name[side], catalogue.entries[id].name, sizeof point->name[side]);
   }
-  kz_catalogue_free(&catalogue);
   return KZ_OK;
 }
 
 kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[2], int64_t digits, kz_boundary_point *point) {
   enum { DIGITS_OF_QUADS = 25 };
-  where_job a;
+  KZ_FREED_BY(where_close) where_job a = {.reached = NULL};
   kz_ending endings[2];
   *point = (kz_boundary_point){.attractor = {-1, -1}};
   if (digits > DIGITS_OF_QUADS && kz_arbitrary_bits() < KZ_MOST_BITS)
@@ -124,6 +97,5 @@ kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[
   kz_status status = where_ask(scene, 2, start, &a, endings);
   if (status == KZ_OK) status = where_bisect(&a, digits, endings, point);
   kz_where_free(2, endings);
-  where_close(&a);
   return status;
 }

@@ -1,4 +1,4 @@
-#include "curve.h"
+#include "window.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Where the cells of a window begin: the last image whose polynomial is as right as the arithmetic that goes on from it. */
 #include <math.h>
 
-#include "images.h"
+#include "window.h"
 
 /* rad: what the arithmetic of a level adds in a period, or less. */
 static const long double level_error[] = {

@@ -1,5 +1,5 @@
 /* The orbit of a window's centre, and its images. */
-#include "images.h"
+#include "window.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -131,13 +131,6 @@ static void make_room(kz_images *images, int64_t n) {
   images->image = kz_realloc(images->image, (size_t)images->capacity * sizeof *images->image);
 }
 
-void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
-  make_room(images, before + n);
-  memcpy(images->image + before + 1, image, (size_t)n * sizeof *image);
-  images->n = before + n;
-  images->finished = finished;
-}
-
 /* Marks the last image; the first one that is too bent for it ends the marking. */
 static void mark(kz_images *images) {
   if (!kz_image_is_straight(images, images->n, images->digits)) {
@@ -198,4 +191,65 @@ bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const
     view->reach = fmax(view->reach, offset + scale / 2);
   }
   return is_near && is_wide;
+}
+
+/* ---- the images in pieces of a few periods: each piece needs the one before, and is a stage of one tile. Together they are shown as one. ---- */
+
+/* Replaces all images after image `before` by n images that another rank has made. */
+static void extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
+  make_room(images, before + n);
+  memcpy(images->image + before + 1, image, (size_t)n * sizeof *image);
+  images->n = before + n;
+  images->finished = finished;
+}
+
+enum { PIECE = 8 }; /* periods */
+
+/* A record. After it: the state of the orbit. */
+typedef struct {
+  kz_image image[PIECE];
+  int64_t n;
+  bool finished;
+} piece;
+
+typedef struct {
+  kz_images *images;
+  kz_dynamics *dynamics;
+  int64_t max_periods;
+} work;
+
+static kz_status follow_piece(void *context, int64_t tile, void *record) {
+  const work *w = context;
+  piece *p = record;
+  const int64_t before = w->images->n;
+  (void)tile;
+  KZ_TRY(kz_images_follow(w->images, w->dynamics, PIECE, w->max_periods));
+  p->n = w->images->n - before;
+  p->finished = w->images->finished;
+  memcpy(p->image, w->images->image + before + 1, (size_t)p->n * sizeof *p->image);
+  kz_arbitrary_write(w->images->orbit, (char *)(p + 1));
+  return KZ_OK;
+}
+
+static kz_status run_piece(const kz_run *run, const work *w, piece *record, size_t bytes) {
+  const int64_t before = w->images->n;
+  const kz_stage stage = kz_stage_for_all("reference", 1, bytes, follow_piece, (void *)w);
+  KZ_TRY(kz_stage_run(run, &stage, record));
+  extend(w->images, before, record->n, record->image, record->finished);
+  return kz_ranks_agree(run->ranks, kz_arbitrary_restore(w->images->orbit, (const char *)(record + 1)));
+}
+
+kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods) {
+  const work w = {.images = images, .dynamics = dynamics, .max_periods = max_periods};
+  kz_chain *chain = kz_chain_begin(run, "reference");
+  const size_t bytes = sizeof(piece) + kz_arbitrary_size(images->orbit);
+  KZ_FREED piece *record = kz_malloc(bytes);
+  kz_status status = KZ_OK;
+  while (status == KZ_OK && !images->finished) {
+    const double begun = kz_clock();
+    status = run_piece(run, &w, record, bytes);
+    kz_chain_show(chain, record->n > 0 ? (kz_clock() - begun) / (double)record->n * kz_images_left(images) : 0);
+  }
+  kz_chain_end(chain, status == KZ_OK);
+  return status;
 }

@@ -1,5 +1,5 @@
 /* One start followed in as many digits as decide where it ends. */
-#include "own_orbit.h"
+#include "window.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,8 @@
-#include "starts.h"
+#include "window.h"
 
 #include <stdlib.h>
 
 #include "numerics/cells.h"
-#include "own_orbit.h"
 
 /* Places of the cells of an axis. */
 static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {

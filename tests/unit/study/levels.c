@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "live/levels.h"
+#include "live/live.h"
 
 /* Whether all cells that a level shows, or their mirror images, have been listed. */
 static bool is_shown(int64_t level, int64_t rows, int64_t columns, int64_t own, const int *times) {

@@ -1,14 +1,12 @@
-/* The images of a window under the map. All cells of a small window move together at first. The program follows one orbit, that of the
- * centre, in as many digits as the depth needs, and beside it the window as a polynomial of degree 3. After n periods this gives the start
- * of every cell. Nothing here is collective. */
-#ifndef KAPITZA_STUDY_IMAGES_H
-#define KAPITZA_STUDY_IMAGES_H
+/* Windows of any depth: their images under the map, their cells as starts. Only kz_images_run is collective. */
+#ifndef KAPITZA_STUDY_WINDOW_H
+#define KAPITZA_STUDY_WINDOW_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
-#include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "labelling/labeller.h"
+
+/* ---- images: all cells of a small window move together at first. The program follows one orbit, that of the centre, in as many digits as the
+ * depth needs, and beside it the window as a polynomial of degree 3. After n periods this gives the start of every cell. ---- */
 
 /* The window after n periods: its centre, and the other points as a polynomial in shares of the width, -1/2 to 1/2 along each axis. */
 typedef struct {
@@ -48,12 +46,13 @@ void kz_images_free(kz_images *images);
  * or if a trapping region holds all of it. */
 kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods);
 
+/* The same until the images are finished, in stages that a checkpoint keeps: one rank follows, and every rank gets the same images.
+ * Collective. */
+kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods);
+
 /* Estimates the work that is left, in units of the last period. It assumes that the image goes on to grow as it did, and that the time of
  * a period falls as the square of the bits. */
 double kz_images_left(const kz_images *images);
-
-/* Replaces all images after image `before` by n images that another rank has made. */
-void kz_images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished);
 
 /* The place of a window in that of the images: the share x of its width is the share offset + scale x of theirs; reach = the largest of
  * these in modulus. */
@@ -85,5 +84,57 @@ kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reac
 void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);
 /* The same start as its distance from the image's centre, in doubles: change [2], rad and rad per drive radian. */
 void kz_hand_over_change(const kz_hand_over *hand_over, double theta, double velocity, double change[2]);
+
+/* ---- own orbits ---- */
+
+/* Follows the start in more and more digits until double or quad precision decides the rest of its motion. decision->label = number of an attractor;
+ * 0 = not settled within max_periods; KZ_DOUBTFUL = undecided even with 10,000 bits, or with the most bits of the build. */
+kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
+                              int64_t max_periods, kz_decision *decision);
+
+/* ---- the cells of a basin's window as starts for a labeller, at any depth. Items are the numbers of cells, theta fastest. ---- */
+
+typedef struct {
+  const kz_basin_plan *plan;
+  const kz_pendulum *pendulum;
+  kz_dynamics *dynamics;
+  kz_images *images; /* this struct is a holder; NULL = the cells are doubles */
+  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+  __float128 *place[2]; /* with images: place of each column and of each row, in shares of the images' width */
+  double *centre[2];    /* without images: centre of each column and of each row, rad and rad per drive radian */
+} kz_window_starts;
+
+/* Makes the starts from finished images that serve the window (kz_images_serve), or without images (NULL). The caller frees them. */
+void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
+                           kz_window_starts *starts);
+void kz_window_starts_free(kz_window_starts *starts);
+
+/* The labeller of the cells. decide = true: cells that quad precision does not decide are decided by their own orbits. */
+kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide);
+
+/* The state of a cell when it is handed over to doubles: state [2], half-turns and rad per drive radian, after *periods drive periods. */
+void kz_window_state(const kz_window_starts *starts, int64_t cell, double state[2], int64_t *periods);
+
+/* ---- curves: the map stretches a small window along one direction and compresses it across. When its cells are handed over to doubles, a
+ * deep window has become a curve, so samples along the curve give the labels of all cells. ---- */
+
+typedef struct {
+  const kz_hand_over *hand_over;
+  double middle[2], along[2]; /* of the window, and the curve's direction (a unit vector): shares of the images' width */
+  double step;                /* distance of neighbouring samples */
+  int64_t count;              /* number of samples; 0 = the window is not a curve */
+  int64_t columns;            /* of the window */
+  double *column, *row;       /* column [j] + row [i] = place of cell (i, j), in steps from sample 0 */
+} kz_window_curve;
+
+/* Makes the curve with 16 samples a cell, so that a sample is at most 1/32 of a cell from the start of a cell; across the curve starts differ
+ * by less than a tenth of that. The caller frees it. */
+void kz_window_curve_make(const kz_window_starts *starts, kz_window_curve *curve);
+void kz_window_curve_free(kz_window_curve *curve);
+
+/* The sample nearest to a cell. */
+int64_t kz_window_curve_sample(const kz_window_curve *curve, int64_t cell);
+/* The state of a sample when it is handed over: state [2], half-turns and rad per drive radian, after *periods drive periods. */
+void kz_window_curve_state(const kz_window_curve *curve, int64_t sample, double state[2], int64_t *periods);
 
 #endif

@@ -1,0 +1,164 @@
+/* Frames on request: levels, residents, the engine, cells, helpers. */
+#ifndef KAPITZA_STUDY_LIVE_FOLDER_H
+#define KAPITZA_STUDY_LIVE_FOLDER_H
+
+#include "attractors/catalogue.h"
+#include "attractors/search.h"
+#include "kapitza/study_live.h"
+#include "window/window.h"
+
+/* ---- levels: the cells of a frame that a level shows, one for each multiple of the level. All cells of a level also belong to the finer
+ * levels. ---- */
+
+/* Number of cells of a level along an axis of `count` cells. */
+static inline int64_t kz_level_size(int64_t level, int64_t count) {
+  return (count + level - 1) / level;
+}
+
+/* Index of the i-th of them along the axis. */
+static inline int64_t kz_level_place(int64_t level, int64_t i, int64_t count) {
+  const int64_t at = level * i + (level == 8 ? 5 : level > 1);
+  return at < count ? at : count - 1;
+}
+
+/* Lists the cells of a level that no level has followed: number [rows * columns] takes their numbers, theta fastest. A cell from `own` on is the
+ * mirror image of an own one, which is listed in its place, once. listed [own]: cells that are listed, or were. Returns how many. */
+int64_t kz_level_pending(int64_t level, int64_t rows, int64_t columns, int64_t own, bool *listed, int64_t *number);
+
+/* ---- a resident: a pendulum that the engine keeps, with its map, attractors, trapping regions and catalogue ---- */
+
+/* Largest number of strays: states of unsettled cells of moving frames, near which new attractors may exist. */
+enum { KZ_STRAYS = 16 };
+
+typedef struct {
+  kz_scene scene;   /* pendulum, numerics, and the basin whose window was searched; no title */
+  double tolerance; /* rad: error of a period for moving frames; 0 = labels are decided */
+  bool busy;        /* a frame of it is being made */
+  bool smooth;      /* its cells get smooth settling times */
+  int64_t used;     /* counter of its last use: larger = later */
+  int64_t periods;  /* largest number of drive periods for which cells are followed */
+  kz_dynamics *dynamics;
+  kz_search search;
+  kz_images *images;  /* of the last window that needed them; NULL = none yet */
+  kz_pendulum chosen; /* the pendulum for which the numerics were chosen, */
+  kz_pendulum grown;  /* and that for which the trapping regions were made */
+  int age;            /* number of pendulums since the trapping regions were grown */
+  int n_strays;
+  double stray[2 * KZ_STRAYS]; /* [n_strays][2] half-turns and velocity */
+  kz_live_catalogue catalogue;
+} kz_resident;
+
+static inline bool kz_resident_moves(const kz_resident *resident) {
+  return resident->tolerance > 0;
+}
+
+/* The tolerance of moving frames of the scene's window, rad: much smaller than a cell. */
+double kz_moving_tolerance(const kz_scene *scene);
+
+/* Makes a resident: attractors of the scene's window, trapping regions, catalogue without tracks. The caller frees it in every case. */
+kz_status kz_resident_make(const kz_scene *scene, double tolerance, kz_resident *resident);
+void kz_resident_free(kz_resident *resident);
+
+/* The relative distance of the scene's pendulum from that of the resident; INFINITY = too far to move the resident there. */
+double kz_resident_distance(const kz_resident *resident, const kz_scene *scene);
+/* Moves the resident to the scene's pendulum: its attractors are continued; trapping regions are grown anew after some pendulums only. */
+void kz_resident_move(kz_resident *resident, const kz_scene *scene);
+
+/* Looks for attractors near its strays, and forgets the strays. Returns true if it has found some. */
+bool kz_resident_discover(kz_resident *resident);
+
+/* True if the resident can be used for a frame of the scene with this tolerance. */
+bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, double tolerance);
+
+/* The catalogue once more, after attractors have joined; `version` is the new one's. Tracks come from `before` (NULL: none) where an attractor is the same
+ * or has moved, else from *tracks, which counts them. */
+void kz_resident_list(kz_resident *resident, int64_t version, const kz_live_catalogue *before, int64_t *tracks);
+
+/* ---- the engine: residents of the last pendulums ---- */
+
+enum { KZ_RESIDENTS = 6 };
+struct kz_engine {
+  kz_resident resident[KZ_RESIDENTS];
+  int64_t calls, versions, tracks; /* counters */
+  const kz_live_catalogue *shown;  /* the last catalogue: tracks go on from it */
+};
+
+/* *resident = the resident for a scene; the engine makes it if necessary and owns it. */
+kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident);
+
+/* Makes the catalogue of a resident anew after new attractors were found. */
+void kz_engine_list(kz_engine *engine, kz_resident *resident);
+
+/* ---- cells of one frame, followed where they are pending ---- */
+
+/* State of a cell of a frame. */
+enum { KZ_CELL_PENDING = 0, KZ_CELL_FOLLOWED = 1, KZ_CELL_DECIDED = 2, KZ_CELL_UNDECIDED = 3 };
+typedef struct {
+  int16_t label;         /* number of kz_dynamics, 0 = not settled */
+  int16_t other;         /* of an undecided cell: the second candidate, 0 = none */
+  float periods, smooth; /* settling times: whole, and smooth where the resident is asked for it */
+  uint8_t state;
+} kz_frame_cell;
+
+/* Largest number of cells that are followed together. */
+enum { KZ_FRAME_TILE = 2048 };
+
+/* Cells of a moving frame on their way: where they are (half-turns, rad per drive radian), and the periods that they have spent. */
+typedef struct {
+  int64_t n, number[2 * KZ_FRAME_TILE], spent[2 * KZ_FRAME_TILE];
+  double state[4 * KZ_FRAME_TILE];
+} kz_travellers;
+
+/* Makes the starts of a frame's cells, at any depth; it reuses the images of the last frame if possible. The caller frees them if the status
+ * is KZ_OK. */
+kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts);
+
+/* Follows n <= KZ_FRAME_TILE cells; number [n] = their numbers in the frame, theta fastest. Those of a moving frame that take long join `late`,
+ * which holds none at first: a few slow cells would leave most lanes empty. kz_cells_finish follows them to their ends. */
+kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                          kz_travellers *late, kz_frame_cell *cells);
+void kz_cells_finish(kz_resident *resident, kz_travellers *late, kz_frame_cell *cells);
+
+/* Samples along the curve that a deep window becomes: they label the cells of a moving frame. */
+typedef struct {
+  kz_window_curve curve;
+  kz_frame_cell *cell; /* [curve.count] result of each sample */
+  int64_t *wanted;     /* [curve.count] numbers of the samples to follow */
+} kz_samples;
+
+/* The caller frees *samples. curve.count is 0 if the window is not a curve. */
+void kz_samples_make(const kz_window_starts *starts, kz_samples *samples);
+void kz_samples_free(kz_samples *samples);
+
+/* Follows any number n of cells by following their samples. */
+kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
+                            kz_frame_cell *cells);
+
+/* Looks for attractors from up to n of these cells, which have not settled. *born = true if it has found some. */
+kz_status kz_cells_discover(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                            bool *born);
+
+/* ---- helpers: other processes that follow cells of a frame together with this one ---- */
+
+/* The memory that this process and its helpers share: the cells of a frame and their progress. */
+typedef struct kz_crew kz_crew;
+
+/* Makes a crew for a frame of `total` cells, all pending, with as many helpers as there are further cores. Free with kz_crew_free. */
+kz_crew *kz_crew_create(int64_t total);
+void kz_crew_free(kz_crew *crew);
+
+/* The cells of the frame, [total]. */
+kz_frame_cell *kz_crew_cells(kz_crew *crew);
+
+/* Some cells of a frame to follow. */
+typedef struct {
+  kz_resident *resident;
+  const kz_window_starts *starts;
+  const kz_frame *frame;
+  int64_t n;
+  const int64_t *number; /* [n] */
+} kz_crew_task;
+/* Follows the cells in tiles; each process takes the next tile when it is free. The labels do not depend on which process follows a cell. */
+kz_status kz_crew_follow(kz_crew *crew, const kz_crew_task *task);
+
+#endif

@@ -1,0 +1,37 @@
+/* Starts to be labelled by the command where, after the attractors are known, and points between two of them at which their basins meet. Not
+ * collective. */
+#ifndef KAPITZA_STUDY_WHERE_FOLDER_H
+#define KAPITZA_STUDY_WHERE_FOLDER_H
+
+#include "attractors/catalogue.h"
+#include "kapitza/study_where.h"
+
+typedef struct {
+  const kz_scene *scene;
+  kz_dynamics *dynamics;
+  int64_t max_periods, n;
+  const kz_coordinate (*start)[2]; /* [n] as of kz_where */
+  kz_decision *decision;           /* [n] */
+} kz_question;
+
+/* Labels the starts as method exact does: fills `decision`. An undecided start gets its candidates in place of KZ_DOUBTFUL. */
+kz_status kz_question_decide(kz_question *question);
+void kz_question_free(kz_question *question);
+
+/* Looks for attractors that only these starts end on; they join those of `dynamics`. */
+kz_status kz_question_discover(const kz_question *question);
+
+/* Clears endings [n]. */
+void kz_endings_clear(int64_t n, kz_ending *endings);
+/* Fills endings [n] from the decisions, with names of the catalogue. */
+void kz_question_answer(const kz_question *question, const kz_catalogue *catalogue, kz_ending *endings);
+
+/* The point on the straight line between the two starts of a question, whose labels differ: theta and velocity as texts with `digits` right
+ * digits behind the point. */
+typedef struct {
+  char theta[KZ_DECIMAL_LENGTH], velocity[KZ_DECIMAL_LENGTH];
+  int32_t label[2]; /* towards the first start, towards the second */
+} kz_bisection;
+kz_status kz_bisect(const kz_question *question, int64_t digits, kz_bisection *bisection);
+
+#endif
