@@ -41,10 +41,14 @@ static const char *wrong_ramp(const kz_parameters *parameters) {
   return NULL;
 }
 
+/* Whether an axis of the scene's chart is of such a key. */
+static bool is_charted(const kz_scene *scene, bool (*is_such)(int32_t parameter)) {
+  return scene->has_chart && (is_such(scene->chart.x.parameter) || is_such(scene->chart.y.parameter));
+}
+
 /* A sweep over a ramp: its values differ in their cells alone. */
 static const char *needs_cells(const kz_scene *scene) {
-  if (scene->has_chart &&
-      (kz_sweep_is_of_release(scene->chart.x.parameter) || kz_sweep_is_of_release(scene->chart.y.parameter)))
+  if (is_charted(scene, kz_sweep_is_of_release))
     return "study chart does not follow a ramp; choose another parameter for the chart";
   if (!scene->has_sweep || !kz_sweep_is_of_release(scene->sweep.parameter)) return NULL;
   bool of_cells = scene->has_basin;
@@ -124,9 +128,7 @@ static kz_status check_release(const kz_scene *scene) {
 
 /* Whether a sweep or a chart gives the drive other forms than the scene's. */
 static bool drive_is_varied(const kz_scene *scene) {
-  return (scene->has_sweep && kz_sweep_is_of_drive(scene->sweep.parameter)) ||
-         (scene->has_chart &&
-          (kz_sweep_is_of_drive(scene->chart.x.parameter) || kz_sweep_is_of_drive(scene->chart.y.parameter)));
+  return (scene->has_sweep && kz_sweep_is_of_drive(scene->sweep.parameter)) || is_charted(scene, kz_sweep_is_of_drive);
 }
 
 kz_status kz_drive_check(const kz_scene *scene) {

@@ -1,7 +1,6 @@
 /* Whether the pendulum stays at rest, down and inverted, and which amplitudes of the pivot would change it. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "kapitza/kernel.h"
 #include "kapitza/study.h"
@@ -56,9 +55,9 @@ static double next_change(const uint8_t *stable, double step, double k, double b
 
 /* The position at which gravity counts as k; `most`: the largest drive that is looked at. */
 static rest look(double k, double beta, double m, double most) {
-  double *ks = kz_malloc(5 * POINTS * sizeof *ks), *betas = ks + POINTS, *ms = ks + 2 * POINTS, *growth = ks + 3 * POINTS,
-         *angle = ks + 4 * POINTS;
-  uint8_t *stable = kz_malloc(POINTS);
+  KZ_FREED double *ks = kz_malloc(5 * POINTS * sizeof *ks);
+  KZ_FREED uint8_t *stable = kz_malloc(POINTS);
+  double *betas = ks + POINTS, *ms = betas + POINTS, *growth = ms + POINTS, *angle = growth + POINTS;
   const double step = most / (POINTS - 1);
   for (int i = 0; i < POINTS; i++) {
     ks[i] = k;
@@ -82,8 +81,6 @@ static rest look(double k, double beta, double m, double most) {
       found.low = next_change(stable, step, k, beta, &down, -1);
     }
   }
-  free(ks);
-  free(stable);
   return found;
 }
 

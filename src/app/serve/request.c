@@ -10,12 +10,7 @@ static const char SOURCE[] = "request";
 #define WORDS_OF_KIND "frame|where|orbit|catalogue|chart|cancel|quit"
 /* Keys of the request itself, with their defaults; the others change the scene. The sequence comes first: errors are answered with it. */
 static const kz_key rows[] = {
-    {.path = "sequence",
-     .type = KZ_KEY_INTEGER,
-     .unit = "",
-     .fallback = "0",
-     .high = 9007199254740992.0,
-     .offset = AT(sequence)},
+    {.path = "sequence", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "0", .high = 1LL << 53, .offset = AT(sequence)},
     {.path = "request", .type = KZ_KEY_WORD, .unit = "", .words = WORDS_OF_KIND, .offset = AT(kind)},
     {.path = "view", .type = KZ_KEY_TEXT, .unit = "", .fallback = "\"\"", .offset = AT(view)},
     {.path = "quality", .type = KZ_KEY_WORD, .unit = "", .words = "exact|moving", .fallback = "exact", .offset = AT(quality)},

@@ -26,7 +26,7 @@ size_t kz_plane_bytes(int plane) {
   return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME ? sizeof(float) : 1;
 }
 
-static void frame_allocate(making *m) {
+static void allocate(making *m) {
   size_t bytes = 0;
   for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
   m->crew = kz_crew_create(m->total);
@@ -105,7 +105,7 @@ static kz_status show(making *m, int64_t level) {
 }
 
 static kz_status make(making *m) {
-  frame_allocate(m);
+  allocate(m);
   if (m->resident->dynamics) KZ_TRY(kz_cells_begin(m->resident, &m->scene->basin, m->frame, &m->starts));
   if (kz_resident_moves(m->resident) && m->resident->dynamics) kz_samples_make(&m->starts, &m->samples);
   for (int64_t i = 0; i < m->frame->levels->count; i++) {

@@ -8,10 +8,6 @@
 enum { PER_CELL = 16 };
 static const double thin = 0.1; /* steps: the width of what counts as a curve */
 
-static double dot(const double a[2], const double b[2]) {
-  return a[0] * b[0] + a[1] * b[1];
-}
-
 /* The direction in which a linear map stretches most. */
 static void find_direction(const double J[2][2], double along[2]) {
   const double xx = J[0][0] * J[0][0] + J[1][0] * J[1][0], yy = J[0][1] * J[0][1] + J[1][1] * J[1][1];
@@ -22,7 +18,8 @@ static void find_direction(const double J[2][2], double along[2]) {
 
 /* How far the images of a corner and of its place on the curve lie from each other, over the image of a step. */
 static double width_at(const kz_window_curve *c, const double half[2], int corner) {
-  const double off[2] = {corner & 1 ? half[0] : -half[0], corner & 2 ? half[1] : -half[1]}, on = dot(c->along, off);
+  const double off[2] = {corner & 1 ? half[0] : -half[0], corner & 2 ? half[1] : -half[1]};
+  const double on = c->along[0] * off[0] + c->along[1] * off[1];
   double image[3][2];
   kz_hand_over_change(c->hand_over, c->middle[0] + off[0], c->middle[1] + off[1], image[0]);
   kz_hand_over_change(c->hand_over, c->middle[0] + on * c->along[0], c->middle[1] + on * c->along[1], image[1]);

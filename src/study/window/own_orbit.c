@@ -60,12 +60,6 @@ static kz_status advance(path *p) {
   return KZ_OK;
 }
 
-/* Whether doubles, without regard to errors, end nowhere known: more digits would not find an attractor that the catalogue lacks. */
-static bool ends_nowhere(const kz_start *start, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
-  kz_dynamics_label(dynamics, KZ_LEVEL_GUESS, KZ_LEVEL_DOUBLE, 1, start, max_periods, decision);
-  return decision->label == 0;
-}
-
 /* Where the orbit is, with its error. */
 static kz_start start_of(const path *p) {
   const long double unit = unit_of(p) * unit_of(p);
@@ -75,24 +69,21 @@ static kz_start start_of(const path *p) {
   return start;
 }
 
-/* The rest of the motion in double precision. */
+/* The rest of the motion in double precision. If doubles, without regard to errors, end nowhere known, more digits would not find an attractor
+ * that the catalogue lacks. */
 static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   const kz_start start = start_of(p);
   for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_FINE; level++) {
     kz_dynamics_label(dynamics, level, KZ_LEVEL_DOUBLE, 1, &start, max_periods, decision);
     if (decision->label != KZ_DOUBTFUL) return;
   }
-  if (p->periods % LOOK_EVERY == 0 && ends_nowhere(&start, dynamics, max_periods, decision)) return;
-  decision->label = KZ_DOUBTFUL;
+  if (p->periods % LOOK_EVERY == 0)
+    kz_dynamics_label(dynamics, KZ_LEVEL_GUESS, KZ_LEVEL_DOUBLE, 1, &start, max_periods, decision);
+  if (decision->label != 0) decision->label = KZ_DOUBTFUL;
 }
 
-/* The rest of the motion in quad precision, once that has as many digits as the orbit has left. */
-static void try_in_quads(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
-  const kz_start start = start_of(p);
-  kz_dynamics_label(dynamics, KZ_LEVEL_QUAD, KZ_LEVEL_FINE, 1, &start, max_periods, decision);
-}
-
-/* Until it is decided, or has lost its digits: decision->label is KZ_DOUBTFUL then. */
+/* Until it is decided, or quad precision has as many digits as the orbit has left and goes on: decision->label is KZ_DOUBTFUL if that does not
+ * decide it. */
 static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   decision->label = KZ_DOUBTFUL;
   for (; !is_lost(p); p->periods++) {
@@ -102,7 +93,8 @@ static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_
     }
     KZ_TRY(advance(p));
   }
-  try_in_quads(p, dynamics, max_periods, decision);
+  const kz_start start = start_of(p);
+  kz_dynamics_label(dynamics, KZ_LEVEL_QUAD, KZ_LEVEL_FINE, 1, &start, max_periods, decision);
   return KZ_OK;
 }
 

@@ -71,13 +71,8 @@ kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide) {
 }
 
 void kz_window_state(const kz_window_starts *starts, int64_t cell, double state[2], int64_t *periods) {
-  kz_start start = {0};
-  if (!starts->images) {
-    kz_start_state(starts->centre[0][cell % starts->plan->theta.count], starts->centre[1][cell / starts->plan->theta.count],
-                   state);
-  } else {
-    start_cell((void *)starts, cell, KZ_LEVEL_DOUBLE, &start);
-    kz_start_state(start.theta[0], start.velocity[0], state);
-  }
+  kz_start start;
+  start_cell((void *)starts, cell, KZ_LEVEL_DOUBLE, &start);
+  kz_start_state(start.theta[0], start.velocity[0], state);
   *periods = start.periods;
 }
