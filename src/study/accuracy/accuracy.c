@@ -1,7 +1,6 @@
 #include "accuracy.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "numerics/cells.h"
 #include "numerics/share.h"
@@ -108,13 +107,12 @@ kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds) {
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
   const double accuracy = scene->basin.accuracy;
   kz_reference_labels reference = {0};
-  char *path = kz_reference_path(store);
+  KZ_FREED char *path = kz_reference_path(store);
   kz_status status = kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference);
   if (status == KZ_OK) status = choose(&reference, run, accuracy, choice);
   if (status == KZ_OK && path) status = kz_reference_labels_save(&reference, path);
   if (status == KZ_OK && summary) tell(choice, accuracy, summary);
   kz_reference_labels_free(&reference);
-  free(path);
   return kz_ranks_agree(run->ranks, status);
 }
 

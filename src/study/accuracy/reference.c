@@ -64,11 +64,9 @@ static kz_status find_attractors(const kz_reference_labels *reference, const kz_
 
 static kz_status prepare(kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
   const kz_window window = kz_window_of(&reference->plan->theta, &reference->plan->velocity);
-  double *state = kz_malloc(2 * PROBES * sizeof *state);
-  int32_t *label = kz_malloc(PROBES * sizeof *label);
+  KZ_FREED double *state = kz_malloc(2 * PROBES * sizeof *state);
+  KZ_FREED int32_t *label = kz_malloc(PROBES * sizeof *label);
   const kz_status status = find_attractors(reference, run, dynamics, state, label);
-  free(state);
-  free(label);
   KZ_TRY(kz_ranks_agree(run->ranks, status));
   reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
   reference->packed_size = kz_dynamics_packed_size(dynamics);
@@ -158,10 +156,9 @@ static kz_status follow_samples(kz_reference_labels *reference, const kz_run *ru
   KZ_TRY(kz_ranks_broadcast(run->ranks, reference->labels, (size_t)h.known * sizeof *reference->labels));
   const kz_stage stage = kz_stage_for_all("reference labels", (reference->samples + TILE - 1) / TILE,
                                           TILE * sizeof(kz_reference_label), label_tile, &h);
-  kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  KZ_FREED kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK) memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);
-  free(records);
   return status;
 }
 

@@ -96,17 +96,13 @@ static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
   const kz_setting *s = g->setting;
   const kz_labeller labeller = kz_cell_labeller(g->reference->plan, g->dynamics);
   const bool exact = s->method == KZ_METHOD_EXACT;
-  int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1), *periods = kz_malloc((size_t)n * sizeof *periods + 1);
-  kz_decision *decision = kz_malloc((exact ? (size_t)n : 0) * sizeof *decision + 1);
+  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1), *periods = kz_malloc((size_t)n * sizeof *periods + 1);
+  KZ_FREED kz_decision *decision = kz_malloc((exact ? (size_t)n : 0) * sizeof *decision + 1);
   for (int64_t i = 0; i < n; i++) cell[i] = kz_reference_labels_cell(g->reference, i);
-  const kz_status status = exact
-                               ? kz_label(&labeller, n, cell, decision)
-                               : kz_label_states(&labeller, kz_stepping(s->method, s->interpolation), n, cell, label, periods);
-  for (int64_t i = 0; i < n && exact && status == KZ_OK; i++) label[i] = decision[i].label;
-  free(cell);
-  free(periods);
-  free(decision);
-  return status;
+  KZ_TRY(exact ? kz_label(&labeller, n, cell, decision)
+               : kz_label_states(&labeller, kz_stepping(s->method, s->interpolation), n, cell, label, periods));
+  for (int64_t i = 0; i < n && exact; i++) label[i] = decision[i].label;
+  return KZ_OK;
 }
 
 /* The largest difference between the number of cells of one attractor among the labels and among the reference labels. */
@@ -167,12 +163,10 @@ static kz_status measure_cells(const kz_setting *setting, const kz_reference_lab
   if (n < reference->samples) n = reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
-  int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
-  int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
+  KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
+  KZ_FREED int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
   const kz_status status = measure(&g, n, label, surplus, measured);
   kz_dynamics_free(g.dynamics);
-  free(label);
-  free(surplus);
   return status;
 }
 

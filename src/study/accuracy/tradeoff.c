@@ -92,10 +92,9 @@ static kz_stage stage_of(measuring *m) {
 static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
   measuring m = {reference, trade};
   const kz_stage stage = stage_of(&m);
-  kz_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
+  KZ_FREED kz_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
   const kz_status status = kz_stage_run(run, &stage, measured);
   if (status == KZ_OK) rate(reference, measured, trade);
-  free(measured);
   return status;
 }
 
@@ -115,14 +114,13 @@ kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds) {
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   kz_reference_labels reference = {0};
   kz_trade trade = trade_of(&scene->tradeoff);
-  char *path = kz_reference_path(store);
+  KZ_FREED char *path = kz_reference_path(store);
   kz_status status = kz_reference_labels_make(scene, run, scene->tradeoff.samples, path, &reference);
   if (status == KZ_OK) status = kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
   if (status == KZ_OK) status = run_settings(&reference, &trade, run);
   if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);
   kz_reference_labels_free(&reference);
   free(trade.row);
-  free(path);
   return kz_ranks_agree(run->ranks, status);
 }
 

@@ -1,5 +1,4 @@
 /* Study `attractors`: the catalogue of a window of starts, without a grid. */
-#include <stdlib.h>
 
 #include "catalogue.h"
 #include "numerics/cells.h"
@@ -31,7 +30,7 @@ static kz_search search_of(const kz_scene *scene) {
 static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, const int32_t *label, kz_store *store,
                          FILE *summary) {
   const int64_t starts = scene->attractors.starts;
-  int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
+  KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
   kz_catalogue catalogue = {0};
   const kz_motions motions = motions_of_starts(scene);
   const kz_speed_errors classes = kz_motions_errors(&motions);
@@ -45,7 +44,6 @@ static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, con
             (long long)starts, (long long)search_of(scene).max_periods);
   }
   kz_catalogue_free(&catalogue);
-  free(reached);
   return status;
 }
 
@@ -62,11 +60,10 @@ kz_status kz_attractors_measure(const kz_scene *scene, double *seconds) {
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_search search = search_of(scene);
   kz_dynamics *dynamics = dynamics_of(scene);
-  int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
+  KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
   kz_status status = kz_ranks_agree(run->ranks, kz_search_window(run, dynamics, &search, label));
   if (status == KZ_OK && store) status = publish(scene, dynamics, label, store, summary);
   kz_dynamics_free(dynamics);
-  free(label);
   return status;
 }
 

@@ -26,7 +26,7 @@ static void fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
 
 void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue) {
   int64_t known = kz_dynamics_count(dynamics);
-  int64_t *order = kz_calloc((size_t)known + 1, sizeof *order);
+  KZ_FREED int64_t *order = kz_calloc((size_t)known + 1, sizeof *order);
   *catalogue = (kz_catalogue){.entries = kz_calloc((size_t)known + 1, sizeof(kz_entry)),
                               .id_of = kz_calloc((size_t)known + 1, sizeof(int32_t))};
   kz_dynamics_order(dynamics, order);
@@ -44,7 +44,6 @@ void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_c
   }
   for (int64_t i = 0; i < catalogue->count; i++)
     catalogue->entries[i].mirror = catalogue->id_of[catalogue->entries[i].row.mirror];
-  free(order);
 }
 
 int64_t kz_catalogue_longest(const kz_catalogue *catalogue) {
@@ -97,26 +96,24 @@ double *kz_nan_filled(int64_t n) {
 static kz_status lines_of(const kz_entry *entry, const kz_flow *flow, int64_t lines, double *amplitude, double *phase,
                           int32_t *dominant) {
   int64_t n = entry->row.period, samples = n * SAMPLES, most = samples / 2 < lines ? samples / 2 : lines;
-  double *theta = kz_malloc((size_t)(samples + 1) * sizeof *theta),
-         *velocity = kz_malloc((size_t)(samples + 1) * sizeof *velocity);
+  KZ_FREED double *theta = kz_malloc((size_t)(samples + 1) * sizeof *theta),
+                  *velocity = kz_malloc((size_t)(samples + 1) * sizeof *velocity);
   const kz_record record = {.periods = n,
                             .samples_per_period = SAMPLES,
                             .rotation = (double)entry->row.winding / (double)n,
                             .centre = entry->row.centre == KZ_ABOUT_INVERTED ? M_PI : 0.0,
                             .closed = true};
   kz_sample(flow, n, SAMPLES, entry->theta[0], entry->velocity[0], theta, velocity);
-  const kz_status status = kz_spectrum_lines(&record, theta, most, amplitude, phase);
+  KZ_TRY(kz_spectrum_lines(&record, theta, most, amplitude, phase));
   *dominant = (int32_t)kz_spectrum_dominant(most, amplitude);
-  free(theta);
-  free(velocity);
-  return status;
+  return KZ_OK;
 }
 
 /* The lines of every closed orbit. */
 static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum *pendulum, int64_t lines, kz_store *store) {
   const int64_t n = catalogue->count;
-  double *amplitude = kz_nan_filled(n * lines), *phase = kz_nan_filled(n * lines);
-  int32_t *dominant = kz_calloc((size_t)n + 1, sizeof *dominant);
+  KZ_FREED double *amplitude = kz_nan_filled(n * lines), *phase = kz_nan_filled(n * lines);
+  KZ_FREED int32_t *dominant = kz_calloc((size_t)n + 1, sizeof *dominant);
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
   kz_flow *flow = kz_flow_create(pendulum, &fine);
@@ -128,9 +125,6 @@ static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum 
   if (status == KZ_OK) status = kz_store_variable(store, "attractors", "line_phase", phase);
   if (status == KZ_OK) status = kz_store_variable(store, "attractors", "dominant_line", dominant);
   kz_flow_free(flow);
-  free(amplitude);
-  free(phase);
-  free(dominant);
   return status;
 }
 

@@ -59,14 +59,13 @@ static void list_pending(following *f) {
 /* Follows the pending starts for f->periods; those that are trapped get their label. */
 static kz_status follow_stretch(const kz_run *run, following *f) {
   const kz_stage stage = kz_stage_for_all("attractors", (f->n + TILE - 1) / TILE, sizeof(followed), follow_tile, f);
-  followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
+  KZ_FREED followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
   kz_status status = kz_stage_run(run, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
     const followed *record = records + i / TILE;
     memcpy(f->state + 2 * f->pending[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
     f->label[f->pending[i]] = record->label[i % TILE];
   }
-  free(records);
   if (status == KZ_OK) list_pending(f);
   return status;
 }
@@ -221,10 +220,9 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
   const kz_stage stage =
       kz_stage_for_all("map table", (n_velocity + TABLE_ROWS - 1) / TABLE_ROWS,
                        TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double), table_tile, &t);
-  double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  KZ_FREED double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);
-  free(rows);
   return status;
 }
 
@@ -246,10 +244,9 @@ static kz_status search_from(const kz_run *run, kz_dynamics *dynamics, const kz_
 }
 
 kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label) {
-  double *state = kz_malloc(2 * (size_t)search->starts * sizeof *state);
+  KZ_FREED double *state = kz_malloc(2 * (size_t)search->starts * sizeof *state);
   int32_t *own = label ? NULL : kz_malloc((size_t)search->starts * sizeof *own);
   const kz_status status = search_from(run, dynamics, search, state, label ? label : own);
-  free(state);
   free(own);
   return status;
 }

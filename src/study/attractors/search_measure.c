@@ -25,15 +25,13 @@ static kz_status measure_settling(kz_dynamics *dynamics, const kz_search *search
 static kz_status discover_further(kz_dynamics *dynamics, const kz_search *search) {
   static const double enough = 0.3; /* s */
   const int64_t most = smaller(search->starts, MOST_STARTS);
-  double *state = kz_malloc((size_t)most * 2 * sizeof *state + 1);
-  int32_t *label = kz_malloc((size_t)most * sizeof *label + 1);
+  KZ_FREED double *state = kz_malloc((size_t)most * 2 * sizeof *state + 1);
+  KZ_FREED int32_t *label = kz_malloc((size_t)most * sizeof *label + 1);
   kz_dynamics_starts(&search->window, search->seed, most, state);
   kz_status status = KZ_OK;
   const double start = kz_processor_clock();
   for (int64_t i = 0; i < most && status == KZ_OK && kz_processor_clock() - start < enough; i += KZ_SEARCH_FEW)
     status = kz_discover(NULL, dynamics, search->max_periods, smaller(most - i, KZ_SEARCH_FEW), state + 2 * i, label + i);
-  free(state);
-  free(label);
   return status;
 }
 

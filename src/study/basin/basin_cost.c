@@ -49,28 +49,26 @@ static kz_status basin_cost_discover(sample *s, kz_catalogue *catalogue) {
   const kz_search search = kz_search_of_basin(&s->scene->basin);
   KZ_TRY(kz_search_measure(s->dynamics, &search, label, &s->seconds));
   kz_dynamics_update(s->dynamics);
-  int64_t *reached = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *reached);
+  KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *reached);
   for (int64_t i = 0; i < search.starts && i < KZ_SEARCH_FEW; i++) reached[label[i]]++;
   kz_catalogue_make(s->dynamics, reached, catalogue);
-  free(reached);
   return KZ_OK;
 }
 
 /* Without regard to errors. */
 static kz_status measure_followed(sample *s, int64_t n) {
-  kz_cell_label *cell = kz_malloc((size_t)n * sizeof *cell);
+  KZ_FREED kz_cell_label *cell = kz_malloc((size_t)n * sizeof *cell);
   const double start = kz_processor_clock();
-  const kz_status status = kz_label_cells(&s->labelling, n, s->item, cell);
+  KZ_TRY(kz_label_cells(&s->labelling, n, s->item, cell));
   s->seconds += (kz_processor_clock() - start) / (double)n * (double)kz_unique_cells(&s->scene->basin);
-  free(cell);
-  return status;
+  return KZ_OK;
 }
 
 /* One precision level for n cells of `all` that come to it: *n becomes how many it leaves, to the front of s->item. */
 static kz_status measure_level(sample *s, int32_t level, int32_t before, double all, int64_t *n, double *share) {
   const kz_labeller *labeller = &s->labelling.labeller;
   static const double enough = 0.3; /* s */
-  kz_decision *decision = kz_malloc(BATCH * sizeof *decision);
+  KZ_FREED kz_decision *decision = kz_malloc(BATCH * sizeof *decision);
   const double before_tables = kz_processor_clock();
   kz_status status = kz_label_at(labeller, level, before, 1, s->item, decision); /* makes its tables */
   const double start = kz_processor_clock();
@@ -86,7 +84,6 @@ static kz_status measure_level(sample *s, int32_t level, int32_t before, double 
   s->seconds += (kz_processor_clock() - start) / (double)done * all;
   *n = left;
   *share = (double)left / (double)done;
-  free(decision);
   return status;
 }
 

@@ -1,6 +1,5 @@
 /* Measures of how fractal the boundaries of a basin are: pairs of starts, boxes of cells. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "basin.h"
 #include "numerics/share.h"
@@ -40,14 +39,13 @@ static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE
 /* Boxes of all cells, strip by strip from the file. */
 static kz_status count_boxes(const kz_basin_plan *plan, kz_store *store, kz_box_counts *counts) {
   const int64_t columns = plan->theta.count, rows = plan->velocity.count;
-  int16_t *label = kz_malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
+  KZ_FREED int16_t *label = kz_malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
   kz_status status = KZ_OK;
   for (int64_t row = 0; status == KZ_OK && row + 1 < rows; row += STRIP) {
     const int64_t n = rows - row < STRIP + 1 ? rows - row : STRIP + 1;
     status = kz_store_rows(store, "basin", "attractor", row, n, label);
     if (status == KZ_OK) status = kz_boxes_count(columns, n, label, counts);
   }
-  free(label);
   return status;
 }
 

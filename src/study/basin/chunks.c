@@ -175,7 +175,7 @@ kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz
 static kz_status count_rows(kz_chunks *c) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t most = (tiles->chunk[0] + KZ_BOX - 1) / KZ_BOX * KZ_BOX;
-  int16_t *ids = kz_malloc((size_t)(most * tiles->columns) * sizeof *ids);
+  KZ_FREED int16_t *ids = kz_malloc((size_t)(most * tiles->columns) * sizeof *ids);
   kz_status status = KZ_OK;
   for (int64_t row = 0; row < tiles->rows && status == KZ_OK; row += most) {
     const int64_t n = tiles->rows - row < most ? tiles->rows - row : most;
@@ -183,7 +183,6 @@ static kz_status count_rows(kz_chunks *c) {
     kz_count_boxes(tiles->columns, n, ids, &c->counts);
     kz_count_pairs(tiles->columns, n, ids, is_circle(c->labelling->plan), &c->counts);
   }
-  free(ids);
   return status;
 }
 

@@ -28,14 +28,13 @@ kz_cell_label kz_cell_label_of(const kz_decision *decision, uint8_t evidence) {
 
 /* By the map table. */
 static kz_status label_by_table(const kz_window_labels *l, int64_t n, const int64_t *cell, kz_cell_label *out) {
-  double *state = kz_malloc(2 * (size_t)n * sizeof *state);
+  KZ_FREED double *state = kz_malloc(2 * (size_t)n * sizeof *state);
   int32_t *label = kz_malloc((size_t)n * sizeof *label);
   int64_t *periods = kz_malloc((size_t)n * sizeof *periods);
   for (int64_t i = 0; i < n; i++) kz_cell_state(l->plan, cell[i], state + 2 * i);
   kz_dynamics_follow(l->dynamics, kz_stencil(l->plan->interpolation), n, l->plan->max_periods, state, label, periods);
   for (int64_t i = 0; i < n; i++)
     out[i] = (kz_cell_label){.periods = (uint32_t)periods[i], .label = (int16_t)label[i], .evidence = KZ_FOLLOWED};
-  free(state);
   free(label);
   free(periods);
   return KZ_OK;
@@ -44,12 +43,11 @@ static kz_status label_by_table(const kz_window_labels *l, int64_t n, const int6
 /* By integration with errors; by method direct the labels of states alone, and whether their errors change them. */
 static kz_status label_by_level(const kz_window_labels *l, int64_t n, const int64_t *cell, kz_cell_label *out) {
   const int32_t level = l->plan->method == KZ_METHOD_DIRECT ? KZ_LEVEL_GUESS : KZ_LEVEL_DOUBLE;
-  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
-  const kz_status status = kz_label_at(&l->labeller, level, KZ_LEVEL_DOUBLE, n, cell, decision);
-  for (int64_t i = 0; i < n && status == KZ_OK; i++)
+  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
+  KZ_TRY(kz_label_at(&l->labeller, level, KZ_LEVEL_DOUBLE, n, cell, decision));
+  for (int64_t i = 0; i < n; i++)
     out[i] = kz_cell_label_of(decision + i, decision[i].level == KZ_LEVELS ? KZ_LEFT : KZ_FOLLOWED);
-  free(decision);
-  return status;
+  return KZ_OK;
 }
 
 kz_status kz_label_cells(const kz_window_labels *l, int64_t n, const int64_t *cell, kz_cell_label *out) {

@@ -1,7 +1,6 @@
 /* Pairs of starts beside each other: how many of them end differently, by their distance. */
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "basin.h"
 
@@ -142,19 +141,18 @@ static kz_status follow(const pairing *p, int64_t n, pair_tile *t) {
 static kz_status count_tile(void *context, int64_t tile, void *record) {
   const pairing *p = context;
   pair_record *out = record;
-  pair_tile *t = kz_malloc(sizeof *t);
+  KZ_FREED pair_tile *t = kz_malloc(sizeof *t);
   const int distances = kz_distances_of(p->plan), stride = 1 + distances;
   t->pairing = p;
   for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, t->point + stride * i);
-  const kz_status status = follow(p, (int64_t)STARTS * stride, t);
-  for (int64_t i = 0; status == KZ_OK && i < STARTS; i++)
+  KZ_TRY(follow(p, (int64_t)STARTS * stride, t));
+  for (int64_t i = 0; i < STARTS; i++)
     for (int d = 0; d < distances; d++) {
       const int32_t own = t->end[stride * i], other = t->end[stride * i + 1 + d];
       out->pairs[d] += own > 0 && other > 0;
       out->uncertain[d] += own > 0 && other > 0 && own != other;
     }
-  free(t);
-  return status;
+  return KZ_OK;
 }
 
 static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *labelling) {
@@ -179,7 +177,7 @@ kz_status kz_pairs_measure(const kz_basin_plan *plan, const kz_window_labels *la
 kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain) {
   pairing p = pairing_of(plan, labelling);
   const kz_stage stage = stage_of(&p);
-  pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
+  KZ_FREED pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status = kz_stage_run(labelling->run, &stage, records);
   for (int d = 0; d < kz_distances_of(plan); d++) {
     uncertain[d] = (kz_uncertain){.distance = distance_of(plan, d)};
@@ -188,6 +186,5 @@ kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labe
       uncertain[d].uncertain += records[tile].uncertain[d];
     }
   }
-  free(records);
   return status;
 }

@@ -1,6 +1,5 @@
 /* Pending cells - unsettled, or doubtful -: counted, picked and labelled again, a bounded number at a time, by the levels of method exact. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "label.h"
@@ -64,13 +63,11 @@ static kz_status ask_tile(void *context, int64_t tile, void *record) {
   kz_cell_label *out = record;
   if (a->level == KZ_LEVEL_DOUBLE) return kz_label_cells(a->labels, n, cell, out);
   KZ_TRY(kz_ranks_interrupted(a->labels->run->ranks));
-  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
-  const kz_status status = a->level == KZ_LEVELS ? kz_label_candidates(labeller, n, cell, decision)
-                                                 : kz_label_at(labeller, a->level, a->before, n, cell, decision);
-  for (int64_t i = 0; i < n && status == KZ_OK; i++)
-    out[i] = kz_cell_label_of(decision + i, kz_level_stages[a->level].evidence);
-  free(decision);
-  return status;
+  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
+  KZ_TRY(a->level == KZ_LEVELS ? kz_label_candidates(labeller, n, cell, decision)
+                               : kz_label_at(labeller, a->level, a->before, n, cell, decision));
+  for (int64_t i = 0; i < n; i++) out[i] = kz_cell_label_of(decision + i, kz_level_stages[a->level].evidence);
+  return KZ_OK;
 }
 
 /* Labels the cells at one level: found [place] of each. The cells that the level leaves doubtful, and their places, move to the front. */
@@ -81,24 +78,23 @@ static kz_status ask_level(asked *a, int round, int64_t *place, kz_cell_label *f
   a->tile = a->labels->batch < row->tile ? a->labels->batch : row->tile;
   const kz_stage stage =
       kz_stage_for_all(name, (a->n + a->tile - 1) / a->tile, (size_t)a->tile * sizeof(kz_cell_label), ask_tile, a);
-  kz_cell_label *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  const kz_status status = kz_stage_run(a->labels->run, &stage, label);
+  KZ_FREED kz_cell_label *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  KZ_TRY(kz_stage_run(a->labels->run, &stage, label));
   int64_t left = 0;
-  for (int64_t i = 0; i < a->n && status == KZ_OK; i++) {
+  for (int64_t i = 0; i < a->n; i++) {
     found[place[i]] = label[i];
     if (label[i].label != KZ_DOUBTFUL) continue;
     a->cell[left] = a->cell[i];
     place[left++] = place[i];
   }
   a->n = left;
-  free(label);
-  return status;
+  return KZ_OK;
 }
 
 /* Labels n cells, from a level on, until each is decided or no level is left: found [n]. */
 static kz_status escalate(const kz_window_labels *l, int level, int round, int64_t n, int64_t *cell, kz_cell_label *found) {
   asked a = {.labels = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .cell = cell};
-  int64_t *place = kz_malloc((size_t)n * sizeof *place + 1);
+  KZ_FREED int64_t *place = kz_malloc((size_t)n * sizeof *place + 1);
   kz_status status = KZ_OK;
   for (int64_t i = 0; i < n; i++) place[i] = i;
   while (a.n > 0 && status == KZ_OK) {
@@ -107,7 +103,6 @@ static kz_status escalate(const kz_window_labels *l, int level, int round, int64
     a.before = a.level;
     a.level = kz_level_after(&l->labeller, a.level, a.n);
   }
-  free(place);
   return status;
 }
 
@@ -125,22 +120,20 @@ static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t fro
 /* The n pending cells from `from` on, which are those of whole tiles. */
 static kz_status label_tiles(kz_window_labels *l, int level, int round, int64_t from, int64_t n, int64_t *cell) {
   KZ_TRY(kz_pending_pick(l, from, n, n, cell));
-  kz_cell_label *found = kz_malloc((size_t)n * sizeof *found);
+  KZ_FREED kz_cell_label *found = kz_malloc((size_t)n * sizeof *found);
   kz_status status = escalate(l, level, round, n, cell, found);
   for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found);
-  free(found);
   return kz_ranks_agree(l->run->ranks, status);
 }
 
 kz_status kz_pending_label(kz_window_labels *l, int level, int round) {
   const int64_t *before = l->before, all = before[l->tiles.own];
   const int64_t most = all < MOST_PENDING ? all : MOST_PENDING;
-  int64_t *cell = kz_malloc((size_t)most * sizeof *cell + 1);
+  KZ_FREED int64_t *cell = kz_malloc((size_t)most * sizeof *cell + 1);
   kz_status status = KZ_OK;
   for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {
     for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
     if (before[to] > before[from]) status = label_tiles(l, level, round, before[from], before[to] - before[from], cell);
   }
-  free(cell);
   return status;
 }

@@ -1,7 +1,6 @@
 /* The share of a window that ends on the same attractor whatever the phase of release: every cell is labelled at phases of the drive that
  * are spread evenly over a period. Attractors and trapping regions are the same at all of them. A tile is some cells at one phase. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "basin.h"
 
@@ -31,16 +30,14 @@ static double phase_at(const phases *p, int64_t i) {
 static kz_status label_some(const phases *p, double phase, int64_t first, int64_t n, int16_t *out) {
   const kz_labeller labeller = kz_cell_labeller(p->plan, p->dynamics);
   kz_release release = p->release;
-  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
-  int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
+  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
+  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
   for (int64_t i = 0; i < n; i++) cell[i] = first + i;
   release.phase = phase;
   kz_dynamics_set_release(p->dynamics, &release);
   const kz_status status = kz_label(&labeller, n, cell, decision);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) out[i] = decision[i].label > 0 ? (int16_t)decision[i].label : 0;
   kz_dynamics_set_release(p->dynamics, &p->release);
-  free(decision);
-  free(cell);
   return status;
 }
 
@@ -104,10 +101,9 @@ kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labellin
   if (scene->basin.phases <= 0) return KZ_OK;
   phases p = phases_of(scene, labelling->dynamics);
   const kz_stage stage = kz_stage_for_rank0("phases", p.blocks * scene->basin.phases, BLOCK * sizeof(int16_t), phase_tile, &p);
-  int16_t *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  KZ_FREED int16_t *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(labelling->run, &stage, label);
   if (status == KZ_OK && store) status = write_group(&p, label, catalogue, store, summary);
-  free(label);
   return kz_ranks_agree(labelling->run->ranks, status);
 }
 
@@ -117,9 +113,9 @@ kz_status kz_phases_measure(const kz_scene *scene, kz_dynamics *dynamics, double
   const int64_t n = p.cells < FEW ? p.cells : FEW;
   int16_t label[FEW];
   const double start = kz_processor_clock();
-  const kz_status status = label_some(&p, 1, p.cells / 2 < p.cells - n ? p.cells / 2 : p.cells - n, n, label);
+  KZ_TRY(label_some(&p, 1, p.cells / 2 < p.cells - n ? p.cells / 2 : p.cells - n, n, label));
   *seconds += (kz_processor_clock() - start) * (double)scene->basin.phases * (double)p.cells / (double)n;
-  return status;
+  return KZ_OK;
 }
 
 double kz_phases_bytes(const kz_basin_plan *plan) {

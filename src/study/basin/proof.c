@@ -2,7 +2,6 @@
  * the round before: the result does not depend on who follows which. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "basin.h"
 
@@ -67,12 +66,11 @@ static kz_status find_seed(void *context, int64_t tile, void *record) {
   seed *s = record;
   kz_attractor attractor;
   kz_dynamics_attractor(j->dynamics, tile + 1, &attractor);
-  double *point = kz_calloc(2 * (size_t)attractor.period + 2, sizeof *point);
+  KZ_FREED double *point = kz_calloc(2 * (size_t)attractor.period + 2, sizeof *point);
   kz_dynamics_strobe(j->dynamics, tile + 1, point, point + attractor.period + 1);
   s->mirror = attractor.mirror;
   s->theta = point[0];
   s->velocity = point[attractor.period + 1];
-  free(point);
   if (attractor.period > 0 && attractor.mirror >= tile + 1 && attractor.mirror <= KZ_PROOF_MOST)
     s->ellipse = kz_proof_find_ellipse(j->proof, attractor.period, s->theta, s->velocity);
   return KZ_OK;
@@ -116,8 +114,6 @@ kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_pr
   job j = {.dynamics = dynamics, .proof = proof, .proved = proved};
   KZ_TRY(find_ellipses(run, &j));
   if (!proved->any) return KZ_OK;
-  uint8_t *label = kz_malloc((size_t)kz_proof_own(proof));
-  const kz_status status = grow(run, &j, label);
-  free(label);
-  return status;
+  KZ_FREED uint8_t *label = kz_malloc((size_t)kz_proof_own(proof));
+  return grow(run, &j, label);
 }

@@ -72,10 +72,9 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const part *p = context;
   const kz_basin_plan *plan = p->labelling->plan;
   const int64_t most = p->level->tile, first = tile * most, n = p->n_left - first < most ? p->n_left - first : most;
-  kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
+  KZ_FREED kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
   for (int64_t i = 0; i < n; i++) start[i] = start_of_cell(plan, p->left[first + i]);
   kz_proof_follow(p->proof, p->level->precision, n, start, periods_of(plan), record);
-  free(start);
   return KZ_OK;
 }
 
@@ -84,18 +83,17 @@ static kz_status prove_left(const kz_run *run, const proof_level *level, part *p
   p->level = level;
   const kz_stage stage =
       kz_stage_for_all(level->stage, (p->n_left + level->tile - 1) / level->tile, (size_t)level->tile, follow_tile, p);
-  uint8_t *record = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  const kz_status status = kz_stage_run(run, &stage, record);
+  KZ_FREED uint8_t *record = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  KZ_TRY(kz_stage_run(run, &stage, record));
   int64_t n_left = 0;
-  for (int64_t i = 0; status == KZ_OK && i < p->n_left; i++) {
+  for (int64_t i = 0; i < p->n_left; i++) {
     if (record[i] == 0) p->left[n_left++] = p->left[i];
     if (record[i] == 0 || record[i] == KZ_PROOF_LATE) continue;
     p->number[p->left[i] - p->first] = record[i];
     p->evidence[p->left[i] - p->first] = level->evidence;
   }
   p->n_left = n_left;
-  free(record);
-  return status;
+  return KZ_OK;
 }
 
 /* Into the tiles of this rank. */
@@ -187,7 +185,7 @@ static int64_t random_starts(const kz_basin_plan *plan) {
 
 /* Follows *n starts; those that the precision leaves come to the front, *n of them. Returns how many are late. */
 static int64_t follow(const kz_basin_plan *plan, const kz_proof *proof, int32_t precision, int64_t *n, kz_proof_start *start) {
-  uint8_t *number = kz_malloc((size_t)*n + 1);
+  KZ_FREED uint8_t *number = kz_malloc((size_t)*n + 1);
   int64_t left = 0, late = 0;
   kz_proof_follow(proof, precision, *n, start, periods_of(plan), number);
   for (int64_t i = 0; i < *n; i++) {
@@ -195,7 +193,6 @@ static int64_t follow(const kz_basin_plan *plan, const kz_proof *proof, int32_t 
     if (number[i] == 0) start[left++] = start[i];
   }
   *n = left;
-  free(number);
   return late;
 }
 
@@ -204,12 +201,11 @@ static kz_status follow_random(void *context, int64_t tile, void *record) {
   const job *j = context;
   const int64_t first = tile * TILE;
   int64_t n = j->starts - first < TILE ? j->starts - first : TILE, late = 0;
-  kz_proof_start *start = kz_malloc(TILE * sizeof *start);
+  KZ_FREED kz_proof_start *start = kz_malloc(TILE * sizeof *start);
   for (int64_t i = 0; i < n; i++) start[i] = random_start(j->plan, first + i);
   for (int32_t precision = KZ_ENCLOSE_DOUBLES; precision <= KZ_ENCLOSE_PAIRS; precision++)
     late += follow(j->plan, j->proof, precision, &n, start);
   *(int64_t *)record = n + late;
-  free(start);
   return KZ_OK;
 }
 
@@ -217,13 +213,12 @@ static kz_status prove_sample(const kz_run *run, const kz_basin_plan *plan, cons
   job j = {.plan = plan, .proof = proof, .starts = random_starts(plan)};
   const kz_stage stage =
       kz_stage_for_all("proof of real starts", (j.starts + TILE - 1) / TILE, sizeof(int64_t), follow_random, &j);
-  int64_t *record = kz_calloc((size_t)stage.n_tiles, sizeof *record);
-  const kz_status status = kz_stage_run(run, &stage, record);
+  KZ_FREED int64_t *record = kz_calloc((size_t)stage.n_tiles, sizeof *record);
+  KZ_TRY(kz_stage_run(run, &stage, record));
   *sample = (kz_proof_sample){.starts = j.starts};
   for (int64_t tile = 0; tile < stage.n_tiles; tile++) sample->unproved += record[tile];
   sample->high = kz_share_upper(sample->unproved, sample->starts, KZ_PROOF_CONFIDENCE);
-  free(record);
-  return status;
+  return KZ_OK;
 }
 
 kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample) {
@@ -240,7 +235,7 @@ kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof
 /* Seconds of all cells, and of the random real starts, which are not followed in quads. */
 static double starts_seconds(const kz_basin_plan *plan, const kz_proof *proof) {
   const int64_t own = kz_unique_cells(plan), taken = own < SAMPLE ? own : SAMPLE;
-  kz_proof_start *start = kz_malloc((size_t)taken * sizeof *start + 1);
+  KZ_FREED kz_proof_start *start = kz_malloc((size_t)taken * sizeof *start + 1);
   double seconds = 0;
   int64_t n = taken;
   for (int64_t i = 0; i < taken; i++) start[i] = start_of_cell(plan, kz_shuffled(i, own, plan->seed));
@@ -251,7 +246,6 @@ static double starts_seconds(const kz_basin_plan *plan, const kz_proof *proof) {
     follow(plan, proof, precision, &n, start);
     seconds += (kz_processor_clock() - begin) * starts / followed;
   }
-  free(start);
   return seconds;
 }
 

@@ -27,9 +27,9 @@ static kz_status states_of(const kz_window_labels *l, int64_t n, const int64_t *
 static kz_status rounds_discover(kz_window_labels *l, bool again) {
   const kz_basin_plan *plan = l->plan;
   const int64_t all = again ? l->before[l->tiles.own] : 0, n = again && all < plan->starts ? all : plan->starts;
-  double *state = kz_malloc((size_t)n * 2 * sizeof *state);
-  int32_t *label = kz_malloc((size_t)n * sizeof *label);
-  int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
+  KZ_FREED double *state = kz_malloc((size_t)n * 2 * sizeof *state);
+  KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label);
+  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
   kz_status status = again ? kz_pending_pick(l, 0, all, n, cell) : KZ_OK;
   if (again && status == KZ_OK) status = states_of(l, n, cell, state);
   if (status == KZ_OK)
@@ -38,19 +38,15 @@ static kz_status rounds_discover(kz_window_labels *l, bool again) {
   if (status == KZ_OK && kz_dynamics_count(l->dynamics) > INT16_MAX)
     status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) l->reached[label[i]]++;
-  free(state);
-  free(label);
-  free(cell);
   return status;
 }
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
   kz_window_labels *l = context;
   const int64_t first = kz_tile_first(&l->tiles, tile), n = kz_tile_own(&l->tiles, tile);
-  int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
+  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
   for (int64_t i = 0; i < n; i++) cell[i] = first + i;
   const kz_status status = kz_label_cells(l, n, cell, l->cell);
-  free(cell);
   return status == KZ_OK ? kz_tile_labels_pack(l, tile, record) : status;
 }
 

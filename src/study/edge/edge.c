@@ -4,7 +4,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 
 #include "attractors/search.h"
 
@@ -133,11 +132,10 @@ kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store,
   const kz_search search = kz_search_of(scene);
   edge_job e = job_of(scene);
   const kz_stage stage = kz_stage_for_rank0("edge", 1, bytes, edge_tile, &e);
-  kz_edge *record = kz_malloc(bytes);
+  KZ_FREED kz_edge *record = kz_malloc(bytes);
   kz_status status = kz_search_window(run, e.dynamics, &search, NULL);
   if (status == KZ_OK) status = kz_stage_run(run, &stage, record);
   if (status == KZ_OK && store) status = publish(&e, record, (const double *)(record + 1), store, summary);
-  free(record);
   kz_dynamics_free(e.dynamics);
   return status;
 }

@@ -1,7 +1,5 @@
 #include "labeller.h"
 
-#include <stdlib.h>
-
 #include "numerics/cells.h"
 
 enum {
@@ -50,18 +48,17 @@ static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before
 kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item,
                       kz_decision *decision) {
   if (level == KZ_LEVEL_ARBITRARY) return decide_each(l, n, item, decision);
-  kz_start *start = kz_malloc((size_t)(n < BATCH ? n : BATCH) * sizeof *start + 1);
+  KZ_FREED kz_start *start = kz_malloc((size_t)(n < BATCH ? n : BATCH) * sizeof *start + 1);
   kz_status status = KZ_OK;
   for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
     status = label_batch(l, level, before, n - done < BATCH ? n - done : BATCH, item, done, start, decision + done);
-  free(start);
   return status;
 }
 
 kz_status kz_label_states(const kz_labeller *l, int32_t stepping, int64_t n, const int64_t *item, int32_t *label,
                           int64_t *periods) {
   const int64_t most = n < BATCH ? n : BATCH;
-  double *state = kz_malloc(2 * (size_t)most * sizeof *state + 1);
+  KZ_FREED double *state = kz_malloc(2 * (size_t)most * sizeof *state + 1);
   kz_status status = KZ_OK;
   for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH) {
     const int64_t part = n - done < BATCH ? n - done : BATCH;
@@ -72,7 +69,6 @@ kz_status kz_label_states(const kz_labeller *l, int32_t stepping, int64_t n, con
     }
     if (status == KZ_OK) kz_dynamics_follow(l->dynamics, stepping, part, l->max_periods, state, label + done, periods + done);
   }
-  free(state);
   return status;
 }
 
@@ -109,13 +105,10 @@ static kz_status escalate(const kz_labeller *l, int64_t n, const int64_t *item, 
 }
 
 kz_status kz_label(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
-  int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
-  kz_decision *found = kz_malloc((size_t)n * sizeof *found + 1);
+  KZ_FREED int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
+  KZ_FREED kz_decision *found = kz_malloc((size_t)n * sizeof *found + 1);
   for (int64_t i = 0; i < n; i++) place[i] = i;
-  const kz_status status = escalate(l, n, item, place, place + n, found, decision);
-  free(place);
-  free(found);
-  return status;
+  return escalate(l, n, item, place, place + n, found, decision);
 }
 
 /* Starts of an array cannot fail. */
@@ -128,14 +121,13 @@ void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, con
 void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
                       int64_t *periods) {
   const kz_labeller labeller = {dynamics, max_periods, .start = start_of_pair, .context = (void *)start};
-  kz_decision *decision = kz_malloc((size_t)n * sizeof *decision + 1);
+  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision + 1);
   (void)kz_label(&labeller, n, NULL, decision);
   for (int64_t i = 0; i < n; i++) {
     end[i] = decision[i].label;
     periods[i] = decision[i].periods;
     if (end[i] == KZ_DOUBTFUL) kz_follow_starts(dynamics, max_periods, 1, start + 2 * i, end + i, periods + i);
   }
-  free(decision);
 }
 
 void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state) {

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "labelling/labeller.h"
@@ -83,26 +82,22 @@ static int64_t list_own(int64_t n, const kz_resilience *point, int64_t *own) {
 
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point) {
-  int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
-  kz_resilience *found = kz_malloc((size_t)n * sizeof *found + 1);
+  KZ_FREED int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
+  KZ_FREED kz_resilience *found = kz_malloc((size_t)n * sizeof *found + 1);
   searching s = {dynamics, plan, point, own};
   const kz_stage stage = kz_stage_for_all("shocks", list_own(n, point, own), sizeof *point, resilience_tile, &s);
-  const kz_status status = n > 0 ? kz_stage_run(run, &stage, found) : KZ_OK;
-  for (int64_t i = 0; status == KZ_OK && i < stage.n_tiles; i++) point[own[i]] = found[i];
-  for (int64_t i = 0; status == KZ_OK && i < n; i++)
+  KZ_TRY(n > 0 ? kz_stage_run(run, &stage, found) : KZ_OK);
+  for (int64_t i = 0; i < stage.n_tiles; i++) point[own[i]] = found[i];
+  for (int64_t i = 0; i < n; i++)
     if (image_of(point, i) != i) mirror(dynamics, point + image_of(point, i), point + i);
-  free(own);
-  free(found);
-  return status;
+  return KZ_OK;
 }
 
 kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n, const kz_resilience *point,
                             int64_t *n_own) {
-  int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
+  KZ_FREED int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
   kz_resilience found;
   searching s = {dynamics, plan, point, own};
   *n_own = list_own(n, point, own);
-  const kz_status status = *n_own > 0 ? resilience_tile(&s, *n_own / 2, &found) : KZ_OK;
-  free(own);
-  return status;
+  return *n_own > 0 ? resilience_tile(&s, *n_own / 2, &found) : KZ_OK;
 }

@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 
 enum {
   LINE = 2048,   /* points on each side of a line */
@@ -194,7 +193,7 @@ static kz_shock in_norm(const kz_shock *shock, double scale) {
 }
 
 void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
-  workspace *r = kz_malloc(sizeof *r);
+  KZ_FREED workspace *r = kz_malloc(sizeof *r);
   r->problem = problem;
   shock[0] = along_line(r, 1, 0, M_PI);
   shock[1] = along_line(r, 0, 1, problem->farthest);
@@ -206,12 +205,11 @@ void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
     if (near.size < shock[2].size) shock[2] = near;
     shock[2] = in_disc(r, shock + 2);
   }
-  free(r);
 }
 
 void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
   static const double GOLDEN = 0.61803398874989484820;
-  workspace *r = kz_malloc(sizeof *r);
+  KZ_FREED workspace *r = kz_malloc(sizeof *r);
   double time = 0;
   r->problem = problem;
   *harmless = (kz_harmless){.shocks = SPREAD};
@@ -224,5 +222,4 @@ void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmles
     time += (double)r->periods[i];
   }
   harmless->return_time = harmless->harmless > 0 ? time / (double)harmless->harmless : NAN;
-  free(r);
 }

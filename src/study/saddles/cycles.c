@@ -16,7 +16,7 @@ static void fill(const kz_dynamics *dynamics, int64_t number, kz_listed_cycle *e
 
 void kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list) {
   const int64_t n = kz_dynamics_count(dynamics);
-  int64_t *number = kz_malloc((size_t)(n + 1) * sizeof *number), *place = kz_malloc((size_t)(n + 1) * sizeof *place);
+  KZ_FREED int64_t *number = kz_malloc((size_t)(n + 1) * sizeof *number), *place = kz_malloc((size_t)(n + 1) * sizeof *place);
   *list = (kz_cycle_list){.count = n, .entries = kz_calloc((size_t)n + 1, sizeof *list->entries)};
   kz_dynamics_order(dynamics, number);
   for (int64_t i = 0; i < n; i++) {
@@ -26,8 +26,6 @@ void kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list) {
     place[number[i]] = i;
   }
   for (int64_t i = 0; i < n; i++) list->entries[i].mirror = list->entries[place[list->entries[i].row.mirror]].saddle;
-  free(number);
-  free(place);
 }
 
 void kz_cycle_list_free(kz_cycle_list *list) {

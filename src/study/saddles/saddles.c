@@ -92,14 +92,13 @@ static effort sample(const kz_scene *scene, int64_t max_period, double *found) {
 /* Of all lines of constant angle. Periods are added until the effort shows how it grows. */
 static effort estimate(const kz_scene *scene) {
   const int64_t longest = scene->saddles.max_period;
-  double *found = kz_malloc(kz_piece_bytes(&scene->saddles));
+  KZ_FREED double *found = kz_malloc(kz_piece_bytes(&scene->saddles));
   effort now = {0}, before = {0};
   int64_t period = 0;
   while (period < longest && now.sampled < SAMPLE_SECONDS) {
     before = now;
     now = sample(scene, ++period, found);
   }
-  free(found);
   if (period == longest || before.seconds <= 0) return now;
   const double growth = pow(fmax(1, now.seconds / before.seconds), (double)(longest - period));
   return (effort){.seconds = growth * now.seconds, .cycles = growth * now.cycles};
