@@ -152,7 +152,8 @@ contains
     if (self%means == BY_FINE_MAP) call self%fine%to_map(n, first=first)
     if (self%means /= BY_MAP) call put_shown(self, first, n)
     call self%flow%to_map(n, first=first)
-    call show(self, first, n)
+    self%u(first:n) = self%flow%u(first:n)
+    self%v(first:n) = self%flow%v(first:n)
   end subroutine to_map
 
   !> Puts the physical states of lanes first .. n, at most WIDTH, into the map.
@@ -173,15 +174,6 @@ contains
       self%region_error(lane) = self%error%noise(class_of(self%error, self%flow%v(lane)))
     end do
   end subroutine put_shown
-
-  !> The states of the map are what regions see.
-  subroutine show(self, first, n)
-    class(carrier_t), intent(inout) :: self
-    integer, intent(in) :: first, n
-
-    self%u(first:n) = self%flow%u(first:n)
-    self%v(first:n) = self%flow%v(first:n)
-  end subroutine show
 
   subroutine move(self, from, to)
     class(carrier_t), intent(inout) :: self
@@ -221,7 +213,8 @@ contains
       call put_shown(self, 1, n)
       call self%flow%to_map(n)
     end if
-    call show(self, 1, n)
+    self%u(:n) = self%flow%u(:n)
+    self%v(:n) = self%flow%v(:n)
   end subroutine advance
 
   subroutine advance_precisely(self, n)

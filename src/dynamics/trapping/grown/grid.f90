@@ -172,13 +172,8 @@ contains
   subroutine add_overlap(regions, overlap)
     type(regions_t), intent(inout) :: regions
     type(ellipse_overlap_t), intent(in) :: overlap
-    type(ellipse_overlap_t), allocatable :: longer(:)
 
-    if (regions%n_overlaps == size(regions%overlaps)) then
-      allocate (longer(2*regions%n_overlaps))
-      longer(:regions%n_overlaps) = regions%overlaps
-      call move_alloc(longer, regions%overlaps)
-    end if
+    if (regions%n_overlaps == size(regions%overlaps)) regions%overlaps = [regions%overlaps, regions%overlaps] ! room for as many more
     regions%n_overlaps = regions%n_overlaps + 1
     regions%overlaps(regions%n_overlaps) = overlap
   end subroutine add_overlap

@@ -198,14 +198,17 @@ contains
     type(corners_t) :: corners
     real(dp) :: from, to
     integer(int8) :: a
-    integer :: row, left, n, shift
+    integer :: column, row, left, n, shift
 
     answer = 0
     blocker = NEVER
     n = images%n_columns(i, l)
     if (n == 0) return
     left = images%left(i, l)
-    call corner(circle, images%x(i, l), images%y(i, l), a, blocker)
+    column = modulo(floor(images%x(i, l)), circle%n_circle) ! of the image of a corner
+    row = int(images%y(i, l))
+    a = circle%label(column, row)
+    if (a == 0) blocker = stored(circle, column, row)
     if (a == 0) return
     do row = max(images%bottom(i, l), seen), images%top(i, l)
       if (one_label(n, circle%label(left:, row), a)) cycle
@@ -219,20 +222,6 @@ contains
     blocker = NEVER
     answer = a
   end subroutine ask
-
-  !> The label of the image of a corner; blocker: the stored cell where it lies, if that is open.
-  pure subroutine corner(circle, x, y, label, blocker)
-    type(circle_t), intent(in) :: circle
-    real(dp), intent(in) :: x, y
-    integer(int8), intent(out) :: label
-    integer, intent(out) :: blocker
-    integer :: column
-
-    column = modulo(floor(x), circle%n_circle)
-    label = circle%label(column, int(y))
-    blocker = NEVER
-    if (label == 0) blocker = stored(circle, column, int(y))
-  end subroutine corner
 
   !> Whether n cells all have the label a.
   pure function one_label(n, label, a) result(all_have)

@@ -37,8 +37,6 @@ bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], c
 
 /* An ellipse that the map of `period` drive periods carries into itself and contracts; radius 0: none was found. */
 kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, double theta, double velocity);
-/* Grows an ellipse by rings; every start in the larger ellipse is proved to reach the one before. */
-void kz_proof_grow_rings(const kz_enclosure_tables *tables, const double centre[2], kz_proof_ellipse *ellipse);
 
 /* z with M z = x. */
 static inline void kz_proof_solve(const double M[2][2], const double x[2], double z[2]) {

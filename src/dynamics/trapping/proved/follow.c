@@ -1,4 +1,4 @@
-/* Single starts that are followed until the region holds them. */
+/* Sets that are followed, period by period, until the region of one attractor holds them: single starts, and cells. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@ static const double WIDEST = 0.03; /* of a set's sides: a wider one does not rea
 static const double SMALLEST[] = {[KZ_ENCLOSE_DOUBLES] = 1e-7, [KZ_ENCLOSE_PAIRS] = 1e-26};
 
 typedef struct {
-  int64_t n, next; /* starts; the next one to begin */
+  int64_t n, next; /* starts or cells; the next one to begin */
   const kz_proof_start *start;
   uint8_t *number;
   int32_t under_way;
@@ -25,15 +25,33 @@ static kz_enclosure set_of(const kz_proof_start *start) {
                         .reach = {start->radius, start->radius}};
 }
 
+static pool *new_pool(int64_t n, uint8_t *number) {
+  pool *p = kz_malloc(sizeof *p);
+  p->n = n;
+  p->number = number;
+  p->next = p->under_way = 0;
+  return p;
+}
+
+static void add_set(pool *p, kz_enclosure set, int64_t of) {
+  p->set[p->under_way] = set;
+  p->of[p->under_way] = of;
+  p->periods[p->under_way++] = 0;
+}
+
+static void remove_set(pool *p, int32_t i) {
+  p->under_way--;
+  p->of[i] = p->of[p->under_way];
+  p->periods[i] = p->periods[p->under_way];
+  p->set[i] = p->set[p->under_way];
+}
+
 /* Fills the pool; starts inside the region are done. */
 static void begin(const kz_proof *proof, pool *p) {
   for (; p->next < p->n && p->under_way < POOL; p->next++) {
-    kz_enclosure *set = &p->set[p->under_way];
-    *set = set_of(&p->start[p->next]);
-    p->number[p->next] = kz_proof_holds(proof, set);
-    if (p->number[p->next] != 0) continue;
-    p->of[p->under_way] = p->next;
-    p->periods[p->under_way++] = 0;
+    const kz_enclosure set = set_of(&p->start[p->next]);
+    p->number[p->next] = kz_proof_holds(proof, &set);
+    if (p->number[p->next] == 0) add_set(p, set, p->next);
   }
 }
 
@@ -80,19 +98,52 @@ static bool look(const kz_proof *proof, pool *p, int32_t i, int64_t most_periods
 
 void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
                      uint8_t *number) {
-  pool *p = kz_malloc(sizeof *p);
-  p->n = n;
-  p->next = p->under_way = 0;
+  pool *p = new_pool(n, number);
   p->start = start;
-  p->number = number;
   for (begin(proof, p); p->under_way > 0; begin(proof, p)) {
     advance(proof, p, precision);
+    for (int32_t i = p->under_way - 1; i >= 0; i--)
+      if (look(proof, p, i, most_periods)) remove_set(p, i);
+  }
+  free(p);
+}
+
+/* ---- cells ---- */
+
+enum { LANES = 256, MOST_PERIODS = 16 };
+static const double LARGEST = 0.5; /* of a cell's image, rad and rad per drive radian: no larger one gets small again */
+
+/* A cell, larger by more than the rounding of its corners. */
+static kz_enclosure set_of_cell(const kz_proof *proof, int64_t f) {
+  double half[2], centre[2];
+  kz_proof_half_cell(proof, half);
+  kz_proof_centre(proof, f, centre);
+  const double larger = 1 + KZ_PROOF_ROUNDING;
+  return (kz_enclosure){
+      .theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{1, 0}, {0, 1}}, .reach = {half[0] * larger, half[1] * larger}};
+}
+
+/* Cell i of the pool after one more period: its attractor, 0 = none yet; *over: it is not followed any further. */
+static uint8_t look_at_cell(const kz_proof *proof, pool *p, int32_t i, bool *over) {
+  *over = true;
+  if (!(p->set[i].reach[0] < LARGEST && p->set[i].reach[1] < LARGEST)) return 0;
+  const uint8_t found = kz_proof_holds(proof, &p->set[i]);
+  *over = found != 0 || ++p->periods[i] == MOST_PERIODS;
+  return found;
+}
+
+void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *label) {
+  pool *p = new_pool(n, label);
+  while (p->next < n || p->under_way > 0) {
+    for (; p->next < n && p->under_way < LANES; p->next++) {
+      label[p->next] = proof->label[first + p->next];
+      if (label[p->next] == 0) add_set(p, set_of_cell(proof, first + p->next), p->next);
+    }
+    kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_NEW_FRAME, p->under_way, p->set);
     for (int32_t i = p->under_way - 1; i >= 0; i--) {
-      if (!look(proof, p, i, most_periods)) continue;
-      p->under_way--;
-      p->of[i] = p->of[p->under_way];
-      p->periods[i] = p->periods[p->under_way];
-      p->set[i] = p->set[p->under_way];
+      bool over;
+      label[p->of[i]] = look_at_cell(proof, p, i, &over);
+      if (over) remove_set(p, i);
     }
   }
   free(p);
