@@ -65,18 +65,18 @@ contains
     real(rk) :: derivative(2, 2)
     real(rk), parameter :: PI = 3.14159265358979323846_rk
     real(rk) :: s(1), c(1), theta(2), velocity(2), by_u(2), by_v(2)
-    integer :: j, part
+    integer :: j
 
     by_u = 0
     by_v = 0
     do j = 0, HARMONICS
       call sine_and_cosine(1, [j*u], s, c)
-      theta = 0
-      velocity = 0
-      do part = 1, merge(1, 2, processor%mirrored)
-        theta = theta + slopes(processor%theta(j, :, part), j, s(1), c(1), v, part - 1)
-        velocity = velocity + slopes(processor%velocity(j, :, part), j, s(1), c(1), v, part - 1)
-      end do
+      theta = slopes(processor%theta(j, :, 1), j, s(1), c(1), v, 0)
+      velocity = slopes(processor%velocity(j, :, 1), j, s(1), c(1), v, 0)
+      if (.not. processor%mirrored) then
+        theta = theta + slopes(processor%theta(j, :, 2), j, s(1), c(1), v, 1)
+        velocity = velocity + slopes(processor%velocity(j, :, 2), j, s(1), c(1), v, 1)
+      end if
       by_u = by_u + [theta(1), velocity(1)]
       by_v = by_v + [theta(2), velocity(2)]
     end do
