@@ -103,8 +103,8 @@ kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks);
 /* The lowest limit, in bytes, of the memory control group of this process and of all groups above it; infinity if there is none.
  * `groups` is /proc/self/cgroup (version 1 or 2), `mount` the folder /sys/fs/cgroup. Source: cgroups(7). */
 double kz_memory_limit(const char *groups, const char *mount);
-/* "12.3 MB" in text [32]. */
-void kz_cost_print_bytes(double bytes, char *text);
+/* "12.3 MB". */
+kz_short_text kz_cost_bytes(double bytes);
 
 /* Estimated processor time of a run, seconds on one core, from samples of its work. The samples take at most 15 s; if they do not finish, the
  * estimate is a lower bound. */
@@ -114,9 +114,8 @@ typedef struct {
 } kz_estimate;
 kz_status kz_estimate_time(const kz_scene *scene, kz_estimate *estimate);
 
-/* The scene as text (kz_scene_write), and the fingerprint that a resumed run must match. The caller frees them. */
-char *kz_scene_resolved(const kz_scene *scene);
-char *kz_scene_fingerprint(const kz_scene *scene);
+/* The scene as text, in full, or as the fingerprint that a resumed run must match; the caller frees it. NULL if memory ran out. */
+char *kz_scene_text(const kz_scene *scene, bool fingerprint);
 
 /* Prints the warnings about a scene that are known before it is modelled, a line each. */
 void kz_warnings_print(const kz_scene *scene, FILE *out);

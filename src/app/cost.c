@@ -72,11 +72,13 @@ static double node_memory(void) {
   return fmin(physical, kz_memory_limit("/proc/self/cgroup", "/sys/fs/cgroup"));
 }
 
-void kz_cost_print_bytes(double bytes, char *text) {
+kz_short_text kz_cost_bytes(double bytes) {
   static const char *const units[] = {"B", "kB", "MB", "GB", "TB", "PB"};
+  kz_short_text size;
   int i = 0;
   for (; bytes >= 1000.0 && i < 5; i++) bytes /= 1000.0;
-  snprintf(text, 32, i == 0 ? "%.0f %s" : "%.1f %s", bytes, units[i]);
+  snprintf(size.text, sizeof size.text, i == 0 ? "%.0f %s" : "%.1f %s", bytes, units[i]);
+  return size;
 }
 
 kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
@@ -85,16 +87,12 @@ kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   const double mine = cost->memory_bytes + share + (first ? cost->rank0_bytes : 0), memory = node_memory();
   double sum = mine;
   int node_ranks = 1;
-  char needed[32], there[32];
   if (ranks) KZ_TRY(kz_ranks_node(ranks, mine, &sum, &node_ranks));
-  kz_cost_print_bytes(sum > memory ? sum : mine, needed);
-  if (sum <= memory) {
-    if (kz_memory_is_there((size_t)mine)) return KZ_OK; /* no limit of this process (ulimit, batch systems) is in the way */
-    return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; use smaller counts",
-                   needed);
-  }
-  kz_cost_print_bytes(memory, there);
-  return kz_fail(KZ_REFUSED,
-                 "scene: needs %s of memory for %d ranks on this node, which has %s; use smaller counts or fewer ranks", needed,
-                 node_ranks, there);
+  if (sum > memory)
+    return kz_fail(KZ_REFUSED,
+                   "scene: needs %s of memory for %d ranks on this node, which has %s; use smaller counts or fewer ranks",
+                   kz_cost_bytes(sum).text, node_ranks, kz_cost_bytes(memory).text);
+  if (kz_memory_is_there((size_t)mine)) return KZ_OK; /* no limit of this process (ulimit, batch systems) is in the way */
+  return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; use smaller counts",
+                 kz_cost_bytes(mine).text);
 }

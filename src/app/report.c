@@ -5,26 +5,18 @@
 #include "app.h"
 #include "kapitza/version.h"
 
-static char *write_scene(const kz_scene *scene, bool flat) {
+char *kz_scene_text(const kz_scene *scene, bool fingerprint) {
   char *text = NULL;
   size_t size = 0;
   FILE *out = open_memstream(&text, &size);
   if (!out) return NULL;
-  kz_scene_write(kz_keys, scene, flat, out);
-  if (flat)
+  kz_scene_write(kz_keys, scene, fingerprint, out);
+  if (fingerprint)
     fprintf(out, "program version: %s\ngit revision: %s\ninstruction set: %s\n", KZ_VERSION, KZ_GIT_REVISION,
             kz_instruction_names());
   if (fclose(out) == 0) return text;
   free(text);
   return NULL;
-}
-
-char *kz_scene_resolved(const kz_scene *scene) {
-  return write_scene(scene, false);
-}
-
-char *kz_scene_fingerprint(const kz_scene *scene) {
-  return write_scene(scene, true);
 }
 
 void kz_warnings_print(const kz_scene *scene, FILE *out) {
@@ -43,12 +35,7 @@ static void print_duration(double seconds) {
 }
 
 static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, const kz_estimate *estimate) {
-  char disk[32], memory[32], first[32], shared[32];
   const kz_cost cost = kz_cost_of(scene);
-  kz_cost_print_bytes(cost.disk_bytes, disk);
-  kz_cost_print_bytes(cost.memory_bytes, memory);
-  kz_cost_print_bytes(cost.rank0_bytes, first);
-  kz_cost_print_bytes(cost.shared_bytes, shared);
   const kz_pendulum *p = &scene->parameters.pendulum;
   printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
   if (!isnan(p->k)) printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
@@ -60,14 +47,15 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   printf(
       "\ncells            %lld\ndisk             %s\nmemory per rank  %s, %s more on rank 0, and a share of %s\n"
       "estimated time   ",
-      (long long)cost.cells, disk, memory, first, shared);
+      (long long)cost.cells, kz_cost_bytes(cost.disk_bytes).text, kz_cost_bytes(cost.memory_bytes).text,
+      kz_cost_bytes(cost.rank0_bytes).text, kz_cost_bytes(cost.shared_bytes).text);
   if (!estimate->is_whole) fputs("more than ", stdout);
   print_duration(estimate->seconds);
   puts(" on one core; N ranks take an N-th of it");
 }
 
 static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
-  char *resolved = kz_scene_resolved(scene);
+  char *resolved = kz_scene_text(scene, false);
   const kz_cost cost = kz_cost_of(scene);
   kz_status status = resolved ? kz_cost_check(&cost, NULL) : kz_fail(KZ_FAILED, "out of memory");
   kz_estimate estimate;

@@ -39,8 +39,8 @@ static kz_status share_text(job *j) {
 static kz_status read_scene(job *j) {
   const kz_options *o = j->options;
   KZ_TRY(kz_scene_read(j->text, j->length, o->scene, o->n_sets, o->sets, &j->scene));
-  j->resolved = kz_scene_resolved(&j->scene);
-  j->fingerprint = kz_scene_fingerprint(&j->scene);
+  j->resolved = kz_scene_text(&j->scene, false);
+  j->fingerprint = kz_scene_text(&j->scene, true);
   return j->resolved && j->fingerprint ? KZ_OK : kz_fail(KZ_FAILED, "out of memory while reading %s", o->scene);
 }
 

@@ -6,9 +6,7 @@
 #include "app.h"
 
 static void print_number(double value) {
-  char text[32];
-  kz_scalar_print(value, text);
-  fputs(text, stdout);
+  fputs(kz_shortest(value).text, stdout);
 }
 
 static const char *words_of(const char *precision) {

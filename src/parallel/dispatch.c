@@ -82,7 +82,7 @@ static bool start_thread(kz_dispatch *dispatch) {
   return started;
 }
 
-void kz_dispatch_prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
+static void prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
   *dispatch = (kz_dispatch){.ranks = ranks, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
   dispatch->grant = (kz_grant){.first = ranks->rank, .n = ranks->rank < n_tiles, .more = ranks->size < n_tiles};
   if (ranks->rank != 0) return;
@@ -90,8 +90,9 @@ void kz_dispatch_prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles
   kz_schedule_begin(&dispatch->schedule, n_tiles, ranks->size);
 }
 
-void kz_dispatch_begin(kz_dispatch *dispatch) {
-  if (dispatch->ranks->rank != 0 || dispatch->will_ask == 0) return;
+void kz_dispatch_begin(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
+  prepare(dispatch, ranks, n_tiles);
+  if (ranks->rank != 0 || dispatch->will_ask == 0) return;
   dispatch->threaded = start_thread(dispatch);
   if (!dispatch->threaded) serve(dispatch); /* then the others do the work: rank 0 has time for its own once they are done */
 }

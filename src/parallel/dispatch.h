@@ -35,10 +35,8 @@ typedef struct {
   int mpi_error; /* of the thread, MPI_SUCCESS */
 } kz_dispatch;
 
-/* Prepares for `n_tiles` tiles without messages. Every rank must call kz_dispatch_end. */
-void kz_dispatch_prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles);
-/* From here on rank 0 answers. Until kz_dispatch_end the ranks may use MPI through kz_dispatch only. */
-void kz_dispatch_begin(kz_dispatch *dispatch);
+/* Distributes `n_tiles` tiles. Until kz_dispatch_end, which every rank must call, the ranks may use MPI through kz_dispatch only. */
+void kz_dispatch_begin(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles);
 /* *tile = the next tile of this rank; -1 if none is left, or if a rank has halted. */
 kz_status kz_dispatch_next(kz_dispatch *dispatch, int64_t *tile);
 /* Tells that this rank cannot go on. The other ranks get no further tiles. */

@@ -145,8 +145,7 @@ static kz_status work_collectively(stage_run *run) {
 }
 
 static kz_status dispatch_tiles(stage_run *run) {
-  kz_dispatch_prepare(&run->dispatch, run->ranks, run->n_left);
-  kz_dispatch_begin(&run->dispatch);
+  kz_dispatch_begin(&run->dispatch, run->ranks, run->n_left);
   const kz_status status = do_tiles(run);
   const kz_status ended = kz_dispatch_end(&run->dispatch);
   return kz_ranks_agree(run->ranks, status == KZ_OK ? ended : status);

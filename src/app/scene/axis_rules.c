@@ -4,12 +4,6 @@
 
 #include "rules.h"
 
-kz_short_text kz_shortest(double value) {
-  kz_short_text number;
-  kz_scalar_print(value, number.text);
-  return number;
-}
-
 kz_short_text kz_key_in(const char *mapping, const char *name) {
   kz_short_text path;
   snprintf(path.text, sizeof path.text, "%s.%s", mapping, name);

@@ -39,18 +39,16 @@ static bool is_child(const char *path, const char *parent) {
 
 /* "from 1 to 512", "above 0", "of at least 0", or nothing where any value does. */
 static void print_range(const kz_key *key, char *text, size_t bytes) {
-  char low[32], high[32];
-  kz_scalar_print(key->low, low);
-  kz_scalar_print(key->high, high);
+  const kz_short_text low = kz_shortest(key->low), high = kz_shortest(key->high);
   const bool bounded = key->high < DBL_MAX;
   if (key->low <= -DBL_MAX)
     snprintf(text, bytes, "%s", "");
   else if (key->low == KZ_ABOVE_ZERO)
-    snprintf(text, bytes, bounded ? " above 0 and up to %s" : " above 0", high);
+    snprintf(text, bytes, bounded ? " above 0 and up to %s" : " above 0", high.text);
   else if (bounded)
-    snprintf(text, bytes, " from %s to %s", low, high);
+    snprintf(text, bytes, " from %s to %s", low.text, high.text);
   else
-    snprintf(text, bytes, " of at least %s", low);
+    snprintf(text, bytes, " of at least %s", low.text);
 }
 
 void kz_key_list(const char *words, char *text, size_t bytes) {

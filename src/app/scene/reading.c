@@ -202,18 +202,6 @@ static void check_studies(kz_reading *reading) {
   kz_complain_at(reading, NULL, "scene", "asks for no study; give at least one of: %s", names);
 }
 
-/* The default of a key, read by the same code as a user's value. */
-static kz_status set_default(const kz_key *key, void *scene) {
-  kz_value_clear(key, scene);
-  if (key->type == KZ_KEY_MAPPING || !key->fallback || !key->fallback[0]) return KZ_OK;
-  kz_node *node;
-  const kz_node *culprit;
-  KZ_TRY(kz_tree_read(key->fallback, strlen(key->fallback), key->path, true, &node));
-  const char *wrong = kz_value_read(key, node, scene, &culprit);
-  kz_tree_free(node);
-  return wrong ? kz_fail(KZ_FAILED, "%s: its default %s", key->path, wrong) : KZ_OK;
-}
-
 static void number(kz_node *node, int *next) {
   for (; node; node = node->next) {
     node->order = (*next)++;
@@ -225,7 +213,7 @@ kz_status kz_reading_keys(kz_reading *reading) {
   int next = 0;
   reading->first = INT_MAX;
   number(reading->root, &next);
-  for (const kz_key *key = reading->keys; key->path; key++) KZ_TRY(set_default(key, reading->scene));
+  for (const kz_key *key = reading->keys; key->path; key++) KZ_TRY(kz_value_default(key, reading->scene));
   if (reading->root->kind != KZ_MAPPING) {
     kz_complain_at(reading, reading->root, "scene",
                    "is not a mapping; write lines such as \"pendulum: {k: 0, damping: 0.05, m: 0.5}\"");

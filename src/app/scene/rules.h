@@ -4,11 +4,7 @@
 
 #include "scene.h"
 
-/* A number as a user would write it; the path of the key `name` of a mapping. */
-typedef struct {
-  char text[128];
-} kz_short_text;
-kz_short_text kz_shortest(double value);
+/* The path of the key `name` of a mapping. */
 kz_short_text kz_key_in(const char *mapping, const char *name);
 
 /* Rules for windows and ranges of values; `path` names the mapping. min must be below max, and double precision must distinguish neighbouring

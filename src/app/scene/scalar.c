@@ -122,11 +122,12 @@ const char *kz_scalar_text(const kz_node *node) {
   return text_wrong(node, 500, "is longer than 500 bytes");
 }
 
-void kz_scalar_print(double value, char *text) {
-  for (int digits = 15; digits <= 17; digits++) {
-    snprintf(text, 32, "%.*g", digits, value);
-    if (strtod(text, NULL) == value) return;
-  }
+kz_short_text kz_shortest(double value) {
+  kz_short_text number;
+  int digits = 15;
+  do snprintf(number.text, sizeof number.text, "%.*g", digits, value);
+  while (strtod(number.text, NULL) != value && ++digits <= 17);
+  return number;
 }
 
 bool kz_scalar_with_a_point(const char *text, char *number, size_t bytes) {

@@ -130,8 +130,11 @@ void kz_unit_names(const char *of, char *text, size_t bytes);
 
 /* Number of bytes of the control character at `c` (UTF-8: C0, DEL or C1, which terminals interpret); 0 if it is not one. */
 int kz_control_bytes(const char *c);
-/* The shortest decimal text that reads back as `value`, in text [32]. */
-void kz_scalar_print(double value, char *text);
+/* A short text that a function returns; `text` is valid within the expression. kz_shortest: the shortest decimal that reads back as `value`. */
+typedef struct {
+  char text[128];
+} kz_short_text;
+kz_short_text kz_shortest(double value);
 /* The text in double quotes; what may stand in one needs no other escapes than those of these and of backslashes. */
 void kz_text_print(const char *text, FILE *out);
 
@@ -139,6 +142,8 @@ void kz_text_print(const char *text, FILE *out);
  * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports clear and is_set only. */
 void kz_value_clear(const kz_key *key, void *scene);
 const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit);
+/* Sets the field to the default of the key, which is read as a user's value is. */
+kz_status kz_value_default(const kz_key *key, void *scene);
 bool kz_value_is_set(const kz_key *key, const void *scene);
 void kz_value_print(const kz_key *key, const void *scene, FILE *out);
 

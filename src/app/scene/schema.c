@@ -29,15 +29,12 @@ static void write_words(const char *words, FILE *out) {
 }
 
 static void write_number(const kz_key *key, const char *type, FILE *out) {
-  char bound[32];
   fprintf(out, "{\"type\": \"%s\"", type);
-  kz_scalar_print(key->low, bound);
   if (key->low == KZ_ABOVE_ZERO)
     fputs(", \"exclusiveMinimum\": 0", out);
   else if (key->low > -DBL_MAX)
-    fprintf(out, ", \"minimum\": %s", bound);
-  kz_scalar_print(key->high, bound);
-  if (key->high < DBL_MAX) fprintf(out, ", \"maximum\": %s", bound);
+    fprintf(out, ", \"minimum\": %s", kz_shortest(key->low).text);
+  if (key->high < DBL_MAX) fprintf(out, ", \"maximum\": %s", kz_shortest(key->high).text);
 }
 
 /* What one value may be; the object is left open. */

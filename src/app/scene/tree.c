@@ -86,20 +86,15 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
 }
 
 kz_node *kz_tree_take(kz_node *root, const char *path) {
-  const char *dot = strrchr(path, '.');
-  kz_node *mapping = root;
-  if (dot) {
-    char parent[256];
-    snprintf(parent, sizeof parent, "%.*s", (int)(dot - path), path);
-    mapping = kz_tree_find(root, parent);
-  }
-  kz_node *taken = mapping ? kz_tree_child(mapping, dot ? dot + 1 : path) : NULL;
-  if (!taken) return NULL;
-  kz_node **place = &mapping->first;
-  while (*place != taken) place = &(*place)->next;
-  *place = taken->next;
-  taken->next = NULL;
-  return taken;
+  const size_t length = strcspn(path, ".");
+  kz_node *child = child_named(root, path, length);
+  if (child && path[length] == '.') return kz_tree_take(child, path + length + 1);
+  if (!child) return NULL;
+  kz_node **place = &root->first;
+  while (*place != child) place = &(*place)->next;
+  *place = child->next;
+  child->next = NULL;
+  return child;
 }
 
 kz_node *kz_tree_copy(const kz_node *root) {

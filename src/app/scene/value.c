@@ -142,10 +142,8 @@ static void print_count(const kz_key *key, const void *value, FILE *out) {
 }
 
 static void print_real(const kz_key *key, const void *value, FILE *out) {
-  char text[32];
   (void)key;
-  kz_scalar_print(*(const double *)value, text);
-  fputs(text, out);
+  fputs(kz_shortest(*(const double *)value).text, out);
 }
 
 void kz_text_print(const char *text, FILE *out) {
@@ -238,6 +236,17 @@ const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, c
 
 void kz_value_clear(const kz_key *key, void *scene) {
   if (key->offset != KZ_NO_FIELD) memcpy(field_of(key, scene), types[key->type].unset, types[key->type].unset_bytes);
+}
+
+kz_status kz_value_default(const kz_key *key, void *scene) {
+  kz_value_clear(key, scene);
+  if (key->type == KZ_KEY_MAPPING || !key->fallback || !key->fallback[0]) return KZ_OK;
+  kz_node *node;
+  const kz_node *culprit;
+  KZ_TRY(kz_tree_read(key->fallback, strlen(key->fallback), key->path, true, &node));
+  const char *wrong = kz_value_read(key, node, scene, &culprit);
+  kz_tree_free(node);
+  return wrong ? kz_fail(KZ_FAILED, "%s: its default %s", key->path, wrong) : KZ_OK;
 }
 
 bool kz_value_is_set(const kz_key *key, const void *scene) {

@@ -35,10 +35,9 @@ static kz_status finish(void) {
 }
 
 /* A number as JSON, with all digits that distinguish it; "null" if it is not finite. */
-#define NUMBER(value) number(value, (char[32]){0})
-static const char *number(double value, char text[32]) {
-  kz_scalar_print(value, text);
-  return isfinite(value) ? text : "null";
+#define NUMBER(value) number(value).text
+static kz_short_text number(double value) {
+  return isfinite(value) ? kz_shortest(value) : (kz_short_text){"null"};
 }
 
 static void text(const char *name, const char *value) {

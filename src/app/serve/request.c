@@ -63,19 +63,8 @@ static kz_status refuse(const kz_key *key, const kz_node *node, const char *wron
                  accepted);
 }
 
-static kz_status set_default(const kz_key *key, kz_request *request) {
-  kz_node *node;
-  const kz_node *culprit;
-  kz_value_clear(key, request);
-  if (!key->fallback || !key->fallback[0]) return KZ_OK;
-  KZ_TRY(kz_tree_read(key->fallback, strlen(key->fallback), SOURCE, true, &node));
-  const char *wrong = kz_value_read(key, node, request, &culprit);
-  kz_tree_free(node);
-  return wrong ? kz_fail(KZ_FAILED, "%s: %s: its default %s", SOURCE, key->path, wrong) : KZ_OK;
-}
-
 static kz_status read_row(const kz_key *key, kz_node *root, kz_request *request) {
-  KZ_TRY(set_default(key, request));
+  KZ_TRY(kz_value_default(key, request));
   kz_node *node = kz_tree_take(root, key->path);
   if (!node && key->fallback) return KZ_OK;
   if (!node) return kz_fail(KZ_REFUSED, "%s: %s: is missing; it must be one of %s", SOURCE, key->path, key->words);
