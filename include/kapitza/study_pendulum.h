@@ -67,8 +67,8 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
 const char *kz_drive_contradiction(const kz_pendulum_keys *written,
                                    const kz_pendulum *pendulum); /* what contradicts; NULL = nothing */
 void kz_drive_print(const kz_parameters *parameters, FILE *out); /* a summary line: harmonics in use, and their error */
-/* Place of the pivot at a phase of the drive (turns): {aside, height} in units of I/(M r). At rest with torque_amplitude. */
-void kz_pivot_at(const kz_parameters *parameters, double turns, double place[2]);
+/* Place of the pivot at a phase of the drive (rad): {aside, height} in units of I/(M r). At rest with torque_amplitude. */
+void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2]);
 void kz_release_resolve(const kz_parameters *parameters, kz_release *release);
 
 #endif

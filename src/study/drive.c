@@ -174,13 +174,13 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
   if (has(written->torque_amplitude)) resolve_swing(written, p);
 }
 
-void kz_pivot_at(const kz_parameters *parameters, double turns, double place[2]) {
+void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2]) {
   const kz_pendulum *p = &parameters->pendulum;
   place[0] = 0;
-  place[1] = p->m * cos(2 * M_PI * turns);
+  place[1] = p->m * cos(phase);
   if (has(parameters->written.torque_amplitude)) return;
   for (int j = 1; j <= p->harmonics; j++) { /* a harmonic of the acceleration is j^2 times that of the path */
-    const double c = cos(2 * M_PI * j * turns) / (j * j), s = sin(2 * M_PI * j * turns) / (j * j);
+    const double c = cos(j * phase) / (j * j), s = sin(j * phase) / (j * j);
     place[0] += p->horizontal[j - 1][0] * c + p->horizontal[j - 1][1] * s;
     place[1] += p->vertical[j - 1][0] * c + p->vertical[j - 1][1] * s;
   }

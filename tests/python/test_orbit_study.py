@@ -2,7 +2,7 @@
 
 import json
 import re
-from math import exp, pi, sqrt
+from math import cos, exp, pi, sqrt
 
 import numpy as np
 import pytest
@@ -55,6 +55,8 @@ def test_lines_of_chaos_are_those_of_the_velocity(model):
     orbit = model({"k": 0.25, "damping": 0.05, "m": 0.5},
                   orbit={"start": {"theta": 1, "velocity": 0.2}, "transient": 1000, "periods": 100}).group("orbit")
     assert (orbit.attrs["line_quantity"], orbit["line_amplitude"].attrs["units"]) == ("velocity", "1")
+    samples = round(2 * pi / orbit["time"].values[1])
+    assert [0.5 * cos(orbit["time"].values[i]) for i in range(samples)] == list(orbit["pivot"].values[:samples])  # as in 0.2.0
     velocity = orbit["velocity"].values[:-1]
     window = signal.get_window("blackmanharris", len(velocity))
     mean = np.average(velocity, weights=window)

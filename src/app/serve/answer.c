@@ -163,7 +163,7 @@ kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const doub
   printf("\"k\": %s, \"damping\": %s, \"m\": %s, \"pivot\": [", NUMBER(p->k), NUMBER(p->beta), NUMBER(p->m));
   for (int64_t i = 0; i < plan->samples_per_period; i++) { /* the pivot's path over a drive period */
     double place[2];
-    kz_pivot_at(&request->scene.parameters, (double)i / (double)plan->samples_per_period, place);
+    kz_pivot_at(&request->scene.parameters, 2 * M_PI * (double)i / (double)plan->samples_per_period, place);
     printf("%s[%s, %s]", i > 0 ? ", " : "", NUMBER(place[0]), NUMBER(place[1]));
   }
   putchar(']');

@@ -7,10 +7,10 @@
 
 static const char *const GROUP = "orbit";
 
-/* The pivot's place along an axis, 0 = aside, 1 = height, at a phase of the drive (turns). */
-static double pivot(const kz_parameters *parameters, int axis, double turns) {
+/* The pivot's place along an axis, 0 = aside, 1 = height, at a phase of the drive (rad). */
+static double pivot(const kz_parameters *parameters, int axis, double phase) {
   double place[2];
-  kz_pivot_at(parameters, turns, place);
+  kz_pivot_at(parameters, phase, place);
   return place[axis];
 }
 
@@ -31,9 +31,9 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
   SCALE("time", n, 2 * M_PI * (double)i / (double)samples);
   COLUMN("theta", n, motion->theta[i * stride]);
   COLUMN("velocity", n, motion->velocity[i * stride]);
-  COLUMN("pivot", n, pivot(parameters, 1, (double)(i % samples) / (double)samples));
+  COLUMN("pivot", n, pivot(parameters, 1, 2 * M_PI * (double)(i % samples) / (double)samples));
   if (moves_aside(&parameters->pendulum))
-    COLUMN("pivot_aside", n, pivot(parameters, 0, (double)(i % samples) / (double)samples));
+    COLUMN("pivot_aside", n, pivot(parameters, 0, 2 * M_PI * (double)(i % samples) / (double)samples));
   SCALE("strobe_time", strobes, 2 * M_PI * (double)i);
   COLUMN("strobe_theta", strobes, motion->theta[i * motion->samples]);
   COLUMN("strobe_velocity", strobes, motion->velocity[i * motion->samples]);
