@@ -73,6 +73,8 @@ def test_what_ends_alike_at_all_phases(kapitza, tmp_path):
     del scene["basin"]
     by_starts = run(kapitza, tmp_path, scene)["sweep"]
     assert (by_starts["alike_low"][:] < high).all() and (low < by_starts["alike_high"][:]).all() and by_starts.attrs["phases"] == 4
+    scene["sweep"].update(theta={"min": math.pi - 0.01, "max": math.pi + 0.01}, velocity={"min": -0.01, "max": 0.01})
+    assert (run(kapitza, tmp_path, scene)["sweep/alike"][:] == 1).all()  # about upside down, which attracts at every phase
 
 
 def test_releases_are_the_same_for_any_number_of_ranks_and_mirrored(kapitza, tmp_path):

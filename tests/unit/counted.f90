@@ -55,7 +55,7 @@ contains
     next = 1
     allocate (n_blurred(search%max_period))
     n_blurred = 0
-    associate (u => real(search%flow%u, dp), v => real(search%flow%v, dp))
+    associate (u => real(search%flow%u(:WIDTH), dp), v => real(search%flow%v(:WIDTH), dp))
       do while (next <= WIDTH)
         call find_cycle(search, u, v, closeness, next, n_blurred, attractors)
       end do

@@ -80,7 +80,11 @@ contains
 
     d => of_handle(handle)
     allocate (map, state(2, n))
-    call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low)
+    if (present(low)) then
+      call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low)
+    else ! gfortran would read the address that is not there
+      call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :))
+    end if
     state(2, :) = start(2, :)
     periods = max_periods
     call follow(map, d%regions, d%attractors, state, label, periods)

@@ -131,7 +131,7 @@ static kz_status take(void *context, const void *message, size_t bytes) {
   const collection *c = context;
   const size_t one = kz_cycle_bytes(c->plan), before = (size_t)c->found->count * one, more = bytes - sizeof(uint64_t);
   char *longer = kz_realloc(c->found->cycle, before + more);
-  memcpy(longer + before, (const char *)message + sizeof(uint64_t), more);
+  if (more > 0) memcpy(longer + before, (const char *)message + sizeof(uint64_t), more);
   c->found->cycle = (double *)longer;
   c->found->count += (int64_t)(more / one);
   return KZ_OK;

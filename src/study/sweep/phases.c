@@ -61,7 +61,8 @@ kz_status kz_sweep_phases(const kz_scene *scene, const kz_run *run, kz_dynamics 
   KZ_FREED int32_t *common = kz_malloc((size_t)n * sizeof *common);
   releasing r = {dynamics, start, n, max_periods};
   for (int64_t i = 0; i < n_cells; i++) kz_cell_start(&scene->basin, i, start + 2 * i);
-  if (n_cells == 0) kz_dynamics_starts(&window, plan->seed, n, start);
+  if (n_cells == 0) kz_dynamics_starts(&window, plan->seed, n, start); /* half-turns */
+  for (int64_t i = n_cells; i < n; i++) start[2 * i] *= M_PI;
   KZ_TRY(release_at_phases(plan, run, release, &r, common));
   *alike = count_alike(scene, n_cells, n, common);
   return KZ_OK;
