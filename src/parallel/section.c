@@ -45,7 +45,7 @@ static kz_status reserve(const kz_checkpoint *checkpoint, const kz_section *sect
   do error = posix_fallocate(checkpoint->file, (off_t)checkpoint->end, (off_t)(section->end - checkpoint->end));
   while (error == EINTR);
   if (error == 0) return KZ_OK;
-  return kz_fail(KZ_FAILED, "%s: no room for %.3g MB: %s", checkpoint->path, 1e-6 * (double)(section->end - checkpoint->end),
+  return kz_fail(KZ_FAILED, "%s: no space for %.3g MB: %s", checkpoint->path, 1e-6 * (double)(section->end - checkpoint->end),
                  strerror(error));
 }
 

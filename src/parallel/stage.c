@@ -35,7 +35,7 @@ static kz_status check(const stage_run *run) {
     return kz_fail(KZ_FAILED, "stage %s: %lld tiles of %zu bytes are too many", stage->name, (long long)stage->n_tiles,
                    stage->record_bytes);
   if (!run->records && !stage->local && stage->n_tiles > 0 && (run->ranks->rank == 0 || stage->everywhere))
-    return kz_fail(KZ_FAILED, "stage %s: no room for the records", stage->name);
+    return kz_fail(KZ_FAILED, "stage %s: no memory for the records", stage->name);
   return KZ_OK;
 }
 

@@ -270,7 +270,7 @@ static void too_large_for_the_disk_is_known_early(void **state) {
       .name = "huge", .n_tiles = (int64_t)1 << 43, .record_bytes = N_BYTES, .work = fill, .context = &j, .keep = true};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   const kz_status status = run_stage(&stage, records);
-  assert_all(status == KZ_FAILED && strstr(kz_message(), "no room"));
+  assert_all(status == KZ_FAILED && strstr(kz_message(), "no space"));
   assert_all(j.done == 0);
   assert_all(close_checkpoint(false) == KZ_OK);
 }

@@ -68,16 +68,16 @@ contains
     most = PI*maxval(abs(angle - centre))
     do i = 0, ubound(angle, 1) - 1
       if (velocity(i)*velocity(i + 1) >= 0) cycle
-      most = max(most, abs(turning_angle(PI*(angle(i:i + 1) - centre), velocity(i:i + 1), [bend(i), bend(i + 1)])))
+      most = max(most, abs(turning_angle(PI*(angle(i:i + 1) - centre), velocity(i:i + 1), [acceleration_at(i), acceleration_at(i + 1)])))
     end do
   contains
     !> theta'' at sample j
-    pure function bend(j) result(rate)
+    pure function acceleration_at(j) result(rate)
       integer, intent(in) :: j
       real(dp) :: rate
 
       rate = acceleration(pendulum, 2*PI*j/SAMPLES, PI*angle(j), velocity(j))
-    end function bend
+    end function acceleration_at
   end function largest
 
   !> The extremum of the quintic with the given angles, velocities and accelerations at both ends of a sample interval.

@@ -4,7 +4,7 @@ module kz_labels_orbits
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
-  use kz_labels_bending, only: measure_bending, SAFETY
+  use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
   use kz_labels_lanes, only: queued_lanes_t, list_flagged
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors, flag_large, flag_done
@@ -63,7 +63,7 @@ contains
     type(decision_t), intent(inout) :: decision(:) !< [n] as they are made, in; out
     type(lanes_t) :: lanes
     integer(c_int64_t) :: next
-    real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), bent(WIDTH)
+    real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), nonlinear(WIDTH)
     integer :: region(WIDTH), done(WIDTH), list(WIDTH), n_done, lane, i
     logical :: with_covers
 
@@ -78,8 +78,8 @@ contains
       u = carrier%u(:WIDTH)
       v = carrier%v(:WIDTH)
       call carrier%advance(lanes%active)
-      call bend(lanes%active)
-      call spread_errors(lanes%active, carrier%tangent, carrier%noise, bent, lanes%p, trace)
+      call add_nonlinear(lanes%active)
+      call spread_errors(lanes%active, carrier%tangent, carrier%noise, nonlinear, lanes%p, trace)
       call find_regions(regions, attractors, lanes%active, carrier%u(:lanes%active), carrier%v(:lanes%active), region)
       lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
       call flag_done(lanes%active, region, trace, largest, done)
@@ -92,16 +92,16 @@ contains
     end do
   contains
     !> What is not linear in the period, where errors are large.
-    subroutine bend(n)
+    subroutine add_nonlinear(n)
       integer, intent(in) :: n
       integer :: large(WIDTH), lane(WIDTH), n_large
 
-      bent = 0
+      nonlinear = 0
       call flag_large(n, lanes%p, LINEAR**2, large)
       if (sum(large(:n)) == 0) return
       call list_flagged(n, large, lane, n_large)
-      call measure_bending(carrier, lane(:n_large), u, v, lanes%p, bent)
-    end subroutine bend
+      call measure_nonlinear(carrier, lane(:n_large), u, v, lanes%p, nonlinear)
+    end subroutine add_nonlinear
 
     !> An orbit that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.
     subroutine occupy(lane)

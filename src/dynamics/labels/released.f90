@@ -100,12 +100,12 @@ contains
   subroutine carry(carrier, orbit)
     type(carrier_t), intent(inout) :: carrier
     type(orbit_t), intent(inout) :: orbit(:)
-    real(dp) :: p(WIDTH, 3), trace(WIDTH), bent(WIDTH)
+    real(dp) :: p(WIDTH, 3), trace(WIDTH), nonlinear(WIDTH)
     integer :: lane, n
 
     n = size(orbit)
     p = 0
-    bent = 0
+    nonlinear = 0
     trace = 0
     do lane = 1, n
       call carrier%put(lane, orbit(lane))
@@ -113,7 +113,7 @@ contains
     end do
     call carrier%to_map(1, n)
     call carrier%advance(n)
-    call spread_errors(n, carrier%tangent, carrier%noise, bent, p, trace)
+    call spread_errors(n, carrier%tangent, carrier%noise, nonlinear, p, trace)
     do lane = 1, n
       call carrier%take(lane, orbit(lane))
       orbit(lane)%lost = 0

@@ -10,11 +10,11 @@ contains
 
   !> P over a period: the smallest ellipse, by trace, that holds the sum of the image of the old one and of all errors of the period,
   !> whatever their directions and however they hang together: S + D has its like in (1 + 1/x) S + (1 + x) D with x**2 = tr S/tr D.
-  pure subroutine spread_errors(n, tangent, noise, bent, p, trace)
+  pure subroutine spread_errors(n, tangent, noise, nonlinear, p, trace)
     integer, intent(in) :: n !< lanes
     real(dp), intent(in) :: tangent(WIDTH, 4) !< (WIDTH, 4): derivatives of the angle by angle and velocity, of the velocity by both
     real(dp), intent(in) :: noise(WIDTH) !< of the period, rad
-    real(dp), intent(in) :: bent(WIDTH) !< what is not linear in the period, rad
+    real(dp), intent(in) :: nonlinear(WIDTH) !< what is not linear in the period, rad
     real(dp), intent(inout) :: p(WIDTH, 3) !< (WIDTH, 3): theta theta, theta v, v v: rad, rad per drive radian
     real(dp), intent(out) :: trace(WIDTH) !< of P; not a number for one that is lost
     real(dp) :: s1, s2, s3, t1, t2, t3, t4, size, square, x
@@ -29,7 +29,7 @@ contains
       s2 = t3*tangent(i, 1) + t4*tangent(i, 2)
       s3 = t3*tangent(i, 3) + t4*tangent(i, 4)
       size = s1 + s3
-      square = (noise(i) + bent(i))**2
+      square = (noise(i) + nonlinear(i))**2
       x = sqrt(size/(2*square) + 1e-6_dp)
       square = (1 + x)*square
       x = 1 + 1/x

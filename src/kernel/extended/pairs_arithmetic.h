@@ -116,11 +116,11 @@ OPERATION pair polynomial(int64_t n, int64_t n_pairs, const double *c, pair x) {
   return p;
 }
 
-#define EVEN_MAGIC 0x3p52 /* adding it rounds to an even integer */
+#define ROUND_TO_EVEN 0x3p52 /* adding it rounds to an even integer */
 
 /* An angle in half-turns less the even integer nearest to it, in [-1, 1]; *even = that integer. */
 OPERATION pair reduce(pair u, vector *even) {
-  *even = (u.high + EVEN_MAGIC) - EVEN_MAGIC;
+  *even = (u.high + ROUND_TO_EVEN) - ROUND_TO_EVEN;
   return quick_sum(u.high - *even, u.low);
 }
 

@@ -62,13 +62,13 @@ void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row,
 /* Neighbours of orbits, relative to the orbits: the force between them and their orbit is taken to third order in the angle, with the slopes
  * of tangents and their derivatives. A polynomial, its derivative, and half its second one: */
 typedef struct {
-  group value, slope, bend;
+  group value, slope, half_second;
 } expansion;
 
 OPERATION expansion expand(const float *c, group q) {
   expansion p = {c[TERMS - 1] + (group){0}, {0}, {0}};
   for (int j = TERMS - 2; j >= 0; j--) {
-    p.bend = p.bend * q + p.slope;
+    p.half_second = p.half_second * q + p.slope;
     p.slope = p.slope * q + p.value;
     p.value = p.value * q + c[j];
   }
@@ -83,12 +83,12 @@ OPERATION void move_neighbours(bool mirrored, int64_t n_stages, const float *row
   for (int64_t s = 0; s < n_stages; s++, row += 1 + 2 * TERMS) {
     const group r = ((const group *)angle)[s], q = r * r;
     const expansion odd = expand(row + 1, q);
-    group first = odd.value, second = r * odd.slope, third = (1 / 3.0f) * (odd.slope + 4 * q * odd.bend);
+    group first = odd.value, second = r * odd.slope, third = (1 / 3.0f) * (odd.slope + 4 * q * odd.half_second);
     if (!mirrored) {
       const expansion even = expand(row + 1 + TERMS, q);
       first += r * even.value;
       second += 0.5f * even.value + q * even.slope;
-      third += r * (even.slope + (4 / 3.0f) * q * even.bend);
+      third += r * (even.slope + (4 / 3.0f) * q * even.half_second);
     }
     EACH_POINT u[i] += row[0] * v[i];
     EACH_POINT v[i] -= u[i] * (first + u[i] * (second + u[i] * third));
