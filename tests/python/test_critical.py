@@ -93,7 +93,7 @@ def test_flutter_grows_as_the_square_root(basin, scheme, steps, distance):
 TONGUE_K, TONGUE_M = 1.0856905702485, 0.9955473346077346
 
 
-@pytest.mark.parametrize("apart, steps", [(1e-4, 192), (1e-5, 192), (1e-6, 192), (1e-5, 24), (1e-6, 48)])
+@pytest.mark.parametrize("apart, steps", [(1e-4, 192), (1e-6, 192), (1e-5, 24), (1e-6, 48)])
 def test_mirror_images_close_together(basin, apart, steps):
     """The scene's own steps move m_c: with 24 or 48 the nearer pairs are not there, with the 192 of published values they are."""
     pendulum = f"pendulum={{k: {TONGUE_K!r}, damping: {math.sqrt(TONGUE_K) / 5!r}, m: {TONGUE_M + (apart / 5.04) ** 2!r}}}"

@@ -118,13 +118,6 @@ def test_panels_are_a_choice(files, tmp_path, panels):
     assert ("x / length" in text) == ("path" in panels)
 
 
-def test_the_same_file_gives_the_same_bytes(files, tmp_path):
-    pictures = [tmp_path / f"{name}.pdf" for name in "ab"]
-    for picture in pictures:
-        assert plot(files / "open.h5", "-o", picture).returncode == 0
-    assert pictures[0].read_bytes() == pictures[1].read_bytes()
-
-
 def test_what_cannot_be_drawn(made_file, tmp_path):
     done = plot(made_file, "-o", tmp_path / "out.png")
     assert (done.returncode, done.stderr) == (1, f"error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
