@@ -4,7 +4,7 @@
 
 #include "basin.h"
 
-enum { BLOCK = 16384, FEW = 1024 };
+enum { BLOCK = 16384 };
 
 typedef struct {
   const kz_basin_plan *plan;
@@ -96,11 +96,15 @@ static kz_status write_group(const phases *p, const int16_t *label, const kz_cat
   return kz_store_real(store, "phases", "share", (double)alike / (double)p->cells);
 }
 
+static kz_stage stage_of(phases *p) {
+  return kz_stage_for_rank0("phases", p->blocks * p->plan->phases, BLOCK * sizeof(int16_t), phase_tile, p);
+}
+
 kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                          kz_store *store, FILE *summary) {
   if (scene->basin.phases <= 0) return KZ_OK;
   phases p = phases_of(scene, labelling->dynamics);
-  const kz_stage stage = kz_stage_for_rank0("phases", p.blocks * scene->basin.phases, BLOCK * sizeof(int16_t), phase_tile, &p);
+  const kz_stage stage = stage_of(&p);
   KZ_FREED int16_t *label = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(labelling->run, &stage, label);
   if (status == KZ_OK && store) status = write_group(&p, label, catalogue, store, summary);
@@ -109,13 +113,9 @@ kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labellin
 
 kz_status kz_phases_measure(const kz_scene *scene, kz_dynamics *dynamics, double *seconds) {
   if (scene->basin.phases <= 0) return KZ_OK;
-  const phases p = phases_of(scene, dynamics);
-  const int64_t n = p.cells < FEW ? p.cells : FEW;
-  int16_t label[FEW];
-  const double start = kz_processor_clock();
-  KZ_TRY(label_some(&p, 1, p.cells / 2 < p.cells - n ? p.cells / 2 : p.cells - n, n, label));
-  *seconds += (kz_processor_clock() - start) * (double)scene->basin.phases * (double)p.cells / (double)n;
-  return KZ_OK;
+  phases p = phases_of(scene, dynamics);
+  const kz_stage stage = stage_of(&p);
+  return kz_stage_measure(&stage, 2, 1.0, seconds);
 }
 
 double kz_phases_bytes(const kz_basin_plan *plan) {
