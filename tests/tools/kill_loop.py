@@ -24,6 +24,8 @@ from mpi_settings import MPI_SETTINGS
 HANG = 90  # s
 KNOCKS = ["kill mpirun", "kill a rank", "kill all", "SIGTERM", "SIGINT", "SIGUSR1"]
 STOPPED, REFUSED = 75, 2
+# Of SIGUSR1: the stop was heard; or the signal came to mpirun, or to a rank, before it listened.
+ENDINGS = (STOPPED, -signal.SIGUSR1, 128 + signal.SIGUSR1, 1)
 
 
 class Failure(Exception):
@@ -123,7 +125,7 @@ def one_round(folder, words, expected, longest, all_ranks):
         code, text = finish(process, what)
         if code == 0 and result.exists():
             break
-        if kind is None or code == REFUSED or (kind == "SIGUSR1" and code not in (STOPPED, -signal.SIGUSR1, 1)):
+        if kind is None or code == REFUSED or (kind == "SIGUSR1" and code not in ENDINGS):
             raise Failure(f"{what}: status {code}\n{text}")
         done.append(kind)
     check(folder, result, expected, len(done) * max(all_ranks), what)
