@@ -10,7 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 from kapitza.figures import FIGURES  # noqa: E402
-from kapitza.papers.page import find_numbers, write_page  # noqa: E402
+from papers.page import find_numbers, write_page  # noqa: E402
 
 RESULTS = ROOT / "results"
 

@@ -10,7 +10,6 @@ from conftest import ROOT
 
 DOCS = ROOT / "docs"
 PAGES = [DOCS / "index.md", *sorted(DOCS.glob("*/*.md"))]
-OLD_NAMES = sorted(set(DOCS.glob("*.md")) - {DOCS / "index.md"})  # pages that have moved
 
 
 def name_of(page):
@@ -34,13 +33,6 @@ def test_every_page_opens_with_what_it_answers():
 def test_links_lead_to_files(page):
     links = re.findall(r"\]\((?!https?:)([^)#\s]+)", page.read_text())
     assert not [link for link in links if not (page.parent / link).exists()]
-
-
-@pytest.mark.parametrize("page", OLD_NAMES, ids=lambda path: path.name)
-def test_an_old_name_leads_to_the_new_page(page):
-    """Under the same title."""
-    title, link = re.fullmatch(r"---\norphan: true\n---\n\n(# .+)\n\nThis page has moved to \[.+\]\((.+)\)\.\n", page.read_text()).groups()
-    assert (DOCS / link).read_text().startswith(title + "\n")
 
 
 @pytest.fixture

@@ -9,10 +9,10 @@ import sys
 from conftest import PROGRAM, ROOT
 from kapitza.command import KINDS
 from kapitza.figures import FIGURES
-from kapitza.papers import butikov
-from kapitza.papers.number import FAILED, Number
-from kapitza.papers.page import write_page
-from kapitza.papers.runs import Runs
+from papers import butikov
+from papers.number import FAILED, Number
+from papers.page import write_page
+from papers.runs import Runs
 
 
 def test_every_scene_has_a_figure_and_every_figure_a_scene():

@@ -14,7 +14,7 @@ HEAD = """\
 
 The tables compare each number that the two papers print or draw with the number that this program finds.
 
-`scripts/reproduce --numbers` runs the program and writes this page. Its words stand in `python/kapitza/papers`. The column
+`scripts/reproduce --numbers` runs the program and writes this page. Its words stand in `scripts/papers`. The column
 `agreement` has one of four words:
 
 | word | meaning |

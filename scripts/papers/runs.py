@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[2]
 FIVE = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.5}  # of Blackburn's Figs 8 to 15
 
 
