@@ -273,9 +273,10 @@ static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *sce
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 
-/* Declares what the folder of a study gives: the functions of its row, and the variables that it writes. */
+/* Declares what the folder of a study gives: the functions of its row (not every study has `check`), and the variables that it writes. */
 #define KZ_STUDY(name)                                                                                 \
   kz_cost kz_##name##_cost(const kz_scene *scene);                                                     \
+  kz_status kz_##name##_check(const kz_scene *scene);                                                  \
   kz_status kz_##name##_measure(const kz_scene *scene, double *seconds);                               \
   kz_status kz_##name##_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary); \
   extern const kz_variable kz_##name##_variables[]

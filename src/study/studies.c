@@ -1,6 +1,5 @@
 /* The studies, one row each, in the order in which they run, and the groups of the result file. */
 #include "accuracy/accuracy.h"
-#include "attractors/catalogue.h"
 #include "basin/basin.h"
 #include "kapitza/study.h"
 #include "orbit/orbit.h"

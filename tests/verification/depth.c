@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 #include "window/window.h"

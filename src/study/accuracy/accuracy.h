@@ -85,6 +85,4 @@ kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade
 /* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
 char *kz_reference_path(const kz_store *store);
 
-kz_status kz_tradeoff_check(const kz_scene *scene);
-
 #endif

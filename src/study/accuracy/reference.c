@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "numerics/cells.h"
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "numerics/share.h"
 #include "numerics/steps.h"
 #include "kapitza/kernel.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "accuracy.h"
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 #include "numerics/resolve.h"

@@ -1,9 +1,9 @@
 /* Study `attractors`: the catalogue of a window of starts, without a grid. */
 
-#include "catalogue.h"
+#include "labelling/catalogue.h"
+#include "labelling/search.h"
 #include "numerics/cells.h"
 #include "numerics/step_check.h"
-#include "search.h"
 
 kz_cost kz_attractors_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * (double)scene->attractors.starts};

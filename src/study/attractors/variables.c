@@ -1,6 +1,6 @@
 /* Variables of the group attractors of the result file. */
 #include "kapitza/store_variables.h"
-#include "catalogue.h"
+#include "labelling/catalogue.h"
 
 /* clang-format off */
 const kz_variable kz_attractors_variables[] = {

@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_BASIN_H
 #define KAPITZA_STUDY_BASIN_H
 
-#include "attractors/catalogue.h"
+#include "labelling/catalogue.h"
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
 #include "label.h"
@@ -10,8 +10,6 @@
 #include "resilience/resilience.h"
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
-
-kz_status kz_basin_check(const kz_scene *scene);
 
 /* What the study writes besides kz_basin_variables. */
 extern const kz_variable kz_phases_variables[], kz_boundary_variables[], kz_shocks_variables[];

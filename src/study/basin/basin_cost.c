@@ -4,8 +4,8 @@
 #include <stdlib.h>
 
 #include "accuracy/accuracy.h"
-#include "attractors/catalogue.h"
-#include "attractors/search.h"
+#include "labelling/catalogue.h"
+#include "labelling/search.h"
 #include "basin.h"
 #include "numerics/share.h"
 

@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_LABEL_H
 #define KAPITZA_STUDY_LABEL_H
 
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 #include "window/window.h"

@@ -5,7 +5,7 @@
 #include <inttypes.h>
 #include <math.h>
 
-#include "attractors/search.h"
+#include "labelling/search.h"
 
 typedef struct {
   const kz_scene *scene;

@@ -2,8 +2,8 @@
 #ifndef KAPITZA_STUDY_LIVE_FOLDER_H
 #define KAPITZA_STUDY_LIVE_FOLDER_H
 
-#include "attractors/catalogue.h"
-#include "attractors/search.h"
+#include "labelling/catalogue.h"
+#include "labelling/search.h"
 #include "kapitza/study_live.h"
 #include "window/window.h"
 

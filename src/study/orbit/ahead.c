@@ -1,7 +1,7 @@
 /* How a motion of the pendulum goes on: its largest Lyapunov exponent, and the attractor that it settles on. */
 #include <math.h>
 
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "orbit.h"
 
 /* Blocks of a record; periods that an exponent is followed on. */

@@ -96,6 +96,4 @@ kz_status kz_orbit_features_make(kz_orbit *orbit);
 kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store);
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
 
-kz_status kz_orbit_check(const kz_scene *scene);
-
 #endif

@@ -3,7 +3,7 @@
 #ifndef KAPITZA_STUDY_RESILIENCE_H
 #define KAPITZA_STUDY_RESILIENCE_H
 
-#include "attractors/catalogue.h"
+#include "labelling/catalogue.h"
 #include "kapitza/parallel.h"
 #include "kapitza/study.h"
 

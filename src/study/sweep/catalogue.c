@@ -4,10 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "attractors/catalogue.h"
+#include "labelling/catalogue.h"
 #include "numerics/cells.h"
 #include "resilience/resilience.h"
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "labelling/labeller.h"
 #include "sweep.h"
 

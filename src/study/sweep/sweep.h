@@ -145,6 +145,4 @@ void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numeri
 /* Prints a warning for each class of speeds whose error is too large, at the value with the largest error. */
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
 
-kz_status kz_sweep_check(const kz_scene *scene);
-
 #endif

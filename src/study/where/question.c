@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "window/window.h"
 
 /* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */

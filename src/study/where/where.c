@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "numerics/cells.h"
-#include "attractors/search.h"
+#include "labelling/search.h"
 #include "where.h"
 
 typedef struct {

@@ -3,7 +3,7 @@
 #ifndef KAPITZA_STUDY_WHERE_FOLDER_H
 #define KAPITZA_STUDY_WHERE_FOLDER_H
 
-#include "attractors/catalogue.h"
+#include "labelling/catalogue.h"
 #include "kapitza/study_where.h"
 
 typedef struct {

@@ -1,4 +1,4 @@
-/* The catalogue of attractors as users see it: their order, their names, their group in the file. The study `attractors`. */
+/* The catalogue of attractors as users see it: their order, their names, their group in the file. */
 #ifndef KAPITZA_STUDY_CATALOGUE_H
 #define KAPITZA_STUDY_CATALOGUE_H
 
@@ -26,7 +26,5 @@ double *kz_nan_filled(int64_t n);
 
 /* Prints the table of attractors. */
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
-
-kz_status kz_attractors_check(const kz_scene *scene);
 
 #endif
