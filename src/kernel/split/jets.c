@@ -1,0 +1,154 @@
+/* The inner loop of a period with its derivatives (jets.f90), written with the compilers' vector types: gfortran does not keep the
+ * derivatives in registers, and takes six times as long. */
+#include <string.h>
+
+#include "lanes/lanes.h"
+
+enum { LANES = 8, KICKS = 14, FUSED = KICKS + 2 };
+enum { X, Y, P, Q, XX, XY, YY, XP, YP, XQ, YQ, XXX, XXY, XYY, YYY, TERMS };
+typedef double lanes __attribute__((vector_size(8 * LANES)));
+typedef int64_t bits __attribute__((vector_size(8 * LANES)));
+
+/* kz_kick: a sin theta - b cos theta - push; kz_drift: of the velocity. [0] is the value, [1] and [2] are the derivatives by p and q. */
+typedef struct {
+  double a[3], b[3], push[3];
+} kz_kick;
+typedef struct {
+  double of_velocity[3], decay[3];
+} kz_drift;
+/* An angle (half-turns) or a velocity, and its derivatives in rad. */
+typedef struct {
+  lanes value, of[TERMS];
+} jet;
+
+/* sin(pi r)/r in powers of r^2: SINE_COEFFICIENTS of sine.f90, and cos(pi r) by its Taylor series; |r| <= 1/2. */
+static const double SINE[] = {3.14159265358979323765,     -5.16771278004996952865,      2.55016403987729393818,
+                              -0.599264529318738216301,   0.0821458865698926095193,     -0.00737043047876246099464,
+                              0.000466299688773173555302, -0.0000219031854208053767726, 7.69472732830679049614e-7};
+static const double COSINE[] = {1,
+                                -4.934802200544679309417,
+                                4.058712126416768218185,
+                                -1.335262768854589495875,
+                                0.2353306303588935102143,
+                                -0.02580689139001406001260,
+                                0.001929574309403923047903,
+                                -0.0001046381049248457071180,
+                                4.303069587032946659836e-6,
+                                -1.387895246221377211449e-7,
+                                3.604730797462501117270e-9};
+
+OPERATION void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
+  const double round_to_integer = 0x1.8p52;
+  const lanes u = *angle, shifted = u + round_to_integer, r = u - (shifted - round_to_integer), q = r * r;
+  const bits sign = (bits)shifted << 63;
+  lanes odd = SINE[8] + (lanes){0}, even = COSINE[10] + (lanes){0};
+  _Pragma("GCC unroll 16") for (int i = 7; i >= 0; i--) odd = odd * q + SINE[i];
+  _Pragma("GCC unroll 16") for (int i = 9; i >= 0; i--) even = even * q + COSINE[i];
+  *s = (lanes)((bits)(r * odd) ^ sign);
+  *c = (lanes)((bits)even ^ sign);
+}
+
+/* What a derivative by a parameter gains because the damping depends on it. */
+#define GAIN(term, parameter, speed)                                                                                   \
+  do {                                                                                                                 \
+    angle->of[term] +=                                                                                                 \
+        row->of_velocity[parameter] * (speed)-row->of_velocity[0] * (row->decay[parameter] / row->decay[0]) * (speed); \
+    velocity->of[term] += (row->decay[parameter] / row->decay[0]) * (speed);                                           \
+  } while (0)
+
+OPERATION void drift(int order, bool damped, const kz_drift *row, jet *angle, jet *velocity) {
+  const int terms = order == 3 ? TERMS : order == 2 ? XXX : order == 1 ? XX : 0;
+  if (damped && order >= 1) {
+    GAIN(P, 1, velocity->value);
+    GAIN(Q, 2, velocity->value);
+  }
+  if (damped && order >= 2) {
+    GAIN(XP, 1, velocity->of[X]);
+    GAIN(YP, 1, velocity->of[Y]);
+    GAIN(XQ, 2, velocity->of[X]);
+    GAIN(YQ, 2, velocity->of[Y]);
+  }
+  _Pragma("GCC unroll 16") for (int i = 0; i < terms; i++) {
+    angle->of[i] += row->of_velocity[0] * velocity->of[i];
+    velocity->of[i] *= row->decay[0];
+  }
+  angle->value += (0.318309886183790671537767526745 * row->of_velocity[0]) * velocity->value;
+  velocity->value *= row->decay[0];
+}
+
+OPERATION void kick(int order, bool mirrored, const kz_kick *row, jet *angle, jet *velocity) {
+  lanes s, c, force, slope, of[3];
+  const lanes *x = angle->of;
+  lanes *v = velocity->of;
+  sine_and_cosine(&angle->value, &s, &c);
+  force = row->a[0] * s;
+  slope = row->a[0] * c;
+  if (!mirrored) {
+    force -= row->b[0] * c;
+    slope += row->b[0] * s;
+    velocity->value += row->push[0];
+  }
+  velocity->value -= force;
+  if (order < 1) return;
+  v[X] -= slope * x[X];
+  v[Y] -= slope * x[Y];
+  _Pragma("GCC unroll 2") for (int i = 1; i <= 2; i++) {
+    v[P + i - 1] -= slope * x[P + i - 1] + row->a[i] * s;
+    of[i] = row->a[i] * c;
+    if (mirrored) continue;
+    v[P + i - 1] += row->b[i] * c + row->push[i];
+    of[i] += row->b[i] * s;
+  }
+  if (order < 2) return;
+  v[XX] -= slope * x[XX] - force * x[X] * x[X];
+  v[XY] -= slope * x[XY] - force * x[X] * x[Y];
+  v[YY] -= slope * x[YY] - force * x[Y] * x[Y];
+  const lanes of_p = of[1] - force * x[P], of_q = of[2] - force * x[Q];
+  v[XP] -= slope * x[XP] + of_p * x[X];
+  v[YP] -= slope * x[YP] + of_p * x[Y];
+  v[XQ] -= slope * x[XQ] + of_q * x[X];
+  v[YQ] -= slope * x[YQ] + of_q * x[Y];
+  if (order < 3) return;
+  v[XXX] -= slope * (x[XXX] - x[X] * x[X] * x[X]) - 3 * force * x[X] * x[XX];
+  v[XXY] -= slope * (x[XXY] - x[X] * x[X] * x[Y]) - force * (2 * x[X] * x[XY] + x[Y] * x[XX]);
+  v[XYY] -= slope * (x[XYY] - x[X] * x[Y] * x[Y]) - force * (2 * x[Y] * x[XY] + x[X] * x[YY]);
+  v[YYY] -= slope * (x[YYY] - x[Y] * x[Y] * x[Y]) - 3 * force * x[Y] * x[YY];
+}
+
+OPERATION void steps(int order, bool damped, bool mirrored, int64_t n, const kz_kick *kicks, const kz_drift *drifts, jet *angle,
+                     jet *velocity) {
+  jet a = *angle, v = *velocity;
+  for (int64_t step = 0; step < n; step++)
+    for (int stage = 0; stage < KICKS; stage++, kicks++) {
+      drift(order, damped, drifts + (stage == 0 && step > 0 ? FUSED - 1 : stage), &a, &v);
+      kick(order, mirrored, kicks, &a, &v);
+    }
+  drift(order, damped, drifts + KICKS, &a, &v);
+  *angle = a;
+  *velocity = v;
+}
+
+#define CASE(order, damped, mirrored)                                    \
+  case 4 * (order) + 2 * (damped) + (mirrored):                          \
+    steps(order, damped, mirrored, n, kicks, drifts, &angle, &velocity); \
+    break;
+#define CASES(order) CASE(order, 0, 0) CASE(order, 0, 1) CASE(order, 1, 0) CASE(order, 1, 1)
+
+/* Moves 8 states, u half-turns and v, with their derivatives theta, speed [TERMS][8] up to `order` through n steps of split6. kicks
+ * [n][14]; drifts [16]: those of a step, the last one being the last drift of a step and the first of the next together. damped: the
+ * damping depends on p or q; mirrored: b and push are 0. */
+void kz_jets_advance(int32_t order, int32_t damped, int32_t mirrored, int64_t n, const double *kicks_of,
+                     const double *drifts_of, double *u, double *v, double *theta, double *speed) {
+  const kz_kick *kicks = (const kz_kick *)kicks_of;
+  const kz_drift *drifts = (const kz_drift *)drifts_of;
+  jet angle, velocity;
+  memcpy(&angle.value, u, sizeof angle.value);
+  memcpy(&velocity.value, v, sizeof velocity.value);
+  memcpy(angle.of, theta, sizeof angle.of);
+  memcpy(velocity.of, speed, sizeof velocity.of);
+  switch (4 * order + 2 * damped + mirrored) { CASES(0) CASES(1) CASES(2) CASES(3) }
+  memcpy(u, &angle.value, sizeof angle.value);
+  memcpy(v, &velocity.value, sizeof velocity.value);
+  memcpy(theta, angle.of, sizeof angle.of);
+  memcpy(speed, velocity.of, sizeof velocity.of);
+}
