@@ -276,6 +276,9 @@ typedef struct {
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse);
 /* The largest ellipse around a strobe point (rad, rad per drive radian) whose starts are proved to end on one cycle of that period. */
 kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity);
+/* True if it is proved that the cycle of that period at the strobe point [2] is the mirror image of the one in an ellipse around centre [2]. */
+bool kz_proof_is_mirror(const kz_proof *proof, int64_t period, const double point[2], const double centre[2],
+                        const kz_proof_ellipse *ellipse);
 /* Adds the ellipse to the region of attractor `number`, and its mirror image to that of attractor `mirror`, with all cells inside. */
 void kz_proof_add(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
                   const kz_proof_ellipse *ellipse);

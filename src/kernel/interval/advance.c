@@ -102,8 +102,19 @@ static int advance_some(const kz_enclosure_tables *tables, const kz_speed_class 
   return again;
 }
 
+/* Takes the whole turns out of a set whose angle is farther away than (B3) counts on. */
+static void bring_near(int32_t precision, kz_enclosure *set) {
+  kz_sets x = {.lost = {0}};
+  if (fabs(set->theta[0]) < 4 || is_lost(set)) return;
+  for (int lane = 0; lane < LANES; lane++) put_set(set, lane, &x);
+  arithmetic_of[precision].wrap(&x);
+  get_set(&x, 0, set);
+  if (x.lost[0]) lose(set);
+}
+
 /* n <= BATCH sets. */
 static void advance_batch(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int32_t n, kz_enclosure *set) {
+  for (int32_t i = 0; i < n; i++) bring_near(tables->precision, &set[i]);
   int32_t waiting[BATCH + GROUP], n_waiting = 0;
   int8_t first_class[BATCH];
   for (int32_t i = 0; i < n; i++) {

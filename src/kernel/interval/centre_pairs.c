@@ -202,14 +202,17 @@ void kz_centres_step_quads(const kz_speed_class *speed, int32_t i, kz_sets *sets
   for (int p = 0; p < KZ_PARTS; p++) step_one(true, speed, i, &sets[p], n, cosine[p]);
 }
 
-/* (B7) 2 pi in quads is off by less than 2^-110, the angle without its turns by 2^-111. */
+/* (B7) The first difference is exact, and each of the four roundings that follow is at most 2^-112. */
 void kz_sets_wrap_quads(kz_sets *x) {
+  static const double turn[3] = KZ_TWO_PI;
   vector p[2] = {same(0), same(0)};
   for (int lane = 0; lane < LANES; lane++) {
-    const quad theta = join(x->theta, x->theta_rest, lane), turns = rintq(theta / (2 * M_PIq));
+    const quad turns = rint(x->theta.high[lane] / turn[0]);
     if (x->lost[lane] || turns == 0) continue;
-    part(fmaq(-turns, 2 * M_PIq, theta), lane, &x->theta, &x->theta_rest);
-    p[0][lane] = 0x1p-110 * (1 + fabs((double)turns));
+    const quad near = (quad)x->theta.high[lane] - turns * turn[0];
+    const quad theta = near + x->theta.low[lane] + x->theta_rest[lane] - turns * turn[1] - turns * turn[2];
+    part(theta, lane, &x->theta, &x->theta_rest);
+    p[0][lane] = 0x1p-109;
   }
   kz_sets_widen(p, x);
 }

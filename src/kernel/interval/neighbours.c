@@ -7,6 +7,7 @@
 #include "operations.h"
 
 static const double LARGEST = 1e6;   /* of the reach of a set that is followed */
+static const double LEAST = 1e-250;  /* of the determinant of its matrix */
 static const double FLATTEST = 0.25; /* sine of the angle between the columns of a frame that is kept */
 
 /* |A| x. */
@@ -26,6 +27,12 @@ OPERATION vector least_determinant(const kz_sets *x) {
   return size_of(a - b) - 0x1p-40 * (size_of(a) + size_of(b));
 }
 
+OPERATION bool all(mask x) {
+  int64_t every = -1;
+  for (int lane = 0; lane < LANES; lane++) every &= x[lane];
+  return every != 0;
+}
+
 /* A set that is not good any more is lost: a point at rest takes its place, so that nothing overflows. */
 static void lose(mask lost, kz_sets *x) {
   static const kz_enclosure at_rest = {.matrix = {{1, 0}, {0, 1}}};
@@ -36,12 +43,18 @@ static void lose(mask lost, kz_sets *x) {
 
 void kz_sets_check(const kz_speed_class *speed, kz_sets *x) {
   const mask slow = size_of(x->velocity.high) <= speed->fastest, small = x->reach[0] + x->reach[1] < LARGEST;
-  const mask good = slow & small & (least_determinant(x) > 1e-250);
-  int64_t all = -1;
-  for (int lane = 0; lane < LANES; lane++) all &= good[lane];
-  if (all) return;
+  const mask good = slow & small & (least_determinant(x) > LEAST);
+  if (all(good)) return;
   x->too_fast |= ~slow;
   lose(~good, x);
+}
+
+/* An upper bound of 1 / |det A|; sets without area are lost. */
+OPERATION vector largest_inverse(kz_sets *x) {
+  const vector least = least_determinant(x);
+  const mask good = least > LEAST;
+  if (!all(good)) lose(~good, x);
+  return KZ_LARGER / pick(good, least, same(1));
 }
 
 /* The matrix by Taylor series of h (k - m cos t) cos theta and of its columns. */
@@ -95,7 +108,7 @@ void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector 
     move_matrix(speed, torque, KZ_ORDER_JACOBIAN, cosine, x);
   else
     move_matrix(speed, torque, KZ_ORDER_TANGENT, cosine, x);
-  const vector inverse = KZ_LARGER / least_determinant(x);
+  const vector inverse = largest_inverse(x);
   solve(x, inverse, p, gain);
   for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
   for (int j = 0; jacobian && j < 2; j++) {
@@ -106,7 +119,7 @@ void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector 
 
 void kz_sets_widen(const vector p[2], kz_sets *x) {
   vector gain[2];
-  solve(x, KZ_LARGER / least_determinant(x), p, gain);
+  solve(x, largest_inverse(x), p, gain);
   for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
 }
 
@@ -116,7 +129,7 @@ void kz_sets_drop_rest(kz_sets *x) {
   kz_sets_widen(p, x);
 }
 
-/* (B7) The angle is off by at most 2^-99 + turns 2^-105. */
+/* (B7) The angle is off by at most 2^-99 + turns 2^-105 */
 void kz_sets_wrap(kz_sets *x) {
   static const double turn[3] = KZ_TWO_PI;
   const vector turns = nearest_integer(x->theta.high * (1 / turn[0]));

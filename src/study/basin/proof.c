@@ -60,19 +60,29 @@ typedef struct {
   int64_t mirror;
 } seed;
 
-/* The ellipse of attractor tile + 1, for the first one of a mirrored pair. */
+/* The first strobe point of an attractor of some period. */
+static void first_point(const kz_dynamics *dynamics, int64_t number, int64_t period, double point[2]) {
+  KZ_FREED double *points = kz_calloc(2 * (size_t)period + 2, sizeof *points);
+  kz_dynamics_strobe(dynamics, number, points, points + period + 1);
+  point[0] = points[0];
+  point[1] = points[period + 1];
+}
+
+/* The ellipse of attractor tile + 1, for the first one of a mirrored pair, if the other one is proved to be its mirror image. */
 static kz_status find_seed(void *context, int64_t tile, void *record) {
   const job *j = context;
   seed *s = record;
   kz_attractor attractor;
+  double point[2], other[2];
   kz_dynamics_attractor(j->dynamics, tile + 1, &attractor);
-  KZ_FREED double *point = kz_calloc(2 * (size_t)attractor.period + 2, sizeof *point);
-  kz_dynamics_strobe(j->dynamics, tile + 1, point, point + attractor.period + 1);
+  first_point(j->dynamics, tile + 1, attractor.period, point);
   s->mirror = attractor.mirror;
   s->theta = point[0];
-  s->velocity = point[attractor.period + 1];
-  if (attractor.period > 0 && attractor.mirror >= tile + 1 && attractor.mirror <= KZ_PROOF_MOST)
-    s->ellipse = kz_proof_find_ellipse(j->proof, attractor.period, s->theta, s->velocity);
+  s->velocity = point[1];
+  if (attractor.period <= 0 || attractor.mirror < tile + 1 || attractor.mirror > KZ_PROOF_MOST) return KZ_OK;
+  s->ellipse = kz_proof_find_ellipse(j->proof, attractor.period, s->theta, s->velocity);
+  first_point(j->dynamics, attractor.mirror, attractor.period, other);
+  if (!kz_proof_is_mirror(j->proof, attractor.period, other, point, &s->ellipse)) s->ellipse.radius = 0;
   return KZ_OK;
 }
 

@@ -41,6 +41,22 @@ static void ellipses_that_hold_and_that_do_not(void **state) {
   kz_proof_free(proof);
 }
 
+/* Only the true mirror image of a cycle is proved to be one. */
+static void mirror_images_are_proved(void **state) {
+  (void)state;
+  kz_proof *proof;
+  assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
+  const double rotation[2] = {THETA, VELOCITY}, opposite[2] = {-THETA, -VELOCITY}, down[2] = {0, 0};
+  const kz_proof_ellipse ellipse = kz_proof_find_ellipse(proof, 1, THETA, VELOCITY);
+  const kz_proof_ellipse hanging = kz_proof_find_ellipse(proof, 1, 0, 0);
+  assert_true(kz_proof_is_mirror(proof, 1, opposite, rotation, &ellipse));
+  assert_false(kz_proof_is_mirror(proof, 1, rotation, rotation, &ellipse));
+  assert_false(kz_proof_is_mirror(proof, 1, down, rotation, &ellipse));
+  assert_true(kz_proof_is_mirror(proof, 1, down, down, &hanging));
+  assert_false(kz_proof_is_mirror(proof, 1, rotation, down, &hanging));
+  kz_proof_free(proof);
+}
+
 /* The grid and ellipses of Fig. 12's rotations. */
 static kz_proof *region_of_rotations(void) {
   const uint8_t mirror[KZ_PROOF_MOST + 1] = {0, OPPOSITE, ROTATION};
@@ -149,7 +165,8 @@ static void cycles_are_confined(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(ellipses_that_hold_and_that_do_not), cmocka_unit_test(starts_end_where_they_are_said_to),
-      cmocka_unit_test(results_do_not_depend_on_neighbours), cmocka_unit_test(cycles_are_confined)};
+      cmocka_unit_test(ellipses_that_hold_and_that_do_not), cmocka_unit_test(mirror_images_are_proved),
+      cmocka_unit_test(starts_end_where_they_are_said_to), cmocka_unit_test(results_do_not_depend_on_neighbours),
+      cmocka_unit_test(cycles_are_confined)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -116,34 +116,28 @@ static void points_hold_the_motion(void **state) {
   assert_true(farthest[0] < 1 && farthest[1] < 1 && kept > 0.9 * 2 * DRAWS * SETS * (PERIODS - 1));
 }
 
-/* Sets of one point in quads, against an orbit in 200 bits: the largest |z| / reach; *narrower: the largest reach, of that in pairs. */
-static double farthest_in_quads(const kz_pendulum *pendulum, double fastest, double *narrower) {
-  kz_enclosure_tables *plan = plan_for(pendulum, KZ_ENCLOSE_QUADS, fastest),
-                      *pairs = plan_for(pendulum, KZ_ENCLOSE_PAIRS, fastest);
-  kz_enclosure set[SETS], coarse[SETS];
+/* The largest |z| / reach of sets of one point, against orbits in 200 bits. */
+static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision, double fastest, int periods,
+                                 kz_enclosure set[SETS]) {
+  kz_enclosure_tables *plan = plan_for(pendulum, precision, fastest);
   kz_arbitrary *orbit[SETS];
   double farthest = 0, z[2];
-  place_sets(fastest, 0, set);
-  memcpy(coarse, set, sizeof set);
   for (int i = 0; i < SETS; i++) {
     const kz_coordinate start[2] = {{.high = set[i].theta[0]}, {.high = set[i].velocity[0]}};
     orbit[i] = kz_arbitrary_create(pendulum, start, 200);
   }
-  for (int period = 0; period < PERIODS; period++) {
+  for (int period = 0; period < periods; period++) {
     kz_enclosures_advance(plan, KZ_NEW_FRAME, SETS, set);
-    kz_enclosures_advance(pairs, KZ_NEW_FRAME, SETS, coarse);
     for (int i = 0; i < SETS; i++) {
       quad end[2];
       assert_int_equal(kz_arbitrary_advance(orbit[i], 200, 0, NULL), KZ_OK);
       kz_arbitrary_read_quads(orbit[i], end);
       place_of(end, &set[i], z);
       farthest = fmax(farthest, fmax(fabs(z[0]) / set[i].reach[0], fabs(z[1]) / set[i].reach[1]));
-      *narrower = fmax(*narrower, (set[i].reach[0] + set[i].reach[1]) / (coarse[i].reach[0] + coarse[i].reach[1]));
     }
   }
   for (int i = 0; i < SETS; i++) kz_arbitrary_free(orbit[i]);
   kz_enclosure_tables_free(plan);
-  kz_enclosure_tables_free(pairs);
   return farthest;
 }
 
@@ -154,10 +148,48 @@ static void points_in_quads_hold_the_motion(void **state) {
   double farthest = 0, narrower = 0;
   for (int draw = 0; draw < DRAWS; draw += 2) {
     const kz_pendulum pendulum = some_pendulum(draw);
-    farthest = fmax(farthest, farthest_in_quads(&pendulum, draw == 4 ? 15 : 3, &narrower));
+    const double fastest = draw == 4 ? 15 : 3;
+    kz_enclosure set[2][SETS];
+    place_sets(fastest, 0, set[0]);
+    memcpy(set[1], set[0], sizeof set[1]);
+    farthest = fmax(farthest, farthest_of_points(&pendulum, KZ_ENCLOSE_QUADS, fastest, PERIODS, set[0]));
+    farthest = fmax(farthest, farthest_of_points(&pendulum, KZ_ENCLOSE_PAIRS, fastest, PERIODS, set[1]));
+    for (int i = 0; i < SETS; i++)
+      narrower = fmax(narrower, (set[0][i].reach[0] + set[0][i].reach[1]) / (set[1][i].reach[0] + set[1][i].reach[1]));
   }
   if (getenv("KZ_SHOW")) print_message("quads: %g of the bound, at most %g of pairs\n", farthest, narrower);
   assert_true(farthest < 1 && farthest > 1e-3 && narrower < 0.05);
+}
+
+/* Single starts many turns away, where pairs know the angle to fewer digits than a step adds: |z| / reach after a period. */
+static void far_angles_hold_the_motion(void **state) {
+  (void)state;
+  const kz_pendulum pendulum = some_pendulum(0);
+  srand(7);
+  for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++)
+    for (double distance = 10; distance < 2e6; distance *= 100) {
+      kz_enclosure set[SETS];
+      for (int i = 0; i < SETS; i++) set[i] = set_at(uniform(-distance, distance), uniform(-3, 3), 0);
+      const double farthest = farthest_of_points(&pendulum, precision, 3, 1, set);
+      if (getenv("KZ_SHOW")) print_message("precision %d at %g: %g of the bound\n", precision, distance, farthest);
+      assert_true(farthest < 1);
+    }
+}
+
+/* Damping makes the columns of a matrix alike. Once they are, a set is lost at once: it would shrink, and a new frame would hide that. */
+static void flat_frames_are_lost(void **state) {
+  (void)state;
+  const kz_pendulum pendulum = {.k = 0.1, .beta = 3, .m = 0.3};
+  kz_enclosure_tables *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 2);
+  const kz_enclosure flat = {.matrix = {{1, 1}, {1, 1}}, .reach = {1e-3, 1e-3}};
+  kz_sets sets[KZ_PARTS] = {{.lost = {0}}};
+  vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN];
+  for (int lane = 0; lane < KZ_PARTS * LANES; lane++) put_set(&flat, lane % LANES, &sets[lane / LANES]);
+  kz_centres_step_doubles(plan->classes[0], 0, sets, KZ_ORDER_TANGENT, cosine);
+  kz_neighbours_step(plan->classes[0], 0, cosine[0], false, &sets[0]);
+  kz_sets_renew_frame(&sets[0]);
+  assert_true(sets[0].lost[0]);
+  kz_enclosure_tables_free(plan);
 }
 
 static void boxes_hold_the_motion(void **state) {
@@ -308,6 +340,8 @@ int main(void) {
                                      cmocka_unit_test(sums_of_products_are_as_good_as_their_bound),
                                      cmocka_unit_test(points_hold_the_motion),
                                      cmocka_unit_test(points_in_quads_hold_the_motion),
+                                     cmocka_unit_test(far_angles_hold_the_motion),
+                                     cmocka_unit_test(flat_frames_are_lost),
                                      cmocka_unit_test(boxes_hold_the_motion),
                                      cmocka_unit_test(bounds_cut_by_ten_do_not_hold),
                                      cmocka_unit_test(other_drives_are_refused)};

@@ -146,6 +146,29 @@ kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, do
   return ellipse;
 }
 
+/* Whether all starts of an ellipse reach the mirror image of another. */
+static bool reaches_mirror(const kz_proof *proof, int64_t most_periods, const double start[2], const kz_proof_ellipse *from,
+                           const double centre[2], const kz_proof_ellipse *ellipse) {
+  const double mirrored[2] = {-centre[0], -centre[1]};
+  kz_enclosure set = {.theta = {start[0]}, .velocity = {start[1]}, .reach = {1, 1}};
+  for (int i = 0; i < 4; i++) set.matrix[i / 2][i % 2] = from->radius * from->axes[i / 2][i % 2];
+  for (int64_t period = 0; period < most_periods && isfinite(set.reach[0]); period++) {
+    if (kz_ellipse_holds(ellipse, mirrored, &set)) return true;
+    kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_NEW_FRAME, 1, &set);
+  }
+  return false;
+}
+
+bool kz_proof_is_mirror(const kz_proof *proof, int64_t period, const double point[2], const double centre[2],
+                        const kz_proof_ellipse *ellipse) {
+  kz_proof_ellipse trap = kz_proof_find_trap(proof, period, point[0], point[1]);
+  for (; trap.radius > SMALLEST; trap.radius /= 4)
+    if (kz_proof_traps(proof, period, point[0], point[1], &trap) &&
+        reaches_mirror(proof, MOST_PERIODS * period, point, &trap, centre, ellipse))
+      return true;
+  return false;
+}
+
 static void add(kz_proof *proof, uint8_t number, double theta, double velocity, const kz_proof_ellipse *ellipse) {
   kz_proof_part *part = &proof->part[proof->n_parts++];
   *part = (kz_proof_part){.ellipse = *ellipse, .centre = {theta, velocity}, .number = number};

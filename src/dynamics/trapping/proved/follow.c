@@ -46,11 +46,16 @@ static void remove_set(pool *p, int32_t i) {
   p->set[i] = p->set[p->under_way];
 }
 
+/* Whether an angle is near enough to be compared with the region; a period takes its whole turns out. */
+static bool is_near(const kz_enclosure *set) {
+  return fabs(set->theta[0]) < 4;
+}
+
 /* Fills the pool; starts inside the region are done. */
 static void begin(const kz_proof *proof, pool *p) {
   for (; p->next < p->n && p->under_way < POOL; p->next++) {
     const kz_enclosure set = set_of(&p->start[p->next]);
-    p->number[p->next] = kz_proof_holds(proof, &set);
+    p->number[p->next] = is_near(&set) ? kz_proof_holds(proof, &set) : 0;
     if (p->number[p->next] == 0) add_set(p, set, p->next);
   }
 }
