@@ -125,7 +125,7 @@ def test_a_pbs_job_is_submitted_again_after_75(tmp_path, status, again):
 
 def test_the_containers_install_what_the_build_needs():
     """The same Debian packages in both, and those of scripts/setup but for the tests and Python."""
-    docker, apptainer = ((ROOT / "containers" / name).read_text().split() for name in ("Dockerfile", "kapitza.def"))
+    docker, apptainer = ((ROOT / "packaging" / "images" / name).read_text().split() for name in ("Dockerfile", "kapitza.def"))
     rows = [line.split("|") for line in (ROOT / "cmake" / "packages.txt").read_text().splitlines() if line.count("|") == 6]
     needs = {row[2].strip() for row in rows if not row[0].startswith("#")}
     needs = {name for name in needs if name and " " not in name and not name.startswith(("python", "netcdf", "libcmocka"))}
@@ -135,7 +135,7 @@ def test_the_containers_install_what_the_build_needs():
 @EXTENSIVE
 def test_the_apptainer_build_has_all_its_files(tmp_path):
     """Its steps on the files that it copies, for the instruction set that it names; no container is needed."""
-    lines = (ROOT / "containers" / "kapitza.def").read_text().split("%files\n")[1].split("\n\n")[0].splitlines()
+    lines = (ROOT / "packaging" / "images" / "kapitza.def").read_text().split("%files\n")[1].split("\n\n")[0].splitlines()
     for name, _ in map(str.split, lines):
         (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, tmp_path / name)
     build = tmp_path / "build"
@@ -147,7 +147,7 @@ def test_the_apptainer_build_has_all_its_files(tmp_path):
     subprocess.run([tmp_path / "local/bin/kapitza", "check", tmp_path / "local/share/kapitza/scenes/small.yaml"], check=True)
 
 
-@pytest.mark.parametrize("tool, names", [("hadolint", ["containers/Dockerfile"]),
+@pytest.mark.parametrize("tool, names", [("hadolint", ["packaging/images/Dockerfile"]),
                                          ("shellcheck", ["scripts/kapitza.sbatch", "scripts/kapitza.pbs"])])
 def test_linters_find_nothing(tool, names):
     if not shutil.which(tool):

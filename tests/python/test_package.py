@@ -104,9 +104,9 @@ def test_what_pip_installs(sdist, made_file, tmp_path):
 
 def test_the_conda_recipe_needs_what_pip_needs():
     """YAML once its three expressions are replaced, of this version, with every dependency of the package."""
-    recipe = re.sub(r"{%.*?%}", "", (ROOT / "containers" / "conda" / "meta.yaml").read_text())
+    recipe = re.sub(r"{%.*?%}", "", (ROOT / "packaging" / "conda" / "meta.yaml").read_text())
     version = re.search(r'project\(kapitza VERSION ([0-9.]+)', (ROOT / "CMakeLists.txt").read_text())[1]
-    assert f'version = "{version}"' in (ROOT / "containers" / "conda" / "meta.yaml").read_text()
+    assert f'version = "{version}"' in (ROOT / "packaging" / "conda" / "meta.yaml").read_text()
     recipe = yaml.safe_load(re.sub(r"{{ compiler\('(\w+)'\) }}", r"\1-compiler", recipe).replace("{{ version }}", version)
                             .replace("{{ PYTHON }}", "python"))
     given = {word.split()[0].removesuffix("-base") for word in recipe["requirements"]["run"]}
