@@ -61,10 +61,10 @@ long double kz_force_largest(const kz_pendulum *pendulum, int32_t i, long double
 double kz_slow_fraction(double k, double beta, double cosine);
 double kz_slow_pull(double k, double beta, double m, double cosine);
 
-/* How a motion begins. It is released at t = phase. From t = 0 to t = 2 pi periods, damping and drive change from the values here to those
+/* How a motion begins. It is released at t = phase less the whole turns of the phase. From t = 0 to t = 2 pi periods, damping and drive change from the values here to those
  * of the pendulum. */
 typedef struct {
-  double phase;   /* rad, from 0 to below 2 pi */
+  double phase;   /* rad, any; below 0 = before a strobe */
   double periods; /* of the ramp, drive periods; 0 = none */
   double damping; /* beta at t = 0 */
   double drive;   /* strength of the whole drive at t = 0; 1 = that after the ramp */

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "kapitza/model.h"
+#include "kapitza/store.h"
 
 /* A list in a scene. */
 enum { KZ_LIST_MAX = 256 };
@@ -39,6 +40,7 @@ typedef struct {
   int32_t waveform;                               /* KZ_SINE, ... */
   kz_reals samples;                               /* for KZ_SAMPLES: the drive at equal times of a period, in units of m */
   kz_harmonics harmonics;                         /* those that the scene adds */
+  kz_reals vertical, horizontal; /* cosine and sine of harmonics 1, 2, .. of kz_pendulum, if these are written */
 } kz_pendulum_keys;
 
 /* All three forms give `pendulum`. Other numbers are NaN if they are not defined (Q without damping, Omega at k <= 0). */
@@ -67,6 +69,9 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
 const char *kz_drive_contradiction(const kz_pendulum_keys *written,
                                    const kz_pendulum *pendulum); /* what contradicts; NULL = nothing */
 void kz_drive_print(const kz_parameters *parameters, FILE *out); /* a summary line: harmonics in use, and their error */
+/* Writes the group `pendulum`: every number that is integrated. Rank 0. */
+extern const kz_variable kz_pendulum_variables[];
+kz_status kz_pendulum_write(const kz_parameters *parameters, kz_store *store);
 /* Place of the pivot at a phase of the drive (rad): {aside, height} in units of I/(M r). At rest with torque_amplitude. */
 void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2]);
 void kz_release_resolve(const kz_parameters *parameters, kz_release *release);

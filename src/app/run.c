@@ -154,38 +154,12 @@ static kz_status write_root(job *j) {
   return kz_store_integer(j->store, "/", "ranks", kz_ranks_count(j->run.ranks));
 }
 
-static kz_status write_pendulum(job *j) {
-  const kz_parameters *p = &j->scene.parameters;
-  const kz_pendulum_keys *si = &p->written; /* NaN but for a pendulum in SI units */
-  const struct {
-    const char *name;
-    double value;
-  } reals[] = {{"k", p->pendulum.k},
-               {"beta", p->pendulum.beta},
-               {"m", p->pendulum.m},
-               {"quality_factor", p->quality_factor},
-               {"drive_frequency", p->drive_frequency},
-               {"drive_amplitude", p->drive_amplitude},
-               {"mass", si->mass},
-               {"radius", si->radius},
-               {"inertia", si->inertia},
-               {"friction", si->friction},
-               {"gravity", si->gravity},
-               {"length", si->length},
-               {"decay_time", si->decay_time},
-               {"pivot_amplitude", isnan(si->amplitude) ? si->pivot_amplitude : si->amplitude},
-               {"pivot_frequency", p->pivot_frequency}};
-  for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++)
-    if (reals[i].value == reals[i].value) KZ_TRY(kz_store_real(j->store, "/pendulum", reals[i].name, reals[i].value));
-  return KZ_OK;
-}
-
 static kz_status open_outputs(job *j) {
   j->summary = open_memstream(&j->words, &j->n_words);
   if (!j->summary) return kz_fail(KZ_FAILED, "out of memory for the summary");
   KZ_TRY(kz_store_create(j->path, kz_groups, &j->store));
   KZ_TRY(write_root(j));
-  return write_pendulum(j);
+  return kz_pendulum_write(&j->scene.parameters, j->store);
 }
 
 static kz_status run_studies(job *j) {

@@ -38,7 +38,7 @@ contains
     integer(c_int64_t) :: n
 
     n = ceiling(release%periods, c_int64_t)
-    if (release%phase > 0) n = max(1_c_int64_t, n)
+    if (abs(release%phase) > 0) n = max(1_c_int64_t, n)
   end function strobes_before
 
   !> The stretch of a whole drive period with the final drive.
@@ -48,13 +48,16 @@ contains
     stretch = stretch_t(release=release_t(0, 0, 0, 1, 0))
   end function whole_period
 
-  !> The stretch from the release to the next strobe, or to the end of the ramp.
+  !> The stretch from the release to the next strobe, or to the end of the ramp. Whole turns of the phase are taken out in quad precision, so
+  !> that decided labels are those of exactly this phase.
   pure function first_stretch(release) result(stretch)
     type(release_t), intent(in) :: release !< of the motions
     type(stretch_t) :: stretch
+    real(qp) :: turns
 
     stretch = stretch_t(release=release, span=0)
-    stretch%begin = release%phase/TWO_PI
+    turns = release%phase/TWO_PI
+    stretch%begin = turns - floor(turns)
     stretch = next_stretch(stretch)
   end function first_stretch
 

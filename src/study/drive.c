@@ -11,6 +11,10 @@ static bool has(double value) {
   return !isnan(value) && value != 0;
 }
 
+static bool has_coefficients(const kz_pendulum_keys *written) {
+  return written->vertical.count > 0 || written->horizontal.count > 0;
+}
+
 /* Harmonics of samples below this part of the largest are rounding. */
 static const double LEAST = 1e-9;
 
@@ -102,9 +106,14 @@ static void resolve_swing(const kz_pendulum_keys *written, kz_pendulum *p) {
 
 const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pendulum *p) {
   double amplitude, phase;
+  const bool shaped =
+      written->waveform > KZ_SINE || written->harmonics.count > 0 || has(written->tilt) || has(written->ellipse);
+  if (has_coefficients(written) && (shaped || has(written->torque_amplitude)))
+    return "vertical and horizontal are the whole drive beside k and m; leave out waveform, samples, harmonics, tilt, ellipse "
+           "and "
+           "torque_amplitude";
   if (!has(written->torque_amplitude)) return NULL;
-  if (has(p->m) || written->waveform > KZ_SINE || written->harmonics.count > 0 || has(written->tilt) || has(written->ellipse))
-    return "torque_amplitude is for a pivot at rest: drive_amplitude 0 and no other drive";
+  if (has(p->m) || shaped) return "torque_amplitude is for a pivot at rest: drive_amplitude 0 and no other drive";
   swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
   if (fabs(bessel_of(amplitude, KZ_HARMONICS + 1)) > BESSEL_LEFT)
     return "torque_amplitude swings the pendulum so far that 16 harmonics do not hold its gravity; at most about 4";
@@ -126,7 +135,7 @@ void kz_drive_print(const kz_parameters *parameters, FILE *out) {
           highest_of_samples(&written->samples), (long long)written->samples.count, distance_from_samples(&written->samples));
 }
 
-/* The pivot's motion along its line, in units of m: cosine and sine of harmonic j. */
+/* The pivot's motion along its line: cosine and sine of harmonic j. */
 static void along(const kz_pendulum_keys *written, double m, int j, double *cosine, double *sine) {
   double form[2];
   fourier(written, j, form);
@@ -135,8 +144,8 @@ static void along(const kz_pendulum_keys *written, double m, int j, double *cosi
   for (int64_t i = 0; i < written->harmonics.count; i++) {
     const kz_harmonic *h = written->harmonics.values + i;
     if (h->order != j) continue;
-    *cosine += h->amplitude * cos(h->phase);
-    *sine -= h->amplitude * sin(h->phase);
+    *cosine += m * (h->amplitude * cos(h->phase));
+    *sine -= m * (h->amplitude * sin(h->phase));
   }
 }
 
@@ -162,15 +171,28 @@ static int highest_of(const kz_pendulum_keys *written) {
   return highest;
 }
 
+/* Coefficients as written; harmonics: the highest so far. True if one is not 0. */
+static bool take(const kz_reals *list, double harmonic[KZ_HARMONICS][2], int32_t *harmonics) {
+  bool any = false;
+  for (int64_t i = 0; i < list->count && i < 2 * KZ_HARMONICS; i++) {
+    harmonic[i / 2][i % 2] = list->values[i];
+    any = any || list->values[i] != 0;
+    if (i / 2 >= *harmonics) *harmonics = (int32_t)(i / 2) + 1;
+  }
+  return any;
+}
+
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
   const kz_pendulum_keys *written = &parameters->written;
   const bool plane = has(written->tilt) || has(written->ellipse);
+  take(&written->vertical, p->vertical, &p->harmonics);
+  const bool aside = take(&written->horizontal, p->horizontal, &p->harmonics);
   if (plane || written->waveform > KZ_SINE || written->harmonics.count > 0) {
     p->harmonics = highest_of(written);
     for (int j = 1; j <= p->harmonics; j++) add_harmonic(written, j, p);
   }
   if (has(written->torque)) p->torque = written->torque;
-  p->unmirrored = plane || has(written->torque);
+  p->unmirrored = plane || aside || has(written->torque);
   if (has(written->torque_amplitude)) resolve_swing(written, p);
 }
 
@@ -197,9 +219,13 @@ static void resolve_ramp(const kz_parameters *parameters, kz_release *release) {
     release->drive = written->ramp_from / parameters->pendulum.m;
 }
 
+/* The phase as written; 0 for whole turns, such as 360 degrees, which no other double is. */
+static double phase_of(double written) {
+  const double turns = rint(written / (2 * M_PI));
+  return !has(written) || fabs(written - turns * (2 * M_PI)) < 1e-24 ? 0 : written;
+}
+
 void kz_release_resolve(const kz_parameters *parameters, kz_release *release) {
-  const double phase = fmod(parameters->written.start_phase, 2 * M_PI);
-  *release = (kz_release){.damping = parameters->pendulum.beta, .drive = 1};
-  if (has(parameters->written.start_phase)) release->phase = phase < 0 ? phase + 2 * M_PI : phase;
+  *release = (kz_release){.phase = phase_of(parameters->written.start_phase), .damping = parameters->pendulum.beta, .drive = 1};
   if (parameters->has_ramp && has(parameters->written.ramp_periods)) resolve_ramp(parameters, release);
 }

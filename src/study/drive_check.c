@@ -67,6 +67,8 @@ static const char *keys_of(const kz_scene *scene) {
   if (!isnan(written->torque)) return "pendulum.torque";
   if (!isnan(written->torque_amplitude)) return "pendulum.torque_amplitude";
   if (written->harmonics.count > 0) return "pendulum.harmonics";
+  if (written->vertical.count > 0) return "pendulum.vertical";
+  if (written->horizontal.count > 0) return "pendulum.horizontal";
   return "pendulum.waveform";
 }
 

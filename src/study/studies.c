@@ -25,11 +25,14 @@ const kz_study kz_studies[] = {
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];
 
 const kz_group kz_groups[] = {
-    {"attractors", kz_attractors_variables}, {"basin", kz_basin_variables},         {"phases", kz_phases_variables},
-    {"boundary", kz_boundary_variables},     {"shocks", kz_shocks_variables},       {"saddles", kz_saddles_variables},
-    {"manifolds", kz_manifolds_variables},   {"edge", kz_edge_variables},           {"orbit", kz_orbit_variables},
-    {"stability", kz_stability_variables},   {"potential", kz_potential_variables}, {"sweep", kz_sweep_variables},
-    {"chart", kz_chart_variables},           {"tradeoff", kz_tradeoff_variables},   {NULL, NULL},
+    {"pendulum", kz_pendulum_variables},   {"attractors", kz_attractors_variables},
+    {"basin", kz_basin_variables},         {"phases", kz_phases_variables},
+    {"boundary", kz_boundary_variables},   {"shocks", kz_shocks_variables},
+    {"saddles", kz_saddles_variables},     {"manifolds", kz_manifolds_variables},
+    {"edge", kz_edge_variables},           {"orbit", kz_orbit_variables},
+    {"stability", kz_stability_variables}, {"potential", kz_potential_variables},
+    {"sweep", kz_sweep_variables},         {"chart", kz_chart_variables},
+    {"tradeoff", kz_tradeoff_variables},   {NULL, NULL},
 };
 
 kz_status kz_studies_check(const kz_scene *scene) {

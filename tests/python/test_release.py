@@ -2,10 +2,12 @@
 
 import json
 import math
+import os
 
 import h5py
 import kapitza as kapitza_package
 import numpy as np
+import own_orbit
 import pytest
 from rigs import BETA, LINEAR, PENDULUM, SMOOTH, WINDOW, K, M, run, step
 
@@ -43,6 +45,24 @@ def test_released_cells_end_where_an_integration_up_to_the_strobe_leads(kapitza,
     assert (names == there["name"].to_numpy()).mean() > 0.98  # doubles of the integration above may cross a boundary
     late = settling - there["settling_time"].to_numpy(dtype=float)
     assert (late == (math.ceil(ramp["periods"]) if ramp else 1)).mean() > 0.9
+
+
+PHASED = {"k": 0.0995439994018073, "damping": 0.08829602812899937, "m": 0.47545631300243496}
+
+
+@pytest.mark.parametrize("phase, theta, velocity, end", [
+    (7.5, -0.8639379797371931, -1.406431730302596, "inverted"),
+    (1e5, 1.335176877775662, -1.8914081890276266, "rotation +1/1"),
+    (-3.0, 0.8639379797371931, -0.24248822936251624, "inverted"),
+])
+def test_decided_labels_are_those_of_exactly_the_phase(phase, theta, velocity, end):
+    """Whole turns that are taken out in doubles move the phase by 2e-16 to 1e-12, and these starts to another attractor."""
+    basin = {"velocity": {"min": -2, "max": 2, "count": 8}, "theta": {"count": 8}, "start_phase": phase}
+    found = kapitza_package.where({"pendulum": PHASED, "basin": basin}, theta, velocity).iloc[0]
+    assert found["decided"] and found["name"] == end
+    if os.environ.get("KAPITZA_EXTENSIVE"):  # an integrator that shares nothing with the program
+        points = [[(0.0, 0.0)], [*zip(found["strobe_theta"], found["strobe_velocity"], strict=True)]]
+        assert own_orbit.end_of(tuple(PHASED.values()), (theta, velocity), points, 20, phase=phase) == 1
 
 
 def test_what_ends_alike_at_all_phases(kapitza, tmp_path):

@@ -8,7 +8,7 @@ import kapitza as kapitza_package
 import numpy as np
 import pytest
 from conftest import ROOT
-from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, M, period, run, step
+from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run, step
 from serving import Server
 
 
@@ -62,7 +62,7 @@ def test_samples_are_the_harmonics_that_they_hold(kapitza, tmp_path):
     basin = {"basin": {**WINDOW, "method": "direct", "attractors": {"starts": 256}}}
     labels = [run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, **basin})["basin/attractor"][:]
               for keys in ({"waveform": "samples", "samples": samples},
-                           {"harmonics": [{"order": 2, "amplitude": 0.25 * M, "phase": -math.pi / 2}]})]
+                           {"harmonics": [{"order": 2, "amplitude": 0.25, "phase": -math.pi / 2}]})]
     assert (labels[0] == labels[1]).all()
     square = {"pendulum": {**PENDULUM, "waveform": "samples", "samples": [1] * 16 + [-1] * 32 + [1] * 16}, **basin}
     (tmp_path / "rig.yaml").write_text(json.dumps(square))
@@ -73,6 +73,46 @@ def test_samples_are_the_harmonics_that_they_hold(kapitza, tmp_path):
     left = wave - sum((amplitude[j] * np.exp(1j * j * times)).real for j in range(1, 17))
     assert said.startswith("harmonics up to order 15 stand for 64 samples")
     assert abs(float(said.split("off by ")[1].split()[0]) - abs(left).max()) < 0.01
+
+
+def coefficients(file):
+    """The pendulum of a file as a mapping of a scene, from nothing but the numbers that were integrated."""
+    group, numbers = file["pendulum"], dict(file["pendulum"].attrs)
+    pendulum = {"k": numbers["k"], "damping": numbers["beta"], "m": numbers["m"]}
+    pendulum |= {name: [float(value) for value in group[name][:].ravel()] for name in ("vertical", "horizontal") if name in group}
+    pendulum |= {"torque": numbers["torque"]} if "torque" in numbers else {}
+    ramp = {name.removeprefix("ramp_"): value for name, value in numbers.items() if name.startswith("ramp_") and name != "ramp_strength"}
+    return pendulum | ({"ramp": ramp} if ramp else {}), numbers.get("start_phase", 0)
+
+
+@pytest.mark.parametrize("keys, basin", [
+    ({"tilt": "5 deg", "ellipse": 0.1, "torque": 0.001}, {}),
+    ({"waveform": "square", "harmonics": [{"order": 2, "amplitude": 0.1, "phase": "50 deg"}], "ramp": SMOOTH}, {"start_phase": 7.5}),
+    ({"waveform": "samples", "samples": [1, 0.3, -0.8, -0.4, 0.1], "tilt": 0.01, "ramp": LINEAR}, {"start_phase": "-40 deg"}),
+    ({"torque_amplitude": 0.7, "drive_amplitude": 0, "torque": 0.01}, {})])
+def test_a_file_holds_every_coefficient_that_was_integrated(kapitza, tmp_path, keys, basin):
+    basin = {**WINDOW, **basin, "attractors": {"starts": 256}}
+    file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, "basin": basin})
+    pendulum, phase = coefficients(file)
+    (tmp_path / "again").mkdir()
+    again = run(kapitza, tmp_path / "again", {"pendulum": pendulum, "basin": {**basin, "start_phase": phase}})
+    for group in ("attractors", "basin", "pendulum"):
+        assert set(file[group]) == set(again[group])
+        for name in file[group]:
+            assert file[group][name][()].tobytes() == again[group][name][()].tobytes() or file[group][name].dtype.kind == "O"
+    assert coefficients(again) == (pendulum, phase)
+
+
+def test_overtones_are_in_proportion_to_the_drive(kapitza, tmp_path):
+    """Of order 1 half of m acts as 1.5 m; at each value of a sweep as in a scene of its own."""
+    scene = {"pendulum": {"k": 0.0949, "damping": 0.4657, "m": 0.3, "harmonics": [{"order": 1, "amplitude": 0.5}]},
+             "basin": {**WINDOW, "method": "direct", "attractors": {"starts": 256}}}
+    sweep = {"parameter": "m", "min": 0.3, "max": 0.9662, "count": 2, "measure": ["basin_fractions"], "starts": 256}
+    swept = run(kapitza, tmp_path, scene | {"sweep": sweep})
+    share = dict(zip(swept["sweep/branch_name"].asstr()[:], swept["sweep/fraction"][-1], strict=True))
+    for pendulum in (scene["pendulum"] | {"m": 0.9662}, {"k": 0.0949, "damping": 0.4657, "m": 1.4493}):
+        file = run(kapitza, tmp_path, scene | {"pendulum": pendulum})["attractors"]
+        assert all(abs(share[name] - part) < 0.01 for name, part in zip(file["name"].asstr()[:], file["fraction"][:], strict=True))
 
 
 @pytest.mark.parametrize("keys, rest", [({}, "(for drive_amplitude"), ({"waveform": "square"}, "stable. Rest upside down: stable."),
@@ -190,6 +230,9 @@ OVER_TILT = {"parameter": "tilt", "min": 0, "max": 0.2, "count": 2}
     ({}, {"basin": {**WINDOW, "method": "direct", "phases": 4}}, "basin.phases: needs basin.method exact"),
     ({}, {"basin": {**WINDOW, "start_phase": 1, "boundary": {}}}, "basin.start_phase: basin.boundary"),
     ({"harmonics": [{"order": 17, "amplitude": 1}]}, {"basin": WINDOW}, "pendulum.harmonics"),
+    ({"vertical": [0.1]}, {"basin": WINDOW}, "pendulum.vertical: has 1 values; give a cosine and a sine"),
+    ({"horizontal": [0.1, 0], "tilt": 0.1}, {"basin": WINDOW}, "leave out waveform"),
+    ({"horizontal": [0.1, 0]}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.horizontal: basin.method icm"),
     ({"harmonics": [{"order": 2, "height": 1}]}, {"basin": WINDOW}, "none of order, amplitude, phase"),
 ])
 def test_what_a_drive_does_not_allow_is_refused_by_name(kapitza, tmp_path, keys, study, named):

@@ -1,6 +1,7 @@
 """Where starts of any number of digits end: an integrator of its own, in whole numbers, for the referee of deep windows.
 
 A Taylor series of theta'' + beta theta' + (k - m cos t) sin theta = 0 in fixed point; nothing is shared with the program but the equation.
+Motions begin at a strobe, or at any phase of the drive before one.
 The tangent map, in floats, tells how much an error has grown, and so how many bits are still of use.
 
 Starts beside a common one take less time: the orbit of that one has all digits, and each start's difference from it obeys the exact
@@ -35,18 +36,19 @@ def from_mpmath(value, bits):
 
 
 class Steps:
-    """Constants of a period in n steps with so many bits."""
+    """Constants of a period, from the phase on at which a motion is released, in n steps with so many bits."""
 
-    def __init__(self, pendulum, n, bits):
+    def __init__(self, pendulum, n, bits, phase=0):
         k, beta, m = pendulum
         self.n, self.bits = n, bits
         with mpmath.workprec(bits + 20):
-            h = 2 * mpmath.pi / n
+            begin = mpmath.mpf(phase) % (2 * mpmath.pi)
+            h = (2 * mpmath.pi - begin) / n
             self.h, self.damping = from_mpmath(h, bits), from_mpmath(h * beta, bits)
             self.turn = from_mpmath(2 * mpmath.pi, bits)
             self.force, self.gain = [], []
             for i in range(n):
-                cosine, sine = mpmath.cos(h * i), mpmath.sin(h * i)
+                cosine, sine = mpmath.cos(begin + h * i), mpmath.sin(begin + h * i)
                 circle, scale, row = (cosine, -sine, -cosine, sine), m * h * h, []
                 while abs(scale) > mpmath.ldexp(1, -bits - 4):
                     row.append(from_mpmath(-scale * circle[len(row) % 4], bits))
@@ -95,8 +97,8 @@ def move_tangent(steps, i, c, tangent):
 class Orbit:
     """The orbit of a start given as fractions, and how much errors have grown on it."""
 
-    def __init__(self, pendulum, start, bits):
-        self.pendulum, self.bits, self.all = pendulum, bits, bits
+    def __init__(self, pendulum, start, bits, phase=0):
+        self.pendulum, self.bits, self.all, self.phase = pendulum, bits, bits, phase
         self.place = [fixed(start[0], bits), fixed(start[1], bits)]
         self.tangent, self.growth, self.largest = [[1.0, 0.0], [0.0, 1.0]], 0.0, 0.0
         self.known = {}
@@ -106,9 +108,10 @@ class Orbit:
         n = 16
         while 2 * math.pi / n * fastest > LARGEST_TURN:
             n *= 2
-        if (n, self.bits) not in self.known:
-            self.known[n, self.bits] = Steps(self.pendulum, n, self.bits)
-        return self.known[n, self.bits]
+        key = n, self.bits, self.phase
+        if key not in self.known:
+            self.known[key] = Steps(self.pendulum, *key)
+        return self.known[key]
 
     def drop_bits(self):
         """To a multiple of 16 that is well below the error so far."""
@@ -117,8 +120,9 @@ class Orbit:
         self.bits = bits
 
     def advance(self, beside=()):
-        """A period; the differences `beside` go with it."""
+        """To the next strobe; the differences `beside` go with it."""
         steps = self.steps()
+        self.phase = 0
         for i in range(steps.n):
             w, s, c = expand(steps, i, self.place)
             if beside:
@@ -229,13 +233,14 @@ def follow(orbit, strobes, most_periods):
     return None, True
 
 
-def end_of(pendulum, start, strobes, digits, most_periods=3000):
+def end_of(pendulum, start, strobes, digits, most_periods=3000, phase=0):
     """The number of the attractor that the orbit of a start comes to, by lists of their strobe points; None where it comes to none.
 
-    start: two fractions or decimal texts; digits: that tell it from its neighbours."""
+    start: two fractions or decimal texts; digits: that tell it from its neighbours; phase: of the drive at the start, a
+    double."""
     bits, found = math.ceil(digits * math.log2(10)) + GUARD, False
     while not found:
-        end, found = follow(Orbit(pendulum, [Fraction(value) for value in start], bits), strobes, most_periods)
+        end, found = follow(Orbit(pendulum, [Fraction(value) for value in start], bits, phase), strobes, most_periods)
         bits = 2 * bits - 64
     return end
 

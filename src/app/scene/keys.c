@@ -123,9 +123,14 @@ const kz_key kz_keys[] = {
     WORD("pendulum.ramp.shape", "linear|smooth", "linear", parameters.written.ramp_shape,
          "linear in time; smooth: 3 s^2 - 2 s^3, which begins and ends without a kink."),
     ROW("pendulum.harmonics", KZ_KEY_HARMONICS, "", AT(parameters.written.harmonics),
-        "Further harmonics of the drive: amplitude cos(order t + phase), the amplitude in units of m, the phase in rad or "
-        "degrees.",
-        .unit = ""),
+        "Further harmonics of the drive: m amplitude cos(order t + phase), the phase in rad or degrees.", .unit = ""),
+    ROW("pendulum.vertical", KZ_KEY_REALS, "", AT(parameters.written.vertical),
+        "Coefficients of the equation, beside k - m cos t: cosine and sine of the first harmonic, of the second, .., 16 at "
+        "most, "
+        "as the group pendulum of a result holds them. Instead of waveform, harmonics, tilt and ellipse.",
+        .unit = "", .low = -1e7, .high = 1e7),
+    ROW("pendulum.horizontal", KZ_KEY_REALS, "", AT(parameters.written.horizontal),
+        "The same of a pivot that moves aside: b(t) of the equation.", .unit = "", .low = -1e7, .high = 1e7),
 
     ROW("numerics", KZ_KEY_MAPPING, "", KZ_NO_FIELD, "How one drive period is integrated.", .unit = "",
         .former = "precision=basin.method exact"),

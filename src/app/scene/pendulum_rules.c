@@ -76,6 +76,13 @@ static void check_samples(kz_reading *reading, const kz_pendulum_keys *w) {
     kz_complain(reading, "pendulum.samples", "has %lld values; give at least %d", (long long)w->samples.count, FEWEST);
 }
 
+/* A cosine and a sine for each harmonic. */
+static void check_coefficients(kz_reading *reading, const kz_reals *list, const char *path) {
+  if (list->count % 2 != 0 || list->count > 2 * KZ_HARMONICS)
+    kz_complain(reading, path, "has %lld values; give a cosine and a sine for each harmonic, of %d harmonics at most",
+                (long long)list->count, KZ_HARMONICS);
+}
+
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
   kz_pendulum_keys *written = &scene->parameters.written;
   if (!kz_tree_child(reading->root, "pendulum")) { /* a scene with the study stability alone needs no pendulum */
@@ -85,6 +92,8 @@ void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
     return;
   }
   check_samples(reading, written);
+  check_coefficients(reading, &written->vertical, "pendulum.vertical");
+  check_coefficients(reading, &written->horizontal, "pendulum.horizontal");
   if (is_laboratory(written)) {
     check_laboratory(reading, written);
     if (!is_given(written->gravity)) written->gravity = KZ_STANDARD_GRAVITY;

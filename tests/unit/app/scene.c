@@ -154,7 +154,7 @@ static void errors_name_place_key_and_remedy(void **state) {
                  "s.yaml:1:1: pendulum: is missing; it must be a mapping of quality_factor, drive_frequency, "
                  "drive_amplitude, k, damping, m, length, frequency, amplitude, decay_time, gravity, mass, radius, "
                  "inertia, friction, pivot_amplitude, pivot_frequency, tilt, ellipse, torque, torque_amplitude, "
-                 "waveform, samples, ramp, harmonics; also missing: basin.velocity");
+                 "waveform, samples, ramp, harmonics, vertical, horizontal; also missing: basin.velocity");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
                  "s.yaml:4:16: basin.theta.max: 1 is too small; it must be greater than min = 2");
   expect_refused(GOOD, "basin.theta.cout=2",

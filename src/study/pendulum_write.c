@@ -1,0 +1,68 @@
+/* The group `pendulum` of the result file: every number that was integrated, so that labels are those of exactly the numbers in the file. */
+#include <math.h>
+
+#include "kapitza/store_variables.h"
+#include "kapitza/study.h"
+
+const kz_variable kz_pendulum_variables[] = {
+    {"harmonic", KZ_INT32, {"harmonic"}, NONE, "order of a harmonic of the drive"},
+    {"part", KZ_UINT8, {"part"}, NONE, "part of a harmonic", {"cosine", "sine"}},
+    {"vertical",
+     KZ_REAL,
+     {"harmonic", "part"},
+     NONE,
+     "harmonics beside m cos t of the vertical drive, in theta'' = (..) sin theta"},
+    {"horizontal", KZ_REAL, {"harmonic", "part"}, NONE, "harmonics of the horizontal drive, in theta'' = (..) cos theta"},
+    {.name = NULL},
+};
+
+/* The harmonics beside m cos t; nothing for the sine. */
+static kz_status write_harmonics(const kz_pendulum *p, kz_store *store) {
+  if (p->harmonics == 0) return KZ_OK;
+  int32_t order[KZ_HARMONICS];
+  for (int32_t j = 0; j < KZ_HARMONICS; j++) order[j] = j + 1;
+  KZ_TRY(kz_store_dimension(store, "/pendulum", "harmonic", p->harmonics, order));
+  KZ_TRY(kz_store_dimension(store, "/pendulum", "part", 2, (const uint8_t[]){0, 1}));
+  KZ_TRY(kz_store_variable(store, "/pendulum", "vertical", p->vertical));
+  return kz_is_mirrored(p) ? KZ_OK : kz_store_variable(store, "/pendulum", "horizontal", p->horizontal);
+}
+
+/* The phase of the release and the ramp, as the scene has them, and the strength of the drive that follows from its amplitude. */
+static kz_status write_release(const kz_parameters *p, kz_store *store) {
+  const kz_release *r = &p->release;
+  const bool of_drive = p->written.ramp_key == KZ_RAMP_DRIVE;
+  if (!isnan(p->written.start_phase)) KZ_TRY(kz_store_real(store, "/pendulum", "start_phase", r->phase));
+  if (!(r->periods > 0)) return KZ_OK;
+  KZ_TRY(kz_store_text(store, "/pendulum", "ramp_key", of_drive ? "drive_amplitude" : "damping"));
+  KZ_TRY(kz_store_text(store, "/pendulum", "ramp_shape", r->smooth ? "smooth" : "linear"));
+  KZ_TRY(kz_store_real(store, "/pendulum", "ramp_periods", r->periods));
+  KZ_TRY(kz_store_real(store, "/pendulum", "ramp_from", p->written.ramp_from));
+  return of_drive ? kz_store_real(store, "/pendulum", "ramp_strength", r->drive) : KZ_OK;
+}
+
+kz_status kz_pendulum_write(const kz_parameters *p, kz_store *store) {
+  const kz_pendulum_keys *si = &p->written; /* NaN but for a pendulum in SI units */
+  const struct {
+    const char *name;
+    double value;
+  } reals[] = {{"k", p->pendulum.k},
+               {"beta", p->pendulum.beta},
+               {"m", p->pendulum.m},
+               {"torque", p->pendulum.torque == 0 ? NAN : p->pendulum.torque},
+               {"quality_factor", p->quality_factor},
+               {"drive_frequency", p->drive_frequency},
+               {"drive_amplitude", p->drive_amplitude},
+               {"mass", si->mass},
+               {"radius", si->radius},
+               {"inertia", si->inertia},
+               {"friction", si->friction},
+               {"gravity", si->gravity},
+               {"length", si->length},
+               {"decay_time", si->decay_time},
+               {"pivot_amplitude", isnan(si->amplitude) ? si->pivot_amplitude : si->amplitude},
+               {"pivot_frequency", p->pivot_frequency}};
+  for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++)
+    if (!isnan(reals[i].value)) KZ_TRY(kz_store_real(store, "/pendulum", reals[i].name, reals[i].value));
+  KZ_TRY(write_harmonics(&p->pendulum, store));
+  return write_release(p, store);
+}
