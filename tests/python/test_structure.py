@@ -185,7 +185,7 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
             for one, other in zip(parameters, headers.get(name, (None, []))[1], strict=False):
                 agrees(one, other, structures)
     assert len(structures) >= 6
-    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', "typedef _Float128 float128;"]
+    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"', "typedef _Float128 float128;"]
     for fortran, c in sorted(structures):
         program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
         program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')

@@ -1,4 +1,5 @@
 kapitza_test(dynamics/continuation LABEL unit LAYER dynamics)
+kapitza_test(dynamics/curves LABEL unit LAYER dynamics)
 kapitza_test(dynamics/proof LABEL unit LAYER dynamics)
 kapitza_test(dynamics/dynamics LABEL unit LAYER dynamics TIMEOUT 600 COST 8)
 kapitza_test(dynamics/labels LABEL unit LAYER dynamics TIMEOUT 600 COST 8)

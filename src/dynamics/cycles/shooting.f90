@@ -6,7 +6,7 @@ module kz_cycles_shooting
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private
-  public :: shoot, smallest_period, closed_orbit_t
+  public :: shoot, solve, smallest_period, closed_orbit_t
 
   !> Results of the iteration beside the points of the orbit.
   type :: closed_orbit_t
@@ -88,8 +88,9 @@ contains
 
   !> Solves matrix x = side by elimination with row pivots; x takes the place of side where the matrix is regular.
   pure subroutine solve(matrix, side, regular)
-    real(dp), intent(inout) :: matrix(:, :), side(:, :)
-    logical, intent(out) :: regular
+    real(dp), intent(inout) :: matrix(:, :) !< the equations; comes back in use
+    real(dp), intent(inout) :: side(:, :) !< their right-hand sides, then the solutions
+    logical, intent(out) :: regular !< whether all pivots are above SINGULAR
     integer :: n, i, j, pivot
 
     n = size(matrix, 1)

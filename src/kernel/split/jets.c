@@ -49,11 +49,11 @@ OPERATION void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
 }
 
 /* What a derivative by a parameter gains because the damping depends on it. */
-#define GAIN(term, parameter, speed)                                                                                   \
-  do {                                                                                                                 \
-    angle->of[term] +=                                                                                                 \
-        row->of_velocity[parameter] * (speed)-row->of_velocity[0] * (row->decay[parameter] / row->decay[0]) * (speed); \
-    velocity->of[term] += (row->decay[parameter] / row->decay[0]) * (speed);                                           \
+#define GAIN(term, parameter, speed)                                                                                     \
+  do {                                                                                                                   \
+    angle->of[term] +=                                                                                                   \
+        row->of_velocity[parameter] * (speed) - row->of_velocity[0] * (row->decay[parameter] / row->decay[0]) * (speed); \
+    velocity->of[term] += (row->decay[parameter] / row->decay[0]) * (speed);                                             \
   } while (0)
 
 OPERATION void drift(int order, bool damped, const kz_drift *row, jet *angle, jet *velocity) {

@@ -29,6 +29,7 @@ module kz_split_jets
     real(rk) :: drifts(0:2, 2, FUSED) = 0      !< of the velocity, rad; and its decay
     logical :: damped = .true.                 !< the damping depends on p or q
     logical :: mirrored = .false.              !< b and push are 0
+    real(rk) :: damping(0:2) = 0
   end type jets_t
 
   interface
@@ -49,12 +50,13 @@ contains
     integer, intent(in) :: n_steps !< of split6 a drive period
     type(jets_t), intent(out) :: jets !< without a pendulum
     type(stage_t) :: stages(2*KICKS + 1)
-    real(rk) :: clock
+    real(rk) :: clock, weight(KICKS)
     real(real128) :: step
     integer :: i, s, n
 
     stages = scheme_stages(SCHEMES(SPLIT6_ROW + 1))
     step = 8*atan(1.0_real128)/n_steps
+    weight = real(step*stages(2::2)%share, rk)
     n = n_steps*KICKS
     jets%n_steps = n_steps
     jets%time(:KICKS + 1) = real(step*stages(1::2)%share, rk)
@@ -66,7 +68,7 @@ contains
       do s = 1, KICKS
         n = n + 1
         clock = clock + real(stages(2*s - 1)%share, rk)
-        jets%weight(n) = real(step*stages(2*s)%share, rk)
+        jets%weight(n) = weight(s)
         jets%cosine(n) = cos(2*PI/n_steps*clock)
         jets%sine(n) = sin(2*PI/n_steps*clock)
       end do
@@ -80,6 +82,7 @@ contains
     integer :: i, n, harmonics
 
     harmonics = maxval(pendulum%harmonics)
+    jets%damping = pendulum%beta
     jets%damped = maxval(abs(pendulum(1:)%beta)) > 0
     jets%mirrored = maxval(pendulum%unmirrored) == 0
     do n = 1, size(jets%weight)

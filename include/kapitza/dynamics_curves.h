@@ -1,0 +1,66 @@
+/* dynamics, curves: cycles over a plane of two parameters, attracting or not: branches of them along lines, and the curves on which they are born, lose
+ * their stability or their symmetry (Fortran; layer 1, a part of dynamics). docs/explanation/atlas.md has the equations.
+ *
+ * A place is a pair of numbers, each in units of a side of the rectangle. A cycle is its points in the order of time and then its place: an
+ * array y [2 points + 2], angles in rad, not wrapped, velocities in rad per drive radian. Nothing here is collective. */
+#ifndef KAPITZA_DYNAMICS_CURVES_H
+#define KAPITZA_DYNAMICS_CURVES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "kapitza/model.h"
+
+/* Gives the pendulum of a place; false if there is none. */
+typedef bool (*kz_plane_fn)(const void *context, const double place[2], kz_pendulum *pendulum);
+typedef struct {
+  kz_plane_fn pendulum;
+  const void *context;
+  double low[2], high[2]; /* curves and branches end beyond them */
+  int32_t steps;          /* of split6 a period, even; steps on the way are twice as long */
+  int32_t mirrored;       /* 1 if all pendulums have mirror symmetry, else 0 */
+} kz_plane;
+
+/* Which cycles: F(x(i)) = x(i+1), side (F(x(n)) - 2 pi turns) = x(1). side 1: cycles of `points` periods with so many net turns; side -1:
+ * symmetric cycles of twice as many periods, about down (turns 0) or inverted (1). multiplier: of curves, 1 or -1 of this map. */
+enum { KZ_CURVE_POINTS = 16 };
+typedef struct {
+  int32_t side, points, multiplier, turns;
+} kz_curve_kind;
+
+/* How a trace ends: outside of the plane, at its own start, at its longest, where a cycle meets its parent (at a degenerate flip or symmetry
+ * breaking), where no step is short enough, without a start. */
+enum { KZ_TRACE_LEFT, KZ_TRACE_CLOSED, KZ_TRACE_LONG, KZ_TRACE_MERGED, KZ_TRACE_STUCK, KZ_TRACE_NO_SEED };
+
+/* Follows the curve through `seed` to both ends of a direction (1 or -1), in steps of at most `longest`. rows [most][8 + 2 points]: place,
+ * tangent's part of the place, normal form, its side (a gradient by the place), distance from the nearest parent (rad), points of the cycle;
+ * places are right to about 1e-12. special [most_special][3 + 2 points]: zeros of the normal form: 1 cusp or 2 degenerate flip or symmetry
+ * breaking, place, points. Returns the number of rows.
+ *
+ * Normal form: multiplier 1: half the second derivative along the eigenvector; a pair of cycles exists on the side. Multiplier -1: the cubic
+ * coefficient; the cycle attracts on the side; > 0: beyond the curve its child attracts. */
+int64_t kz_curve_trace(const kz_plane *plane, const kz_curve_kind *kind, const double *seed, int32_t direction, double longest,
+                       int64_t most, double *rows, int64_t most_special, double *special, int64_t *n_special, int32_t *ending);
+
+/* What happens on a branch: a multiplier of its map is 1 or -1; it meets the cycle of half its period, its mirror image, or rest, and ends. */
+enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 };
+/* Follows the cycle near `start` along a line, first in the direction `along` (a unit vector), attracting or not, through folds. rows
+ * [most][4 + 2 points]: place, trace and determinant of the map's derivative, points. events [most_events][3 + 2 points]: what, place,
+ * points. Returns the number of rows. */
+int64_t kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const double *start, const double along[2],
+                        double longest, int64_t most, double *rows, int64_t most_events, double *events, int64_t *n_events,
+                        int32_t *ending);
+
+/* Newton's method at the place of y; numbers = trace and determinant. 1 if it converges, else 0. */
+int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double *y, double numbers[2]);
+/* Moves y along a line to where the kind's multiplier is that of the curve. 1 if Newton's method converges, else 0. */
+int32_t kz_curve_locate(const kz_plane *plane, const kz_curve_kind *kind, double *y, const double along[2]);
+/* The normal form at a point of a curve, its side, and the eigenvector at the first point. 0 if there is no pendulum. */
+int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const double *y, double *coefficient, double side[2],
+                      double eigenvector[2]);
+/* state [n + 1][2]: the strobe points after state [0], not wrapped. 0 if there is no pendulum. */
+int32_t kz_curve_orbit(const kz_plane *plane, const double place[2], int64_t n, double *state);
+/* Moves a state from t = 0 to t = pi. 0 if there is no pendulum. */
+int32_t kz_curve_half_period(const kz_plane *plane, const double place[2], double state[2]);
+
+#endif

@@ -1,0 +1,338 @@
+!> Cycles over a plane of two parameters: the equations of multiple shooting for cycles, for branches of them along a line, and for the curves
+!> on which a multiplier is 1 or -1; their solution and tangents (docs/explanation/atlas.md).
+!>
+!> The unknowns y are the points x(i) of a cycle, rad and rad per drive radian, not wrapped, and then its place, in units of the rectangle's
+!> sides. F(x(i)) = x(i+1), side*(F(x(n)) - 2 pi turns) = x(1): side = 1 for cycles of n periods, side = -1 for those of 2 n periods that are
+!> their own mirror image. G is this map of x(1). The damping is constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e
+!> where trace DG = e (1 + det DG).
+module kz_cycles_curves
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_bool, c_funptr, c_ptr, c_f_procpointer
+  use kz_lanes_map, only: PI
+  use kz_cycles_shooting, only: solve
+  use kz_model_pendulum, only: pendulum_t
+  use kz_split_jets, only: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS, DX, DY, DP_ => DP, DQ, &
+                           DXX, DXY, DYY, DXP, DYP, DXQ, DYQ
+  implicit none
+  private
+  public :: plane_t, curve_kind_t, system_t, make_system, newton, linearise, tangent_at, images, inner, wrapped, &
+            POINTS, UNKNOWNS, COARSE, FINE
+
+  !> Points of a cycle, and unknowns, at most; the two numbers of steps a period.
+  integer, parameter :: POINTS = 16, UNKNOWNS = 2*POINTS + 2, COARSE = 1, FINE = 2
+  !> Weight of the points in distances; that of the place is 1.
+  real(dp), parameter :: OF_POINTS = 0.04_dp
+
+  type, bind(C) :: curve_kind_t
+    integer(c_int32_t) :: side, points, multiplier, turns
+  end type curve_kind_t
+
+  type, bind(C) :: plane_t
+    type(c_funptr) :: pendulum
+    type(c_ptr) :: context
+    real(dp) :: low(2), high(2)
+    integer(c_int32_t) :: steps, mirrored
+  end type plane_t
+
+  !> The equations of one kind of cycles on a plane, and what they were at the last place.
+  type :: system_t
+    type(plane_t) :: plane
+    type(curve_kind_t) :: kind
+    integer :: n = 0                          !< points
+    integer :: columns = 0                    !< directions in which the place may move
+    logical :: on_curve = .false.             !< the trace has its own equation
+    real(dp) :: basis(2, 2) = 0               !< these directions
+    type(jets_t) :: jets(2)                   !< of COARSE and FINE steps
+    real(dp) :: image(2, 0:TERMS, POINTS) = 0 !< of each point, with its derivatives
+    real(dp) :: trace = 0, determinant = 0, of_determinant(2) = 0
+  end type system_t
+
+  abstract interface
+    function pendulum_at_i(context, at, pendulum) bind(C) result(exists)
+      import :: c_ptr, c_bool, dp, pendulum_t
+      type(c_ptr), value :: context
+      real(dp), intent(in) :: at(2)
+      type(pendulum_t), intent(out) :: pendulum
+      logical(c_bool) :: exists
+    end function pendulum_at_i
+  end interface
+
+contains
+
+  !> Sets up the equations.
+  subroutine make_system(plane, kind, columns, on_curve, system)
+    type(plane_t), intent(in) :: plane !< gives the pendulum of a place
+    type(curve_kind_t), intent(in) :: kind !< which cycles
+    integer, intent(in) :: columns !< 0: the place is fixed; 1: on a line, whose direction is basis(:, 1); 2: free
+    logical, intent(in) :: on_curve !< whether a multiplier is kind%multiplier
+    type(system_t), intent(out) :: system !< the equations
+
+    system%plane = plane
+    system%kind = kind
+    system%n = kind%points
+    system%columns = columns
+    system%on_curve = on_curve
+    system%basis = reshape([1, 0, 0, 1], [2, 2])
+  end subroutine make_system
+
+  !> Sets the pendulum of a place, and how its numbers grow with the place: by central differences, which the convergence of Newton's
+  !> method needs, but not its result.
+  subroutine set_place(system, jets, at, exists)
+    type(system_t), intent(in) :: system
+    type(jets_t), intent(inout) :: jets
+    real(dp), intent(in) :: at(2)
+    logical, intent(out) :: exists
+    real(dp), parameter :: BESIDE = 1e-5_dp
+    procedure(pendulum_at_i), pointer :: pendulum_at
+    type(pendulum_t) :: pendulum(0:2), up, down
+    real(dp) :: place(2)
+    integer :: i
+
+    call c_f_procpointer(system%plane%pendulum, pendulum_at)
+    exists = pendulum_at(system%plane%context, at, pendulum(0))
+    do i = 1, 2
+      place = at
+      place(i) = at(i) + BESIDE
+      if (exists) exists = pendulum_at(system%plane%context, place, up)
+      place(i) = at(i) - BESIDE
+      if (exists) exists = pendulum_at(system%plane%context, place, down)
+      if (.not. exists) return
+      pendulum(i) = up
+      pendulum(i)%k = (up%k - down%k)/(2*BESIDE)
+      pendulum(i)%beta = (up%beta - down%beta)/(2*BESIDE)
+      pendulum(i)%m = (up%m - down%m)/(2*BESIDE)
+      pendulum(i)%torque = (up%torque - down%torque)/(2*BESIDE)
+      pendulum(i)%vertical = (up%vertical - down%vertical)/(2*BESIDE)
+      pendulum(i)%horizontal = (up%horizontal - down%horizontal)/(2*BESIDE)
+    end do
+    exists = pendulum(0)%beta > 0
+    if (exists) call set_pendulum(jets, pendulum)
+  end subroutine set_place
+
+  !> image = that of each of the first n points after one or both halves of a period, with derivatives up to `order`.
+  subroutine images(system, level, order, y, at, n, halves, image, exists)
+    type(system_t), intent(inout) :: system !< of which the tables serve
+    integer, intent(in) :: level !< COARSE or FINE
+    integer, intent(in) :: order !< 0 .. 3
+    integer, intent(in) :: n !< points
+    integer, intent(in) :: halves !< 1: to half a period; 2: to a period
+    real(dp), intent(in) :: y(:) !< the points: rad, rad per drive radian
+    real(dp), intent(in) :: at(2) !< the place
+    real(dp), intent(out) :: image(2, 0:TERMS, POINTS) !< (angle and velocity, value and derivatives, point): rad
+    logical, intent(out) :: exists !< whether there is a damped pendulum
+    real(dp), dimension(LANES) :: u, v
+    real(dp), dimension(LANES, TERMS) :: theta, velocity
+    integer :: first, lane, i
+
+    if (system%jets(level)%n_steps == 0) call make_jets(int(system%plane%steps)*level/FINE, system%jets(level))
+    call set_place(system, system%jets(level), at, exists)
+    if (.not. exists) return
+    do first = 1, n, LANES
+      theta = 0
+      velocity = 0
+      theta(:, DX) = 1
+      velocity(:, DY) = 1
+      do lane = 1, LANES
+        i = min(first + lane - 1, n)
+        u(lane) = y(2*i - 1)/PI
+        v(lane) = y(2*i)
+      end do
+      call advance_jets(system%jets(level), order, 1, halves*system%jets(level)%n_steps/2, u, v, theta, velocity)
+      do lane = 1, min(LANES, n - first + 1)
+        image(1, :, first + lane - 1) = [PI*u(lane), theta(lane, :)]
+        image(2, :, first + lane - 1) = [v(lane), velocity(lane, :)]
+      end do
+    end do
+    exists = all(abs(image(:, 0, :n)) < 1e6_dp)
+  end subroutine images
+
+  !> The residuals and the matrix of the equations at y, by the unknowns: those of the points, then one for each direction of the place.
+  subroutine linearise(system, level, order, y, residual, matrix, exists)
+    type(system_t), intent(inout) :: system !< takes image, trace and determinant
+    integer, intent(in) :: level !< COARSE or FINE
+    integer, intent(in) :: order !< 1 .. 3; the matrix of a trace needs 2
+    real(dp), intent(in) :: y(:) !< the unknowns
+    real(dp), intent(out) :: residual(:) !< of the equations, rad
+    real(dp), intent(out) :: matrix(:, :) !< its derivatives; (equation, unknown)
+    logical, intent(out) :: exists !< whether there is a damped pendulum
+    real(dp) :: before(2, 2, 0:POINTS), after(2, 2, POINTS + 1), gradient(UNKNOWNS), by_place(2)
+    integer :: n, i, next, side
+
+    n = system%n
+    call images(system, level, order, y, y(2*n + 1:2*n + 2), n, 2, system%image, exists)
+    if (.not. exists) return
+    associate (image => system%image, kind => system%kind, basis => system%basis(:, :system%columns))
+      residual = 0
+      matrix = 0
+      before(:, :, 0) = reshape([1, 0, 0, 1], [2, 2])
+      do i = 1, n
+        next = mod(i, n) + 1
+        side = 1
+        if (i == n) side = kind%side
+        residual(2*i - 1:2*i) = side*image(:, 0, i) - y(2*next - 1:2*next)
+        matrix(2*i - 1:2*i, 2*i - 1:2*i) = side*image(:, DX:DY, i)
+        matrix(2*i - 1, 2*next - 1) = matrix(2*i - 1, 2*next - 1) - 1
+        matrix(2*i, 2*next) = matrix(2*i, 2*next) - 1
+        matrix(2*i - 1:2*i, 2*n + 1:2*n + system%columns) = matmul(side*image(:, DP_:DQ, i), basis)
+        before(:, :, i) = matmul(image(:, DX:DY, i), before(:, :, i - 1))
+      end do
+      residual(2*n - 1) = residual(2*n - 1) - 2*PI*kind%side*kind%turns
+      system%trace = kind%side*(before(1, 1, n) + before(2, 2, n))
+      call set_determinant(system, level)
+      if (.not. system%on_curve) return
+      residual(2*n + 1) = system%trace - kind%multiplier*(1 + system%determinant)
+      if (order < 2) return
+      after(:, :, n + 1) = before(:, :, 0)
+      do i = n, 1, -1
+        after(:, :, i) = matmul(after(:, :, i + 1), image(:, DX:DY, i))
+      end do
+      by_place = -kind%multiplier*system%of_determinant
+      do i = 1, n
+        call add_trace(image(:, :, i), real(kind%side, dp)*matmul(before(:, :, i - 1), after(:, :, i + 1)), &
+                       gradient(2*i - 1:2*i), by_place)
+      end do
+      matrix(2*n + 1, :2*n) = gradient(:2*n)
+      matrix(2*n + 1, 2*n + 1:2*n + system%columns) = matmul(by_place, basis)
+    end associate
+  end subroutine linearise
+
+  !> The gradient of trace(others*DF), by the state of one point and by the place.
+  pure subroutine add_trace(image, others, by_state, by_place)
+    real(dp), intent(in) :: image(2, 0:TERMS), others(2, 2)
+    real(dp), intent(out) :: by_state(2)
+    real(dp), intent(inout) :: by_place(2)
+
+    by_state = [part(DXX, DXY), part(DXY, DYY)]
+    by_place = by_place + [part(DXP, DYP), part(DXQ, DYQ)]
+  contains
+    pure real(dp) function part(first, second)
+      integer, intent(in) :: first, second !< derivatives of the two columns of DF
+
+      part = dot_product(others(1, :), image(:, first)) + dot_product(others(2, :), image(:, second))
+    end function part
+  end subroutine add_trace
+
+  subroutine set_determinant(system, level)
+    type(system_t), intent(inout) :: system
+    integer, intent(in) :: level
+    real(dp) :: decay(0:2)
+
+    decay = system%jets(level)%damping
+    system%determinant = exp(-2*PI*system%n*decay(0))
+    system%of_determinant = -2*PI*system%n*decay(1:2)*system%determinant
+  end subroutine set_determinant
+
+  !> y becomes the solution near it: with a normal, on the plane through y across it. Its steps shrink until rounding stops them.
+  subroutine newton(system, most, longest, close, y, iterations, normal)
+    type(system_t), intent(inout) :: system !< the equations
+    integer, intent(in) :: most !< iterations
+    real(dp), intent(in) :: longest !< longer steps are shortened to it, rad
+    real(dp), intent(in) :: close !< the last step is shorter, rad
+    real(dp), intent(inout) :: y(:) !< the unknowns: a guess, then the solution
+    integer, intent(out) :: iterations !< 0: no solution
+    real(dp), intent(in), optional :: normal(:) !< of the plane, by the unknowns
+    real(dp), parameter :: SMALL = 1e-9_dp
+    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 1), start(UNKNOWNS), last, size_now
+    integer :: n, unknown, i
+    logical :: regular
+
+    n = 2*system%n
+    unknown = n + system%columns
+    start(:n + 2) = y(:n + 2)
+    last = huge(last)
+    iterations = 0
+    do i = 1, most
+      call linearise(system, COARSE, merge(2, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), regular)
+      if (.not. regular) return
+      if (present(normal)) then
+        matrix(unknown, :unknown) = metric(system, normal(:unknown))
+        side(unknown, 1) = dot_product(matrix(unknown, :unknown), moved(system, y, start))
+      end if
+      call solve(matrix(:unknown, :unknown), side(:unknown, :), regular)
+      if (.not. regular) return
+      size_now = maxval(abs(side(:unknown, 1)))
+      if (.not. size_now < 1e3_dp) return
+      side(:unknown, 1) = side(:unknown, 1)*min(1.0_dp, longest/size_now)
+      y(:n) = y(:n) - side(:n, 1)
+      y(n + 1:n + 2) = y(n + 1:n + 2) - matmul(system%basis(:, :system%columns), side(n + 1:unknown, 1))
+      if (size_now < close .or. (size_now < SMALL .and. size_now > 0.3_dp*last)) iterations = i
+      if (iterations > 0 .or. (i > 4 .and. present(normal) .and. size_now > last)) return
+      last = size_now
+    end do
+  end subroutine newton
+
+  !> The unit tangent of the branch or curve at its point y, on the side of `guess`, and the same point with FINE steps.
+  subroutine tangent_at(system, y, guess, tangent, regular, sharp)
+    type(system_t), intent(inout) :: system !< takes images of third order of a curve
+    real(dp), intent(in) :: y(:) !< a solution
+    real(dp), intent(in) :: guess(:) !< a direction near the tangent's
+    real(dp), intent(out) :: tangent(:) !< by the unknowns
+    logical, intent(out) :: regular !< whether it is defined
+    real(dp), intent(out), optional :: sharp(:) !< y with FINE steps
+    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), unused(UNKNOWNS, UNKNOWNS), kept(2, 0:TERMS, POINTS), numbers(2), length
+    integer :: n, unknown
+
+    n = 2*system%n
+    unknown = n + system%columns
+    side = 0
+    regular = .true.
+    if (present(sharp)) call linearise(system, FINE, 1, y, side(:unknown, 2), unused(:unknown, :unknown), regular)
+    if (regular) call linearise(system, COARSE, merge(3, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), regular)
+    if (.not. regular) return
+    kept = system%image
+    numbers = [system%trace, system%determinant]
+    matrix(unknown, :unknown) = metric(system, guess(:unknown))
+    side(:unknown, 1) = 0
+    side(unknown, :) = [1, 0]
+    call solve(matrix(:unknown, :unknown), side(:unknown, :), regular)
+    if (.not. regular) return
+    system%image = kept
+    system%trace = numbers(1)
+    system%determinant = numbers(2)
+    length = sqrt(inner(system, side(:unknown, 1), side(:unknown, 1)))
+    regular = length < 1e12_dp
+    tangent(:unknown) = side(:unknown, 1)/length
+    if (.not. present(sharp)) return
+    sharp(:n) = y(:n) - side(:n, 2)
+    sharp(n + 1:n + 2) = y(n + 1:n + 2) - matmul(system%basis(:, :system%columns), side(n + 1:unknown, 2))
+  end subroutine tangent_at
+
+  !> a with the weights of the inner product.
+  pure function metric(system, a) result(weighted)
+    type(system_t), intent(in) :: system
+    real(dp), intent(in) :: a(:)
+    real(dp) :: weighted(size(a))
+
+    weighted = a
+    weighted(:2*system%n) = a(:2*system%n)*(OF_POINTS/system%n)
+  end function metric
+
+  !> The inner product of two steps of the unknowns.
+  pure function inner(system, a, b) result(product)
+    type(system_t), intent(in) :: system !< the equations
+    real(dp), intent(in) :: a(:) !< a step
+    real(dp), intent(in) :: b(:) !< another one
+    real(dp) :: product
+
+    product = dot_product(metric(system, a), b)
+  end function inner
+
+  !> The step of the unknowns from one y to another.
+  pure function moved(system, to, from) result(step)
+    type(system_t), intent(in) :: system
+    real(dp), intent(in) :: to(:), from(:)
+    real(dp) :: step(2*system%n + system%columns)
+    integer :: n
+
+    n = 2*system%n
+    step(:n) = to(:n) - from(:n)
+    step(n + 1:) = matmul(to(n + 1:n + 2) - from(n + 1:n + 2), system%basis(:, :system%columns))
+  end function moved
+
+  !> An angle without whole turns.
+  elemental real(dp) function wrapped(angle)
+    real(dp), intent(in) :: angle !< rad
+
+    wrapped = angle - 2*PI*anint(angle/(2*PI))
+  end function wrapped
+
+end module kz_cycles_curves

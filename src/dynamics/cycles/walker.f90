@@ -1,0 +1,210 @@
+!> The way along a branch of cycles or a curve of bifurcations by pseudo-arclength, and what is met there.
+module kz_cycles_walker
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_cycles_curves, only: system_t, newton, tangent_at, inner, wrapped, POINTS, UNKNOWNS
+  implicit none
+  private
+  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, FOLD, FLIP, HALVES, MIRROR, REST, CLOSE, FAR
+
+  !> Steps of Newton's method end below it, which square them; steps longer than that are shortened: rad.
+  real(dp), parameter :: CLOSE = 1e-9_dp, FAR = 1e3_dp
+  !> KZ_EVENT_... of dynamics_curves.h: a multiplier 1, -1; a meeting with the cycle of half the period, with the mirror image, with rest.
+  integer, parameter :: FOLD = 1, FLIP = 2, HALVES = 3, MIRROR = 4, REST = 5
+
+  !> A point on its way along a branch or a curve.
+  type :: walker_t
+    type(system_t) :: system
+    real(dp) :: y(UNKNOWNS) = 0, sharp(UNKNOWNS) = 0, tangent(UNKNOWNS) = 0
+    real(dp) :: step = 0, longest = 0
+    logical :: is_sharp = .true.
+  end type walker_t
+
+  !> How a cycle differs from what it may grow out of: the cycle of half its period, its mirror image, rest.
+  type :: parents_t
+    logical :: there(HALVES:REST) = .false.
+    real(dp) :: distance(HALVES:REST) = huge(1.0_dp), difference(2*POINTS, HALVES:REST) = 0
+  end type parents_t
+
+contains
+
+  !> The next point; false if no step is short enough.
+  function advance(walker) result(found)
+    type(walker_t), intent(inout) :: walker !< at a point, then at the next one
+    logical :: found
+    real(dp), parameter :: SHORTEST = 1e-8_dp, BENT = 0.2_dp, CORRECTED = 0.1_dp
+    integer, parameter :: MOST = 6
+    real(dp) :: y(UNKNOWNS), guess(UNKNOWNS), sharp(UNKNOWNS), tangent(UNKNOWNS), angle, correction
+    integer :: n, unknown, iterations
+
+    n = 2*walker%system%n
+    unknown = n + walker%system%columns
+    found = .false.
+    angle = 0
+    correction = 0
+    do while (walker%step > SHORTEST)
+      guess = walker%y
+      guess(:n) = guess(:n) + walker%step*walker%tangent(:n)
+      guess(n + 1:n + 2) = guess(n + 1:n + 2) &
+                           + matmul(walker%system%basis(:, :walker%system%columns), walker%step*walker%tangent(n + 1:unknown))
+      y = guess
+      call newton(walker%system, MOST, FAR, CLOSE, y, iterations, walker%tangent)
+      found = iterations > 0
+      if (found) then
+        correction = distance(walker%system, y, guess)/walker%step
+        found = correction < CORRECTED
+      end if
+      if (found) then
+        if (walker%is_sharp) then
+          call tangent_at(walker%system, y, walker%tangent, tangent, found, sharp)
+        else
+          call tangent_at(walker%system, y, walker%tangent, tangent, found)
+        end if
+      end if
+      if (found) then
+        angle = acos(min(1.0_dp, max(-1.0_dp, inner(walker%system, walker%tangent(:unknown), tangent(:unknown)))))
+        found = angle < BENT
+      end if
+      if (found) exit
+      walker%step = 0.5_dp*walker%step
+    end do
+    if (.not. found) return
+    walker%y = y
+    walker%tangent = tangent
+    walker%sharp = sharp
+    if (iterations <= 3 .and. angle < 0.5_dp*BENT .and. correction < 0.3_dp*CORRECTED) then
+      walker%step = min(walker%longest, 1.5_dp*walker%step)
+    else if (angle > 0.75_dp*BENT .or. correction > 0.6_dp*CORRECTED) then
+      walker%step = 0.7_dp*walker%step
+    end if
+  end function advance
+
+  !> How far two values of the unknowns lie apart.
+  function distance(system, a, b) result(length)
+    type(system_t), intent(in) :: system !< the equations
+    real(dp), intent(in) :: a(:) !< unknowns
+    real(dp), intent(in) :: b(:) !< others
+    real(dp) :: length, step(UNKNOWNS)
+    integer :: n
+
+    n = 2*system%n
+    step(:n) = a(:n) - b(:n)
+    step(n + 1:n + system%columns) = matmul(a(n + 1:n + 2) - b(n + 1:n + 2), system%basis(:, :system%columns))
+    length = sqrt(inner(system, step(:n + system%columns), step(:n + system%columns)))
+  end function distance
+
+  !> Begins on a curve near the seed.
+  subroutine begin(walker, seed, longest, found)
+    type(walker_t), intent(inout) :: walker !< with the equations of a curve
+    real(dp), intent(in) :: seed(:) !< unknowns near the curve
+    real(dp), intent(in) :: longest !< step
+    logical, intent(out) :: found !< whether Newton's method finds the curve beside the seed
+    real(dp), parameter :: NEAR = 0.1_dp
+    real(dp) :: normals(4, 4), guess(UNKNOWNS)
+    integer :: n, try, iterations
+
+    n = 2*walker%system%n
+    normals = reshape([0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, &
+                       0.0_dp, 0.0_dp, 0.7_dp, -0.7_dp, 1.0_dp, 0.3_dp, 0.0_dp, 0.0_dp], [4, 4])
+    do try = 1, 4
+      guess = 0
+      guess(:2) = normals(:2, try)
+      guess(n + 1:n + 2) = normals(3:, try)
+      walker%y(:n + 2) = seed(:n + 2)
+      call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, guess)
+      found = iterations > 0 .and. maxval(abs(walker%y(:n + 2) - seed(:n + 2))) < NEAR
+      if (found) call tangent_at(walker%system, walker%y, guess, walker%tangent, found, walker%sharp)
+      if (found) exit
+    end do
+    walker%longest = longest
+    walker%step = longest/8
+  end subroutine begin
+
+  !> Whether the step from one point to the next passes the start of a closed curve, perhaps with other points first, or as mirror image.
+  function passes(system, from, to, start) result(closed_now)
+    type(system_t), intent(in) :: system !< the equations
+    real(dp), intent(in) :: from(:) !< unknowns before the step
+    real(dp), intent(in) :: to(:) !< and after it
+    real(dp), intent(in) :: start(:) !< those where the curve began
+    logical :: closed_now
+    real(dp) :: step(2), aside(2), share, least, length
+    integer :: n, first, mirror_sign
+
+    n = system%n
+    closed_now = .false.
+    step = to(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2)
+    share = dot_product(start(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2), step)/sum(step**2)
+    if (share < -0.001_dp .or. share > 1.001_dp) return
+    aside = start(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2) - share*step
+    if (norm2(aside) > 0.05_dp*norm2(step) + 1e-9_dp) return
+    least = huge(least)
+    length = sum(abs(to(:2*n) - from(:2*n)))
+    do first = 0, n - 1
+      do mirror_sign = 1 - 2*int(system%plane%mirrored), 1, 2
+        least = min(least, apart(first, mirror_sign))
+      end do
+    end do
+    closed_now = least < 0.1_dp*length + 1e-6_dp
+  contains
+    real(dp) function apart(first, mirror_sign)
+      integer, intent(in) :: first, mirror_sign
+      real(dp) :: x(2)
+      integer :: i, k, sign_of
+
+      apart = 0
+      do i = 1, n
+        k = mod(i - 1 + first, n) + 1
+        sign_of = mirror_sign
+        if (i + first > n) sign_of = sign_of*system%kind%side
+        x = sign_of*(from(2*k - 1:2*k) + share*(to(2*k - 1:2*k) - from(2*k - 1:2*k)))
+        apart = apart + abs(wrapped(start(2*i - 1) - x(1))) + abs(start(2*i) - x(2))
+      end do
+    end function apart
+  end function passes
+
+  !> Sets how a cycle differs from its parents.
+  subroutine set_parents(system, y, parents)
+    type(system_t), intent(in) :: system !< the equations
+    real(dp), intent(in) :: y(:) !< the cycle
+    type(parents_t), intent(out) :: parents !< how it differs from them
+    integer :: n, i, other
+
+    n = system%n
+    parents%there(HALVES) = system%kind%side > 0 .and. mod(n, 2) == 0
+    if (system%plane%mirrored /= 0) then
+      parents%there(MIRROR) = system%kind%side > 0 .and. system%kind%turns == 0 .and. (n == 1 .or. mod(n, 2) == 0)
+      parents%there(REST) = system%kind%side < 0 .and. n == 1
+    end if
+    do i = 1, n
+      other = mod(i - 1 + n/2, n) + 1
+      if (parents%there(HALVES)) call put(HALVES, -1)
+      if (parents%there(MIRROR)) call put(MIRROR, 1)
+    end do
+    if (parents%there(REST)) parents%difference(:2, REST) = [0.5_dp*wrapped(2*y(1)), y(2)]
+    do i = HALVES, REST
+      if (parents%there(i)) parents%distance(i) = norm2(parents%difference(:2*n, i))/sqrt(real(n, dp))
+    end do
+  contains
+    subroutine put(which, sign_of)
+      integer, intent(in) :: which, sign_of
+
+      parents%difference(2*i - 1, which) = wrapped(y(2*i - 1) + sign_of*y(2*other - 1))
+      parents%difference(2*i, which) = y(2*i) + sign_of*y(2*other)
+    end subroutine put
+  end subroutine set_parents
+
+  !> Which parent a cycle meets between two points of a branch, where the difference from it reverses; 0 = none.
+  integer function meets(from, to, n) result(which)
+    type(parents_t), intent(in) :: from !< at the first point
+    type(parents_t), intent(in) :: to !< at the second one
+    integer, intent(in) :: n !< points of the cycle
+    real(dp), parameter :: NEAR = 0.7_dp
+    integer :: i
+
+    which = 0
+    do i = HALVES, REST
+      if (.not. from%there(i) .or. from%distance(i) > NEAR .or. to%distance(i) > NEAR) cycle
+      if (dot_product(from%difference(:2*n, i), to%difference(:2*n, i)) < -0.5_dp*n*from%distance(i)*to%distance(i)) which = i
+    end do
+  end function meets
+
+end module kz_cycles_walker

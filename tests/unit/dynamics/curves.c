@@ -1,0 +1,108 @@
+/* Curves of bifurcations over Blackburn's plane: against the linear equation, the flutter table of docs/validation/studies.md, and physics. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <cmocka.h>
+
+#include <math.h>
+
+#include "kapitza/dynamics_curves.h"
+#include "kapitza/kernel.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Omega = 3 + 27 x, epsilon = 0.8 y, Q = 5. */
+static bool blackburn(const void *context, const double place[2], kz_pendulum *pendulum) {
+  (void)context;
+  const double omega = 3 + 27 * place[0];
+  *pendulum = (kz_pendulum){1 / (omega * omega), 1 / (5 * omega), 0.8 * place[1]};
+  return true;
+}
+static const kz_plane PLANE = {.pendulum = blackburn, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
+static const double UP[2] = {0, 1};
+
+/* Omega; birth of flutter, loss of its symmetry, its doubling (docs/validation/studies.md). */
+static const double FLUTTER[][4] = {{5, 0.521937424, 0.603384245, 0.612281},
+                                    {7, 0.488875356, 0.577613876, 0.587068},
+                                    {11, 0.46819030239, 0.561845642631, 0.571655778},
+                                    {30, 0.455932237, 0.552636805, 0.562660}};
+
+/* The first value of epsilon on a branch upwards at which its multiplier is -1; y moves there. */
+static double next_flip(const kz_curve_kind *kind, double *y) {
+  enum { MOST = 400, EVENTS = 8 };
+  const int n = 2 * kind->points;
+  double row[MOST * 8], event[EVENTS * 7];
+  int64_t events;
+  int32_t ending;
+  assert_true(kz_curve_branch(&PLANE, kind, y, UP, 0.02, MOST, row, EVENTS, event, &events, &ending) > 3);
+  for (int64_t i = 0; i < events; i++) {
+    const double *e = event + i * (3 + n);
+    if (e[0] != KZ_EVENT_FLIP) continue;
+    y[n] = e[1], y[n + 1] = e[2];
+    for (int c = 0; c < n; c++) y[c] = e[3 + c];
+    return 0.8 * e[2];
+  }
+  return NAN;
+}
+
+/* On a vertical line: flutter is born out of inverted rest, loses its symmetry, and then doubles. */
+static void test_flutter(void **state) {
+  (void)state;
+  const kz_curve_kind rest = {1, 1, -1, 0}, symmetric = {-1, 1, -1, 1}, pair = {1, 2, -1, 0};
+  for (int i = 0; i < 4; i++) {
+    double y[4] = {PI, 0, (FLUTTER[i][0] - 3) / 27, 0.47 / 0.8}, child[6], form, side[2], vector[2];
+    assert_int_equal(kz_curve_locate(&PLANE, &rest, y, UP), 1);
+    assert_true(fabs(0.8 * y[3] - FLUTTER[i][1]) < 5.1e-10);
+    assert_int_equal(kz_curve_form(&PLANE, &rest, y, &form, side, vector), 1);
+    assert_true(form > 0 && side[1] < 0); /* rest is stable below, and flutter attracts above */
+    y[0] += 0.02 * vector[0], y[1] += 0.02 * vector[1], y[3] += 1e-4;
+    assert_true(fabs(next_flip(&symmetric, y) - FLUTTER[i][2]) < 5.1e-10);
+    assert_int_equal(kz_curve_form(&PLANE, &symmetric, y, &form, side, vector), 1);
+    assert_true(form > 0 && side[1] < 0);
+    child[0] = y[0] + 0.02 * vector[0], child[1] = y[1] + 0.02 * vector[1];
+    assert_int_equal(kz_curve_orbit(&PLANE, y + 2, 1, child), 1);
+    child[4] = y[2], child[5] = y[3] + 2e-5;
+    assert_true(fabs(next_flip(&pair, child) - FLUTTER[i][3]) < (i == 2 ? 5.1e-10 : 5.1e-7));
+  }
+}
+
+/* The whole curve of the birth: every point is one of the published map to 1e-11, and the tangent map there has the multiplier -1. */
+static void test_trace(void **state) {
+  (void)state;
+  enum { MOST = 300 };
+  const kz_curve_kind rest = {1, 1, -1, 0};
+  double seed[4] = {PI, 0, 0.3, 0.47 / 0.8}, row[MOST][10], special[4][5];
+  int64_t specials;
+  int32_t ending;
+  assert_int_equal(kz_curve_locate(&PLANE, &rest, seed, UP), 1);
+  const int64_t n = kz_curve_trace(&PLANE, &rest, seed, 1, 0.02, MOST, row[0], 4, special[0], &specials, &ending);
+  assert_true(n > 20 && ending == KZ_TRACE_LEFT && specials == 0);
+  for (int64_t i = 0; i < n; i++) {
+    kz_pendulum pendulum;
+    const kz_numerics fine = {.scheme = kz_scheme_find("split6"), .steps_per_period = 96};
+    double theta = PI, velocity = 0, matrix[4];
+    int64_t turns = 0;
+    assert_true(blackburn(NULL, row[i], &pendulum));
+    kz_flow *flow = kz_flow_create(&pendulum, &fine);
+    kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
+    kz_flow_free(flow);
+    assert_true(fabs(matrix[0] + matrix[3] + 1 + exp(-2 * PI * pendulum.beta)) < 1e-11);
+  }
+}
+
+/* Refused: a seed far from any curve, and a place without damping. */
+static void test_refused(void **state) {
+  (void)state;
+  const kz_curve_kind rest = {1, 1, -1, 0};
+  double seed[4] = {PI, 0, -0.12, 0.3}, row[10], special[5];
+  int64_t specials;
+  int32_t ending;
+  assert_int_equal(kz_curve_trace(&PLANE, &rest, seed, 1, 0.02, 1, row, 1, special, &specials, &ending), 0);
+  assert_int_equal(ending, KZ_TRACE_NO_SEED);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_flutter), cmocka_unit_test(test_trace),
+                                     cmocka_unit_test(test_refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
