@@ -10,13 +10,20 @@
 
 #include "kapitza/model.h"
 
+/* Series of the processed splitting that were made, for who asks again for the same pendulum or for one beside it: dear to make, and the same
+ * for all numbers of steps. The caller owns the object and frees it after everything that was made with it; one thread at a time may use it. */
+typedef struct kz_kept_series kz_kept_series;
+kz_kept_series *kz_kept_series_create(void);
+void kz_kept_series_free(kz_kept_series *series);
+
 typedef struct {
   int32_t scheme;           /* row of the table of schemes */
   int32_t steps_per_period; /* whole compositions a period, >= 1 */
   /* For the processed splitting; kz_numerics_choose sets these: */
-  int32_t drift_terms; /* number of powers of the velocity in a drift, 1 to 4; 0 = all */
-  int32_t kick_terms;  /* number of coefficients of a kick, 4 to 11; 0 = all that matter in doubles */
-  double fastest;      /* rad per drive radian: split6 advances faster states; 0 = 3 */
+  int32_t drift_terms;    /* number of powers of the velocity in a drift, 1 to 4; 0 = all */
+  int32_t kick_terms;     /* number of coefficients of a kick, 4 to 11; 0 = all that matter in doubles */
+  double fastest;         /* rad per drive radian: split6 advances faster states; 0 = 3 */
+  kz_kept_series *series; /* where series are kept; NULL = each is made anew */
 } kz_numerics;
 
 /* The table of schemes. Rows 0 .. kz_scheme_count() - 1. */
@@ -41,7 +48,8 @@ int32_t kz_scheme_find(const char *name);
 void kz_numerics_fine(const kz_pendulum *pendulum, kz_numerics *numerics);
 
 /* The cheapest processed splitting whose error of one period, measured against quad-precision Taylor series at speeds up to
- * `fastest` (rad per drive radian), is at most `tolerance` (rad, angle and velocity together). In: numerics->steps_per_period, 0 = choose it.
+ * `fastest` (rad per drive radian), is at most `tolerance` (rad, angle and velocity together). In: numerics->series,
+ * and numerics->steps_per_period, 0 = choose it.
  * Out: *numerics, and the measured *error. KZ_REFUSED, without a message, if no number of steps up to KZ_MOST_PROCESSED_STEPS reaches the
  * tolerance, as for fast starts and strong drives. */
 enum { KZ_MOST_PROCESSED_STEPS = 160 };

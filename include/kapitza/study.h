@@ -179,7 +179,8 @@ typedef struct {
   char *title; /* may be "" */
   kz_parameters parameters;
   kz_numerics_keys asked;
-  kz_numerics numerics; /* resolved from `asked` by kz_numerics_resolve */
+  kz_numerics numerics;   /* resolved from `asked` by kz_numerics_resolve */
+  kz_kept_series *series; /* of its pendulums; kz_scene_free frees it, and copies of the scene share it; NULL = none is kept */
   bool has_basin;
   kz_basin_plan basin;
   bool has_attractors;

@@ -51,7 +51,7 @@ contains
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
-    !> whether a slider has moved the pendulum, a little beside the last one: its series comes from theirs; if left out, it is its own
+    !> whether a slider moves the pendulum: its series may be interpolated from those of the pendulums before; .false., if left out
     logical, intent(in), optional :: slid
     integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
     type(period_t) :: period
@@ -67,9 +67,9 @@ contains
     if (present(slid)) moved = slid
     allocate (series)
     if (moved) then
-      call make_slid_series(pendulum, series)
+      call make_slid_series(pendulum, numerics%series, series)
     else
-      call make_processed_series(pendulum, series)
+      call make_processed_series(pendulum, numerics%series, series)
     end if
     call make_processed_flow(pendulum, series, numerics, flow, refined=refined)
   end subroutine make_flow

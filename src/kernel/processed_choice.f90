@@ -61,7 +61,7 @@ contains
     trial%order = ORDER
     trial%pendulum = pendulum
     allocate (trial%series)
-    call make_processed_series(pendulum, trial%series)
+    call make_processed_series(pendulum, numerics%series, trial%series)
     call make_drive(drive, pendulum, TAYLOR_STEPS)
     call make_probes(drive, [(fastest*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], trial%probes)
     numerics%scheme = PROCESSED_ROW

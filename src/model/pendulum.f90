@@ -108,28 +108,22 @@ contains
     highest = max(1_c_int32_t, pendulum%harmonics)
   end function highest_harmonic
 
-  !> a(t) and b(t) at t = 2 pi * turn.
-  pure subroutine force_at(pendulum, turn, cosine, a, b)
+  !> a(t) and b(t) at a time t of the drive.
+  pure subroutine force_at(pendulum, clock, a, b)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
-    real(qp), intent(in) :: turn !< drive periods
-    real(qp), intent(in) :: cosine !< cos(t), which other pendulums need too
+    complex(qp), intent(in) :: clock !< exp(i t)
     real(qp), intent(out) :: a !< of sin theta
     real(qp), intent(out) :: b !< of -cos theta
-    real(qp) :: sine, c, s, former
+    complex(qp) :: power
     integer :: j
 
-    a = real(pendulum%k, qp) - pendulum%m*cosine
+    a = pendulum%k - pendulum%m*real(clock, qp)
     b = 0
-    if (pendulum%harmonics == 0) return
-    sine = sin(2*PI*turn)
-    c = 1
-    s = 0
-    do j = 1, pendulum%harmonics ! by the sum of angles: quad precision's own functions are slow
-      former = c
-      c = c*cosine - s*sine
-      s = s*cosine + former*sine
-      a = a - pendulum%vertical(1, j)*c - pendulum%vertical(2, j)*s
-      b = b + pendulum%horizontal(1, j)*c + pendulum%horizontal(2, j)*s
+    power = 1
+    do j = 1, pendulum%harmonics ! exp(i j t) by products: quad precision's own functions are slow
+      power = power*clock
+      a = a - pendulum%vertical(1, j)*real(power, qp) - pendulum%vertical(2, j)*aimag(power)
+      b = b + pendulum%horizontal(1, j)*real(power, qp) + pendulum%horizontal(2, j)*aimag(power)
     end do
   end subroutine force_at
 

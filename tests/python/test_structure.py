@@ -197,6 +197,34 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+# ---- no saved state ----
+
+
+def writable(library):
+    """{object: its variables} of a static library: what stands in sections that a program can write to. gfortran keeps descriptions of types
+    there (__vtab_, __def_init_), to which nothing writes."""
+    found, member = {}, None
+    done = subprocess.run(["nm", "-f", "sysv", str(library)], capture_output=True, text=True, check=True)
+    for line in done.stdout.splitlines():
+        if named := re.match(r"Symbols from .*\[(.*)\]:", line):
+            member = named[1]
+        columns = [column.strip() for column in line.split("|")]
+        if len(columns) != 7 or columns[3] not in ("OBJECT", "TLS") or columns[6].startswith((".rodata", ".data.rel.ro")):
+            continue
+        if not re.search(r"_MOD___(vtab|def_init)_", columns[0]):
+            found.setdefault(member, []).append(columns[0])
+    return found
+
+
+@pytest.mark.parametrize("layer", ["model", "kernel", "dynamics"])
+def test_nothing_is_kept_between_two_calls(layer):
+    assert not writable(PROGRAM.parent / f"libkapitza_{layer}.a"), "what is kept belongs to an object that the caller owns"
+
+
+def test_writable_data_is_found():
+    assert any("on_failure" in names for names in writable(PROGRAM.parent / "libkapitza_common.a").values())
+
+
 # ---- memory ----
 
 

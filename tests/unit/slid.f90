@@ -1,6 +1,6 @@
 !> Periods of pendulums along a slider, by series that come from neighbours and by their own, for tests.
 module kz_test_slid
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_flow
   use kz_lanes_schemes, only: PROCESSED_ROW
@@ -12,18 +12,21 @@ module kz_test_slid
 contains
 
   !> The largest difference of one period of these pendulums, one after the other, rad.
-  function slid_error(n, pendulum) bind(C, name='kz_test_slid_error') result(largest)
+  function slid_error(n, pendulum, series) bind(C, name='kz_test_slid_error') result(largest)
     integer(c_int64_t), value :: n
     type(pendulum_t), intent(in) :: pendulum(n)
+    type(c_ptr), value :: series !< kz_kept_series
     real(dp) :: largest
-    type(numerics_t), parameter :: NUMERICS = numerics_t(PROCESSED_ROW, 16, fastest=3)
+    type(numerics_t) :: plain, numerics
     class(flow_t), allocatable :: moving, own
     integer :: i
 
+    plain = numerics_t(PROCESSED_ROW, 16, fastest=3)
+    numerics = numerics_t(PROCESSED_ROW, 16, fastest=3, series=series)
     largest = 0
     do i = 1, int(n)
-      call make_flow(pendulum(i), NUMERICS, .true., moving, slid=.true.)
-      call make_flow(pendulum(i), NUMERICS, .true., own)
+      call make_flow(pendulum(i), numerics, .true., moving, slid=.true.)
+      call make_flow(pendulum(i), plain, .true., own)
       call advance(moving)
       call advance(own)
       largest = max(largest, PI*maxval(abs(moving%u(:WIDTH) - own%u(:WIDTH))), maxval(abs(moving%v(:WIDTH) - own%v(:WIDTH))))

@@ -113,7 +113,7 @@ static kz_status read_tree(kz_node *root, kz_scene *scene) {
 }
 
 kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene) {
-  memset(scene, 0, sizeof *scene);
+  *scene = (kz_scene){.series = kz_kept_series_create()};
   const kz_status status = read_tree(root, scene);
   if (status != KZ_OK) kz_scene_free(scene);
   return status;
@@ -172,5 +172,6 @@ kz_status kz_scene_locate(kz_status status, const char *text, size_t length, con
 void kz_scene_free(kz_scene *scene) {
   for (const kz_key *key = kz_keys; key->path; key++)
     if (key->type == KZ_KEY_TEXT) free(*(char **)((char *)scene + key->offset));
+  kz_kept_series_free(scene->series);
   memset(scene, 0, sizeof *scene);
 }

@@ -96,6 +96,7 @@ contains
         end if
       end associate
     end if
+    levels%pair_series%kept = levels%numerics%series
     call make_pairs(levels%pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, error)
   end subroutine make_table
 
@@ -111,7 +112,7 @@ contains
     n = FEWEST_FINE_STEPS
     if (levels%numerics%scheme == PROCESSED_ROW) n = max(n, 2*int(0.82_dp*levels%numerics%steps_per_period))
     do
-      fine = numerics_t(merge(PROCESSED_ROW, SPLIT6_ROW, is_served), n, fastest=fastest)
+      fine = numerics_t(merge(PROCESSED_ROW, SPLIT6_ROW, is_served), n, fastest=fastest, series=levels%numerics%series)
       call make_flow(levels%pendulum, fine, .true., levels%fine)
       call measure_period(levels%fine, levels%probes, levels%fine_error)
       if (levels%fine_error%worst <= FINE_ERROR .or. n >= MOST_FINE_STEPS) return

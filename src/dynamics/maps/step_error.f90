@@ -35,7 +35,7 @@ contains
     integer(c_int64_t) :: c
     integer :: first
 
-    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest) ! and all terms
+    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest, series=numerics%series) ! all terms
     call make_flow(pendulum, numerics, .true., flow)
     call make_flow(pendulum, halved, .true., finer, refined=2)
     do c = 1, n

@@ -3,7 +3,7 @@
 !> applied at both ends of every period. Faster states need more steps, so there are several tables, by speeds; the fastest states
 !> are advanced by the Taylor series themselves.
 module kz_extended_pairs
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr
   use, intrinsic :: iso_fortran_env, only: real128
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_lanes_map, only: WIDTH
@@ -43,6 +43,7 @@ module kz_extended_pairs
 
   !> Parts of the tables that do not depend on the tolerance. They are made once.
   type :: pair_series_t
+    type(c_ptr) :: kept = c_null_ptr !< series in doubles that are kept: kz_kept_series of kernel.h; null = none are
     type(series_t), allocatable :: series
     type(probes_t), allocatable :: slow !< of the first table
   end type pair_series_t
@@ -85,7 +86,7 @@ contains
       call ieee_set_halting_mode(ieee_usual, .false.)
       if (.not. allocated(shared%series)) then
         allocate (shared%series)
-        call make_mixed_series(pendulum, shared%series)
+        call make_mixed_series(pendulum, shared%kept, shared%series)
         allocate (shared%slow)
         call make_probes(pairs%drive, speeds_of(levels(0)), shared%slow)
       end if

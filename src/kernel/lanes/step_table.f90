@@ -1,6 +1,6 @@
 !> One drive period of a pendulum as a list of drifts and kicks, made in quad precision and rounded to doubles.
 module kz_lanes_step_table
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr, c_null_ptr
   use, intrinsic :: iso_fortran_env, only: rk => real64, real128
   use kz_model_pendulum, only: pendulum_t, force_at
   use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
@@ -19,6 +19,7 @@ module kz_lanes_step_table
     integer(c_int32_t) :: drift_terms = 0
     integer(c_int32_t) :: kick_terms = 0
     real(c_double) :: fastest = 0 !< speed up to which the processed splitting serves, rad per drive radian; 0 = 3
+    type(c_ptr) :: series = c_null_ptr !< of the processed splitting: series that are kept (kz_kept_series of kernel.h); null = none are
   end type numerics_t
 
   !> Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi (u - shift(s))) - push(s); after the last one a
@@ -71,11 +72,13 @@ contains
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stretch_t), intent(in) :: part
+    real(qp) :: turn
     integer :: i
 
     call allocate_kicks(period, 2*period%n_steps + 1)
     do i = 0, 2*period%n_steps
-      call set_kick(period, pendulum, part, i + 1, 1.0_qp, part%begin + part%span*(real(i, qp)/(2*period%n_steps)))
+      turn = part%begin + part%span*(real(i, qp)/(2*period%n_steps))
+      call set_kick(period, pendulum, part, i + 1, 1.0_qp, turn, phasor(turn))
     end do
   end subroutine rk4_tables
 
@@ -88,25 +91,34 @@ contains
     real(qp), intent(in) :: step
     logical, intent(in) :: fused
     type(stretch_t), intent(in) :: part
-    real(qp) :: time(period%n_steps*size(stages) + 1), shift, clock
+    !> exp(2 pi i t) at the beginning of the part and of the step, of a step, and of each stage counted from the beginning of its step: sums of
+    !> angles are products, which cost less than cosines in quad precision
+    complex(qp) :: begin, begin_of_step, of_step, of_stage(size(stages))
+    real(qp) :: time(period%n_steps*size(stages) + 1), at(size(stages)), shift
     integer :: n, i, s
 
+    at = elapsed(stages)
+    begin = phasor(part%begin)
+    of_step = phasor(part%span/period%n_steps)
+    do s = 1, size(stages)
+      of_stage(s) = phasor(part%span*(at(s)/period%n_steps))
+    end do
     call allocate_kicks(period, period%n_steps*size(stages) + 1)
     allocate (period%step_end(period%n_steps))
     n = 0
     shift = 0
+    begin_of_step = begin
     do i = 0, period%n_steps - 1
-      clock = 0
       do s = 1, size(stages)
-        if (.not. stages(s)%is_kick) then
+        if (stages(s)%is_kick) then
+          call append(stages(s)%share*step, part%begin + part%span*((i + at(s))/period%n_steps), begin_of_step*of_stage(s))
+        else
           shift = shift + stages(s)%share
-          clock = clock + stages(s)%share
-          cycle
         end if
-        call append(stages(s)%share*step, part%begin + part%span*((i + clock)/period%n_steps))
       end do
-      if (.not. fused .and. shift > 0) call append(0.0_qp, part%begin)
+      if (.not. fused .and. shift > 0) call append(0.0_qp, part%begin, begin)
       period%step_end(i + 1) = n
+      begin_of_step = begin_of_step*of_step
     end do
     period%kick = period%kick(:n)
     if (.not. period%mirrored) then
@@ -120,15 +132,36 @@ contains
       call damp(period, time(:n + 1)*step)
     end if
   contains
-    subroutine append(weight, turn)
+    subroutine append(weight, turn, clock_of_turn)
       real(qp), intent(in) :: weight, turn
+      complex(qp), intent(in) :: clock_of_turn
 
       n = n + 1
       time(n) = shift
-      call set_kick(period, pendulum, part, n, weight, turn)
+      call set_kick(period, pendulum, part, n, weight, turn, clock_of_turn)
       shift = 0
     end subroutine append
   end subroutine split_tables
+
+  !> Shares of a step that have elapsed at each of its stages.
+  pure function elapsed(stages) result(clock)
+    type(stage_t), intent(in) :: stages(:)
+    real(qp) :: clock(size(stages))
+    integer :: s
+
+    clock(1) = 0
+    do s = 2, size(stages)
+      clock(s) = clock(s - 1)
+      if (.not. stages(s - 1)%is_kick) clock(s) = clock(s) + stages(s - 1)%share
+    end do
+  end function elapsed
+
+  !> exp(2 pi i turn).
+  pure complex(qp) function phasor(turn)
+    real(qp), intent(in) :: turn
+
+    phasor = cmplx(cos(2*PI*turn), sin(2*PI*turn), qp)
+  end function phasor
 
   !> Turns the times of the drifts into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
   subroutine damp(period, time)
@@ -218,16 +251,17 @@ contains
     if (.not. period%mirrored) allocate (period%shift(n), period%push(n))
   end subroutine allocate_kicks
 
-  !> Kick n: the force at t = 2 pi * turn times a weight.
-  subroutine set_kick(period, pendulum, part, n, weight, turn)
+  !> Kick n: the force at t = 2 pi * turn, times a weight; exp(i t) is known.
+  subroutine set_kick(period, pendulum, part, n, weight, turn, clock)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stretch_t), intent(in) :: part
     integer, intent(in) :: n
     real(qp), intent(in) :: weight, turn
+    complex(qp), intent(in) :: clock
     real(qp) :: a, b, drive(0:CUBIC)
 
-    call force_at(pendulum, turn, cosine_of(turn), a, b)
+    call force_at(pendulum, clock, a, b)
     if (part%changes) then
       drive = drive_series(part, turn, 0.0_qp)
       a = pendulum%k + drive(0)*(a - pendulum%k)
@@ -239,21 +273,5 @@ contains
     period%shift(n) = real(atan2(b, a)/PI, rk)
     period%push(n) = real(weight*pendulum%torque, rk)
   end subroutine set_kick
-
-  !> cos(2 pi turn). Quad precision's own cosine is slow, and one pendulum after another asks for the same ones: they are kept.
-  real(qp) function cosine_of(turn) result(cosine)
-    real(qp), intent(in) :: turn
-    integer, parameter :: KEPT = 8192
-    real(qp), save :: kept_turn(KEPT) = -1
-    real(qp), save :: kept_cosine(KEPT)
-    integer :: place
-
-    place = 1 + int(KEPT*modulo(12289.62_c_double*real(turn, c_double), 1.0_c_double))
-    if (abs(kept_turn(place) - turn) > 0) then ! not kept, or another one in its place
-      kept_turn(place) = turn
-      kept_cosine(place) = cos(2*PI*turn)
-    end if
-    cosine = kept_cosine(place)
-  end function cosine_of
 
 end module kz_lanes_step_table

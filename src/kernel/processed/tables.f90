@@ -1,39 +1,70 @@
-!> The processed splitting in double precision: its tables, and its series, which is kept.
+!> The processed splitting in double precision: its tables, and its series, which may be kept.
 module kz_processed_tables
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc
   use, intrinsic :: iso_fortran_env, only: rk => real64
   use kz_model_pendulum, only: pendulum_t, exact_stiffness, is_same
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_series_r64, only: series_t, make_series, ORDER, HARMONICS
   implicit none
   private
-  public :: series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS
+  public :: series_t, kept_series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS, NODES
 
   !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use.
   integer, parameter, public :: MOST_DRIFTS = 4, MOST_KICKS = 11
   !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
   real(c_double), parameter, public :: MOST_DAMPING = 16/(2*3.14159265358979323846_c_double)
 
-  !> The series that was made last, and its pendulum: a scene asks for it several times.
-  type(series_t), allocatable, save :: made
-  type(pendulum_t), save :: pendulum_made
+  !> Pendulums along a slider whose series are kept: one more than the degree of a series in the terms of the force.
+  integer, parameter :: NODES = ORDER/2 + 1
+
+  !> What kz_kept_series of kernel.h points at: the series that was made last, which a scene asks for several times, and series of pendulums that a
+  !> slider moves. The caller owns it; one thread at a time may use it.
+  type :: kept_series_t
+    type(pendulum_t) :: pendulum
+    type(series_t), allocatable :: made
+    type(pendulum_t) :: place(NODES)
+    type(series_t), allocatable :: node(:)
+    integer :: n_nodes = 0, oldest = 1 !< the next node that is made takes the place `oldest`
+  end type kept_series_t
 
   include 'tables.inc'
 
   !> The series of a pendulum, right to 1e-15 of the force itself.
-  subroutine make_processed_series(pendulum, series)
+  subroutine make_processed_series(pendulum, kept, series)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(c_ptr), intent(in) :: kept !< series that are kept, kz_kept_series of kernel.h; null = none are
     type(series_t), intent(out) :: series !< what does not depend on the number of steps
+    type(kept_series_t), pointer :: last
 
-    if (allocated(made)) then
-      if (.not. is_same(pendulum, pendulum_made)) deallocate (made)
+    if (.not. c_associated(kept)) then
+      call make_series(pendulum, series)
+      return
     end if
-    if (.not. allocated(made)) then
-      allocate (made)
-      call make_series(pendulum, made)
-      pendulum_made = pendulum
+    call c_f_pointer(kept, last)
+    if (allocated(last%made)) then
+      if (.not. is_same(pendulum, last%pendulum)) deallocate (last%made)
     end if
-    series = made
+    if (.not. allocated(last%made)) then
+      allocate (last%made)
+      call make_series(pendulum, last%made)
+      last%pendulum = pendulum
+    end if
+    series = last%made
   end subroutine make_processed_series
+
+  type(c_ptr) function series_create() bind(C, name='kz_kept_series_create') result(handle)
+    type(kept_series_t), pointer :: kept
+
+    allocate (kept)
+    handle = c_loc(kept)
+  end function series_create
+
+  subroutine series_free(handle) bind(C, name='kz_kept_series_free')
+    type(c_ptr), value :: handle
+    type(kept_series_t), pointer :: kept
+
+    call c_f_pointer(handle, kept)
+    if (associated(kept)) deallocate (kept)
+  end subroutine series_free
 
 end module kz_processed_tables

@@ -1,6 +1,6 @@
 !> Tables of the processed splitting in quad precision, for pairs of doubles.
 module kz_processed_tables_r128
-  use, intrinsic :: iso_c_binding, only: c_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use kz_model_pendulum, only: pendulum_t, exact_stiffness
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
@@ -17,14 +17,15 @@ module kz_processed_tables_r128
 
   !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
   !> step h counts h**q, so little precision is enough for high ones.
-  subroutine make_mixed_series(pendulum, series)
+  subroutine make_mixed_series(pendulum, kept, series)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(c_ptr), intent(in) :: kept !< series that are kept, kz_kept_series of kernel.h; null = none are
     type(series_t), intent(out) :: series !< what does not depend on the number of steps
     type(series_r64_t), allocatable :: rounded
     type(series_t), allocatable :: leading
 
     allocate (rounded, leading)
-    call make_processed_series(pendulum, rounded)
+    call make_processed_series(pendulum, kept, rounded)
     call make_series(pendulum, leading)
     series%mirrored = rounded%mirrored
     series%times = rounded%times

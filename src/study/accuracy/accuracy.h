@@ -23,7 +23,8 @@ extern const int kz_setting_count;
 extern const kz_setting *const kz_setting_exact;
 
 /* The numerics of a setting, for the cells of a basin of this pendulum. */
-kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, const kz_basin_plan *plan);
+kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, kz_kept_series *series,
+                                const kz_basin_plan *plan);
 /* The scene with the setting in place of its method, icm and numerics. */
 void kz_setting_apply(const kz_setting *setting, kz_scene *scene);
 

@@ -165,8 +165,10 @@ static kz_status follow_samples(kz_reference_labels *reference, const kz_run *ru
 kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int64_t samples, const char *path,
                                    kz_reference_labels *reference) {
   const kz_basin_plan *plan = &scene->basin;
-  *reference = (kz_reference_labels){
-      .plan = plan, .pendulum = scene->parameters.pendulum, .total = plan->theta.count * plan->velocity.count};
+  *reference = (kz_reference_labels){.plan = plan,
+                                     .pendulum = scene->parameters.pendulum,
+                                     .series = scene->series,
+                                     .total = plan->theta.count * plan->velocity.count};
   reference->samples = samples < reference->total ? samples : reference->total;
   kz_numerics numerics;
   KZ_TRY(kz_ranks_agree(run->ranks, kz_reference_labels_numerics(plan, &reference->pendulum, &numerics)));

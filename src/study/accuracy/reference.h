@@ -23,9 +23,10 @@ typedef struct {
 typedef struct {
   const kz_basin_plan *plan;
   kz_pendulum pendulum;
-  int64_t total;       /* cells of the window */
-  int64_t samples;     /* number of cells with a reference label: the first ones in the order of kz_shuffled */
-  double max_velocity; /* of kz_dynamics_max_velocity */
+  kz_kept_series *series; /* of the scene */
+  int64_t total;          /* cells of the window */
+  int64_t samples;        /* number of cells with a reference label: the first ones in the order of kz_shuffled */
+  double max_velocity;    /* of kz_dynamics_max_velocity */
   int64_t packed_size;
   double *packed;             /* the attractors, for kz_dynamics_unpack */
   kz_reference_label *labels; /* [samples] */

@@ -50,17 +50,18 @@ const char *kz_tradeoff_words(void) {
   return words;
 }
 
-kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, const kz_basin_plan *plan) {
+kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, kz_kept_series *series,
+                                const kz_basin_plan *plan) {
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   if (setting->steps == KZ_AUTO)
-    return kz_processed_or_split(pendulum, setting->method, setting->tolerance,
+    return kz_processed_or_split(pendulum, series, setting->method, setting->tolerance,
                                  kz_fastest_motion(pendulum, &window, setting->method == KZ_METHOD_ICM ? setting->nodes : 0));
   return (kz_numerics){.scheme = kz_scheme_find(setting->scheme), .steps_per_period = setting->steps};
 }
 
 void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
   kz_basin_plan *plan = &scene->basin;
-  scene->numerics = kz_setting_numerics(setting, &scene->parameters.pendulum, plan);
+  scene->numerics = kz_setting_numerics(setting, &scene->parameters.pendulum, scene->series, plan);
   plan->method = setting->method;
   plan->interpolation = setting->interpolation;
   plan->table_theta = plan->table_velocity = setting->nodes;
@@ -159,7 +160,7 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
 static kz_status measure_cells(const kz_setting *setting, const kz_reference_labels *reference, int64_t n,
                                kz_measured *measured) {
   measurement g = {.setting = setting, .reference = reference};
-  const kz_numerics numerics = kz_setting_numerics(setting, &reference->pendulum, reference->plan);
+  const kz_numerics numerics = kz_setting_numerics(setting, &reference->pendulum, reference->series, reference->plan);
   if (n < reference->samples) n = reference->samples;
   if (n > reference->total) n = reference->total;
   g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);

@@ -76,7 +76,7 @@ static void rate(const kz_reference_labels *reference, const kz_measured *measur
   trade->best_wrong = NAN;
   for (int64_t i = 0; i < trade->count; i++) {
     kz_trade_row *row = trade->row + i;
-    row->numerics = kz_setting_numerics(row->setting, &reference->pendulum, reference->plan);
+    row->numerics = kz_setting_numerics(row->setting, &reference->pendulum, reference->series, reference->plan);
     row->measured = measured[i];
     row->wrong = kz_share_of(measured[i].wrong, reference->samples).share;
     row->seconds = measured[i].set_up + measured[i].cell * cells;

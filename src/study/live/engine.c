@@ -7,17 +7,22 @@
 #include "where/where.h"
 
 kz_engine *kz_engine_create(void) {
-  return kz_calloc(1, sizeof(kz_engine));
+  kz_engine *engine = kz_calloc(1, sizeof *engine);
+  engine->series = kz_kept_series_create();
+  return engine;
 }
 
 void kz_engine_free(kz_engine *engine) {
-  for (int i = 0; engine && i < KZ_RESIDENTS; i++) kz_resident_free(engine->resident + i);
+  if (!engine) return;
+  for (int i = 0; i < KZ_RESIDENTS; i++) kz_resident_free(engine->resident + i);
+  kz_kept_series_free(engine->series);
   free(engine);
 }
 
 /* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on where one looks. */
-static kz_scene searched(const kz_scene *scene) {
+static kz_scene searched(const kz_engine *engine, const kz_scene *scene) {
   kz_scene wide = *scene;
+  wide.series = engine->series;
   const double fastest = fmax(1, exp2(ceil(log2(kz_axis_fastest(&scene->basin.velocity) * (1 - 1e-9)))));
   wide.basin.theta = (kz_axis){.min = -M_PI, .max = M_PI, .count = scene->basin.theta.count};
   wide.basin.velocity = (kz_axis){.min = -fastest, .max = fastest, .count = scene->basin.velocity.count};
@@ -59,7 +64,7 @@ void kz_engine_list(kz_engine *engine, kz_resident *resident) {
 }
 
 static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, kz_resident *place) {
-  const kz_scene wide = searched(scene);
+  const kz_scene wide = searched(engine, scene);
   kz_resident fresh;
   const kz_status status = kz_resident_make(&wide, tolerance, &fresh);
   if (status == KZ_OK) kz_resident_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);

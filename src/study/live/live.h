@@ -79,6 +79,7 @@ void kz_resident_list(kz_resident *resident, int64_t version, const kz_live_cata
 enum { KZ_RESIDENTS = 6 };
 struct kz_engine {
   kz_resident resident[KZ_RESIDENTS];
+  kz_kept_series *series;          /* of them all: a slider goes on where it was, whatever resident it moves */
   int64_t calls, versions, tracks; /* counters */
   const kz_live_catalogue *shown;  /* the last catalogue: tracks go on from it */
 };

@@ -50,8 +50,8 @@ static void choose_numerics(kz_resident *r) {
     return;
   }
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  scene->numerics =
-      kz_processed_or_split(pendulum, KZ_METHOD_DIRECT, r->tolerance, kz_fastest_motion(pendulum, &r->search.window, 0));
+  scene->numerics = kz_processed_or_split(pendulum, scene->series, KZ_METHOD_DIRECT, r->tolerance,
+                                          kz_fastest_motion(pendulum, &r->search.window, 0));
 }
 
 static bool has_chaos(const kz_resident *r) {

@@ -102,7 +102,8 @@ static bool serve_method(const demand *d, int32_t method, kz_numerics *numerics)
 /* Sets scene->numerics. False if the processed splitting is not accurate enough for the scene's motions, or if nothing is labelled. */
 static bool choose_processed(kz_scene *scene) {
   demand d = {.tolerance = scene->asked.tolerance};
-  kz_numerics numerics = {.scheme = scene->asked.scheme, .steps_per_period = scene->asked.steps_per_period};
+  kz_numerics numerics = {
+      .scheme = scene->asked.scheme, .steps_per_period = scene->asked.steps_per_period, .series = scene->series};
   if (scene->has_basin && !isnan(scene->basin.accuracy)) return false;
   add_pendulum(&d, scene);
   if (scene->has_sweep) add_sweep(&d, scene);
@@ -111,9 +112,10 @@ static bool choose_processed(kz_scene *scene) {
   return true;
 }
 
-kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, int32_t method, double tolerance, double fastest) {
+kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, kz_kept_series *series, int32_t method, double tolerance,
+                                  double fastest) {
   demand d = {.pendulum = {*pendulum}, .count = 1, .fastest = fastest, .tolerance = tolerance};
-  kz_numerics numerics = {0};
+  kz_numerics numerics = {.series = series};
   return serve_method(&d, method, &numerics) ? numerics : kz_steps_plain();
 }
 
@@ -141,7 +143,8 @@ void kz_numerics_resolve(kz_scene *scene) {
   const bool processed = kz_is_processed(asked->scheme);
   if (processed && choose_processed(scene)) return;
   scene->numerics = (kz_numerics){.scheme = processed ? kz_scheme_find("split6") : asked->scheme,
-                                  .steps_per_period = asked->steps_per_period};
+                                  .steps_per_period = asked->steps_per_period,
+                                  .series = scene->series};
   if (processed || asked->steps_per_period == KZ_AUTO) choose_steps(scene, processed);
 }
 

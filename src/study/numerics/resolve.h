@@ -21,7 +21,9 @@ bool kz_is_processed(int32_t scheme);
 double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows);
 
 /* The cheapest processed splitting whose error of a drive period is at most `tolerance` (rad), up to speeds of `fastest` (rad per drive
- * radian); split6 with its default steps if there is none. Method exact takes a tenth of the tolerance if rounding allows it. */
-kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, int32_t method, double tolerance, double fastest);
+ * radian); split6 with its default steps if there is none. Method exact takes a tenth of the tolerance if rounding allows it. series: as in
+ * kz_numerics. */
+kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, kz_kept_series *series, int32_t method, double tolerance,
+                                  double fastest);
 
 #endif

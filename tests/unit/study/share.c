@@ -95,7 +95,7 @@ static void test_settings_differ_and_exist(void **state) {
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   const kz_basin_plan plan = {.theta = {-M_PI, M_PI, 10}, .velocity = {-2, 2, 10}};
   for (int i = 0; i < kz_setting_count; i++) {
-    assert_true(kz_setting_numerics(kz_settings + i, &pendulum, &plan).scheme < kz_scheme_count());
+    assert_true(kz_setting_numerics(kz_settings + i, &pendulum, NULL, &plan).scheme < kz_scheme_count());
     assert_non_null(strstr(kz_tradeoff_words(), kz_settings[i].label));
     for (int j = 0; j < i; j++) assert_string_not_equal(kz_settings[i].label, kz_settings[j].label);
   }
