@@ -36,7 +36,7 @@ typedef struct {
   kz_scene scene;
   kz_dynamics *dynamics;
   kz_images *images;
-  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+  kz_hand_over hand_over[KZ_LEVELS];
 } view;
 
 enum { COUNT = 1009 }; /* cells along an axis */
@@ -60,7 +60,7 @@ static view open_view(const window *w) {
   find_attractors(&v);
   v.images = kz_images_create(&v.scene.parameters.pendulum, &plan->theta, &plan->velocity);
   assert_int_equal(kz_images_follow(v.images, v.dynamics, plan->max_periods, plan->max_periods), KZ_OK);
-  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++) v.hand_over[level] = kz_hand_over_at(v.images, level, 0.5);
+  kz_hand_overs_make(v.images, 0.5, v.hand_over);
   return v;
 }
 
@@ -83,7 +83,7 @@ static void own_label(const view *v, int64_t cell, kz_decision *decision) {
   const kz_coordinate start[2] = {kz_axis_coordinate(&plan->theta, cell % COUNT),
                                   kz_axis_coordinate(&plan->velocity, cell / COUNT)};
   assert_int_equal(kz_own_orbit_decide(v->dynamics, &v->scene.parameters.pendulum, start, plan->max_periods, decision), KZ_OK);
-  assert_int_equal(decision->level, KZ_LEVEL_ARBITRARY);
+  assert_int_not_equal(decision->label, KZ_DOUBTFUL);
 }
 
 /* Every cell is decided, and as its own orbit ends. The labels differ among the cells. */
@@ -91,21 +91,25 @@ static void compare(const window *w) {
   enum { MOST = 64 };
   view v = open_view(w);
   int64_t item[MOST];
-  kz_decision decision[MOST], own;
-  const kz_labeller labeller = {
-      .dynamics = v.dynamics, .max_periods = v.scene.basin.max_periods, .start = start_cell, .context = &v};
+  kz_label label[MOST];
+  kz_decision own;
+  const kz_labeller labeller = {.dynamics = v.dynamics,
+                                .max_periods = v.scene.basin.max_periods,
+                                .way = KZ_BY_LEVELS,
+                                .start = start_cell,
+                                .context = &v};
   const int cells = getenv("KAPITZA_EXTENSIVE") ? 50 : w->cells;
   bool several = false;
   srand(3);
   for (int i = 0; i < MOST; i++) item[i] = (int64_t)(rand() % COUNT) * COUNT + rand() % COUNT;
-  assert_int_equal(kz_label(&labeller, MOST, item, decision), KZ_OK);
-  for (int i = 0; i < MOST; i++) several = several || decision[i].label != decision[0].label;
+  assert_int_equal(kz_label_items(&labeller, 1, MOST, item, label), KZ_OK);
+  for (int i = 0; i < MOST; i++) several = several || label[i].label != label[0].label;
   for (int i = 0; i < cells; i++) {
     own_label(&v, item[i], &own);
-    if (decision[i].label != own.label || getenv("KZ_SHOW"))
-      print_message("width %s cell %d: %d at level %d after %lld, own %d after %lld\n", w->width, i, decision[i].label,
-                    decision[i].level, (long long)decision[i].periods, own.label, (long long)own.periods);
-    assert_true(decision[i].label == own.label);
+    if (label[i].label != own.label || getenv("KZ_SHOW"))
+      print_message("width %s cell %d: %d by evidence %d after %lld, own %d after %lld\n", w->width, i, label[i].label,
+                    label[i].evidence, (long long)label[i].periods, own.label, (long long)own.periods);
+    assert_true(label[i].label == own.label);
   }
   assert_true(several);
   close_view(&v);
@@ -125,6 +129,7 @@ static void labels_are_those_of_own_orbits(void **state) {
 
 /* The state of a cell, and of the sample that stands for it, at most half a step and a tenth away; a step's image is `step` long. */
 static void compare_samples(const kz_window_starts *starts, const kz_window_curve *curve) {
+  const kz_labeller labeller = kz_window_labeller(starts, false);
   double cell[2], sample[2], next[2], farthest = 0;
   int64_t periods, same;
   kz_window_curve_state(curve, curve->count / 2, sample, &periods);
@@ -133,7 +138,7 @@ static void compare_samples(const kz_window_starts *starts, const kz_window_curv
   for (int i = 0; i < 2000; i++) {
     const int64_t at = (int64_t)(rand() % COUNT) * COUNT + rand() % COUNT, of = kz_window_curve_sample(curve, at);
     assert_true(of >= 0 && of < curve->count);
-    kz_window_state(starts, at, cell, &periods);
+    assert_int_equal(kz_item_states(&labeller, 1, &at, cell, &periods), KZ_OK);
     kz_window_curve_state(curve, of, sample, &same);
     assert_int_equal(same, periods);
     farthest = fmax(farthest, hypot(M_PI * (cell[0] - sample[0]), cell[1] - sample[1]) / step);
@@ -165,9 +170,9 @@ static void folded_images_hand_nothing_over(void **state) {
                       {.jet = {.linear = {{1e-9, 0}, {0, 1e-9}}, .bent = {{[3] = 1e-17}}}}};
   const kz_images images = {.n = 2, .image = image};
   (void)state;
-  assert_int_equal(kz_hand_over_at(&images, KZ_LEVEL_DOUBLE, 0.5).periods, 2);
+  assert_int_equal(kz_hand_over_at(&images, kz_level_rows, 0.5).periods, 2);
   image[2].jet.bent[0][0] = 1e-6L;
-  assert_int_equal(kz_hand_over_at(&images, KZ_LEVEL_DOUBLE, 0.5).periods, 1);
+  assert_int_equal(kz_hand_over_at(&images, kz_level_rows, 0.5).periods, 1);
 }
 
 int main(void) {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "numerics/cells.h"
+#include "labelling/labeller.h"
 #include "labelling/search.h"
 #include "numerics/share.h"
 #include "numerics/steps.h"
@@ -15,8 +16,9 @@ enum {
   DOUBLINGS = 6, /* of STEPS, at most */
   MOST_STEPS = 20000,
   PROBES = 8192, /* cells that must settle on known attractors before any is followed in quad precision */
-  ROUNDS = 4,    /* of discovery */
-  TILE = 32,     /* cells */
+  ROUNDS = 3,    /* of search among probes that end nowhere known, at most */
+  PROBE_TILE = 256,
+  TILE = 32,                            /* cells */
   OTHER_STEPS = KZ_REFERENCE_STEPS + 6, /* the other number of steps of the series */
   ASKED = 8                             /* every so many cells the other number of steps is tried */
 };
@@ -38,36 +40,28 @@ kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendu
                  (int)numerics->steps_per_period, fastest);
 }
 
-/* Starts, then unsettled probes, until every probe ends on a known attractor or a round finds none. Buffers: state [PROBES][2], label
- * [PROBES]. */
-static kz_status find_attractors(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics, double *state,
-                                 int32_t *label) {
+/* From starts, then from probes that do not settle. */
+static kz_status find_attractors(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
   const kz_basin_plan *plan = reference->plan;
   const int64_t probes = reference->total < PROBES ? reference->total : PROBES;
+  const kz_search_on search_on = {ROUNDS, PROBES, NULL};
   kz_search search = kz_search_of_basin(plan);
+  kz_labeller labeller = kz_cell_labeller(plan, dynamics);
+  KZ_FREED int64_t *cell = kz_malloc((size_t)probes * sizeof *cell);
+  KZ_FREED kz_label *label = kz_malloc((size_t)probes * sizeof *label);
+  labeller.way = KZ_BY_STATES;
+  labeller.run = run;
+  labeller.stage = "probes";
+  labeller.tile = PROBE_TILE;
   search.table_theta = 0;
+  for (int64_t i = 0; i < probes; i++) cell[i] = kz_reference_labels_cell(reference, i);
   KZ_TRY(kz_search_window(run, dynamics, &search, NULL));
-  for (int round = 0; round < ROUNDS; round++) {
-    const int64_t known = kz_dynamics_count(dynamics);
-    int64_t open = 0;
-    for (int64_t i = 0; i < probes; i++) kz_cell_state(plan, kz_reference_labels_cell(reference, i), state + 2 * i);
-    KZ_TRY(kz_settle(run, dynamics, plan->max_periods, probes, state, label));
-    for (int64_t i = 0; i < probes; i++)
-      if (label[i] == 0) memcpy(state + 2 * open++, state + 2 * i, 2 * sizeof *state);
-    if (open == 0) break;
-    KZ_TRY(kz_discover(run, dynamics, plan->max_periods, open, state, label));
-    if (kz_dynamics_count(dynamics) == known) break;
-  }
-  kz_dynamics_update(dynamics);
-  return kz_dynamics_count(dynamics) <= INT16_MAX ? KZ_OK : kz_fail(KZ_FAILED, "more than %d attractors", INT16_MAX);
+  return kz_label_and_search(&labeller, &search_on, probes, cell, label);
 }
 
 static kz_status prepare(kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
   const kz_window window = kz_window_of(&reference->plan->theta, &reference->plan->velocity);
-  KZ_FREED double *state = kz_malloc(2 * PROBES * sizeof *state);
-  KZ_FREED int32_t *label = kz_malloc(PROBES * sizeof *label);
-  const kz_status status = find_attractors(reference, run, dynamics, state, label);
-  KZ_TRY(kz_ranks_agree(run->ranks, status));
+  KZ_TRY(kz_ranks_agree(run->ranks, find_attractors(reference, run, dynamics)));
   reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
   reference->packed_size = kz_dynamics_packed_size(dynamics);
   reference->packed = kz_malloc((size_t)reference->packed_size * sizeof(double));

@@ -92,17 +92,17 @@ typedef struct {
   kz_dynamics *dynamics;
 } measurement;
 
-/* Labels [n] of the first n cells in the order of the sample; KZ_DOUBTFUL where no level of method exact decides. */
+/* Labels [n] of the first n cells in the order of the sample; KZ_DOUBTFUL where no level of method exact decides. Method direct is compared
+ * by its states alone. */
 static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
   const kz_setting *s = g->setting;
-  const kz_labeller labeller = kz_cell_labeller(g->reference->plan, g->dynamics);
-  const bool exact = s->method == KZ_METHOD_EXACT;
-  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1), *periods = kz_malloc((size_t)n * sizeof *periods + 1);
-  KZ_FREED kz_decision *decision = kz_malloc((exact ? (size_t)n : 0) * sizeof *decision + 1);
+  kz_labeller labeller = kz_cell_labeller(g->reference->plan, g->dynamics);
+  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1);
+  KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found + 1);
+  if (s->method != KZ_METHOD_EXACT) labeller.way = kz_stepping(s->method, s->interpolation);
   for (int64_t i = 0; i < n; i++) cell[i] = kz_reference_labels_cell(g->reference, i);
-  KZ_TRY(exact ? kz_label(&labeller, n, cell, decision)
-               : kz_label_states(&labeller, kz_stepping(s->method, s->interpolation), n, cell, label, periods));
-  for (int64_t i = 0; i < n && exact; i++) label[i] = decision[i].label;
+  KZ_TRY(kz_label_items(&labeller, 1, n, cell, found));
+  for (int64_t i = 0; i < n; i++) label[i] = found[i].label;
   return KZ_OK;
 }
 

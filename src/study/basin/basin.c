@@ -78,7 +78,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
                                 .pendulum = &scene->parameters.pendulum,
                                 .run = run,
                                 .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
-                                .batch = kz_tile_cells(scene, KZ_TILE_CELLS),
+                                .tile = kz_tile_cells(scene, KZ_TILE_CELLS),
                                 .search = kz_search_of_basin(plan)};
   kz_catalogue catalogue = {0};
   kz_doubt_sample sample = {0};

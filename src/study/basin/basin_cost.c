@@ -57,9 +57,9 @@ static kz_status basin_cost_discover(sample *s, kz_catalogue *catalogue) {
 
 /* Without regard to errors. */
 static kz_status measure_followed(sample *s, int64_t n) {
-  KZ_FREED kz_cell_label *cell = kz_malloc((size_t)n * sizeof *cell);
+  KZ_FREED kz_label *cell = kz_malloc((size_t)n * sizeof *cell);
   const double start = kz_processor_clock();
-  KZ_TRY(kz_label_cells(&s->labelling, n, s->item, cell));
+  KZ_TRY(kz_label_first(&s->labelling.labeller, n, s->item, cell));
   s->seconds += (kz_processor_clock() - start) / (double)n * (double)kz_unique_cells(&s->scene->basin);
   return KZ_OK;
 }
@@ -68,18 +68,18 @@ static kz_status measure_followed(sample *s, int64_t n) {
 static kz_status measure_level(sample *s, int32_t level, int32_t before, double all, int64_t *n, double *share) {
   const kz_labeller *labeller = &s->labelling.labeller;
   static const double enough = 0.3; /* s */
-  KZ_FREED kz_decision *decision = kz_malloc(BATCH * sizeof *decision);
+  KZ_FREED kz_label *label = kz_malloc(BATCH * sizeof *label);
   const double before_tables = kz_processor_clock();
-  kz_status status = kz_label_at(labeller, level, before, 1, s->item, decision); /* makes its tables */
+  kz_status status = kz_label_at(labeller, level, before, 1, s->item, label); /* makes its tables */
   const double start = kz_processor_clock();
   int64_t done = 0, left = 0, part;
   s->seconds += start - before_tables;
   for (; status == KZ_OK && done < *n && kz_processor_clock() - start < enough; done += part) {
-    const int64_t batch = kz_level_stages[level].tile; /* at most BATCH */
+    const int64_t batch = kz_level_rows[level].tile; /* at most BATCH */
     part = *n - done < batch ? *n - done : batch;
-    status = kz_label_at(labeller, level, before, part, s->item + done, decision);
+    status = kz_label_at(labeller, level, before, part, s->item + done, label);
     for (int64_t i = 0; i < part; i++)
-      if (decision[i].label == KZ_DOUBTFUL) s->item[left++] = s->item[done + i];
+      if (label[i].label == KZ_DOUBTFUL) s->item[left++] = s->item[done + i];
   }
   s->seconds += (kz_processor_clock() - start) / (double)done * all;
   *n = left;
@@ -131,7 +131,7 @@ static kz_status measure_cells(sample *s) {
                                     .tiles = kz_tiles_of(s->scene, KZ_TILE_CELLS),
                                     .images = images,
                                     .run = &ALONE,
-                                    .batch = kz_tile_cells(s->scene, KZ_TILE_CELLS)};
+                                    .tile = kz_tile_cells(s->scene, KZ_TILE_CELLS)};
   kz_window_labels_start(&s->labelling);
   kz_images_free(images);
   s->seconds += WRITE_SECONDS * (double)(plan->theta.count * plan->velocity.count);

@@ -90,7 +90,7 @@ static void fill(kz_chunks *c, int64_t tile, bool image) {
   uint8_t *evidence = c->evidence;
   for (int64_t i = 0; i < n; i++) {
     const bool mirrored = image || i >= own;
-    const kz_cell_label *cell = &l->cell[mirrored ? n - 1 - i : i];
+    const kz_label *cell = &l->cell[mirrored ? n - 1 - i : i];
     const int16_t id = id_of(c, cell->label, mirrored);
     const bool inside = cell->evidence == KZ_FOLLOWED && cell->periods == 0;
     evidence[i] = inside ? KZ_INSIDE : id < 0 && cell->evidence != KZ_UNDECIDED ? KZ_UNSETTLED : cell->evidence;
@@ -112,7 +112,7 @@ static void take_proofs(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t first = kz_tile_first(tiles, tile), n = kz_tile_own(tiles, tile);
   for (int64_t i = 0; i < n; i++) {
-    kz_cell_label *cell = &c->labelling->cell[i];
+    kz_label *cell = &c->labelling->cell[i];
     if (cell->proof == 0) continue;
     const bool twice = tiles->unique_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells;
     if (cell->label != cell->proved && cell->evidence != KZ_UNDECIDED) c->counts.refuted += twice ? 2 : 1;

@@ -30,35 +30,6 @@ int64_t kz_tile_own(const kz_tiles *tiles, int64_t tile);
 /* Number of cells of a chunk. */
 int64_t kz_tile_capacity(const kz_tiles *tiles);
 
-/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
- * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_QUADS are from basin.proof with any method; they occur in the file only, not in
- * tiles. KZ_LEFT is a doubtful label of method direct. */
-enum {
-  KZ_UNSETTLED = 0,
-  KZ_INSIDE = 1,
-  KZ_FOLLOWED = 2,
-  KZ_UNDECIDED = 3,
-  KZ_IN_QUAD = 4,
-  KZ_IN_PAIRS = 5,
-  KZ_PROVED = 6,
-  KZ_IN_FINE = 7,
-  KZ_IN_ARBITRARY = 8,
-  KZ_LEFT = 9,
-  KZ_PROVED_IN_PAIRS = 10,
-  KZ_PROVED_IN_QUADS = 11
-};
-
-/* A cell. */
-typedef struct {
-  uint32_t periods;
-  int16_t label;    /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL until a level decides it */
-  int16_t other;    /* of an undecided cell: the second candidate, 0 = none */
-  uint8_t evidence; /* from KZ_FOLLOWED on */
-  uint8_t proof;    /* KZ_PROVED, ..._IN_PAIRS, ..._IN_QUADS, 0 = not proved */
-  uint8_t proved;   /* number of the attractor, in kz_dynamics, on which it is proved to end */
-  uint8_t unused;   /* 0 */
-} kz_cell_label;
-
 typedef struct {
   const kz_basin_plan *plan;
   const kz_pendulum *pendulum;
@@ -68,9 +39,9 @@ typedef struct {
   kz_images *images;       /* for a window by centre and width with method exact; else NULL */
   kz_window_starts starts; /* of all cells */
   kz_labeller labeller;    /* of the cells, whose items are their numbers */
-  int64_t batch;           /* cells that are followed together */
+  int64_t tile;            /* most cells that are followed together */
   const kz_run *run;
-  kz_cell_label *cell;      /* [kz_tile_capacity] a tile, unpacked */
+  kz_label *cell;           /* [kz_tile_capacity] a tile, unpacked */
   kz_local_records records; /* tiles of this rank, packed */
   int16_t wanted;           /* label of the pending cells: 0 or KZ_DOUBTFUL */
   int64_t *before;          /* [own tiles + 1]: number of pending cells in all tiles before */
@@ -84,11 +55,6 @@ void kz_window_labels_free(kz_window_labels *labelling);
 
 /* Makes starts and labeller, after the images if the window needs them. */
 void kz_window_labels_start(kz_window_labels *labelling);
-
-/* Labels n cells by the method's own numerics, `exact` at its first level: out [n]. KZ_STOPPED if a stop is requested. */
-kz_status kz_label_cells(const kz_window_labels *labelling, int64_t n, const int64_t *cell, kz_cell_label *out);
-/* The label of a cell from a decision. */
-kz_cell_label kz_cell_label_of(const kz_decision *decision, uint8_t evidence);
 
 /* ---- packed tiles ---- */
 
@@ -104,22 +70,14 @@ int64_t kz_tile_labels_pending(const kz_local_record *kept, int16_t wanted);
 /* Adds the tile to labelling->reached of every attractor that one of its cells ends on. */
 void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_local_record *kept);
 
-/* ---- pending cells, level by level ---- */
-
-/* Stages of a level. */
-typedef struct {
-  const char *name; /* the first level's stages are those of all cells */
-  int64_t tile;     /* cells that are followed together */
-  uint8_t evidence; /* of what the level decides; KZ_LEVELS: of what no level decides */
-} kz_level_stage;
-extern const kz_level_stage kz_level_stages[];
+/* ---- pending cells: unsettled, or doubtful ---- */
 
 /* Counts the cells of all tiles with the label `wanted` into labelling->before; these cells are now pending. Collective. */
 kz_status kz_pending_count(kz_window_labels *labelling, int16_t wanted);
 /* cell [n] = the numbers of n evenly chosen cells among the pending cells from .. from + of - 1, in order, on every rank. Collective. */
 kz_status kz_pending_pick(kz_window_labels *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell);
-/* Labels the pending cells of all tiles, from `level` on, until each is decided or no level is left, in stages of round `round`.
- * Collective. */
-kz_status kz_pending_label(kz_window_labels *labelling, int level, int round);
+/* Labels the pending cells of all tiles, a bounded number at a time: the doubtful ones by the further levels, the unsettled ones from the
+ * first one on, in stages of round `round`. Collective. */
+kz_status kz_pending_label(kz_window_labels *labelling, int round);
 
 #endif

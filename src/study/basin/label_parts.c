@@ -1,4 +1,4 @@
-/* Labelling some cells, and packing a whole tile. */
+/* The labeller of a window, and packing a whole tile. */
 #include <stdlib.h>
 
 #include "label.h"
@@ -17,51 +17,14 @@ void kz_window_labels_start(kz_window_labels *l) {
   kz_window_starts_make(l->plan, l->pendulum, l->dynamics, l->images, &l->starts);
   l->labeller = kz_window_labeller(&l->starts,
                                    l->plan->undecided == KZ_UNDECIDED_DECIDE || (l->images && l->tiles.cells <= MOST_DECIDED));
-}
-
-kz_cell_label kz_cell_label_of(const kz_decision *decision, uint8_t evidence) {
-  return (kz_cell_label){.periods = (uint32_t)decision->periods,
-                         .label = (int16_t)decision->label,
-                         .other = (int16_t)decision->other,
-                         .evidence = evidence};
-}
-
-/* By the map table. */
-static kz_status label_by_table(const kz_window_labels *l, int64_t n, const int64_t *cell, kz_cell_label *out) {
-  KZ_FREED double *state = kz_malloc(2 * (size_t)n * sizeof *state);
-  int32_t *label = kz_malloc((size_t)n * sizeof *label);
-  int64_t *periods = kz_malloc((size_t)n * sizeof *periods);
-  for (int64_t i = 0; i < n; i++) kz_cell_state(l->plan, cell[i], state + 2 * i);
-  kz_dynamics_follow(l->dynamics, kz_stencil(l->plan->interpolation), n, l->plan->max_periods, state, label, periods);
-  for (int64_t i = 0; i < n; i++)
-    out[i] = (kz_cell_label){.periods = (uint32_t)periods[i], .label = (int16_t)label[i], .evidence = KZ_FOLLOWED};
-  free(label);
-  free(periods);
-  return KZ_OK;
-}
-
-/* By integration with errors; by method direct the labels of states alone, and whether their errors change them. */
-static kz_status label_by_level(const kz_window_labels *l, int64_t n, const int64_t *cell, kz_cell_label *out) {
-  const int32_t level = l->plan->method == KZ_METHOD_DIRECT ? KZ_LEVEL_GUESS : KZ_LEVEL_DOUBLE;
-  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
-  KZ_TRY(kz_label_at(&l->labeller, level, KZ_LEVEL_DOUBLE, n, cell, decision));
-  for (int64_t i = 0; i < n; i++)
-    out[i] = kz_cell_label_of(decision + i, decision[i].level == KZ_LEVELS ? KZ_LEFT : KZ_FOLLOWED);
-  return KZ_OK;
-}
-
-kz_status kz_label_cells(const kz_window_labels *l, int64_t n, const int64_t *cell, kz_cell_label *out) {
-  for (int64_t done = 0; done < n; done += l->batch) {
-    const int64_t part = n - done < l->batch ? n - done : l->batch;
-    KZ_TRY(kz_ranks_interrupted(l->run->ranks));
-    KZ_TRY((l->plan->method == KZ_METHOD_ICM ? label_by_table : label_by_level)(l, part, cell + done, out + done));
-  }
-  return KZ_OK;
+  l->labeller.way = kz_way_of(l->plan->method, l->plan->interpolation);
+  l->labeller.run = l->run;
+  l->labeller.tile = l->tile;
 }
 
 size_t kz_tile_labels_bytes(const kz_window_labels *l) {
   const size_t n = (size_t)kz_tile_capacity(&l->tiles);
-  return sizeof(head) + n * sizeof(int32_t) + kz_pack_bytes(n, sizeof(kz_cell_label));
+  return sizeof(head) + n * sizeof(int32_t) + kz_pack_bytes(n, sizeof(kz_label));
 }
 
 kz_status kz_tile_labels_pack(const kz_window_labels *l, int64_t tile, void *record) {

@@ -16,7 +16,7 @@ typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
   kz_images *images; /* of the window, where the partners lie in it or about it too; else NULL */
-  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+  kz_hand_over hand_over[KZ_LEVELS];
 } pairing;
 
 typedef struct {
@@ -32,9 +32,7 @@ typedef struct {
 typedef struct {
   const pairing *pairing;
   point point[POINTS];
-  int32_t end[POINTS];
-  int64_t periods[POINTS];
-  kz_decision decision[POINTS];
+  kz_label end[POINTS];
 } pair_tile;
 
 int kz_distances_of(const kz_basin_plan *plan) {
@@ -96,7 +94,8 @@ static void spread(const kz_basin_plan *plan, int64_t i, point *p) {
   }
 }
 
-/* A kz_start_fn. */
+/* A kz_start_fn. What quad precision does not decide is labelled in it without its error, which acts like a change of the start that is far
+ * below the smallest distance: such pairs would otherwise be missed among the uncertain. */
 static kz_status start_at(void *context, int64_t i, int32_t level, kz_start *start) {
   const pair_tile *t = context;
   const pairing *p = t->pairing;
@@ -115,27 +114,14 @@ static kz_status start_at(void *context, int64_t i, int32_t level, kz_start *sta
   return KZ_OK;
 }
 
-/* Labels in quad precision, whose error is ignored: it acts like a change of the start that is far below the smallest distance. Without
- * these labels, pairs that no level decides would be missed among the uncertain. */
-static kz_status follow_in_quads(const pairing *p, int64_t i, pair_tile *t) {
-  kz_start s;
-  KZ_TRY(start_at(t, i, KZ_LEVEL_QUAD, &s));
-  kz_dynamics_follow_reference(p->dynamics, KZ_REFERENCE_STEPS, 1, p->plan->max_periods - s.periods,
-                               (double[]){s.theta[0], s.velocity[0]}, (double[]){s.theta[1], s.velocity[1]}, t->end + i,
-                               t->periods + i);
-  return KZ_OK;
-}
-
-/* By the method's own labels: with their errors, or by integration in doubles alone. */
-static kz_status follow(const pairing *p, int64_t n, pair_tile *t) {
-  const kz_labeller labeller = {.dynamics = p->dynamics, .max_periods = p->plan->max_periods, .start = start_at, .context = t};
-  if (p->plan->method != KZ_METHOD_EXACT) return kz_label_states(&labeller, KZ_FOLLOW_DIRECT, n, NULL, t->end, t->periods);
-  KZ_TRY(kz_label(&labeller, n, NULL, t->decision));
-  for (int64_t i = 0; i < n; i++) {
-    t->end[i] = t->decision[i].label;
-    if (t->end[i] == KZ_DOUBTFUL) KZ_TRY(follow_in_quads(p, i, t));
-  }
-  return KZ_OK;
+static kz_labeller labeller_of(const pairing *p, pair_tile *t) {
+  const bool exact = p->plan->method == KZ_METHOD_EXACT;
+  return (kz_labeller){.dynamics = p->dynamics,
+                       .max_periods = p->plan->max_periods,
+                       .way = exact ? KZ_BY_LEVELS : KZ_BY_STATES,
+                       .open = KZ_OPEN_IN_QUADS,
+                       .start = start_at,
+                       .context = t};
 }
 
 static kz_status count_tile(void *context, int64_t tile, void *record) {
@@ -145,10 +131,11 @@ static kz_status count_tile(void *context, int64_t tile, void *record) {
   const int distances = kz_distances_of(p->plan), stride = 1 + distances;
   t->pairing = p;
   for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, t->point + stride * i);
-  KZ_TRY(follow(p, (int64_t)STARTS * stride, t));
+  const kz_labeller labeller = labeller_of(p, t);
+  KZ_TRY(kz_label_items(&labeller, 1, (int64_t)STARTS * stride, NULL, t->end));
   for (int64_t i = 0; i < STARTS; i++)
     for (int d = 0; d < distances; d++) {
-      const int32_t own = t->end[stride * i], other = t->end[stride * i + 1 + d];
+      const int32_t own = t->end[stride * i].label, other = t->end[stride * i + 1 + d].label;
       out->pairs[d] += own > 0 && other > 0;
       out->uncertain[d] += own > 0 && other > 0 && own != other;
     }
@@ -158,8 +145,7 @@ static kz_status count_tile(void *context, int64_t tile, void *record) {
 static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *labelling) {
   pairing p = {.plan = plan, .dynamics = labelling->dynamics, .images = is_within(plan) ? labelling->images : NULL};
   const double reach = 0.5 + plan->boundary.farthest / narrower_side(plan);
-  for (int32_t level = 0; p.images && level < KZ_LEVEL_ARBITRARY; level++)
-    p.hand_over[level] = kz_hand_over_at(p.images, level, reach);
+  if (p.images) kz_hand_overs_make(p.images, reach, p.hand_over);
   return p;
 }
 

@@ -1,4 +1,4 @@
-/* Rounds of discovery and labelling: cells that ended nowhere known feed another one. */
+/* The attractors of a window, then the labels of its cells, tile by tile. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,39 +6,14 @@
 #include "label.h"
 #include "window/window.h"
 
-enum {
-  ROUNDS = 4,
-  RELEASED = 1024 /* starts at a time */
-};
+enum { ROUNDS = 3 /* of search among cells that end nowhere known, at most */ };
 
-/* The states of n cells where labels begin to follow them. */
-static kz_status states_of(const kz_window_labels *l, int64_t n, const int64_t *cell, double *state) {
-  kz_start start[RELEASED];
-  for (int64_t done = 0; done < n; done += RELEASED) {
-    const int64_t part = n - done < RELEASED ? n - done : RELEASED;
-    for (int64_t i = 0; i < part; i++)
-      KZ_TRY(l->labeller.start(l->labeller.context, cell[done + i], KZ_LEVEL_DOUBLE, start + i));
-    kz_released_states(l->dynamics, part, start, state + 2 * done);
-  }
+/* Finds and counts the attractors that the starts of the window end on. */
+static kz_status find_attractors(kz_window_labels *l) {
+  KZ_FREED int32_t *label = kz_malloc((size_t)l->plan->starts * sizeof *label);
+  KZ_TRY(kz_search_window(l->run, l->dynamics, &l->search, label));
+  for (int64_t i = 0; i < l->plan->starts; i++) l->reached[label[i]]++;
   return KZ_OK;
-}
-
-/* Finds and counts the attractors that the starts of the window, or later the `again` evenly chosen unsettled cells, end on. */
-static kz_status rounds_discover(kz_window_labels *l, bool again) {
-  const kz_basin_plan *plan = l->plan;
-  const int64_t all = again ? l->before[l->tiles.own] : 0, n = again && all < plan->starts ? all : plan->starts;
-  KZ_FREED double *state = kz_malloc((size_t)n * 2 * sizeof *state);
-  KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label);
-  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
-  kz_status status = again ? kz_pending_pick(l, 0, all, n, cell) : KZ_OK;
-  if (again && status == KZ_OK) status = states_of(l, n, cell, state);
-  if (status == KZ_OK)
-    status = again ? kz_discover(l->run, l->dynamics, plan->max_periods, n, state, label)
-                   : kz_search_window(l->run, l->dynamics, &l->search, label);
-  if (status == KZ_OK && kz_dynamics_count(l->dynamics) > INT16_MAX)
-    status = kz_fail(KZ_FAILED, "basin: more than %d attractors", INT16_MAX);
-  for (int64_t i = 0; status == KZ_OK && i < n; i++) l->reached[label[i]]++;
-  return status;
 }
 
 static kz_status label_tile(void *context, int64_t tile, void *record) {
@@ -46,7 +21,7 @@ static kz_status label_tile(void *context, int64_t tile, void *record) {
   const int64_t first = kz_tile_first(&l->tiles, tile), n = kz_tile_own(&l->tiles, tile);
   KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
   for (int64_t i = 0; i < n; i++) cell[i] = first + i;
-  const kz_status status = kz_label_cells(l, n, cell, l->cell);
+  const kz_status status = kz_label_first(&l->labeller, n, cell, l->cell);
   return status == KZ_OK ? kz_tile_labels_pack(l, tile, record) : status;
 }
 
@@ -75,22 +50,31 @@ static kz_status make_starts(kz_window_labels *l) {
                         kz_steps_check_table(plan, kz_dynamics_table_error(l->dynamics, kz_stencil(plan->interpolation))));
 }
 
+static kz_status count_unsettled(void *labels, int64_t *n) {
+  kz_window_labels *l = labels;
+  KZ_TRY(kz_pending_count(l, 0));
+  *n = l->before[l->tiles.own];
+  return KZ_OK;
+}
+
+static kz_status pick(void *labels, int64_t all, int64_t n, int64_t *cell) {
+  return kz_pending_pick(labels, 0, all, n, cell);
+}
+
+static kz_status label_again(void *labels, int round) {
+  return kz_pending_label(labels, round);
+}
+
 /* `exact` alone leaves doubtful cells. */
-static kz_status run_rounds(kz_window_labels *l) {
-  KZ_TRY(rounds_discover(l, false));
+static kz_status label_all(kz_window_labels *l) {
+  const kz_unsettled unsettled = {count_unsettled, pick, label_again, l};
+  const kz_search_on search = {ROUNDS, l->plan->starts, l->reached};
+  KZ_TRY(find_attractors(l));
   KZ_TRY(make_starts(l));
   KZ_TRY(label_tiles(l));
   KZ_TRY(kz_pending_count(l, KZ_DOUBTFUL));
-  KZ_TRY(kz_pending_label(l, KZ_LEVEL_FINE, 1));
-  for (int round = 1; round < ROUNDS; round++) {
-    KZ_TRY(kz_pending_count(l, 0));
-    if (l->before[l->tiles.own] == 0) return KZ_OK;
-    const int64_t known = kz_dynamics_count(l->dynamics);
-    KZ_TRY(rounds_discover(l, true));
-    if (kz_dynamics_count(l->dynamics) == known) return KZ_OK;
-    KZ_TRY(kz_pending_label(l, KZ_LEVEL_DOUBLE, round + 1));
-  }
-  return KZ_OK;
+  KZ_TRY(kz_pending_label(l, 1));
+  return kz_search_rounds(&l->labeller, &search, &unsettled);
 }
 
 /* The starts' counts of attractors are the same on every rank, those of tiles each rank's own. */
@@ -98,7 +82,7 @@ kz_status kz_label_window(kz_window_labels *l) {
   l->cell = kz_calloc((size_t)kz_tile_capacity(&l->tiles) + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
   l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
-  KZ_TRY(run_rounds(l));
+  KZ_TRY(label_all(l));
   for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
   for (int64_t i = 0; i < l->records.n; i++) kz_tile_labels_note_reached(l, &l->records.list[i]);
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);

@@ -30,23 +30,24 @@ static double distance(const double *a, const double *b) {
 }
 
 /* Brings the sides together, about the first change of the end from the first side on. */
-static void bisect(pair *p) {
+static kz_status bisect(pair *p) {
   double point[PIECES - 1][2];
-  int32_t end[PIECES - 1];
-  int64_t periods[PIECES - 1];
+  kz_label end[PIECES - 1];
+  const kz_labeller labeller = kz_pair_labeller(point[0], p->max_periods, KZ_BY_LEVELS, p->dynamics);
   for (int round = 0; round < ROUNDS && distance(p->side[0], p->side[1]) > NEAR; round++) {
     const double step[2] = {wrapped(p->side[1][0] - p->side[0][0]) / PIECES, (p->side[1][1] - p->side[0][1]) / PIECES};
     for (int j = 1; j < PIECES; j++)
       for (int c = 0; c < 2; c++) point[j - 1][c] = p->side[0][c] + j * step[c];
-    kz_decide_starts(p->dynamics, p->max_periods, PIECES - 1, point[0], end, periods);
+    KZ_TRY(kz_label_items(&labeller, 1, PIECES - 1, NULL, end));
     int first = 0;
-    while (first < PIECES - 1 && end[first] == p->own) first++;
+    while (first < PIECES - 1 && end[first].label == p->own) first++;
     if (first < PIECES - 1) {
       memcpy(p->side[1], point[first], sizeof p->side[1]);
-      p->other = end[first];
+      p->other = end[first].label;
     }
     if (first > 0) memcpy(p->side[0], point[first - 1], sizeof p->side[0]);
   }
+  return KZ_OK;
 }
 
 /* Advances both sides by one period; returns ln of the growth of their distance. */
@@ -124,7 +125,7 @@ static kz_status follow_edge(const kz_scene *scene, pair *p, kz_edge *edge, doub
   const kz_edge_plan *plan = &scene->edge;
   double growth = 0;
   for (int64_t t = 0;; t++) {
-    if (distance(p->side[0], p->side[1]) > FAR || t == 0) bisect(p);
+    if (distance(p->side[0], p->side[1]) > FAR || t == 0) KZ_TRY(bisect(p));
     middle(p, orbit + 2 * t);
     edge->n_periods = t;
     edge->exponent = t > 0 ? growth / (double)t : NAN;
@@ -145,17 +146,17 @@ kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t ma
   pair p = {.dynamics = dynamics,
             .max_periods = max_periods,
             .side = {{plan->first[0], plan->first[1]}, {plan->second[0], plan->second[1]}}};
-  int32_t end[2];
-  int64_t periods[2];
+  kz_label end[2];
+  const kz_labeller labeller = kz_pair_labeller(p.side[0], max_periods, KZ_BY_LEVELS, dynamics);
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
   *edge = (kz_edge){.exponent = NAN};
-  kz_decide_starts(dynamics, max_periods, 2, p.side[0], end, periods);
-  if (end[0] == end[1])
+  KZ_TRY(kz_label_items(&labeller, 1, 2, NULL, end));
+  if (end[0].label == end[1].label)
     return kz_fail(KZ_REFUSED,
                    "edge.second|edge.first: ends on the same attractor as the other start; give starts of different basins");
-  p.own = end[0];
-  p.other = end[1];
+  p.own = end[0].label;
+  p.other = end[1].label;
   p.map = kz_flow_create(pendulum, &fine);
   const kz_status status = follow_edge(scene, &p, edge, orbit);
   edge->first_end = p.own;

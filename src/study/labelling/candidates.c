@@ -1,9 +1,11 @@
-/* The candidates of starts that no level decides. */
+#include "candidates.h"
+
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
-#include "labeller.h"
+#include "numerics/cells.h"
 
 enum { BATCH = 64 };
 
@@ -20,7 +22,8 @@ static void step_aside(int64_t n, const double *state, double places, double *be
 }
 
 /* Looks ever farther beside the states until each has another end. */
-static void find_others(const kz_labeller *l, int64_t n, const double *state, const int32_t *label, kz_decision *decision) {
+static void find_others(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *state, const int32_t *label,
+                        kz_decision *decision) {
   double from[2 * BATCH], end[8 * BATCH];
   int32_t found[4 * BATCH];
   int64_t late[4 * BATCH], open[BATCH], left = n;
@@ -29,7 +32,7 @@ static void find_others(const kz_labeller *l, int64_t n, const double *state, co
     const int64_t asked = left;
     for (int64_t i = 0; i < asked; i++) memcpy(from + 2 * i, state + 2 * open[i], 2 * sizeof *from);
     step_aside(asked, from, places, end);
-    kz_dynamics_follow(l->dynamics, KZ_FOLLOW_DIRECT, 4 * asked, l->max_periods, end, found, late);
+    kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 4 * asked, max_periods, end, found, late);
     left = 0;
     for (int64_t i = 0; i < asked; i++) {
       const int64_t own = open[i];
@@ -40,26 +43,39 @@ static void find_others(const kz_labeller *l, int64_t n, const double *state, co
   }
 }
 
-static kz_status find_some(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
+void kz_states_of(int64_t n, const kz_start *start, double *state) {
+  for (int64_t i = 0; i < n; i++) kz_start_state(start[i].theta[0], start[i].velocity[0], state + 2 * i);
+}
+
+static void find_some(kz_dynamics *dynamics, int64_t max_periods, bool others, int64_t n, const kz_start *start,
+                      kz_decision *decision) {
   double state[2 * BATCH] = {0}, end[2 * BATCH];
   int32_t label[BATCH];
   int64_t periods[BATCH];
-  kz_start start[BATCH];
-  for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item[i], KZ_LEVEL_DOUBLE, start + i));
-  kz_released_states(l->dynamics, n, start, state);
-  for (int64_t i = 0; i < n; i++) decision[i] = (kz_decision){.level = KZ_LEVELS, .error = NAN, .periods = start[i].periods};
+  kz_states_of(n, start, state);
   memcpy(end, state, sizeof state);
-  kz_dynamics_follow(l->dynamics, KZ_FOLLOW_DIRECT, n, l->max_periods, end, label, periods);
-  for (int64_t i = 0; i < n; i++) {
-    decision[i].label = label[i];
-    decision[i].periods += periods[i];
-  }
-  find_others(l, n, state, label, decision);
-  return KZ_OK;
+  kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, n, max_periods, end, label, periods);
+  for (int64_t i = 0; i < n; i++)
+    decision[i] = (kz_decision){.label = label[i], .level = KZ_LEVELS, .error = NAN, .periods = start[i].periods + periods[i]};
+  if (others) find_others(dynamics, max_periods, n, state, label, decision);
 }
 
-kz_status kz_label_candidates(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
-  for (int64_t done = 0; done < n; done += BATCH)
-    KZ_TRY(find_some(l, n - done < BATCH ? n - done : BATCH, item + done, decision + done));
-  return KZ_OK;
+/* In quad precision, whose error is ignored: it acts like a change of the start by so much. */
+static void follow_in_quads(kz_dynamics *dynamics, int64_t max_periods, const kz_start *s, kz_decision *decision) {
+  *decision = (kz_decision){.level = KZ_LEVELS, .error = NAN};
+  kz_dynamics_follow_reference(dynamics, KZ_REFERENCE_STEPS, 1, max_periods - s->periods,
+                               (double[]){s->theta[0], s->velocity[0]}, (double[]){s->theta[1], s->velocity[1]},
+                               &decision->label, &decision->periods);
+}
+
+int32_t kz_candidates_level(int32_t open) {
+  return open == KZ_OPEN_IN_QUADS ? KZ_LEVEL_QUAD : KZ_LEVEL_DOUBLE;
+}
+
+void kz_candidates_find(kz_dynamics *dynamics, int64_t max_periods, int32_t open, int64_t n, const kz_start *start,
+                        kz_decision *decision) {
+  for (int64_t i = 0; open == KZ_OPEN_IN_QUADS && i < n; i++) follow_in_quads(dynamics, max_periods, start + i, decision + i);
+  for (int64_t done = 0; open != KZ_OPEN_IN_QUADS && done < n; done += BATCH)
+    find_some(dynamics, max_periods, open == KZ_OPEN_CANDIDATES, n - done < BATCH ? n - done : BATCH, start + done,
+              decision + done);
 }

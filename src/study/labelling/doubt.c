@@ -30,10 +30,10 @@ static kz_status follow_tile(void *context, int64_t tile, void *record) {
   const kz_labeller labeller = kz_cell_labeller(j->plan, j->dynamics);
   const int64_t first = tile * TILE, left = sample_size(j->plan) - first, n = left < TILE ? left : TILE;
   int64_t cell[TILE];
-  kz_decision decision[TILE];
+  kz_label label[TILE];
   for (int64_t i = 0; i < n; i++) cell[i] = cell_of(j->plan, first + i);
-  KZ_TRY(kz_label_at(&labeller, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, n, cell, decision));
-  for (int64_t i = 0; i < n; i++) ((int32_t *)record)[i] = decision[i].label;
+  KZ_TRY(kz_label_first(&labeller, n, cell, label));
+  for (int64_t i = 0; i < n; i++) ((int32_t *)record)[i] = label[i].label;
   return KZ_OK;
 }
 

@@ -1,9 +1,14 @@
 #include "labeller.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
 #include "numerics/cells.h"
+#include "search.h"
 
 enum {
-  BATCH = 16384, /* starts that are followed together */
+  BATCH = 16384, /* items that are followed together */
   FEW = 24       /* are followed in quad precision for less than the tables of the pairs of doubles take */
 };
 
@@ -17,7 +22,7 @@ static kz_status start_of_cell(void *context, int64_t item, int32_t level, kz_st
 }
 
 kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics) {
-  return (kz_labeller){dynamics, plan->max_periods, .start = start_of_cell, .context = (void *)plan};
+  return (kz_labeller){dynamics, plan->max_periods, KZ_BY_LEVELS, .start = start_of_cell, .context = (void *)plan};
 }
 
 /* A kz_start_fn: the items are places in an array of angles and velocities. */
@@ -28,109 +33,187 @@ static kz_status start_of_pair(void *context, int64_t item, int32_t level, kz_st
   return KZ_OK;
 }
 
+kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, int32_t way, kz_dynamics *dynamics) {
+  return (kz_labeller){dynamics, max_periods, way, KZ_OPEN_BY_STATES, true, start_of_pair, .context = (void *)start};
+}
+
+int32_t kz_way_of(int32_t method, int32_t interpolation) {
+  if (method == KZ_METHOD_ICM) return kz_stencil(interpolation);
+  return method == KZ_METHOD_EXACT ? KZ_BY_LEVELS : KZ_BY_MARKS;
+}
+
 static int64_t item_at(const int64_t *item, int64_t i) {
   return item ? item[i] : i;
 }
 
-static kz_status decide_each(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
-  for (int64_t i = 0; i < n; i++) KZ_TRY(l->decide(l->context, item_at(item, i), decision + i));
+static int64_t smaller(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+
+/* The starts of n <= BATCH items for a level, released. */
+static kz_status starts_of(const kz_labeller *l, int32_t level, int64_t n, const int64_t *item, int64_t first,
+                           kz_start *start) {
+  const int32_t own = level < 0 ? KZ_LEVEL_DOUBLE : level;
+  for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), own, start + i));
+  if (!l->at_strobe) kz_dynamics_release(l->dynamics, level, n, start);
   return KZ_OK;
 }
 
-static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item, int64_t first,
-                             kz_start *start, kz_decision *decision) {
-  for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), level, start + i));
-  kz_dynamics_release(l->dynamics, level, n, start);
-  kz_dynamics_label(l->dynamics, level, before, n, start, l->max_periods, decision);
+kz_status kz_item_states(const kz_labeller *l, int64_t n, const int64_t *item, double *state, int64_t *periods) {
+  KZ_FREED kz_start *start = kz_malloc((size_t)smaller(n, BATCH) * sizeof *start + 1);
+  for (int64_t done = 0; done < n; done += BATCH) {
+    const int64_t part = smaller(n - done, BATCH);
+    KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, part, item, done, start));
+    kz_states_of(part, start, state + 2 * done);
+    for (int64_t i = 0; periods && i < part; i++) periods[done + i] = start[i].periods;
+  }
   return KZ_OK;
 }
 
-kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item,
-                      kz_decision *decision) {
-  if (level == KZ_LEVEL_ARBITRARY) return decide_each(l, n, item, decision);
-  KZ_FREED kz_start *start = kz_malloc((size_t)(n < BATCH ? n : BATCH) * sizeof *start + 1);
-  kz_status status = KZ_OK;
-  for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH)
-    status = label_batch(l, level, before, n - done < BATCH ? n - done : BATCH, item, done, start, decision + done);
-  return status;
+/* Some items that are asked about together, with room for what is found. */
+typedef struct {
+  int64_t n, first;
+  const int64_t *item;
+  kz_start *start;
+  kz_decision *decision;
+} batch;
+
+/* By the states alone. */
+static kz_status follow_states(const kz_labeller *l, int32_t stepping, const batch *b) {
+  KZ_FREED double *state = kz_malloc(2 * (size_t)b->n * sizeof *state);
+  KZ_FREED int32_t *label = kz_malloc((size_t)b->n * sizeof *label);
+  KZ_FREED int64_t *periods = kz_malloc((size_t)b->n * sizeof *periods);
+  KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, b->n, b->item, b->first, b->start));
+  kz_states_of(b->n, b->start, state);
+  kz_dynamics_follow(l->dynamics, stepping, b->n, l->max_periods, state, label, periods);
+  for (int64_t i = 0; i < b->n; i++)
+    b->decision[i] = (kz_decision){.label = label[i], .periods = b->start[i].periods + periods[i]};
+  return KZ_OK;
 }
 
-kz_status kz_label_states(const kz_labeller *l, int32_t stepping, int64_t n, const int64_t *item, int32_t *label,
-                          int64_t *periods) {
-  const int64_t most = n < BATCH ? n : BATCH;
-  KZ_FREED double *state = kz_malloc(2 * (size_t)most * sizeof *state + 1);
+static kz_status decide_batch(const kz_labeller *l, int32_t level, int32_t before, const batch *b) {
+  if (l->way < KZ_BY_MARKS) return follow_states(l, l->way, b);
+  if (level == KZ_LEVEL_ARBITRARY) {
+    for (int64_t i = 0; i < b->n; i++) KZ_TRY(l->decide(l->context, item_at(b->item, b->first + i), b->decision + i));
+    return KZ_OK;
+  }
+  KZ_TRY(starts_of(l, level < KZ_LEVELS ? level : kz_candidates_level(l->open), b->n, b->item, b->first, b->start));
+  if (level == KZ_LEVELS)
+    kz_candidates_find(l->dynamics, l->max_periods, l->open, b->n, b->start, b->decision);
+  else
+    kz_dynamics_label(l->dynamics, level, before, b->n, b->start, l->max_periods, b->decision);
+  return KZ_OK;
+}
+
+static uint8_t evidence_of(const kz_labeller *l, int32_t level, const kz_decision *decision) {
+  if (l->way == KZ_BY_MARKS && decision->level == KZ_LEVELS) return KZ_LEFT;
+  return kz_level_rows[level < 0 ? KZ_LEVEL_DOUBLE : level].evidence;
+}
+
+static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before, const batch *b, kz_label *label) {
+  KZ_TRY(decide_batch(l, level, before, b));
+  for (int64_t i = 0; i < b->n; i++) {
+    const kz_decision *d = b->decision + i;
+    label[i] = (kz_label){.periods = (uint32_t)d->periods,
+                          .label = (int16_t)d->label,
+                          .other = (int16_t)d->other,
+                          .evidence = evidence_of(l, level, d)};
+    if (l->note) l->note(l->context, item_at(b->item, b->first + i), d);
+  }
+  return KZ_OK;
+}
+
+kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item, kz_label *label) {
+  const int64_t most = l->tile > 0 ? smaller(l->tile, BATCH) : BATCH;
+  KZ_FREED kz_start *start = kz_malloc((size_t)smaller(n, most) * sizeof *start + 1);
+  KZ_FREED kz_decision *decision = kz_malloc((size_t)smaller(n, most) * sizeof *decision + 1);
   kz_status status = KZ_OK;
-  for (int64_t done = 0; done < n && status == KZ_OK; done += BATCH) {
-    const int64_t part = n - done < BATCH ? n - done : BATCH;
-    kz_start start;
-    for (int64_t i = 0; i < part && status == KZ_OK; i++) {
-      status = l->start(l->context, item_at(item, done + i), KZ_LEVEL_DOUBLE, &start);
-      kz_start_state(start.theta[0], start.velocity[0], state + 2 * i);
-    }
-    if (status == KZ_OK) kz_dynamics_follow(l->dynamics, stepping, part, l->max_periods, state, label + done, periods + done);
+  for (int64_t done = 0; done < n && status == KZ_OK; done += most) {
+    const batch b = {smaller(n - done, most), done, item, start, decision};
+    if (l->run) status = kz_ranks_interrupted(l->run->ranks);
+    if (status == KZ_OK) status = label_batch(l, level, before, &b, label + done);
   }
   return status;
 }
 
 int32_t kz_level_after(const kz_labeller *l, int32_t level, int64_t pending) {
-  if (pending == 0 || level >= KZ_LEVEL_ARBITRARY) return KZ_LEVELS;
-  if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : KZ_LEVELS;
+  const int32_t last = l->open == KZ_OPEN_DOUBTFUL ? KZ_LEVELS + 1 : KZ_LEVELS;
+  if (pending == 0 || level == KZ_LEVELS || l->way != KZ_BY_LEVELS) return KZ_LEVELS + 1;
+  if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : last;
+  if (level == KZ_LEVEL_ARBITRARY) return last;
   return level >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
 }
 
-/* Those that are pending move to the front: how many there are. */
-static int64_t take(int32_t level, int64_t n, int64_t *place, const kz_decision *found, kz_decision *decision) {
-  int64_t pending = 0;
-  for (int64_t i = 0; i < n; i++) {
-    const bool is_pending = found[i].label == KZ_DOUBTFUL;
-    decision[place[i]] = found[i];
-    decision[place[i]].level = is_pending ? KZ_LEVELS : level;
-    if (is_pending) place[pending++] = place[i];
-  }
-  return pending;
+/* Items that a level is asked about, in a stage. */
+typedef struct {
+  const kz_labeller *labeller;
+  int32_t level, before; /* the level; that at which they were doubtful */
+  int64_t tile;          /* items of a tile */
+  int64_t n, *item, *place;
+} asked;
+
+static kz_status ask_tile(void *context, int64_t tile, void *record) {
+  const asked *a = context;
+  const int64_t first = tile * a->tile;
+  return kz_label_at(a->labeller, a->level, a->before, smaller(a->n - first, a->tile), a->item + first, record);
 }
 
-/* place [n]: of the pending items; others [2 n]: buffer for their numbers. */
-static kz_status escalate(const kz_labeller *l, int64_t n, const int64_t *item, int64_t *place, int64_t *pending_item,
-                          kz_decision *found, kz_decision *decision) {
-  int64_t pending = n;
-  int32_t before = KZ_LEVEL_DOUBLE, next;
-  for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVELS; before = level, level = next) {
-    for (int64_t i = 0; i < pending; i++) pending_item[i] = item_at(item, place[i]);
-    KZ_TRY(kz_label_at(l, level, before, pending, pending_item, found));
-    pending = take(level, pending, place, found, decision);
-    next = kz_level_after(l, level, pending);
+/* Alone a process takes all lanes can hold; ranks share smaller tiles. */
+static int64_t tile_of(const asked *a) {
+  const kz_labeller *l = a->labeller;
+  const int64_t most = l->run ? kz_level_rows[a->level < 0 ? KZ_LEVEL_DOUBLE : a->level].tile : BATCH;
+  return l->tile > 0 ? smaller(l->tile, most) : most;
+}
+
+/* Labels the items at one level: label [place] of each. The items that the level leaves doubtful, and their places, move to the front. */
+static kz_status ask_level(asked *a, int round, kz_label *label) {
+  const kz_labeller *l = a->labeller;
+  char name[32];
+  snprintf(name, sizeof name, "%s %d", kz_level_rows[a->level < 0 ? KZ_LEVEL_DOUBLE : a->level].stage, round);
+  a->tile = tile_of(a);
+  const kz_stage stage = kz_stage_for_all(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name,
+                                          (a->n + a->tile - 1) / a->tile, (size_t)a->tile * sizeof(kz_label), ask_tile, a);
+  KZ_FREED kz_label *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
+  KZ_TRY(kz_stage_run(l->run, &stage, found));
+  int64_t left = 0;
+  for (int64_t i = 0; i < a->n; i++) {
+    label[a->place[i]] = found[i];
+    if (found[i].label != KZ_DOUBTFUL) continue;
+    a->item[left] = a->item[i];
+    a->place[left++] = a->place[i];
+  }
+  a->n = left;
+  return KZ_OK;
+}
+
+/* Labels n items from `level` on, until each is decided or no level is left. */
+static kz_status climb(const kz_labeller *l, int32_t level, int round, int64_t n, const int64_t *item, kz_label *label) {
+  KZ_FREED int64_t *list = kz_malloc(2 * (size_t)n * sizeof *list + 1);
+  asked a = {.labeller = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .item = list, .place = list + n};
+  for (int64_t i = 0; i < n; i++) {
+    a.item[i] = item_at(item, i);
+    a.place[i] = i;
+  }
+  while (a.n > 0 && a.level <= KZ_LEVELS) {
+    KZ_TRY(ask_level(&a, round, label));
+    a.before = a.level;
+    a.level = kz_level_after(l, a.level, a.n);
   }
   return KZ_OK;
 }
 
-kz_status kz_label(const kz_labeller *l, int64_t n, const int64_t *item, kz_decision *decision) {
-  KZ_FREED int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
-  KZ_FREED kz_decision *found = kz_malloc((size_t)n * sizeof *found + 1);
-  for (int64_t i = 0; i < n; i++) place[i] = i;
-  return escalate(l, n, item, place, place + n, found, decision);
+static int32_t first_level(const kz_labeller *l) {
+  return l->way == KZ_BY_MARKS ? KZ_LEVEL_GUESS : KZ_LEVEL_DOUBLE;
 }
 
-/* Starts of an array cannot fail. */
-void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
-                      int64_t *periods) {
-  const kz_labeller labeller = {dynamics, max_periods, .start = start_of_pair, .context = (void *)start};
-  (void)kz_label_states(&labeller, KZ_FOLLOW_DIRECT, n, NULL, end, periods);
+kz_status kz_label_first(const kz_labeller *l, int64_t n, const int64_t *item, kz_label *label) {
+  return kz_label_at(l, first_level(l), KZ_LEVEL_DOUBLE, n, item, label);
 }
 
-void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
-                      int64_t *periods) {
-  const kz_labeller labeller = {dynamics, max_periods, .start = start_of_pair, .context = (void *)start};
-  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision + 1);
-  (void)kz_label(&labeller, n, NULL, decision);
-  for (int64_t i = 0; i < n; i++) {
-    end[i] = decision[i].label;
-    periods[i] = decision[i].periods;
-    if (end[i] == KZ_DOUBTFUL) kz_follow_starts(dynamics, max_periods, 1, start + 2 * i, end + i, periods + i);
-  }
+kz_status kz_label_doubtful(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
+  return climb(l, kz_level_after(l, KZ_LEVEL_DOUBLE, n), round, n, item, label);
 }
 
-void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state) {
-  kz_dynamics_release(dynamics, KZ_LEVEL_DOUBLE, n, start);
-  for (int64_t i = 0; i < n; i++) kz_start_state(start[i].theta[0], start[i].velocity[0], state + 2 * i);
+kz_status kz_label_items(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
+  return climb(l, first_level(l), round, n, item, label);
 }

@@ -1,62 +1,110 @@
-/* The labeller turns starts into labels. It tries one precision level after the other until one decides the label. Grids of cells, single
- * starts, pairs at a boundary and windows of any depth are ways to make starts. Nothing here is collective: stages distribute the work. */
+/* The labeller turns starts into labels: it follows them, tries one level of precision after the other until one decides the label, looks for
+ * attractors that the starts lead to, and shares its work among ranks in stages that a checkpoint keeps. Grids of cells, single starts, pairs
+ * at a boundary, frames and shocks are ways to make starts. */
 #ifndef KAPITZA_STUDY_LABELLER_H
 #define KAPITZA_STUDY_LABELLER_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "candidates.h"
 #include "kapitza/dynamics.h"
+#include "kapitza/parallel.h"
 #include "kapitza/study.h"
+#include "levels.h"
+
+/* Where an item ends, and how that is known. */
+typedef struct {
+  uint32_t periods; /* drive periods from the start until a trapping region holds the orbit, or for which it was followed */
+  int16_t label;    /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL = not decided */
+  int16_t other;    /* of an item that no level decides: the second candidate, 0 = none */
+  uint8_t evidence; /* from KZ_FOLLOWED on; 0 = not labelled yet */
+  uint8_t proof;    /* KZ_PROVED, ..._IN_PAIRS, ..._IN_QUADS, 0 = not proved */
+  uint8_t proved;   /* number of the attractor, in kz_dynamics, on which it is proved to end */
+  uint8_t unused;   /* 0 */
+} kz_label;
 
 /* Makes the start of an item for a level. Finer levels may begin their own arithmetic earlier, after fewer periods. */
 typedef kz_status (*kz_start_fn)(void *context, int64_t item, int32_t level, kz_start *start);
 
-/* Follows one item in as many digits as needed (level KZ_LEVEL_ARBITRARY). decision->label stays KZ_DOUBTFUL if this does not decide it. */
+/* Follows one item in as many digits as needed. decision->label stays KZ_DOUBTFUL if this does not decide it. */
 typedef kz_status (*kz_decide_fn)(void *context, int64_t item, kz_decision *decision);
+
+/* Takes what a label leaves out of the decision behind it: the orbit's error, its last state. Called at each level that is tried. */
+typedef void (*kz_note_fn)(void *context, int64_t item, const kz_decision *decision);
+
+/* Ways to label: by the states alone, as kz_dynamics_follow does (KZ_FOLLOW_DIRECT, ..); by one level, whose doubtful orbits are followed on
+ * and marked (method direct); by one level after the other until each item is decided (method exact). */
+enum { KZ_BY_STATES = 0, KZ_BY_MARKS = 16, KZ_BY_LEVELS = 17 };
 
 typedef struct {
   kz_dynamics *dynamics;
   int64_t max_periods;
+  int32_t way;    /* KZ_BY_LEVELS, ... */
+  int32_t open;   /* KZ_OPEN_DOUBTFUL, ... */
+  bool at_strobe; /* the starts lie at a strobe of the final drive; else they are released as kz_dynamics_set_release says */
   kz_start_fn start;
   kz_decide_fn decide; /* NULL = items that quad precision does not decide stay undecided */
-  void *context;       /* of start and decide */
+  kz_note_fn note;     /* NULL = none */
+  void *context;       /* of the three */
+  const kz_run *run;   /* its ranks share the items, in kept stages; NULL = this process does all */
+  const char *stage;   /* name of the first stage; NULL = that of the level */
+  int64_t tile;        /* most items that are followed together; 0 = as many as the level takes */
 } kz_labeller;
 
-/* The labeller of cells whose centres are doubles; the items are their numbers. */
+/* The way of a method (KZ_METHOD_EXACT, ...) with an interpolation (KZ_LINEAR, ...). */
+int32_t kz_way_of(int32_t method, int32_t interpolation);
+/* The labeller, by levels, of cells whose centres are doubles; the items are their numbers. */
 kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics);
+/* The labeller of starts at a strobe in an array, start [n][2] (rad, rad per drive radian); the items are their places. */
+kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, int32_t way, kz_dynamics *dynamics);
 /* The exact start (theta in rad, velocity in rad per drive radian). */
 static inline kz_start kz_start_at(double theta, double velocity) {
   return (kz_start){.theta = {theta, 0}, .velocity = {velocity, 0}};
 }
 
-/* Labels n items at one level; `before` is the level at which they were doubtful. decision [n] as in kz_dynamics_label. */
-kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,
-                      kz_decision *decision);
-/* Labels n items by their states alone, without errors, as kz_dynamics_follow follows them: label [n], periods [n]. */
-kz_status kz_label_states(const kz_labeller *labeller, int32_t stepping, int64_t n, const int64_t *item, int32_t *label,
-                          int64_t *periods);
+/* Labels n items, item [n] (NULL: 0, 1, ...): label [n]. `round` numbers the stages. Collective if the labeller has a run. */
+kz_status kz_label_items(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label);
+/* The first level of it, by this process alone; KZ_STOPPED if the run is to stop. And the further levels, for items that it left doubtful. */
+kz_status kz_label_first(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_label *label);
+kz_status kz_label_doubtful(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label);
 
-/* The level that follows `level` if `pending` items are left; KZ_LEVELS = none. A few items go to quad precision at once, because they take
- * less time there than the tables of the pairs of doubles. */
+/* One level for n items, KZ_LEVELS: what `open` asks; `before` is the level at which they were doubtful. Not collective. */
+kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,
+                      kz_label *label);
+/* The level that follows if `pending` items are left; KZ_LEVELS + 1 = none. A few items go to quad precision at once, because they take less
+ * time there than the tables of the pairs of doubles. */
 int32_t kz_level_after(const kz_labeller *labeller, int32_t level, int64_t pending);
 
-/* Sets the candidates of n undecided items: label and periods by the scene's numerics without errors, and `other`, the attractor of the
- * nearest start that ends elsewhere. */
-kz_status kz_label_candidates(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_decision *decision);
+/* Labels that a search can go on from: the items that ended on nothing known. All functions are collective if the labeller has a run. */
+typedef struct {
+  kz_status (*count)(void *labels, int64_t *n);                           /* how many there are */
+  kz_status (*pick)(void *labels, int64_t all, int64_t n, int64_t *item); /* n of them all, evenly chosen */
+  kz_status (*again)(void *labels, int round);                            /* labels them again */
+  void *labels;
+} kz_unsettled;
+/* Place i of n evenly chosen ones of `all`. */
+static inline int64_t kz_even_place(int64_t i, int64_t n, int64_t all) {
+  return i * all / n;
+}
 
-/* Labels n items by one level after the other until each is decided. An item that no level decides has KZ_DOUBTFUL and level KZ_LEVELS. */
-kz_status kz_label(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_decision *decision);
+/* A search that goes on from items: at most `rounds` times, from at most `starts` items. */
+typedef struct {
+  int rounds;
+  int64_t starts;
+  int64_t *reached; /* [INT16_MAX + 1] the starts that end on each attractor are added; NULL = not needed */
+} kz_search_on;
+/* Looks for the attractors that unsettled items lead to, and labels those items again, until all have settled, a search finds nothing or the
+ * rounds are over. */
+kz_status kz_search_rounds(const kz_labeller *labeller, const kz_search_on *search, const kz_unsettled *unsettled);
+/* Labels n items in an array and searches on from those that do not settle. */
+kz_status kz_label_and_search(const kz_labeller *labeller, const kz_search_on *search, int64_t n, const int64_t *item,
+                              kz_label *label);
+/* Finds the attractors that n items end on, whatever their labels; *found: whether there were new ones. */
+kz_status kz_search_from_items(const kz_labeller *labeller, int64_t n, const int64_t *item, int64_t *reached, bool *found);
 
-/* Follows n starts, start [n][2] (rad, rad per drive radian), by direct integration. end [n] = number of the attractor in kz_dynamics, 0 = not
- * settled; periods [n] = drive periods until then. */
-void kz_follow_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
-                      int64_t *periods);
-/* The same by the precision levels. A start that no level decides gets the end by direct integration. */
-void kz_decide_starts(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const double *start, int32_t *end,
-                      int64_t *periods);
-
-/* Moves n starts from their release to the strobe at which labelling begins. state [n][2] = half-turns and velocity there. */
-void kz_released_states(kz_dynamics *dynamics, int64_t n, kz_start *start, double *state);
+/* The states of n items where labels begin to follow them, after their release: state [n][2], half-turns and velocity; periods [n]: drive
+ * periods before; NULL = not needed. */
+kz_status kz_item_states(const kz_labeller *labeller, int64_t n, const int64_t *item, double *state, int64_t *periods);
 
 #endif

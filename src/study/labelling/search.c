@@ -179,7 +179,8 @@ static kz_status discover_from(const kz_run *run, kz_dynamics *dynamics, int64_t
   list_all(&f);
   const kz_status status = search_discover(run, &f, max_periods);
   free(f.pending);
-  return status;
+  if (status != KZ_OK || kz_dynamics_count(dynamics) <= INT16_MAX) return status;
+  return kz_fail(KZ_FAILED, "more than %d attractors", INT16_MAX);
 }
 
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {

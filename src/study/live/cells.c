@@ -9,21 +9,6 @@
 /* Periods after which a cell is late: most cells of a whole circle take fewer. */
 enum { SOON = 24 };
 
-/* Where n <= KZ_FRAME_TILE cells are handed over to doubles: half-turns and velocity; the periods that they have spent. */
-static void hand_over(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number, double *state,
-                      int64_t *spent) {
-  const int64_t columns = starts->plan->theta.count;
-  kz_start start[KZ_FRAME_TILE];
-  if (kz_release_strobes(&r->scene.parameters.release) == 0) {
-    for (int64_t i = 0; i < n; i++) kz_window_state(starts, number[i], state + 2 * i, spent + i);
-    return;
-  }
-  for (int64_t i = 0; i < n; i++)
-    start[i] = kz_start_at(starts->centre[0][number[i] % columns], starts->centre[1][number[i] / columns]);
-  kz_released_states(r->dynamics, n, start, state);
-  for (int64_t i = 0; i < n; i++) spent[i] = start[i].periods;
-}
-
 /* The smooth settling times of n cells that were left at these states after these times. */
 static void smooth(const kz_resident *r, int64_t n, const int32_t *label, const double *state, double *time,
                    const int64_t *number, kz_frame_cell *cells) {
@@ -50,7 +35,7 @@ static void follow(kz_resident *r, int64_t most, kz_travellers *from, kz_travell
       add_late(late, number, spent, state + 2 * i);
       continue;
     }
-    cells[number] = (kz_frame_cell){.label = (int16_t)label[i], .periods = (float)spent, .state = KZ_CELL_FOLLOWED};
+    cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = (uint32_t)spent, .evidence = KZ_LEFT};
     if (label[i] == 0 && r->n_strays < KZ_STRAYS) memcpy(r->stray + 2 * r->n_strays++, state + 2 * i, 2 * sizeof *state);
   }
   if (r->smooth) smooth(r, from->n, label, state, time, from->number, cells);
@@ -70,27 +55,43 @@ static void follow_moving(kz_resident *r, kz_travellers *from, kz_travellers *la
   if (late->n > KZ_FRAME_TILE) kz_cells_finish(r, late, cells);
 }
 
+/* Cells that are decided, with what smooth settling times need of them. */
+typedef struct {
+  kz_labeller labeller; /* of the cells of the frame */
+  const int64_t *number;
+  int32_t label[KZ_FRAME_TILE]; /* 0: where the cell was left is not known */
+  double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
+} deciding;
+
+/* A kz_start_fn. */
+static kz_status start_cell(void *context, int64_t i, int32_t level, kz_start *start) {
+  const deciding *d = context;
+  return d->labeller.start(d->labeller.context, d->number[i], level, start);
+}
+
+/* A kz_note_fn. */
+static void note(void *context, int64_t i, const kz_decision *decision) {
+  deciding *d = context;
+  const bool is_left = decision->level < KZ_LEVELS;
+  d->label[i] = is_left ? decision->label : 0;
+  d->time[i] = (double)(is_left ? decision->age : decision->periods);
+  memcpy(d->state + 2 * i, decision->state, sizeof decision->state);
+}
+
 /* As method exact labels them. */
 static kz_status decide(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
                         kz_frame_cell *cells) {
-  KZ_FREED kz_decision *decision = kz_malloc((size_t)n * sizeof *decision);
-  int32_t label[KZ_FRAME_TILE]; /* 0: where the cell was left is not known */
-  double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
-  const kz_labeller labeller = kz_window_labeller(starts, false);
-  KZ_TRY(kz_label(&labeller, n, number, decision));
-  for (int64_t i = 0; i < n; i++) {
-    kz_decision *d = decision + i;
-    const bool pending = d->label == KZ_DOUBTFUL;
-    if (pending) KZ_TRY(kz_label_candidates(&labeller, 1, number + i, d));
-    cells[number[i]] = (kz_frame_cell){.label = (int16_t)d->label,
-                                       .other = (int16_t)(pending ? d->other : 0),
-                                       .periods = (float)d->periods,
-                                       .state = pending ? KZ_CELL_UNDECIDED : KZ_CELL_DECIDED};
-    label[i] = pending ? 0 : d->label;
-    time[i] = (double)(pending ? d->periods : d->age);
-    memcpy(state + 2 * i, d->state, sizeof d->state);
-  }
-  if (r->smooth) smooth(r, n, label, state, time, number, cells);
+  KZ_FREED deciding *d = kz_malloc(sizeof *d);
+  kz_label label[KZ_FRAME_TILE];
+  d->labeller = kz_window_labeller(starts, false);
+  d->number = number;
+  kz_labeller labeller = d->labeller;
+  labeller.start = start_cell;
+  labeller.note = note;
+  labeller.context = d;
+  KZ_TRY(kz_label_items(&labeller, 1, n, NULL, label));
+  for (int64_t i = 0; i < n; i++) cells[number[i]].end = label[i];
+  if (r->smooth) smooth(r, n, d->label, d->state, d->time, number, cells);
   return KZ_OK;
 }
 
@@ -100,7 +101,8 @@ kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts,
   KZ_FREED kz_travellers *from = kz_malloc(sizeof *from);
   from->n = n;
   memcpy(from->number, number, (size_t)n * sizeof *number);
-  hand_over(resident, starts, n, number, from->state, from->spent);
+  const kz_labeller labeller = kz_window_labeller(starts, false);
+  KZ_TRY(kz_item_states(&labeller, n, number, from->state, from->spent));
   follow_moving(resident, from, late, cells);
   return KZ_OK;
 }
@@ -122,8 +124,8 @@ static int64_t list_wanted(kz_samples *samples, int64_t n, const int64_t *number
   int64_t wanted = 0;
   for (int64_t i = 0; i < n; i++) {
     const int64_t sample = kz_window_curve_sample(&samples->curve, number[i]);
-    if (samples->cell[sample].state != KZ_CELL_PENDING) continue;
-    samples->cell[sample].state = KZ_CELL_FOLLOWED;
+    if (samples->cell[sample].end.evidence != 0) continue;
+    samples->cell[sample].end.evidence = KZ_LEFT;
     samples->wanted[wanted++] = sample;
   }
   return wanted;
@@ -176,19 +178,4 @@ kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const
   if (status == KZ_OK) kz_window_starts_make(plan, &resident->scene.parameters.pendulum, resident->dynamics, images, starts);
   kz_images_free(images);
   return status;
-}
-
-kz_status kz_cells_discover(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                            bool *born) {
-  enum { MOST = 64 };
-  double state[2 * MOST];
-  int32_t label[MOST];
-  const int64_t known = kz_dynamics_count(resident->dynamics), share = (n + MOST - 1) / MOST;
-  int64_t taken = 0, chosen[MOST], spent[MOST];
-  for (int64_t i = 0; i < n; i += share) chosen[taken++] = number[i];
-  hand_over(resident, starts, taken, chosen, state, spent);
-  KZ_TRY(kz_discover(NULL, resident->dynamics, starts->plan->max_periods, taken, state, label));
-  *born = kz_dynamics_count(resident->dynamics) > known;
-  if (*born) kz_dynamics_update(resident->dynamics);
-  return KZ_OK;
 }

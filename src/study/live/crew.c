@@ -116,7 +116,7 @@ static kz_status follow_rest(kz_crew *crew, kz_crew_task task) {
   KZ_FREED int64_t *pending = kz_malloc((size_t)task.n * sizeof *pending);
   int64_t left = 0;
   for (int64_t i = 0; i < task.n; i++)
-    if (crew->cell[task.number[i]].state == KZ_CELL_PENDING) pending[left++] = task.number[i];
+    if (crew->cell[task.number[i]].end.evidence == 0) pending[left++] = task.number[i];
   crew->next = 0;
   task.n = left;
   task.number = pending;

@@ -118,12 +118,8 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
   KZ_FREED_BY(kz_question_free)
   kz_question q = {.scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};
   const int64_t known = kz_dynamics_count(r->dynamics);
-  KZ_TRY(kz_question_discover(&q));
-  if (kz_dynamics_count(r->dynamics) > known) {
-    kz_dynamics_update(r->dynamics);
-    kz_engine_list(engine, r);
-  }
-  KZ_TRY(kz_question_decide(&q));
+  KZ_TRY(kz_question_label(&q));
+  if (kz_dynamics_count(r->dynamics) > known) kz_engine_list(engine, r);
   kz_question_answer(&q, &r->catalogue.list, endings);
   return KZ_OK;
 }

@@ -5,6 +5,8 @@
 #include "live.h"
 #include "numerics/cells.h"
 
+enum { MOST_STARTS = 64 /* of the search among cells that do not settle */ };
+
 typedef struct {
   kz_engine *engine;
   kz_resident *resident;
@@ -14,11 +16,11 @@ typedef struct {
   kz_samples samples; /* of a moving frame whose window is a curve */
   int64_t total, own; /* cells; the first ones, of which the others are mirror images */
   kz_crew *crew;
-  kz_frame_cell *cell; /* [total] the crew's */
-  int64_t *pending;    /* [total] numbers of the cells that a level follows */
-  bool *listed;        /* [own] cells that a level has followed, or is about to */
-  void *buffer;        /* of a level's planes */
-  bool searched;       /* attractors have been looked for among its cells */
+  kz_frame_cell *cell;         /* [total] the crew's */
+  int64_t n_pending, *pending; /* [total] numbers of the cells that a level follows */
+  bool *listed;                /* [own] cells that a level has followed, or is about to */
+  void *buffer;                /* of a level's planes */
+  bool searched;               /* attractors have been looked for among its cells */
   double begin;
 } making;
 
@@ -42,20 +44,39 @@ static kz_status follow(making *m, int64_t n) {
   return kz_crew_follow(m->crew, &task);
 }
 
+static kz_status count_unsettled(void *context, int64_t *n) {
+  making *m = context;
+  int64_t left = 0;
+  for (int64_t i = 0; i < m->n_pending; i++)
+    if (m->cell[m->pending[i]].end.label == 0) m->pending[left++] = m->pending[i];
+  *n = m->n_pending = left;
+  return KZ_OK;
+}
+
+static kz_status pick(void *context, int64_t all, int64_t n, int64_t *cell) {
+  making *m = context;
+  for (int64_t i = 0; i < n; i++) cell[i] = m->pending[kz_even_place(i, n, all)];
+  m->searched = true;
+  return KZ_OK;
+}
+
+static kz_status follow_again(void *context, int round) {
+  making *m = context;
+  (void)round;
+  kz_engine_list(m->engine, m->resident);
+  return follow(m, m->n_pending);
+}
+
 /* Follows n pending cells; where some do not settle, the attractors that they end on are looked for, once a frame. */
 static kz_status label(making *m, int64_t n) {
-  int64_t left = 0;
-  bool born = false;
+  const kz_unsettled unsettled = {count_unsettled, pick, follow_again, m};
+  const kz_search_on search = {1, MOST_STARTS, NULL};
   if (!m->resident->dynamics) return KZ_OK;
+  m->n_pending = n;
   KZ_TRY(follow(m, n));
-  for (int64_t i = 0; i < n; i++)
-    if (m->cell[m->pending[i]].label == 0) m->pending[left++] = m->pending[i];
-  if (left == 0 || m->searched || kz_resident_moves(m->resident)) return KZ_OK;
-  m->searched = true;
-  KZ_TRY(kz_cells_discover(m->resident, &m->starts, left, m->pending, &born));
-  if (!born) return KZ_OK;
-  kz_engine_list(m->engine, m->resident);
-  return follow(m, left);
+  if (m->searched || kz_resident_moves(m->resident)) return KZ_OK;
+  const kz_labeller labeller = kz_window_labeller(&m->starts, false);
+  return kz_search_rounds(&labeller, &search, &unsettled);
 }
 
 /* The id of an attractor, or of its mirror image. */
@@ -65,20 +86,21 @@ static uint8_t id_of(const making *m, int32_t number, bool mirrored) {
   return (uint8_t)(mirrored && id != KZ_NO_LABEL ? list->entries[id].mirror : id);
 }
 
+static uint8_t doubt_of(const kz_label *end) {
+  return end->evidence == KZ_UNDECIDED ? KZ_DOUBT_OPEN : end->evidence == KZ_LEFT ? KZ_DOUBT_UNSEEN : KZ_DOUBT_NONE;
+}
+
 /* Cell f of the frame into place `at` of the planes. */
 static void put(const making *m, int64_t f, int64_t at, void *const plane[KZ_PLANES]) {
-  static const uint8_t doubt[] = {[KZ_CELL_PENDING] = KZ_DOUBT_NONE,
-                                  [KZ_CELL_FOLLOWED] = KZ_DOUBT_UNSEEN,
-                                  [KZ_CELL_DECIDED] = KZ_DOUBT_NONE,
-                                  [KZ_CELL_UNDECIDED] = KZ_DOUBT_OPEN};
   const bool mirrored = f >= m->own;
   const kz_frame_cell *cell = m->cell + (mirrored ? m->total - 1 - f : f);
-  if (plane[KZ_PLANE_LABELS]) ((uint8_t *)plane[KZ_PLANE_LABELS])[at] = id_of(m, cell->label, mirrored);
-  if (plane[KZ_PLANE_OTHER]) ((uint8_t *)plane[KZ_PLANE_OTHER])[at] = id_of(m, cell->other, mirrored);
-  if (plane[KZ_PLANE_DOUBT]) ((uint8_t *)plane[KZ_PLANE_DOUBT])[at] = doubt[cell->state];
+  const kz_label *end = &cell->end;
+  if (plane[KZ_PLANE_LABELS]) ((uint8_t *)plane[KZ_PLANE_LABELS])[at] = id_of(m, end->label, mirrored);
+  if (plane[KZ_PLANE_OTHER]) ((uint8_t *)plane[KZ_PLANE_OTHER])[at] = id_of(m, end->other, mirrored);
+  if (plane[KZ_PLANE_DOUBT]) ((uint8_t *)plane[KZ_PLANE_DOUBT])[at] = doubt_of(end);
   if (plane[KZ_PLANE_SETTLING_TIME])
-    ((float *)plane[KZ_PLANE_SETTLING_TIME])[at] = cell->label > 0 ? cell->periods : (float)NAN;
-  if (plane[KZ_PLANE_SMOOTH_TIME]) ((float *)plane[KZ_PLANE_SMOOTH_TIME])[at] = cell->label > 0 ? cell->smooth : (float)NAN;
+    ((float *)plane[KZ_PLANE_SETTLING_TIME])[at] = end->label > 0 ? (float)end->periods : (float)NAN;
+  if (plane[KZ_PLANE_SMOOTH_TIME]) ((float *)plane[KZ_PLANE_SMOOTH_TIME])[at] = end->label > 0 ? cell->smooth : (float)NAN;
 }
 
 static kz_status show(making *m, int64_t level) {

@@ -92,13 +92,10 @@ void kz_engine_list(kz_engine *engine, kz_resident *resident);
 
 /* ---- cells of one frame, followed where they are pending ---- */
 
-/* State of a cell of a frame. */
-enum { KZ_CELL_PENDING = 0, KZ_CELL_FOLLOWED = 1, KZ_CELL_DECIDED = 2, KZ_CELL_UNDECIDED = 3 };
+/* A cell of a frame. Its evidence is 0 until it is followed, and KZ_LEFT in a moving frame, which does not know errors. */
 typedef struct {
-  int16_t label;         /* number of kz_dynamics, 0 = not settled */
-  int16_t other;         /* of an undecided cell: the second candidate, 0 = none */
-  float periods, smooth; /* settling times: whole, and smooth where the resident is asked for it */
-  uint8_t state;
+  kz_label end;
+  float smooth; /* smooth settling time, where the resident is asked for it */
 } kz_frame_cell;
 
 /* Largest number of cells that are followed together. */
@@ -134,10 +131,6 @@ void kz_samples_free(kz_samples *samples);
 /* Follows any number n of cells by following their samples. */
 kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
                             kz_frame_cell *cells);
-
-/* Looks for attractors from up to n of these cells, which have not settled. *born = true if it has found some. */
-kz_status kz_cells_discover(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                            bool *born);
 
 /* ---- helpers: other processes that follow cells of a frame together with this one ---- */
 

@@ -30,10 +30,11 @@ kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogu
   return point;
 }
 
-/* A kz_ends_fn: by direct integration. */
-static void follow(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods) {
+/* A kz_ends_fn: by direct integration, which cannot fail. */
+static void follow(void *context, int64_t n, const double *start, kz_label *end) {
   const searching *s = context;
-  kz_follow_starts(s->dynamics, s->plan->max_periods, n, start, end, periods);
+  const kz_labeller labeller = kz_pair_labeller(start, s->plan->max_periods, KZ_BY_STATES, s->dynamics);
+  (void)kz_label_first(&labeller, n, NULL, end);
 }
 
 static kz_status resilience_tile(void *context, int64_t tile, void *record) {

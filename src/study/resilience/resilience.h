@@ -4,11 +4,12 @@
 #define KAPITZA_STUDY_RESILIENCE_H
 
 #include "labelling/catalogue.h"
+#include "labelling/labeller.h"
 #include "kapitza/parallel.h"
 #include "kapitza/study.h"
 
-/* Finds where n starts, start [n][2] (rad, rad per drive radian), end: end [n], after periods [n] drive periods. */
-typedef void (*kz_ends_fn)(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods);
+/* Labels n starts, start [n][2] (rad, rad per drive radian): end [n]. */
+typedef void (*kz_ends_fn)(void *context, int64_t n, const double *start, kz_label *end);
 
 /* The problem: shocks of one state. The size of a shock (dtheta, dv) is hypot(dtheta, dv / scale). */
 typedef struct {

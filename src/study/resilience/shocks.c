@@ -27,8 +27,7 @@ static const double RIM = 1.0 / 16;
 typedef struct {
   const kz_shock_problem *problem;
   double start[2 * MOST];
-  int32_t end[MOST];
-  int64_t periods[MOST];
+  kz_label end[MOST];
 } workspace;
 
 /* Rays from the motion: unit vectors of the norm, and where along each another end lies between near and far. */
@@ -42,7 +41,7 @@ static void put(workspace *r, int64_t i, const double direction[2], double dista
 }
 
 static void follow(workspace *r, int64_t n) {
-  r->problem->ends(r->problem->context, n, r->start, r->end, r->periods);
+  r->problem->ends(r->problem->context, n, r->start, r->end);
 }
 
 /* Narrows the bracket of each of n rays to its first change on `points` inner points; false for a ray whose bracket shows none. The
@@ -54,15 +53,15 @@ static void narrow(workspace *r, int n, ray *rays, int points, bool sure, bool *
   follow(r, (int64_t)n * points);
   for (int i = 0; i < n; i++) {
     const double near = rays[i].near, width = rays[i].far - near;
-    const int32_t *end = r->end + (int64_t)i * points;
+    const kz_label *end = r->end + (int64_t)i * points;
     int j = 1;
-    while (j <= points && end[j - 1] == r->problem->own) j++;
+    while (j <= points && end[j - 1].label == r->problem->own) j++;
     crossed[i] = j <= points || sure;
     if (!crossed[i]) continue;
     rays[i].near = near + width * (j - 1) / (points + sure);
     if (j > points) continue;
     rays[i].far = near + width * j / (points + sure);
-    rays[i].end = end[j - 1];
+    rays[i].end = end[j - 1].label;
   }
 }
 
@@ -131,7 +130,7 @@ static double nearest_of_rings(workspace *r, double inner, double outer, double 
   for (int i = 0; i < RAYS; i++)
     for (int ring = 0; ring < RINGS; ring++) {
       const double distance = outer - width * (RINGS - 1 - ring);
-      if (r->end[(int64_t)i * RINGS + ring] == r->problem->own) continue;
+      if (r->end[(int64_t)i * RINGS + ring].label == r->problem->own) continue;
       if (distance < nearest) *angle = 2 * M_PI * i / RAYS;
       nearest = fmin(nearest, distance);
       break;
@@ -217,9 +216,9 @@ void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmles
     put(r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
   follow(r, SPREAD);
   for (int i = 0; i < SPREAD; i++) {
-    if (r->end[i] != problem->own) continue;
+    if (r->end[i].label != problem->own) continue;
     harmless->harmless++;
-    time += (double)r->periods[i];
+    time += (double)r->end[i].periods;
   }
   harmless->return_time = harmless->harmless > 0 ? time / (double)harmless->harmless : NAN;
 }

@@ -13,8 +13,7 @@
 
 enum {
   CHUNK = 4096, /* cells followed at once */
-  FEW = 1024,   /* of them released at once */
-  ROUNDS = 3    /* of discovery among cells that end nowhere known, at most */
+  ROUNDS = 2    /* of search among cells that end nowhere known, at most */
 };
 
 /* One value at work. */
@@ -24,7 +23,8 @@ typedef struct {
   kz_dynamics *dynamics;
   int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
   double *state;             /* [starts or cells][2] */
-  int32_t *label, *cell;     /* [starts]; [cells] number of kz_dynamics, 0 = not settled */
+  int32_t *label;            /* [starts] number of kz_dynamics, 0 = not settled */
+  kz_label *cell;            /* [cells] */
   int64_t *hits;             /* [numbers from 1] */
   int64_t max_periods;       /* after which a start counts as not settled; of the cells the basin's own number */
 } searching;
@@ -50,71 +50,16 @@ static void end(searching *s) {
   free(s->hits);
 }
 
-/* The states of n cells where they are first followed. */
-static void states_of(const searching *s, int64_t n, const int64_t *cell, double *state) {
-  const kz_basin_plan *basin = &s->scene->basin;
-  kz_start start[FEW];
-  for (int64_t done = 0; done < n; done += FEW) {
-    const int64_t part = n - done < FEW ? n - done : FEW;
-    for (int64_t i = 0; i < part; i++) {
-      double centre[2];
-      kz_cell_start(basin, cell[done + i], centre);
-      start[i] = kz_start_at(centre[0], centre[1]);
-    }
-    kz_released_states(s->dynamics, part, start, state + 2 * done);
-  }
-}
-
-typedef struct {
-  searching *s;
-  int64_t n, *pending; /* [n] cells that have not settled */
-  int64_t tile;        /* cells of a tile */
-} labelling;
-
-static kz_status label_tile(void *context, int64_t tile, void *record) {
-  const labelling *l = context;
-  const kz_basin_plan *basin = &l->s->scene->basin;
-  double state[2 * CHUNK];
-  int64_t periods[CHUNK];
-  const int64_t first = tile * l->tile, n = l->n - first < l->tile ? l->n - first : l->tile;
-  states_of(l->s, n, l->pending + first, state);
-  kz_dynamics_follow(l->s->dynamics, kz_stepping(basin->method, basin->interpolation), n, basin->max_periods, state, record,
-                     periods);
-  return KZ_OK;
-}
-
-/* The cells that have not settled, into l->pending. */
-static void list_pending(labelling *l) {
-  l->n = 0;
-  for (int64_t i = 0; i < l->s->n_cells; i++)
-    if (l->s->cell[i] == 0) l->pending[l->n++] = i;
-}
-
-/* Labels the pending cells on every rank. */
-static kz_status label_pending(labelling *l) {
-  const int64_t tiles = (l->n + l->tile - 1) / l->tile;
-  const kz_stage stage = kz_stage_for_all("sweep cells", tiles, (size_t)l->tile * sizeof(int32_t), label_tile, l);
-  KZ_FREED int32_t *label = kz_malloc((size_t)tiles * stage.record_bytes + 1);
-  KZ_TRY(kz_stage_run(l->s->run, &stage, label));
-  for (int64_t i = 0; i < l->n; i++) l->s->cell[l->pending[i]] = label[i];
-  list_pending(l);
-  return KZ_OK;
-}
-
-/* Labels the grid; cells that end nowhere known are searched and labelled once more. */
+/* Labels the grid, whatever the basin's method, by states alone. */
 static kz_status label_grid(searching *s) {
-  KZ_FREED int64_t *pending = kz_malloc((size_t)s->n_cells * sizeof *pending);
-  labelling l = {.s = s, .tile = kz_tile_cells(s->scene, CHUNK), .pending = pending};
-  list_pending(&l);
-  for (int round = 0;; round++) {
-    const int64_t known = kz_dynamics_count(s->dynamics);
-    KZ_TRY(label_pending(&l));
-    if (round == ROUNDS - 1 || l.n == 0) return KZ_OK;
-    const int64_t n = l.n < s->n_starts ? l.n : s->n_starts;
-    states_of(s, n, pending, s->state);
-    KZ_TRY(kz_discover(s->run, s->dynamics, s->scene->basin.max_periods, n, s->state, s->label));
-    if (kz_dynamics_count(s->dynamics) == known) return KZ_OK;
-  }
+  const kz_basin_plan *basin = &s->scene->basin;
+  const kz_search_on search = {ROUNDS, s->n_starts, NULL};
+  kz_labeller labeller = kz_cell_labeller(basin, s->dynamics);
+  labeller.way = kz_stepping(basin->method, basin->interpolation);
+  labeller.run = s->run;
+  labeller.stage = "sweep cells";
+  labeller.tile = kz_tile_cells(s->scene, CHUNK);
+  return kz_label_and_search(&labeller, &search, s->n_cells, NULL, s->cell);
 }
 
 /* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
@@ -124,9 +69,10 @@ static int64_t count_hits(const searching *s) {
   for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->label[i]]++;
   if (s->n_cells == 0) return s->n_starts;
   for (int64_t i = 0; i < s->n_cells; i++) {
-    s->hits[s->cell[i]]++;
-    if (total - 1 - i < s->n_cells || s->cell[i] == 0) continue;
-    kz_dynamics_attractor(s->dynamics, s->cell[i], &row);
+    const int16_t label = s->cell[i].label;
+    s->hits[label]++;
+    if (total - 1 - i < s->n_cells || label == 0) continue;
+    kz_dynamics_attractor(s->dynamics, label, &row);
     s->hits[row.mirror]++;
   }
   return total;

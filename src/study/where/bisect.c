@@ -26,41 +26,44 @@ typedef struct {
 typedef struct {
   const kz_question *question;
   kz_images *images;
-  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+  kz_hand_over hand_over[KZ_LEVELS];
   __float128 share[POINTS];
-  kz_decision decision[POINTS];
+  kz_label end[POINTS];
 } piece;
 
 static kz_status start_point(void *context, int64_t i, int32_t level, kz_start *start) {
   const piece *p = context;
-  kz_hand_over_start(&p->hand_over[level < 0 ? KZ_LEVEL_DOUBLE : level], p->share[i], 0, start);
+  kz_hand_over_start(&p->hand_over[level], p->share[i], 0, start);
   return KZ_OK;
 }
 
 /* Labels the points from the first to the last one, evenly spread; what quad precision leaves open stays so. */
 static kz_status label_points(piece *p, int first, int last) {
-  const kz_labeller labeller = {
-      .dynamics = p->question->dynamics, .max_periods = p->question->max_periods, .start = start_point, .context = p};
+  const kz_labeller labeller = {.dynamics = p->question->dynamics,
+                                .max_periods = p->question->max_periods,
+                                .way = KZ_BY_LEVELS,
+                                .start = start_point,
+                                .context = p};
   const __float128 from = p->share[0], step = (p->share[POINTS - 1] - from) / (POINTS - 1);
   int64_t item[POINTS];
   for (int i = first; i <= last; i++) {
     item[i] = i;
     if (i > 0 && i < POINTS - 1) p->share[i] = from + step * i;
   }
-  return kz_label(&labeller, last - first + 1, item + first, p->decision + first);
+  return kz_label_items(&labeller, 1, last - first + 1, item + first, p->end + first);
 }
 
 /* The points i and i + 1 become the ends. */
 static void close_in(piece *p, int i) {
   p->share[0] = p->share[i];
-  p->decision[0] = p->decision[i];
+  p->end[0] = p->end[i];
   p->share[POINTS - 1] = p->share[i + 1];
-  p->decision[POINTS - 1] = p->decision[i + 1];
+  p->end[POINTS - 1] = p->end[i + 1];
 }
 
 /* Periods until the points i and i + 1 have settled, if both are decided, and differently; else INT64_MAX. */
 static int64_t periods_of(const piece *p, int i) {
-  const kz_decision *a = p->decision + i, *b = a + 1;
+  const kz_label *a = p->end + i, *b = a + 1;
   if (a->label <= 0 || b->label <= 0 || a->label == b->label) return INT64_MAX;
   return a->periods > b->periods ? a->periods : b->periods;
 }
@@ -83,7 +86,7 @@ static int meeting(const piece *p) {
 static kz_status follow_piece(piece *p) {
   const kz_question *q = p->question;
   KZ_TRY(kz_images_follow(p->images, q->dynamics, q->max_periods + 1, q->max_periods));
-  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++) p->hand_over[level] = kz_hand_over_at(p->images, level, 0.5);
+  kz_hand_overs_make(p->images, 0.5, p->hand_over);
   return KZ_OK;
 }
 
@@ -104,7 +107,7 @@ static kz_status search_piece(piece *p, double finest, bool *found) {
   return KZ_OK;
 }
 
-static kz_status say_lost(const kz_question *q) {
+static kz_status lost(const kz_question *q) {
   return kz_fail(
       KZ_FAILED,
       "--boundary: beside the boundary no starts on both sides settle within %lld periods (max_periods of the scene); "
@@ -115,11 +118,11 @@ static kz_status say_lost(const kz_question *q) {
 /* Notes where the boundary lies in a piece whose width is 2^exponent of the largest one's. */
 static kz_status note(const piece *p, int exponent, spot *s) {
   const __float128 middle = (p->share[0] + p->share[POINTS - 1]) / 2;
-  if (s->n + 2 > MOST_PARTS) return say_lost(p->question);
+  if (s->n + 2 > MOST_PARTS) return lost(p->question);
   s->part[s->n++] = ldexp((double)middle, exponent);
   s->part[s->n++] = ldexp((double)(middle - (double)middle), exponent);
   s->bracket = ldexp((double)(p->share[POINTS - 1] - p->share[0]), exponent);
-  for (int side = 0; side < 2; side++) s->label[side] = p->decision[side * (POINTS - 1)].label;
+  for (int side = 0; side < 2; side++) s->label[side] = p->end[side * (POINTS - 1)].label;
   return KZ_OK;
 }
 
@@ -141,7 +144,7 @@ static kz_status narrow_within(const piece *p, int exponent, double finest, spot
     kz_images_free(smaller.images);
     if (status != KZ_OK || found) return status;
   }
-  return say_lost(p->question);
+  return lost(p->question);
 }
 
 /* Finds the boundary in a piece to `finest` of its width. */
@@ -218,7 +221,7 @@ static kz_status narrow_all(const kz_question *q, line *l, int64_t digits, kz_bi
     spot s = {.n = 0};
     bool found;
     KZ_TRY(narrow_line(q, l, fmax(finest_share(size / whole), (double)(enough / size) / roomy), &s, &found));
-    if (!found && ++widenings > MOST_WIDENINGS) return say_lost(q);
+    if (!found && ++widenings > MOST_WIDENINGS) return lost(q);
     if (found) memcpy(bisection->label, s.label, sizeof s.label);
     KZ_TRY(follow_line(l, &s, found ? roomy * s.bracket : ldexp(1, WIDENING), digits));
   }

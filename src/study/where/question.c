@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "labelling/search.h"
 #include "window/window.h"
 
 /* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */
@@ -29,57 +28,51 @@ static kz_status decide(void *context, int64_t i, kz_decision *decision) {
   return kz_own_orbit_decide(q->dynamics, &q->scene->parameters.pendulum, q->start[i], q->max_periods, decision);
 }
 
-kz_status kz_question_decide(kz_question *q) {
-  const kz_labeller labeller = {
-      .dynamics = q->dynamics, .max_periods = q->max_periods, .start = start_of, .decide = decide, .context = q};
-  q->decision = kz_malloc(((size_t)q->n + 1) * sizeof *q->decision);
-  KZ_TRY(kz_label(&labeller, q->n, NULL, q->decision));
-  for (int64_t i = 0; i < q->n; i++)
-    if (q->decision[i].label == KZ_DOUBTFUL) KZ_TRY(kz_label_candidates(&labeller, 1, &i, q->decision + i));
-  return KZ_OK;
+/* A kz_note_fn. */
+static void note(void *context, int64_t i, const kz_decision *decision) {
+  ((kz_question *)context)->error[i] = decision->error;
+}
+
+kz_status kz_question_label(kz_question *q) {
+  const kz_search_on search = {1, q->n, NULL};
+  const kz_labeller labeller = {.dynamics = q->dynamics,
+                                .max_periods = q->max_periods,
+                                .way = KZ_BY_LEVELS,
+                                .open = KZ_OPEN_CANDIDATES,
+                                .start = start_of,
+                                .decide = decide,
+                                .note = note,
+                                .context = q};
+  q->label = kz_malloc(((size_t)q->n + 1) * sizeof *q->label);
+  q->error = kz_malloc(((size_t)q->n + 1) * sizeof *q->error);
+  return kz_label_and_search(&labeller, &search, q->n, NULL, q->label);
 }
 
 void kz_question_free(kz_question *q) {
-  free(q->decision);
+  free(q->label);
+  free(q->error);
 }
 
-kz_status kz_question_discover(const kz_question *q) {
-  KZ_FREED double *state = kz_malloc(2 * (size_t)q->n * sizeof *state);
-  KZ_FREED int32_t *label = kz_malloc((size_t)q->n * sizeof *label);
-  for (int64_t i = 0; i < q->n; i++) {
-    kz_start start = kz_start_at(q->start[i][0].high, q->start[i][1].high);
-    kz_released_states(q->dynamics, 1, &start, state + 2 * i);
-  }
-  return kz_discover(NULL, q->dynamics, q->max_periods, q->n, state, label);
-}
-
-/* Names of the levels of precision. */
-static const char *const precision_names[] = {
-    [KZ_LEVEL_DOUBLE] = "double",  [KZ_LEVEL_FINE] = "double",         [KZ_LEVEL_PAIRS_16] = "pairs",
-    [KZ_LEVEL_PAIRS_20] = "pairs", [KZ_LEVEL_PAIRS_24] = "pairs",      [KZ_LEVEL_PAIRS_28] = "pairs",
-    [KZ_LEVEL_QUAD] = "quad",      [KZ_LEVEL_ARBITRARY] = "arbitrary", [KZ_LEVELS] = NULL,
-};
-
-static void describe(const kz_decision *d, const kz_catalogue *catalogue, kz_ending *ending) {
+static void describe(const kz_label *d, double error, const kz_catalogue *catalogue, kz_ending *ending) {
   if (d->label <= 0) return;
   const kz_entry *entry = catalogue->entries + catalogue->id_of[d->label];
   const size_t bytes = (size_t)entry->row.period * sizeof(double);
   ending->attractor = catalogue->id_of[d->label];
   ending->settling_time = d->periods;
-  ending->precision = precision_names[d->level];
+  ending->precision = kz_evidence_word(d->evidence);
   ending->period = entry->row.period;
   ending->winding = entry->row.winding;
   ending->strobe_theta = memcpy(kz_malloc(bytes + 1), entry->theta, bytes);
   ending->strobe_velocity = memcpy(kz_malloc(bytes + 1), entry->velocity, bytes);
   memcpy(ending->name, entry->name, sizeof ending->name);
-  if (ending->precision && ending->period > 0) ending->error = d->error;
+  if (ending->precision && ending->period > 0) ending->error = error;
   if (d->other <= 0) return;
   ending->other = catalogue->id_of[d->other];
   memcpy(ending->other_name, catalogue->entries[ending->other].name, sizeof ending->other_name);
 }
 
 void kz_question_answer(const kz_question *q, const kz_catalogue *catalogue, kz_ending *endings) {
-  for (int64_t i = 0; i < q->n; i++) describe(q->decision + i, catalogue, endings + i);
+  for (int64_t i = 0; i < q->n; i++) describe(q->label + i, q->error[i], catalogue, endings + i);
 }
 
 void kz_endings_clear(int64_t n, kz_ending *endings) {

@@ -11,40 +11,37 @@ typedef struct {
   int64_t *reached; /* [numbers from 1] starts that end on each attractor */
 } where_job;
 
-/* The attractors that the window's starts, and then those asked for, end on. */
-static kz_status where_discover(where_job *a) {
-  kz_question *q = &a->question;
+/* The attractors that the window's starts end on; label [search->starts]. */
+static kz_status find_attractors(kz_question *q, kz_search *search, int32_t *label) {
   const kz_scene *scene = q->scene;
-  kz_search search = kz_search_of(scene);
-  KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
-  const kz_window motions = scene->has_basin ? kz_motions_window(&scene->basin.theta, &scene->basin.velocity) : search.window;
-  q->max_periods = search.max_periods;
+  const kz_window motions = scene->has_basin ? kz_motions_window(&scene->basin.theta, &scene->basin.velocity) : search->window;
+  q->max_periods = search->max_periods;
   q->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
                                    scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
   if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
-  search.max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
-  KZ_TRY(kz_search_window(NULL, q->dynamics, &search, label));
-  KZ_TRY(kz_question_discover(q));
-  a->reached = kz_calloc((size_t)kz_dynamics_count(q->dynamics) + 1, sizeof *a->reached);
-  for (int64_t i = 0; i < search.starts; i++) a->reached[label[i]]++;
-  kz_dynamics_update(q->dynamics);
-  return KZ_OK;
+  search->max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
+  return kz_search_window(NULL, q->dynamics, search, label);
 }
 
 static kz_status answer(where_job *a, kz_ending *endings) {
   kz_question *q = &a->question;
+  kz_search search = kz_search_of(q->scene);
   KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
-  KZ_TRY(kz_question_decide(q));
+  KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
+  KZ_TRY(find_attractors(q, &search, label));
+  KZ_TRY(kz_question_label(q));
+  a->reached = kz_calloc((size_t)kz_dynamics_count(q->dynamics) + 1, sizeof *a->reached);
+  for (int64_t i = 0; i < search.starts; i++) a->reached[label[i]]++;
   for (int64_t i = 0; i < q->n; i++) {
-    a->reached[q->decision[i].label]++;
-    a->reached[q->decision[i].other]++;
+    a->reached[q->label[i].label]++;
+    a->reached[q->label[i].other]++;
   }
   kz_catalogue_make(q->dynamics, a->reached, &catalogue);
   kz_question_answer(q, &catalogue, endings);
   return KZ_OK;
 }
 
-/* The starts as kz_where takes them, with their endings; asked->question.decision is what they say. To be closed in every case. */
+/* The starts as kz_where takes them, with their endings; asked->question.label is what they say. To be closed in every case. */
 static kz_status where_ask(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], where_job *asked,
                            kz_ending *endings) {
   *asked = (where_job){.question = {.scene = scene, .n = n, .start = start}};
@@ -52,7 +49,6 @@ static kz_status where_ask(const kz_scene *scene, int64_t n, const kz_coordinate
   if (!scene->has_basin && !scene->has_attractors)
     return kz_fail(KZ_REFUSED, "scene: has no window to search for attractors; add a basin or attractors study to it");
   if (n == 0 || scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  KZ_TRY(where_discover(asked));
   return answer(asked, endings);
 }
 

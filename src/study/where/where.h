@@ -4,6 +4,7 @@
 #define KAPITZA_STUDY_WHERE_FOLDER_H
 
 #include "labelling/catalogue.h"
+#include "labelling/labeller.h"
 #include "kapitza/study_where.h"
 
 typedef struct {
@@ -11,19 +12,18 @@ typedef struct {
   kz_dynamics *dynamics;
   int64_t max_periods, n;
   const kz_coordinate (*start)[2]; /* [n] as of kz_where */
-  kz_decision *decision;           /* [n] */
+  kz_label *label;                 /* [n] */
+  double *error;                   /* [n] rad: bound of the orbit's error when it was trapped */
 } kz_question;
 
-/* Labels the starts as method exact does: fills `decision`. An undecided start gets its candidates in place of KZ_DOUBTFUL. */
-kz_status kz_question_decide(kz_question *question);
+/* Labels the starts as method exact does: fills `label` and `error`. An undecided start gets its candidates. Attractors that only these starts
+ * end on join those of `dynamics`. */
+kz_status kz_question_label(kz_question *question);
 void kz_question_free(kz_question *question);
-
-/* Looks for attractors that only these starts end on; they join those of `dynamics`. */
-kz_status kz_question_discover(const kz_question *question);
 
 /* Clears endings [n]. */
 void kz_endings_clear(int64_t n, kz_ending *endings);
-/* Fills endings [n] from the decisions, with names of the catalogue. */
+/* Fills endings [n] from the labels, with names of the catalogue. */
 void kz_question_answer(const kz_question *question, const kz_catalogue *catalogue, kz_ending *endings);
 
 /* The point on the straight line between the two starts of a question, whose labels differ: theta and velocity as texts with `digits` right

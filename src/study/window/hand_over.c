@@ -3,10 +3,6 @@
 
 #include "window.h"
 
-/* rad: what the arithmetic of a level adds in a period, or less. */
-static const long double level_error[] = {
-    [KZ_LEVEL_DOUBLE] = 1e-16L,   [KZ_LEVEL_FINE] = 1e-16L,     [KZ_LEVEL_PAIRS_16] = 1e-17L, [KZ_LEVEL_PAIRS_20] = 1e-21L,
-    [KZ_LEVEL_PAIRS_24] = 1e-25L, [KZ_LEVEL_PAIRS_28] = 1e-30L, [KZ_LEVEL_QUAD] = 1e-33L};
 /* rad: images that are wider are bent too much for any estimate of the fourth degree. */
 static const long double widest = 1e-3L;
 /* Relative rounding of the coefficients of the first degree, a period, and of all that a pair of doubles holds. */
@@ -30,8 +26,9 @@ static sizes sizes_of(const kz_jet *jet, double reach) {
   return s;
 }
 
-/* What degrees above the third would add, about twice: the third times the ratio of a degree to the one before, as the second degree tells it -
- * near a fold the first one is small - or, about a symmetric centre, which has no second degree, the third. */
+/* An estimate, about twice too large, of what degrees above the third would add: the third degree times the ratio of two successive degrees. The
+ * ratio is that of the second degree to the first, or, if that is larger, the root of the ratio of the third to the first: a symmetric centre has
+ * no second degree. Near a fold the first degree is small, and both ratios are large. */
 static long double left_out(const sizes *s) {
   if (!(s->linear > 0)) return s->cube;
   return 2 * s->cube * fmaxl(s->square / s->linear, sqrtl(s->cube / s->linear));
@@ -54,30 +51,34 @@ bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits) {
   return left_out(&s) + rounding <= powl(10, -(long double)(digits + MORE)) * s.linear;
 }
 
-static int64_t last_image(const kz_images *images, int32_t level, double reach) {
+static int64_t last_image(const kz_images *images, const kz_level *level, double reach) {
   int64_t last = 0;
   for (int64_t n = 1; n <= images->n; n++) {
     const sizes s = sizes_of(&images->image[n].jet, reach);
-    const long double bound = level_error[level] + pair_error * hypotl(images->image[n].theta[0], images->image[n].velocity[0]);
+    const long double bound = level->error + pair_error * hypotl(images->image[n].theta[0], images->image[n].velocity[0]);
     if (!(s.linear < widest)) break;
     if (left_out(&s) + bent_error * (long double)n * (s.square + s.cube) <= bound) last = n;
   }
   return last;
 }
 
-kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reach) {
+kz_hand_over kz_hand_over_at(const kz_images *images, const kz_level *level, double reach) {
   const int64_t n = last_image(images, level, reach);
   const kz_image *image = images->image + n;
   const sizes s = sizes_of(&image->jet, reach);
   kz_hand_over h = {.image = image,
                     .periods = images->before + n,
-                    .in_quads = n == 0 || level >= KZ_LEVEL_PAIRS_16,
+                    .in_quads = n == 0 || level->in_pairs,
                     .error = (double)error_of(images, n, &s)};
   for (int axis = 0; axis < 2; axis++) {
     for (int i = 0; i < 2; i++) h.linear[axis][i] = (double)image->jet.linear[axis][i];
     for (int i = 0; i < KZ_BENT; i++) h.bent[axis][i] = (double)image->jet.bent[axis][i];
   }
   return h;
+}
+
+void kz_hand_overs_make(const kz_images *images, double reach, kz_hand_over *hand_over) {
+  for (int32_t level = 0; level < KZ_LEVELS; level++) hand_over[level] = kz_hand_over_at(images, kz_level_rows + level, reach);
 }
 
 static double in_doubles(const double *linear, const double *b, double x, double y) {

@@ -120,9 +120,7 @@ static bool is_trapped(const kz_image *image, kz_dynamics *dynamics) {
   const kz_start start = {.theta = {image->theta[0], image->theta[1]},
                           .velocity = {image->velocity[0], image->velocity[1]},
                           .error = {size * size, 0, size * size}};
-  kz_decision decision;
-  kz_dynamics_label(dynamics, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, 1, &start, 1, &decision);
-  return decision.label > 0;
+  return kz_start_is_trapped(dynamics, &start);
 }
 
 static void make_room(kz_images *images, int64_t n) {

@@ -69,32 +69,21 @@ static kz_start start_of(const path *p) {
   return start;
 }
 
-/* The rest of the motion in double precision. If doubles, without regard to errors, end nowhere known, more digits would not find an attractor
- * that the catalogue lacks. */
-static void try_in_doubles(const path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
-  const kz_start start = start_of(p);
-  for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_FINE; level++) {
-    kz_dynamics_label(dynamics, level, KZ_LEVEL_DOUBLE, 1, &start, max_periods, decision);
-    if (decision->label != KZ_DOUBTFUL) return;
-  }
-  if (p->periods % LOOK_EVERY == 0)
-    kz_dynamics_label(dynamics, KZ_LEVEL_GUESS, KZ_LEVEL_DOUBLE, 1, &start, max_periods, decision);
-  if (decision->label != 0) decision->label = KZ_DOUBTFUL;
-}
-
-/* Until it is decided, or quad precision has as many digits as the orbit has left and goes on: decision->label is KZ_DOUBTFUL if that does not
+/* If doubles, without regard to errors, end nowhere known, more digits would not find an attractor that the catalogue lacks.
+ * Until it is decided, or quad precision has as many digits as the orbit has left and goes on: decision->label is KZ_DOUBTFUL if that does not
  * decide it. */
 static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   decision->label = KZ_DOUBTFUL;
   for (; !is_lost(p); p->periods++) {
     if (p->periods % TRY_EVERY == 0 || p->periods >= max_periods) {
-      try_in_doubles(p, dynamics, max_periods, decision);
+      const kz_start start = start_of(p);
+      kz_decide_in_doubles(dynamics, &start, max_periods, p->periods % LOOK_EVERY == 0, decision);
       if (decision->label != KZ_DOUBTFUL || p->periods >= max_periods) return KZ_OK;
     }
     KZ_TRY(advance(p));
   }
   const kz_start start = start_of(p);
-  kz_dynamics_label(dynamics, KZ_LEVEL_QUAD, KZ_LEVEL_FINE, 1, &start, max_periods, decision);
+  kz_decide_in_quads(dynamics, &start, max_periods, decision);
   return KZ_OK;
 }
 
@@ -118,6 +107,5 @@ kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum
     kz_arbitrary_free(p.orbit);
     if (bits >= most) break;
   }
-  decision->level = decision->label == KZ_DOUBTFUL ? KZ_LEVELS : KZ_LEVEL_ARBITRARY;
   return status;
 }

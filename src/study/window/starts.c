@@ -28,8 +28,7 @@ void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulu
     return;
   }
   kz_images_serve(images, pendulum, &plan->theta, &plan->velocity, &view);
-  for (int32_t level = 0; level < KZ_LEVEL_ARBITRARY; level++)
-    starts->hand_over[level] = kz_hand_over_at(images, level, view.reach);
+  kz_hand_overs_make(images, view.reach, starts->hand_over);
   starts->place[0] = places(&plan->theta, &view, 0);
   starts->place[1] = places(&plan->velocity, &view, 1);
 }
@@ -48,7 +47,7 @@ static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start
   const kz_window_starts *s = context;
   const int64_t column = cell % s->plan->theta.count, row = cell / s->plan->theta.count;
   if (s->images)
-    kz_hand_over_start(&s->hand_over[level < 0 ? KZ_LEVEL_DOUBLE : level], s->place[0][column], s->place[1][row], start);
+    kz_hand_over_start(&s->hand_over[level], s->place[0][column], s->place[1][row], start);
   else
     *start = kz_start_at(s->centre[0][column], s->centre[1][row]);
   return KZ_OK;
@@ -65,14 +64,9 @@ static kz_status decide_cell(void *context, int64_t cell, kz_decision *decision)
 kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide) {
   return (kz_labeller){.dynamics = starts->dynamics,
                        .max_periods = starts->plan->max_periods,
+                       .way = KZ_BY_LEVELS,
+                       .open = KZ_OPEN_CANDIDATES,
                        .start = start_cell,
                        .decide = decide ? decide_cell : NULL,
                        .context = (void *)starts};
-}
-
-void kz_window_state(const kz_window_starts *starts, int64_t cell, double state[2], int64_t *periods) {
-  kz_start start;
-  start_cell((void *)starts, cell, KZ_LEVEL_DOUBLE, &start);
-  kz_start_state(start.theta[0], start.velocity[0], state);
-  *periods = start.periods;
 }

@@ -79,7 +79,9 @@ typedef struct {
 bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits);
 
 /* The hand-over by the last image whose polynomial is as accurate as the level's own arithmetic, for shares up to `reach`. */
-kz_hand_over kz_hand_over_at(const kz_images *images, int32_t level, double reach);
+kz_hand_over kz_hand_over_at(const kz_images *images, const kz_level *level, double reach);
+/* The same for every level: hand_over [KZ_LEVELS]. */
+void kz_hand_overs_make(const kz_images *images, double reach, kz_hand_over *hand_over);
 /* *start = the start at the shares theta and velocity of the width of the images. */
 void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);
 /* The same start as its distance from the image's centre, in doubles: change [2], rad and rad per drive radian. */
@@ -99,7 +101,7 @@ typedef struct {
   const kz_pendulum *pendulum;
   kz_dynamics *dynamics;
   kz_images *images; /* this struct is a holder; NULL = the cells are doubles */
-  kz_hand_over hand_over[KZ_LEVEL_ARBITRARY];
+  kz_hand_over hand_over[KZ_LEVELS];
   __float128 *place[2]; /* with images: place of each column and of each row, in shares of the images' width */
   double *centre[2];    /* without images: centre of each column and of each row, rad and rad per drive radian */
 } kz_window_starts;
@@ -111,9 +113,6 @@ void kz_window_starts_free(kz_window_starts *starts);
 
 /* The labeller of the cells. decide = true: cells that quad precision does not decide are decided by their own orbits. */
 kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide);
-
-/* The state of a cell when it is handed over to doubles: state [2], half-turns and rad per drive radian, after *periods drive periods. */
-void kz_window_state(const kz_window_starts *starts, int64_t cell, double state[2], int64_t *periods);
 
 /* ---- curves: the map stretches a small window along one direction and compresses it across. When its cells are handed over to doubles, a
  * deep window has become a curve, so samples along the curve give the labels of all cells. ---- */

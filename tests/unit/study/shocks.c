@@ -12,19 +12,16 @@
 #include "resilience/resilience.h"
 
 /* Another end inside of an ellipse about (2, 1), below v = -1.7, in a small disc, and in a thin strip at theta = -2.5. */
-static int32_t end_at(double theta, double velocity, bool small) {
+static int16_t end_at(double theta, double velocity, bool small) {
   if (hypot((theta - 2) / 2, velocity - 1) < 0.5) return 2;
   if (velocity < -1.7) return 3;
   if (small && hypot(theta - 0.6, velocity + 0.5) < 0.03) return 4;
   return theta < -2.5 && theta > -2.51 ? 5 : 1;
 }
 
-static void ends(void *context, int64_t n, const double *start, int32_t *end, int64_t *periods) {
+static void ends(void *context, int64_t n, const double *start, kz_label *end) {
   const bool *small = context;
-  for (int64_t i = 0; i < n; i++) {
-    end[i] = end_at(start[2 * i], start[2 * i + 1], *small);
-    periods[i] = 3;
-  }
+  for (int64_t i = 0; i < n; i++) end[i] = (kz_label){.label = end_at(start[2 * i], start[2 * i + 1], *small), .periods = 3};
 }
 
 /* The distance of the ellipse from the origin in the norm of `scale`, by brute force. */

@@ -1,0 +1,50 @@
+/* The levels of precision, and how labels are known. No other folder of studies knows a level by its name. */
+#ifndef KAPITZA_STUDY_LEVELS_H
+#define KAPITZA_STUDY_LEVELS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "kapitza/dynamics.h"
+
+/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
+ * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_QUADS are from basin.proof with any method; they occur in the file only. KZ_LEFT is a
+ * doubtful label of method direct. */
+enum {
+  KZ_UNSETTLED = 0,
+  KZ_INSIDE = 1,
+  KZ_FOLLOWED = 2,
+  KZ_UNDECIDED = 3,
+  KZ_IN_QUAD = 4,
+  KZ_IN_PAIRS = 5,
+  KZ_PROVED = 6,
+  KZ_IN_FINE = 7,
+  KZ_IN_ARBITRARY = 8,
+  KZ_LEFT = 9,
+  KZ_PROVED_IN_PAIRS = 10,
+  KZ_PROVED_IN_QUADS = 11
+};
+
+/* A level: a row of the table. Its code is its place (dynamics.h); what carries its orbits is in dynamics/labels/levels.f90. */
+typedef struct {
+  const char *word;  /* for people; NULL = undecided */
+  const char *stage; /* name of its stages */
+  uint8_t evidence;  /* of what it decides */
+  int64_t tile;      /* items that are followed together */
+  long double error; /* rad: what its arithmetic adds in a period, or less */
+  bool in_pairs;     /* its starts need more digits than doubles have */
+} kz_level;
+extern const kz_level kz_level_rows[KZ_LEVELS + 1];
+
+/* The word of the level that gives labels this evidence; NULL = none does. */
+const char *kz_evidence_word(uint8_t evidence);
+
+/* Decides where one orbit ends by double precision: *decision has KZ_DOUBTFUL if that does not decide it. `look`: where doubles without regard
+ * to errors end nowhere known, the orbit counts as not settled. */
+void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, bool look, kz_decision *decision);
+/* The same by quad precision. */
+void kz_decide_in_quads(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, kz_decision *decision);
+/* Whether a trapping region holds a start, with its error, after one period. */
+bool kz_start_is_trapped(kz_dynamics *dynamics, const kz_start *start);
+
+#endif

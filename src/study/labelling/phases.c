@@ -1,0 +1,67 @@
+#include "phases.h"
+
+#include <math.h>
+
+enum { BLOCK = 16384 };
+
+double kz_phase_at(const kz_phases *p, int64_t i) {
+  return 2 * M_PI * (double)i / (double)p->phases;
+}
+
+static int64_t blocks_of(int64_t n) {
+  return (n + BLOCK - 1) / BLOCK;
+}
+
+/* A tile is some items at one phase. */
+static kz_status phase_tile(void *context, int64_t tile, void *record) {
+  const kz_phases *p = context;
+  const int64_t blocks = blocks_of(p->n), first = tile % blocks * BLOCK, n = p->n - first < BLOCK ? p->n - first : BLOCK;
+  kz_release release = p->release;
+  int16_t *out = record;
+  KZ_FREED kz_label *label = kz_malloc((size_t)n * sizeof *label);
+  KZ_FREED int64_t *item = kz_malloc((size_t)n * sizeof *item);
+  for (int64_t i = 0; i < n; i++) item[i] = first + i;
+  release.phase = kz_phase_at(p, tile / blocks);
+  kz_dynamics_set_release(p->labeller.dynamics, &release);
+  const kz_status status = kz_label_items(&p->labeller, 1, n, item, label);
+  for (int64_t i = 0; status == KZ_OK && i < n; i++) out[i] = label[i].label > 0 ? label[i].label : 0;
+  kz_dynamics_set_release(p->labeller.dynamics, &p->release);
+  return status;
+}
+
+static kz_stage stage_of(kz_phases *p) {
+  return kz_stage_for_rank0(p->stage, blocks_of(p->n) * p->phases, BLOCK * sizeof(int16_t), phase_tile, p);
+}
+
+kz_status kz_phases_label(kz_phases *p, const kz_run *run) {
+  const kz_stage stage = stage_of(p);
+  p->label = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
+  return kz_stage_run(run, &stage, p->label);
+}
+
+kz_status kz_phases_time(kz_phases *p, double *seconds) {
+  const kz_stage stage = stage_of(p);
+  return kz_stage_measure(&stage, 2, 1.0, seconds);
+}
+
+double kz_phases_room(int64_t phases, int64_t n) {
+  return phases > 0 ? 2.0 * (double)phases * (double)(n + BLOCK) : 0;
+}
+
+int16_t kz_phases_at(const kz_phases *p, int64_t phase, int64_t item) {
+  return p->label[(phase * blocks_of(p->n) + item / BLOCK) * BLOCK + item % BLOCK];
+}
+
+int64_t kz_phases_ends(const kz_phases *p, int64_t item) {
+  int64_t ends = 0;
+  for (int64_t i = 0; i < p->phases; i++) {
+    int64_t before = 0;
+    while (before < i && kz_phases_at(p, before, item) != kz_phases_at(p, i, item)) before++;
+    ends += before == i;
+  }
+  return ends;
+}
+
+int16_t kz_phases_common(const kz_phases *p, int64_t item) {
+  return kz_phases_ends(p, item) == 1 ? kz_phases_at(p, 0, item) : 0;
+}

@@ -1,0 +1,30 @@
+/* Items released at phases of the drive that are spread evenly over a period. Attractors and trapping regions are the same at all of them. */
+#ifndef KAPITZA_STUDY_PHASES_H
+#define KAPITZA_STUDY_PHASES_H
+
+#include "labeller.h"
+
+typedef struct {
+  kz_labeller labeller; /* of the items 0 .. n - 1; not of a run */
+  kz_release release;   /* whose phase is replaced */
+  int64_t phases, n;
+  const char *stage;
+  int16_t *label; /* on rank 0, of kz_phases_label: the caller frees it */
+} kz_phases;
+
+/* Phase i, rad. */
+double kz_phase_at(const kz_phases *phases, int64_t i);
+/* Labels all items at all phases, in one kept stage. Collective. */
+kz_status kz_phases_label(kz_phases *phases, const kz_run *run);
+/* Estimates the processor time of it and adds it to *seconds; bytes that the labels take. Not collective. */
+kz_status kz_phases_time(kz_phases *phases, double *seconds);
+double kz_phases_room(int64_t phases, int64_t n);
+
+/* The label of an item at a phase: a number of kz_dynamics, 0 = not settled or not decided. */
+int16_t kz_phases_at(const kz_phases *phases, int64_t phase, int64_t item);
+/* How many different ends an item has: attractors, and one more where it has not settled or is not decided. */
+int64_t kz_phases_ends(const kz_phases *phases, int64_t item);
+/* The attractor in which an item ends at all phases; 0 = there is none. */
+int16_t kz_phases_common(const kz_phases *phases, int64_t item);
+
+#endif
