@@ -175,34 +175,33 @@ typedef struct {
 } kz_numerics_keys;
 enum { KZ_AUTO = 0 };
 
+/* The list of the studies, in the order in which they run: name, and the function that refuses a scene that the study cannot model, for
+ * example because the steps are too coarse (NULL = nothing to refuse). Its message begins with the keys that a user could change
+ * ("numerics.steps_per_period|basin.velocity: ..."). Everything else about a study follows from its name: its plan kz_NAME_plan, its fields in
+ * kz_scene, its functions, its variables. */
+#define KZ_STUDIES(STUDY)                \
+  STUDY(basin, kz_basin_check)           \
+  STUDY(attractors, kz_attractors_check) \
+  STUDY(saddles, NULL)                   \
+  STUDY(manifolds, NULL)                 \
+  STUDY(edge, NULL)                      \
+  STUDY(orbit, kz_orbit_check)           \
+  STUDY(stability, NULL)                 \
+  STUDY(potential, NULL)                 \
+  STUDY(sweep, kz_sweep_check)           \
+  STUDY(chart, NULL)                     \
+  STUDY(tradeoff, kz_tradeoff_check)
+
 typedef struct {
   char *title; /* may be "" */
   kz_parameters parameters;
   kz_numerics_keys asked;
   kz_numerics numerics;   /* resolved from `asked` by kz_numerics_resolve */
   kz_kept_series *series; /* of its pendulums; kz_scene_free frees it, and copies of the scene share it; NULL = none is kept */
-  bool has_basin;
-  kz_basin_plan basin;
-  bool has_attractors;
-  kz_attractors_plan attractors;
-  bool has_saddles;
-  kz_saddles_plan saddles;
-  bool has_edge;
-  kz_edge_plan edge;
-  bool has_manifolds;
-  kz_manifolds_plan manifolds;
-  bool has_orbit;
-  kz_orbit_plan orbit;
-  bool has_stability;
-  kz_stability_plan stability;
-  bool has_potential;
-  kz_potential_plan potential;
-  bool has_tradeoff;
-  kz_tradeoff_plan tradeoff;
-  bool has_sweep;
-  kz_sweep_plan sweep;
-  bool has_chart;
-  kz_chart_plan chart;
+#define KZ_STUDY_FIELDS(name, check) \
+  bool has_##name;                   \
+  kz_##name##_plan name;
+  KZ_STUDIES(KZ_STUDY_FIELDS)
 } kz_scene;
 
 /* Steps a period of the study `orbit`: those of the scene, or more for a fast motion; a multiple of the samples a period. */
@@ -256,10 +255,8 @@ typedef struct {
   double shared_bytes; /* more on all ranks together */
 } kz_cost;
 
-/* One row per study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check` (NULL = nothing
- * to check) refuses a scene that the study cannot model, for example because the steps are too coarse; its message begins with the keys
- * that a user could change ("numerics.steps_per_period|basin.velocity: ..."). `measure` estimates the processor time of `run`, seconds on
- * one core, from samples of the work; not collective. */
+/* A row of the list. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `measure` estimates the
+ * processor time of `run`, seconds on one core, from samples of the work; not collective. */
 typedef struct {
   const char *name;
   size_t wanted; /* offset of the bool of kz_scene that says whether the scene asks for it */
@@ -274,24 +271,14 @@ static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *sce
 extern const kz_study kz_studies[];
 extern const int kz_study_count;
 
-/* Declares what the folder of a study gives: the functions of its row (not every study has `check`), and the variables that it writes. */
-#define KZ_STUDY(name)                                                                                 \
+/* What the folder of a study gives: the functions of its row (NAME_check if it has one), and the variables that it writes. */
+#define KZ_STUDY_DECLARED(name, check)                                                                 \
   kz_cost kz_##name##_cost(const kz_scene *scene);                                                     \
   kz_status kz_##name##_check(const kz_scene *scene);                                                  \
   kz_status kz_##name##_measure(const kz_scene *scene, double *seconds);                               \
   kz_status kz_##name##_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary); \
-  extern const kz_variable kz_##name##_variables[]
-KZ_STUDY(basin);
-KZ_STUDY(attractors);
-KZ_STUDY(saddles);
-KZ_STUDY(manifolds);
-KZ_STUDY(edge);
-KZ_STUDY(orbit);
-KZ_STUDY(stability);
-KZ_STUDY(potential);
-KZ_STUDY(sweep);
-KZ_STUDY(chart);
-KZ_STUDY(tradeoff);
+  extern const kz_variable kz_##name##_variables[];
+KZ_STUDIES(KZ_STUDY_DECLARED)
 /* What a result file may hold, for kz_store_create. */
 extern const kz_group kz_groups[];
 

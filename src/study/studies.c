@@ -1,39 +1,22 @@
 /* The studies, one row each, in the order in which they run, and the groups of the result file. */
-#include "accuracy/accuracy.h"
 #include "basin/basin.h"
 #include "kapitza/study.h"
-#include "orbit/orbit.h"
-#include "sweep/sweep.h"
 
-/* `check`: NULL = nothing to check. */
-#define STUDY(name, check) \
-  {#name, offsetof(kz_scene, has_##name), kz_##name##_cost, kz_##name##_run, check, kz_##name##_measure}
-
-const kz_study kz_studies[] = {
-    STUDY(basin, kz_basin_check),
-    STUDY(attractors, kz_attractors_check),
-    STUDY(saddles, NULL),
-    STUDY(manifolds, NULL),
-    STUDY(edge, NULL),
-    STUDY(orbit, kz_orbit_check),
-    STUDY(stability, NULL),
-    STUDY(potential, NULL),
-    STUDY(sweep, kz_sweep_check),
-    STUDY(chart, NULL),
-    STUDY(tradeoff, kz_tradeoff_check),
-};
+#define ROW(name, check) {#name, offsetof(kz_scene, has_##name), kz_##name##_cost, kz_##name##_run, check, kz_##name##_measure},
+const kz_study kz_studies[] = {KZ_STUDIES(ROW)};
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];
 
+#define GROUP(name, check) {#name, kz_##name##_variables},
+/* clang-format off */
 const kz_group kz_groups[] = {
-    {"pendulum", kz_pendulum_variables},   {"attractors", kz_attractors_variables},
-    {"basin", kz_basin_variables},         {"phases", kz_phases_variables},
-    {"boundary", kz_boundary_variables},   {"shocks", kz_shocks_variables},
-    {"saddles", kz_saddles_variables},     {"manifolds", kz_manifolds_variables},
-    {"edge", kz_edge_variables},           {"orbit", kz_orbit_variables},
-    {"stability", kz_stability_variables}, {"potential", kz_potential_variables},
-    {"sweep", kz_sweep_variables},         {"chart", kz_chart_variables},
-    {"tradeoff", kz_tradeoff_variables},   {NULL, NULL},
+    {"pendulum", kz_pendulum_variables},
+    {"phases", kz_phases_variables},
+    {"boundary", kz_boundary_variables},
+    {"shocks", kz_shocks_variables},
+    KZ_STUDIES(GROUP)
+    {NULL, NULL},
 };
+/* clang-format on */
 
 kz_status kz_studies_check(const kz_scene *scene) {
   KZ_TRY(kz_drive_check(scene));

@@ -67,7 +67,7 @@ static kz_status choose(const kz_reference_labels *reference, const kz_run *run,
   return KZ_OK;
 }
 
-static void tell(const kz_choice *choice, double accuracy, FILE *summary) {
+static void print(const kz_choice *choice, double accuracy, FILE *summary) {
   if (choice->setting == kz_setting_exact) {
     fprintf(summary,
             "accuracy %.10g: method exact is taken, which decides or flags every label. None of the %lld other settings is "
@@ -111,7 +111,7 @@ kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store 
   kz_status status = kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference);
   if (status == KZ_OK) status = choose(&reference, run, accuracy, choice);
   if (status == KZ_OK && path) status = kz_reference_labels_save(&reference, path);
-  if (status == KZ_OK && summary) tell(choice, accuracy, summary);
+  if (status == KZ_OK && summary) print(choice, accuracy, summary);
   kz_reference_labels_free(&reference);
   return kz_ranks_agree(run->ranks, status);
 }

@@ -57,7 +57,7 @@ int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, 
                            void *picked);
 void kz_transients_add(kz_transients *transients, int64_t n, const void *picked);
 
-/* Writes and tells the mean of the slow ones; moves the times. Rank 0. */
+/* Writes and prints the mean of the slow ones; moves the times. Rank 0. */
 kz_status kz_lifetime_write(const kz_basin_plan *plan, kz_transients *transients, kz_store *store, FILE *summary);
 
 /* ---- the cells in the file, chunk by chunk ---- */
@@ -124,7 +124,7 @@ enum { KZ_PAIR_DISTANCES = KZ_BOUNDARY_MOST_DECADES + 1 };
 /* How many distances the plan asks for. */
 int kz_distances_of(const kz_basin_plan *plan);
 
-/* KZ_OK where the numbers behind the labels tell the nearest pairs apart. */
+/* KZ_OK where the numbers behind the labels distinguish the nearest pairs. */
 kz_status kz_pairs_check(const kz_basin_plan *plan);
 
 /* uncertain [kz_distances_of]: of evenly spread starts of the window, each with a partner at every distance. Collective. */

@@ -72,7 +72,7 @@ static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
 }
 
-/* With shares of the width from the centre, and both as they were written, where doubles may not tell the cells apart. */
+/* With shares of the width from the centre, and both as they were written, where doubles may not distinguish the cells. */
 static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {
   char label[32];
   KZ_SCALE(store, "basin", name, axis->count, kz_axis_centre(axis, i));

@@ -9,7 +9,7 @@ enum {
   POINTS = STARTS * (1 + KZ_PAIR_DISTANCES)
 };
 
-/* The nearest pairs that doubles and pairs of doubles tell apart, rad, and that the images of a window do, a share of its width. */
+/* The nearest pairs that doubles and pairs of doubles can distinguish, rad, and that the images of a window do, a share of its width. */
 static const double nearest_of_doubles = 1e-12, nearest_of_pairs = 1e-25, nearest_of_images = 1e-18;
 
 typedef struct {
@@ -52,7 +52,7 @@ static bool is_exact(const kz_basin_plan *plan) {
   return isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
 }
 
-/* Whether doubles do not tell the window's cells apart and partners are as near as it is wide, so that its images serve them. */
+/* Whether doubles do not distinguish the window's cells and partners are as near as it is wide, so that its images serve them. */
 static bool is_within(const kz_basin_plan *plan) {
   const bool is_deep = kz_axis_is_deep(&plan->theta) || kz_axis_is_deep(&plan->velocity);
   return is_exact(plan) && is_deep && plan->boundary.farthest <= narrower_side(plan);

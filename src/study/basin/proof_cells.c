@@ -1,6 +1,6 @@
 /* Labels that are proved: starts are followed into the region, in doubles and, where their sets grow too large, in pairs of doubles and at
  * last in quad precision. The starts are the cells - of some tiles at a time, so that what all ranks know of them stays small - and random
- * real starts of the window, which tell what share of its area may end elsewhere than on attractors that are proved. */
+ * real starts of the window, which bound the share of its area that may end elsewhere than on attractors that are proved. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -29,12 +29,12 @@ static void find_others(kz_dynamics *dynamics, int64_t max_periods, int64_t n, c
   int64_t late[4 * BATCH], open[BATCH], left = n;
   for (int64_t i = 0; i < n; i++) open[i] = i;
   for (double places = 1; left > 0 && places * DBL_EPSILON < 1; places *= 2) {
-    const int64_t asked = left;
-    for (int64_t i = 0; i < asked; i++) memcpy(from + 2 * i, state + 2 * open[i], 2 * sizeof *from);
-    step_aside(asked, from, places, end);
-    kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 4 * asked, max_periods, end, found, late);
+    const int64_t n_open = left;
+    for (int64_t i = 0; i < n_open; i++) memcpy(from + 2 * i, state + 2 * open[i], 2 * sizeof *from);
+    step_aside(n_open, from, places, end);
+    kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 4 * n_open, max_periods, end, found, late);
     left = 0;
-    for (int64_t i = 0; i < asked; i++) {
+    for (int64_t i = 0; i < n_open; i++) {
       const int64_t own = open[i];
       for (int side = 0; side < 4 && decision[own].other == 0; side++)
         if (found[4 * i + side] != label[own]) decision[own].other = found[4 * i + side];

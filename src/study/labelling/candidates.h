@@ -13,7 +13,7 @@ enum { KZ_OPEN_DOUBTFUL, KZ_OPEN_BY_STATES, KZ_OPEN_IN_QUADS, KZ_OPEN_CANDIDATES
 /* The states of n starts: state [n][2], half-turns and velocity. */
 void kz_states_of(int64_t n, const kz_start *start, double *state);
 
-/* Decides n released starts as `open` asks. */
+/* Decides n released starts in the way `open`. */
 void kz_candidates_find(kz_dynamics *dynamics, int64_t max_periods, int32_t open, int64_t n, const kz_start *start,
                         kz_decision *decision);
 /* The level for which these starts are made. */

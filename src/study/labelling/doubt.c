@@ -5,7 +5,7 @@
 #include "labeller.h"
 #include "numerics/cells.h"
 
-enum { SAMPLE = 7300, TILE = 256 }; /* cells; the sample tells 5 % to +-0.5 points */
+enum { SAMPLE = 7300, TILE = 256 }; /* cells: a share of 5 % is known to +-0.5 points */
 
 static const double MANY = 0.05; /* share of doubtful labels that is warned of */
 
@@ -80,7 +80,7 @@ void kz_doubt_free(kz_doubt_sample *sample) {
   free(sample->followed);
 }
 
-static void tell(const kz_doubt *doubt, int32_t method, FILE *summary) {
+static void print(const kz_doubt *doubt, int32_t method, FILE *summary) {
   const kz_share *share = &doubt->doubtful, *other = &doubt->differing;
   if (method == KZ_METHOD_EXACT) {
     fprintf(summary,
@@ -118,7 +118,7 @@ static kz_status write_share(const char *name, const kz_share *share, kz_store *
 
 kz_status kz_doubt_write(const kz_doubt *doubt, int32_t method, kz_store *store, FILE *summary) {
   if (doubt->cells == 0) return KZ_OK;
-  tell(doubt, method, summary);
+  print(doubt, method, summary);
   KZ_TRY(write_share("doubtful", &doubt->doubtful, store));
   return write_share("differing", &doubt->differing, store);
 }

@@ -70,7 +70,7 @@ kz_status kz_item_states(const kz_labeller *l, int64_t n, const int64_t *item, d
   return KZ_OK;
 }
 
-/* Some items that are asked about together, with room for what is found. */
+/* Some items that are labelled together, with buffers. */
 typedef struct {
   int64_t n, first;
   const int64_t *item;
@@ -144,35 +144,35 @@ int32_t kz_level_after(const kz_labeller *l, int32_t level, int64_t pending) {
   return level >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
 }
 
-/* Items that a level is asked about, in a stage. */
+/* Items that a level labels, in a stage. */
 typedef struct {
   const kz_labeller *labeller;
   int32_t level, before; /* the level; that at which they were doubtful */
   int64_t tile;          /* items of a tile */
   int64_t n, *item, *place;
-} asked;
+} level_job;
 
-static kz_status ask_tile(void *context, int64_t tile, void *record) {
-  const asked *a = context;
+static kz_status level_tile(void *context, int64_t tile, void *record) {
+  const level_job *a = context;
   const int64_t first = tile * a->tile;
   return kz_label_at(a->labeller, a->level, a->before, smaller(a->n - first, a->tile), a->item + first, record);
 }
 
 /* Alone a process takes all lanes can hold; ranks share smaller tiles. */
-static int64_t tile_of(const asked *a) {
+static int64_t tile_of(const level_job *a) {
   const kz_labeller *l = a->labeller;
   const int64_t most = l->run ? kz_level_rows[a->level < 0 ? KZ_LEVEL_DOUBLE : a->level].tile : BATCH;
   return l->tile > 0 ? smaller(l->tile, most) : most;
 }
 
 /* Labels the items at one level: label [place] of each. The items that the level leaves doubtful, and their places, move to the front. */
-static kz_status ask_level(asked *a, int round, kz_label *label) {
+static kz_status label_level(level_job *a, int round, kz_label *label) {
   const kz_labeller *l = a->labeller;
   char name[32];
   snprintf(name, sizeof name, "%s %d", kz_level_rows[a->level < 0 ? KZ_LEVEL_DOUBLE : a->level].stage, round);
   a->tile = tile_of(a);
   const kz_stage stage = kz_stage_for_all(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name,
-                                          (a->n + a->tile - 1) / a->tile, (size_t)a->tile * sizeof(kz_label), ask_tile, a);
+                                          (a->n + a->tile - 1) / a->tile, (size_t)a->tile * sizeof(kz_label), level_tile, a);
   KZ_FREED kz_label *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   KZ_TRY(kz_stage_run(l->run, &stage, found));
   int64_t left = 0;
@@ -189,13 +189,13 @@ static kz_status ask_level(asked *a, int round, kz_label *label) {
 /* Labels n items from `level` on, until each is decided or no level is left. */
 static kz_status climb(const kz_labeller *l, int32_t level, int round, int64_t n, const int64_t *item, kz_label *label) {
   KZ_FREED int64_t *list = kz_malloc(2 * (size_t)n * sizeof *list + 1);
-  asked a = {.labeller = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .item = list, .place = list + n};
+  level_job a = {.labeller = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .item = list, .place = list + n};
   for (int64_t i = 0; i < n; i++) {
     a.item[i] = item_at(item, i);
     a.place[i] = i;
   }
   while (a.n > 0 && a.level <= KZ_LEVELS) {
-    KZ_TRY(ask_level(&a, round, label));
+    KZ_TRY(label_level(&a, round, label));
     a.before = a.level;
     a.level = kz_level_after(l, a.level, a.n);
   }

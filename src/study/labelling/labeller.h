@@ -69,7 +69,7 @@ kz_status kz_label_items(const kz_labeller *labeller, int round, int64_t n, cons
 kz_status kz_label_first(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_label *label);
 kz_status kz_label_doubtful(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label);
 
-/* One level for n items, KZ_LEVELS: what `open` asks; `before` is the level at which they were doubtful. Not collective. */
+/* One level for n items, KZ_LEVELS: in the way `open`; `before` is the level at which they were doubtful. Not collective. */
 kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,
                       kz_label *label);
 /* The level that follows if `pending` items are left; KZ_LEVELS + 1 = none. A few items go to quad precision at once, because they take less

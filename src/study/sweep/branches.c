@@ -174,7 +174,7 @@ static void list_branches(kz_sweep_branches *b) {
   }
 }
 
-/* Until walks say otherwise a branch begins and ends at the values where it is seen; at the edges it leaves the range. */
+/* Where no walk has found its ends, a branch begins and ends at the values where it is seen; at the edges it leaves the range. */
 static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     kz_sweep_node *node = b->nodes + i;

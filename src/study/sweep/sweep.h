@@ -5,8 +5,8 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* The measures of a sweep: code, word in the scene, function that runs it, function that estimates its time. NULL = part of the branches,
- * which serve five measures. */
+/* The measures of a sweep: code, word in the scene, the function that runs it, the function that estimates its time. The first five come from
+ * the branches and have no functions of their own. */
 #define KZ_SWEEP_MEASURES(MEASURE)                                                                        \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL, NULL)                                                  \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL, NULL)                                        \

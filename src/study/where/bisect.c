@@ -1,4 +1,4 @@
-/* Bisection to any number of digits. The labels of a piece of the line between the two starts tell the boundary to some sixteen digits of the
+/* Bisection to any number of digits. The labels of a piece of the line between the two starts locate the boundary to some sixteen digits of the
  * piece, because they are found in quad precision. Further digits come from a smaller piece about the boundary, whose orbit begins at a later
  * image of the first one, and so on. From period 0 on, the program follows a new orbit only when the number of digits has grown by
  * about a half. */
@@ -90,7 +90,7 @@ static kz_status follow_piece(piece *p) {
   return KZ_OK;
 }
 
-/* Closes in on a change of the labels, as finely as the piece tells or as is asked for; *found: whether there is one. Then it lies between the
+/* Closes in on a change of the labels, as finely as the piece allows, or to `finest`; *found: whether there is one. Then it lies between the
  * ends. */
 static kz_status search_piece(piece *p, double finest, bool *found) {
   *found = false;

@@ -41,15 +41,15 @@ static kz_status answer(where_job *a, kz_ending *endings) {
   return KZ_OK;
 }
 
-/* The starts as kz_where takes them, with their endings; asked->question.label is what they say. To be closed in every case. */
-static kz_status where_ask(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], where_job *asked,
-                           kz_ending *endings) {
-  *asked = (where_job){.question = {.scene = scene, .n = n, .start = start}};
+/* The starts as kz_where takes them, with their endings; job->question.label is what they say. To be closed in every case. */
+static kz_status where_label(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], where_job *job,
+                             kz_ending *endings) {
+  *job = (where_job){.question = {.scene = scene, .n = n, .start = start}};
   kz_endings_clear(n, endings);
   if (!scene->has_basin && !scene->has_attractors)
     return kz_fail(KZ_REFUSED, "scene: has no window to search for attractors; add a basin or attractors study to it");
   if (n == 0 || scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  return answer(asked, endings);
+  return answer(job, endings);
 }
 
 static void where_close(where_job *a) {
@@ -60,7 +60,7 @@ static void where_close(where_job *a) {
 
 kz_status kz_where(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], kz_ending *endings) {
   KZ_FREED_BY(where_close) where_job a;
-  return where_ask(scene, n, start, &a, endings);
+  return where_label(scene, n, start, &a, endings);
 }
 
 static kz_status where_bisect(const where_job *a, int64_t digits, const kz_ending *endings, kz_boundary_point *point) {
@@ -90,7 +90,7 @@ kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[
   if (digits > DIGITS_OF_QUADS && kz_arbitrary_bits() < KZ_MOST_BITS)
     return kz_fail(KZ_REFUSED, "--boundary: %lld digits need a build with FLINT (Arb); give at most %d", (long long)digits,
                    DIGITS_OF_QUADS);
-  kz_status status = where_ask(scene, 2, start, &a, endings);
+  kz_status status = where_label(scene, 2, start, &a, endings);
   if (status == KZ_OK) status = where_bisect(&a, digits, endings, point);
   kz_where_free(2, endings);
   return status;

@@ -1,8 +1,8 @@
-/* The values of sweeps and charts: which keys they are of, and the pendulum at each. What the measures of a sweep share. */
+/* The values of sweeps and charts: which keys they are of, and the pendulum at each. */
 #include <math.h>
 #include <string.h>
 
-#include "sweep.h"
+#include "kapitza/study.h"
 
 #define NAMED(name_, field_, unit_) {name_, unit_, offsetof(kz_pendulum_keys, field_)}
 #define KEY(name_, unit_) NAMED(#name_, name_, unit_)
@@ -88,21 +88,4 @@ double kz_axis_value(const kz_axis *values, int64_t i) {
 
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i) {
   return kz_axis_value(&plan->values, i);
-}
-
-bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
-  for (int64_t i = 0; i < plan->measure.count; i++)
-    if (plan->measure.values[i] == measure) return true;
-  return false;
-}
-
-bool kz_sweep_has_grid(const kz_scene *scene) {
-  const kz_sweep_plan *plan = &scene->sweep;
-  return scene->has_basin && (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS) || kz_sweep_measures(plan, KZ_SWEEP_PHASES));
-}
-
-kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {
-  KZ_FREED void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
-  KZ_TRY(kz_stage_run(run, stage, records));
-  return kz_ranks_agree(run->ranks, store ? write(stage->context, records, store, summary) : KZ_OK);
 }
