@@ -37,11 +37,10 @@ result.attractors[["name", "period", "winding", "fraction"]]
 result.plot(centre="inverted")
 
 # %% [markdown]
-# Numbers are xarray and pandas: the label of one start, the share that ends upright, how long starts take.
+# Numbers are xarray and pandas: the label of one start, the share that ends upright, after how long the ends are certain.
 
 # %%
-labels = result.labels()
-print("(3.1, 0.2) ends on", result.names[labels.sel(theta=3.1, velocity=0.2, method="nearest").item()])
+print("(3.1, 0.2) ends on", result.at(3.1, 0.2)["name"])
 print(f"upright: {float(result.basin('inverted').mean()):.1%}")
 print(f"median time: {float(result.convergence_times().median()):.0f} drive periods")
 

@@ -3,7 +3,7 @@
 >>> import kapitza
 >>> result = kapitza.run("scenes/small.yaml", set={"pendulum.drive_amplitude": 0.4})   # a file, YAML text or a dict
 >>> result.attractors[["name", "fraction"]]                # pandas
->>> result.labels().sel(theta=3.1, velocity=0, method="nearest").item()   # xarray
+>>> result.at("175 deg", 0)["name"]                        # what the map says of a start; result.labels() is an xarray
 >>> result.plot(centre="inverted")                         # matplotlib
 >>> result.compare(kapitza.run("scenes/small.yaml"))
 >>> kapitza.explore("scenes/small.yaml")                   # in a cell of a notebook: the basins, to be zoomed and dragged

@@ -8,6 +8,8 @@ import numpy as np
 import pandas
 import xarray
 
+from kapitza.table import cells_of, edges_of
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -19,17 +21,17 @@ FARTHEST = 0.5  # strobe points of one attractor under two pendulums are nearer 
 def match_attractors(mine: pandas.DataFrame, others: pandas.DataFrame) -> dict[int, int]:
     """My id -> id of the same attractor among the others, by the distance of their strobe points; the nearest pairs first, each once.
 
-    Attractors.jl calls it match_statespacesets. Only motions of the same winding per period are compared.
+    Attractors.jl calls it match_statespacesets. Only motions of the same period, winding and centre are joined.
     """
     pairs = []
     for one in range(len(mine)):
         for other in range(len(others)):
             row, their = mine.iloc[one], others.iloc[other]
-            same_turns = row["winding"] * max(their["period"], 1) == their["winding"] * max(row["period"], 1)
-            if same_turns and (distance := _distance(row, their)) < FARTHEST:
-                pairs.append((row["period"] != their["period"], distance, one, other))
+            alike = all(row[name] == their[name] for name in ("period", "winding", "centre"))
+            if alike and (distance := _distance(row, their)) < FARTHEST:
+                pairs.append((distance, one, other))
     matched: dict[int, int] = {}
-    for _, _, one, other in sorted(pairs):
+    for _, one, other in sorted(pairs):
         if one not in matched and other not in matched.values():
             matched[one] = other
     return matched
@@ -60,11 +62,12 @@ class Comparison:
 
     @cached_property
     def table(self) -> pandas.DataFrame:
-        """A table with a row for each attractor: its name, its ids in both results (missing if it has none), its fractions in both, and
-        their difference."""
+        """A table with a row for each attractor: its name (both names, if they differ), its ids in both results (missing if it has none),
+        its fractions in both, and their difference."""
         mine, others = self.first.attractors, self.second.attractors
         shares = self.first.basins_fractions(), self.second.basins_fractions()
-        rows = [(mine["name"][one], one, self.matched.get(one)) for one in mine.index]
+        names = {one: " → ".join(dict.fromkeys([mine["name"][one], others["name"][other]])) for one, other in self.matched.items()}
+        rows = [(names.get(one, mine["name"][one]), one, self.matched.get(one)) for one in mine.index]
         rows += [(others["name"][other], None, other) for other in others.index if other not in self.matched.values()]
         table = pandas.DataFrame(rows, columns=["name", "first", "second"]).astype({"first": "Int64", "second": "Int64"})
         for side, share in zip(("first", "second"), shares, strict=True):
@@ -73,15 +76,37 @@ class Comparison:
         return table
 
     @cached_property
-    def differing(self) -> xarray.DataArray:
-        """True for every cell that ends on another attractor in the second result.
+    def _labels(self) -> tuple[xarray.DataArray, xarray.DataArray]:
+        """The labels of both on one grid: along each axis that of the result with fewer cells, whose centres are looked up in the other."""
+        pair = self.first.labels(), self.second.labels()
+        if all(np.array_equal(pair[0][name], pair[1][name]) for name in pair[0].dims):
+            return pair
+        basins = self.first.group("basin"), self.second.group("basin")
+        for name in pair[0].dims:
+            edges = [edges_of(basin, str(name)) for basin in basins]
+            if not np.allclose(*edges, rtol=0, atol=1e-6 * np.ptp(edges[0])):
+                raise ValueError("the two results have different windows; their cells cannot be compared")
+        grid = {name: min((labels[name] for labels in pair), key=len) for name in pair[0].dims}
+        places = np.meshgrid(grid["theta"].values, grid["velocity"].values)
+        both = (labels.values[cells_of(basin, *places)[1:]] for labels, basin in zip(pair, basins, strict=True))
+        first, second = (xarray.DataArray(values, grid, ("velocity", "theta")) for values in both)
+        return first, second
 
-        :raises ValueError: if the two grids are not the same
+    @cached_property
+    def differing(self) -> xarray.DataArray:
+        """True for every cell that ends on another attractor in the second result. Of two grids over one window the coarser one counts: the
+        other result says where the centres of its cells end.
+
+        :raises ValueError: if the two windows are not the same
         """
-        labels, others = self.first.labels(), self.second.labels()
-        if labels.shape != others.shape or any(not np.array_equal(labels[axis], others[axis]) for axis in labels.dims):
-            raise ValueError("the two results have other windows or counts; their cells cannot be compared one by one")
+        labels, others = self._labels
         return xarray.DataArray(self._renamed(labels.values) != others.values, labels.coords, labels.dims, name="differing")
+
+    @property
+    def cells(self) -> xarray.Dataset:
+        """`differing` with what a picture needs to know of the window."""
+        basin = self.first.group("basin")
+        return basin.assign(differing=self.differing) if self.differing.shape == basin["attractor"].shape else self.differing.to_dataset()
 
     def _renamed(self, labels: np.ndarray) -> np.ndarray:
         """Labels of the first by the ids of the second; -2 = an attractor that the second lacks."""
@@ -95,8 +120,7 @@ class Comparison:
 
     def tipping_probabilities(self) -> pandas.DataFrame:
         """P[i, j]: of the basin of attractor i in the first, the share that lies in the basin of j in the second (as of Attractors.jl)."""
-        _ = self.differing  # the same grid
-        table = pandas.crosstab(self.first.labels().values.ravel(), self.second.labels().values.ravel(), normalize="index")
+        table = pandas.crosstab(*(labels.values.ravel() for labels in self._labels), normalize="index")
         names = [{-1: "not settled", **dict(enumerate(result.names))} for result in (self.first, self.second)]
         return table.rename(index=names[0], columns=names[1]).rename_axis(index="first", columns="second")
 

@@ -10,8 +10,8 @@ import numpy as np
 import pandas
 import xarray
 
-from kapitza import layout
-from kapitza.table import attractors_table, labels_array
+from kapitza import layout, units
+from kapitza.table import attractors_table, cells_of, flag_word, labels_array
 
 if TYPE_CHECKING:
     from kapitza.compare import Comparison
@@ -97,12 +97,41 @@ class Result:
         from kapitza.style import names_with_ids
         return names_with_ids(self.attractors["name"])
 
-    def labels(self) -> xarray.DataArray:
+    @property
+    def pivot_frequency(self) -> float | None:
+        """The angular frequency of the drive in rad/s; None if the scene is not in SI units."""
+        value = self.pendulum.get("pivot_frequency")
+        return value if isinstance(value, float) and value > 0 else None
+
+    def labels(self, *, si: bool = False, degrees: bool = False) -> xarray.DataArray:
         """The label of every start, with the dimensions velocity and theta: the id of its attractor, -1 = not settled.
 
         Attractors.jl calls this array `basins_of_attraction`.
+
+        :param si: velocities in rad/s, of a scene in SI units
+        :param degrees: angles in degrees
         """
-        return labels_array(self.group("basin"), self.group("attractors"))
+        return labels_array(self.group("basin", si=si, degrees=degrees), self.group("attractors"))
+
+    def at(self, theta: Any, velocity: Any) -> pandas.Series | pandas.DataFrame:
+        """What the basin says of starts: for each the cell in which it lies. `kapitza.where` follows the start itself instead.
+
+        :param theta: angles in rad from down, or texts such as "175 deg" and "pi/2"; whole turns are taken off
+        :param velocity: velocities in rad per drive radian, or, for a scene in SI units, texts such as "3 rad/s"
+        :return: for numbers a Series with theta and velocity (of the start; theta within the window), attractor (id; -1 = not settled),
+            name, settling_time (drive periods) and evidence; for arrays, which are broadcast, a DataFrame with a row each
+        :raises ValueError: if a start lies outside the window
+        """
+        basin, names = self.group("basin"), {-1: "not settled", **dict(enumerate(self.names))}
+        pairs = np.broadcast(np.asarray(theta, dtype=object), np.asarray(velocity, dtype=object))
+        starts = [(units.angle(one), units.velocity(other, self.pivot_frequency)) for one, other in pairs]
+        angles, speeds = np.array(starts).reshape(-1, 2).T
+        angles, rows, columns = cells_of(basin, angles, speeds)
+        labels = basin["attractor"].values[rows, columns]
+        table = pandas.DataFrame({"theta": angles, "velocity": speeds, "attractor": labels, "name": [names[int(label)] for label in labels],
+                                  "settling_time": basin["settling_time"].values[rows, columns],
+                                  "evidence": [flag_word(basin["evidence"], code) for code in basin["evidence"].values[rows, columns]]})
+        return table if pairs.shape else table.iloc[0]
 
     def basin(self, name: int | str) -> xarray.DataArray:
         """True for every start that ends on this attractor, with the dimensions velocity and theta.
@@ -138,9 +167,10 @@ class Result:
         attributes = self.group("basin").attrs
         return float(attributes["uncertainty_exponent"]), float(attributes["uncertainty_exponent_stderr"])
 
-    def convergence_times(self) -> xarray.DataArray:
-        """The number of drive periods until a trapping region holds each start, with the dimensions velocity and theta."""
-        return self.group("basin")["settling_time"]
+    def convergence_times(self, *, si: bool = False, degrees: bool = False) -> xarray.DataArray:
+        """The number of drive periods (with `si` the time in s) until a trapping region holds each start, with the dimensions velocity and
+        theta."""
+        return self.group("basin", si=si, degrees=degrees)["settling_time"]
 
     def plot(self, kind: str | None = None, **options: Any) -> Any:
         """Draws a group of the file and returns the matplotlib Figure.
@@ -166,11 +196,16 @@ class Result:
         from kapitza.compare import Comparison
         return Comparison(self, other if isinstance(other, Result) else Result(other))
 
-    def group(self, name: str) -> xarray.Dataset:
+    def group(self, name: str, *, si: bool = False, degrees: bool = False) -> xarray.Dataset:
         """Reads a group of the file completely.
 
-        :raises BadFile: if the file has no such group, or if the group is damaged or too large for the memory
+        :param si: velocities in rad/s, times in s and frequencies in Hz, of a scene in SI units; the attribute `units` of each says so
+        :param degrees: angles in degrees
+        :raises BadFile: if the file has no such group, if the group is damaged or too large for the memory, or if `si` is asked of a scene
+            that is not in SI units
         """
+        if si and self.pivot_frequency is None:
+            raise BadFile(f"{self.path}: has no pivot_frequency, because its scene is not in SI units; leave out si")
         if name not in self.groups:
             held = ", ".join(group for group in self.groups if group != "pendulum") or "none"
             raise BadFile(f"{self.path}: holds no {name} (studies in it: {held})")
@@ -186,7 +221,7 @@ class Result:
             raise BadFile(f"{self.path}: damaged in the group {name}") from error
         if wrong:
             raise BadFile(f"{self.path}: {wrong}")
-        return dataset
+        return units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset
 
     def _elsewhere(self, name: str) -> str | None:
         """Whether a group keeps data outside this file: as words, or None."""

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pandas
 
+from kapitza import units
 from kapitza.program import STOPPED, ask, check_end, command, environment
 from kapitza.progress import Progress
 from kapitza.result import Result
@@ -154,24 +155,27 @@ def orbit(scene: SceneLike, theta: Any = None, velocity: Any = None, *, attracto
 
     `result.group("orbit")` has time, theta, velocity, strobe points and spectral lines.
 
-    :param theta: angle of the start, rad from down
-    :param velocity: velocity of the start, rad per drive radian
+    :param theta: angle of the start, rad from down, or a text such as "175 deg" or "pi/2"
+    :param velocity: velocity of the start, rad per drive radian, or, for a scene in SI units, a text such as "3 rad/s"
     :param attractor: id or name of an attractor of the scene's basin, instead of a start
     :param periods: number of recorded drive periods
     :param transient: number of drive periods before the record
     :param closed: record the cycle near the start instead of the motion from it
     """
     asked = Scene(scene, set)
-    plan: dict[str, Any] = {"start": {"theta": theta, "velocity": velocity}, "transient": transient, "closed": closed}
+    plan: dict[str, Any] = {"transient": transient, "closed": closed}
     kept = ["title", "pendulum", "numerics"]
     if attractor is not None:
         kept += ["basin", "attractors"]
         plan = {"attractor": _attractor_id(asked, attractor)}
     elif theta is None or velocity is None:
         raise ValueError("give theta and velocity, or an attractor")
+    else:
+        omega = units.written_frequency(asked.value("pendulum") or {})
+        plan["start"] = {"theta": units.angle(theta), "velocity": units.velocity(velocity, omega)}
     if periods is not None:
         plan["periods"] = periods
-    return run(_only(asked, kept) | {"orbit": plan}, progress=progress)
+    return run({name: value for name, value in asked.tree().items() if name in kept} | {"orbit": plan}, progress=progress)
 
 
 def _attractor_id(scene: Scene, wanted: int | str) -> int:
@@ -188,9 +192,9 @@ def _attractor_id(scene: Scene, wanted: int | str) -> int:
 def sweep(scene: SceneLike, parameter: str, values: tuple[Any, Any], count: int = 50,
           measure: str | Iterable[str] = ("attractors", "basin_fractions"), *, ranks: int = 1,
           output: str | os.PathLike[str] | None = None, progress: bool = True, **keys: Any) -> Result:
-    """Follows the attractors along one key of the pendulum.
+    """Follows the attractors along one key of the pendulum, in the window of the scene's basin if it has one.
 
-    `result.group("sweep")` has the numbers.
+    `result.group("sweep")` has the numbers. Every study of the scene runs, as it does from the command line.
 
     :param parameter: key of the mapping `pendulum`, such as "drive_amplitude"
     :param values: first and last value, both included
@@ -203,9 +207,4 @@ def sweep(scene: SceneLike, parameter: str, values: tuple[Any, Any], count: int 
     asked = Scene(scene)
     plan = {"parameter": parameter, "min": values[0], "max": values[1], "count": count,
             "measure": [measure] if isinstance(measure, str) else list(measure), **keys}
-    return run(_only(asked, ["title", "pendulum", "numerics"]) | {"sweep": plan}, output, ranks, progress=progress)
-
-
-def _only(scene: Scene, kept: list[str]) -> dict[str, Any]:
-    """The scene with these of its mappings alone."""
-    return {name: value for name, value in scene.tree().items() if name in kept}
+    return run(asked.tree() | {"sweep": plan}, output, ranks, progress=progress)

@@ -19,6 +19,8 @@ import xarray
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 
+from kapitza import units
+
 FONT_SIZE = 9.0  # points
 UNSETTLED = "#ffffff"
 INK = "#1c2127"
@@ -175,7 +177,9 @@ def share_text(fraction: float) -> str:
 
 
 def parameters_text(pendulum: Mapping[str, Any]) -> str:
-    """The pendulum's parameters, in the papers' symbols where they are defined."""
+    """The pendulum's parameters: in SI if the scene is, else in the papers' symbols where they are defined."""
+    if "pivot_frequency" in pendulum:
+        return ",  ".join(units.si_parameters(pendulum).values())
     names = [("quality_factor", "Q"), ("drive_frequency", r"$\Omega$"), ("drive_amplitude", r"$\epsilon$")]
     known = [(symbol, pendulum.get(name, np.nan)) for name, symbol in names]
     if not all(np.isfinite(value) for _, value in known):

@@ -6,6 +6,8 @@ import numpy as np
 import pandas
 import xarray
 
+from kapitza.units import TURN
+
 CENTRES = ("down", "inverted", "rotating", "neither")  # codes of the variable centre
 PLAIN = ("amplitude", "lyapunov", "lyapunov_error", "fraction")  # columns that a file may lack
 
@@ -43,3 +45,42 @@ def labels_array(basin: xarray.Dataset, attractors: xarray.Dataset) -> xarray.Da
     labels.attrs["flag_values"] = np.arange(-1, len(names), dtype=labels.dtype)
     labels.attrs["flag_meanings"] = " ".join(["not_settled", *flag_words(names)])
     return labels.rename("labels")
+
+
+def flag_word(variable: xarray.DataArray, code: int) -> str:
+    """What a code of a variable means, by its flag_values and flag_meanings."""
+    values, words = np.ravel(variable.attrs["flag_values"]).tolist(), str(variable.attrs["flag_meanings"]).split()
+    return words[values.index(code)].replace("_", " ")
+
+
+def edges_of(basin: xarray.Dataset, name: str) -> tuple[float, float]:
+    """The edges of the window along theta or velocity, in the units of its cells' centres.
+
+    :raises ValueError: if the window is too narrow for doubles, or has a single cell there
+    """
+    centres = basin[name].values
+    if f"{name}_offset" in basin:
+        raise ValueError("the window is given by a centre of many digits, which numbers cannot find; kapitza.where follows such starts")
+    if len(centres) < 2:
+        raise ValueError(f"the basin has a single {name}, whose cell has no width in the file")
+    half = (centres[-1] - centres[0]) / (len(centres) - 1) / 2
+    return float(centres[0] - half), float(centres[-1] + half)
+
+
+def cells_of(basin: xarray.Dataset, theta: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Starts (rad, rad per drive radian; of one shape) as (theta within the window, row and column of their cells).
+
+    :raises ValueError: if one lies outside the window
+    """
+    (left, right), (low, high) = edges_of(basin, "theta"), edges_of(basin, "velocity")
+    slack = 1e-9 * (right - left)  # edges are computed from centres
+    theta = theta - TURN * np.floor((theta - left + slack) / TURN)
+    outside = ~((theta <= right + slack) & (np.abs(velocity - (low + high) / 2) <= (high - low) / 2 * (1 + 1e-9)))
+    if outside.any():
+        first = int(np.argmax(outside.ravel()))
+        start = f"theta = {theta.ravel()[first]:.9g} rad, velocity = {velocity.ravel()[first]:.9g}"
+        raise ValueError(f"the start {start} lies outside the window: "
+                         f"theta from {left:.9g} to {right:.9g}, velocity from {low:.9g} to {high:.9g} rad per drive radian")
+    rows, columns = (np.clip(((place - first) / (last - first) * basin.sizes[name]).astype(int), 0, basin.sizes[name] - 1)
+                     for place, first, last, name in ((velocity, low, high, "velocity"), (theta, left, right, "theta")))
+    return theta, rows, columns

@@ -96,12 +96,12 @@ def _mirrors(attractors):
 def _scale(group, name, values, long_name):
     group.create_dataset(name, data=values)
     group[name].make_scale(name)
-    group[name].attrs.update({"units": "1", "long_name": long_name})
+    group[name].attrs.update({"units": "rad" if "theta" in name else "1", "long_name": long_name})
 
 
 def _variable(group, name, values, dtype, dimensions):
     data = group.create_dataset(name, data=np.asarray(values, dtype=None if dtype is TEXT else dtype), dtype=dtype)
-    data.attrs.update({"units": "1", "long_name": name.replace("_", " ")})
+    data.attrs.update({"units": "rad" if "theta" in name else "1", "long_name": name.replace("_", " ")})
     for axis, dimension in enumerate(dimensions):
         data.dims[axis].attach_scale(group[dimension])
 

@@ -125,7 +125,7 @@ def test_a_strobe_point_on_the_seam_shows_on_both_edges(made_file):
 @given(st.floats(-np.pi, np.pi), st.floats(-20, 20), st.floats(0.01, 2 * np.pi))
 def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
     plane = Plane.__new__(Plane)
-    plane.centres = {}
+    plane.centres, plane.turn = {}, 2 * np.pi
     plane.theta_range, plane.velocity_range = (left, left + width), (-1, 1)
     found, _ = plane.inside([theta], [0.0])
     wanted = [image for turn in range(-9, 10) if left <= (image := theta + 2 * np.pi * turn) <= left + width]

@@ -1,5 +1,6 @@
 """The package in a Python session: runs of scenes in every form, what is refused, single starts, and what a result tells of itself."""
 
+import copy
 import os
 import signal
 import subprocess
@@ -8,6 +9,7 @@ import time
 
 import kapitza
 import numpy as np
+import pandas
 import pytest
 import xarray
 import yaml
@@ -133,8 +135,42 @@ def test_two_results_beside_each_other(result):
     assert 0 < found.differing_share < 0.5 and found.table["fraction_second"].sum() == pytest.approx(1)
     assert np.allclose(found.tipping_probabilities().sum(axis=1), 1)
     assert "end elsewhere" in repr(found) and len(found.plot().axes) == 3
-    with pytest.raises(ValueError, match="other windows"):
-        _ = result.compare(kapitza.run(SMALL, set=FEW | {"basin.theta.count": 10}, progress=False)).differing
+    with pytest.raises(ValueError, match="different windows"):
+        _ = result.compare(kapitza.run(SMALL, set=FEW | {"basin.velocity.max": 1}, progress=False)).differing
+
+
+def test_grids_of_different_counts_are_compared_on_the_coarser(result):
+    """Of three times as many cells along each axis every third has the same centre."""
+    finer = kapitza.run(SMALL, set=FEW | {"basin.theta.count": 72, "basin.velocity.count": 60}, progress=False)
+    for found in (result.compare(finer), finer.compare(result)):
+        assert found.differing.shape == (20, 24) and found.differing_share == 0
+        assert len(found.plot().axes) == 3
+        assert np.allclose(found.tipping_probabilities().sum(axis=1), 1)
+
+
+def test_only_like_motions_are_joined():
+    """A motion that has doubled its period, turns otherwise, or lies elsewhere is not the same one, however near its points are."""
+    def table(**changed):
+        points = {"strobe_theta": [0.1] * 6, "strobe_velocity": [0.2] * 6}
+        return pandas.DataFrame([{"name": "down 6-nodding", "period": 6, "winding": 0, "centre": "down"} | points | changed])
+    assert match_attractors(table(), table(name="down 4-nodding")) == {0: 0}
+    for changed in ({"period": 3}, {"winding": 6}, {"centre": "neither"}):
+        assert match_attractors(table(), table(**changed)) == {}
+
+
+def test_both_names_of_one_motion_are_shown(result):
+    other = copy.copy(result)
+    names = ["down 4-nodding" if name == "down 6-nodding" else name for name in result.attractors["name"]]
+    other.__dict__["attractors"] = result.attractors.assign(name=names)
+    assert "down 6-nodding → down 4-nodding" in list(result.compare(other).table["name"])
+
+
+def test_a_sweep_keeps_the_window_of_the_scene():
+    """Near the inverted state every start stands: the whole plane has other shares."""
+    near = {"pendulum": FIG12, "basin": {"theta": {"min": 2.9, "max": 3.4, "count": 8}, "velocity": {"min": -0.1, "max": 0.1, "count": 8}}}
+    swept = kapitza.sweep(near, "drive_amplitude", (0.3, 0.31), 2, "basin_fractions", starts=64, progress=False).group("sweep")
+    inverted = [branch for branch, code in enumerate(swept["branch_centre"].values) if code == 1]
+    assert swept["fraction"].values[:, inverted].sum(axis=1) == pytest.approx([1, 1])
 
 
 def test_single_starts(result):

@@ -75,18 +75,6 @@ class Start:
                        for name, value in tree.items())
 
 
-def pivot_frequency(pendulum):
-    """rad/s, where a pendulum says it: by pivot_frequency, or by a frequency in Hz; else None."""
-    for name, factor in (("pivot_frequency", 1.0), ("frequency", 2 * math.pi)):
-        words = str(pendulum.get(name, "")).split()
-        if words and (len(words) == 1 or words[1] in ("Hz", "rad/s")):
-            try:
-                return float(words[0]) * factor
-            except ValueError:
-                return None
-    return None
-
-
 def _scene_of(result):
     """The scene of a result as written, with the pendulum and the window that it was run with (they may have been set beside it)."""
     written, resolved = (_tree(str(result.attributes.get(name, ""))) for name in ("scene", "scene_resolved"))

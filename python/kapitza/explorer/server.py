@@ -9,12 +9,13 @@ from pathlib import Path
 
 from kapitza import style
 from kapitza.result import BadFile
+from kapitza.units import written_frequency
 
 from .access import Access
 from .connections import Door, Gate
 from .overlays import overlays
 from .program import Refused, Views
-from .scene import BadRequest, Start, pivot_frequency
+from .scene import BadRequest, Start
 
 MOST_BYTES = 65_536  # of a request
 MOST_NAME = 64       # characters of a view's name
@@ -96,7 +97,7 @@ def state(explorer, request):
     """What the page needs before its first frame."""
     pendulum = explorer.ready["pendulum"]
     return {"title": explorer.title, "pendulum": pendulum, "window": explorer.start.window(explorer.ready), "kinds": style.KINDS,
-            "pivot_frequency": pivot_frequency(pendulum), "overlays": overlays(explorer.start.result)}
+            "pivot_frequency": written_frequency(pendulum), "overlays": overlays(explorer.start.result)}
 
 
 def scene(explorer, request):

@@ -2,7 +2,7 @@
 
     kapitza-plot basin blackburn-fig12.h5                              every basin in its colour
     kapitza-plot basin blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
-    kapitza-plot basin blackburn-fig12.h5 --quantity settling_time     how long every start takes to settle
+    kapitza-plot basin blackburn-fig12.h5 --quantity settling_time     how long every start takes until its end is certain
 """
 
 import argparse
@@ -21,10 +21,11 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.page import lay_out
-from kapitza.plots.plane import VELOCITY_LABEL, Plane, label_axes
+from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.skeleton import mark_manifolds, mark_saddles
-from kapitza.plots.units import add_si, pivot_frequency, show_in
+from kapitza.plots.units import add_si, groups_of
 from kapitza.result import BadFile, Result
+from kapitza.units import drive_unit
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#8c1d18", "#e58a2b", "#e8c34a", "#3f8f5b", "#c9b8dd", "#5a3d7a",
                     "#d8b8b5", "#2b2b2b", "#c2447e"]
@@ -41,9 +42,9 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--saddles", action="store_true", help="mark the unstable cycles of the study saddles by crosses")
     parser.add_argument("--manifolds", action="store_true",
                         help="draw the manifolds of the study manifolds: stable ones black, unstable ones white")
-    parser.add_argument("--shade", action="store_true", help="darken cells that take long to settle")
+    parser.add_argument("--shade", action="store_true", help="darken cells whose end is certain late")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
-    add_si(parser, "velocities in rad/s, settling times in s")
+    add_si(parser, "velocities in rad/s, times in s")
     parser.add_argument("--no-legend", action="store_true")
     parser.add_argument("--no-dots", action="store_true", help="leave out the strobe points of the attractors")
     arguments = parsed(parser, words)
@@ -110,14 +111,14 @@ def draw_one(axes: Axes, basin: xarray.Dataset, attractors: xarray.Dataset, ids:
 
 def draw_settling_time(axes: Axes, basin: xarray.Dataset, *, colours: Colormap | None = None, legend: bool = True,
                        centre: str = "down") -> Axes:
-    """Drive periods until capture, on a logarithmic scale; unsettled cells stay white."""
-    plane = Plane(basin, centre)
-    time = np.ma.masked_where(plane.cells(basin["attractor"]) < 0, plane.cells(basin["settling_time"]).astype(float) + 1)
+    """The time after which it is certain where a start ends, on a logarithmic scale; unsettled cells stay white."""
+    plane, one = Plane(basin, centre), drive_unit(basin["settling_time"])  # a drive period
+    time = np.ma.masked_where(plane.cells(basin["attractor"]) < 0, plane.cells(basin["settling_time"]) + one)
     image = plane.show(axes, time, cmap=(colours or mpl.colormaps["cividis"]).with_extremes(bad="white"),
-                       norm=LogNorm(1, max(2.0, time.max() if time.count() else 2.0)))
+                       norm=LogNorm(one, max(2 * one, time.max() if time.count() else 0)))
     if legend:
         bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.02, 0, 0.025, 1)))
-        bar.set_label("drive periods until trapped, plus one")
+        bar.set_label("certain after (drive periods, plus one)" if one == 1 else "certain after (s, plus one drive period)")
         bar.outline.set_linewidth(0.7)
     return label_axes(axes, plane)
 
@@ -168,7 +169,8 @@ def _method(basin: xarray.Dataset) -> str:
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: one plane, and what the arguments say about it."""
-    basin, attractors = result.group("basin"), result.group("attractors")
+    group = groups_of(result, arguments)
+    basin, attractors = group("basin"), group("attractors")
     labels = basin["attractor"].values
     if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes["attractor"]:
         raise BadFile(f"{result.path}: is damaged: some cells have ids of attractors that the file does not list")
@@ -187,13 +189,9 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     else:
         draw_settling_time(axes, basin, centre=centre)
     if arguments.manifolds:
-        mark_manifolds(axes, basin, result.group("manifolds"), centre=centre)
+        mark_manifolds(axes, basin, group("manifolds"), centre=centre)
     if arguments.saddles:
-        mark_saddles(axes, basin, result.group("saddles"), centre=centre)
-    if arguments.degrees:
-        label_axes(axes, plane, degrees=True)
-    if arguments.si:
-        show_in_si(figure, pivot_frequency(result))
+        mark_saddles(axes, basin, group("saddles"), centre=centre)
     if plane.place:
         axes.set_title(plane.place, fontsize="medium", fontweight="normal", parse_math=False)
     rows, columns = basin["attractor"].shape
@@ -211,15 +209,6 @@ def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors:
     else:
         mark_strobe_points(axes, plane, basin, attractors,
                            colours={index: style.shade(colour, -0.45) for index, colour in enumerate(style.colours(attractors))})
-
-
-def show_in_si(figure: Figure, omega: float) -> None:
-    """Velocities in rad/s, and bars of settling times in seconds; `omega`: the drive's angular frequency, rad/s."""
-    for axes in figure.axes:
-        if axes.get_ylabel() == VELOCITY_LABEL:  # a deep window's axis counts widths
-            show_in(axes.yaxis, omega, "velocity dθ/dt (rad/s)")
-        for bar in axes.child_axes:
-            show_in(bar.yaxis, 2 * np.pi / omega, "time until trapped, plus one drive period (s)")
 
 
 def main(words: list[str]) -> None:

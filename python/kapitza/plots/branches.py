@@ -20,7 +20,7 @@ SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitu
 def parameter_text(sweep: xarray.Dataset) -> str:
     """The axis label of the swept key."""
     name = sweep.attrs["parameter"]
-    unit = sweep.attrs.get("parameter_units", "1")
+    unit = str(sweep["value"].attrs.get("units", "1"))
     words = name.replace("_", " ")
     return f"{words} {SYMBOLS[name]}" if name in SYMBOLS else words if unit == "1" else f"{words} / {unit}"
 

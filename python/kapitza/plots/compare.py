@@ -15,12 +15,13 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.compare import Comparison
-from kapitza.plots.basin import draw_basins, show_in_si, write_legend
+from kapitza.plots.basin import draw_basins, write_legend
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, title_text, write_picture
 from kapitza.plots.page import Page, Picture, current, drawing, lay_out, length
 from kapitza.plots.plane import Plane, label_axes
-from kapitza.plots.units import add_si, pivot_frequency
+from kapitza.plots.units import add_si
 from kapitza.result import BadFile, Result
+from kapitza.units import in_units
 
 DIFFERENT = style.INK
 
@@ -43,26 +44,28 @@ def matched_colours(comparison: Comparison) -> tuple[list[str], list[str]]:
     return first, second
 
 
-def draw_differing(axes: Axes, comparison: Comparison, *, colours: str = DIFFERENT, legend: bool = True, centre: str = "down") -> Axes:
-    """The cells that end elsewhere, in one colour on white; `legend`: with their share."""
-    plane, differing = Plane(comparison.first.group("basin"), centre), comparison.differing.values
+def draw_differing(axes: Axes, comparison: Comparison, *, colours: str = DIFFERENT, legend: bool = True, centre: str = "down",
+                   si: bool = False) -> Axes:
+    """The cells that end elsewhere, in one colour on white; `legend`: with their share; `si`: velocities in rad/s."""
+    cells = in_units(comparison.cells, comparison.first.pivot_frequency) if si else comparison.cells
+    plane, differing = Plane(cells, centre), comparison.differing.values
     plane.show(axes, np.where(differing[:, plane.order, None], to_rgb(colours), to_rgb("white")))
     if legend:
         write_legend(axes, [(colours, "ends elsewhere", float(differing.mean()))])
     return label_axes(axes, plane)
 
 
-def comparison_panels(comparison: Comparison, centre: str) -> Picture:
+def comparison_panels(comparison: Comparison, centre: str, si: bool = False) -> Picture:
     """Three panels: first, second, difference; one above the other on a narrow page."""
     plane = Plane(comparison.first.group("basin"), centre)
     narrow = current().narrow
     figure = new_figure(6.4, 3 * 4.0 * plane.shape + 1.2) if narrow else new_figure(14.0, 4.0 * plane.shape + 1.2)
     panels = figure.subplots(3, 1, sharex=True) if narrow else figure.subplots(1, 3, sharey=True)
     for axes, result, colours in zip(panels, (comparison.first, comparison.second), matched_colours(comparison), strict=False):
-        basin, attractors = result.group("basin"), result.group("attractors")
+        basin, attractors = result.group("basin", si=si), result.group("attractors", si=si)
         draw_basins(axes, basin, attractors, colours=colours, centre=centre, legend=False, dots=False)
         axes.set_title(_difference(result, comparison), fontsize="medium", fontweight="normal", parse_math=False)
-    draw_differing(panels[2], comparison, centre=centre, legend=False)
+    draw_differing(panels[2], comparison, centre=centre, legend=False, si=si)
     panels[2].set_title(f"{style.share_text(comparison.differing_share)} end elsewhere", fontsize="medium", fontweight="normal")
     for axes in panels[1:] if not narrow else ():
         axes.set_ylabel("")
@@ -108,13 +111,14 @@ def comparison_figure(comparison: Comparison, width: str | float | None = None, 
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page of the two files."""
+    comparison = result.compare(arguments.other)
+    if arguments.si and result.pivot_frequency != comparison.second.pivot_frequency:
+        raise BadFile(f"{result.path}, {arguments.other}: their pivots have different frequencies, so that a cell is not the same start in "
+                      "rad/s; leave out --si")
     try:
-        figure = comparison_panels(result.compare(arguments.other), arguments.centre)
+        return comparison_panels(comparison, arguments.centre, arguments.si)
     except ValueError as error:
         raise BadFile(f"{result.path}, {arguments.other}: {error}") from error
-    if arguments.si:
-        show_in_si(figure, pivot_frequency(result))
-    return figure
 
 
 def main(words: list[str]) -> None:

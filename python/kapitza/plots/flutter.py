@@ -6,15 +6,15 @@ from matplotlib.axes import Axes
 
 from kapitza import style
 from kapitza.plots.branches import parameter_text
+from kapitza.units import drive_unit, in_degrees
 
-SQUARE_LABEL = "amplitude² / rad²"
 FLUTTER = style.KINDS["flutter"]
 ZONE = (FLUTTER, FLUTTER, FLUTTER, style.INK, style.KINDS["inverted"])  # area, end, asymmetry, releases, onset
 
 
 def draw_amplitude(axes: Axes, sweep: xarray.Dataset, *, colours: str = FLUTTER, legend: bool = True) -> Axes:
     """Amplitude over the parameter; `legend`: the critical value beside its line."""
-    axes.plot(sweep["value"].values, np.degrees(sweep["flutter_amplitude"].values), color=colours, lw=1.6)
+    axes.plot(sweep["value"].values, in_degrees(sweep["flutter_amplitude"]), color=colours, lw=1.6)
     axes.set(xlabel=parameter_text(sweep), ylabel="amplitude / degrees", ylim=(0, None))
     critical = sweep.attrs["critical_value"]
     axes.axvline(critical, color=style.FAINT, lw=0.8, ls="--")
@@ -26,13 +26,15 @@ def draw_amplitude(axes: Axes, sweep: xarray.Dataset, *, colours: str = FLUTTER,
 
 def draw_square(axes: Axes, sweep: xarray.Dataset, *, colours: str = FLUTTER, legend: bool = True) -> Axes:
     """Amplitude^2 from the critical value on, with its tangent there; `legend`: with the numbers of the fit."""
-    amplitude, fit = sweep["flutter_amplitude"].values, sweep.attrs
+    amplitude, fit, rad = sweep["flutter_amplitude"].values, sweep.attrs, drive_unit(sweep["flutter_amplitude"])
     there = np.isfinite(amplitude)
     distance = sweep["value"].values[there] - fit["critical_value"]
     axes.plot(distance, amplitude[there] ** 2, color=colours, lw=1.6, label="amplitude²")
     near = amplitude[there][np.argmin(np.abs(distance))] ** 2 / np.abs(distance).min() if there.any() else np.nan
-    axes.plot(distance, near * distance, color=style.FAINT, lw=0.8, ls="--", label=f"tangent, {np.sqrt(near):.3f}² rad² per unit")
-    axes.set(xlabel=f"{parameter_text(sweep)} − critical value", ylabel=SQUARE_LABEL, ylim=(0, None))
+    axes.plot(distance, near * distance, color=style.FAINT, lw=0.8, ls="--", 
+              label=f"tangent, {np.sqrt(near) / rad:.3f}² rad² per unit")
+    unit = "rad²" if rad == 1 else "degrees²"
+    axes.set(xlabel=f"{parameter_text(sweep)} − critical value", ylabel=f"amplitude² / {unit}", ylim=(0, None))
     if legend:
         axes.plot([], [], " ", label=f"fitted slope {fit['fit_slope']:.3f} ± {fit['fit_slope_stderr']:.3f}")
         axes.plot([], [], " ", label=f"exponent {fit['fit_exponent']:.4f} ± {fit['fit_exponent_error']:.4f}")

@@ -13,17 +13,16 @@ import argparse
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.orbit_panels import draw_path, draw_phase, draw_spectrum
-from kapitza.plots.orbit_record import TURN, Orbit
+from kapitza.plots.orbit_record import Orbit
 from kapitza.plots.orbit_time import draw_time
 from kapitza.plots.page import current
-from kapitza.plots.units import add_si, pivot_frequency, show_in
+from kapitza.plots.units import add_si
 from kapitza.result import Result
 
 PANELS: dict[str, Callable[..., Axes]] = {"time": draw_time, "path": draw_path, "phase": draw_phase, "spectrum": draw_spectrum}
@@ -82,30 +81,13 @@ def write_title(figure: Figure, result: Result, orbit: Orbit) -> None:
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: the panels that were asked for."""
-    orbit = Orbit(result, arguments.last)
+    orbit = Orbit(result, arguments.last, si=arguments.si)
     figure, axes = lay_out(arguments.panels)
     for name, panel in axes.items():
-        options = {"harmonics": arguments.harmonics} if name == "time" else {}
-        PANELS[name](panel, orbit, **options)
-    if arguments.degrees and "spectrum" in axes and str(orbit.attributes.get("line_quantity", "angle")) == "angle":
-        spectrum = axes["spectrum"]
-        show_in(spectrum.yaxis, 180 / np.pi, spectrum.get_ylabel().replace("(rad)", "(deg)"))
-    if arguments.si:
-        show_in_si(axes, pivot_frequency(result))
+        options = {"time": {"harmonics": arguments.harmonics}, "spectrum": {"degrees": arguments.degrees}}
+        PANELS[name](panel, orbit, **options.get(name, {}))
     write_title(figure, result, orbit)
     return figure
-
-
-def show_in_si(axes: dict[str, Axes], omega: float) -> None:
-    """The panels' time in s, velocity in rad/s and frequency in Hz; `omega`: the drive's angular frequency, rad/s."""
-    if "time" in axes:
-        show_in(axes["time"].xaxis, TURN / omega, "time (s)")
-    if "phase" in axes:
-        show_in(axes["phase"].yaxis, omega, "velocity (rad/s)")
-    if "spectrum" in axes:
-        show_in(axes["spectrum"].xaxis, omega / TURN, "frequency (Hz)")
-        if axes["spectrum"].get_ylabel().startswith("velocity"):
-            show_in(axes["spectrum"].yaxis, omega, axes["spectrum"].get_ylabel().replace("rad per drive radian", "rad/s"))
 
 
 def main(words: list[str]) -> None:

@@ -30,22 +30,25 @@ def draw_phase(axes: Axes, orbit: Orbit, *, colours: tuple[str, str] = (style.IN
     angle = orbit.wrapped(orbit.theta)
     cut = np.flatnonzero(np.abs(np.diff(angle)) > 180) + 1
     for part in np.split(np.arange(len(angle)), cut):
-        axes.plot(angle[part], orbit.velocity[part], color=colours[0], linewidth=0.8 if orbit.closed else 0.45)
+        axes.plot(angle[part], orbit.speed * orbit.velocity[part], color=colours[0], linewidth=0.8 if orbit.closed else 0.45)
     strobe, velocity = orbit.wrapped(orbit.data["strobe_theta"].values), orbit.data["strobe_velocity"].values
-    axes.plot(strobe, velocity, "o", markersize=4.5 if orbit.closed else 2, color=colours[1], zorder=3,
+    axes.plot(strobe, orbit.speed * velocity, "o", markersize=4.5 if orbit.closed else 2, color=colours[1], zorder=3,
               label="strobe points")
     axes.set_xlabel(f"angle from {orbit.place} (deg)")
-    axes.set_ylabel("velocity (rad per drive radian)")
-    hide_rounding(axes, x=2, y=0.02)
+    axes.set_ylabel("velocity (rad/s)" if orbit.si else "velocity (rad per drive radian)")
+    hide_rounding(axes, x=2, y=0.02 * orbit.speed)
     return write_legend(axes) if legend else axes
 
 
-def draw_spectrum(axes: Axes, orbit: Orbit, *, colours: str = STROBE, legend: bool = True) -> Axes:
+def draw_spectrum(axes: Axes, orbit: Orbit, *, colours: str = STROBE, legend: bool = True, degrees: bool = False) -> Axes:
     """Amplitudes against frequency: stems for a closed orbit, a curve for an open record seen through its window; `legend`: the numbers of
-    the strongest lines."""
-    frequency, amplitude = orbit.data["line_frequency"].values, orbit.data["line_amplitude"].values
+    the strongest lines; `degrees`: amplitudes of angles in degrees."""
+    of_velocity = orbit.attributes.get("line_quantity") == "velocity"
+    per_speed = orbit.attributes.get("line_units") == "1"
+    frequency = orbit.data["line_frequency"].values / orbit.clock
+    amplitude = orbit.data["line_amplitude"].values * (orbit.speed if per_speed else np.degrees(1) if degrees else 1)
     top = amplitude[1:].max()
-    if top < ROUNDING:
+    if orbit.data["line_amplitude"].values[1:].max() < ROUNDING:
         axes.text(0.5, 0.5, "no lines beyond rounding", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
         return axes
     floor = max(top * 1e-7, 1e-12)
@@ -59,11 +62,10 @@ def draw_spectrum(axes: Axes, orbit: Orbit, *, colours: str = STROBE, legend: bo
         axes.plot(frequency[1:], np.maximum(amplitude[1:], floor), color=colours, linewidth=0.9)
     axes.set_yscale("log")
     axes.set_ylim(floor, top * 4)
-    axes.set_xlim(-0.05, _last_line(frequency, amplitude, floor))
-    axes.set_xlabel("frequency / drive frequency")
-    what = "velocity" if orbit.attributes.get("line_quantity") == "velocity" else "amplitude"
-    unit = "rad per drive radian" if orbit.attributes.get("line_units") == "1" else "rad"
-    axes.set_ylabel(f"{what} ({unit})" + ("" if orbit.closed else ",\nthrough a window"))
+    axes.set_xlim(-0.05 / orbit.clock, _last_line(frequency * orbit.clock, amplitude, floor) / orbit.clock)
+    axes.set_xlabel("frequency (Hz)" if orbit.si else "frequency / drive frequency")
+    unit = ("rad/s" if orbit.si else "rad per drive radian") if per_speed else "deg" if degrees else "rad"
+    axes.set_ylabel(f"{'velocity' if of_velocity else 'amplitude'} ({unit})" + ("" if orbit.closed else ",\nthrough a window"))
     return axes
 
 

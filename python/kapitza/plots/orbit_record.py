@@ -4,8 +4,8 @@ import numpy as np
 import xarray
 
 from kapitza.result import BadFile, Result
+from kapitza.units import TURN, drive_unit
 
-TURN = 2 * np.pi
 LONG, LAST = 200, 100  # open records of more periods than LONG show their last ones
 ROUNDING = 1e-9  # deg, and whatever else an axis counts in: what spans less is rounding noise, not motion
 
@@ -28,10 +28,15 @@ def shown(data: xarray.Dataset, last: float | None) -> tuple[xarray.Dataset, flo
 
 
 class Orbit:
-    """The group orbit in the units of the pictures: degrees from the centre, drive periods."""
+    """The group orbit in the units of the pictures: degrees from the centre, drive periods; on axes also s, rad/s and Hz.
 
-    def __init__(self, result: Result, last: float | None = None) -> None:
-        whole = result.group("orbit")
+    `clock` and `speed` are what a drive period and one rad per drive radian are on an axis: 1, or in SI.
+    """
+
+    def __init__(self, result: Result, last: float | None = None, *, si: bool = False) -> None:
+        whole, drawn = result.group("orbit"), result.group("orbit", si=si)
+        self.si, self.speed = si, drive_unit(drawn["velocity"])
+        self.clock = TURN * drive_unit(drawn["time"]) if si else 1.0
         if whole.sizes["time"] < 2 or whole.sizes["line_frequency"] < 2:
             raise BadFile(f"{result.path}: the orbit has fewer than two samples")
         self.data, self.last = shown(whole, last)

@@ -7,8 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from kapitza import style
-from kapitza.plots.orbit_record import ROUNDING, TURN, Orbit
+from kapitza.plots.orbit_record import ROUNDING, Orbit
 from kapitza.plots.page import current
+from kapitza.units import TURN
 
 HARMONICS = ["#d1602f", "#12806a", "#8a5fb8", "#b08a1e"]  # the strongest lines, in this order
 
@@ -17,20 +18,20 @@ def draw_time(axes: Axes, orbit: Orbit, *, harmonics: int = 3, colours: Sequence
     """The angle against time; of a closed orbit its strongest harmonics beneath it, of an open one its turning points."""
     span = 2 * orbit.period if orbit.closed and orbit.period <= 4 else np.inf
     for t, y in _repeated(orbit, span):
-        axes.plot(t, y, color=style.INK, linewidth=1.3, zorder=3)
-    start, end = axes.dataLim.intervalx
+        axes.plot(orbit.clock * t, y, color=style.INK, linewidth=1.3, zorder=3)
+    start, end = axes.dataLim.intervalx / orbit.clock
     if orbit.resting:
         axes.text(0.5, 0.8, "at rest: no motion beyond rounding", transform=axes.transAxes, ha="center", color=style.FAINT)
     else:
         _draw_pivot(axes, orbit, start, end)
         _draw_features(axes, orbit, end, colours[:harmonics])
-    axes.set_xlim(start, end)
-    axes.set_xlabel("time (drive periods)")
+    axes.set_xlim(orbit.clock * start, orbit.clock * end)
+    axes.set_xlabel("time (s)" if orbit.si else "time (drive periods)")
     what = "from the steady rotation" if orbit.rotation() else f"from {orbit.place}"
     axes.set_ylabel(f"angle {what} (deg)")
     axes.margins(y=0.08)
     hide_rounding(axes, y=2)
-    if end - start <= 25:
+    if end - start <= 25 and not orbit.si:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     return write_legend(axes) if legend else axes
 
@@ -40,13 +41,13 @@ def _draw_features(axes: Axes, orbit: Orbit, end: float, colours: Sequence[str])
     if orbit.closed:
         _draw_harmonics(axes, orbit, end, colours)
     elif not orbit.rotating and orbit.data.sizes["maximum_time"] < 200:
-        axes.plot(orbit.data["maximum_time"] / TURN, np.degrees(orbit.data["maximum_angle"]), "o", markersize=3.2,
+        axes.plot(orbit.clock * orbit.data["maximum_time"] / TURN, np.degrees(orbit.data["maximum_angle"]), "o", markersize=3.2,
                   color=style.KINDS["rotation -"], zorder=4, label="turning points")
     if orbit.closed and orbit.period <= 24:
         t, y = _strobe_deflection(orbit)
         for shift in np.arange(0, end - 1e-9, orbit.time[-1]):
             keep = t + shift <= end + 1e-9
-            axes.plot(t[keep] + shift, y[keep], "o", markersize=4, color=style.KINDS["rotation +"], zorder=4,
+            axes.plot(orbit.clock * (t[keep] + shift), y[keep], "o", markersize=4, color=style.KINDS["rotation +"], zorder=4,
                       label="strobe points" if shift == 0 else None)
 
 
@@ -86,7 +87,8 @@ def _draw_pivot(axes: Axes, orbit: Orbit, start: float, end: float) -> None:
         return
     t = np.linspace(start, end, int(60 * (end - start)) + 1)
     sign = np.sign(orbit.data["pivot"].values[0])
-    axes.plot(t, sign * height * np.cos(TURN * (t - start)), color="#b9c2cb", linewidth=0.9, zorder=1, label="pivot (not to scale)")
+    axes.plot(orbit.clock * t, sign * height * np.cos(TURN * (t - start)), color="#b9c2cb", linewidth=0.9, zorder=1,
+              label="pivot (not to scale)")
 
 
 def _draw_harmonics(axes: Axes, orbit: Orbit, end: float, colours: Sequence[str]) -> None:
@@ -98,5 +100,5 @@ def _draw_harmonics(axes: Axes, orbit: Orbit, end: float, colours: Sequence[str]
                      label=f"constant: {np.degrees(constant):.3g}°")
     for colour, j in zip(colours, orbit.strongest(len(colours)), strict=False):
         frequency, amplitude, phase = (float(orbit.data[f"line_{name}"].values[j]) for name in ("frequency", "amplitude", "phase"))
-        axes.plot(t, np.degrees(amplitude) * np.cos(TURN * frequency * t + phase), color=colour, linewidth=0.9, zorder=2,
+        axes.plot(orbit.clock * t, np.degrees(amplitude) * np.cos(TURN * frequency * t + phase), color=colour, linewidth=0.9, zorder=2,
                   label=f"line {orbit.line_text(j)}: {np.degrees(amplitude):.3g}°")

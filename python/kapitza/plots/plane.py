@@ -1,4 +1,4 @@
-"""The window of starts as it is drawn: the order of its cells, its edges, its ticks."""
+"""The window of starts as it is drawn: the order of its cells, its edges, its ticks, in the units of the dataset (kapitza.units)."""
 
 from typing import Any
 
@@ -7,9 +7,9 @@ import xarray
 from matplotlib.axes import Axes
 
 from kapitza import style
+from kapitza.units import TURN, drive_unit
 
 DEEP = 1e-9  # width of a window whose axis no tick label could tell from its centre
-VELOCITY_LABEL = "velocity dθ/d(ωt) (rad per drive radian)"
 
 
 class Plane:
@@ -21,7 +21,9 @@ class Plane:
         self.widths = {name: str(basin.attrs[f"{name}_width"]) for name in deep}
         theta, velocity = (basin[f"{name}_offset" if name in self.centres else name].values for name in ("theta", "velocity"))
         width = _step(theta) * len(theta)
-        self.whole_circle = abs(width - 2 * np.pi) < 1e-9
+        self.rad, self.speed = (drive_unit(basin[name]) for name in ("theta", "velocity"))  # one rad, one rad per drive radian
+        self.turn = TURN * self.rad
+        self.whole_circle = abs(width / self.rad - TURN) < 1e-9
         turn = len(theta) // 2 if self.whole_circle and centre == "inverted" else 0
         self.order = np.roll(np.arange(len(theta)), -turn)
         left = theta[0] - _step(theta) / 2 + turn * _step(theta)
@@ -38,13 +40,13 @@ class Plane:
         return axes.imshow(image, extent=(*self.theta_range, *self.velocity_range), origin="lower", aspect="auto", **colours)
 
     def inside(self, theta: np.ndarray, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Every image of the points, theta + 2 pi n, that lies in the window (edges included); none where they are not known so finely."""
+        """Every image of the points, whole turns apart, in the window (edges included); none where they are not known so finely."""
         theta, velocity = np.ravel(theta), np.ravel(velocity)
         known = np.isfinite(theta) & (not self.centres)
         theta, velocity = theta[known], velocity[known]
         (left, right), (low, high) = self.theta_range, self.velocity_range
-        turns = np.arange(np.floor((left - np.pi) / (2 * np.pi)), np.ceil((right + np.pi) / (2 * np.pi)) + 1)
-        images = theta[:, None] + 2 * np.pi * turns
+        turns = np.arange(np.floor(left / self.turn - 0.5), np.ceil(right / self.turn + 0.5) + 1)
+        images = theta[:, None] + self.turn * turns
         heights = np.broadcast_to(velocity[:, None], images.shape)
         edge = 1e-9
         keep = (images >= left - edge) & (images <= right + edge) & (heights >= low) & (heights <= high)
@@ -67,7 +69,7 @@ class Plane:
     @property
     def shape(self) -> float:
         """Height over width of the picture: a radian is as long on both axes where that gives a readable shape."""
-        width, height = np.ptp(self.theta_range), np.ptp(self.velocity_range)
+        width, height = np.ptp(self.theta_range) / self.rad, np.ptp(self.velocity_range) / self.speed
         return float(height / width) if 1 / 3 <= height / width <= 1.5 else 0.7
 
 
@@ -95,11 +97,12 @@ def shortened(text: str, digits: int = 12) -> str:
     return (cut + e + exponent).replace("-", "−") + unit
 
 
-def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
-    """Angle in degrees or in units of pi, velocity in its own unit."""
+def label_axes(axes: Axes, plane: Plane) -> Axes:
+    """Angle in degrees or in parts of pi, velocity in rad/s or rad per drive radian: as the data of the plane are."""
     axes.set_xlim(plane.theta_range)
     axes.set_ylim(plane.velocity_range)
-    unit, steps = (np.pi / 180, (1, 2, 5, 10, 15, 30, 45, 90)) if degrees else (np.pi, (1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2))
+    degrees = plane.rad != 1
+    unit, steps = (1, (1, 2, 5, 10, 15, 30, 45, 90)) if degrees else (np.pi, (1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2))
     width = np.ptp(plane.theta_range) / unit
     step = min(steps, key=lambda step: abs(width / step - 5))
     first = np.ceil(plane.theta_range[0] / unit / step - 1e-9)
@@ -107,7 +110,7 @@ def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
     if width > 2 * steps[0] and "theta" not in plane.widths:
         axes.set_xticks(ticks * unit, [f"{round(tick)}°".replace("-", "−") if degrees else style.pi_text(tick) for tick in ticks])
     elif degrees and "theta" not in plane.widths:
-        axes.xaxis.set_major_formatter(lambda theta, _: f"{np.degrees(theta):.6g}°".replace("-", "−"))
+        axes.xaxis.set_major_formatter(lambda theta, _: f"{theta:.6g}°".replace("-", "−"))
     if "theta" in plane.widths:
         axes.set_xlabel(f"angle θ less the centre's (units of {plane.widths['theta']} rad)")
     else:
@@ -115,6 +118,6 @@ def label_axes(axes: Axes, plane: Plane, *, degrees: bool = False) -> Axes:
     if "velocity" in plane.widths:
         axes.set_ylabel(f"velocity dθ/d(ωt) less the centre's (units of {plane.widths['velocity']})")
     else:
-        axes.set_ylabel(VELOCITY_LABEL)
+        axes.set_ylabel("velocity dθ/d(ωt) (rad per drive radian)" if plane.speed == 1 else "velocity dθ/dt (rad/s)")
     axes.tick_params(direction="out", length=3)
     return axes

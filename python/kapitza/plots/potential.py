@@ -14,20 +14,23 @@ from matplotlib.ticker import FuncFormatter, MultipleLocator
 
 from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.units import groups_of
 from kapitza.result import Result
+from kapitza.units import TURN, drive_unit
 
 COLOURS = ["#6b747e", "#2f6db3", "#12806a", "#c2452f", "#5b2a7a", "#b08a1e"]  # of the drive amplitudes, in turn
 FORMULAS = (("blackburn", (0, (4, 2)), "Blackburn Eq. 11"), ("simple", (0, (1, 1.5)), "leading order (Eq. 12)"))  # name, dashes, label
 
 
-def full_circle(theta: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The same over 0 .. 2 pi, so that the inverted position is in the middle."""
-    return np.append(theta[theta >= 0], theta[theta < 0][1:] + 2 * np.pi), np.append(values[theta >= 0], values[theta < 0][1:])
+def full_circle(angle: xarray.DataArray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The same over a turn from 0, so that the inverted position is in the middle."""
+    theta, turn = angle.values, TURN * drive_unit(angle)
+    return np.append(theta[theta >= 0], theta[theta < 0][1:] + turn), np.append(values[theta >= 0], values[theta < 0][1:])
 
 
 def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str] = COLOURS, legend: bool = True) -> Axes:
     """The exact potential of every drive amplitude with the rim of its well, and the formulas, dashed."""
-    theta = potential["theta"].values
+    theta, turn = potential["theta"], TURN * drive_unit(potential["theta"])
     for row, amplitude in enumerate(potential["drive_amplitude"].values):
         colour, exact = colours[row % len(colours)], potential["energy"].values[row]
         axes.plot(*full_circle(theta, exact), color=colour, linewidth=1.6, label=f"ε = {amplitude:g}")
@@ -35,8 +38,8 @@ def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str]
             axes.plot(*full_circle(theta, potential[f"energy_{name}"].values[row]), color=colour, linewidth=0.8, linestyle=dash)
         rim = float(potential["rim_exact"].values[row])
         if np.isfinite(rim):
-            top = np.interp(rim, theta, exact)
-            axes.plot([rim, 2 * np.pi - rim], [top, top], "o", markersize=4, color=colour)
+            top = np.interp(rim, theta.values, exact)
+            axes.plot([rim, turn - rim], [top, top], "o", markersize=4, color=colour)
     if legend:
         axes.plot([], [], color=style.INK, linestyle="-", linewidth=1, label="exact")
         for _, dash, text in FORMULAS:
@@ -44,12 +47,12 @@ def draw_energy(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str]
         axes.plot([], [], "o", markersize=4, color=style.INK, label="rim of the well")
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     axes.set_ylabel("effective potential (I ω²)")
-    return _over_the_circle(axes)
+    return _over_the_circle(axes, theta)
 
 
 def draw_differences(axes: Axes, potential: xarray.Dataset, *, colours: Sequence[str] = COLOURS, legend: bool = True) -> Axes:
     """What the formulas are off by."""
-    theta = potential["theta"].values
+    theta = potential["theta"]
     for row, exact in enumerate(potential["energy"].values):
         for name, dash, text in FORMULAS:
             axes.plot(*full_circle(theta, potential[f"energy_{name}"].values[row] - exact), color=colours[row % len(colours)],
@@ -57,25 +60,26 @@ def draw_differences(axes: Axes, potential: xarray.Dataset, *, colours: Sequence
     if legend:
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     axes.set_ylabel("formula − exact (I ω²)")
-    return _over_the_circle(axes)
+    return _over_the_circle(axes, theta)
 
 
-def _over_the_circle(axes: Axes, *, degrees: bool = False) -> Axes:
+def _over_the_circle(axes: Axes, theta: xarray.DataArray) -> Axes:
+    rad = drive_unit(theta)
+    degrees = rad != 1
     axes.set_xlabel("slow angle from down" if degrees else "slow angle from down (rad)")
-    axes.set_xlim(0, 2 * np.pi)
-    axes.xaxis.set_major_locator(MultipleLocator(np.pi / 2))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{np.degrees(x):.0f}°" if degrees else style.pi_text(x / np.pi)))
+    axes.set_xlim(0, TURN * rad)
+    axes.xaxis.set_major_locator(MultipleLocator(np.pi * rad / 2))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.0f}°" if degrees else style.pi_text(x / np.pi)))
     return axes
 
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: the potentials above, the formulas' differences below."""
-    potential = result.group("potential")
+    potential = groups_of(result, arguments)("potential")
     figure = new_figure(7.2, 6.4)
     above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
     draw_energy(above, potential)
     draw_differences(below, potential, legend=False)
-    _over_the_circle(below, degrees=arguments.degrees)
     above.set_xlabel("")
     entitle(figure, result, f"k = {result.pendulum['k']:.6g},  β = {result.pendulum['beta']:.6g}")
     return figure

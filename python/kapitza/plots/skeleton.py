@@ -30,13 +30,13 @@ def mark_manifolds(axes: Axes, basin: xarray.Dataset, manifolds: xarray.Dataset,
     plane = Plane(basin, centre)
     if plane.centres:  # curves are not known as finely as such a window is
         return label_axes(axes, plane)
-    joined = (np.diff(manifolds["polyline"].values) == 0) & (np.abs(np.diff(theta)) < np.pi)
+    joined = (np.diff(manifolds["polyline"].values) == 0) & (np.abs(np.diff(theta)) < plane.turn / 2)
     pieces = np.split(np.arange(len(theta)), np.flatnonzero(~joined) + 1)
     for number, (colour, rim) in enumerate(zip(colours, (style.INK, "white"), strict=True)):
         for piece in pieces:
             if len(piece) < 2 or kind[piece[0]] != number:
                 continue
-            for turn in (-2 * np.pi, 0, 2 * np.pi):
+            for turn in (-plane.turn, 0, plane.turn):
                 axes.plot(theta[piece] + turn, velocity[piece], color=rim, linewidth=1.5, zorder=2)
                 axes.plot(theta[piece] + turn, velocity[piece], color=colour, linewidth=0.8, zorder=2.1)
     return label_axes(axes, plane)

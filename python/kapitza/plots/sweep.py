@@ -22,17 +22,17 @@ from matplotlib.patches import Patch
 from kapitza import style
 from kapitza.plots.branches import branch_colours, draw_lives, draw_shares, named_branches, parameter_text
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.flutter import SQUARE_LABEL, draw_amplitude, draw_square, draw_zone
+from kapitza.plots.flutter import draw_amplitude, draw_square, draw_zone
 from kapitza.plots.page import current
-from kapitza.plots.units import show_in
+from kapitza.plots.units import groups_of
 from kapitza.result import BadFile, Result
+from kapitza.units import drive_unit, in_degrees, si_parameters, written_units
 
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
-STROBE_LABEL = "θ at the strobe"
 NARROWEST = 0.04                                        # of the circle, in parts of pi
 PI_STEPS = [1 / 4, 1 / 8, 1 / 16, 1 / 32, 0.01]         # between ticks, in parts of pi: the last one for the narrowest
-DEGREE_STEPS = [step / 180 for step in (45, 15, 5, 2)]
+DEGREE_STEPS = [45, 15, 5, 2]
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
@@ -46,19 +46,19 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
 def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str, str, str] = (STAYS, style.FAINT, DOWN, style.INK),
                   legend: bool = True) -> Axes:
     """The set of releases that stay, its last edge, what a scan finds, its first gap (colours: of these four)."""
-    value, angle = sweep["value"].values, np.degrees(sweep["release"].values)
+    value, angle = sweep["value"].values, in_degrees(sweep["release"])
     edges = np.concatenate([value[:1], (value[1:] + value[:-1]) / 2, value[-1:]])
     stays = np.where(sweep["release_stays"].values.T == 1, 1.0, np.nan)
     axes.pcolormesh(edges, np.concatenate([[angle[0] / 2], angle + angle[0] / 2]), stays, cmap=ListedColormap([colours[0]]),
                     rasterized=True)
-    axes.plot(value, np.degrees(sweep["release_angle_largest"].values), "_", color=colours[1], markersize=3, label="last angle that stays")
-    axes.plot(value, np.degrees(sweep["release_angle_scan"].values), ".", color=colours[2], markersize=4,
+    axes.plot(value, in_degrees(sweep["release_angle_largest"]), "_", color=colours[1], markersize=3, label="last angle that stays")
+    axes.plot(value, in_degrees(sweep["release_angle_scan"]), ".", color=colours[2], markersize=4,
               label="first failure of a scan in whole degrees")
-    axes.plot(value, np.degrees(sweep["release_angle"].values), color=colours[3], lw=1.1, label="first gap")
+    axes.plot(value, in_degrees(sweep["release_angle"]), color=colours[3], lw=1.1, label="first gap")
     if legend:
         handles = [*axes.get_legend_handles_labels()[0], Patch(color=colours[0], label="releases that stay")]
         axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
-    top = np.nanmax(np.degrees(sweep["release_angle_largest"].values))
+    top = np.nanmax(in_degrees(sweep["release_angle_largest"]))
     axes.set(xlabel=parameter_text(sweep), ylabel="release angle from inverted (deg)", ylim=(0, min(180, 1.35 * top)))
     return axes
 
@@ -76,34 +76,38 @@ def draw_alike(axes: Axes, sweep: xarray.Dataset, *, colours: str = UP, legend: 
 
 def draw_strobe(axes: Axes, sweep: xarray.Dataset, *, up: bool = True, colours: str | None = None, legend: bool = True) -> Axes:
     """Strobe points of the walk up or down over the parameter, inverted in the middle; `legend`: which walk, as the title."""
-    value, walk = sweep["value"].values, sweep["sample_walk"].values
-    points = np.mod(sweep["strobe_theta"].values, 2 * np.pi)[:, walk == (0 if up else 1)] / np.pi
+    value, walk, rad = sweep["value"].values, sweep["sample_walk"].values, drive_unit(sweep["strobe_theta"])
+    points = np.mod(sweep["strobe_theta"].values, 2 * np.pi * rad)[:, walk == (0 if up else 1)]
     size = float(np.clip(60 / np.sqrt(points.size), 1.2, 3.2))
     axes.plot(np.repeat(value, points.shape[1]), points.ravel(), "o", markersize=size, markeredgewidth=0,
               color=colours or (UP if up else DOWN), rasterized=True)
     if legend:
         axes.set_title("going up" if up else "going down", fontsize="medium", fontweight="normal")
-    axes.set(xlabel=parameter_text(sweep), ylabel=STROBE_LABEL, xlim=(value[0], value[-1]))
+    axes.set(xlabel=parameter_text(sweep), ylabel="θ at the strobe", xlim=(value[0], value[-1]))
     axes.set_ylim(strobe_range(sweep))
-    show_angles(axes, PI_STEPS, lambda tick: f"{tick:.2f}π" if 32 * tick % 1 else style.pi_text(tick))
+    if rad == 1:
+        show_angles(axes, np.pi, PI_STEPS, lambda tick: f"{tick:.2f}π" if 32 * tick % 1 else style.pi_text(tick))
+    else:
+        show_angles(axes, 1, DEGREE_STEPS, lambda tick: f"{tick:g}°")
     return axes
 
 
-def show_angles(axes: Axes, steps: Sequence[float], text: Callable[[float], str]) -> None:
-    """Ticks of angles (parts of pi) within the limits: the widest of the steps that gives three of them."""
-    low, high = axes.get_ylim()
+def show_angles(axes: Axes, unit: float, steps: Sequence[float], text: Callable[[float], str]) -> None:
+    """Ticks of angles within the limits: the widest of the steps (in units) that gives three of them."""
+    low, high = np.array(axes.get_ylim()) / unit
     inside = (np.arange(np.ceil(low / step), np.floor(high / step) + 1) * step for step in steps)
     ticks = next(found for found in inside if len(found) >= 3)
-    axes.set_yticks(ticks, [text(float(tick)) for tick in ticks])
-    axes.set_ylim(low, high)
+    axes.set_yticks(ticks * unit, [text(float(tick)) for tick in ticks])
+    axes.set_ylim(low * unit, high * unit)
 
 
 def strobe_range(sweep: xarray.Dataset) -> tuple[float, float]:
-    """What of the circle the strobe points of both walks take (parts of pi), with a margin; the whole where they take most of it."""
-    points = np.mod(sweep["strobe_theta"].values, 2 * np.pi) / np.pi
+    """What of the circle the strobe points of both walks take, with a margin; the whole where they take most of it."""
+    half = np.pi * drive_unit(sweep["strobe_theta"])
+    points = np.mod(sweep["strobe_theta"].values, 2 * half) / half
     low, high = (float(edge) for edge in (np.nanmin(points), np.nanmax(points)))
     margin = max(0.1 * (high - low), NARROWEST / 2)
-    return (low - margin, high + margin) if high - low < 1 else (0, 2)
+    return ((low - margin) * half, (high + margin) * half) if high - low < 1 else (0, 2 * half)
 
 
 def fractions_figure(sweep: xarray.Dataset) -> Figure:
@@ -185,9 +189,11 @@ def chosen_view(result: Result, sweep: xarray.Dataset, wanted: str | None) -> Ca
 
 
 def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
-    """The parameters that were not swept, where the papers' symbols are defined."""
-    names = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$"}
+    """The parameters that were not swept: in SI if the scene is, else where the papers' symbols are defined."""
     swept = sweep.attrs["parameter"]
+    if result.pivot_frequency:
+        return ",  ".join(text for name, text in si_parameters(result.pendulum).items() if name != swept.removeprefix("pivot_"))
+    names = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
             if name != swept and np.isfinite(result.pendulum.get(name, np.nan))]
     if "flutter_onset" in sweep:
@@ -195,21 +201,10 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
     return ",  ".join(kept)
 
 
-def show_degrees(figure: Figure) -> None:
-    """The axes that are not in degrees by themselves: strobe points (parts of pi) and squared amplitudes (rad²)."""
-    for axes in figure.axes:
-        if axes.get_ylabel() == STROBE_LABEL:
-            show_angles(axes, DEGREE_STEPS, lambda tick: f"{180 * tick:g}°")
-        elif axes.get_ylabel() == SQUARE_LABEL:
-            show_in(axes.yaxis, np.degrees(1) ** 2, "amplitude² / degrees²")
-
-
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page of the view that was asked for, or of the first that the file has."""
-    sweep = result.group("sweep")
+    sweep = written_units(groups_of(result, arguments)("sweep"), str(result.attributes.get("scene", "")))
     figure = chosen_view(result, sweep, arguments.view)(sweep)
-    if arguments.degrees:
-        show_degrees(figure)
     entitle(figure, result, f"{sweep.sizes['value']} values", fixed_text(result, sweep))
     return figure
 

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from kapitza import style
-from kapitza.plots.units import in_si, pivot_frequency
 from kapitza.report.pictures import pictures
 from kapitza.result import Result
 
@@ -67,8 +66,8 @@ def _attractors(result: Result) -> str:
         return ""
     table = result.group("attractors")
     known = [column for column in COLUMNS if column[1] in table or (column[1] is None and "multiplier_re" in table)]
-    if in_si(result):
-        second = 2 * np.pi / pivot_frequency(result)
+    if result.pivot_frequency:
+        second = 2 * np.pi / result.pivot_frequency
         known.insert(1, ("period / s", "period", lambda value: f"{value * second:.4g}" if value > 0 else "-"))
     rows = []
     for index, (name, colour) in enumerate(zip(table["name"].values, style.colours(table), strict=True)):

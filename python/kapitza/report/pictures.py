@@ -7,14 +7,13 @@ from io import StringIO
 from pathlib import Path
 
 from kapitza.plots import basin, orbit, potential, stability, sweep, tradeoff
-from kapitza.plots.units import in_si
 from kapitza.result import Result
 
-# Group of a result -> the pictures of it: caption, what draws it, options. Those of IN_SI are in SI units where the scene is.
-IN_SI = ("basin", "orbit")
+# Group of a result -> the pictures of it: caption, what draws it, options. Those with UNITS are in them if the scene is in SI.
+UNITS = {"basin": ["--si", "--degrees"], "orbit": ["--si", "--degrees"], "sweep": ["--degrees"], "potential": ["--degrees"]}
 PICTURES: dict[str, list[tuple[str, Callable[[list[str]], None], list[str]]]] = {
     "basin": [("Every start in the colour of the motion in which it ends; dots are strobe points.", basin.main, []),
-              ("How long every start takes to settle.", basin.main, ["--quantity", "settling_time"])],
+              ("After how long it is certain where every start ends.", basin.main, ["--quantity", "settling_time"])],
     "orbit": [("One motion: in time, in space, in the phase plane, and its spectral lines.", orbit.main, [])],
     "stability": [("Where small oscillations stay small.", stability.main, [])],
     "potential": [("The effective potential of the slow motion.", potential.main, [])],
@@ -28,9 +27,9 @@ def pictures(result: Result) -> Iterator[tuple[str, bytes]]:
     """Caption and bytes (PNG) of every picture of the groups that the result holds."""
     with tempfile.TemporaryDirectory(prefix="kapitza-report-") as folder:
         picture = Path(folder) / "picture.png"
-        units = ["--si", "--degrees"] if in_si(result) else []
         for group, rows in PICTURES.items():
+            units = UNITS.get(group, []) if result.pivot_frequency else []
             for caption, draw, options in rows if group in result.groups else ():
                 with redirect_stdout(StringIO()):  # the picture's name
-                    draw([str(result.path), "-o", str(picture), "--dpi", str(DPI), *options, *(units if group in IN_SI else [])])
+                    draw([str(result.path), "-o", str(picture), "--dpi", str(DPI), *options, *units])
                 yield caption, picture.read_bytes()
