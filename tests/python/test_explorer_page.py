@@ -134,6 +134,30 @@ def test_axes_in_degrees_and_si(page):
     assert page.module("plane.js", "0.01 * its.axesOf('si', 100 * Math.PI).velocity.factor(1).toNumber()") == pytest.approx(np.pi)
 
 
+def test_starts_are_told_in_the_units_of_the_axes(page):
+    """Of a pivot at 50 Hz a drive period is 0.02 s."""
+    page.run("explorer.state.change({pivotFrequency: 100 * Math.PI})")
+    page.hand(0.7, 0.5, 0.7, 0.5)
+    assert wait_for(lambda: page.run("$('ending').dataset.ending"))
+    words = page.run("$('ending').textContent")
+    assert "certain after 12 drive periods, within 1° of it after 30 drive periods" in words and "rad/s" not in words
+    page.run("explorer.state.change({units: 'si'})")
+    words = page.run("$('ending').textContent")
+    assert "certain after 0.24 s, within 1° of it after 0.6 s" in words and re.search(r"velocity \S+ rad/s", words)
+    page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
+    assert "rad/s" in page.run("$('pointer').textContent") and "after" not in page.run("$('pointer').textContent")
+    page.run("explorer.state.change({units: 'degrees'})")
+    assert page.run("$('pointer').textContent").startswith("θ −90") and "°" in page.run("$('ending').textContent")
+
+
+def test_cells_without_a_label_are_hatched_until_they_are_settled(page):
+    """Quick labels leave cells open; only exact ones say that a cell settles nowhere."""
+    script = """(() => { const cells = new Uint8Array(64).fill(255); const planes = { labels: cells };
+        const of = (quality) => its.countedShares({ labels: cells, quality, catalogue: { attractors: [] } })[0];
+        return [of("moving").name, of("moving").hatched, of("exact").name, of("exact").hatched]; })()"""
+    assert page.module("frames.js", script) == ["not labelled yet", True, "not settled", False]
+
+
 def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page):
     page.driver.execute_script("explorer.basins.panes[0].pursue = () => {}")  # no new frame: the old one is moved
     before = np.array(page.pixels())
@@ -176,6 +200,16 @@ def test_dive_goes_to_a_boundary_between_two_starts(page):
     assert len(page.shares()) > 1 and width < 1e-3 and page.run("$('dive').getAttribute('aria-pressed')") == "false"
     _ = page.press("dive"), page.key("Escape")
     assert page.run("[$('dive').getAttribute('aria-pressed'), $('status').textContent.includes('Dive')]") == ["false", False]
+
+
+def test_escape_ends_a_film(page):
+    page.choose("film-count", "200")
+    page.press("film-play")
+    before = page.run("explorer.state.pendulum.m")
+    assert wait_for(lambda: page.run("explorer.state.pendulum.m") != before)
+    page.key("Escape")
+    assert wait_for(lambda: page.run("$('film-play').textContent") == "Play") and page.run("explorer.state.pendulum.m") == "0.3"
+    page.wait()
 
 
 # ---- what is shown ----
@@ -258,6 +292,8 @@ def test_two_values_stand_side_by_side_with_linked_cursors(page):
 def test_a_click_on_the_chart_sets_the_pendulum(page):
     page.press("chart")
     assert wait_for(lambda: page.run("explorer.charts.have?.level") == 1)
+    listed = page.run("[...document.querySelectorAll('.kinds > span')].map((entry) => entry.textContent)")
+    assert listed == ["inverted", "down nodding", "chaotic"]  # every colour of the chart
     page.run("explorer.charts.pick(0.5, 0.25)")
     page.wait()
     assert page.run("[explorer.state.pendulum.k, explorer.state.pendulum.m]") == ["0.125", "0.2625"]

@@ -1,11 +1,12 @@
 // The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of them.
 
 import { endingWords, Motion } from "./motion.js";
-import { asScene } from "./frames.js";
+import { asScene, unlabelled } from "./frames.js";
 import { listen } from "./gestures.js";
 import { rowsOf, writeLegend } from "./legend.js";
 import { Pane } from "./pane.js";
 import { signed } from "./ticks.js";
+import { Units } from "./units.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
@@ -26,6 +27,10 @@ export class Basins {
 
   get active() {
     return this.panes.find((pane) => pane.name === this.state.pane) ?? this.panes[0];
+  }
+
+  get units() {
+    return new Units(this.state.units, this.state.pivotFrequency);
   }
 
   show() {
@@ -101,6 +106,7 @@ export class Basins {
     if (keys.has("other")) this.arrange();
     if (FRAME_KEYS.some((key) => keys.has(key))) for (const pane of this.panes) pane.changed();
     if (keys.has("pendulum") || keys.has("other")) this.forgetMotion();
+    if (keys.has("units")) this.writeEnding();
     if (keys.has("start") || keys.has("pendulum") || keys.has("other")) this.followSoon();
     for (const pane of this.panes) pane.draw();
     this.write();
@@ -131,7 +137,7 @@ export class Basins {
     try {
       const [ending] = await pane.engine.answer({ request: "where", ...request });
       if (order !== this.followed) return;
-      found = `${signed(endingWords({ ...ending, ...start }))}\n`;
+      found = `${signed(endingWords({ ...ending, ...start }, this.units))}\n`;
       const wanted = (ending.settling_time ?? 0) + 4 * (ending.period || 1) + 8;
       const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
       const [header, bytes] = await pane.engine.answer({ request: "orbit", ...request, periods, samples_per_period: SAMPLES });
@@ -144,10 +150,14 @@ export class Basins {
   play(pane, motion) {
     this.motion = motion;
     for (const other of this.panes) other.plain.motion = other === pane ? motion : null;
-    element("ending").textContent = signed(endingWords(motion.ending));
+    this.writeEnding();
     element("ending").dataset.ending = JSON.stringify(motion.ending);
     element("save-csv").disabled = element("play").disabled = false;
     this.state.change({ playing: true });
+  }
+
+  writeEnding() {
+    if (this.motion) element("ending").textContent = signed(endingWords(this.motion.ending, this.units));
   }
 
   tick(now) {
@@ -155,7 +165,7 @@ export class Basins {
     this.last = now;
     if (this.motion && this.state.playing) {
       this.motion.advance(seconds * SECOND);
-      this.motion.drawPendulum(element("pendulum"), this.state.colours);
+      this.motion.drawPendulum(element("pendulum"), this.state.colours, this.units);
       for (const pane of this.panes) if (pane.plain.motion) pane.draw();
     }
     requestAnimationFrame((next) => this.tick(next));
@@ -183,7 +193,8 @@ export class Basins {
     const at = this.pointed;
     const words = at ? this.panes.map((each) => wordsAt(each, ...at)).join("  |  ") : "";
     const start = at && this.startAt(...at);
-    element("pointer").textContent = at ? signed(`θ ${brief(start.theta)}  velocity ${brief(start.velocity)}  ${words}`) : "";
+    const place = at && `θ ${brief(this.units.angle(start.theta))}  velocity ${brief(this.units.velocity(start.velocity))}`;
+    element("pointer").textContent = at ? signed(`${place}  ${words}`) : "";
   }
 
   say(pane, state, words, progress) {
@@ -218,9 +229,10 @@ export class Basins {
     const { theta, velocity } = this.state.window;
     const depth = this.state.home.theta.width / theta.width;
     const digits = Math.max(2, 3 - Math.floor(Math.log10(theta.width)));
-    const middle = (range) => signed(brief(range.centre.rounded(digits).toString()));
+    const middle = (range) => range.centre.rounded(digits).toString();
+    const [angle, speed] = [this.units.angle(middle(theta)), this.units.velocity(middle(velocity))].map((words) => signed(brief(words)));
     element("where").textContent =
-      `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×  centre θ ${middle(theta)}, velocity ${middle(velocity)}`;
+      `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×  centre θ ${angle}, velocity ${speed}`;
     element("where").dataset.window = JSON.stringify(this.state.window.toRequest());
     element("where").dataset.depth = depth;
     for (const pane of this.panes) pane.root.querySelector(".caption").textContent = this.captionOf(pane);
@@ -238,10 +250,8 @@ function wordsAt(pane, across, up) {
   const found = pane.cellAt(across, up);
   if (!found) return "";
   const { frame, cell } = found;
-  const name = frame.labels[cell] === 255 ? "not settled" : frame.catalogue.attractors[frame.labels[cell]].name;
-  const time = frame.times && Number.isFinite(frame.times[cell]) ? ` after ${periodWords(Math.round(frame.times[cell]))}` : "";
-  return name + time + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");
+  const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].name;
+  return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");
 }
 
-const periodWords = (periods) => `${periods} drive period${periods === 1 ? "" : "s"}`;
 const brief = (text) => (text.length > 26 ? `${text.slice(0, 12)}…${text.slice(-12)}` : text);

@@ -4,6 +4,7 @@ import { Decimal } from "./decimal.js";
 import { Engine } from "./engine.js";
 import { asScene, bytesOf } from "./frames.js";
 import { listen } from "./gestures.js";
+import { ORDER } from "./legend.js";
 import { drawAxes, Plane } from "./plane.js";
 import { numberOf, withUnit } from "./sliders.js";
 import { CanvasSurface } from "./surface.js";
@@ -45,6 +46,8 @@ export class Charts {
     this.over = this.root.querySelector(".over");
     this.over.setAttribute("aria-label", "Chart: a click sets the pendulum");
     this.image = document.createElement("canvas");
+    this.kinds = Object.assign(document.createElement("p"), { className: "kinds" });
+    this.root.append(this.kinds);
     this.root.querySelector(".basins").remove();
     element("panes").append(this.root);
     this.engine = new Engine("chart");
@@ -162,12 +165,29 @@ export class Charts {
     Object.assign(this.image, { width: columns, height: rows });
     const context = this.image.getContext("2d");
     const picture = context.createImageData(columns, rows);
+    const seen = new Map(); // kinds of motion and their colours
     for (let i = 0; i < rows * columns; i++) {
       const row = rows - 1 - Math.floor(i / columns);
       const at = 4 * (row * columns + (i % columns));
-      picture.data.set([...bytesOf(colourOf(this.state.kinds, bytes[i], bytes[rows * columns + i])), 255], at);
+      const kind = kindOf(bytes[i], bytes[rows * columns + i]);
+      if (!seen.has(kind)) seen.set(kind, this.state.kinds[kind] ?? "#ffffff");
+      picture.data.set([...bytesOf(seen.get(kind)), 255], at);
     }
     context.putImageData(picture, 0, 0);
+    this.list(seen);
+  }
+
+  /** The list of the colours that the chart has. */
+  list(seen) {
+    const entries = [...seen].sort(([one], [other]) => ORDER.indexOf(one) - ORDER.indexOf(other));
+    this.kinds.replaceChildren(
+      ...entries.map(([name, colour]) => {
+        const [entry, patch] = [document.createElement("span"), document.createElement("span")];
+        Object.assign(patch, { className: "patch" }).style.background = colour;
+        entry.append(patch, name === "rotation +" ? "rotation" : name);
+        return entry;
+      }),
+    );
   }
 
   draw() {
@@ -196,12 +216,12 @@ export class Charts {
   }
 }
 
-/** The colour of a cell by period (0 = chaotic, 255 = not settled) and centre (0 down, 1 inverted, 2 rotating, 3 neither). */
-export function colourOf(kinds, period, centre) {
-  if (period === 255) return "#ffffff";
-  if (period === 0) return kinds.chaotic;
-  if (centre === 2) return kinds["rotation +"];
-  if (centre === 0) return period === 1 ? kinds.down : kinds["down nodding"];
-  if (centre === 1) return { 1: kinds.inverted, 2: kinds.flutter }[period] ?? kinds["inverted nodding"];
-  return kinds.other;
+/** The kind of motion of a cell by period (0 = chaotic, 255 = not settled) and centre (0 down, 1 inverted, 2 rotating, 3 neither). */
+export function kindOf(period, centre) {
+  if (period === 255) return "not settled";
+  if (period === 0) return "chaotic";
+  if (centre === 2) return "rotation +";
+  if (centre === 0) return period === 1 ? "down" : "down nodding";
+  if (centre === 1) return { 1: "inverted", 2: "flutter" }[period] ?? "inverted nodding";
+  return "other";
 }

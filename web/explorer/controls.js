@@ -10,8 +10,8 @@ const CHOICES = ["quality", "samples", "shade", "units", "theme"];
 const element = (id) => document.getElementById(id);
 
 export function listenControls(state, basins, charts) {
-  listenWindow(state, basins);
-  listenPendulums(state, basins, charts);
+  const film = listenPendulums(state, basins, charts);
+  listenWindow(state, basins, film);
   listenChoices(state, basins);
   listenSaving(state, basins);
 }
@@ -27,7 +27,7 @@ const guarded = (action) => () =>
     .then(action)
     .catch((error) => complain(error.message));
 
-function listenWindow(state, basins) {
+function listenWindow(state, basins, film) {
   element("home").onclick = () => (state.change({ jump: false }), state.visit(state.home));
   element("back").onclick = () => state.back();
   element("zoom-in").onclick = () => basins.zoom(0.5);
@@ -38,6 +38,7 @@ function listenWindow(state, basins) {
   element("dive").onclick = () => dive.toggle();
   element("cancel").onclick = () => {
     dive.stop();
+    film.stop();
     for (const pane of basins.panes) pane.cancel();
   };
 }
@@ -55,9 +56,10 @@ function listenPendulums(state, basins, charts) {
   for (const button of element("which").children) button.onclick = () => state.change({ pane: button.dataset.pane });
   element("compare").onclick = () => state.change(state.other ? { other: null, pane: "a" } : { other: { ...state.pendulum }, pane: "b" });
   element("chart").onclick = () => charts.toggle(sliders.names, set);
-  new Film(state, basins, sliders.names, set, complain);
+  const film = new Film(state, basins, sliders.names, set, complain);
   state.listen(show);
   show();
+  return film;
 }
 
 function listenChoices(state, basins) {

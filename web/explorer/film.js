@@ -29,12 +29,17 @@ export class Film {
     element("film-to").value = withUnit(Number((number + reach).toPrecision(6)), unit);
   }
 
+  stop() {
+    this.running = null;
+  }
+
   /** Starts what a button does, or ends what runs. */
   async toggle(action) {
-    if (this.running) return (this.running = null);
+    if (this.running) return this.stop();
     const mine = (this.running = {});
     const before = this.state[this.state.pane === "b" ? "other" : "pendulum"];
     element("film-play").textContent = "Stop";
+    element("film-play").setAttribute("aria-pressed", "true");
     try {
       await action();
     } catch (error) {
@@ -42,6 +47,7 @@ export class Film {
     }
     if (this.running === mine) this.running = null;
     element("film-play").textContent = "Play";
+    element("film-play").setAttribute("aria-pressed", "false");
     this.state.change({ [this.state.pane === "b" ? "other" : "pendulum"]: before });
   }
 

@@ -5,6 +5,8 @@ import { isNeutral, isUnused } from "./drive.js";
 const MOST_MOVING = 250_000; // cells of a frame while things move
 const MOST_RESTING = 4_000_000;
 const UNSETTLED = "#ffffff";
+const WAITING = "#dfe4e9"; // of cells that have no label yet, hatched on the page
+export const HATCHING = 0.25; // how much darker every second stripe of them is
 
 /** The request for a frame that fills a canvas; `samples` x `samples` cells a pixel. */
 export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest, shade }) {
@@ -63,23 +65,30 @@ export function bytesOf(colour) {
   return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
 }
 
+/** What a cell without a label is called: quick labels leave some open, exact ones only those of motions that settle nowhere. */
+export function unlabelled({ quality }) {
+  return quality === "moving" ? "not labelled yet" : "not settled";
+}
+
 /** {name: share} of the labels of a frame, the rows of its catalogue first; mirror images may share a name. */
 export function sharesOf(frame) {
   return (frame.shares ??= countedShares(frame));
 }
 
-function countedShares(frame) {
+export function countedShares(frame) {
   const counts = new Uint32Array(256);
   for (const label of frame.labels) counts[label]++;
   const rows = frame.catalogue.attractors.map((row) => ({ ...row, share: counts[row.id] / frame.labels.length }));
+  const name = unlabelled(frame);
   if (counts[255] > 0)
     rows.push({
       id: -1,
-      name: "not settled",
+      name,
       kind: "not settled",
       period: 0,
       winding: 0,
-      colour: UNSETTLED,
+      colour: name === "not settled" ? UNSETTLED : WAITING,
+      hatched: name !== "not settled",
       share: counts[255] / frame.labels.length,
     });
   return rows;

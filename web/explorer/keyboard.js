@@ -20,7 +20,7 @@ export function listenKeys(state, basins) {
     Enter: () => basins.click(basins.active, 0.5, 0.5),
     " ": () => press("play"),
     Escape: () => {
-      if (document.getElementById("dive").getAttribute("aria-pressed") === "true") press("dive");
+      for (const id of ["dive", "film-play"]) if (document.getElementById(id).getAttribute("aria-pressed") === "true") press(id);
       press("cancel");
     },
     Backspace: () => press("back"),

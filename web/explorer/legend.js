@@ -3,7 +3,8 @@
 import { sharesOf } from "./frames.js";
 import { signed } from "./ticks.js";
 
-const ORDER = [
+/** Kinds of motion, as lists of them are ordered. */
+export const ORDER = [
   "down",
   "inverted",
   "down nodding",
@@ -53,6 +54,7 @@ export function writeLegend(table, rows) {
       row.shares.every((share) => !share),
     );
     line.querySelector(".patch").style.background = row.colour;
+    line.querySelector(".patch").classList.toggle("hatched", Boolean(row.hatched));
     while (line.cells.length > 2) line.deleteCell(2);
     for (const share of row.shares) line.insertCell().textContent = shareWords(share);
     return line;

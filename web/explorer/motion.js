@@ -68,7 +68,7 @@ export class Motion {
   }
 
   /** The pendulum: pivot, rod, bob and the bob's trace. */
-  drawPendulum(canvas, theme) {
+  drawPendulum(canvas, theme, units) {
     const context = canvas.getContext("2d");
     const surface = new CanvasSurface(context, theme);
     const size = canvas.width;
@@ -92,7 +92,7 @@ export class Motion {
     surface.line([place(...pivot), bob(angle, pivot)], theme.ink, 3);
     surface.circle(...place(...pivot), 4, theme.ink, theme.ink);
     surface.circle(...bob(angle, pivot), 9, theme.mark, theme.paper);
-    surface.text(`period ${this.period}`, 6, size - 8, "left", { size: 20 });
+    surface.text(units.omega ? units.time(this.period) : `period ${this.period}`, 6, size - 8, "left", { size: 20 });
   }
 
   /** Lines of time (drive radians), theta, velocity, the pivot's height and how far it is aside. */
@@ -104,11 +104,11 @@ export class Motion {
   }
 }
 
-/** Where a start ends, in words. */
-export function endingWords(ending) {
-  const from = `From θ = ${ending.theta}, velocity ${ending.velocity}`;
+/** Where a start ends, in words; `units`: of the page. */
+export function endingWords(ending, units) {
+  const from = `From θ = ${units.angle(ending.theta)}, velocity ${units.velocity(ending.velocity)}`;
   if (ending.attractor < 0) return `${from}\nnot settled`;
-  const periods = `${ending.settling_time} drive period${ending.settling_time === 1 ? "" : "s"}`;
+  const near = Number.isFinite(ending.near_time) ? `, within 1° of it after ${units.time(ending.near_time)}` : "";
   const sure = ending.decided ? `decided: ${ending.precision}` : `not decided: ${ending.name} or ${ending.other_name ?? "another"}`;
-  return `${from}\nends on ${ending.name}, settled after ${periods}\n${sure}`;
+  return `${from}\nends on ${ending.name}: certain after ${units.time(ending.settling_time)}${near}\n${sure}`;
 }

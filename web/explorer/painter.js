@@ -1,5 +1,6 @@
 // Labels as a texture, colours as a palette: the basins are drawn, moved and scaled by the graphics card.
 
+import { HATCHING } from "./frames.js";
 import { Painter2d } from "./painter2d.js";
 import { placementOf } from "./placement.js";
 
@@ -7,7 +8,8 @@ const VERTICES = `#version 300 es
 in vec2 corner;
 void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
 
-// A pixel is the mean, in light (about the square of a colour's number), of the cells that it covers. In `cells`: label, settling time, doubt, the other candidate.
+// A pixel is the mean, in light (about the square of a colour's number), of the cells that it covers. In `cells`: label, time until the end is
+// certain, doubt, the other candidate. Cells without a label (255) are hatched where they may still get one.
 const FRAGMENTS = `#version 300 es
 precision highp float;
 precision highp int;
@@ -17,12 +19,15 @@ uniform vec2 canvas;
 uniform vec4 place;
 uniform float period;
 uniform float shading;
+uniform float hatching;
 out vec4 colour;
 
 vec3 lightOf(ivec2 cell, bool second) {
   vec4 found = texelFetch(cells, cell, 0);
   float label = found.b == 1.0 && second ? found.a : found.r;
   vec3 colour = texelFetch(palette, ivec2(int(label * 255.0 + 0.5), 0), 0).rgb;
+  bool dark = mod(floor((gl_FragCoord.x - gl_FragCoord.y) / 4.0), 2.0) == 1.0;
+  if (label == 1.0 && dark) colour *= 1.0 - hatching;
   return colour * colour * (1.0 - shading * found.g);
 }
 
@@ -41,7 +46,7 @@ void main() {
   colour = vec4(sqrt(sum / float(count.x * count.y)), 1.0);
 }`;
 
-const DOUBLINGS = 10; // of the settling time, until it is as dark as it gets
+const DOUBLINGS = 10; // of the time after which the end is certain, until it is as dark as it gets
 
 /**
  * A frame of labels as the painters keep it: `cells` holds 4 bytes a cell, rows from the lowest velocity up; `planes` as the
@@ -69,6 +74,7 @@ export function frameOf(header, planes, window, palette) {
     cells,
     window,
     palette,
+    hatched: header.quality === "moving",
     full: header.full,
     texture: null,
   };
@@ -111,7 +117,7 @@ class PainterGl {
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
   }
 
-  /** The frames, the last on top, in a window; `shading`: how much darker late settling is drawn, 0 to 1. */
+  /** The frames, the last on top, in a window; `shading`: how much darker late ends are drawn, 0 to 1. */
   draw(frames, window, shading) {
     const { gl, canvas } = this;
     gl.viewport(0, 0, canvas.width, canvas.height);
@@ -126,6 +132,7 @@ class PainterGl {
       gl.bindTexture(gl.TEXTURE_2D, (frame.texture ??= this.upload(frame)));
       gl.uniform4f(this.uniform("place"), ...place);
       gl.uniform1f(this.uniform("period"), period);
+      gl.uniform1f(this.uniform("hatching"), frame.hatched ? HATCHING : 0);
       gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
     }
   }

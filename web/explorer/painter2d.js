@@ -1,5 +1,6 @@
 // The painter of browsers without WebGL: each frame becomes a picture of its own, which is drawn where it lies.
 
+import { HATCHING } from "./frames.js";
 import { placementOf } from "./placement.js";
 
 const UNDRAWN = -1;
@@ -52,7 +53,8 @@ export class Painter2d {
         const pixel = 4 * ((rows - 1 - row) * columns + column);
         const second = cells[cell + 2] === 255 && (row + column) % 2 === 1;
         const label = 4 * (second ? cells[cell + 3] : cells[cell]);
-        const light = (1 - (shading * cells[cell + 1]) / 255) ** 0.5;
+        const dark = frame.hatched && label === 4 * 255 && Math.floor((row + column) / 4) % 2 === 1;
+        const light = (1 - (shading * cells[cell + 1]) / 255) ** 0.5 * (dark ? 1 - HATCHING : 1);
         for (let part = 0; part < 3; part++) image.data[pixel + part] = palette[label + part] * light;
         image.data[pixel + 3] = 255;
       }

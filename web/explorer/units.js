@@ -1,0 +1,34 @@
+// Numbers in the units of the axes: rad or degrees, and of a scene in SI velocities in rad/s and times in s.
+
+import { Decimal } from "./decimal.js";
+import { degrees } from "./ticks.js";
+import { TURN } from "./window.js";
+
+const BEYOND = 10; // digits of a start that the width of its window does not need
+
+/** Digits behind the point that a start given as a text has, without those that nobody reads. */
+const digitsOf = (text) => Math.max(6, (text.split(".")[1] ?? "").length - BEYOND);
+
+/** The units that the page has chosen; `pivotFrequency`: rad/s, or null where the scene does not say. */
+export class Units {
+  constructor(name, pivotFrequency) {
+    this.degrees = name === "degrees";
+    this.omega = name === "si" ? pivotFrequency : null;
+  }
+
+  /** An angle (decimal text, rad) in words. */
+  angle(text) {
+    return this.degrees ? `${Decimal.from(text).times(degrees(text.length)).rounded(digitsOf(text))}°` : text;
+  }
+
+  /** A velocity (decimal text, rad per drive radian) in words. */
+  velocity(text) {
+    return this.omega ? `${Decimal.from(text).times(Decimal.from(this.omega)).rounded(digitsOf(text))} rad/s` : text;
+  }
+
+  /** A time (drive periods) in words. */
+  time(periods) {
+    if (this.omega) return `${Number(((periods * TURN) / this.omega).toPrecision(4))} s`;
+    return `${periods} drive period${periods === 1 ? "" : "s"}`;
+  }
+}
