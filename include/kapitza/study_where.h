@@ -11,10 +11,11 @@ typedef struct {
   int32_t attractor;         /* id in the catalogue of the scene's window; -1 = not settled */
   char name[KZ_NAME_LENGTH]; /* "" = not settled */
   int32_t period, winding;   /* as in /attractors */
-  int64_t settling_time;     /* drive periods until the orbit is inside a trapping region */
-  const char *precision;     /* that decides the label: double, pairs, quad, arbitrary; NULL = not decided, or not settled */
-  double error;              /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
-  int32_t other;             /* id of the second candidate of an undecided start; -1 = none */
+  int64_t settling_time;     /* drive periods after which the end is certain: the orbit is inside a trapping region */
+  int64_t near_time;     /* drive periods after which it stays within 1 degree of the attractor at strobes; -1 = not known */
+  const char *precision; /* that decides the label: double, pairs, quad, arbitrary; NULL = not decided, or not settled */
+  double error;          /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
+  int32_t other;         /* id of the second candidate of an undecided start; -1 = none */
   char other_name[KZ_NAME_LENGTH];        /* "" = none */
   double *strobe_theta, *strobe_velocity; /* [period] rad, rad per drive radian; NULL = not settled */
 } kz_ending;

@@ -33,6 +33,12 @@ static void print_start(const kz_coordinate start[2], double omega) {
     printf("note            an angle without a unit is in rad; write \"%.6g deg\" for degrees\n", start[0].high);
 }
 
+/* A number of drive periods, and what they are in seconds. */
+static void print_time(const char *words, int64_t periods, double omega) {
+  printf("%-15s after %lld drive periods", words, (long long)periods);
+  isnan(omega) ? puts("") : printf(" (%.4g s)\n", (double)periods * 2 * M_PI / omega);
+}
+
 /* `omega`: of the pivot, rad/s; NaN where the scene is not in SI units, which are printed then too. */
 static void print_person(const kz_coordinate start[2], const kz_ending *e, double omega) {
   const bool si = !isnan(omega);
@@ -42,8 +48,8 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
     return;
   }
   printf("ends on         %s (attractor %d)\n", e->name, (int)e->attractor);
-  printf("settling time   %lld drive periods", (long long)e->settling_time);
-  si ? printf(" (%.4g s)\n", (double)e->settling_time * 2 * M_PI / omega) : puts("");
+  print_time("certain", e->settling_time, omega);
+  if (e->near_time >= 0) print_time("within 1 deg", e->near_time, omega);
   print_decision(e);
   if (e->period == 0) {
     puts("period          none: chaotic");
@@ -65,7 +71,7 @@ typedef struct {
   const char *word;   /* TEXT: "" = none; BARE: without quotes in JSON */
   const double *list; /* LIST: a number for each strobe point, of which CSV has the first */
 } member;
-enum { MEMBERS = 17, MEMBERS_SI = 3 /* the last ones, which an SI scene adds */ };
+enum { MEMBERS = 19, MEMBERS_SI = 4 /* the last ones, which an SI scene adds */ };
 
 /* Fills list [MEMBERS] and returns their number. */
 static int list_members(const kz_coordinate start[2], const kz_ending *e, double omega, member *list) {
@@ -85,8 +91,10 @@ static int list_members(const kz_coordinate start[2], const kz_ending *e, double
       {"error", NUMBER, .value = e->error},
       {"other_attractor", NUMBER, .value = e->other},
       {"other_name", TEXT, .word = e->other_name},
+      {"near_time", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time : NAN},
       {"velocity_rad_per_s", NUMBER, .value = start[1].high * omega},
       {"settling_seconds", NUMBER, .value = settled ? (double)e->settling_time * 2 * M_PI / omega : NAN},
+      {"near_seconds", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time * 2 * M_PI / omega : NAN},
       {"strobe_velocity_rad_per_s", LIST, .value = omega, .list = e->strobe_velocity},
   };
   memcpy(list, all, sizeof all);

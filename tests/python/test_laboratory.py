@@ -49,7 +49,7 @@ def test_a_run_begins_with_that_line(tmp_path):
 def test_starts_in_laboratory_units(kapitza):
     said = kapitza("where", SCENE, "175 deg", "3 rad/s").stdout
     assert "theta = 3.054326191 (175 deg), velocity = 0.009549296586 (3 rad/s)" in said and "deg and rad/s" in said
-    assert re.search(r"settling time   (\d+) drive periods \(([\d.]+) s\)", said)
+    assert re.search(r"certain         after (\d+) drive periods \(([\d.]+) s\)", said)
     own = kapitza("where", ROOT / "scenes" / "small.yaml", "3 pi/4", "1 rad/s", status=2).stderr
     assert "the scene is not in SI units" in own
 
@@ -58,6 +58,7 @@ def test_tables_of_starts_are_in_si_too():
     table = kapitza.where(SCENE, ["175 deg", 0.1], "3 rad/s")
     assert table["velocity_rad_per_s"].values == pytest.approx(3, rel=1e-12)
     assert np.allclose(table["settling_seconds"], table["settling_time"].astype(float) / 50)
+    assert np.allclose(table["near_seconds"], table["near_time"].astype(float) / 50) and (table["near_time"] > 100).all()
     assert table["strobe_velocity_rad_per_s"][0] == pytest.approx(OMEGA * np.array(table["strobe_velocity"][0]))
 
 

@@ -63,6 +63,22 @@ def test_json_holds_the_whole_orbit():
     assert f"yes, in double precision (error at most {answer['error']:.2g} rad when" in words
 
 
+@pytest.mark.parametrize("start", [(2.6, 0.0), (0.5, 0.2), (1.2, 1.3), (2.5, -0.7), (0.3, -0.62)])
+def test_the_time_until_a_motion_looks_like_its_end(kapitza, tmp_path, start):
+    """From this period on each strobe point lies within a degree of the attractor's, by a record of the motion; certain is another time."""
+    answer = json.loads(where(SMALL, *start, "--json", *QUICK).stdout)
+    scene = f"orbit: {{start: {{theta: {start[0]}, velocity: {start[1]}}}, periods: {answer['near_time'] + 300}, samples_per_period: 16}}\n"
+    (tmp_path / "orbit.yaml").write_text(SMALL.read_text().split("basin:")[0] + scene)
+    kapitza("run", "orbit.yaml", folder=tmp_path)
+    angle = Result(tmp_path / "orbit.h5").group("orbit")["strobe_theta"].values
+    phases, cycle = np.arange(answer["period"])[:, None], np.array(answer["strobe_theta"])
+    gap = angle - cycle[(np.arange(len(angle)) + phases) % answer["period"]]
+    away = np.abs(np.remainder(gap + np.pi, 2 * np.pi) - np.pi) > np.radians(1)
+    last = [np.flatnonzero(row)[-1] + 1 if row.any() else 0 for row in away]
+    assert answer["near_time"] == min(last) and answer["near_time"] > 0
+    assert f"within 1 deg    after {answer['near_time']} drive periods" in where(SMALL, *start, *QUICK).stdout
+
+
 def test_all_digits_of_a_start_count():
     """Beside a boundary: the orbit of the start in 24 digits stays near it for twice as long as that of its nearest doubles."""
     starts = ("-0.264011425069458192092654", "-0.2640114250694582")

@@ -15,7 +15,7 @@ const kz_variable kz_basin_variables[] = {
     {"velocity_offset", KZ_REAL, {"velocity"}, NONE, "angular velocity less the attribute velocity_centre, in units of velocity_width"},
     {"theta_offset", KZ_REAL, {"theta"}, NONE, "angle of the cell centre less the attribute theta_centre, in units of theta_width"},
     {"attractor", KZ_INT16, {"velocity", "theta"}, NONE, "id of the attractor that is reached; -1 = not settled"},
-    {"settling_time", KZ_UINT32, {"velocity", "theta"}, PERIODS, "time until the orbit is inside a trapping region"},
+    {"settling_time", KZ_UINT32, {"velocity", "theta"}, PERIODS, "time after which it is certain where the start ends (inside a trapping region)"},
     {"evidence", KZ_UINT8, {"velocity", "theta"}, NONE, "how the label is known", {EVIDENCE}},
     {"other_attractor", KZ_INT16, {"velocity", "theta"}, NONE, "id of the second candidate of an undecided cell; -1 = none"},
     {0},

@@ -120,6 +120,5 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
   const int64_t known = kz_dynamics_count(r->dynamics);
   KZ_TRY(kz_question_label(&q));
   if (kz_dynamics_count(r->dynamics) > known) kz_engine_list(engine, r);
-  kz_question_answer(&q, &r->catalogue.list, endings);
-  return KZ_OK;
+  return kz_question_answer(&q, &r->catalogue.list, endings);
 }

@@ -33,16 +33,20 @@ static void note(void *context, int64_t i, const kz_decision *decision) {
   ((kz_question *)context)->error[i] = decision->error;
 }
 
+static kz_labeller labeller_of(const kz_question *q) {
+  return (kz_labeller){.dynamics = q->dynamics,
+                       .max_periods = q->max_periods,
+                       .way = KZ_BY_LEVELS,
+                       .open = KZ_OPEN_CANDIDATES,
+                       .start = start_of,
+                       .decide = decide,
+                       .note = note,
+                       .context = (void *)q};
+}
+
 kz_status kz_question_label(kz_question *q) {
   const kz_search_on search = {1, q->n, NULL};
-  const kz_labeller labeller = {.dynamics = q->dynamics,
-                                .max_periods = q->max_periods,
-                                .way = KZ_BY_LEVELS,
-                                .open = KZ_OPEN_CANDIDATES,
-                                .start = start_of,
-                                .decide = decide,
-                                .note = note,
-                                .context = q};
+  const kz_labeller labeller = labeller_of(q);
   q->label = kz_malloc(((size_t)q->n + 1) * sizeof *q->label);
   q->error = kz_malloc(((size_t)q->n + 1) * sizeof *q->error);
   return kz_label_and_search(&labeller, &search, q->n, NULL, q->label);
@@ -71,12 +75,18 @@ static void describe(const kz_label *d, double error, const kz_catalogue *catalo
   memcpy(ending->other_name, catalogue->entries[ending->other].name, sizeof ending->other_name);
 }
 
-void kz_question_answer(const kz_question *q, const kz_catalogue *catalogue, kz_ending *endings) {
+kz_status kz_question_answer(const kz_question *q, const kz_catalogue *catalogue, kz_ending *endings) {
+  KZ_FREED double *state = kz_malloc(2 * (size_t)q->n * sizeof *state + 1);
+  KZ_FREED int64_t *periods = kz_malloc((size_t)q->n * sizeof *periods + 1);
   for (int64_t i = 0; i < q->n; i++) describe(q->label + i, q->error[i], catalogue, endings + i);
+  const kz_labeller labeller = labeller_of(q);
+  KZ_TRY(kz_item_states(&labeller, q->n, NULL, state, periods));
+  kz_endings_approach(q, state, periods, catalogue, endings);
+  return KZ_OK;
 }
 
 void kz_endings_clear(int64_t n, kz_ending *endings) {
-  for (int64_t i = 0; i < n; i++) endings[i] = (kz_ending){.attractor = -1, .error = NAN, .other = -1};
+  for (int64_t i = 0; i < n; i++) endings[i] = (kz_ending){.attractor = -1, .near_time = -1, .error = NAN, .other = -1};
 }
 
 void kz_where_free(int64_t n, kz_ending *endings) {

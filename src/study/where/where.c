@@ -37,8 +37,7 @@ static kz_status answer(where_job *a, kz_ending *endings) {
     a->reached[q->label[i].other]++;
   }
   kz_catalogue_make(q->dynamics, a->reached, &catalogue);
-  kz_question_answer(q, &catalogue, endings);
-  return KZ_OK;
+  return kz_question_answer(q, &catalogue, endings);
 }
 
 /* The starts as kz_where takes them, with their endings; job->question.label is what they say. To be closed in every case. */

@@ -1,0 +1,83 @@
+/* When a motion looks like its end: from which drive period on its angle stays within one degree of its attractor, at the strobe. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "kapitza/kernel.h"
+#include "where.h"
+
+enum { TOGETHER = 64, FOLDS = 40 /* e-folding times after which a motion is no longer followed */ };
+static const double NEAR = M_PI / 180;
+
+/* A motion on its way. `last` [period] is, for each phase in which it may follow the attractor, the last period in which it was farther away. */
+typedef struct {
+  const kz_entry *entry;
+  int64_t certain; /* periods after which its end is certain */
+  int64_t hold;    /* periods for which it must stay near: two e-folding times, in which a swing shows how large it is */
+  int64_t most;    /* periods after which it is given up */
+  int64_t answer;  /* -1 = not known */
+  int64_t *last;
+  bool done;
+} approach;
+
+static approach begin(int64_t certain, const kz_entry *entry, int64_t first) {
+  const kz_attractor *row = &entry->row;
+  const double fold = row->period / -log(fmax(hypot(row->multiplier_re[0], row->multiplier_im[0]), 1e-3));
+  approach a = {.entry = entry, .certain = certain, .hold = (int64_t)ceil(2 * fold) + row->period, .answer = -1};
+  a.most = certain + a.hold + (int64_t)ceil(FOLDS * fold);
+  a.last = kz_malloc((size_t)row->period * sizeof *a.last);
+  for (int32_t phase = 0; phase < row->period; phase++) a.last[phase] = first - 1;
+  return a;
+}
+
+/* Takes note of the angle (rad) at strobe `time`. */
+static void look(approach *a, int64_t time, double theta) {
+  const int32_t period = a->entry->row.period;
+  for (int32_t phase = 0; phase < period; phase++) {
+    const double away = remainder(theta - a->entry->theta[(time + phase) % period], 2 * M_PI);
+    if (!(fabs(away) <= NEAR)) a->last[phase] = time;
+    if (time < a->certain || time - a->last[phase] < a->hold) continue;
+    a->answer = a->last[phase] + 1;
+    a->done = true;
+  }
+  if (time >= a->most) a->done = true;
+}
+
+/* Follows n <= TOGETHER motions from their states theta, velocity [n] at strobes first [n] until all are done. */
+static void follow(const kz_flow *flow, int64_t n, approach *a, const int64_t *first, double *theta, double *velocity) {
+  int64_t turns[TOGETHER] = {0}, open = n;
+  for (int64_t step = 0; open > 0; step++) {
+    open = 0;
+    for (int64_t i = 0; i < n; i++) {
+      if (!a[i].done) look(a + i, first[i] + step, theta[i]);
+      open += !a[i].done;
+    }
+    kz_advance(flow, n, 1, theta, velocity, turns);
+  }
+}
+
+void kz_endings_approach(const kz_question *q, const double *state, const int64_t *periods, const kz_catalogue *catalogue,
+                         kz_ending *endings) {
+  const kz_pendulum *pendulum = &q->scene->parameters.pendulum;
+  kz_numerics fine;
+  kz_numerics_fine(pendulum, &fine);
+  kz_flow *flow = kz_flow_create(pendulum, &fine);
+  for (int64_t i = 0; i < q->n;) {
+    approach a[TOGETHER];
+    int64_t first[TOGETHER], of[TOGETHER], n = 0;
+    double theta[TOGETHER], velocity[TOGETHER];
+    for (; i < q->n && n < TOGETHER; i++) {
+      if (!endings[i].precision || endings[i].period < 1) continue;
+      theta[n] = M_PI * state[2 * i];
+      velocity[n] = state[2 * i + 1];
+      first[n] = periods[i];
+      a[n] = begin(endings[i].settling_time, catalogue->entries + endings[i].attractor, first[n]);
+      of[n++] = i;
+    }
+    follow(flow, n, a, first, theta, velocity);
+    for (int64_t j = 0; j < n; j++) {
+      endings[of[j]].near_time = a[j].answer;
+      free(a[j].last);
+    }
+  }
+  kz_flow_free(flow);
+}

@@ -1,0 +1,62 @@
+"""The explorer's page with the program itself, in a real browser."""
+
+import json
+import os
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from conftest import ROOT
+from explorer_page import Page, Server, browser, wait_for
+from kapitza.result import Result
+
+SMALL = ROOT / "scenes" / "small.yaml"
+SCREENSHOTS = os.environ.get("KAPITZA_SCREENSHOTS")  # a folder for the pictures of the documentation
+TURN = 2 * np.pi
+
+
+@pytest.fixture
+def driver(tmp_path):
+    with browser(tmp_path, "1280,829" if SCREENSHOTS else "760,520") as found:  # fewer cells
+        yield found
+
+
+def test_with_the_program(driver, kapitza, tmp_path):
+    """The whole circle, a slider, a deep window, a start; labels are those of runs of the saved scenes."""
+    running = Server(SMALL)
+    page = Page(driver, running.address() + "#samples=1")
+    assert "every label decided" in page.wait()
+    check_saved_scene(page, kapitza, tmp_path)
+    page.slide("drive_amplitude", 0.1)
+    page.wait()
+    check_saved_scene(page, kapitza, tmp_path)
+    page.hand(0.68, 0.36, 0.68, 0.36)
+    assert wait_for(lambda: page.run("$('ending').dataset.ending"))
+    ending = json.loads(page.run("$('ending').dataset.ending"))
+    assert ending["name"] in page.run("$('ending').textContent").replace("−", "-") and ending["decided"]
+    if SCREENSHOTS:
+        page.choose("samples", "2")
+        page.choose("value-drive_amplitude", "0.3")
+        page.wait()
+        time.sleep(3)
+        driver.save_screenshot(str(Path(SCREENSHOTS) / "explorer.png"))
+    page.run("explorer.basins.zoom(1e-20, 0.4, 0.6)")
+    page.wait()
+    assert page.run("explorer.state.window.theta.width") == pytest.approx(TURN * 1e-20)
+    assert page.run("explorer.basins.panes[0].top.level") == 1
+    driver.get("about:blank")
+    assert running.end() == (0, "")
+
+
+def check_saved_scene(page, kapitza, tmp_path):
+    path = tmp_path / "view.yaml"
+    path.unlink(missing_ok=True)
+    scene = yaml.safe_load(page.saved("save-scene", path).read_text())
+    kapitza("run", path, "-o", tmp_path / "view.h5", "--force")
+    table = Result(tmp_path / "view.h5").group("attractors")
+    run = sorted((str(name), float(share)) for name, share in zip(table["name"].values, table["fraction"].values, strict=True) if share)
+    shown = page.shares()
+    assert scene["basin"]["method"] == "exact" and [name for name, _ in shown] == [name for name, _ in run]
+    assert [share for _, share in shown] == pytest.approx([share for _, share in run], abs=1e-4)  # undecided cells may differ
