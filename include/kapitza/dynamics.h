@@ -31,7 +31,8 @@ kz_dynamics *kz_dynamics_continue(const kz_dynamics *dynamics, const kz_pendulum
 /* n starts spread evenly over the window: state [n][2]. Another seed gives other starts. */
 void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
 
-/* The largest velocity (rad per drive radian) within one period of starts in the window: a map table must reach it. */
+/* The largest velocity (rad per drive radian) within one period of starts in the window, and of starts as fast as a torque drives motions: a map
+ * table must reach it. */
 double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
 
 /* Makes a coarse empty grid for trapping regions, up to the velocity `max_velocity` (rad per drive radian): enough for a search. */
@@ -125,7 +126,10 @@ int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
  * [kz_dynamics_chaos_size]: a chaotic attractor, for kz_dynamics_adopt, if the orbits separate and no region traps them; else nothing. */
 void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
 int64_t kz_dynamics_chaos_size(void);
-/* Adds the attractors in `found`, of one of the two calls above, to the catalogue. */
+/* Looks for a quasi-periodic motion among n <= 64 states, whose orbits it follows through 8000 periods. found [kz_dynamics_chaos_size]: the motion,
+ * for kz_dynamics_adopt, or nothing. */
+void kz_dynamics_find_quasiperiodic(kz_dynamics *dynamics, int64_t n, const double *state, double *found);
+/* Adds the attractors in `found`, of one of the calls above, to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
 
 /* The catalogue as doubles, flat [n], for messages between ranks; n = kz_dynamics_packed_size. */
@@ -162,6 +166,7 @@ void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);
 /* Share of the cells of the regions' grid that belong to a trapping region. */
 double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
 
+/* period: 0 = chaotic; -1 = quasi-periodic: what ends there settles nowhere, and files do not list it. */
 typedef struct {
   int32_t period, winding, centre, symmetric, mirror;
   double mean, mean_velocity; /* over time: rad in [-pi, pi], rad per drive radian */

@@ -14,7 +14,7 @@
 
 typedef struct kz_store kz_store;
 
-enum { KZ_MAX_DIMENSIONS = 3, KZ_MAX_FLAGS = 12 };
+enum { KZ_MAX_DIMENSIONS = 3, KZ_MAX_FLAGS = 16 };
 
 typedef enum { KZ_REAL, KZ_INT8, KZ_UINT8, KZ_INT16, KZ_INT32, KZ_UINT32, KZ_TEXT } kz_kind;
 

@@ -56,7 +56,7 @@ OPTIONAL = {
 }
 # What is not a number, and what counts or is a code (with the largest code, where there is one).
 TEXT = {"name", "label", "scheme", "branch_name"}
-CODES = {"period": None, "centre": 3, "evidence": 11, "settling_time": None, "method": 2, "interpolation": 1,
+CODES = {"period": None, "centre": 3, "evidence": 12, "settling_time": None, "method": 2, "interpolation": 1,
          "branch_period": None, "branch_centre": 3, "kind": 1, "end": 3}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y"}  # axes that go up
 WORDS = {"parameter", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; all others that a part names are numbers

@@ -44,7 +44,12 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   const bool si = !isnan(omega);
   print_start(start, omega);
   if (e->attractor < 0) {
-    puts("ends on         no known attractor: it has not settled");
+    if (e->name[0]) {
+      printf("ends on         no cycle and no chaos: it settles nowhere (%s)\n", e->name);
+      print_decision(e);
+    } else {
+      puts("ends on         no known attractor: it has not settled");
+    }
     return;
   }
   printf("ends on         %s (attractor %d)\n", e->name, (int)e->attractor);
@@ -80,7 +85,7 @@ static int list_members(const kz_coordinate start[2], const kz_ending *e, double
       {"theta", NUMBER, .value = start[0].high},
       {"velocity", NUMBER, .value = start[1].high},
       {"attractor", NUMBER, .value = e->attractor},
-      {"name", TEXT, .word = settled ? e->name : ""},
+      {"name", TEXT, .word = e->name},
       {"period", NUMBER, .value = settled ? e->period : NAN},
       {"winding", NUMBER, .value = settled ? e->winding : NAN},
       {"settling_time", NUMBER, .value = settled ? (double)e->settling_time : NAN},

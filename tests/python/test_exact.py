@@ -1,5 +1,7 @@
 """Method exact: every label decided in as much precision as it takes, or flagged."""
 
+import json
+
 import h5py
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ basin:
 """
 # What of its numerics alone gets wrong.
 COARSE = ("--set", "numerics={scheme: rk4, steps_per_period: 60}")
-UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE, IN_ARBITRARY = 0, 3, 4, 7, 8
+UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE, IN_ARBITRARY, NOWHERE = 0, 3, 4, 7, 8, 12
 
 
 def cells(path):
@@ -110,3 +112,33 @@ def test_the_former_flag_names_what_replaces_it(kapitza, tmp_path):
     for words in ["s.yaml"], [SMALL, "--set", "basin.flag_undecided=true"]:
         done = kapitza("check", *words, folder=tmp_path, status=2)
         assert "basin.flag_undecided: is no longer a key; use basin.method exact" in done.stderr
+
+
+# Pushed round by a torque, or carried along by an elliptic pivot at its own pace: closed curves of the strobe map that are not cycles.
+DRIVEN = {"torque": ("{k: 0.1, damping: 0.05, m: 0.05, torque: 0.1137}", 0), "ellipse": ("{k: 0, damping: 0.05, m: 0.5, ellipse: 1}", 1)}
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_quasi_periodic_motions_are_recognised(kapitza, tmp_path, name):
+    """They were followed for all of max_periods, most of them in every precision."""
+    pendulum, cycles = DRIVEN[name]
+    (tmp_path / "s.yaml").write_text(LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", pendulum))
+    done = kapitza("run", "s.yaml", "--timings", folder=tmp_path)
+    basin = cells(tmp_path / "s.h5")
+    nowhere = basin["evidence"] == NOWHERE
+    assert np.array_equal(nowhere, basin["attractor"] == -1) and np.count_nonzero(nowhere) > 200 and basin["undecided"] == 0
+    assert len(basin["name"]) and len(set(basin["name"].ravel())) == cycles + 1
+    assert np.max(basin["settling_time"]) < 500 < basin["max_periods"]
+    assert f"{np.count_nonzero(nowhere)} of them settle nowhere (evidence 12)" in done.stdout
+    assert "\nquad" not in done.stdout + done.stderr
+    kapitza("run", "s.yaml", "-o", "three.h5", ranks=3, folder=tmp_path)
+    assert datasets(tmp_path / "three.h5") == datasets(tmp_path / "s.h5")
+    kapitza("run", "s.yaml", "-o", "direct.h5", "--set", "basin.method=direct", folder=tmp_path)
+    assert np.array_equal(cells(tmp_path / "direct.h5")["attractor"], basin["attractor"])
+
+
+def test_where_names_a_quasi_periodic_motion(kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text(LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", DRIVEN["torque"][0]))
+    found = json.loads(kapitza("where", "s.yaml", "1", "0", "--json", folder=tmp_path).stdout)
+    assert (found["attractor"], found["name"], found["decided"], found["settling_time"]) == (-1, "quasi-periodic", True, None)
+    assert "settles nowhere (quasi-periodic)" in kapitza("where", "s.yaml", "1", "0", folder=tmp_path).stdout

@@ -28,7 +28,7 @@ from kapitza.result import BadFile, Result
 from kapitza.units import drive_unit
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#8c1d18", "#e58a2b", "#e8c34a", "#3f8f5b", "#c9b8dd", "#5a3d7a",
-                    "#d8b8b5", "#2b2b2b", "#c2447e"]
+                    "#d8b8b5", "#2b2b2b", "#c2447e", "#6fb7b7"]
 PAGE_WIDTH, PLANE_WIDTH, TITLES = 7.6, 5.3, 0.9  # inches, nearly the same in every figure
 
 

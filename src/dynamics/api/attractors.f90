@@ -5,6 +5,7 @@ module kz_api_attractors
   use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpack
   use kz_attractors_chaos, only: find_chaos
   use kz_attractors_cycle_search, only: append, find_cycle
+  use kz_attractors_quasiperiodic, only: find_quasiperiodic
   use kz_cycles_cycles, only: attractor_t, enter_points
   use kz_lanes_map, only: PI
   implicit none
@@ -67,6 +68,20 @@ contains
     call find_chaos(d%search, d%regions, state(1), state(2), d%attractors)
     call take_new(d, n_known, found)
   end subroutine search_chaos
+
+  subroutine search_quasiperiodic(handle, n, state, found) bind(C, name='kz_dynamics_find_quasiperiodic')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    real(dp), intent(in) :: state(2, n)
+    real(dp), intent(inout) :: found(*)
+    type(dynamics_t), pointer :: d
+    integer :: n_known
+
+    d => of_handle(handle)
+    n_known = size(d%attractors)
+    call find_quasiperiodic(d%search, d%regions, state, d%attractors)
+    call take_new(d, n_known, found)
+  end subroutine search_quasiperiodic
 
   !> Takes the attractors beyond the first n_known out of the catalogue, packed.
   subroutine take_new(d, n_known, flat)
@@ -171,7 +186,7 @@ contains
 
     d => of_handle(handle)
     associate (a => d%attractors(number))
-      if (a%period == 0) return
+      if (a%period <= 0) return
       theta(:a%period) = half_open(a%u)
       velocity(:a%period) = a%v + 0.0_dp
     end associate

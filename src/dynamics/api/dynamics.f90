@@ -102,7 +102,7 @@ contains
     allocate (number(size(from%attractors)), source=0)
     lost = 0
     do a = 1, size(from%attractors)
-      if (from%attractors(a)%mirror < a .or. from%attractors(a)%period == 0) cycle
+      if (from%attractors(a)%mirror < a .or. from%attractors(a)%period <= 0) cycle
       call carry(d%search, from%attractors(a), d%attractors, number(a))
       if (number(a) == 0) lost = lost + 1
       if (number(a) > 0) number(from%attractors(a)%mirror) = d%attractors(number(a))%mirror

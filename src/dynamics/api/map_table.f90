@@ -44,6 +44,9 @@ contains
 
     d => of_handle(handle)
     largest = max(abs(window%velocity_min), abs(window%velocity_max))
+    associate (pendulum => d%search%pendulum) ! a torque drives motions to this speed
+      if (pendulum%beta > 0) largest = max(largest, abs(pendulum%torque)/pendulum%beta)
+    end associate
     top = largest
     do row = -ROWS, ROWS
       v = largest*row/ROWS

@@ -142,9 +142,9 @@ contains
     p = 1
     do i = 1, size(attractors)
       associate (a => attractors(i))
-        n = nint(flat(p + 1))
+        a%period = nint(flat(p + 1))
+        n = max(0, a%period)
         covered = nint(flat(p + 6))
-        a%period = n
         a%winding = nint(flat(p + 2))
         a%symmetric = nint(flat(p + 3)) == 1
         a%mirror = nint(flat(p + 4))

@@ -7,10 +7,10 @@ module kz_attractors_chaos
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_attractors_cycle_search, only: search_t, append_with_mirror
-  use kz_model_pendulum, only: is_mirrored
+  use kz_model_pendulum, only: pendulum_t, is_mirrored
   implicit none
   private
-  public :: find_chaos, carry_chaos
+  public :: find_chaos, carry_chaos, set_cover, append_cover, is_damped
 
   !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
   integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, FEATURE_PERIODS = 500
@@ -42,7 +42,7 @@ contains
     logical :: trapped
     integer :: lane
 
-    if (2*PI*search%pendulum%beta*(SETTLE + VISITS) < SHRUNK) return
+    if (.not. is_damped(search%pendulum)) return
     if (.not. neighbours_part(search%flow, u, v)) return
     do lane = 1, WIDTH
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
@@ -60,10 +60,17 @@ contains
       attractor%mean = 0
       attractor%mean_velocity = 0
     end if
-    call append_chaos(attractor, attractors)
+    call append_cover(attractor, attractors)
   end subroutine find_chaos
 
-  !> Carries a chaotic attractor to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
+  !> Whether areas shrink so fast that what goes on for long attracts.
+  pure logical function is_damped(pendulum)
+    type(pendulum_t), intent(in) :: pendulum !< its damping counts
+
+    is_damped = 2*PI*pendulum%beta*(SETTLE + VISITS) >= SHRUNK
+  end function is_damped
+
+  !> Carries a chaotic or quasi-periodic attractor to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
   !> longer orbits would visit: right enough for pictures that move. It appends nothing where a trapping region holds one of the orbits.
   subroutine carry_chaos(search, regions, old, attractors)
     type(search_t), intent(inout) :: search !< the flows of the pendulum
@@ -87,7 +94,7 @@ contains
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call widen(visited)
     call set_cover(attractor, visited)
-    call append_chaos(attractor, attractors)
+    call append_cover(attractor, attractors)
   end subroutine carry_chaos
 
   !> The cells of a cover whose four neighbours belong to it too; all, where there are none.
@@ -114,13 +121,14 @@ contains
     marked(:, :COVER - 1) = marked(:, :COVER - 1) .or. before(:, 2:)
   end subroutine widen
 
-  subroutine append_chaos(attractor, attractors)
-    type(attractor_t), intent(inout) :: attractor
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
+  !> Appends an attractor with its cover, and its mirror image if that is another one.
+  subroutine append_cover(attractor, attractors)
+    type(attractor_t), intent(inout) :: attractor !< what joins the catalogue
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
 
     call append_with_mirror(attractor, attractors)
     if (attractor%mirrored .and. .not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
-  end subroutine append_chaos
+  end subroutine append_cover
 
   !> Follows the lanes of a flow, and marks the cells of the cover that they visit after the first periods; trapped = a trapping region
   !> holds one of them.
@@ -162,8 +170,8 @@ contains
 
   !> The cover: all visited cells. An attractor whose cover meets its own mirror image in most cells is that image.
   subroutine set_cover(attractor, visited)
-    type(attractor_t), intent(inout) :: attractor
-    logical, intent(inout) :: visited(COVER**2)
+    type(attractor_t), intent(inout) :: attractor !< whose cover is set
+    logical, intent(inout) :: visited(COVER**2) !< cells that orbits visit
     integer :: cell
 
     attractor%symmetric = attractor%mirrored .and. 2*count(visited .and. visited(COVER**2:1:-1)) > count(visited)

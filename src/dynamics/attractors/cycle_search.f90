@@ -153,7 +153,7 @@ contains
     if (abs(multiplier(1)) > SURELY) promise = NOTHING
     if (abs(multiplier(1)) >= 1) return
     do a = 1, size(attractors)
-      if (attractors(a)%period == 0) cycle
+      if (attractors(a)%period <= 0) cycle
       if (mod(n, attractors(a)%period) /= 0) cycle
       if (any(separation(attractors(a)%u, attractors(a)%v, x(1), x(2)) < BESIDE)) promise = KNOWN_ONE
     end do

@@ -8,9 +8,12 @@ module kz_cycles_cycles
   private
   public :: attractor_t, close_cycle, complete_attractor, orbit_of, enter_points, symmetrise, mirror_image, listed_from_lowest
 
+  !> In the place of a period: the attractor is a closed curve that a motion fills.
+  integer, parameter, public :: QUASIPERIODIC = -1
+
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
-    integer :: period = 0          !< drive periods; 0 = aperiodic
+    integer :: period = 0          !< drive periods; 0 = chaotic, QUASIPERIODIC
     integer :: winding = 0         !< net turns per `period` drive periods
     logical :: mirrored = .true.   !< mirror images of motions are motions
     logical :: symmetric = .false. !< the orbit is its own mirror image
@@ -29,7 +32,7 @@ module kz_cycles_cycles
     real(dp), allocatable :: kernel_v(:)
     !> Trapping ellipse of each point: form(1) du**2 + 2 form(2) du dv + form(3) dv**2 < 1; form = 0: none
     real(dp), allocatable :: form(:, :)
-    !> Cells of the cover of a chaotic attractor
+    !> Cells of the cover of an attractor without a period
     integer, allocatable :: cover(:)
   end type attractor_t
 

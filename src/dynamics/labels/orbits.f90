@@ -2,7 +2,7 @@
 !> lane of one that is done. An orbit whose error grows large is doubtful: its label is not decided.
 module kz_labels_orbits
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
-  use kz_cycles_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t, QUASIPERIODIC
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
   use kz_labels_lanes, only: queued_lanes_t, list_flagged
@@ -21,7 +21,7 @@ module kz_labels_orbits
   !> rad: the size of an error that a label bears.
   real(dp), parameter :: TOLERABLE = 0.03_dp
   !> rad: of larger errors what is not linear is carried too. The largest second derivatives of a period are some 100, so
-  !> what is left out is less than a hundredth of an error, and less than a thousandth where it is half as large.
+  !> what is left out is less than a hundredth of an error, and less than a thousandth where it is half as large. With a larger error no orbit is known to be on a closed curve.
   real(dp), parameter :: LINEAR = 1e-4_dp
   !> Points of an ellipse's rim that a trapping region must hold.
   integer, parameter :: RIM = 8
@@ -177,6 +177,8 @@ contains
         if (.not. is_open) call settle(lane, region, .true., lanes%p(lane, :))
       else if (with_covers) then
         host = chaos_region(regions, carrier%u(lane), carrier%v(lane))
+        if (host > 0) host = merge(host, 0, attractors(host)%period /= QUASIPERIODIC .or. &
+                                   (trace < LINEAR**2 .and. .not. lanes%doubted(lane)))
         is_open = .not. lanes%is_captured(lane, host)
         if (.not. is_open) call settle(lane, host, .true., lanes%p(lane, :))
       end if

@@ -134,7 +134,10 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
     fprintf(summary, "All %lld cells settled within %lld drive periods.\n", cells, periods);
   else
     fprintf(summary, "%lld of %lld cells did not settle within %lld drive periods.\n", unsettled, cells, periods);
-  if (unsettled > 0 && attracts)
+  if (labels->counts.nowhere > 0)
+    fprintf(summary, "%lld of them settle nowhere (evidence 12): their motions are quasi-periodic.\n",
+            (long long)labels->counts.nowhere);
+  if (unsettled > labels->counts.nowhere && attracts)
     fprintf(summary,
             "Here a motion takes some %.0f periods to come e times closer to its attractor: a larger basin.max_periods or "
             "basin.attractors.max_period may settle more cells.\n",

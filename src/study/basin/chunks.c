@@ -37,9 +37,11 @@ static void count(kz_chunks *c, int64_t tile) {
   const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
   for (int64_t i = 0; i < n; i++) {
     c->counts.undecided += c->evidence[i] == KZ_UNDECIDED;
+    c->counts.nowhere += c->evidence[i] == KZ_NOWHERE;
     c->counts.proved_in_pairs += c->evidence[i] == KZ_PROVED_IN_PAIRS;
     c->counts.proved_in_quads += c->evidence[i] == KZ_PROVED_IN_QUADS;
-    c->counts.proved += c->evidence[i] == KZ_PROVED || c->evidence[i] >= KZ_PROVED_IN_PAIRS;
+    c->counts.proved +=
+        c->evidence[i] == KZ_PROVED || c->evidence[i] == KZ_PROVED_IN_PAIRS || c->evidence[i] == KZ_PROVED_IN_QUADS;
     if (c->ids[i] < 0)
       c->counts.unsettled++;
     else
@@ -81,6 +83,13 @@ static void count_doubtful(kz_chunks *c, int64_t tile) {
     c->counts.doubtful += c->labelling->cell[i].evidence >= KZ_UNDECIDED;
 }
 
+/* The file's evidence of a cell with an id. An attractor without an id is a quasi-periodic motion. */
+static uint8_t evidence_of(const kz_label *cell, int16_t id) {
+  if (cell->evidence == KZ_UNDECIDED) return KZ_UNDECIDED;
+  if (id < 0) return cell->label > 0 && cell->evidence != KZ_LEFT ? KZ_NOWHERE : KZ_UNSETTLED;
+  return cell->evidence == KZ_FOLLOWED && cell->periods == 0 ? KZ_INSIDE : cell->evidence;
+}
+
 /* The cells of a tile from its own ones, or those of the tile that mirrors it. The second half of the tile in the middle mirrors the first. */
 static void fill(kz_chunks *c, int64_t tile, bool image) {
   const kz_window_labels *l = c->labelling;
@@ -92,8 +101,7 @@ static void fill(kz_chunks *c, int64_t tile, bool image) {
     const bool mirrored = image || i >= own;
     const kz_label *cell = &l->cell[mirrored ? n - 1 - i : i];
     const int16_t id = id_of(c, cell->label, mirrored);
-    const bool inside = cell->evidence == KZ_FOLLOWED && cell->periods == 0;
-    evidence[i] = inside ? KZ_INSIDE : id < 0 && cell->evidence != KZ_UNDECIDED ? KZ_UNSETTLED : cell->evidence;
+    evidence[i] = evidence_of(cell, id);
     ids[i] = id;
     others[i] = id_of(c, cell->other, mirrored);
     periods[i] = cell->periods;

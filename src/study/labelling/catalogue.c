@@ -17,8 +17,8 @@ void kz_catalogue_free(kz_catalogue *catalogue) {
 
 static void fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
   kz_dynamics_attractor(dynamics, number, &entry->row);
-  entry->theta = kz_calloc((size_t)entry->row.period + 1, sizeof(double));
-  entry->velocity = kz_calloc((size_t)entry->row.period + 1, sizeof(double));
+  entry->theta = kz_calloc((size_t)(entry->row.period + 1), sizeof(double));
+  entry->velocity = kz_calloc((size_t)(entry->row.period + 1), sizeof(double));
   kz_dynamics_strobe(dynamics, number, entry->theta, entry->velocity);
   kz_orbit_name(entry->row.period, entry->row.winding, entry->row.centre, entry->name);
   if (entry->row.centre > 1) entry->row.amplitude = NAN;
@@ -34,7 +34,7 @@ void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_c
   for (int64_t i = 0; i < known; i++) {
     kz_entry entry = {.fraction = NAN};
     fill(&entry, dynamics, order[i]);
-    if (reached[order[i]] == 0 && reached[entry.row.mirror] == 0) {
+    if (entry.row.period < 0 || (reached[order[i]] == 0 && reached[entry.row.mirror] == 0)) {
       free(entry.theta);
       free(entry.velocity);
       continue;

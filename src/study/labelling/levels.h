@@ -8,8 +8,8 @@
 #include "kapitza/dynamics.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
- * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_QUADS are from basin.proof with any method; they occur in the file only. KZ_LEFT is a
- * doubtful label of method direct. */
+ * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_QUADS are from basin.proof with any method; they and KZ_NOWHERE, the motion is
+ * quasi-periodic, occur in the file only. KZ_LEFT is a doubtful label of method direct. */
 enum {
   KZ_UNSETTLED = 0,
   KZ_INSIDE = 1,
@@ -22,7 +22,8 @@ enum {
   KZ_IN_ARBITRARY = 8,
   KZ_LEFT = 9,
   KZ_PROVED_IN_PAIRS = 10,
-  KZ_PROVED_IN_QUADS = 11
+  KZ_PROVED_IN_QUADS = 11,
+  KZ_NOWHERE = 12
 };
 
 /* A level: a row of the table. Its code is its place (dynamics.h); what carries its orbits is in dynamics/labels/levels.f90. */

@@ -19,8 +19,9 @@ enum {
   STRETCH = 1024,      /* periods of a tile at least */
   STRETCHES = 64,      /* of a round, about */
   TABLE_ROWS = 4,      /* of a map table, per tile */
-  CHAOS_TRIES = 4,
-  CHAOS_PERIODS = 512 /* to see which pending starts a chaotic attractor's cover captures */
+  COVER_TRIES = 4,
+  QUASIPERIODIC_STARTS = 16, /* among which a quasi-periodic motion is looked for */
+  COVER_PERIODS = 512        /* to see which pending starts an attractor's cover captures */
 };
 
 /* rad: how near an orbit must come back to itself to be tried, and in the last round, where slow spirals remain. */
@@ -82,9 +83,10 @@ static kz_status follow_pending(const kz_run *run, following *f, int64_t periods
 
 typedef struct {
   kz_dynamics *dynamics;
-  int64_t n;               /* states; 0 = a chaotic attractor is looked for, from one state */
-  double state[2 * CHUNK]; /* of the starts */
-  double closeness;        /* rad */
+  enum { CYCLE, QUASIPERIODIC, CHAOS } kind;
+  int64_t n;               /* states */
+  double state[2 * CHUNK]; /* of the starts; of chaos the first alone counts */
+  double closeness;        /* rad; of cycles */
   double *found;           /* [size] what was found before, then what is found */
   int64_t size;
 } seeking;
@@ -93,8 +95,10 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
   const seeking *s = context;
   (void)tile;
   memcpy(record, s->found, (size_t)s->size * sizeof(double));
-  if (s->n > 0)
+  if (s->kind == CYCLE)
     kz_dynamics_find_cycle(s->dynamics, s->n, s->state, s->closeness, record);
+  else if (s->kind == QUASIPERIODIC)
+    kz_dynamics_find_quasiperiodic(s->dynamics, s->n, s->state, record);
   else
     kz_dynamics_find_chaos(s->dynamics, s->state, record);
   return KZ_OK;
@@ -102,10 +106,11 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
 
 /* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: a buffer. */
 static kz_status seek(const kz_run *run, seeking *s, double *record) {
-  const kz_stage stage = kz_stage_for_all(s->n > 0 ? "cycles" : "chaos", 1, (size_t)s->size * sizeof(double), seek_tile, s);
+  static const char *const name[] = {"cycles", "quasi-periodic", "chaos"};
+  const kz_stage stage = kz_stage_for_all(name[s->kind], 1, (size_t)s->size * sizeof(double), seek_tile, s);
   KZ_TRY(kz_stage_run(run, &stage, record));
   memcpy(s->found, record, (size_t)s->size * sizeof(double));
-  kz_dynamics_adopt(s->dynamics, s->found + (s->n > 0 ? 1 : 0));
+  kz_dynamics_adopt(s->dynamics, s->found + (s->kind == CYCLE ? 1 : 0));
   return KZ_OK;
 }
 
@@ -124,18 +129,27 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
   return status;
 }
 
-/* Starts that end on no cycle: chaotic attractors are found one by one, each from the first pending start. */
-static kz_status find_chaos(const kz_run *run, following *f) {
-  seeking s = {.dynamics = f->dynamics, .size = kz_dynamics_chaos_size()};
+/* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a quasi-periodic one among
+ * some of them. */
+static kz_status find_covered(const kz_run *run, following *f, int kind) {
+  seeking s = {.dynamics = f->dynamics, .kind = kind, .size = kz_dynamics_chaos_size()};
   kz_status status = KZ_OK;
   s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
-  for (int attempt = 0; attempt < CHAOS_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
+  for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
-    memcpy(s.state, f->state + 2 * f->pending[(attempt * 7) % f->n], 2 * sizeof(double));
+    s.n = kind == CHAOS ? 1 : f->n < QUASIPERIODIC_STARTS ? f->n : QUASIPERIODIC_STARTS;
+    for (int64_t i = 0; i < s.n; i++)
+      memcpy(s.state + 2 * i, f->state + 2 * f->pending[kind == CHAOS ? (attempt * 7) % f->n : i * f->n / s.n],
+             2 * sizeof(double));
+    memset(s.found, 0, (size_t)s.size * sizeof(double));
     status = seek(run, &s, s.found + s.size);
-    if (status != KZ_OK || kz_dynamics_count(f->dynamics) == known) continue;
-    kz_dynamics_update(f->dynamics);
-    status = follow_pending(run, f, CHAOS_PERIODS);
+    if (status != KZ_OK) break;
+    if (kz_dynamics_count(f->dynamics) > known) {
+      kz_dynamics_update(f->dynamics);
+      status = follow_pending(run, f, COVER_PERIODS);
+    } else if (kind == QUASIPERIODIC) {
+      break;
+    }
   }
   free(s.found);
   return status;
@@ -151,10 +165,11 @@ static kz_status search_discover(const kz_run *run, following *f, int64_t max_pe
     const int64_t known = kz_dynamics_count(f->dynamics);
     KZ_TRY(find_cycles(run, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
     if (kz_dynamics_count(f->dynamics) > known) continue;
-    if (done >= max_periods) break;
+    KZ_TRY(find_covered(run, f, QUASIPERIODIC));
+    if (done >= max_periods || f->n == 0) break;
     length = 2 * length < max_periods - done ? 2 * length : max_periods - done;
   }
-  return find_chaos(run, f);
+  return find_covered(run, f, CHAOS);
 }
 
 /* All starts are pending. */

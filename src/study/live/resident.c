@@ -54,18 +54,19 @@ static void choose_numerics(kz_resident *r) {
                                           kz_fastest_motion(pendulum, &r->search.window, 0));
 }
 
-static bool has_chaos(const kz_resident *r) {
+/* Whether an attractor has a cover: a motion counts as captured there only after many periods. */
+static bool has_cover(const kz_resident *r) {
   kz_attractor attractor = {.period = 1};
   for (int64_t a = 1; a <= kz_dynamics_count(r->dynamics) && attractor.period > 0; a++)
     kz_dynamics_attractor(r->dynamics, a, &attractor);
-  return attractor.period == 0;
+  return attractor.period <= 0;
 }
 
 /* Extends the trapping regions of moving frames by what orbits tell, where damping is so weak that it pays. */
 static void learn(kz_resident *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
-  if (!kz_resident_moves(r) || (mean < WEAK && !has_chaos(r))) return;
-  const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_chaos(r) ? (double)r->periods : 0));
+  if (!kz_resident_moves(r) || (mean < WEAK && !has_cover(r))) return;
+  const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_cover(r) ? (double)r->periods : 0));
   KZ_FREED double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
   kz_dynamics_starts(&r->search.window, r->search.seed, n, state);
   kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
@@ -193,7 +194,7 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
     learn(r);
     r->grown = *pendulum;
     r->age = 0;
-  } else if (has_chaos(r)) {
+  } else if (has_cover(r)) {
     learn(r);
   }
 }

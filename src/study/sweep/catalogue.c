@@ -98,7 +98,7 @@ static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirr
   return entry;
 }
 
-/* The attractors that something ended on, and their mirror images, in the order of the file. */
+/* The attractors that something ended on, and their mirror images, in the order of the file; not quasi-periodic ones. */
 static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(s->dynamics);
   KZ_FREED int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
@@ -106,7 +106,7 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   for (int64_t i = 0; i < known; i++) {
     int32_t mirror;
     const kz_sweep_entry entry = entry_of(s, order[i], &mirror);
-    if (s->hits[order[i]] + s->hits[mirror] == 0) continue;
+    if (entry.point.period < 0 || s->hits[order[i]] + s->hits[mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
       return kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
                      KZ_SWEEP_MOST);

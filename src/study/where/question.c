@@ -59,19 +59,23 @@ void kz_question_free(kz_question *q) {
 
 static void describe(const kz_label *d, double error, const kz_catalogue *catalogue, kz_ending *ending) {
   if (d->label <= 0) return;
+  ending->precision = kz_evidence_word(d->evidence);
+  if (catalogue->id_of[d->label] < 0) {
+    kz_orbit_name(-1, 0, 0, ending->name);
+    return;
+  }
   const kz_entry *entry = catalogue->entries + catalogue->id_of[d->label];
   const size_t bytes = (size_t)entry->row.period * sizeof(double);
   ending->attractor = catalogue->id_of[d->label];
   ending->settling_time = d->periods;
-  ending->precision = kz_evidence_word(d->evidence);
   ending->period = entry->row.period;
   ending->winding = entry->row.winding;
   ending->strobe_theta = memcpy(kz_malloc(bytes + 1), entry->theta, bytes);
   ending->strobe_velocity = memcpy(kz_malloc(bytes + 1), entry->velocity, bytes);
   memcpy(ending->name, entry->name, sizeof ending->name);
   if (ending->precision && ending->period > 0) ending->error = error;
-  if (d->other <= 0) return;
-  ending->other = catalogue->id_of[d->other];
+  ending->other = d->other > 0 ? catalogue->id_of[d->other] : -1;
+  if (ending->other < 0) return;
   memcpy(ending->other_name, catalogue->entries[ending->other].name, sizeof ending->other_name);
 }
 

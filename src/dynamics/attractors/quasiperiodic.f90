@@ -1,0 +1,126 @@
+!> Quasi-periodic motions that attract: closed curves of the stroboscopic map that an orbit fills and never closes. They are recognised by
+!> averages along orbits. Weighted by a smooth window, these converge faster than any power of its length where the motion is quasi-periodic
+!> (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30 (2017) 4111), and like a square root where it is chaotic; where a motion still
+!> approaches something, those of two windows differ.
+module kz_attractors_quasiperiodic
+  use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_attractors_chaos, only: append_cover, set_cover, is_damped
+  use kz_attractors_cycle_search, only: search_t
+  use kz_cycles_cycles, only: attractor_t, QUASIPERIODIC
+  use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
+  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_model_pendulum, only: is_mirrored
+  implicit none
+  private
+  public :: find_quasiperiodic
+
+  !> Periods of a window, of which there are two; periods during which the cover is taken.
+  integer, parameter :: WINDOW = 2000, VISITS = 4000
+  !> What is averaged: the velocity, its square, the cosine of the angle.
+  integer, parameter :: AVERAGES = 3
+  !> Averages of two windows that differ by less are those of a motion that stays as it is. Those of two orbits on one curve differ by less, too.
+  real(dp), parameter :: SAME = 1e-6_dp
+  !> A tangent grows or shrinks by less in both windows: else the motion is chaotic, or locked to a cycle.
+  real(dp), parameter :: BOUNDED = 100
+
+  !> What is known of the orbits in the lanes of a flow after a window.
+  type :: record_t
+    real(dp) :: average(AVERAGES, WIDTH) = 0
+    real(dp) :: growth(WIDTH) = 0        !< logarithm of a tangent's length, of all windows
+    real(dp) :: tangent(2, 2, WIDTH) = 0
+    logical :: trapped(WIDTH) = .false.  !< in a trapping region
+  end type record_t
+
+contains
+
+  !> Looks for a quasi-periodic motion among orbits. It appends the first one with its cover, and its mirror image if that is another one.
+  subroutine find_quasiperiodic(search, regions, state, attractors)
+    type(search_t), intent(inout) :: search !< the flows of the search
+    type(regions_t), intent(in) :: regions !< the trapping regions: what they hold is not looked at
+    real(dp), intent(in) :: state(:, :) !< [2, n <= WIDTH] where the orbits begin, half-turns, rad per drive radian
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
+    type(attractor_t) :: attractor
+    type(record_t) :: record
+    real(dp) :: before(AVERAGES, WIDTH)
+    logical, allocatable :: visited(:)
+    integer, allocatable :: lane(:)
+    integer :: n, i
+
+    n = size(state, 2)
+    if (.not. is_damped(search%pendulum)) return
+    do i = 1, n
+      call search%flow%put(i, state(1, i), state(2, i))
+    end do
+    call search%flow%to_map(n)
+    record%tangent(1, 1, :) = 1
+    call follow_window(search%flow, regions, attractors, n, record)
+    before = record%average
+    call follow_window(search%flow, regions, attractors, n, record)
+    lane = pack([(i, i=1, n)], [(is_steady(record, before, i), i=1, n)])
+    if (size(lane) == 0) return
+    lane = pack(lane, [(all(abs(record%average(:, lane(i)) - record%average(:, lane(1))) < SAME), i=1, size(lane))])
+    call visit_cells(search%flow, regions, n, lane, visited)
+    if (.not. any(visited)) return ! faster than the cover reaches
+    attractor%period = QUASIPERIODIC
+    attractor%mirrored = is_mirrored(search%pendulum) /= 0
+    call set_cover(attractor, visited)
+    call append_cover(attractor, attractors)
+  end subroutine find_quasiperiodic
+
+  !> Whether a lane is on a closed curve: nothing traps it, its averages have converged, its tangent neither grows nor shrinks.
+  pure logical function is_steady(record, before, lane)
+    type(record_t), intent(in) :: record
+    real(dp), intent(in) :: before(AVERAGES, WIDTH) !< averages of the window before
+    integer, intent(in) :: lane
+
+    is_steady = .not. record%trapped(lane) .and. all(abs(record%average(:, lane) - before(:, lane)) < SAME) .and. &
+                abs(record%growth(lane)) < log(BOUNDED)
+  end function is_steady
+
+  !> Follows the lanes 1 .. n through a window.
+  subroutine follow_window(flow, regions, attractors, n, record)
+    class(flow_t), intent(inout) :: flow
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractors(:)
+    integer, intent(in) :: n
+    type(record_t), intent(inout) :: record
+    real(dp) :: weight, weights, length
+    integer :: region(WIDTH), period, i
+
+    record%average = 0
+    weights = 0
+    do period = 1, WINDOW
+      call flow%advance_tangent(n, record%tangent)
+      call find_regions(regions, attractors, n, flow%u(:n), flow%v(:n), region)
+      weight = exp(-1/(real(period, dp)/(WINDOW + 1)*(1 - real(period, dp)/(WINDOW + 1))))
+      weights = weights + weight
+      do i = 1, n
+        record%average(:, i) = record%average(:, i) + weight*[flow%v(i), flow%v(i)**2, cos(PI*flow%u(i))]
+        record%trapped(i) = record%trapped(i) .or. region(i) > 0
+        length = norm2(record%tangent(:, 1, i))
+        record%growth(i) = record%growth(i) + log(length)
+        record%tangent(:, :, i) = reshape([record%tangent(:, 1, i)/length, 0.0_dp, 0.0_dp], [2, 2])
+      end do
+    end do
+    record%average = record%average/weights
+  end subroutine follow_window
+
+  !> Marks the cells of the cover that the lanes visit.
+  subroutine visit_cells(flow, regions, n, lane, visited)
+    class(flow_t), intent(inout) :: flow
+    type(regions_t), intent(in) :: regions
+    integer, intent(in) :: n, lane(:)
+    logical, allocatable, intent(out) :: visited(:)
+    integer :: period, i, cell
+
+    allocate (visited(COVER**2), source=.false.)
+    do period = 1, VISITS
+      call flow%advance(n)
+      do i = 1, size(lane)
+        cell = cover_cell(regions, flow%u(lane(i)), flow%v(lane(i)))
+        if (cell > 0) visited(cell) = .true.
+      end do
+    end do
+  end subroutine visit_cells
+
+end module kz_attractors_quasiperiodic
