@@ -36,6 +36,8 @@ typedef struct {
 /* Name and version of the HDF5 library. */
 const char *kz_store_library(void);
 
+/* The words by which the half file of a killed run is known, in its first 8 KiB. */
+#define KZ_STORE_UNFINISHED "an unfinished result of kapitza"
 /* Creates PATH.part, which may hold the variables of `groups`, of which the last has no name. KZ_REFUSED if it cannot be written. */
 kz_status kz_store_create(const char *path, const kz_group *groups, kz_store **store);
 /* PATH. */

@@ -282,6 +282,9 @@ KZ_STUDIES(KZ_STUDY_DECLARED)
 /* What a result file may hold, for kz_store_create. */
 extern const kz_group kz_groups[];
 
+/* FILE.truth, the reference labels of a window, begins with these words. */
+#define KZ_REFERENCE_WORDS "kapitza truth"
+
 /* KZ_REFUSED if a study or method does not support the drive. */
 kz_status kz_drive_check(const kz_scene *scene);
 /* The same for the window of the scene's basin only, and for its chart only. */

@@ -18,6 +18,10 @@ MPI_SETTINGS = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_orte_execute_quiet": "1", "OMPI_MCA_mpi_yield_when_idle": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe",
 }
+# What launchers tell a process of a job, which its children must not take for their own; and by what such a process is known.
+JOB_SETTINGS = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_", "HYDI_", "HYDRA_", "MPI_LOCAL", "SLURM_")
+IN_A_JOB = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_STEP_ID"}
+FEWEST_MOST_RANKS, RANKS_PER_CORE = 64, 8
 REFUSED, STOPPED = 2, 75  # exit statuses
 _ERROR = "kapitza: error: "
 _PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?|request)): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
@@ -63,7 +67,10 @@ def command(words: Sequence[str | os.PathLike[str]], ranks: int = 1) -> list[str
     """The command line of the program with these words, under mpirun where there are several ranks."""
     if ranks < 1:
         raise ValueError(f"ranks is {ranks}; it must be at least 1")
-    own = [str(program()), *(os.fspath(word) for word in words)]
+    most = max(FEWEST_MOST_RANKS, RANKS_PER_CORE * (os.cpu_count() or 1))
+    if ranks > most and not any(name.startswith(("SLURM_", "PBS_", "LSB_")) for name in os.environ):
+        raise ValueError(f"ranks is {ranks}; on this machine it must be at most {most}, {RANKS_PER_CORE} for each core")
+    own = [str(program()), *map(_word, words)]
     if ranks == 1:
         return own
     launcher = os.environ.get("KAPITZA_MPIRUN") or shutil.which("mpirun") or shutil.which("mpiexec")
@@ -72,9 +79,18 @@ def command(words: Sequence[str | os.PathLike[str]], ranks: int = 1) -> list[str
     return [launcher, "-n", str(ranks), *own]
 
 
+def _word(word: str | os.PathLike[str]) -> str:
+    """A word of a command line; a path that begins with - is no option."""
+    text = os.fspath(word)
+    return f"./{text}" if text.startswith("-") and not isinstance(word, str) else text
+
+
 def environment() -> dict[str, str]:
-    """The variables that the program is started with."""
-    return MPI_SETTINGS | os.environ
+    """The variables that the program is started with: within a job of MPI without those that its launcher gave this process."""
+    own = dict(os.environ)
+    if IN_A_JOB & own.keys():
+        own = {name: value for name, value in own.items() if not name.startswith(JOB_SETTINGS)}
+    return MPI_SETTINGS | own
 
 
 def ask(words: Sequence[str | os.PathLike[str]], scene: Scene, text: str | None = None) -> str:

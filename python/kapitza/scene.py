@@ -2,6 +2,7 @@
 
 import atexit
 import copy
+import json
 import os
 import re
 import shutil
@@ -42,7 +43,10 @@ class Scene:
             self.is_file, self.path, self.text = scene.is_file, scene.path, scene.text
             self.sets, self._changes = scene.sets + self.sets, scene._changes | changes
         elif isinstance(scene, Mapping):
-            self.text = yaml.dump(texts(scene), Dumper=_Dumper)
+            try:
+                self.text = yaml.dump(texts(scene), Dumper=_Dumper)
+            except RecursionError:
+                raise ValueError("the scene is nested too deeply; a scene has four levels at most") from None
         elif _is_text(scene):
             self.text = str(scene)
         elif not isinstance(scene, str | os.PathLike):
@@ -62,7 +66,7 @@ class Scene:
         """The scene as nested dicts and lists of texts, changes included; {} where it is no mapping."""
         try:
             tree = yaml.load(self.text, yaml.BaseLoader)
-        except yaml.YAMLError:
+        except (yaml.YAMLError, RecursionError):  # the program says what is wrong
             tree = None
         tree = copy.deepcopy(tree) if isinstance(tree, dict) else {}
         for key, value in self._changes.items():
@@ -111,6 +115,8 @@ def flow(value: Any) -> str:
         return "{" + ", ".join(f"{key}: {flow(item)}" for key, item in plain.items()) + "}"
     if isinstance(plain, list):
         return "[" + ", ".join(map(flow, plain)) + "]"
+    if not plain.isprintable():  # a line break in single quotes would become a blank
+        return json.dumps(plain, ensure_ascii=False)
     return plain if _PLAIN.fullmatch(plain) else "'" + plain.replace("'", "''") + "'"
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import pandas
 
 from kapitza import units
-from kapitza.program import STOPPED, ask, check_end, command, environment
+from kapitza.program import STOPPED, SceneError, ask, check_end, command, environment
 from kapitza.progress import Progress
 from kapitza.result import Result
 from kapitza.scene import Scene, SceneLike, new_path, texts
@@ -139,6 +139,9 @@ def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | 
     """
     asked = Scene(scene, set)
     angles, velocities = (np.ravel(values) for values in np.broadcast_arrays(_starts(theta), _starts(velocity)))
+    for text in (*angles, *velocities):
+        if any(letter in str(text) for letter in ",\r\n"):
+            raise SceneError(f"{str(text)!r} is not one number; give an array for several starts")
     table = "".join(f"{angle},{speed}\n" for angle, speed in zip(angles, velocities, strict=True))
     rows = [json.loads(line) for line in ask(["where", asked.path, "-", *asked.sets, "--json"], asked, table).splitlines()]
     return pandas.DataFrame(rows).astype({name: "Int64" for name in ("period", "winding", "settling_time", "near_time")})

@@ -31,9 +31,13 @@ def _studies(result: "Result") -> list[str]:
     lines = []
     for name in result.groups:
         if name not in ("pendulum", "attractors"):
-            with xarray.open_dataset(result.path, group=name, engine="h5netcdf", phony_dims="sort") as dataset:
-                sizes = dataset.sizes
-            lines.append(f"{name}: " + " x ".join(f"{size} {axis}" for axis, size in sizes.items()))
+            try:
+                with xarray.open_dataset(result.path, group=name, engine="h5netcdf", phony_dims="sort") as dataset:
+                    sizes = dataset.sizes
+            except Exception:  # of a damaged file: which error depends on the damage
+                lines.append(f"{name}: damaged")
+            else:
+                lines.append(f"{name}: " + " x ".join(f"{size} {axis}" for axis, size in sizes.items()))
     return lines
 
 

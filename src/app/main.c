@@ -28,6 +28,21 @@ static void fill_streams(void) {
 /* Half of this is what the deepest calls need, MPI and HDF5 included. */
 static const rlim_t STACK_BYTES = 512 << 10;
 
+/* The least number of open files: streams, the scene, the result, the checkpoint, and what MPI opens. */
+static const rlim_t FILES = 32;
+
+/* Says how a limit of this process must be raised, once for all ranks. */
+static kz_status refuse_limit(const char *what, const char *option, int least) {
+  if (kz_launch_rank() <= 0)
+    fprintf(stderr, "kapitza: error: %s limited to less than %d; ulimit %s %d\n", what, least, option, least);
+  return KZ_REFUSED;
+}
+
+static bool has_files(void) {
+  struct rlimit files;
+  return getrlimit(RLIMIT_NOFILE, &files) != 0 || files.rlim_cur >= FILES;
+}
+
 static bool has_stack(void) {
   struct rlimit stack;
   return getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= STACK_BYTES;
@@ -42,12 +57,8 @@ int main(int argc, char **argv) {
             missing);
     return KZ_REFUSED;
   }
-  if (!has_stack()) {
-    if (kz_launch_rank() <= 0)
-      fprintf(stderr, "kapitza: error: the stack is limited to less than %d kB; ulimit -s %d\n", (int)(STACK_BYTES >> 10),
-              (int)(STACK_BYTES >> 10));
-    return KZ_REFUSED;
-  }
+  if (!has_stack()) return refuse_limit("the kilobytes of the stack are", "-s", (int)(STACK_BYTES >> 10));
+  if (!has_files()) return refuse_limit("the files that may be open at once are", "-n", (int)FILES);
   kz_abandon_arm();
   const kz_status status = kz_say(kz_app(argc, argv));
   kz_abandon_disarm();

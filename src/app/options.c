@@ -235,13 +235,15 @@ static kz_status read_options(const kz_command *command, int argc, char **argv, 
 static kz_status check_operands(const kz_command *command, const kz_options *options) {
   if (options->n_operands == 0 && command->fewest > 0)
     return kz_fail(KZ_REFUSED, "%s: SCENE is missing; kapitza %s%s", command->name, command->name, command->operand);
+  if (options->n_operands > 0 && !options->operands[0][0])
+    return kz_fail(KZ_REFUSED, "%s: the name of SCENE is empty; kapitza %s%s", command->name, command->name, command->operand);
   if (options->n_operands < command->fewest)
     return kz_fail(KZ_REFUSED, "%s: the start is missing; kapitza %s%s", command->name, command->name, command->operand);
   if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; use one of them");
   return KZ_OK;
 }
 
-/* A command that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
+/* A command or an answer that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
  * for ever for those that were not. */
 static kz_status agree_alone(const kz_options *options) {
   kz_ranks *ranks = NULL;
@@ -254,7 +256,7 @@ static kz_status agree_alone(const kz_options *options) {
 
 static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_options *options) {
   KZ_TRY(read_options(command, argc, argv, options));
-  if (options->answered) return KZ_OK;
+  if (options->answered) return agree_alone(options);
   KZ_TRY(check_operands(command, options));
   options->scene = options->operands[0];
   if (command->carry_out != kz_app_run) KZ_TRY(agree_alone(options));
@@ -267,7 +269,7 @@ static kz_status dispatch(int argc, char **argv, kz_options *options) {
   if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   if (argv[1][0] == '-') {
     KZ_TRY(read_options(&kz_program, argc, argv, options));
-    return options->answered ? KZ_OK : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
+    return options->answered ? agree_alone(options) : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   }
   for (int i = 0; i < kz_command_count; i++) {
     if (strcmp(argv[1], kz_commands[i].name) == 0) return carry_out(&kz_commands[i], argc - 1, argv + 1, options);

@@ -1,4 +1,5 @@
 /* Checks FILE and the files beside it before modelling. These checks leave no file behind. */
+#define _GNU_SOURCE /* memmem */
 #include <errno.h>
 #include <libgen.h>
 #include <limits.h>
@@ -42,20 +43,32 @@ static bool is_same_file(const struct stat *file, const char *path) {
   return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
 }
 
+/* Whether a file may be replaced: it is empty, or has the words of the program at its beginning. A link is replaced, not followed. */
+static bool is_own(const char *name, const char *words) {
+  char bytes[8192];
+  FILE *file = fopen(name, "rb");
+  const size_t n = file ? fread(bytes, 1, sizeof bytes, file) : 0;
+  if (file) fclose(file);
+  return n == 0 || memmem(bytes, n, words, strlen(words));
+}
+
 /* Refuses FILE or a file beside it if it is not a regular file, or if it is the scene. *exists = true if FILE exists, even as a link to
  * nothing. */
-static kz_status check_names(const char *path, const char *scene, bool *exists) {
+static kz_status check_names(const char *path, const kz_options *options, bool *exists) {
   static const char *const suffixes[] = {".checkpoint", ".part", ".truth", ".truth.part", ""};
+  static const char *const words[] = {NULL, KZ_STORE_UNFINISHED, KZ_REFERENCE_WORDS, KZ_REFERENCE_WORDS, NULL};
   for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++) {
     char name[PATH_MAX + 16];
-    struct stat file;
+    struct stat file, link;
     snprintf(name, sizeof name, "%s%s", path, suffixes[i]);
-    *exists = lstat(name, &file) == 0;
+    *exists = lstat(name, &link) == 0;
     if (stat(name, &file) == 0) {
       if (!S_ISREG(file.st_mode))
         return kz_fail(KZ_REFUSED, "%s: is %s; give the name of a file", name,
                        S_ISDIR(file.st_mode) ? "a folder" : "not a regular file");
-      if (is_same_file(&file, scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; use another name", name);
+      if (!options->force && words[i] && !S_ISLNK(link.st_mode) && !is_own(name, words[i]))
+        return kz_fail(KZ_REFUSED, "%s: exists and would be overwritten; move it away, use --force, or another name", name);
+      if (is_same_file(&file, options->scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; use another name", name);
     } else if (errno != ENOENT) {
       return kz_fail(KZ_REFUSED, "%s: cannot be used: %s; use another name", name, strerror(errno));
     }
@@ -78,7 +91,7 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
   bool exists;
   *complete = false;
   KZ_TRY(check_folder(path));
-  KZ_TRY(check_names(path, options->scene, &exists));
+  KZ_TRY(check_names(path, options, &exists));
   if (!exists) return try_folder(path);
   if (options->force) return try_folder(path);
   if (!options->resume) return kz_fail(KZ_REFUSED, "%s: exists; use --force to overwrite it, or another name", path);

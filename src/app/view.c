@@ -71,6 +71,7 @@ static const char **words_of(const places *p, const char *python, const kz_optio
 kz_status kz_app_view(const kz_options *options) {
   places p;
   if (!options->speaks) return KZ_OK;
+  KZ_TRY(kz_scene_check_file(options->scene));
   KZ_TRY(find_places(&p));
   KZ_TRY(set_module_path(&p));
   const char *python = python_of(&p);

@@ -46,7 +46,8 @@ static kz_status open_or_create(const char *path, kz_file_lock *file_lock) {
   const char *reason = file_lock->file >= 0 ? "not a regular file" : errno == ELOOP ? "a link" : strerror(errno);
   if (file_lock->file >= 0) close(file_lock->file);
   file_lock->file = -1;
-  return kz_fail(KZ_REFUSED, "%s: cannot be used as checkpoint: %s", path, reason);
+  return kz_fail(KZ_REFUSED, "%s: cannot be used as checkpoint: %s; move it away, or give the result another name with -o",
+                 path, reason);
 }
 
 /* One attempt: KZ_OK with file < 0 where another process holds it, or where it was replaced meanwhile. */
@@ -55,8 +56,12 @@ static kz_status attempt(const char *path, bool may_exist, kz_file_lock *file_lo
   if (file_lock->file < 0) return KZ_OK;
   kz_status status = KZ_OK;
   if (file_lock->existed && !may_exist)
-    status = kz_fail(
-        KZ_REFUSED, "%s: a checkpoint of an earlier run exists; use --resume to go on from it, or --force to discard it", path);
+    status = lock(file_lock->file, F_WRLCK, OWNER, 2) != 0 && is_held(errno)
+                 ? kz_fail(KZ_REFUSED,
+                           "%s: another run works on this result; wait until it has ended, or give another name with -o", path)
+                 : kz_fail(KZ_REFUSED,
+                           "%s: a checkpoint of an earlier run exists; use --resume to go on from it, or --force to discard it",
+                           path);
   else if (lock(file_lock->file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, file_lock->file))
     return KZ_OK;
   else if (!is_held(errno) && kz_file_lock_names(path, file_lock->file)) {

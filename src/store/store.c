@@ -14,11 +14,29 @@ static kz_status create_file(kz_store *store) {
   const bool made = access >= 0 && creation >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) >= 0 &&
                     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
                     H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) >= 0 &&
-                    H5Pset_obj_track_times(creation, 0) >= 0 &&
+                    H5Pset_obj_track_times(creation, 0) >= 0 && H5Pset_attr_phase_change(creation, 64, 0) >= 0 &&
                     (store->file = H5Fcreate(store->part, H5F_ACC_EXCL, creation, access)) >= 0;
   const kz_status status = made ? KZ_OK : kz_hdf5_fail(__FILE__, __LINE__);
   H5Pclose(access);
   H5Pclose(creation);
+  return status;
+}
+
+static const char UNFINISHED[] = KZ_STORE_UNFINISHED, FINISHED[sizeof UNFINISHED] = "a complete result of kapitza";
+
+/* Writes the state of the file to the disk: into the header of the root group, which lies at its beginning. */
+static kz_status mark(const kz_store *store, const char *text) {
+  const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+  const bool old = H5Aexists(store->file, "state") > 0;
+  hid_t state = H5I_INVALID_HID;
+  if (type >= 0 && space >= 0 && H5Tset_size(type, sizeof UNFINISHED) >= 0)
+    state = old ? H5Aopen(store->file, "state", H5P_DEFAULT)
+                : H5Acreate2(store->file, "state", type, space, H5P_DEFAULT, H5P_DEFAULT);
+  const bool written = state >= 0 && H5Awrite(state, type, text) >= 0 && H5Fflush(store->file, H5F_SCOPE_GLOBAL) >= 0;
+  const kz_status status = written ? KZ_OK : kz_hdf5_fail(__FILE__, __LINE__);
+  if (state >= 0) H5Aclose(state);
+  if (space >= 0) H5Sclose(space);
+  if (type >= 0) H5Tclose(type);
   return status;
 }
 
@@ -44,6 +62,7 @@ kz_status kz_store_create(const char *path, const kz_group *groups, kz_store **s
   (*store)->groups = groups;
   kz_status status = try_path(*store, path);
   if (status == KZ_OK) status = create_file(*store);
+  if (status == KZ_OK) status = mark(*store, UNFINISHED);
   if (status == KZ_OK) return KZ_OK;
   kz_store_discard(*store);
   *store = NULL;
@@ -100,7 +119,7 @@ static void save_folder(const char *path) {
 }
 
 kz_status kz_store_complete(kz_store *store) {
-  kz_status status = KZ_HDF5_STATUS(H5Fflush(store->file, H5F_SCOPE_GLOBAL));
+  kz_status status = mark(store, FINISHED);
   if (close_file(store) < 0 && status == KZ_OK) status = kz_hdf5_fail(__FILE__, __LINE__);
   if (status == KZ_OK) status = save(store);
   if (status == KZ_OK && rename(store->part, store->path) != 0) status = cannot(store, "given its name");

@@ -109,11 +109,10 @@ const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pen
   const bool shaped =
       written->waveform > KZ_SINE || written->harmonics.count > 0 || has(written->tilt) || has(written->ellipse);
   if (has_coefficients(written) && (shaped || has(written->torque_amplitude)))
-    return "vertical and horizontal are the whole drive beside k and m; leave out waveform, samples, harmonics, tilt, ellipse "
-           "and "
-           "torque_amplitude";
+    return "vertical and horizontal are the whole drive beside k and m; leave out waveform and the other keys of its form";
   if (!has(written->torque_amplitude)) return NULL;
-  if (has(p->m) || shaped) return "torque_amplitude is for a pivot at rest: drive_amplitude 0 and no other drive";
+  if (has(p->m) || shaped)
+    return "torque_amplitude is for a pivot at rest; set the drive's amplitude to 0 and leave out the other keys of its form";
   swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
   if (fabs(bessel_of(amplitude, KZ_HARMONICS + 1)) > BESSEL_LEFT)
     return "torque_amplitude swings the pendulum so far that 16 harmonics do not hold its gravity; at most about 4";

@@ -108,19 +108,35 @@ def test_a_job_array_over_a_parameter(tmp_path):
     assert {path.name for path in tmp_path.glob("*.h5")} == {"small-0.29.h5", "small-0.31.h5"}
 
 
-@pytest.mark.parametrize("status, again", [(75, True), (0, False), (1, False)])
-def test_a_pbs_job_is_submitted_again_after_75(tmp_path, status, again):
-    """PBS itself is in no Debian package: mpirun and qsub are scripts that write down how they were called."""
+@pytest.mark.parametrize("status, saves, again", [(75, True, True), (75, False, False), (0, True, False), (1, True, False)])
+def test_a_pbs_job_is_submitted_again_after_75(tmp_path, status, saves, again):
+    """PBS itself is in no Debian package: mpirun and qsub are scripts that write down how they were called. Where nothing was saved,
+    the job would come back without end."""
+    save = f"touch '{tmp_path}/a, scene.h5.checkpoint'" if saves else ":"
     for name, end in (("mpirun", status), ("qsub", 0)):
-        (tmp_path / name).write_text(f'#!/bin/sh\necho "$@" > {tmp_path}/{name}.called\nexit {end}\n')
+        (tmp_path / name).write_text(f'#!/bin/sh\necho "$@" "$SCENE" > {tmp_path}/{name}.called\n{save}\nexit {end}\n')
         (tmp_path / name).chmod(0o755)
-    job = {"PBS_O_WORKDIR": str(tmp_path), "SCENE": "a scene.yaml", "PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    job = {"PBS_O_WORKDIR": str(tmp_path), "SCENE": "a, scene.yaml", "PATH": f"{tmp_path}:{os.environ['PATH']}"}
     settings = {name: value for name, value in os.environ.items() if name != "KAPITZA"} | job
     done = subprocess.run([ROOT / "scripts" / "kapitza.pbs"], env=settings, timeout=20)
     assert done.returncode == status
-    assert (tmp_path / "mpirun.called").read_text() == "kapitza run a scene.yaml --resume --time-limit 55m\n"
+    assert (tmp_path / "mpirun.called").read_text() == "kapitza run a, scene.yaml --resume --time-limit 55m a, scene.yaml\n"
     assert (tmp_path / "qsub.called").exists() == again
-    assert not again or (tmp_path / "qsub.called").read_text() == f"-v SCENE=a scene.yaml {ROOT / 'scripts' / 'kapitza.pbs'}\n"
+    assert not again or (tmp_path / "qsub.called").read_text() == f"-v SCENE {ROOT / 'scripts' / 'kapitza.pbs'} a, scene.yaml\n"
+
+
+@pytest.mark.parametrize("saves, again", [(True, True), (False, False)])
+def test_a_slurm_job_is_queued_again_where_it_saved_something(tmp_path, saves, again):
+    """A value with a slash is part of a name; the scheduler is a script that writes down how it was called."""
+    save = "touch s-pi_2.h5.checkpoint" if saves else ":"
+    for name, text in (("srun", f'echo "$@" > srun.called\n{save}\nexit 75'), ("scontrol", 'echo "$@" > scontrol.called')):
+        (tmp_path / name).write_text(f"#!/bin/sh\n{text}\n")
+        (tmp_path / name).chmod(0o755)
+    job = {"SLURM_JOB_ID": "7", "SLURM_ARRAY_TASK_ID": "1", "SWEEP": "pendulum.tilt=0,pi/2", "LAUNCHER": "srun",
+           "PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    done = subprocess.run([BATCH, "s.yml"], env=os.environ | job, cwd=tmp_path, timeout=20)
+    assert done.returncode == 75 and (tmp_path / "scontrol.called").exists() == again
+    assert (tmp_path / "srun.called").read_text().split(" run ")[1] == "s.yml --set pendulum.tilt=pi/2 -o s-pi_2.h5 --resume\n"
 
 
 def test_the_containers_install_what_the_build_needs():

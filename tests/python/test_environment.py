@@ -1,5 +1,6 @@
 """What a user's shell, batch system and control groups leave to the program: limits, ignored signals, variables."""
 
+import fcntl
 import os
 import resource
 import signal
@@ -33,11 +34,50 @@ def test_a_stack_that_is_too_small_is_refused(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_few_descriptors_end_a_rank_with_a_word(tmp_path):
-    """mpirun itself needs more than a rank: it is not limited here."""
-    words = ["mpirun", "-n", "2", "bash", "-c", 'ulimit -n 18; exec "$@"', "limited", PROGRAM, "run", SMALL, *FEW]
+@pytest.mark.parametrize("launcher, most", [([], 8), (["mpirun", "-n", "2"], 18)])  # mpirun itself needs more than a rank
+def test_few_descriptors_are_refused(tmp_path, launcher, most):
+    words = [*launcher, "bash", "-c", f'ulimit -n {most}; exec "$@"', "limited", PROGRAM, "run", SMALL, *FEW]
     done = run(words, tmp_path)
-    assert done.returncode == 2 and "Too many open files" in done.stderr and not list(tmp_path.iterdir()), done.stderr
+    assert done.returncode == 2 and "ulimit -n 32" in done.stderr and done.stderr.count("kapitza: error") == 1, done.stderr
+    assert not list(tmp_path.iterdir())
+
+
+def test_the_least_number_of_descriptors_is_enough(tmp_path):
+    done = run(["bash", "-c", 'ulimit -n 32; exec "$@"', "limited", PROGRAM, "run", SMALL, *FEW], tmp_path)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("words", [["--help"], ["run", "--help"], ["--version"], ["--completion", "bash"], ["--manual"], ["keys"]])
+def test_ranks_that_are_asked_for_different_things_end(tmp_path, words):
+    """A rank that only answered would leave the one that runs waiting for it in MPI_Init."""
+    done = run(["mpirun", "-n", "1", PROGRAM, "run", SMALL, *FEW, ":", "-n", "1", PROGRAM, *words], tmp_path)
+    assert done.returncode == 2 and "another command line" in done.stderr and not list(tmp_path.iterdir()), done.stderr
+    if words == ["keys"]:
+        done = run(["mpirun", "-n", "2", PROGRAM, *words], tmp_path)
+        assert done.returncode == 0 and done.stdout.startswith("# ") and done.stdout.count("`basin.max_periods`") == 1
+
+
+@pytest.mark.parametrize("name", ["/dev/zero", "pipe", "."])
+def test_the_explorer_is_opened_with_a_file_alone(tmp_path, name):
+    os.mkfifo(tmp_path / "pipe")
+    done = run([PROGRAM, "view", name, "--no-browser"], tmp_path)
+    assert done.returncode == 2 and "give the name of a scene file" in done.stderr, done.stderr
+
+
+@pytest.mark.parametrize("command", ["run", "check", "where", "view", "serve"])
+def test_an_empty_name_is_refused(tmp_path, command):
+    done = run([PROGRAM, command, "", *["0", "0"] * (command == "where")], tmp_path)
+    assert done.returncode == 2 and f"{command}: the name of SCENE is empty" in done.stderr, done.stderr
+
+
+def test_a_second_run_is_told_that_the_first_one_works(tmp_path):
+    """Its checkpoint is held: going on from it is no way out."""
+    with (tmp_path / "x.h5.checkpoint").open("w+b") as held:
+        fcntl.lockf(held, fcntl.LOCK_EX, 2)  # as a run that works holds it
+        done = run([PROGRAM, "run", SMALL, *FEW, "-o", "x.h5"], tmp_path)
+    assert done.returncode == 2 and "another run works on this result" in done.stderr, done.stderr
+    done = run([PROGRAM, "run", SMALL, *FEW, "-o", "x.h5"], tmp_path)
+    assert done.returncode == 2 and "use --resume to go on" in done.stderr, done.stderr
 
 
 # Of such a pendulum's motions no number of steps is enough, which takes seconds to find out.

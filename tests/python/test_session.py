@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 
+import h5py
 import kapitza
 import numpy as np
 import pandas
@@ -229,3 +230,47 @@ def test_an_engine_answers_again_and_again(result):
         engine.frame()
     with pytest.raises(kapitza.SceneError):
         kapitza.Engine("pendulum: {k: 1}\n")
+
+
+def test_names_texts_and_counts_that_mean_something_else_are_refused(tmp_path, monkeypatch):
+    """Paths that begin with - are no options, a text with a comma is no two starts, a title has one line, a million ranks no machine."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "-s.yaml").write_text(SMALL.read_text())
+    assert kapitza.check("-s.yaml", set=FEW).cells == 480
+    assert kapitza.run("-s.yaml", "-r.h5", set=FEW, progress=False).path.exists()
+    for theta in ("1,2\n3", "1\n2"):
+        with pytest.raises(kapitza.SceneError, match="is not one number"):
+            kapitza.where(SMALL, theta, 0)
+    with pytest.raises(kapitza.SceneError, match="title"):
+        kapitza.check(SMALL, set={"title": "a\nb"})
+    with pytest.raises(ValueError, match="at most"):
+        kapitza.run(SMALL, ranks=10**6)
+    deep = "a: " + "[" * 3000 + "]" * 3000
+    with pytest.raises(kapitza.SceneError):
+        kapitza.check(deep + "\nb: 1\n")
+
+
+def test_a_damaged_group_is_named_where_a_result_is_shown(result, tmp_path):
+    path = tmp_path / "damaged.h5"
+    path.write_bytes(result.path.read_bytes())
+    with h5py.File(path, "r+") as file:
+        del file["basin/theta"]
+        file["basin/theta"] = np.zeros(3)
+    assert "basin: damaged" in repr(kapitza.Result(path))
+
+
+IN_A_JOB = """
+import kapitza, sys
+result = kapitza.run(sys.argv[1], set={"basin.theta.count": 9, "basin.velocity.count": 9}, ranks=int(sys.argv[2]), progress=False)
+assert result.labels().size == 81 and kapitza.check(sys.argv[1]).cells > 0
+print("ended")
+"""
+
+
+@pytest.mark.parametrize("ranks", ["1", "2"])
+def test_the_package_works_within_a_job_of_mpi(tmp_path, ranks):
+    """The variables of its launcher are not those of the processes that it starts."""
+    (tmp_path / "job.py").write_text(IN_A_JOB)
+    done = subprocess.run(["mpirun", "-n", "2", sys.executable, tmp_path / "job.py", SMALL, ranks], capture_output=True, text=True,
+                          env=os.environ | {"PYTHONPATH": str(ROOT / "python")}, timeout=120)
+    assert done.returncode == 0 and done.stdout.count("ended") == 2, done.stderr

@@ -44,6 +44,22 @@ def test_names_beside_the_result_that_are_taken(kapitza, tmp_path, suffix, what)
     assert taken.is_dir() or taken.read_text() == SMALL.read_text()
 
 
+@pytest.mark.parametrize("suffix", [".part", ".truth", ".truth.part"])
+def test_a_file_of_somebody_else_beside_the_result_stays(kapitza, tmp_path, suffix):
+    """The program's own are known by what is in them; --force overwrites."""
+    taken, words = tmp_path / f"small.h5{suffix}", ["--set", "tradeoff={samples: 10, settings: [direct-8]}"]
+    taken.write_text("mine")
+    done = kapitza("run", SMALL, *FEW, *words, folder=tmp_path, status=2)
+    assert f"{taken.name}: exists and would be overwritten" in done.stderr and taken.read_text() == "mine"
+    kapitza("run", SMALL, *FEW, *words, "--force", folder=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5", "small.h5.truth"]
+    taken.write_bytes({".part": b"\x89HDF\r\n\x1a\n an unfinished result of kapitza"}.get(suffix, b"kapitza truth 1: cut off"))
+    for name in {"small.h5", "small.h5.truth"} - {taken.name}:
+        (tmp_path / name).unlink()
+    kapitza("run", SMALL, *FEW, *words, folder=tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5", "small.h5.truth"]
+
+
 def test_a_link_in_the_place_of_the_half_file_leads_nowhere(kapitza, tmp_path):
     (tmp_path / "precious").write_text("mine")
     (tmp_path / "small.h5.part").symlink_to("precious")

@@ -44,7 +44,7 @@ class Start:
         default = [] if "basin" in self.tree else [f"basin={_flow({'velocity': WINDOW['velocity']}, 'basin')}"]
         changes = [word for value in [*default, *self.sets] for word in ("--set", value)]
         if self.path is not None:
-            return [str(self.path), *changes], ()
+            return [f"./{self.path}" if str(self.path).startswith("-") else str(self.path), *changes], ()
         if self._file is None:
             self._file = os.memfd_create("scene")
             os.write(self._file, self.text.encode())
@@ -91,7 +91,7 @@ def _tree(text):
     """A scene as nested dicts and lists of texts; {} where the program will say what is wrong with it."""
     try:
         tree = yaml.load(text, yaml.BaseLoader)
-    except yaml.YAMLError:
+    except (yaml.YAMLError, RecursionError):
         return {}
     return tree if isinstance(tree, dict) else {}
 
@@ -108,7 +108,7 @@ def _changed(tree, sets):
             place = place[name]
         try:
             place[last] = yaml.load(value, yaml.BaseLoader)
-        except yaml.YAMLError:
+        except (yaml.YAMLError, RecursionError):
             pass
     return tree
 
@@ -126,6 +126,8 @@ def _edges(axis):
 
 
 def _is_hdf5(path):
+    if path.exists() and not path.is_file():
+        raise BadFile(f"{path}: is not a regular file; give a scene or a result")
     try:
         with open(path, "rb") as file:
             return file.read(len(HDF5_SIGNATURE)) == HDF5_SIGNATURE

@@ -9,7 +9,7 @@
 
 enum { MAX_BYTES = 1000000 };
 
-static kz_status check_file(const char *path) {
+kz_status kz_scene_check_file(const char *path) {
   struct stat facts;
   if (stat(path, &facts) != 0)
     return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give the name of a scene file", path, strerror(errno));
@@ -21,7 +21,7 @@ static kz_status check_file(const char *path) {
 static kz_status open_scene(const char *path, FILE **file) {
   *file = stdin;
   if (strcmp(path, "-") == 0) return KZ_OK;
-  KZ_TRY(check_file(path));
+  KZ_TRY(kz_scene_check_file(path));
   *file = fopen(path, "rb");
   if (*file) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give a readable scene file", path, strerror(errno));
@@ -36,7 +36,7 @@ static bool is_result(const char *text, size_t length) {
 /* Why these bytes cannot be a scene, as the end of a message; NULL if they can. */
 static const char *not_a_scene(size_t length, FILE *file) {
   if (ferror(file)) return strerror(errno);
-  return length > MAX_BYTES ? "has more than 1000000 bytes, too many for a scene" : NULL;
+  return length > MAX_BYTES ? "has more than 1000000 bytes; a scene has at most that many" : NULL;
 }
 
 kz_status kz_scene_load(const char *path, char **text, size_t *length) {
@@ -142,6 +142,7 @@ static void complain_first(kz_reading *reading, char *keys, const char *wrong) {
 /* Whether `keys` are keys of a scene, or the scene itself. */
 static bool are_keys(const char *keys) {
   char key[256];
+  if (!keys[0]) return false;
   for (size_t n; *keys; keys += n + (keys[n] == '|')) {
     n = strcspn(keys, "|");
     snprintf(key, sizeof key, "%.*s", (int)n, keys);

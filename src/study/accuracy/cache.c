@@ -24,11 +24,11 @@ static void print_key(const kz_reference_labels *reference, char *key, size_t by
     attractors = checksum(reference->pendulum.horizontal, sizeof reference->pendulum.horizontal, attractors);
     attractors = checksum(&reference->pendulum.torque, sizeof reference->pendulum.torque, attractors);
   }
-  snprintf(key, bytes, "kapitza truth 1: %a %a %a; %a %a %lld%s%s; %a %a %lld%s%s; %lld %lld; %016llx\n", reference->pendulum.k,
-           reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max, (long long)p->theta.count,
-           p->theta.centre.text, p->theta.width.text, p->velocity.min, p->velocity.max, (long long)p->velocity.count,
-           p->velocity.centre.text, p->velocity.width.text, (long long)p->seed, (long long)p->max_periods,
-           (unsigned long long)attractors);
+  snprintf(key, bytes, KZ_REFERENCE_WORDS " 1: %a %a %a; %a %a %lld%s%s; %a %a %lld%s%s; %lld %lld; %016llx\n",
+           reference->pendulum.k, reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max,
+           (long long)p->theta.count, p->theta.centre.text, p->theta.width.text, p->velocity.min, p->velocity.max,
+           (long long)p->velocity.count, p->velocity.centre.text, p->velocity.width.text, (long long)p->seed,
+           (long long)p->max_periods, (unsigned long long)attractors);
 }
 
 /* The whole file as text, which the caller frees; NULL if it cannot be read. */
