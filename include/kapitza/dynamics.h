@@ -17,7 +17,8 @@ typedef struct {
   double theta_min, theta_max, velocity_min, velocity_max;
 } kz_window;
 
-/* The dynamics of a pendulum, without attractors yet. Searches look for cycles of up to max_period drive periods. Free with
+/* The dynamics of a pendulum, without attractors yet. Several threads may follow, label and release starts at the same time, as long as none
+ * changes the attractors or the regions. Searches look for cycles of up to max_period drive periods. Free with
  * kz_dynamics_free. */
 kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
 void kz_dynamics_free(kz_dynamics *dynamics);

@@ -1,71 +1,88 @@
-/* How long a run would take, from samples of its work. A child process times them, and is stopped where they take long themselves. */
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
+/* How long a run would take, from samples of its work. A thread times them; where they take long themselves, nobody waits for it. */
+#include <stdlib.h>
+#include <time.h>
 
 #include "app.h"
+#include "kapitza/common_threads.h"
 #include "kapitza/study.h"
+#include "scene/scene.h"
 
-/* s of processor time for the samples. */
-enum { PATIENCE = 15 };
+/* s of processor time for the samples; bytes of stack of the thread. */
+enum { PATIENCE = 15, STACK_BYTES = 8 << 20 };
 
 /* s: starting MPI and writing a file, beyond what this process has taken so far. */
 static const double STARTING = 0.02;
 
-/* The message of the child after each study. */
+/* What the thread shares with the one that waits. The last of the two frees it. */
 typedef struct {
+  kz_scene scene; /* a copy: the thread may outlive the caller's */
+  pthread_mutex_t mutex;
+  pthread_cond_t changed;
   double seconds; /* of the studies so far */
   kz_status status;
-  bool all;
-} told;
+  bool ended, left; /* by the thread; by the one that waits */
+} samples;
 
-static kz_status measure_next(const kz_scene *scene, int study, double *seconds) {
-  double some = 0;
-  if (!kz_study_is_wanted(&kz_studies[study], scene)) return KZ_OK;
-  KZ_TRY(kz_studies[study].measure(scene, &some));
-  *seconds += some;
-  return KZ_OK;
+static void free_samples(samples *s) {
+  kz_scene_free(&s->scene);
+  free(s);
 }
 
-static void measure_as_child(const kz_scene *scene, int pipe) {
-  const struct rlimit time = {PATIENCE, PATIENCE}, no_core = {0, 0};
-  told t = {0};
-  if (setrlimit(RLIMIT_CPU, &time) != 0 || setrlimit(RLIMIT_CORE, &no_core) != 0) _exit(1);
-  for (int i = 0; i < kz_study_count && t.status == KZ_OK; i++) {
-    t.status = measure_next(scene, i, &t.seconds);
-    t.all = t.status != KZ_OK || i == kz_study_count - 1;
-    if (write(pipe, &t, sizeof t) != sizeof t) _exit(1);
+static void *measure(void *context) {
+  samples *s = context;
+  kz_status status = KZ_OK;
+  for (int i = 0; i < kz_study_count && status == KZ_OK; i++) {
+    double some = 0;
+    if (kz_study_is_wanted(&kz_studies[i], &s->scene)) status = kz_studies[i].measure(&s->scene, &some);
+    pthread_mutex_lock(&s->mutex);
+    s->seconds += some;
+    pthread_mutex_unlock(&s->mutex);
   }
-  _exit(0);
+  pthread_mutex_lock(&s->mutex);
+  const bool left = s->left;
+  s->status = status;
+  s->ended = true;
+  pthread_cond_signal(&s->changed);
+  pthread_mutex_unlock(&s->mutex);
+  if (left) free_samples(s);
+  return NULL;
 }
 
-/* The last message of the child. */
-static told hear(pid_t child, int pipe) {
-  told t, last = {0};
-  while (read(pipe, &t, sizeof t) == sizeof t) last = t;
-  close(pipe);
-  waitpid(child, NULL, 0);
-  return last;
+/* s of processor time that a thread has taken. */
+static double time_of(pthread_t thread) {
+  clockid_t clock;
+  struct timespec taken = {0};
+  if (pthread_getcpuclockid(thread, &clock) == 0) clock_gettime(clock, &taken);
+  return (double)taken.tv_sec + 1e-9 * (double)taken.tv_nsec;
+}
+
+/* Waits for the thread, and leaves it alone once it has taken too long. */
+static kz_status wait_for(pthread_t thread, samples *s, kz_estimate *estimate) {
+  const double look = 0.05; /* s between two looks at its clock */
+  pthread_mutex_lock(&s->mutex);
+  while (!s->ended && time_of(thread) < PATIENCE) kz_thread_wait(&s->changed, &s->mutex, look);
+  const kz_status status = s->status;
+  const bool ended = estimate->is_whole = s->ended;
+  estimate->seconds += s->ended || s->seconds > PATIENCE ? s->seconds : PATIENCE;
+  s->left = !ended;
+  pthread_mutex_unlock(&s->mutex);
+  if (!ended) {
+    pthread_detach(thread);
+    return KZ_OK;
+  }
+  pthread_join(thread, NULL);
+  free_samples(s);
+  return status;
 }
 
 kz_status kz_estimate_time(const kz_scene *scene, kz_estimate *estimate) {
-  int ends[2];
-  *estimate = (kz_estimate){STARTING + kz_processor_clock(), true};
-  if (pipe(ends) != 0) return kz_fail(KZ_FAILED, "no pipe to a process that times samples");
-  const pid_t child = fork();
-  if (child == 0) {
-    close(ends[0]);
-    measure_as_child(scene, ends[1]);
-  }
-  close(ends[1]);
-  if (child < 0) {
-    close(ends[0]);
-    return kz_fail(KZ_FAILED, "no process that times samples");
-  }
-  const told t = hear(child, ends[0]);
-  for (int i = 0; t.status != KZ_OK && i < kz_study_count; i++) /* again, for the message */
-    KZ_TRY(measure_next(scene, i, &estimate->seconds));
-  estimate->is_whole = t.all;
-  estimate->seconds += t.all || t.seconds > PATIENCE ? t.seconds : PATIENCE;
-  return KZ_OK;
+  samples *s = kz_calloc(1, sizeof *s);
+  pthread_t thread;
+  *estimate = (kz_estimate){.seconds = STARTING + kz_processor_clock()};
+  kz_scene_copy(scene, &s->scene);
+  pthread_mutex_init(&s->mutex, NULL);
+  pthread_cond_init(&s->changed, NULL);
+  if (kz_thread_start(&thread, STACK_BYTES, measure, s)) return wait_for(thread, s, estimate);
+  free_samples(s);
+  return kz_fail(KZ_FAILED, "no thread that times samples");
 }

@@ -1,7 +1,8 @@
 #include "dispatch.h"
 
-#include <signal.h>
 #include <time.h>
+
+#include "kapitza/common_threads.h"
 
 enum { ASK_TAG = 2, ANSWER_TAG = 3, STACK_BYTES = 1 << 20 };
 
@@ -68,20 +69,6 @@ static void *serve(void *context) {
   return NULL;
 }
 
-/* Signals are for the thread that works. */
-static bool start_thread(kz_dispatch *dispatch) {
-  pthread_attr_t attributes;
-  sigset_t all, before;
-  if (dispatch->ranks->thread_level < MPI_THREAD_SERIALIZED || pthread_attr_init(&attributes) != 0) return false;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  const bool started = pthread_attr_setstacksize(&attributes, STACK_BYTES) == 0 &&
-                       pthread_create(&dispatch->thread, &attributes, serve, dispatch) == 0;
-  pthread_sigmask(SIG_SETMASK, &before, NULL);
-  pthread_attr_destroy(&attributes);
-  return started;
-}
-
 static void prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
   *dispatch = (kz_dispatch){.ranks = ranks, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
   dispatch->grant = (kz_grant){.first = ranks->rank, .n = ranks->rank < n_tiles, .more = ranks->size < n_tiles};
@@ -93,7 +80,8 @@ static void prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
 void kz_dispatch_begin(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
   prepare(dispatch, ranks, n_tiles);
   if (ranks->rank != 0 || dispatch->will_ask == 0) return;
-  dispatch->threaded = start_thread(dispatch);
+  dispatch->threaded =
+      ranks->thread_level >= MPI_THREAD_SERIALIZED && kz_thread_start(&dispatch->thread, STACK_BYTES, serve, dispatch);
   if (!dispatch->threaded) serve(dispatch); /* then the others do the work: rank 0 has time for its own once they are done */
 }
 

@@ -3,7 +3,6 @@
 import json
 import os
 import re
-import signal
 import subprocess
 import sys
 import time
@@ -91,34 +90,47 @@ def test_samples_of_a_deep_window_stand_for_its_cells(server):
     assert np.array_equal(moving[0][1]["labels"], moving[1][1]["labels"][np.ix_(places(4, 40), places(4, 60))])
 
 
+def shared(process):
+    """Ticks that threads of a process have taken beside its first one, those that have ended too; and its children."""
+    def taken(path):
+        return sum(int(ticks) for ticks in Path(path).read_text().rsplit(")", 1)[1].split()[11:13])
+
+    first = f"/proc/{process.pid}/task/{process.pid}"
+    return taken(f"/proc/{process.pid}/stat") - taken(f"{first}/stat"), Path(f"{first}/children").read_text()
+
+
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core")
-@pytest.mark.parametrize("quality, size", [("moving", (180, 240)), ("exact", (110, 150))])
+@pytest.mark.parametrize("quality, size", [("moving", (720, 960)), ("exact", (110, 150))])
 def test_cores_share_a_frame(quality, size):
-    """The same bytes on one core and on two; helpers have worked, and none is left."""
+    """The same bytes on one core and on two, in threads: there is no child that a signal could stop or end."""
     cores = sorted(os.sched_getaffinity(0))
     with Server(FIG12) as server:
-        labels = []
+        planes = []
         for allowed in (cores[:1], cores[:1], cores[:2]):
             os.sched_setaffinity(server.process.pid, allowed)
-            labels.append(server.frame(*size, window=WINDOW, quality=quality)[1][-1][1]["labels"])
-        helped = int(Path(f"/proc/{server.process.pid}/stat").read_text().rsplit(")", 1)[1].split()[8])  # pages that its children touched
-        children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children").read_text()
-    assert np.array_equal(labels[1], labels[2]) and helped > 0 and not children
+            planes.append(server.frame(*size, ("labels", "settling_time", "smooth_time"), window=WINDOW, quality=quality)[1][-1][1])
+        ticks, children = shared(server.process)
+    assert all(plane.tobytes() == planes[2][name].tobytes() for name, plane in planes[1].items())
+    assert ticks > 0 and not children
 
 
-@pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core")
-def test_a_helper_that_hangs_is_given_up():
-    """It is stopped as soon as it is there: its cells are made by the process itself, and no child is left."""
+def test_answers_within_a_frame_leave_it_as_it_is():
+    """Starts that are asked for between its parts share its pendulum with the threads that follow its cells."""
     with Server(FIG12) as server:
-        children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children")
         before = server.frame(110, 150, window=WINDOW)[1][-1][1]["labels"]
-        sequence = server.post("frame", rows=110, columns=150, window=WINDOW)
-        while not (helpers := children.read_text().split()):
-            pass
-        os.kill(int(helpers[0]), signal.SIGSTOP)
-        while (answer := server.receive())[0]["answer"] != "frame":
-            assert answer[0]["sequence"] == sequence
-        assert answer[1] == before.tobytes() and not children.read_text()
+        alone = {theta: server.ask("where", theta=theta, velocity=0.3)[0][0]["attractor"] for theta in (-2, 0.1, 3)}
+        frame = server.post("frame", rows=110, columns=150, window=WINDOW)
+        asked = {server.post("where", theta=theta, velocity=0.3): label for theta, label in 4 * list(alone.items())}
+        children = ""
+        while frame or asked:
+            header, payload = server.receive()
+            children += shared(server.process)[1]
+            if header["answer"] == "where":
+                assert header["attractor"] == asked.pop(header["sequence"])
+            elif header["answer"] == "frame" and header["final"]:
+                frame = None
+                assert payload == before.tobytes()
+    assert not children
 
 
 def test_a_symmetric_window_has_mirrored_labels(server):

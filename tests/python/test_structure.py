@@ -191,7 +191,8 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
             for one, other in zip(parameters, headers.get(name, (None, []))[1], strict=False):
                 agrees(one, other, structures)
     assert len(structures) >= 6
-    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"', "typedef _Float128 float128;"]
+    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"',
+               "typedef _Float128 float128;"]
     for fortran, c in sorted(structures):
         program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
         program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
@@ -207,8 +208,8 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
 
 
 def writable(library):
-    """{object: its variables} of a static library: what stands in sections that a program can write to. gfortran keeps descriptions of types
-    there (__vtab_, __def_init_), to which nothing writes."""
+    """{object: its variables} of a static library: what stands in sections that a program can write to. gfortran keeps descriptions of
+    types there (__vtab_, __def_init_), to which nothing writes."""
     found, member = {}, None
     done = subprocess.run(["nm", "-f", "sysv", str(library)], capture_output=True, text=True, check=True)
     for line in done.stdout.splitlines():

@@ -176,3 +176,13 @@ void kz_scene_free(kz_scene *scene) {
   kz_kept_series_free(scene->series);
   memset(scene, 0, sizeof *scene);
 }
+
+void kz_scene_copy(const kz_scene *scene, kz_scene *copy) {
+  *copy = *scene;
+  for (const kz_key *key = kz_keys; key->path; key++) {
+    char **text = (char **)((char *)copy + key->offset);
+    if (key->type == KZ_KEY_TEXT && *text) *text = kz_strdup(*text);
+  }
+  copy->series = kz_kept_series_create();
+  copy->numerics.series = copy->series;
+}

@@ -1,6 +1,6 @@
 !> The C interface of dynamics: the handle, and what is known of a pendulum carried to one nearby (include/kapitza/dynamics.h).
 module kz_api_dynamics
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr, c_f_pointer, c_loc
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr, c_f_pointer, c_loc, c_null_ptr
   use kz_attractors_chaos, only: carry_chaos
   use kz_attractors_cycle_search, only: search_t, add_with_mirror, known
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor
@@ -8,6 +8,7 @@ module kz_api_dynamics
   use kz_grown_cell_images, only: images_t
   use kz_grown_grid, only: regions_t, draw_attractors
   use kz_kernel_flows, only: make_flow, fine_numerics
+  use kz_lanes_locks, only: create_lock, free_lock
   use kz_labels_levels, only: levels_t
   use kz_labels_released, only: released_t
   use kz_lanes_map, only: flow_t
@@ -26,6 +27,7 @@ module kz_api_dynamics
 
   !> What a handle points at.
   type :: dynamics_t
+    type(c_ptr) :: lock = c_null_ptr !< held by the thread that makes what is made at its first use: levels, released
     type(search_t) :: search
     class(flow_t), allocatable :: flow !< the scene's map
     type(attractor_t), allocatable :: attractors(:)
@@ -66,6 +68,7 @@ contains
     type(numerics_t) :: fine
 
     allocate (d)
+    d%lock = create_lock()
     d%levels%pendulum = pendulum
     d%levels%numerics = numerics
     call make_flow(pendulum, numerics, .true., d%flow, slid=moving)
@@ -84,7 +87,9 @@ contains
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    if (associated(d)) deallocate (d)
+    if (.not. associated(d)) return
+    call free_lock(d%lock)
+    deallocate (d)
   end subroutine destroy
 
   function continued(handle, pendulum, numerics, lost) bind(C, name='kz_dynamics_continue') result(moved)

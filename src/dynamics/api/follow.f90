@@ -2,7 +2,7 @@
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: states_to_physical
-  use kz_lanes_map, only: map_t
+  use kz_lanes_map, only: map_t, flow_t
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_labels_label, only: follow
   use kz_labels_smooth, only: smooth_times
@@ -24,31 +24,33 @@ contains
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
     type(dynamics_t), pointer :: d
-    class(map_t), allocatable :: map
+    class(map_t), allocatable :: map !< own lanes: other threads may follow starts too
 
     d => of_handle(handle)
     periods = max_periods
     select case (stepping)
     case (DIRECT)
-      call follow(d%flow, d%regions, d%attractors, state, label, periods)
+      allocate (map, source=d%flow)
     case default
       allocate (map, source=make_table_map(d%table, int(stepping), d%search%flow))
-      call follow(map, d%regions, d%attractors, state, label, periods)
     end select
+    call follow(map, d%regions, d%attractors, state, label, periods)
     call leave_open(d, state, label)
   end subroutine follow_starts
 
   !> The states of the starts that have not settled, in physical coordinates again.
   subroutine leave_open(d, state, label)
-    type(dynamics_t), intent(inout) :: d
+    type(dynamics_t), intent(in) :: d
     real(dp), intent(inout) :: state(:, :)
     integer(c_int32_t), intent(in) :: label(:)
+    class(flow_t), allocatable :: flow
     real(dp), allocatable :: u(:), v(:)
 
     if (all(label /= 0)) return
     u = pack(state(1, :), label == 0)
     v = pack(state(2, :), label == 0)
-    call states_to_physical(d%search%flow, u, v)
+    allocate (flow, source=d%search%flow)
+    call states_to_physical(flow, u, v)
     state(1, :) = unpack(u, label == 0, state(1, :))
     state(2, :) = unpack(v, label == 0, state(2, :))
   end subroutine leave_open
@@ -60,9 +62,11 @@ contains
     real(dp), intent(in) :: state(2, n)
     real(dp), intent(inout) :: time(n)
     type(dynamics_t), pointer :: d
+    class(flow_t), allocatable :: flow
 
     d => of_handle(handle)
-    call smooth_times(d%flow, d%attractors, label, state, time)
+    allocate (flow, source=d%flow)
+    call smooth_times(flow, d%attractors, label, state, time)
   end subroutine smooth_settling
 
   subroutine follow_reference(handle, n_steps, n, max_periods, start, low, label, periods) &

@@ -5,6 +5,7 @@ module kz_api_label
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_extended_pairs, only: pair_of, quad_of
   use kz_extended_taylor, only: doubles_of, qp, PI_QUAD
+  use kz_lanes_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_levels, only: prepare_level, carrier_of, noise_of, is_useful, LEVEL_DOUBLE, LEVEL_FINE
   use kz_labels_orbits, only: decision_t, follow_orbits, DOUBTFUL, PENDING
@@ -87,7 +88,7 @@ contains
     integer(c_int32_t) :: decided
     integer :: now, next, i
 
-    call prepare_level(d%levels, LEVEL_DOUBLE, d%flow, d%regions%top)
+    call prepare(d, LEVEL_DOUBLE)
     now = max(level, LEVEL_DOUBLE)
     decided = now
     if (.not. is_useful(d%levels, now)) then
@@ -98,9 +99,9 @@ contains
       next = merge(before, now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
       handover = huge(handover)
-      call prepare_level(d%levels, now, d%flow, d%regions%top)
+      call prepare(d, now)
       if (now > LEVEL_DOUBLE) then
-        call prepare_level(d%levels, next, d%flow, d%regions%top)
+        call prepare(d, next)
         handover = RATIO*noise_of(d%levels, next)
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
@@ -119,6 +120,16 @@ contains
       now = next
     end do
   end subroutine label_orbits
+
+  !> What a level needs, made by the first thread that asks.
+  subroutine prepare(d, level)
+    type(dynamics_t), intent(inout) :: d
+    integer, intent(in) :: level
+
+    call take_lock(d%lock)
+    call prepare_level(d%levels, level, d%flow, d%regions%top)
+    call leave_lock(d%lock)
+  end subroutine prepare
 
   subroutine set_release(handle, release) bind(C, name='kz_dynamics_set_release')
     type(c_ptr), value :: handle
@@ -143,10 +154,12 @@ contains
 
     d => of_handle(handle)
     if (.not. allocated(d%release) .or. n == 0) return
+    call take_lock(d%lock)
     if (.not. allocated(d%released)) then
       allocate (d%released)
       call make_released(d%released, d%release, d%search%pendulum, d%regions%top)
     end if
+    call leave_lock(d%lock)
     precisely = level > LEVEL_FINE
     allocate (orbit(n))
     do i = 1, n

@@ -1,7 +1,8 @@
 !> The processed splitting in double precision: its tables, and its series, which may be kept.
 module kz_processed_tables
-  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_null_ptr, c_associated, c_f_pointer, c_loc
   use, intrinsic :: iso_fortran_env, only: rk => real64
+  use kz_lanes_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_model_pendulum, only: pendulum_t, exact_stiffness, is_same
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_series_r64, only: series_t, make_series, ORDER, HARMONICS
@@ -18,12 +19,13 @@ module kz_processed_tables
   integer, parameter :: NODES = ORDER/2 + 1
 
   !> What kz_kept_series of kernel.h points at: the series that was made last, which a scene asks for several times, and series of pendulums that a
-  !> slider moves. The caller owns it; one thread at a time may use it.
+  !> slider moves. The caller owns it; the thread that holds the lock uses it.
   type :: kept_series_t
     type(pendulum_t) :: pendulum
     type(series_t), allocatable :: made
     type(pendulum_t) :: place(NODES)
     type(series_t), allocatable :: node(:)
+    type(c_ptr) :: lock = c_null_ptr
     integer :: n_nodes = 0, oldest = 1 !< the next node that is made takes the place `oldest`
   end type kept_series_t
 
@@ -41,6 +43,7 @@ module kz_processed_tables
       return
     end if
     call c_f_pointer(kept, last)
+    call take_lock(last%lock)
     if (allocated(last%made)) then
       if (.not. is_same(pendulum, last%pendulum)) deallocate (last%made)
     end if
@@ -50,12 +53,14 @@ module kz_processed_tables
       last%pendulum = pendulum
     end if
     series = last%made
+    call leave_lock(last%lock)
   end subroutine make_processed_series
 
   type(c_ptr) function series_create() bind(C, name='kz_kept_series_create') result(handle)
     type(kept_series_t), pointer :: kept
 
     allocate (kept)
+    kept%lock = create_lock()
     handle = c_loc(kept)
   end function series_create
 
@@ -64,7 +69,9 @@ module kz_processed_tables
     type(kept_series_t), pointer :: kept
 
     call c_f_pointer(handle, kept)
-    if (associated(kept)) deallocate (kept)
+    if (.not. associated(kept)) return
+    call free_lock(kept%lock)
+    deallocate (kept)
   end subroutine series_free
 
 end module kz_processed_tables

@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* pthread_rwlockattr_setkind_np */
 #include "live.h"
 
 #include <math.h>
@@ -8,6 +9,12 @@
 
 kz_engine *kz_engine_create(void) {
   kz_engine *engine = kz_calloc(1, sizeof *engine);
+  pthread_rwlockattr_t attributes;
+  pthread_rwlockattr_init(&attributes);
+  pthread_rwlockattr_setkind_np(&attributes,
+                                PTHREAD_RWLOCK_PREFER_WRITER_NONRECURSIVE_NP); /* it waits for one tile, not for all */
+  pthread_rwlock_init(&engine->changing, &attributes);
+  pthread_rwlockattr_destroy(&attributes);
   engine->series = kz_kept_series_create();
   return engine;
 }
@@ -16,6 +23,7 @@ void kz_engine_free(kz_engine *engine) {
   if (!engine) return;
   for (int i = 0; i < KZ_RESIDENTS; i++) kz_resident_free(engine->resident + i);
   kz_kept_series_free(engine->series);
+  pthread_rwlock_destroy(&engine->changing);
   free(engine);
 }
 
@@ -109,6 +117,16 @@ kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz
   return KZ_OK;
 }
 
+/* Labels the starts, which may find attractors. A frame of the resident may be half done: its threads wait. */
+static kz_status label(kz_engine *engine, kz_resident *r, kz_question *q) {
+  const int64_t known = kz_dynamics_count(r->dynamics);
+  pthread_rwlock_wrlock(&engine->changing);
+  const kz_status status = kz_question_label(q);
+  pthread_rwlock_unlock(&engine->changing);
+  if (kz_dynamics_count(r->dynamics) > known) kz_engine_list(engine, r);
+  return status;
+}
+
 kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings) {
   kz_resident *r;
@@ -117,8 +135,6 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
   if (!r->dynamics || n == 0) return KZ_OK;
   KZ_FREED_BY(kz_question_free)
   kz_question q = {.scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};
-  const int64_t known = kz_dynamics_count(r->dynamics);
-  KZ_TRY(kz_question_label(&q));
-  if (kz_dynamics_count(r->dynamics) > known) kz_engine_list(engine, r);
+  KZ_TRY(label(engine, r, &q));
   return kz_question_answer(&q, &r->catalogue.list, endings);
 }

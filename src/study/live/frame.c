@@ -13,10 +13,9 @@ typedef struct {
   const kz_scene *scene;
   const kz_frame *frame;
   kz_window_starts starts;
-  kz_samples samples; /* of a moving frame whose window is a curve */
-  int64_t total, own; /* cells; the first ones, of which the others are mirror images */
-  kz_crew *crew;
-  kz_frame_cell *cell;         /* [total] the crew's */
+  kz_samples samples;          /* of a moving frame whose window is a curve */
+  int64_t total, own;          /* cells; the first ones, of which the others are mirror images */
+  kz_frame_cell *cell;         /* [total] */
   int64_t n_pending, *pending; /* [total] numbers of the cells that a level follows */
   bool *listed;                /* [own] cells that a level has followed, or is about to */
   void *buffer;                /* of a level's planes */
@@ -31,8 +30,7 @@ size_t kz_plane_bytes(int plane) {
 static void allocate(making *m) {
   size_t bytes = 0;
   for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
-  m->crew = kz_crew_create(m->total);
-  m->cell = kz_crew_cells(m->crew);
+  m->cell = kz_calloc((size_t)m->total, sizeof *m->cell);
   m->pending = kz_malloc((size_t)m->total * sizeof *m->pending);
   m->listed = kz_calloc((size_t)m->own, sizeof *m->listed);
   m->buffer = kz_malloc((size_t)m->total * bytes + sizeof(float));
@@ -40,8 +38,8 @@ static void allocate(making *m) {
 
 static kz_status follow(making *m, int64_t n) {
   if (m->samples.curve.count > 0) return kz_samples_follow(m->resident, m->frame, &m->samples, n, m->pending, m->cell);
-  const kz_crew_task task = {m->resident, &m->starts, m->frame, n, m->pending};
-  return kz_crew_follow(m->crew, &task);
+  const kz_frame_task task = {m->resident, &m->starts, m->frame, &m->engine->changing, n, m->pending, m->cell};
+  return kz_frame_follow(&task);
 }
 
 static kz_status count_unsettled(void *context, int64_t *n) {
@@ -159,7 +157,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   m.resident->busy = was_busy;
   kz_samples_free(&m.samples);
   kz_window_starts_free(&m.starts);
-  kz_crew_free(m.crew);
+  free(m.cell);
   free(m.pending);
   free(m.listed);
   free(m.buffer);

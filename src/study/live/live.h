@@ -1,6 +1,8 @@
-/* Frames on request: levels, residents, the engine, cells, helpers. */
+/* Frames on request: levels, residents, the engine, cells, threads. */
 #ifndef KAPITZA_STUDY_LIVE_FOLDER_H
 #define KAPITZA_STUDY_LIVE_FOLDER_H
+
+#include <pthread.h>
 
 #include "labelling/catalogue.h"
 #include "labelling/search.h"
@@ -78,6 +80,7 @@ void kz_resident_list(kz_resident *resident, int64_t version, const kz_live_cata
 
 enum { KZ_RESIDENTS = 6 };
 struct kz_engine {
+  pthread_rwlock_t changing; /* held by who changes the attractors of a resident: threads that follow cells of a frame wait */
   kz_resident resident[KZ_RESIDENTS];
   kz_kept_series *series;          /* of them all: a slider goes on where it was, whatever resident it moves */
   int64_t calls, versions, tracks; /* counters */
@@ -132,27 +135,19 @@ void kz_samples_free(kz_samples *samples);
 kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
                             kz_frame_cell *cells);
 
-/* ---- helpers: other processes that follow cells of a frame together with this one ---- */
-
-/* The memory that this process and its helpers share: the cells of a frame and their progress. */
-typedef struct kz_crew kz_crew;
-
-/* Makes a crew for a frame of `total` cells, all pending, with as many helpers as there are further cores. Free with kz_crew_free. */
-kz_crew *kz_crew_create(int64_t total);
-void kz_crew_free(kz_crew *crew);
-
-/* The cells of the frame, [total]. */
-kz_frame_cell *kz_crew_cells(kz_crew *crew);
+/* ---- cells of a frame, followed by all cores ---- */
 
 /* Some cells of a frame to follow. */
 typedef struct {
   kz_resident *resident;
   const kz_window_starts *starts;
   const kz_frame *frame;
+  pthread_rwlock_t *changing; /* of the engine */
   int64_t n;
   const int64_t *number; /* [n] */
-} kz_crew_task;
-/* Follows the cells in tiles; each process takes the next tile when it is free. The labels do not depend on which process follows a cell. */
-kz_status kz_crew_follow(kz_crew *crew, const kz_crew_task *task);
+  kz_frame_cell *cells;  /* of the frame */
+} kz_frame_task;
+/* Follows the cells in tiles; each thread takes the next tile when it is free. The labels do not depend on which thread follows a cell. */
+kz_status kz_frame_follow(const kz_frame_task *task);
 
 #endif

@@ -1,5 +1,7 @@
 /* Study `manifolds`: every branch of the chosen cycles is a tile. */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -18,16 +20,32 @@ typedef struct {
   task *tasks;
 } work_list;
 
+enum { POINT_BYTES = 4 * sizeof(double), FILE_BYTES = 50 /* of a point in the file */, PAGE_BYTES = 4096 };
+
+/* The record of a branch. */
 typedef struct {
-  int64_t count;
+  uint64_t bytes; /* in use */
+  int64_t tile;
   double point[4 * MOST_POINTS];
 } grown;
 
+/* The points of a branch, on rank 0. */
+typedef struct {
+  int64_t count;
+  double *point; /* [count][4] */
+} line;
+
+/* Branches of the chosen cycles; of those that are not yet known, most have the longest period. */
 kz_cost kz_manifolds_cost(const kz_scene *scene) {
   const kz_manifolds_plan *plan = &scene->manifolds;
-  const double branches = 4 * (plan->saddles.count > 0 ? (double)plan->saddles.count : 4),
-               points = 2 * plan->length / plan->spacing;
-  return (kz_cost){.disk_bytes = branches * (sizeof(grown) + 50 * points), .memory_bytes = branches * sizeof(grown)};
+  const double saddles = plan->saddles.count > 0 ? (double)plan->saddles.count : kz_saddles_expected(scene);
+  const double kinds = plan->kind == KZ_MANIFOLDS_STABLE || plan->kind == KZ_MANIFOLDS_UNSTABLE ? 1 : 2;
+  const double branches = 2 * kinds * saddles * (double)scene->saddles.max_period;
+  const double points = fmin(2 * plan->length / plan->spacing, MOST_POINTS), kept = PAGE_BYTES + POINT_BYTES * points;
+  return (kz_cost){.disk_bytes = branches * (kept + FILE_BYTES * points),
+                   .memory_bytes = 2 * sizeof(grown),
+                   .rank0_bytes = branches * (POINT_BYTES + sizeof(void *) + 4) * points,
+                   .shared_bytes = branches * kept};
 }
 
 /* Whether there is a saddle at a point of a line of starts: a fixed point with real multipliers, one of them beyond 1. */
@@ -122,8 +140,43 @@ static kz_status share_tasks(const kz_run *run, work_list *list) {
 static kz_status grow(void *context, int64_t tile, void *record) {
   const work_list *list = context;
   grown *out = record;
-  out->count = kz_manifold_grow(list->pendulum, &list->tasks[tile].branch, MOST_POINTS, out->point);
+  out->tile = tile;
+  out->bytes = offsetof(grown, point) +
+               POINT_BYTES * (uint64_t)kz_manifold_grow(list->pendulum, &list->tasks[tile].branch, MOST_POINTS, out->point);
   return KZ_OK;
+}
+
+static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
+  (void)context;
+  memcpy(message, piece->data, *bytes = piece->bytes);
+  return KZ_OK;
+}
+
+static kz_status take(void *context, const void *message, size_t bytes) {
+  const grown *in = message;
+  const size_t used = bytes - offsetof(grown, point);
+  line *of = (line *)context + in->tile;
+  *of = (line){.count = (int64_t)(used / POINT_BYTES), .point = kz_malloc(used + 1)};
+  memcpy(of->point, in->point, used);
+  return KZ_OK;
+}
+
+/* Grows all branches; lines [count] on rank 0. Collective. */
+static kz_status grow_all(const kz_run *run, work_list *list, line *lines) {
+  kz_local_records branches = {0};
+  const kz_stage stage = {.name = "manifolds",
+                          .n_tiles = list->count,
+                          .record_bytes = sizeof(grown),
+                          .work = grow,
+                          .context = list,
+                          .keep = true,
+                          .local = &branches};
+  const kz_delivery delivery = {
+      .name = "manifolds: points", .message_bytes = sizeof(grown), .make = make, .take = take, .context = lines};
+  kz_status status = kz_stage_run(run, &stage, NULL);
+  if (status == KZ_OK) status = kz_local_records_deliver(run->ranks, &branches, &delivery);
+  kz_local_records_free(&branches);
+  return status;
 }
 
 /* A point of the file. */
@@ -133,15 +186,15 @@ typedef struct {
   int32_t polyline;
 } row;
 
-static row *rows_of(const work_list *list, const grown *records, int64_t *n) {
+static row *rows_of(const work_list *list, const line *lines, int64_t *n) {
   *n = 0;
-  for (int64_t i = 0; i < list->count; i++) *n += records[i].count;
+  for (int64_t i = 0; i < list->count; i++) *n += lines[i].count;
   row *rows = kz_malloc((size_t)(*n + 1) * sizeof *rows);
   int64_t at = 0;
   int32_t polyline = -1;
   for (int64_t i = 0; i < list->count; i++) {
-    for (int64_t j = 0; j < records[i].count; j++) {
-      const double *point = records[i].point + 4 * j;
+    for (int64_t j = 0; j < lines[i].count; j++) {
+      const double *point = lines[i].point + 4 * j;
       if (j == 0 || point[3] != point[-1]) polyline++;
       rows[at++] = (row){list->tasks + i, point, polyline};
     }
@@ -163,12 +216,12 @@ static kz_status write_rows(int64_t n, const row *rows, kz_store *store) {
   return KZ_OK;
 }
 
-static void print(const kz_manifolds_plan *plan, const work_list *list, const grown *records, int64_t n, FILE *summary) {
+static void print(const kz_manifolds_plan *plan, const work_list *list, const line *lines, int64_t n, FILE *summary) {
   int64_t shorter = 0, full = 0;
   for (int64_t i = 0; i < list->count; i++) {
-    const double *last = records[i].point + 4 * (records[i].count - 1);
-    full += records[i].count == MOST_POINTS;
-    shorter += records[i].count < MOST_POINTS && last[2] < plan->length;
+    const double *last = lines[i].point + 4 * (lines[i].count - 1);
+    full += lines[i].count == MOST_POINTS;
+    shorter += lines[i].count < MOST_POINTS && last[2] < plan->length;
   }
   fprintf(summary, "manifolds: %lld branches, %lld points\n", (long long)list->count, (long long)n);
   if (shorter > 0)
@@ -182,17 +235,21 @@ static void print(const kz_manifolds_plan *plan, const work_list *list, const gr
             plan->length);
 }
 
+static kz_status write(const kz_scene *scene, const work_list *list, const line *lines, kz_store *store, FILE *summary) {
+  int64_t n;
+  KZ_FREED row *rows = rows_of(list, lines, &n);
+  KZ_TRY(write_rows(n, rows, store));
+  print(&scene->manifolds, list, lines, n, summary);
+  return KZ_OK;
+}
+
 kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   KZ_FREED_BY(free_tasks) work_list list = {.pendulum = &scene->parameters.pendulum};
-  int64_t n;
   KZ_TRY(kz_ranks_agree(run->ranks, store ? make_tasks(&scene->manifolds, store, &list) : KZ_OK));
   KZ_TRY(share_tasks(run, &list));
-  KZ_FREED grown *records = store ? kz_malloc((size_t)list.count * sizeof *records + 1) : NULL;
-  const kz_stage stage = kz_stage_for_rank0("manifolds", list.count, sizeof(grown), grow, &list);
-  if (list.count > 0) KZ_TRY(kz_stage_run(run, &stage, records));
-  if (!store) return KZ_OK;
-  KZ_FREED row *rows = rows_of(&list, records, &n);
-  KZ_TRY(write_rows(n, rows, store));
-  print(&scene->manifolds, &list, records, n, summary);
-  return KZ_OK;
+  KZ_FREED line *lines = kz_calloc((size_t)list.count + 1, sizeof *lines);
+  kz_status status = list.count > 0 ? grow_all(run, &list, lines) : KZ_OK;
+  if (status == KZ_OK && store) status = write(scene, &list, lines, store, summary);
+  for (int64_t i = 0; i < list.count; i++) free(lines[i].point);
+  return status;
 }

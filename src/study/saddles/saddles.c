@@ -62,6 +62,8 @@ kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *sto
 /* Pieces that are tried, with so many starts at most; how often a cycle is found, and in how many pieces; messages and records of
  * pieces that a rank holds. */
 enum { SAMPLE_PIECES = 24, SAMPLE_STARTS = 20000, REPEATS = 32, PIECES_OF_A_CYCLE = 8, PIECES_AT_ONCE = 5 };
+/* Rounds of most searches; the least that a piece takes in the checkpoint. */
+enum { USUAL_ROUNDS = 3, PAGE_BYTES = 4096 };
 /* s: what the sample of the longest period that is tried takes at least; as measured, a cycle of the catalogue. Bytes of that; all rounds
  * in units of the lines of constant angle: two rounds take 1.3, three 1.9. */
 static const double SAMPLE_SECONDS = 0.05, CYCLE_SECONDS = 2.8e-4, CYCLE_BYTES = 2000, ALL_ROUNDS = 1.5;
@@ -108,7 +110,12 @@ kz_cost kz_saddles_cost(const kz_scene *scene) {
   const kz_saddles_plan *plan = &scene->saddles;
   const effort all = estimate(scene);
   const double cycles = fmin(all.cycles, KZ_SADDLES_MOST), bytes = PIECES_OF_A_CYCLE * (double)kz_cycle_bytes(plan);
-  return (kz_cost){.disk_bytes = 1e5 + cycles * bytes,
+  double pieces = 0;
+  for (int round = 0; round < USUAL_ROUNDS; round++) {
+    const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, plan, round);
+    pieces += (double)(lines.count * lines.pieces);
+  }
+  return (kz_cost){.disk_bytes = 1e5 + PAGE_BYTES * pieces + cycles * bytes,
                    .memory_bytes = PIECES_AT_ONCE * (double)kz_piece_bytes(plan),
                    .rank0_bytes = cycles * (CYCLE_BYTES + bytes)};
 }

@@ -1,0 +1,122 @@
+/* Cells of a frame, followed by as many threads as there are cores. The thread that makes the frame works too, and pauses between its tiles. */
+#define _GNU_SOURCE /* sched_getaffinity */
+#include "kapitza/common_threads.h"
+
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "live.h"
+
+enum { MOST_HELPERS = 15, STACK_BYTES = 8 << 20 };
+static const double LOOK = 0.01; /* s between two pauses while helpers finish their last tiles */
+
+/* What the threads share. */
+typedef struct {
+  const kz_frame_task *task;
+  _Atomic int64_t next;  /* tile that nobody has taken */
+  pthread_mutex_t mutex; /* of what follows */
+  pthread_cond_t ended;
+  int at_work; /* helpers that have not ended */
+  kz_status status;
+} sharing;
+
+/* A further thread. Its resident is a copy that lists the states of its own unsettled cells; pendulum, map and regions are shared. */
+typedef struct {
+  sharing *all;
+  kz_resident resident;
+  pthread_t thread;
+} helper;
+
+/* Number of further cores that this process may use. */
+static int spare_cores(void) {
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return 0;
+  const int cores = CPU_COUNT(&allowed);
+  return cores > MOST_HELPERS ? MOST_HELPERS : cores - 1;
+}
+
+/* Follows tiles until all are taken. */
+static kz_status follow_tiles(sharing *all, kz_resident *resident, bool pauses) {
+  const kz_frame_task *task = all->task;
+  KZ_FREED kz_travellers *late = kz_calloc(1, sizeof *late);
+  kz_status status = KZ_OK;
+  for (int64_t done; status == KZ_OK && (done = KZ_FRAME_TILE * all->next++) < task->n;) {
+    if (pauses) KZ_TRY(task->frame->pause(task->frame->context));
+    const int64_t part = task->n - done < KZ_FRAME_TILE ? task->n - done : KZ_FRAME_TILE;
+    pthread_rwlock_rdlock(task->changing);
+    status = kz_cells_follow(resident, task->starts, part, task->number + done, late, task->cells);
+    pthread_rwlock_unlock(task->changing);
+  }
+  pthread_rwlock_rdlock(task->changing);
+  kz_cells_finish(resident, late, task->cells);
+  pthread_rwlock_unlock(task->changing);
+  return status;
+}
+
+/* Lets nobody take a tile any more. */
+static void stop(sharing *all) {
+  all->next = all->task->n;
+}
+
+static void *help(void *context) {
+  helper *h = context;
+  const kz_status status = follow_tiles(h->all, &h->resident, false);
+  pthread_mutex_lock(&h->all->mutex);
+  if (status != KZ_OK) {
+    h->all->status = status;
+    stop(h->all);
+  }
+  h->all->at_work--;
+  pthread_cond_signal(&h->all->ended);
+  pthread_mutex_unlock(&h->all->mutex);
+  return NULL;
+}
+
+/* Waits until all helpers have ended; a frame that is no longer wanted waits for the tiles that they have begun. */
+static kz_status wait_for_helpers(sharing *all, kz_status status) {
+  if (status != KZ_OK) stop(all);
+  pthread_mutex_lock(&all->mutex);
+  while (all->at_work > 0) {
+    kz_thread_wait(&all->ended, &all->mutex, LOOK);
+    if (all->at_work == 0 || status != KZ_OK) continue;
+    pthread_mutex_unlock(&all->mutex);
+    status = all->task->frame->pause(all->task->frame->context);
+    if (status != KZ_OK) stop(all);
+    pthread_mutex_lock(&all->mutex);
+  }
+  pthread_mutex_unlock(&all->mutex);
+  return status == KZ_OK ? all->status : status;
+}
+
+/* Ends a helper, and takes over what it has listed. */
+static void join(helper *h, kz_resident *resident) {
+  pthread_join(h->thread, NULL);
+  for (int i = 0; i < h->resident.n_strays && resident->n_strays < KZ_STRAYS; i++)
+    memcpy(resident->stray + 2 * resident->n_strays++, h->resident.stray + 2 * i, 2 * sizeof *resident->stray);
+}
+
+kz_status kz_frame_follow(const kz_frame_task *task) {
+  const int64_t tiles = (task->n + KZ_FRAME_TILE - 1) / KZ_FRAME_TILE;
+  const int spare = spare_cores();
+  sharing all = {.task = task, .mutex = PTHREAD_MUTEX_INITIALIZER, .ended = PTHREAD_COND_INITIALIZER};
+  KZ_FREED helper *helpers = kz_calloc((size_t)spare + 1, sizeof *helpers);
+  int started = 0;
+  for (; started < spare && started + 1 < tiles; started++) {
+    helper *h = helpers + started;
+    *h = (helper){.all = &all, .resident = *task->resident};
+    h->resident.n_strays = 0;
+    pthread_mutex_lock(&all.mutex);
+    all.at_work++;
+    pthread_mutex_unlock(&all.mutex);
+    if (kz_thread_start(&h->thread, STACK_BYTES, help, h)) continue;
+    pthread_mutex_lock(&all.mutex);
+    all.at_work--; /* fewer threads, then */
+    pthread_mutex_unlock(&all.mutex);
+    break;
+  }
+  const kz_status status = wait_for_helpers(&all, follow_tiles(&all, task->resident, true));
+  for (int i = 0; i < started; i++) join(helpers + i, task->resident);
+  return status;
+}
